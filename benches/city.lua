@@ -1,5 +1,5 @@
 --!strict
--- The buildings of a real city, 17,362 of them, with simple facades or with rich ones.
+-- The 17,362 buildings of a real city, with simple or with detailed facades.
 local rich = param("rich", { default = false, text = "whether every bay is a model" })
 local expand = param("expand", { default = false, text = "whether models become faces" })
 
@@ -7,7 +7,7 @@ local function plain(color)
   return { color = color, roughness = 0.9 }
 end
 
--- Simple templates: a base, the storeys above it, now and then a cornice.
+-- Simple templates: a base, the storeys above it, and sometimes a cornice.
 local function simple(color, base)
   return template({
     wall = list({
@@ -23,7 +23,7 @@ local simple_facade = facade({
   template({ wall = panel({}), material = plain("#c9c4b8") }),
 })
 
--- A rich one: every bay is a model of a window, its frame, its reveal and the wall around it.
+-- A detailed template: every bay is a model of a window, its frame, its reveal and the wall around it.
 local Box = module("Box", "x", "z", "width", "height", "depth")
 local bay = lsystem({ object = extruder({ smooth = false, color = "#e6dcc8" }) })
 bay:axiom(

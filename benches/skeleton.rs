@@ -13,9 +13,10 @@ use std::time::Instant;
 
 use burgeon::geometry::skeleton::{Pace, Skeleton};
 use burgeon::geometry::{Plan, Polygon, Rings, solid};
-use burgeon::kit::{Call, Parameter, Table, TableKey, Value, rings};
+use burgeon::kit::{Call, Parameter, Table, TableKey, Value};
 use burgeon::objects::Footprint;
 use burgeon::sources::{Layer, Source, SourceOptions};
+use burgeon::spatial::{PolygonArgument, rings};
 use glam::{DVec2, Vec3};
 
 #[allow(dead_code, reason = "the tests use the rest")]
@@ -137,7 +138,7 @@ fn is_closed(rings: &Rings) -> bool {
             .map(|(name, value)| (TableKey::Name((*name).into()), value.clone()))
             .collect(),
     };
-    let geometry = rings.clone().into_value();
+    let geometry = PolygonArgument(rings.clone()).into_value();
     let Ok(mut house) = Footprint::kind().make(&table(&[("geometry", geometry)])) else { return false };
     house.begin();
     // A self-crossing ring has been untangled; the test is whether it gets its roof.

@@ -1,5 +1,5 @@
 --!strict
--- A string of beads that stops by asking how high it is.
+-- A string of beads that stops at a given height.
 local Bead = module("Bead")
 local Thread = module("Thread")
 

@@ -1,5 +1,5 @@
 --!strict
--- A castle on a hill, built with two packages in examples/mods: castle, which is built with masonry.
+-- A castle on a hill, built with the package castle in examples/mods, which depends on the package masonry.
 -- burgeon run examples/castle.lua -o castle.glb
 local castle = require("@castle")
 
@@ -10,7 +10,7 @@ local height =
 local keep_height =
   param("keep height", { default = 21, min = 12, max = 30, unit = "m", text = "height of the keep" })
 
--- The ring is uneven, as the hill is; the gate is in the middle of the first wall, which looks south.
+-- The ring is irregular like the hill. The gate is in the middle of the first wall, which faces south.
 local ring = {}
 for number = 1, corners do
   local angle = math.rad(-90 - 180 / corners + (number - 1) * 360 / corners)
@@ -72,7 +72,7 @@ all:interpret("At(model, place)", function(this, model, place)
 end)
 all:derive()
 
--- The hill falls away from the ward in ever steeper rings, and a way leads up to the gate.
+-- The hill descends from the ward in ever steeper rings, and a path leads up to the gate.
 local slopes = { { 1.32, 0 }, { 1.5, -1.6 }, { 1.72, -5.4 }, { 1.92, -11 } }
 local Hill = module("Hill")
 local hill = lsystem({ object = extruder({ smooth = true }) })
@@ -106,7 +106,7 @@ local Tree = module("Tree", "place", "size")
 local trees: { any } = {}
 for _ = 1, 46 do
   local angle, far = random(0, 360), random(1.5, 1.86)
-  -- The slopes before the gate stay open.
+  -- The slopes in front of the gate have no trees.
   if math.abs(angle - 270) > 24 then
     local z = -1.6 - (far - 1.5) * 24
     local place = vec(math.cos(math.rad(angle)) * far * size, math.sin(math.rad(angle)) * far * size, z - 0.6)

@@ -52,7 +52,7 @@ ground:interpret("Plate(w, d)", function(this, w, d)
 end)
 ground:derive()
 
--- A street is a band along its line, a little above the ground.
+-- A street is a band along its line, slightly above the ground.
 local Street = module("Street", "points", "width")
 local ways =
   lsystem({ object = extruder({ color = "#b9b0a0", smooth = false, roughness = 1 }), city = "Road" })
@@ -74,7 +74,7 @@ ways:interpret("Street(points, width)", function(this, points, width)
 end)
 ways:derive()
 
--- A building stands on its outline: a plinth, walls, and a roof that suits its use and its size.
+-- A building has its outline as plan: a plinth, walls, and a roof that suits its use and its size.
 local Building = module("Building", "height", "use", "roof")
 local houses = lsystem({ object = footprint })
 
@@ -99,7 +99,7 @@ houses:interpret("Building(height, use, roof)", function(this, height, use, roof
 end)
 houses:derive()
 
--- Every tree is the same model, in its own size and turn.
+-- All trees are the same model, with different sizes and rotations.
 if trees then
   local Trunk, Crown = module("Trunk"), module("Crown", "radius")
   local tree = lsystem({ object = turtle({ color = "#6b563f", width = 0.05 }) })

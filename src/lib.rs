@@ -18,18 +18,18 @@
 //! macros     uses ──► nothing
 //! rewriting  uses ──► base
 //! scene      uses ──► base
-//! geometry   uses ──► base, scene
-//! spatial    uses ──► base, geometry
-//! streets    uses ──► base, geometry
-//! data       uses ──► base, spatial
-//! query      uses ──► base, data, geometry, spatial
-//! kit        uses ──► base, data, geometry, macros, rewriting, scene, spatial
+//! kit        uses ──► base, macros, rewriting, scene
 //! language   uses ──► kit
+//! geometry   uses ──► base, scene
+//! streets    uses ──► base, geometry
+//! spatial    uses ──► base, geometry, kit
+//! data       uses ──► base, kit, spatial
+//! query      uses ──► base, data, geometry, spatial
 //! terrain    uses ──► base, geometry, kit, rewriting, scene
-//! objects    uses ──► base, data, geometry, kit, rewriting, scene, streets, terrain
+//! objects    uses ──► base, data, geometry, kit, rewriting, scene, spatial, streets, terrain
 //! packages   uses ──► base
 //! analysis   uses ──► base, kit, language, packages, rewriting
-//! engine     uses ──► analysis, base, data, kit, language, packages, query, rewriting, scene
+//! engine     uses ──► analysis, base, data, kit, language, packages, query, rewriting, scene, spatial
 //! picture    uses ──► base, scene
 //! export     uses ──► base, data, picture, scene
 //! watch      uses ──► base

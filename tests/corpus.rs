@@ -1,4 +1,4 @@
-//! Every file of `fuzz/corpus` is read by its reader, and no reader panics.
+//! Tests that every file of `fuzz/corpus` is read by its reader, and that no reader panics.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
 
@@ -26,7 +26,7 @@ fn readers_of_foreign_bytes_take_or_refuse_each_file_of_the_corpus() {
             let bytes = std::fs::read(folder.join(name)).unwrap();
             size += bytes.len();
             let read = (target.read)(&bytes, scratch.path());
-            // Files say by their names what is to come of them.
+            // The name of a file determines the expected result.
             if read != name.starts_with("good") {
                 wrong.push(format!("{}/{name}", target.name));
             }

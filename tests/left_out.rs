@@ -1,18 +1,18 @@
-//! What a program says that was built without some of its features, and what it does all the same.
+//! Messages of a program that was built without some of its features, and functions that it still has.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
 
 use std::path::Path;
 use std::process::Command;
 
-/// What the program says on standard error, and its exit status, in `folder`.
+/// Returns standard error and the exit status of the program in `folder`.
 fn said(folder: &Path, arguments: &[&str]) -> (String, Option<i32>) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_burgeon"));
     let output = command.args(arguments).current_dir(folder).output().unwrap();
     (String::from_utf8(output.stderr).unwrap(), output.status.code())
 }
 
-/// Runs the text of a script, which is to fail for want of `feature`.
+/// Asserts that the program fails because it lacks `feature`.
 #[cfg(not(all(feature = "data", feature = "live", feature = "pictures")))]
 fn assert_left_out(folder: &Path, arguments: &[&str], (what, feature): (&str, &str)) {
     let (text, status) = said(folder, arguments);

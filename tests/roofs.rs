@@ -7,9 +7,10 @@ use std::sync::Arc;
 
 use burgeon::geometry::skeleton::{Pace, Skeleton};
 use burgeon::geometry::{Plan, Rings, solid};
-use burgeon::kit::{Call, Object, Parameter, Table, TableKey, Value, rings};
+use burgeon::kit::{Call, Object, Parameter, Table, TableKey, Value};
 use burgeon::objects::Footprint;
 use burgeon::sources::{Layer, Source, SourceOptions};
+use burgeon::spatial::{PolygonArgument, rings};
 use glam::DVec3;
 
 const KINDS: [&str; 10] =
@@ -48,7 +49,7 @@ fn call(object: &mut dyn Object, method: &str, argument: Value) {
 
 /// Creates a building that is not built yet.
 fn footprint(rings: &Rings) -> burgeon::error::Result<Box<dyn Object>> {
-    let geometry = rings.clone().into_value();
+    let geometry = PolygonArgument(rings.clone()).into_value();
     Footprint::kind().make(&table(&[("geometry", geometry)]))
 }
 

@@ -1,4 +1,5 @@
-//! The shipped scripts and those in README.md and the book: each runs, gives a sound model, and gives it again.
+//! Tests the shipped scripts and the scripts in README.md and the book: each runs, gives a valid model, and
+//! repeats it.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
 
@@ -17,7 +18,7 @@ fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Those of the scripts whose data is there.
+/// Returns the scripts whose data is available.
 fn runnable() -> Vec<PathBuf> {
     let mut scripts = scripts();
     if !root().join("../shared/data").is_dir() {
@@ -27,12 +28,12 @@ fn runnable() -> Vec<PathBuf> {
     scripts
 }
 
-/// The scripts in `scripts/`, in the order of their names.
+/// Returns the scripts in `scripts/`, sorted by name.
 fn scripts() -> Vec<PathBuf> {
     lua_files("scripts")
 }
 
-/// The Lua files of a folder, in the order of their names.
+/// Returns the Lua files of a folder, sorted by name.
 fn lua_files(folder: &str) -> Vec<PathBuf> {
     let entries = fs::read_dir(root().join(folder)).unwrap();
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
@@ -49,14 +50,14 @@ fn run(script: &Path, threads: usize) -> Run {
     burgeon::run(script, options).unwrap_or_else(|error| panic!("{}: {error}", script.display()))
 }
 
-/// The bytes of the scene as a .glb file.
+/// Returns the scene in .glb format.
 fn glb(run: &Run, folder: &Path) -> Vec<u8> {
     let path = folder.join("model.glb");
     export::write(&run.scene, &path, &Picture::default()).unwrap();
     fs::read(path).unwrap()
 }
 
-/// Names in `text` that stand between `before` and `after`.
+/// Returns the parts of `text` between `before` and `after`.
 fn named(text: &str, before: &str, after: &str) -> BTreeSet<String> {
     text.split(before).skip(1).filter_map(|rest| Some(rest.split_once(after)?.0.to_owned())).collect()
 }
@@ -87,7 +88,7 @@ fn the_gallery_shows_every_script_and_no_other() {
     }
 }
 
-/// The scripts that ask data of a quarter of a town, without those that others require.
+/// Returns the scripts that use the data of the town quarter, without required files.
 fn quarter() -> Vec<PathBuf> {
     let mut paths = lua_files("scripts/geospatial");
     paths.retain(|path| {
@@ -110,7 +111,7 @@ fn the_scripts_of_a_quarter_ask_its_data_and_make_the_same_with_any_number_of_th
     }
 }
 
-/// A layer of the quarter in the metres of `frame`, which the first one decides.
+/// Returns a layer of the quarter in the metres of `frame`, which the first layer sets.
 fn quarter_layer(name: &str, frame: &mut Option<ReferenceFrame>) -> Layer {
     let path = root().join(format!("examples/data/quarter/{name}.geojson"));
     let table = Source::open(&path, name).and_then(|source| source.read(name, &SourceOptions::default()));
@@ -154,7 +155,7 @@ fn every_script_gives_a_finite_model_that_reads_back_whole() {
         let shown = script.display();
         let run = run(&script, 2);
         assert!(run.scene.triangles() > 0, "{shown} draws nothing");
-        // A word that is drawn at random comes near its own streets, which is reported.
+        // A word that is chosen at random can lead close to its own streets, which causes a warning.
         let is_known = |warning: &burgeon::Warning| {
             script.ends_with("charroads.lua") && warning.message().starts_with("network:walk: ")
         };
@@ -164,7 +165,7 @@ fn every_script_gives_a_finite_model_that_reads_back_whole() {
             assert!(part.positions.iter().all(|position| position.is_finite()), "{shown}");
             assert!(part.normals.iter().all(|normal| normal.vector().is_finite()), "{shown}");
         }
-        // The crate's own check refuses instancing, which it does not know.
+        // The check of the crate refuses instancing, which it does not support.
         let file = gltf::Gltf::from_slice_without_validation(&glb(&run, folder.path())).unwrap();
         let buffers = gltf::import_buffers(&file.document, None, file.blob).unwrap();
         let mut triangles = 0;
@@ -185,7 +186,7 @@ fn every_script_gives_a_finite_model_that_reads_back_whole() {
     }
 }
 
-/// The files that a model at `path` names, by what stands before and after their names.
+/// Returns the file names in a model at `path`, each between `before` and `after`.
 fn files_of(path: &Path, before: &str, after: &str) -> Vec<String> {
     let text = fs::read_to_string(path).unwrap();
     let names = text.split(before).skip(1).filter_map(|rest| rest.split_once(after));
@@ -226,7 +227,7 @@ fn the_town_takes_few_bytes_for_a_triangle_that_it_stores() {
     let run = run(&root().join("scripts/town.lua"), 2);
     let bytes = glb(&run, folder.path()).len();
     let stored: usize = run.scene.meshes.iter().map(|mesh| mesh.triangles()).sum();
-    // Every corner of every face by itself, with a normal, would take 60.
+    // With separate corners for every face, each with a normal, a triangle would take 60 bytes.
     assert!(stored > 200_000 && bytes < 27 * stored, "{bytes} bytes for {stored} triangles");
 }
 
@@ -239,7 +240,7 @@ fn every_script_gives_the_same_bytes_for_one_thread_and_for_two() {
     }
 }
 
-/// README.md and the pages of the book that people wrote.
+/// Returns README.md and the manually written pages of the book.
 fn guide() -> String {
     let pages = fs::read_dir(root().join("docs/book/src")).unwrap().map(|entry| entry.unwrap().path());
     let mut pages: Vec<PathBuf> = pages.filter(|path| path.is_file()).collect();
@@ -251,7 +252,7 @@ fn guide() -> String {
 #[test]
 fn every_lua_block_of_the_guide_runs() {
     let folder = tempfile::tempdir().unwrap();
-    // What the guide's scripts require.
+    // Files that the scripts in the guide require.
     fs::create_dir_all(folder.path().join("templates/roads")).unwrap();
     let library = Path::new("templates/roads");
     let rooms = fs::read_dir(root().join("scripts").join(library)).unwrap();

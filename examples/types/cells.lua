@@ -1,6 +1,6 @@
 --!strict
--- A type without a shape of its own: a field of cells. Rules ask it about their neighbourhood, as it was drawn last,
--- and so the chain grows like coral: a cell divides where there is room, and stops where it is crowded.
+-- A type without a shape of its own: a field of cells. Rules read the neighbourhood of a cell in the last pass,
+-- so the chain grows like coral: a cell divides if there is room, and stops if it is crowded.
 
 local cells = object("cells", {
   doc = "A field of unit cells that knows which of them are taken.",
@@ -64,7 +64,7 @@ coral:rule("Tip(x, y, z, age)", function(this, x, y, z, age)
   if nz > 0 and this:free(nx, ny, nz) and this:crowd(nx, ny, nz) <= crowd then
     return Cell(x, y, z, age), Tip(nx, ny, nz, age + 1), Tip(x, y, z, age)
   end
-  -- Without room it may try again, or rest for ever.
+  -- Without room, the cell may try again or rest forever.
   if random() < 0.08 then
     return Cell(x, y, z, age)
   end

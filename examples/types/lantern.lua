@@ -1,5 +1,5 @@
 --!strict
--- A type of object of one's own: a street lantern. It extends an extruder, so it has all its methods, and adds a lamp.
+-- A custom object type: a street lantern. It inherits all methods of an extruder, and adds a lamp.
 
 local lantern = object("lantern", {
   doc = "A street lantern: a mast with arms, each with a lamp that glows.",
@@ -23,7 +23,7 @@ local lantern = object("lantern", {
       doc = "Draws the foot and the mast.",
       function(self)
         self:material({ color = self.metal, roughness = 0.45, metallic = 0.8 }):smooth(true):regular(24)
-        -- The foot narrows into the shaft, and rings mark where it begins and where the arms are.
+        -- The foot narrows into the shaft. Rings mark the bottom of the shaft and the base of the arms.
         self
           :scale(0.16)
           :extrude(0.12)
@@ -44,7 +44,7 @@ local lantern = object("lantern", {
         self:material({ color = self.metal, roughness = 0.45, metallic = 0.8 })
         self:regular(16):scale(0.022):bend(130, 270):extrude(reach * 1.7):bend(0)
         local at = self:position()
-        -- The lamp hangs from the end of the arm: a cap, a globe that glows, and a knob below it.
+        -- The lamp hangs from the end of the arm: a cap, a glowing globe, and a knob below it.
         self:jump(at + vec(0, 0, 0.03)):direction({ 0, 0, -1 }):regular(24)
         self:scale(0.03):extrude(0.06):scale(0.05):taper(0.2):extrude(0.1):scale(0.21):extrude(0.02)
         self:material({ color = self.glow, emissive = self.glow, roughness = 0.3 })
@@ -71,7 +71,7 @@ local Arm = module("Arm", "toward")
 local post = lsystem({ object = lantern({ height = height }) })
 post:axiom(Mast(), Bud(0))
 
--- A rule may ask the object: the bud makes arms until there are enough lamps. Each is a branch, so it begins at the mast.
+-- A rule reads the object: the bud makes arms until there are enough lamps. Each arm is a branch from the mast.
 post:rule("Bud(toward)", function(this, toward)
   if this:lamps() < arms then
     return { Arm(toward) }, Bud(toward + 360 / arms)

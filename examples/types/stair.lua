@@ -1,6 +1,6 @@
 --!strict
--- A type that holds another object: a spiral stair draws its steps with an extruder, and its handrail with a second one,
--- which goes on from step to step while the first one jumps.
+-- A type with child objects: a spiral stair draws its steps with one extruder, and its handrail with another one,
+-- which continues from step to step while the first one jumps.
 
 local stair = object("stair", {
   doc = "A spiral stair around a column.",

@@ -1,5 +1,5 @@
 --!strict
--- A type that extends a footprint: a house whose walls show their timber frame, drawn by an extruder that it holds.
+-- A type that inherits from a footprint: a house whose walls show their timber frame, drawn by a child extruder.
 
 local timbered = object("timbered", {
   doc = "A house with a timber frame: plastered walls, and posts, rails and braces in front of them.",
@@ -59,7 +59,7 @@ local timbered = object("timbered", {
             local way = inset + (length - self.beam) * post / bays
             self:beam_between(at(way, low), at(way, high), out)
           end
-          -- The bays at the corners have a brace, the others a rail at the height of a sill.
+          -- The bays at the corners have a brace, the others a rail at sill height.
           for bay = 1, bays do
             local left = inset + (length - self.beam) * (bay - 1) / bays
             local right = inset + (length - self.beam) * bay / bays

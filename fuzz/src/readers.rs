@@ -14,7 +14,7 @@ use burgeon::query::{Cell, Database};
 use burgeon::rewriting::{Pattern, Signature, Symbols};
 use burgeon::script::{Limits, Print, RunOptions, RunReports};
 use burgeon::sources::elevation::{HeightOptions as WantedHeights, Raster, Relief};
-use burgeon::sources::{Cache, Layer, Listing, Source, SourceOptions};
+use burgeon::sources::{Layer, Listing, Source, SourceOptions};
 use burgeon::spatial::{BufferOptions, Geometry};
 use burgeon::terrain::{Edits, World};
 use burgeon::{Budget, Error, Result};
@@ -223,10 +223,6 @@ impl Resources for Alone {
     fn find(&self, _: &'static str, name: &str) -> Result<PathBuf> {
         Err(Error::argument(format!("there is no {name}")))
     }
-
-    fn cache(&self) -> Option<&Cache> {
-        None
-    }
 }
 
 pub(crate) fn model(bytes: &[u8], folder: &Path) -> bool {
@@ -243,7 +239,7 @@ pub(crate) fn model(bytes: &[u8], folder: &Path) -> bool {
         files: &files,
         budget: &budget(),
         triangles: 100_000,
-        frame: &mut None,
+        services: &mut [],
         resources: &Alone,
     };
     let Ok(loaded) = (loader.load)(&mut loading, &Table::default()) else { return false };

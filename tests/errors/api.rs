@@ -1,4 +1,4 @@
-//! `burgeon api`: what it tells of the names that scripts have.
+//! `burgeon api`: the documentation of names in scripts.
 
 use std::path::Path;
 
@@ -300,7 +300,7 @@ fn every_example_runs() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut folders = vec![root.join("crates/objects/scripts"), root.join("crates/language/scripts")];
     let mut count = 0;
-    // What they name lies beside them.
+    // The files that the scripts refer to are next to them.
     let beside = Folder::new()
         .with("window.lua", "local W = module(\"W\") local s = lsystem({ object = extruder }) s:axiom(W()) s:interpret(\"W\", function(this) this:extrude(1) end) s:derive()");
     beside.burgeon(&["run", "window.lua", "-o", "window.glb"]).done();

@@ -1,4 +1,4 @@
-//! The book: its reference is what the program writes, its scripts run, and its links lead somewhere.
+//! The book: its reference equals the program's output, its scripts run, and its links have targets.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ fn sources() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/book/src")
 }
 
-/// The pages in a folder and the folders in it, by their names.
+/// Returns the pages in a folder and its subfolders, by path.
 fn pages(folder: &Path) -> BTreeMap<String, String> {
     let mut pages = BTreeMap::new();
     let mut folders = vec![folder.to_path_buf()];
@@ -58,13 +58,13 @@ fn every_script_of_the_book_runs() {
     assert!(count > 12, "{count}");
 }
 
-/// What mdBook makes of a heading, to lead to it.
+/// Returns the anchor that mdBook makes of a heading.
 fn anchor(heading: &str) -> String {
     let kept = heading.trim().chars().filter(|c| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_'));
     kept.map(|c| if c == ' ' { '-' } else { c.to_ascii_lowercase() }).collect()
 }
 
-/// The headings of a page, as links name them.
+/// Returns the anchors of a page.
 fn anchors(text: &str) -> BTreeSet<String> {
     let mut in_code = false;
     let lines = text.lines().filter(|line| {
@@ -79,7 +79,7 @@ fn every_link_and_every_picture_of_the_book_leads_somewhere() {
     let pages = pages(&sources());
     let (mut links, mut pictures) = (0, 0);
     for (name, text) in pages.iter().filter(|(name, _)| name.ends_with(".md")) {
-        // What stands in code leads nowhere.
+        // Code blocks contain no links.
         let prose: String = text.split("```").step_by(2).collect();
         for link in prose.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(link, _)| link) {
             if link.starts_with("https://") {
@@ -92,7 +92,7 @@ fn every_link_and_every_picture_of_the_book_leads_somewhere() {
                 sources().join(name).parent().unwrap().join(file)
             };
             assert!(page.is_file() || page.is_dir(), "{name}: {link}");
-            // What lies elsewhere is not in the book that is built.
+            // The built book contains only files of this folder.
             let within = page.canonicalize().unwrap().starts_with(sources().canonicalize().unwrap());
             assert!(within, "{name}: {link} leads out of the book");
             if !place.is_empty() {

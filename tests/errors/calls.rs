@@ -1,4 +1,4 @@
-//! What `burgeon check` finds in calls, without running a script to the end.
+//! Errors that `burgeon check` finds in calls, without running a script to the end.
 
 use std::path::{Path, PathBuf};
 
@@ -6,7 +6,7 @@ use insta::assert_snapshot;
 
 use super::support::Folder;
 
-/// What a check says of a system of extruders that is drawn so.
+/// Returns the output of a check of a system of extruders with this interpretation.
 fn check(script: &str) -> String {
     let head = "local A = module(\"A\", \"x\")\nlocal s = lsystem({ object = extruder({ sides = 8 }) })\ns:axiom(A(1))\n";
     Folder::new().with("s.lua", format!("{head}{script}")).burgeon(&["check", "s.lua"]).failed()
@@ -149,7 +149,7 @@ fn what_scripts_add_to_one_type_no_other_has() {
         let told = folder.burgeon(command).failed();
         assert!(told.contains("turtle has no method or field called lamps"), "{command:?}: {told}");
     }
-    // Nobody can tell to which type this one is added before it runs, and it ends before it comes to it.
+    // Static analysis cannot find the type, and the script fails before this line.
     let unknown = lamps("error(\"no\")\nextend").replace("(footprint", "(({ turtle })[1]");
     let told = Folder::new().with("s.lua", &unknown).burgeon(&["check", "s.lua"]).failed();
     assert!(!told.contains("lamps"), "{told}");
@@ -162,7 +162,8 @@ fn nothing_is_found_in_scripts_that_run() {
     for folder in ["scripts", "crates/objects/scripts", "examples"] {
         for entry in std::fs::read_dir(root.join(folder)).unwrap() {
             let path: PathBuf = entry.unwrap().path();
-            // The one needs data that is not here, the other a type of object that a program declares.
+            // One script needs data that is not in the repository; the other needs an object type that a
+            // program declares.
             let skipped = path.ends_with("monaco.lua") || path.ends_with("beads.lua");
             if skipped || path.extension().is_none_or(|extension| extension != "lua") {
                 continue;

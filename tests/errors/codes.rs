@@ -1,10 +1,10 @@
-//! The codes that machines tell failures by.
+//! Machine-readable codes of errors.
 
 use burgeon::error::ErrorKind;
 
 use super::support::{Folder, HEAD};
 
-/// The codes of the errors that `arguments` lead to, and the exit status.
+/// Returns the exit status and the codes of the errors that `arguments` cause.
 fn codes(folder: &Folder, arguments: &[&str]) -> (i32, Vec<String>) {
     let said = folder.burgeon(&[arguments, &["--json"]].concat());
     let document = said.json();
@@ -13,7 +13,7 @@ fn codes(folder: &Folder, arguments: &[&str]) -> (i32, Vec<String>) {
     (said.status, document["errors"].as_array().unwrap().iter().map(code).collect())
 }
 
-/// The code of what a script behind [`HEAD`] fails with, run with `flags`.
+/// Returns the code of the error of a script after [`HEAD`], run with `flags`.
 fn code(script: &str, flags: &[&str]) -> String {
     let folder = Folder::new().with("s.lua", format!("{HEAD}{script}\n"));
     let (status, codes) = codes(&folder, &[&["run", "s.lua"], flags].concat());

@@ -1,4 +1,4 @@
-//! The commands and their flags.
+//! Commands and their flags.
 
 use insta::assert_snapshot;
 
@@ -13,7 +13,7 @@ fn folder() -> Folder {
     Folder::new().with("s.lua", format!("{HEAD}{SCRIPT}"))
 }
 
-/// What a wrong command line is told.
+/// Returns the error message for a wrong command line.
 fn wrong(arguments: &[&str]) -> String {
     let folder = folder();
     let before = folder.files();

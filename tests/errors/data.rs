@@ -1,4 +1,4 @@
-//! Data files: those that are not there, not to be read, not what they seem, or without what is wanted.
+//! Data files that are missing, unreadable, of another format than expected, or incomplete.
 
 use insta::assert_snapshot;
 use rusqlite::Connection;
@@ -7,14 +7,14 @@ use crate::support::{Folder, HEAD};
 
 const RING: &str = "[[[6.1,45.9],[6.1001,45.9],[6.1001,45.9001],[6.1,45.9]]]";
 
-/// GeoJSON of one feature, with another member behind its features.
+/// Returns GeoJSON with one feature, and another member after its features.
 fn geojson(kind: &str, coordinates: &str, member: &str) -> String {
     format!(
         r#"{{"type":"FeatureCollection","features":[{{"type":"Feature","properties":{{"height":7,"name":"mill"}},"geometry":{{"type":"{kind}","coordinates":{coordinates}}}}}]{member}}}"#
     )
 }
 
-/// A geometry of a GeoPackage: a point, or a line of several.
+/// Returns a geometry in GeoPackage encoding: a point, or a line of several points.
 fn blob(points: &[[f64; 2]]) -> Vec<u8> {
     let mut bytes = b"GP\0\x01\0\0\0\0\x01".to_vec();
     let single = points.len() == 1;
@@ -26,7 +26,7 @@ fn blob(points: &[[f64; 2]]) -> Vec<u8> {
     bytes
 }
 
-/// A GeoPackage with buildings, of which one lies at `north` and one nowhere, and a road.
+/// Returns a GeoPackage with a road and with buildings, of which one is at `north` and one has no geometry.
 fn package(crs: i32, north: f64) -> Vec<u8> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.gpkg");
@@ -58,7 +58,7 @@ fn package(crs: i32, north: f64) -> Vec<u8> {
     std::fs::read(path).unwrap()
 }
 
-/// Data files that do well, and such that do not.
+/// Returns a folder with valid and faulty data files.
 pub(crate) fn folder() -> Folder {
     let point = |coordinates: &str, member: &str| geojson("Point", coordinates, member);
     let town = package(3067, 6_671_500.0);
@@ -97,12 +97,12 @@ pub(crate) fn folder() -> Folder {
     folder
 }
 
-/// What a script is told whose second line is `line`.
+/// Returns the error message for a script whose second line is `line`.
 pub(crate) fn told(line: &str) -> String {
     folder().with("in/s.lua", format!("local a = 1\n{line}\n")).refuses(&["run", "in/s.lua"])
 }
 
-/// What a script prints that succeeds.
+/// Returns the output of a script that succeeds.
 fn printed(script: &str, flags: &[&str]) -> String {
     let folder = folder().with("in/s.lua", script);
     let before = folder.files();

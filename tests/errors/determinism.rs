@@ -1,8 +1,9 @@
-//! Which of several errors is told does not depend on threads, batches or addresses.
+//! The choice among several errors does not depend on threads, batches or addresses.
 
 use crate::support::{Folder, HEAD, chain};
 
-/// A thousand modules, of which several fail, the first of them by the last rule.
+/// Returns a folder with a script of a thousand modules, of which several fail, the first one by the last
+/// rule.
 fn big(body: &str) -> Folder {
     let script = format!(
         r#"{HEAD}local list = {{}}

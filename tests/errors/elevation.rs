@@ -1,10 +1,10 @@
-//! Files of heights: those that are not there, not whole, not heights, or that do not tell enough.
+//! Elevation files that are missing, truncated, without heights, or incomplete.
 
 use insta::assert_snapshot;
 
 use crate::support::Folder;
 
-/// A PNG of 2 by 2 samples.
+/// Returns a PNG file of 2 by 2 samples.
 fn picture(color: png::ColorType, depth: png::BitDepth, content: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, 2, 2);
@@ -16,7 +16,7 @@ fn picture(color: png::ColorType, depth: png::BitDepth, content: &[u8]) -> Vec<u
     bytes
 }
 
-/// The beginning of a PNG that says it is very large.
+/// Returns the header of a PNG file with very large dimensions.
 fn large(side: u32) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, side, side);
@@ -26,7 +26,7 @@ fn large(side: u32) -> Vec<u8> {
     bytes
 }
 
-/// A TIFF of 2 by 2 heights.
+/// Returns a TIFF file of 2 by 2 heights.
 fn tiff(keys: &[u16], steps: &[f64], heights: [f32; 4]) -> Vec<u8> {
     use tiff::tags::Tag;
     let mut bytes = std::io::Cursor::new(Vec::new());
@@ -43,12 +43,12 @@ fn tiff(keys: &[u16], steps: &[f64], heights: [f32; 4]) -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// A grid whose lines are `header` and `heights`.
+/// Returns an ASCII grid with the lines `header` and `heights`.
 fn grid(header: &str, heights: &str) -> String {
     format!("ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\n{header}\n{heights}\n")
 }
 
-/// Files that do well, and such that do not.
+/// Returns a folder with valid and faulty files.
 fn folder() -> Folder {
     use png::{BitDepth, ColorType};
     let tile = |heights: i16| (0..heights).flat_map(|height| height.to_be_bytes()).collect::<Vec<u8>>();
@@ -98,7 +98,7 @@ fn folder() -> Folder {
         .with("outside.hgt", tile(25))
 }
 
-/// What a script is told whose second line is `line`.
+/// Returns the error message for a script whose second line is `line`.
 fn told(line: &str) -> String {
     folder().with("in/s.lua", format!("local a = 1\n{line}\n")).refuses(&["run", "in/s.lua"])
 }

@@ -1,4 +1,4 @@
-//! Street networks that grow from streets that are there: what cannot be, and what becomes of them.
+//! Street networks that grow from existing streets: faulty streets, and results.
 
 use insta::assert_snapshot;
 

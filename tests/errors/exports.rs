@@ -1,4 +1,4 @@
-//! What goes out with what it means: layers, city models, features and their attributes in glTF.
+//! Exports with meaning: layers, city models, and features with attributes in glTF.
 
 use insta::assert_snapshot;
 use serde_json::{Value, json};
@@ -144,7 +144,7 @@ huts:derive()
     assert_eq!(columns("--metadata"), "id height roof_colour");
     assert_eq!(columns("--metadata=note,height_source"), "id height_source note");
     assert_eq!(columns("--metadata=*"), "id height height_source roof_colour note");
-    // City objects have what is known of them.
+    // City objects have the attributes of their features.
     let hut = &read(&folder, "a.city.json")["CityObjects"]["hut"]["attributes"];
     assert_eq!(hut.as_object().unwrap().len(), 4, "{hut}");
     assert_snapshot!(folder.refuses(&["run", "s.lua", "-o", "a.glb", "--metadata=hight"]), @r"
@@ -268,7 +268,8 @@ fn what_goes_out_without_a_meaning_says_so() {
     "#);
 }
 
-/// A prototype with a parameter is what a system gave for each of its values: a type of object from Lua, derived.
+/// Script of a prototype with a parameter: a system is derived for each of its values, with an object type in
+/// Lua.
 const LANTERNS: &str = r#"local lantern = object("lantern", {
   doc = "A street lantern.",
   extends = extruder,

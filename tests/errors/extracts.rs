@@ -1,4 +1,4 @@
-//! Extracts of OpenStreetMap: how their layers are chosen, and what of them is odd.
+//! Extracts of OpenStreetMap: choice of layers, and unusual data.
 
 use insta::assert_snapshot;
 

@@ -1,8 +1,8 @@
-//! Facades that can never fit or are not what they seem are refused where they are made.
+//! Errors for facades that can never fit or have wrong arguments, at the line that creates them.
 
 use crate::support::*;
 
-/// What a script says that ends with `expression`, without the line itself.
+/// Returns the error message for a script that ends with `expression`, without the script line.
 fn told(expression: &str) -> String {
     let script = format!(
         "local wall = panel({{ width = {{ 1, 2 }}, height = {{ 3, 3 }} }})\nlocal made = {expression}\n"

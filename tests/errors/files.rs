@@ -1,10 +1,10 @@
-//! Scripts and the files that they require; models and the folders that they go to.
+//! Scripts and required files; models and output folders.
 
 use insta::assert_snapshot;
 
 use crate::support::{Folder, HEAD, refused};
 
-/// A script of one line, beside files that do well and files that do not.
+/// Returns the error message for a script of one line, next to valid and faulty files.
 fn required(line: &str) -> String {
     let folder = Folder::new()
         .with("outside.lua", "return 1\n")

@@ -1,11 +1,11 @@
-//! `burgeon fit`.
+//! Tests of `burgeon fit`.
 
 use burgeon::terrain::fit::{Search, Target};
 use insta::assert_snapshot;
 
 use crate::support::{Folder, assert_decent};
 
-/// Prints the height of the ground at every eighth corner of the cells within it.
+/// Script that prints the height of the ground at every eighth inner corner of the cells.
 const SCRIPT: &str = r#"--!strict
 local fitted = require("rules")
 local ground = lsystem({
@@ -29,7 +29,7 @@ for y = 64, 960, 64 do
 end
 "#;
 
-/// What a wrong command line is told.
+/// Returns the error message for a wrong command line.
 fn wrong(arguments: &[&str]) -> String {
     let folder = Folder::new();
     let said = folder.burgeon(arguments);
@@ -52,7 +52,7 @@ fn a_script_reads_what_was_found_and_has_the_map_of_the_search() {
     let target = Target::named("crater").unwrap();
     let search = Search { rounds: 2, seed: 5, symbols: 9, ..Search::default() };
     let fitted = search.run(&target, &|| false, &mut |_| {});
-    // Read as a number it could be off in its last digit.
+    // As a number, the value could differ in its last digit.
     assert!(said.stdout.contains(&format!("\"error\":{},", fitted.error())), "{}", said.stdout);
     assert_eq!(document["symbols"], fitted.symbols());
     assert_eq!((document["tried"].as_u64(), &document["file"]), (Some(192), &"rules.lua".into()));
@@ -68,7 +68,7 @@ fn a_script_reads_what_was_found_and_has_the_map_of_the_search() {
     let heights: Vec<f64> = run.stderr.lines().map(|line| line.parse().unwrap()).collect();
     assert_eq!(heights.len(), 225);
     for (at, height) in heights.into_iter().enumerate() {
-        // The ground at a corner is the mean of the four cells around it.
+        // The height at a corner is the mean of the four cells around it.
         let (x, y) = (8 * (at % 15 + 1), 8 * (at / 15 + 1));
         let around = [(x - 1, y - 1), (x, y - 1), (x - 1, y), (x, y)];
         let mean = around.iter().map(|(x, y)| map[y * 128 + x]).sum::<f64>() / 4.0;

@@ -1,8 +1,8 @@
-//! Footprints, walls and roofs that cannot be built.
+//! Tests of footprints, walls and roofs that cannot be built.
 
 use crate::support::refused;
 
-/// What is told of a house over `rings`, drawn by `draw`.
+/// Returns the error message for a house over `rings`, drawn by `draw`.
 fn house(rings: &str, draw: &str) -> String {
     refused(&format!(
         "local H = module(\"H\")\nlocal s = lsystem({{ object = footprint({rings}) }}) s:axiom(H())\n\

@@ -1,5 +1,5 @@
-//! Foreign data: one bad feature never ends a run, no file keeps a reader waiting or takes more than it may, and nothing
-//! that it holds speaks to the terminal.
+//! Untrusted data: a faulty feature never ends a run, no file exceeds the time or memory limit of its reader,
+//! and no content of a file reaches the terminal unescaped.
 
 use std::process::Command;
 use std::time::{Duration, Instant};
@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use crate::support::Folder;
 
-/// A square of 8 m, one of a row.
+/// Returns a square of 8 m, number `number` in a row.
 fn square(number: usize) -> Value {
     let (x, y) = (6.1 + 2e-4 * number as f64, 45.9);
     json!({ "type": "Polygon", "coordinates": [[[x, y], [x + 1e-4, y], [x + 1e-4, y + 1e-4], [x, y + 1e-4], [x, y]]] })
@@ -55,7 +55,7 @@ end)
 s:derive()
 "#;
 
-/// Features of which something is wrong, and a part of what is said of each.
+/// Returns faulty features, each with a part of the expected message.
 fn bad() -> Vec<(Value, &'static str)> {
     let with = |properties: Value| feature(&Value::Null, &square(3), properties);
     let at = |geometry: Value| feature(&Value::Null, &geometry, json!({}));
@@ -124,7 +124,7 @@ fn one_bad_feature_never_stops_a_city() {
         assert_eq!(count(&said.stderr), count(&alone.stderr));
         assert!(said.stderr.contains("warning: s.lua:"), "{}", said.stderr);
     }
-    // Each alone is told with its reason, and an error in a strict run.
+    // Each feature alone causes a report with the reason, and an error in a strict run.
     for (feature, why) in bad.iter().step_by(3) {
         let (said, _) = run(&[feature], &[]);
         let said = said.done();
@@ -195,7 +195,7 @@ fn pipes_and_devices_are_refused_before_anything_is_read() {
     assert!(begin.elapsed() < Duration::from_secs(60), "{:?}", begin.elapsed());
 }
 
-/// A GeoPackage of one layer with so many points.
+/// Returns a GeoPackage of one layer with `count` points.
 fn package(count: usize) -> Vec<u8> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.gpkg");
@@ -232,7 +232,7 @@ fn a_condition_ends_with_its_time_and_takes_no_more_memory_than_it_may() {
     let endless = "WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c";
     for (condition, why) in [
         (format!("height > ({endless}) SELECT count(*) FROM c)"), "longer than 2 s"),
-        // One function, and one sort.
+        // One function call, and one sort.
         ("instr(hex(zeroblob(40000000)), hex(zeroblob(20000000)) || 'x') > 0".to_owned(), "longer than 2 s"),
         (
             format!("height > ({endless} LIMIT 100000000) SELECT x FROM c ORDER BY x % 97, -x)"),

@@ -1,10 +1,10 @@
-//! What is asked of geometries and cannot be: texts, arguments, kinds.
+//! Errors of geometry functions: texts, arguments and types.
 
 use std::fmt::Write as _;
 
 use crate::support::{printed, refused};
 
-/// What is told of each of these expressions.
+/// Returns the error messages for these expressions.
 fn told(expressions: &[&str]) -> String {
     let mut text = String::new();
     for expression in expressions {

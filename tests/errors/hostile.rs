@@ -1,11 +1,11 @@
-//! What a script that means harm may try with objects, with types of its own and with packages, and what holds it.
+//! Hostile scripts that use objects, custom types and packages, and the limits that stop them.
 
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
 use super::support::Folder;
 
-/// A script whose interpretation and whose type's functions are these.
+/// Returns a script with this interpretation and these functions of a custom type.
 fn drawn(extends: &str, body: &str, functions: &str) -> String {
     format!(
         "local A = module(\"A\")\nlocal own = object(\"own\", {{ extends = {extends}, state = {{ n = 0, list = {{}}, held = extruder() }}, {functions} }})\n\
@@ -13,7 +13,7 @@ fn drawn(extends: &str, body: &str, functions: &str) -> String {
     )
 }
 
-/// What is said of a script that must be stopped soon, within its limits.
+/// Returns the error message for a script that must be cancelled within its limits.
 fn stopped(script: &str) -> String {
     stopped_within(script, "20")
 }
@@ -41,7 +41,7 @@ fn drawing_without_end_in_one_application_is_stopped_before_memory_is_full() {
         ),
         ("extruder", "while true do this.held:extrude(1):turn(20) end"),
     ] {
-        // Triangles without area are none; these cost calls.
+        // Triangles without area are not counted, but their calls are.
         let script = drawn(extends, body, "");
         let text = stopped(&script);
         let is_limit =
@@ -222,7 +222,7 @@ fn types_hold_each_other_to_a_depth_and_not_in_crowds() {
         let mut text = String::from("local t = object(\"t0\", { extends = extruder })\n");
         for level in 1..=depth {
             let held: Vec<String> = (0..width).map(|number| format!("h{number} = t()")).collect();
-            // Writing into a string cannot fail.
+            // Writing to a string cannot fail.
             let _ = writeln!(text, "t = object(\"t{level}\", {{ state = {{ {} }} }})", held.join(", "));
         }
         text + "lsystem({ object = t }):axiom()\n"
@@ -273,7 +273,7 @@ fn a_manifest_of_an_odd_shape_is_refused_with_its_line() {
         .with("even.lua", "require(\"@even\")")
         .with("mods/odd/mod.toml/x", "")
         .with("mods/even/mod.toml", [0xff, 0xfe, 0]);
-    // No script needs them but those that ask for them.
+    // Only the scripts that require these packages are affected.
     folder.burgeon(&["run", "s.lua"]).done();
     for (script, manifest) in [("odd.lua", "mods/odd/mod.toml"), ("even.lua", "mods/even/mod.toml")] {
         let text = folder.burgeon(&["run", script]).failed();

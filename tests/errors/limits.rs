@@ -1,4 +1,4 @@
-//! Time, memory, modules and triangles are bounded.
+//! Tests of the limits on time, memory, modules and triangles.
 
 use std::time::{Duration, Instant};
 
@@ -82,7 +82,7 @@ fn an_endless_loop_in_a_guard_is_stopped() {
 #[test]
 fn an_endless_loop_in_an_interpretation_is_stopped() {
     let said = endless("s:interpret(\"A(x)\", function(this, x)\n  while true do this:position() end\nend)");
-    // Which of the loop and the call within it is met is chance; they are on one line.
+    // The time limit is reached in the loop or in the call inside it; both are on one line.
     assert!(
         said.starts_with("error: s.lua:4: rule A(x) (interpretation): the run took longer than 1 s\n"),
         "{said}"
@@ -183,7 +183,7 @@ fn a_string_that_doubles_is_stopped_at_the_memory_limit() {
 
 #[test]
 fn the_memory_limit_is_kept_everywhere() {
-    // Each in line 4.
+    // Each script exceeds the limit in line 4.
     let places = [
         "local t = \"a\" while true do\n t = t .. t end",
         "local t = {} while true do\n table.insert(t, buffer.create(1000000)) end",

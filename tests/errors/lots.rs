@@ -1,4 +1,4 @@
-//! Blocks, lots and sites: what cannot be, what they promise in scripts, and how high buildings on them are.
+//! Blocks, lots and sites: errors, properties in scripts, and heights of the buildings on them.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -8,7 +8,7 @@ use insta::assert_snapshot;
 use crate::support::{Folder, printed, refused};
 use crate::warnings::warned;
 
-/// A network of nine blocks, and what is asked of it as `streets`.
+/// Script of a network of nine blocks, which later lines use as `streets`.
 const GRID: &str = r#"local Lead = module("Lead", "from", "x", "y", "depth")
 local starts = {}
 for x = 0, 3 do
@@ -96,7 +96,7 @@ fn lots_that_are_too_long_are_told() {
     ");
 }
 
-/// The warnings of a run about lots and sites.
+/// Returns the warnings of a run about lots and sites.
 fn left_out(script: &str) -> String {
     let folder = Folder::new().with("s.lua", script);
     let said = folder.burgeon(&["run", "s.lua"]).done().stderr;
@@ -114,7 +114,7 @@ fn lots_that_an_obstacle_reaches_into_are_told_once_and_counted() {
       | streets:lots({ width = 16 })
       help: give all = true: they are lots whose use is "blocked"; or blocks that end before what is in the way: block.geometry:difference(water:buffer(0.1))
     "#);
-    // What is asked for is not left out.
+    // With `all = true`, blocked lots are included.
     let all = "local blocked = 0\nfor _, lot in streets:lots({ width = 16, all = true }) do\n\
         blocked += if lot.use == \"blocked\" then 1 else 0\nend\nassert(blocked > 0)";
     assert_eq!(left_out(&wet(all)), "");
@@ -180,7 +180,7 @@ fn sites_that_cannot_be_are_refused() {
       | streets:sites({ setback = 30, distance = 10 })
       help: give a smaller setback, or a greater distance
     ");
-    // Four streets of 60 m leave no room for such a hall between them.
+    // Four streets of 60 m leave no room between them for such a hall.
     let cross = format!(
         "local Go = module(\"Go\")\nlocal s = lsystem({{ object = network() }}) s:axiom(Go())\n\
          s:interpret(\"Go\", function(this) for way = 0, 270, 90 do this:grow(1, way, 60, 0) end end)\n\
@@ -239,7 +239,7 @@ print(parks > 0 and parks < 9)
     assert_eq!(said, ["true"]);
 }
 
-/// What a script prints that needs the templates.
+/// Returns the output of a script that requires the templates.
 fn told(script: &str) -> String {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts/templates/skyline.lua");
     let folder = Folder::new()
@@ -393,11 +393,11 @@ fn blocks_that_lie_on_each_other_are_told() {
     "#);
     let told = divided("0, 79, 40");
     assert!(told.contains("2460.00 m² in common, and 2 more pairs of blocks do, so that"), "{told}");
-    // Of very many it is not told how many there are.
+    // For very many pairs, the message does not have the exact number.
     let many = (0..20).map(|x| x.to_string()).collect::<Vec<_>>().join(", ");
     let told = divided(&many);
     assert!(told.contains("and so have 99 more pairs of blocks at least"), "{told}");
-    // Those that share a border do not.
+    // Blocks with a common border do not overlap.
     assert_eq!(divided("0, 80, 160"), "");
 }
 
@@ -405,7 +405,7 @@ fn blocks_that_lie_on_each_other_are_told() {
 fn lots_are_stopped_at_the_time_limit() {
     let many = "for i = 0, 199 do\n  for j = 0, 49 do\n    local x, y = i * 100, j * 100\n    table.insert(blocks, \
                 polygon({ { x, y }, { x + 90, y }, { x + 90, y + 60 }, { x, y + 60 } }))\n  end\nend\n";
-    // All of a comb is near its border, and so beside streets.
+    // Every part of a comb is near its border, and therefore next to streets.
     let comb = "local ring = { { 0, -30 }, { 30000, -30 } }\nfor tooth = 999, 0, -1 do\n  local x = tooth * 30\n  \
                 for _, place in { { 24, 400 }, { 4, 400 }, { 4, 0 }, { 0, 0 } } do\n    \
                 table.insert(ring, { x + place[1], place[2] })\n  end\nend\nblocks[1] = polygon(ring)\n";

@@ -1,4 +1,4 @@
-//! What happens when something is wrong: with the script, its data, its resources or the command line.
+//! Errors and warnings about scripts, data, resources and the command line.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 

@@ -1,4 +1,4 @@
-//! `burgeon mods`.
+//! Tests of `burgeon mods`.
 
 use crate::packages::{SCRIPT, about, castle, prints};
 use crate::support::Folder;

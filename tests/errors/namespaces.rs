@@ -1,4 +1,4 @@
-//! What packages declare is their own: random sets of packages whose modules, types, methods and parameters have equal
+//! Namespaces of packages: random sets of packages whose modules, types, methods and parameters have equal
 //! names, used together in one script.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -17,10 +17,11 @@ const TYPES: [&str; 2] = ["turret", "gate"];
 const METHODS: [&str; 2] = ["mark", "tell"];
 const PARAMS: [&str; 2] = ["size", "tint"];
 
-/// What a package declares, each with a number that tells it from what others declare.
+/// Declarations of a package, each with a number that distinguishes it from the declarations of other
+/// packages.
 #[derive(Debug, Clone)]
 struct Declared {
-    /// The modules, with how many parameters each has.
+    /// Modules, each with its number of parameters.
     modules: BTreeMap<usize, usize>,
     types: BTreeSet<usize>,
     methods: BTreeSet<usize>,
@@ -50,10 +51,10 @@ fn parameters(count: usize) -> &'static str {
     if count == 1 { "w" } else { "w, h" }
 }
 
-/// The script of the package `number`: it declares, and uses all of it by plain names.
+/// Returns the script of the package `number`, which declares everything and uses it by plain names.
 fn init(number: usize, of: &Declared) -> String {
     let mut text = String::from("local M = {}\n");
-    // Those that come first by name are needed by others, and so no circles are made.
+    // A package requires only packages with lower numbers, so there are no cycles.
     for other in of.needs.iter().filter(|other| **other < number) {
         let _ = writeln!(text, "require(\"@{}\")", PACKAGES[*other]);
     }
@@ -104,7 +105,7 @@ fn init(number: usize, of: &Declared) -> String {
     text + "return M\n"
 }
 
-/// All that is required when `package` is, in order.
+/// Returns the packages that are loaded when `required` are required, in order.
 fn loaded(packages: &[Declared], required: &[usize]) -> Vec<usize> {
     fn load(packages: &[Declared], package: usize, all: &mut Vec<usize>) {
         if !all.contains(&package) {
@@ -121,7 +122,7 @@ fn loaded(packages: &[Declared], required: &[usize]) -> Vec<usize> {
     all
 }
 
-/// Of those that declare a name: the one that the script means, which has required some.
+/// Returns which of the `owners` of a name the script refers to, after requiring `required`.
 fn meant(owners: &[usize], required: &[usize]) -> Option<usize> {
     let near: Vec<usize> = owners.iter().filter(|it| required.contains(it)).copied().collect();
     match (owners, near.as_slice()) {
@@ -147,7 +148,7 @@ fn folder(packages: &[Declared], script: &str) -> Folder {
     folder
 }
 
-/// What a script prints, or what is wrong with it.
+/// Returns the output of a script, or its error message.
 fn run(folder: &Folder, set: Vec<(String, String)>) -> Result<Vec<String>, String> {
     let printed = Arc::new(Mutex::new(Vec::new()));
     let into = Arc::clone(&printed);
@@ -214,12 +215,12 @@ proptest! {
             }
             for owner in &all {
                 if packages[*owner].modules.contains_key(&module) {
-                    // One of its own, whose first parameter has grown to 3, and a copy of it.
+                    // The chain has a module whose first parameter has grown to 3, and a copy of it.
                     expected.push(format!("rows\t{}\t4\t3\t2", owner * 10 + module));
                 }
             }
             for owner in owners.iter().filter(|it| required.contains(it)) {
-                // What the script has made of it, too.
+                // Qualified names include the modules that the script has made.
                 let full = PACKAGES[*owner];
                 let _ = writeln!(script, "print(\"seen\", {owner}, #query([[select w from \"{full}\".{name}]]), #query(\"{full}.{name}\"))");
                 expected.push(format!("seen\t{owner}\t3\t3"));
@@ -249,7 +250,7 @@ proptest! {
                 expected.push(format!("type\t{owner}"));
             }
         }
-        // Values, some of them by plain names.
+        // Parameter values, some of them by plain names.
         let mut set: BTreeMap<String, usize> = BTreeMap::new();
         for (index, (owner, param)) in values.iter().enumerate() {
             let name = PARAMS[*param];
@@ -297,13 +298,13 @@ proptest! {
             prop_assert_eq!(numbers[0], numbers[1], "{}", line);
         }
         let mut told: Vec<String> = printed.into_iter().filter(|line| !line.starts_with("own")).collect();
-        // A chain may be interpreted more than once.
+        // A chain can be interpreted more than once.
         told.sort();
         told.dedup();
         expected.sort();
         expected.dedup();
         prop_assert_eq!(told, expected, "{}", script);
-        // What may be any of several names all of them, and what to write.
+        // The error for an ambiguous name lists all candidates and their qualified names.
         if let Some((call, message, owners)) = errors.into_iter().next() {
             let draws = call.starts_with("this");
             let wrong = if draws { format!("s:interpret(\"Ask2\", function(this) {call} end) s:derive()\n") } else { format!("{call}\n") };
@@ -318,7 +319,7 @@ proptest! {
     }
 }
 
-/// Two packages that both declare what `lua` declares.
+/// Returns a folder with two packages that both contain the declarations `lua`.
 fn two(lua: &str, script: &str) -> Folder {
     castle("")
         .with("mods/castle/init.lua", lua.replace("ID", "1"))
@@ -376,7 +377,7 @@ fn what_may_be_one_of_several_is_told_with_what_to_write() {
     );
     assert_eq!(prints(&fine, &["--set", "castle.size=9"]), "9\t2\n");
     fine.burgeon(&["check", "s.lua"]).done();
-    // The script's own is meant by its plain name, wherever it is declared.
+    // A plain name denotes the script's own parameter, even if it is declared later.
     let own = two(
         lua,
         &format!(

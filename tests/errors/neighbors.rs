@@ -1,4 +1,4 @@
-//! Footprints that know their neighbours, their streets and their edges, from a script.
+//! Neighbours, streets and edges of footprints in scripts.
 
 use crate::support::{printed, refused};
 

@@ -1,11 +1,11 @@
-//! Street networks: what cannot be, and what becomes of streets that are proposed.
+//! Street networks: errors, and outcomes of proposed streets.
 
 use insta::assert_snapshot;
 
 use crate::support::{Folder, printed, refused};
 use crate::warnings::{silent, warned};
 
-/// A network with these fields, of which one street is proposed.
+/// Returns a script with one proposed street in a network with these fields.
 pub(crate) fn grown(fields: &str, proposal: &str) -> String {
     format!(
         "local A = module(\"A\")\nlocal s = lsystem({{ object = network({{ {fields} }}) }})\ns:axiom(A())\n\
@@ -13,13 +13,13 @@ pub(crate) fn grown(fields: &str, proposal: &str) -> String {
     )
 }
 
-/// A folder with a script that uses the library of roads.
+/// Returns a folder with a script that uses the library of roads.
 fn with_roads(script: &str) -> Folder {
     let script = format!("local roads = require(\"templates/roads\")\n{script}\n");
     Folder::new().with_roads().with("s.lua", script)
 }
 
-/// How a script is refused that uses the library of roads.
+/// Returns the error message for a script that uses the library of roads.
 fn refused_by_roads(script: &str) -> String {
     with_roads(script).refuses(&["run", "s.lua"])
 }

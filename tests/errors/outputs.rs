@@ -1,4 +1,4 @@
-//! Where `run` writes to: links, pipes, devices, files that others own, several files at once, and the end in between.
+//! Output files of `run`: links, pipes, devices, files of other owners, several files, and interrupted runs.
 
 use std::fs::{self, File};
 use std::io::Read;
@@ -27,7 +27,7 @@ fn folder() -> Folder {
     Folder::new().with("s.lua", SCRIPT)
 }
 
-/// The names of what is in `folder`, in order.
+/// Returns the names of the files in `folder`, sorted.
 fn names(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap());
     let mut names: Vec<_> = entries.map(|entry| entry.file_name().into_string().unwrap()).collect();
@@ -51,7 +51,7 @@ fn a_link_stays_and_what_it_leads_to_keeps_its_mode_and_its_owner() {
     let folder = folder().with("in/a.glb", "old");
     let path = |name: &str| folder.path().join(name);
     fs::set_permissions(path("in/a.glb"), fs::Permissions::from_mode(0o640)).unwrap();
-    // Only root may give files away.
+    // Only root may change the owner of a file.
     let given = chown(path("in/a.glb"), Some(4321), Some(1234)).is_ok();
     symlink("in/a.glb", path("middle.glb")).unwrap();
     symlink("middle.glb", path("a.glb")).unwrap();
@@ -172,7 +172,7 @@ fn what_the_script_reads_is_not_overwritten() {
     error: in/brick.png would be overwritten, and the script reads it
       help: name another file
     ");
-    // Copies of textures make way for a picture.
+    // A copy of a texture gets another name if its name is that of an image output.
     let all = ["run", "s.lua", "-o", "a.obj", "-o", "a.gltf", "-o", "a_brick.png", "--size", "8x6"];
     folder.burgeon(&all).done();
     assert_eq!(fs::read(folder.path().join("a_brick_2.png")).unwrap(), brick);
@@ -199,7 +199,7 @@ fn a_pipe_is_given_the_model_and_stays() {
     assert_eq!(names(folder.path()), ["a.glb", "a.svg", "pipe.glb", "s.lua"]);
 }
 
-/// Waits until something has a temporary name in `folder`.
+/// Waits until `folder` contains a file with a temporary name.
 fn wait_for_part(folder: &Path, child: &mut Child) {
     let begin = Instant::now();
     while !names(folder).iter().any(|name| name.ends_with(".part")) {
@@ -213,7 +213,7 @@ fn wait_for_part(folder: &Path, child: &mut Child) {
 fn the_end_in_between_leaves_nothing_half_written() {
     for signal in ["TERM", "INT", "HUP"] {
         let folder = folder().with("a.glb", "old").with("tmp/x", "");
-        // Nobody reads it, so that writing does not end.
+        // The pipe has no reader, so writing blocks.
         make_pipe(&folder, "pipe.glb");
         let before = names(folder.path());
         let mut command =
@@ -281,7 +281,7 @@ fn a_reader_that_goes_away_is_told_nothing() {
         assert_eq!(out.status.code(), Some(1), "{arguments:?}: {stderr}");
         assert!(!stderr.contains("error"), "{arguments:?}: {stderr}");
     }
-    // Files are there all the same, for nobody has given them up.
+    // The model is written completely although the reader of standard output is gone.
     let (mut reader, writer) = std::io::pipe().unwrap();
     let arguments = ["run", "s.lua", "--chain", "-", "-o", "a.glb"];
     let child = command(&folder, &arguments).stdout(writer).spawn().unwrap();

@@ -1,4 +1,4 @@
-//! What `burgeon check` and `burgeon api` know of types of objects that scripts declare.
+//! `burgeon check` and `burgeon api` for script-declared object types.
 
 use std::fmt::Write as _;
 
@@ -26,13 +26,13 @@ const LAMP: &str = r#"local lamp = object("lamp", {
 })
 "#;
 
-/// What `check` says of a script that begins with the lamp, without the lines of the script.
+/// Returns the output of `check` for a script that begins with the lamp, without the script lines.
 fn checked(rest: &str) -> String {
     let script = format!("{LAMP}{rest}");
     let said = Folder::new().with("s.lua", script).burgeon(&["check", "s.lua"]);
     let told = said.stderr.lines().filter(|line| !line.starts_with("  |"));
     told.fold(String::new(), |mut all, line| {
-        // Writing into a string cannot fail.
+        // Writing to a string cannot fail.
         let _ = writeln!(all, "{line}");
         all
     })
@@ -101,7 +101,7 @@ fn a_check_knows_what_the_functions_of_a_type_may_do() {
     error: s.lua:19: lamp has no method or field called go
       help: it has as, lit, light, height, kind, lit, mast, regular, star, rectangle, polygon, direction, resolution, scale, taper, bend, twist, caps, smooth, extrude, advance, shift, jump, turn, pitch, roll, color, material, mesh, place, position, heading, distance, open_edges, note, detail
     "##);
-    // A type that extends it may have what it has not.
+    // A type that inherits from it may have methods that the base type lacks.
     assert_snapshot!(of("changes = { go = function(self) self:draw_top() end } })\nobject(\"third\", { extends = other, changes = { draw_top = function(self) end }"), @"s.lua is fine");
 }
 

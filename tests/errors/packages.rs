@@ -1,8 +1,8 @@
-//! Packages: what scripts are told of them.
+//! Packages: errors and warnings in scripts.
 
 use crate::support::{Folder, assert_decent};
 
-/// A script that draws what a package gives it.
+/// Script that draws a value from a package.
 pub(crate) const SCRIPT: &str = "local towers = require(\"@castle/towers\")\n\
                       local s = lsystem({ object = extruder() })\n\
                       local A = module(\"A\")\n\
@@ -11,12 +11,12 @@ pub(crate) const SCRIPT: &str = "local towers = require(\"@castle/towers\")\n\
                       s:derive()\n\
                       print(towers.height, towers.name)\n";
 
-/// The `mod.toml` of a package.
+/// Returns the `mod.toml` of a package.
 pub(crate) fn about(name: &str, more: &str) -> String {
     format!("name = \"{name}\"\nversion = \"1.0.0\"\napi = \"1.0\"\n{more}")
 }
 
-/// A script with a package that it uses, which says `more` of itself.
+/// Returns a folder with a script and a package that it uses; `more` is added to the manifest.
 pub(crate) fn castle(more: &str) -> Folder {
     Folder::new()
         .with("s.lua", SCRIPT)
@@ -28,7 +28,7 @@ pub(crate) fn prints(folder: &Folder, flags: &[&str]) -> String {
     folder.burgeon(&[&["run", "s.lua", "--json"], flags].concat()).done().stderr
 }
 
-/// What a run is told that must fail.
+/// Returns the error message of a run that must fail.
 pub(crate) fn refused(folder: &Folder) -> String {
     folder.refuses(&["run", "s.lua"])
 }
@@ -200,7 +200,7 @@ fn a_package_uses_only_those_that_it_depends_on() {
       | return require("@masonry")
       help: write into its mod.toml, below [depends]: masonry = "*"
     "#);
-    // A name that is put together is seen when it is used, and that of a texture where it stands.
+    // A computed name is checked when it is used, a texture name at its line in the script.
     insta::assert_snapshot!(refused(&masonry("", "return require(\"@\" .. \"masonry\")")), @r#"
     error: mods/castle/towers.lua:1: the package castle does not depend on masonry
       | return require("@" .. "masonry")
@@ -212,7 +212,7 @@ fn a_package_uses_only_those_that_it_depends_on() {
       | return { height = 1, texture = "@masonry/stone.png" }
       help: write into its mod.toml, below [depends]: masonry = "*"
     "#);
-    // Whether a package is there can be asked.
+    // A script can test whether a package exists.
     let asks = "return if api.has(\"@masonry\") then require(\"@\" .. \"masonry\") else { height = 3, name = \"alone\" }";
     assert_eq!(
         prints(&castle("[optional]\nmasonry = \"1\"").with("mods/castle/towers.lua", asks), &[]),
@@ -247,7 +247,7 @@ fn packages_that_cannot_be_used_end_a_run_that_uses_them() {
             .with("mods/masonry/init.lua", "return 1")
             .with("s.lua", format!("require(\"@masonry\")\n{SCRIPT}"))
     };
-    // What is not used is in nobody's way.
+    // An unused package causes no conflict.
     assert_eq!(prints(&masonry("[conflicts]\nmasonry = \"*\"", ""), &[]), "12\tcastle\n");
     insta::assert_snapshot!(refused(&both(masonry("[conflicts]\nmasonry = \"*\"", ""))), @r#"
     error: mods/castle/mod.toml:5: the package castle cannot be used with masonry 1.0.0
@@ -315,7 +315,7 @@ fn a_package_sets_other_defaults_of_another_ones_parameters() {
       called at s.lua:1
       help: its default is 12
     "#);
-    // A parameter of the script's own is the script's.
+    // A manifest does not change the defaults of the script's own parameters.
     let own = "print(param(\"height\", { default = 12 }))";
     assert_eq!(prints(&with("height = 5").with("s.lua", own), &[]), "12\n");
     insta::assert_snapshot!(with("heigth = 5").refuses(&["mods", "check"]), @r"

@@ -1,4 +1,4 @@
-//! `param` and `--set`.
+//! Tests of `param` and `--set`.
 
 use insta::assert_snapshot;
 

@@ -1,4 +1,4 @@
-//! Patterns, arities and what else a rule is declared with.
+//! Patterns, arities and options of rules.
 
 use insta::assert_snapshot;
 

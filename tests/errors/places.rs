@@ -1,10 +1,10 @@
-//! A mistake is told in the line where it stands, shortly.
+//! Errors have the line that causes them, in short messages.
 
 use insta::assert_snapshot;
 
 use crate::support::{Folder, HEAD, refused, refused_rules};
 
-/// The line that `script` is told to be wrong in, with what is wrong.
+/// Returns the line of the error of `script`, and its message.
 fn told(script: &str) -> (usize, String) {
     let said = refused(script);
     let rest = said.strip_prefix("error: s.lua:").unwrap_or_else(|| panic!("{said}"));
@@ -162,7 +162,7 @@ fn what_a_library_catches_is_raised_again_in_the_line_of_its_caller() {
     error: s.lua:10: wrong
       | return make({ sidess = 3 })
     ");
-    // Another text says what it says.
+    // A message with additional text is not changed.
     assert_snapshot!(of("extruder", "error(\"no: \" .. made, 2)"), @r"
     error: s.lua:10: no: s.lua:2: extruder has no field called sidess
       | return make({ sidess = 3 })

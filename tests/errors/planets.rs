@@ -1,10 +1,10 @@
-//! Planets that cannot be, and things that are asked of the universe in vain.
+//! Errors of planets and of the universe.
 
 use insta::assert_snapshot;
 
 use crate::support::Folder;
 
-/// What a script is told whose third line is `line`.
+/// Returns the error message for a script whose third line is `line`.
 fn told(line: &str) -> String {
     let rules = r#"local rules = { A = { "A", "A", "A", "A", change = 0, decay = 0.5 } }"#;
     let script = format!("{rules}\nlocal A = module(\"A\")\n{line}\n");

@@ -1,4 +1,4 @@
-//! Presets: `--preset`, `--save-preset`, and the file beside the script.
+//! Presets: `--preset`, `--save-preset`, and the preset file next to the script.
 
 use insta::assert_snapshot;
 

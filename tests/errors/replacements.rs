@@ -1,4 +1,4 @@
-//! Packages that replace files of others.
+//! Packages that replace files of other packages.
 
 use crate::packages::{SCRIPT, about, castle, prints, refused};
 use crate::support::Folder;
@@ -13,7 +13,7 @@ fn a_later_package_replaces_a_file_and_builds_on_the_one_before() {
         )
         .with("mods/ruins/towers.lua", ruins);
     assert_eq!(prints(&folder, &[]), "6\truined castle\n");
-    // So do the package's own files get it.
+    // The package's own files get the replacement too.
     let folder = folder.with("mods/castle/init.lua", "return require(\"./towers\")");
     let folder = folder.with("s.lua", "print(require(\"@castle\").name)");
     assert_eq!(prints(&folder, &[]), "ruined castle\n");
@@ -49,7 +49,7 @@ fn a_later_package_replaces_a_file_and_builds_on_the_one_before() {
       called at s.lua:1
       help: it is looked for in mods/ruins
     "#);
-    // In the user's folder it changes no script that does not ask for it.
+    // A package in the user's folder changes only scripts that require it.
     std::fs::create_dir_all(folder.path().join("user/burgeon/mods")).unwrap();
     std::fs::rename(folder.path().join("mods/ruins"), folder.path().join("user/burgeon/mods/ruins")).unwrap();
     assert_eq!(prints(&folder, &[]), "castle\n");

@@ -1,16 +1,16 @@
-//! Features whose data is at fault are left out and told of, and everything else is built.
+//! Faulty features are skipped and reported, and everything else is built.
 
 use serde_json::Value;
 
 use crate::support::Folder;
 
-/// A town of `count` houses, of which every tenth cannot be built: by its plan, its kind or its height.
+/// Returns a town of `count` houses; every tenth cannot be built because of its plan, its kind or its height.
 fn town(count: usize) -> Folder {
     let features: Vec<String> = (0..count)
         .map(|index| {
             let (x, y) = (index % 20 * 30, index / 20 * 30);
             let (height, ring) = match index % 40 {
-                // A line there and back.
+                // A degenerate ring: a line to and fro.
                 10 => (6, vec![[0, 0], [8, 0], [4, 0]]),
                 20 => (0, vec![[0, 0], [8, 0], [8, 8], [0, 8]]),
                 30 => (-3, vec![[0, 0], [8, 0], [8, 8], [0, 8]]),
@@ -126,7 +126,7 @@ fn where_nothing_is_left_the_error_is_told() {
         s:axiom(source({ {}, {} }), function(f)\n  return footprint({ { 0, 0 }, { 1, 0 } }), A()\nend)\ns:derive()\n";
     let text = Folder::new().with("s.lua", bad).refuses(&["run", "s.lua"]);
     assert!(text.contains("s.lua:4: the outer ring of the footprint has 2 distinct points"), "{text}");
-    // What the script does wrong is told whatever the data is.
+    // Errors of the script are reported regardless of the data.
     let wrong = bad.replace("{ {}, {} }", "{ { ring = { { 0, 0 }, { 8, 0 }, { 8, 8 } } }, {} }");
     let wrong = wrong.replace("{ { 0, 0 }, { 1, 0 } }", "f.ring.points.none");
     let text = Folder::new().with("s.lua", wrong).refuses(&["run", "s.lua"]);

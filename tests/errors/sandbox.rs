@@ -1,4 +1,4 @@
-//! Scripts are not trusted.
+//! Sandbox for untrusted scripts.
 
 use crate::support::{Folder, HEAD, assert_decent, chain, printed, refused, refused_rules};
 
@@ -180,11 +180,11 @@ fn forged_modules_are_refused() {
             ),
             ("parameter", format!("{HEAD}s:axiom(A(setmetatable({forgery})))\ns:derive(1)\n")),
         ];
-        // In the axiom, and in one of the other places, by turns.
+        // The axiom and one of the other scripts in turn.
         for (place, script) in [&scripts[0], &scripts[1 + index % 4]] {
             let folder = Folder::new().with("s.lua", script);
             let said = folder.burgeon(&["run", "s.lua"]);
-            // setmetatable may refuse the forgery itself; a table without a metatable in the end is a branch.
+            // setmetatable may refuse the forgery; a table whose metatable has been removed is a branch.
             assert_ne!(said.status, 101, "{place} {forgery}: {}", said.stderr);
             said.failed();
         }
@@ -206,7 +206,7 @@ fn a_forged_module_cannot_be_shown() {
 #[test]
 fn a_module_of_another_application_is_worth_nothing() {
     let head = "local A, B = module(\"A\", \"x\"), module(\"B\")\nlocal s = lsystem() s:axiom(A(1), A(2))\n";
-    // A module that a rule makes is worth something only in what that application returns.
+    // A module is valid only in the result of the application that made it.
     let script = format!(
         "{head}s:rule(\"A(x)\", function(this, x) local b = B() return b, b, {{ b }} end) s:derive(1)"
     );

@@ -1,4 +1,4 @@
-//! A rule writes only its own locals, and changes no object.
+//! Tests that a rule assigns only its own locals, and changes no object.
 
 use insta::assert_snapshot;
 

@@ -1,4 +1,4 @@
-//! `burgeon setup`: what it writes for editors, and what it leaves alone.
+//! `burgeon setup`: files for editors, and files that it does not change.
 
 use insta::assert_snapshot;
 

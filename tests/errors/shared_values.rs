@@ -1,9 +1,11 @@
-//! Values that rules and packages share are read-only: every way to reach one, with every way to write.
+//! Values that rules and packages share are read-only: all ways to reach a value, with all ways to write to
+//! it.
 
 use crate::packages::{about, castle};
 use crate::support::Folder;
 
-/// How a rule, or whoever uses a package, reaches a table: what is made outside, and how the table is named inside.
+/// Ways in which a rule, or the user of a package, reaches a table: outside code, and the expression for the
+/// table inside.
 const WAYS: [(&str, &str); 14] = [
     ("local t = { n = 0, 1, 2 }", "t"),
     ("local o = { { { n = 0, 1, 2 } } }", "o[1][1]"),
@@ -42,7 +44,7 @@ const WAYS: [(&str, &str); 14] = [
     ),
 ];
 
-/// How a table is changed.
+/// Ways to change a table.
 const WRITES: [&str; 14] = [
     "TABLE.n = TABLE.n + 1",
     "TABLE.n += 1",
@@ -60,11 +62,11 @@ const WRITES: [&str; 14] = [
     "table.freeze(TABLE)",
 ];
 
-/// What is seen of a table, as one number.
+/// Functions that return the content of a table as one number.
 const SEEN: &str = "local function seen(t) local sum = 0 for _, v in ipairs(t) do sum = sum * 10 + v end return (t.n or 7) * 1000 + sum end\n\
                     local function each(o) for _, v in o do return v end end\n";
 
-/// The chain of a script that has two modules, which a rule rewrites one after the other.
+/// Returns the chain of a script with two modules, which a rule rewrites one after the other.
 fn chain(folder: &Folder) -> Result<String, String> {
     let options = burgeon::script::RunOptions { threads: Some(1), batch: 1, ..burgeon::options() };
     let run = burgeon::run(&folder.path().join("s.lua"), options).map_err(|error| error.to_string())?;
@@ -148,7 +150,7 @@ fn what_remembers_and_cannot_be_frozen_is_refused_wherever_it_is() {
 
 #[test]
 fn what_a_package_returns_is_changed_by_nobody_however_it_is_reached() {
-    // What its functions capture is not returned: that is what the book says.
+    // Captured variables of returned functions stay writable, as documented in the book.
     let given = WAYS.iter().filter(|(outside, _)| !outside.contains("function"));
     let mut count = 0;
     for (outside, table) in given {
@@ -193,7 +195,7 @@ fn two_users_of_a_package_do_not_hear_of_each_other() {
     assert_eq!(crate::packages::prints(&folder, &[]), "false\t1\n");
 }
 
-/// A type whose interpretation assigns what a state may not be.
+/// Returns the error message for a type whose interpretation assigns an invalid state.
 fn kept(assignment: &str) -> String {
     let script = format!(
         "local lamp = object(\"lamp\", {{ extends = extruder, state = {{ n = 0, list = {{}}, held = extruder() }}, changes = {{\n  go = function(self)\n    \
@@ -246,7 +248,7 @@ fn state_that_cannot_be_kept_is_told_of_where_it_is_assigned() {
       module: A, step 0
       help: let the type hold one from the beginning: state = { pen = extruder() }, and call self.pen:extrude(1)
     ");
-    // What can be kept is kept, and other tables called self are left alone.
+    // Valid values are accepted, and other tables named self are not affected.
     let script = "local lamp = object(\"lamp\", { extends = extruder, state = { n = 0, list = {} }, reads = { all = function(self) return self.n + #self.list end },\n\
         changes = { go = function(self) self.n = math.max(3, 2) self.list = { 1, { 2 } } self.list[3] = vec(1, 2) end } })\n\
         local Class = {} function Class.new() local self = {} self.f = function() return 4 end return self end\n\

@@ -1,11 +1,12 @@
-//! Everything that a script can let grow counts towards `--memory-limit`.
+//! Tests that all memory that a script can fill counts towards `--memory-limit`.
 
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use crate::support::{Folder, assert_decent};
 
-/// A place where a run keeps what a script decides, as the book lists it, and a script that lets it grow without end.
+/// Store of a run whose size a script controls, as listed in the book, with a script that lets it grow
+/// without end.
 struct Store {
     name: &'static str,
     script: &'static str,
@@ -19,7 +20,7 @@ const fn store(name: &'static str, script: &'static str) -> Store {
     Store { name, script, arguments: &[] }
 }
 
-/// The stores. A table of the book has the same.
+/// Stores; a table in the book lists the same.
 const STORES: &[Store] = &[
     store("tables of Lua", "local t = {} while true do table.insert(t, { #t }) end"),
     store("strings of Lua", "local t = \"a\" while true do t = t .. t end"),
@@ -147,8 +148,8 @@ const STORES: &[Store] = &[
     ),
 ];
 
-/// Runs the program under a memory limit (MB). Returns its status, what it said, and its largest resident memory (MB), as the
-/// system shows it while the program runs.
+/// Runs the program under a memory limit (MB). Returns its status, its output, and the maximum resident
+/// memory (MB) that the system reports during the run.
 fn run(folder: &Folder, arguments: &[&str], limit: usize) -> (i32, String, usize) {
     let limit = limit.to_string();
     let mut child = Command::new(env!("CARGO_BIN_EXE_burgeon"))
@@ -175,9 +176,9 @@ fn run(folder: &Folder, arguments: &[&str], limit: usize) -> (i32, String, usize
     (status.code().unwrap_or(-1), told, peak)
 }
 
-/// The largest part of the limit by which a run may go over it: what is allocated before the run notices.
+/// Maximum ratio of used memory to the limit: memory can be allocated before the run notices.
 const OVER: f64 = 1.3;
-/// The memory limit (MB) of these runs.
+/// Memory limit (MB) of these runs.
 const LIMIT: usize = 64;
 
 #[test]

@@ -1,4 +1,4 @@
-//! Streets that lie on a terrain, and the terrain under them.
+//! Streets on a terrain, and the terrain under them.
 
 use insta::assert_snapshot;
 
@@ -6,7 +6,7 @@ use crate::networks::grown;
 use crate::support::{printed, refused};
 use crate::warnings::warned;
 
-/// Streets on hills, and the hills with room for them: with what is to be printed of both.
+/// Returns a script with streets on hills, with the terrain adapted to them; it prints the values `asked`.
 fn on_hills(seed: u32, fields: &str, asked: &str) -> String {
     format!(
         r#"

@@ -1,4 +1,4 @@
-//! What a successor may return, and what modules and methods take.
+//! Results of successors, and arguments of modules and methods.
 
 use insta::assert_snapshot;
 

@@ -1,4 +1,4 @@
-//! Runs the real binary in a folder of its own, and looks at what it says and leaves behind.
+//! Runs the real binary in a temporary folder, and checks its output and its files.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -7,12 +7,12 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-/// Two modules and a system, in two lines, for scripts that go wrong later.
+/// Two modules and a system, in two lines, for scripts with errors in later lines.
 pub(crate) const HEAD: &str = r#"local A, B = module("A", "x"), module("B")
 local s = lsystem({ object = turtle() }) s:axiom(A(1))
 "#;
 
-/// What the binary said.
+/// Output and exit status of the binary.
 pub(crate) struct Said {
     pub status: i32,
     pub stdout: String,
@@ -20,18 +20,18 @@ pub(crate) struct Said {
 }
 
 impl Said {
-    /// Standard output as the one JSON document that it must be.
+    /// Returns standard output parsed as one JSON document.
     pub(crate) fn json(&self) -> Value {
         serde_json::from_str(&self.stdout).unwrap_or_else(|error| panic!("{error}: {}", self.stdout))
     }
 
-    /// Standard error of a run that must have succeeded.
+    /// Asserts that the run succeeded.
     pub(crate) fn done(self) -> Self {
         assert_eq!(self.status, 0, "{}", self.stderr);
         self
     }
 
-    /// Standard error of a run that must have failed decently.
+    /// Asserts that the run failed with a clear message, and returns standard error.
     pub(crate) fn failed(self) -> String {
         assert_eq!(self.status, 1, "{}\n{}", self.stdout, self.stderr);
         assert_eq!(self.stdout, "");
@@ -40,7 +40,7 @@ impl Said {
     }
 }
 
-/// A person is told of the script, not of the program that runs it.
+/// Asserts that a message is about the script, not about the program that runs it.
 pub(crate) fn assert_decent(text: &str) {
     let indecent = [
         "panicked",
@@ -63,7 +63,7 @@ pub(crate) fn assert_decent(text: &str) {
     }
 }
 
-/// A folder that is gone when the test is over; its path is never shown.
+/// Temporary folder; its path is never shown.
 pub(crate) struct Folder(tempfile::TempDir);
 
 impl Folder {
@@ -78,7 +78,7 @@ impl Folder {
         self
     }
 
-    /// With the library of roads, where scripts require it.
+    /// Adds the library of roads, where scripts require it.
     pub(crate) fn with_roads(self) -> Self {
         let templates = Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts/templates");
         let parts = std::fs::read_dir(templates.join("roads")).unwrap().map(|entry| entry.unwrap().path());
@@ -96,7 +96,7 @@ impl Folder {
         std::fs::read_to_string(self.0.path().join(name)).unwrap()
     }
 
-    /// The names and sizes of all files, those in folders included.
+    /// Returns the names and sizes of all files, including files in subfolders.
     pub(crate) fn files(&self) -> BTreeMap<String, u64> {
         let mut files = BTreeMap::new();
         let mut folders = vec![self.0.path().to_path_buf()];
@@ -115,7 +115,7 @@ impl Folder {
         files
     }
 
-    /// Runs `burgeon` here with these arguments.
+    /// Runs `burgeon` in this folder with these arguments.
     pub(crate) fn burgeon(&self, arguments: &[&str]) -> Said {
         let out = Command::new(env!("CARGO_BIN_EXE_burgeon"))
             .args(arguments)
@@ -130,8 +130,8 @@ impl Folder {
         Said { status: out.status.code().unwrap_or(-1), stdout: text(out.stdout), stderr: text(out.stderr) }
     }
 
-    /// Runs `burgeon`, which must succeed with warnings, say the same in JSON, and fail with them as errors, leaving
-    /// every file as it was, if it is to be strict. Returns what it says of them.
+    /// Runs `burgeon` and returns its warnings. Asserts that it succeeds with equal warnings in JSON, and
+    /// that a strict run fails with these warnings as errors and changes no file.
     pub(crate) fn warned(&self, arguments: &[&str]) -> String {
         let document = self.burgeon(&[arguments, &["--json"]].concat()).done().json();
         let text = self.burgeon(arguments).done().stderr;
@@ -156,7 +156,8 @@ impl Folder {
         text
     }
 
-    /// Runs `burgeon`, which must fail, say the same in JSON, and leave every file as it was.
+    /// Runs `burgeon` and returns its error message. Asserts that it fails with an equal message in JSON, and
+    /// changes no file.
     pub(crate) fn refuses(&self, arguments: &[&str]) -> String {
         let before = self.files();
         let text = self.burgeon(arguments).failed();
@@ -177,7 +178,7 @@ impl Folder {
     }
 }
 
-/// What a script that fails is told, with an older model in the place of the new one.
+/// Returns the error message for a script that fails and leaves an older model unchanged.
 pub(crate) fn refused(script: &str) -> String {
     refused_with(script, &[])
 }
@@ -190,12 +191,12 @@ pub(crate) fn refused_with(script: &str, flags: &[&str]) -> String {
     text
 }
 
-/// As [`refused`], for rules of the system in [`HEAD`], derived by one step; they begin in line 3.
+/// Returns the error message for rules of the system in [`HEAD`], derived by one step; they begin in line 3.
 pub(crate) fn refused_rules(rules: &str) -> String {
     refused(&format!("{HEAD}{rules}\ns:derive(1)\n"))
 }
 
-/// What a script is told that has to be stopped: once, and soon.
+/// Returns the error message for a script that must be cancelled without delay.
 pub(crate) fn stopped(script: &str, flags: &[&str]) -> String {
     let folder = Folder::new().with("s.lua", script).with("model.glb", "old");
     let before = folder.files();
@@ -206,14 +207,14 @@ pub(crate) fn stopped(script: &str, flags: &[&str]) -> String {
     text
 }
 
-/// What a script that succeeds prints, line by line.
+/// Returns the output of a script that succeeds, line by line.
 pub(crate) fn printed(script: &str) -> Vec<String> {
     let said = Folder::new().with("s.lua", script).burgeon(&["run", "s.lua", "--json"]).done();
     assert_eq!(said.json()["ok"], true);
     said.stderr.lines().map(str::to_owned).collect()
 }
 
-/// The final chain of a script that succeeds.
+/// Returns the final chain of a script that succeeds.
 pub(crate) fn chain(script: &str, flags: &[&str]) -> String {
     let folder = Folder::new().with("s.lua", script);
     folder.burgeon(&[&["run", "s.lua", "--chain", "-"], flags].concat()).done().stdout

@@ -1,4 +1,4 @@
-//! Mistakes that can be seen without running the script.
+//! Errors that static analysis finds without running the script.
 
 use insta::assert_snapshot;
 

@@ -1,10 +1,10 @@
-//! Terrains that cannot be: rules, views, changes of the ground, and what is asked of them.
+//! Errors of terrains: rules, views, terrain edits and queries.
 
 use std::fmt::Write as _;
 
 use crate::support::{Folder, refused};
 
-/// What is told of terrains with these fields, each after the fields.
+/// Returns the error messages for terrains with these fields, each after the fields.
 fn told(fields: &[&str]) -> String {
     let mut text = String::new();
     for fields in fields {
@@ -126,7 +126,7 @@ fn sizes_and_views_are_checked_with_their_numbers() {
     "##);
 }
 
-/// What is told of an interpretation rule that does something with a terrain of 1024 m.
+/// Returns the error message for an interpretation rule that uses a terrain of 1024 m.
 fn asked(body: &str) -> String {
     refused(&format!(
         "local Look = module(\"Look\")\n\
@@ -211,7 +211,7 @@ fn what_lies_outside_is_told_where_it_is_asked() {
     "##);
 }
 
-/// What is told of a terrain that the rules `rules` of a system divide.
+/// Returns the error message for a terrain that is divided by the rules `rules` of a system.
 fn divided(rules: &str) -> String {
     refused(&format!(
         "local Hill = module(\"Hill\", \"height\")\nlocal Bush = module(\"Bush\")\nlocal cells = lsystem()\n{rules}\n\
@@ -299,7 +299,7 @@ fn a_decay_that_does_not_converge_is_warned_of() {
     "##);
 }
 
-/// A grid of 33 by 33 samples, 10 m apart, the first of which is in the middle of its square.
+/// Returns an ASCII grid of 33 by 33 samples, 10 m apart; the first sample is at the centre of its square.
 fn grid() -> String {
     let height =
         |index: usize| 50.0 + ((index % 33) as f64 * 0.7).sin() * 20.0 + (index / 33 % 4) as f64 * 3.0;
@@ -335,7 +335,7 @@ fn cells_that_cannot_show_measured_samples_are_warned_of_and_the_ground_keeps_th
     let told = |name: &str| folder.burgeon(&["run", name, "--strict"]).done().stderr;
     let height = |name: &str| told(name).lines().next().and_then(|line| line.parse::<f64>().ok()).unwrap();
     assert!(!told("rough.lua").contains("warning"));
-    // Three tenths and four tenths of the way between four samples.
+    // Position at 0.3 and 0.4 of the distance between four samples.
     let sample = |column: i32, row: i32| {
         grid().lines().nth((5 + row * 33 + column) as usize).unwrap().parse::<f64>().unwrap()
     };

@@ -1,4 +1,4 @@
-//! Types of objects that scripts declare: what is wrong with them, or with what they do.
+//! Errors of script-declared object types.
 
 use insta::assert_snapshot;
 

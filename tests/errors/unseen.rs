@@ -1,4 +1,4 @@
-//! Rules and contexts that can never match say so.
+//! Warnings about rules and contexts that never match.
 
 use super::warnings::{silent, warned, with};
 use crate::support::Folder;
@@ -80,7 +80,7 @@ fn contexts_that_cannot_occur() {
       | s:rule("A(x) > [A(y) B]", function() return F(2) end)
       help: add it: system:consider("B")
     "#);
-    // What is ignored may be rewritten itself.
+    // An ignored module can be rewritten itself.
     silent(&[&with(
         "s:ignore(\"A\")\ns:rule(\"B < A(x)\", function() return F(2) end)\ns:rule(\"A(x)\", function() return F(1) end) s:derive(1)",
     )]);
@@ -112,7 +112,7 @@ fn a_rule_with_the_guard_of_an_earlier_one_is_never_applied() {
       help: join the two rules, or give one of them another guard, or both a weight
     "#);
     silent(&[
-        // The guards capture other values, or are given other arguments, or the first rule leaves the choice open.
+        // The guards capture different values or have different arguments, or the first rule has a weight.
         &with(
             "for i = 1, 3 do\n  s:rule(\"A(x)\", { when = function(this, x) return x == i end }, function(this, x) return F(i) end)\nend s:derive(1)",
         ),
@@ -171,7 +171,7 @@ fn a_system_that_rules_only_place_is_not_drawn_at_the_origin() {
     };
     let drawn = ["0", "1", "3"].map(|count| counts(script(count)));
     assert_eq!(drawn, [1, 2, 4]);
-    // What nobody holds to place it is drawn, and so is what rules only read.
+    // A model that no rule captures for placing is drawn, and so is a model that rules only read.
     let read = "local A = module(\"A\") local stone = lsystem({ object = extruder() }) stone:axiom(A())\n\
         stone:interpret(\"A\", function(this) this:extrude(1) end)\nlocal model = stone:derive()\n\
         local s = lsystem({ object = turtle() }) s:axiom(A())\n\

@@ -1,4 +1,4 @@
-//! `burgeon variations`.
+//! Tests of `burgeon variations`.
 
 use insta::assert_snapshot;
 
@@ -24,7 +24,7 @@ fn arguments<'a>(flags: &[&'a str]) -> Vec<&'a str> {
     [&["variations", "s.lua", "-o", "sheet.png", "--size", "40x30"], flags].concat()
 }
 
-/// What a command line is told that is wrong or does not fit the script.
+/// Returns the error message for a command line that is wrong or does not fit the script.
 fn told(flags: &[&str], status: i32) -> String {
     let folder = folder();
     let said = folder.burgeon(&arguments(flags));

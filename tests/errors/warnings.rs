@@ -1,13 +1,13 @@
-//! What draws nothing, cannot happen or is left out says so; a strict run ends with it.
+//! Warnings about modules that draw nothing, impossible rules and skipped data; errors in a strict run.
 
 use std::fmt::Write as _;
 
 use super::support::Folder;
 
-/// A module, and a system with a turtle, in two lines.
+/// Two modules, and a system with a turtle, in two lines.
 const HEAD: &str = "local A, B = module(\"A\", \"x\"), module(\"B\")\nlocal s = lsystem({ object = turtle() }) s:axiom(A(1))\n";
 
-/// What runs of these scripts are warned of.
+/// Returns the warnings of runs of these scripts.
 pub(super) fn warned(scripts: &[&str]) -> String {
     let mut told = String::new();
     for script in scripts {
@@ -18,7 +18,7 @@ pub(super) fn warned(scripts: &[&str]) -> String {
     told
 }
 
-/// What `check` says of them.
+/// Returns the warnings of `check` for a script.
 fn checked(script: &str) -> String {
     let folder = Folder::new().with("s.lua", script);
     let text = folder.burgeon(&["check", "s.lua"]).done().stderr;
@@ -31,7 +31,7 @@ pub(super) fn with(rest: &str) -> String {
     format!("{HEAD}{rest}")
 }
 
-/// Asserts that a run says nothing of these scripts, and a check neither.
+/// Asserts that neither a run nor a check of these scripts reports anything.
 pub(super) fn silent(scripts: &[&str]) {
     for script in scripts {
         let folder = Folder::new().with("s.lua", script);
@@ -198,7 +198,7 @@ fn declarations_after_derive() {
       | s:axiom(B())
       help: put it before system:derive()
     "#);
-    // A system may be derived in turns, with more each time.
+    // A system may be derived repeatedly, with more declarations each time.
     silent(&[&with(
         "s:rule(\"A(x)\", function(this, x) return F(x) end)\ns:derive(1)\n\
         s:rule(\"B\", function() return F(1) end)\ns:axiom(B())\ns:derive(1)",
@@ -245,7 +245,8 @@ fn modules_that_nothing_draws() {
         assert!(checked(script).starts_with(&folder.warned(&["run", "s.lua"])));
     }
     silent(&[
-        // What a context names, what is ignored or considered, what is rewritten, and what the script reads.
+        // Modules that a context names, ignored or considered modules, rewritten modules, and chains that the
+        // script reads.
         &undrawn.replace("s:derive", "s:ignore(\"B\") s:derive"),
         &undrawn.replace("s:derive", "s:consider(\"B\") s:derive"),
         &undrawn.replace("s:rule", "s:rule(\"B < A(x)\", { when = function(this, x) return x > 9 end }, function() return nil end) s:rule"),
@@ -281,7 +282,7 @@ fn a_module_of_the_library_that_is_declared_anew() {
             "s:derive",
             "s:interpret(\"F(l, w)\", function(this, l, w) this:width(w):forward(l) end) s:derive",
         ),
-        // Declared as it is, and used by a system that has none of its own.
+        // A module with the same declaration, and a module of a system without an object of its own.
         "local F = module(\"F\", \"length?\")\nlocal s = lsystem({ object = turtle() })\ns:axiom(F(1))\ns:derive(0)",
         "local F = module(\"F\", \"h\")\nlocal s = lsystem({ object = extruder() })\ns:axiom(F(1))\ns:interpret(\"F(h)\", function(this, h) this:extrude(h) end)\ns:derive(0)\n\
          local t = lsystem({ object = turtle() })\nt:axiom(Sphere(1))\nt:derive(0)",
@@ -308,7 +309,7 @@ fn calls_that_draw_nothing() {
       module: A(0), step 0
       help: give a scale above 0, or go on without drawing: this:advance(length)
     "#);
-    // Where some sizes are 0 and others are not, that is as it should be, and a cone ends in a point.
+    // If only some sizes are 0, there is no warning; a taper to 0 makes a cone.
     silent(&[
         &scale.replace("A(0), B", "A(0.5), B"),
         &scale.replace("scale(r):extrude(1)", "taper(r):extrude(1)"),
@@ -362,7 +363,8 @@ fn a_system_that_is_derived_twice() {
       help: derive it once; what another system places is not shown by itself
     "#);
     silent(&[
-        // One of the models is placed, and so not shown by itself; or each begins from an axiom of its own.
+        // One of the models is placed and therefore not shown on its own, or each derivation begins from a
+        // new axiom.
         "local s = lsystem({ object = turtle() })\ns:axiom(F(1))\ns:rule(\"F(length)\", function(this, l) return F(l), F(l) end)\n\
          local small = s:derive(1)\ns:axiom(F(1), Place(small))\ns:derive(0)",
         "local s = lsystem({ object = turtle() })\ns:axiom(F(1))\nlocal small = s:derive(0)\ns:derive(0)\n\
@@ -381,7 +383,7 @@ fn systems_of_which_none_is_derived() {
       | local s = lsystem({ object = turtle() })
       help: end the script with system:derive()
     "#);
-    // A file for others to require, and a script without systems.
+    // A file that other scripts require, and a script without systems.
     silent(&["local s = lsystem({ object = turtle() })\ns:axiom(F(1))\nreturn s", "print(1)"]);
 }
 
@@ -403,7 +405,7 @@ fn a_parameter_that_is_declared_twice() {
       | local b = param("n", { default = 1 })
       help: declare it once and use its value again, or give this one another name
     "#);
-    // A function that asks for it, and a file that shares it.
+    // A parameter declared in a function that is called twice, and in a file that shares it.
     silent(&["local function n() return param(\"n\", { default = 1 }) end\nlocal a, b = n(), n()"]);
     let folder = Folder::new()
         .with("s.lua", "local a = param(\"n\", { default = 1 })\nlocal b = require(\"part\")")
@@ -469,7 +471,7 @@ fn a_model_without_triangles() {
       | local s = lsystem()
       help: give one, such as lsystem({ object = turtle() }); chains are written with --chain FILE
     "#);
-    // Someone looks at an earlier step.
+    // `--steps` shows an earlier step.
     let folder =
         Folder::new().with("s.lua", with("s:rule(\"A(x)\", function(this, x) return F(x) end) s:derive(1)"));
     assert_eq!(folder.burgeon(&["run", "s.lua", "--steps", "0", "--strict", "-o", "m.glb"]).done().status, 0);

@@ -1,9 +1,9 @@
-//! A `mod.rs` is the front page of its folder.
+//! A `mod.rs` contains only the documentation and the items of its folder.
 
 use crate::sources::Source;
 use crate::{members, root, text};
 
-/// What stands in `code` besides attributes.
+/// Returns `code` without attributes.
 fn without_attributes(code: &str) -> String {
     let mut found = String::new();
     let mut rest = code;
@@ -23,7 +23,7 @@ fn without_attributes(code: &str) -> String {
     found + rest
 }
 
-/// The items of `code` that do more than name what stands elsewhere.
+/// Returns the items of `code` that do more than refer to other files.
 fn work(code: &str) -> Vec<String> {
     let listed = |item: &&str| {
         let is_shown = item.starts_with("pub");

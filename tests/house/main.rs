@@ -1,5 +1,5 @@
-//! The house stands as it is drawn: who uses whom, what each member names in its Cargo.toml, who may know which
-//! names, and who may print.
+//! Architecture tests: dependencies between crates, entries in each Cargo.toml, names that crates may use,
+//! and crates that may print.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
 
@@ -25,7 +25,7 @@ fn text(path: impl AsRef<Path>) -> String {
     fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// The members under `crates/`.
+/// Returns the crates under `crates/`.
 fn members() -> Vec<String> {
     let entries = fs::read_dir(root().join("crates")).unwrap();
     let mut names: Vec<String> =
@@ -35,7 +35,8 @@ fn members() -> Vec<String> {
     names
 }
 
-/// The map in the front page of the façade: a member, an arrow, those that it uses. Members stand in an order.
+/// Returns the dependency map in the documentation of the main crate: the crates in order, and the
+/// dependencies of each.
 fn drawn() -> (Vec<String>, Uses) {
     let front = text("src/lib.rs");
     let lines = front.lines().filter_map(|line| line.strip_prefix("//! ")?.split_once(" uses ──►"));
@@ -49,7 +50,7 @@ fn drawn() -> (Vec<String>, Uses) {
     (order, uses)
 }
 
-/// The names in a section of a Cargo.toml.
+/// Returns the names in a section of a Cargo.toml.
 fn section(manifest: &str, title: &str) -> BTreeSet<String> {
     let lines = manifest.lines().skip_while(|line| *line != format!("[{title}]")).skip(1);
     let lines = lines.take_while(|line| !line.starts_with('['));
@@ -57,12 +58,12 @@ fn section(manifest: &str, title: &str) -> BTreeSet<String> {
     names.filter(|name| !name.is_empty() && !name.starts_with('#')).collect()
 }
 
-/// The members among `names`, without what all their names begin with.
+/// Returns the crates of the workspace among `names`, without their common prefix.
 fn of_the_house(names: &BTreeSet<String>) -> BTreeSet<String> {
     names.iter().filter_map(|name| name.strip_prefix("burgeon-")).map(str::to_owned).collect()
 }
 
-/// A way from a name back to itself, if there is one.
+/// Returns a dependency cycle, if there is one.
 fn circle(uses: &Uses) -> Option<Vec<String>> {
     fn walk<'a>(uses: &'a Uses, way: &mut Vec<&'a str>, done: &mut BTreeSet<&'a str>) -> bool {
         let last = way[way.len() - 1];
@@ -89,7 +90,7 @@ fn circle(uses: &Uses) -> Option<Vec<String>> {
     })
 }
 
-/// Which folder of a member's `src` uses which other.
+/// Returns which folders of a crate's `src` use which others.
 fn folders(member: &str) -> Uses {
     let folder = root().join("crates").join(member).join("src");
     let sources = Source::all(&folder);
@@ -178,7 +179,7 @@ fn a_member_names_the_crates_that_it_uses_and_no_others() {
             .iter()
             .flat_map(|source| {
                 let mut paths = paths(&source.code);
-                // In the root of a crate its own module comes before a crate of that name.
+                // In the root of a crate, its own modules take precedence over crates of the same name.
                 paths.retain(|path| !source.module.is_empty() || !own.contains(&path[0]));
                 paths
             })
@@ -240,7 +241,7 @@ fn the_engine_knows_no_type_of_object_by_name() {
     for (path, code) in rust.chain(lua) {
         let named: Vec<&str> = words(&code).filter(|word| structs.contains(word)).collect();
         assert_eq!(named, [""; 0], "{}", path.display());
-        // A kind's name may be an ordinary word; in quotes, or called, it is that kind.
+        // A type name can be an ordinary word; in quotes it refers to the type.
         let meant = kinds.iter().filter(|kind| code.contains(&format!("\"{kind}\"")));
         assert_eq!(meant.collect::<Vec<_>>(), [&""; 0], "{}", path.display());
     }
@@ -288,7 +289,7 @@ fn the_oldest_rust_is_the_same_wherever_it_is_stated() {
     }
 }
 
-/// What stands between backquotes in a page, without its blocks of code.
+/// Returns the text between backquotes in a page, without code blocks.
 fn quoted(page: &str) -> Vec<String> {
     let plain: String = page.split("```").step_by(2).collect();
     plain.split('`').skip(1).step_by(2).map(str::to_owned).collect()
@@ -321,7 +322,8 @@ fn the_page_for_those_who_change_burgeon_names_what_is_there() {
             continue;
         }
         if name.contains('/') {
-            // Long paths are from the root or from `crates`; short ones lie in the sources of a member.
+            // Long paths are relative to the root or to `crates`; short paths are relative to the sources of
+            // a crate.
             let inner = members.iter().map(|member| member.join("src").join(&name));
             let mut all = inner.chain([PathBuf::from(&name), Path::new("crates").join(&name)]);
             assert!(all.any(|path| root().join(path).exists()), "there is no {name}");

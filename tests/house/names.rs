@@ -1,18 +1,18 @@
-//! A type's name is found once in the tree, and is a noun.
+//! A type name is unique in the tree, and is a noun.
 
 use std::collections::BTreeMap;
 
 use crate::sources::{Source, words};
 use crate::{members, root};
 
-/// A type as a file declares it.
+/// Type declaration in a file.
 struct Declaration {
     name: String,
-    /// The file.
+    /// Path of the file.
     place: String,
 }
 
-/// The names of the types that `code` declares, without those of traits.
+/// Returns the names of the types that `code` declares, without associated types of traits.
 fn declarations(code: &str) -> Vec<String> {
     let mut found = Vec::new();
     for line in code.lines() {
@@ -38,8 +38,8 @@ fn declarations(code: &str) -> Vec<String> {
     found
 }
 
-/// All types of the program and the members. A file `absent.rs` has the same types as another, for a build without a
-/// feature, so it is left out.
+/// Returns all types of the program and the crates. A file `absent.rs` declares the same types as another
+/// file, for a build without a feature, so it is skipped.
 fn all() -> Vec<Declaration> {
     let folders = members().into_iter().map(|member| root().join("crates").join(member).join("src"));
     let mut found = Vec::new();
@@ -75,7 +75,7 @@ fn the_name_of_a_type_is_found_once_in_the_tree() {
     assert!(twice.is_empty(), "a compound of subject and thing tells them apart:\n{}", twice.join("\n"));
 }
 
-/// Participles and other words that do not end as most do, and name nothing by themselves.
+/// Participles with irregular endings, and other words that are not nouns.
 const NO_NOUNS: [&str; 45] = [
     "Above", "Across", "After", "Ahead", "Alone", "Apart", "Around", "Before", "Behind", "Beyond", "Built",
     "Complain", "Drawn", "Due", "Eager", "Found", "Frozen", "Given", "Held", "Hidden", "Holds", "Into",
@@ -83,7 +83,7 @@ const NO_NOUNS: [&str; 45] = [
     "Read", "Seen", "Sent", "Shown", "Sold", "Sure", "Taken", "Told", "What", "Which",
 ];
 
-/// The last word of a name: `Ring` of `NamedRing`.
+/// Returns the last word of a name: `Ring` for `NamedRing`.
 fn last_word(name: &str) -> &str {
     &name[name.rfind(char::is_uppercase).unwrap_or(0)..]
 }
@@ -93,7 +93,7 @@ fn types_are_called_by_nouns_and_not_by_participles() {
     let mut wrong = Vec::new();
     for Declaration { name, place, .. } in all() {
         let word = last_word(&name);
-        // `Expected` is no thing; `Seed` is one.
+        // `Expected` is a participle; `Seed` is a noun.
         let is_participle = word.len() > 4 && ["ed", "tten"].iter().any(|end| word.ends_with(end));
         if is_participle || NO_NOUNS.contains(&word) {
             wrong.push(format!("{name}: {place}"));

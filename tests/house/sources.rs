@@ -1,24 +1,24 @@
-//! Reads the sources of a member: what stands in them without comments and tests, and the paths that they name.
+//! Reads the sources of a crate: code without comments and tests, and the paths in it.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A file of Rust.
+/// Rust source file.
 pub(crate) struct Source {
-    /// Where it is, from the root of the tree.
+    /// Path relative to the root of the tree.
     pub(crate) path: PathBuf,
-    /// The module that it is, as names from the crate's root; empty for the root itself.
+    /// Path of its module from the root of the crate; empty for the root itself.
     pub(crate) module: Vec<String>,
-    /// Its text without comments and without tests; of a file of tests, without comments.
+    /// Code without comments and tests; in a test file, code without comments.
     pub(crate) code: String,
-    /// What its tests say, without comments.
+    /// Code of the tests, without comments.
     pub(crate) tests: String,
-    /// Its comments, whose examples are tests as well.
+    /// Comments, whose examples are tests too.
     pub(crate) comments: String,
 }
 
 impl Source {
-    /// All files under `folder`, the `src` of a crate, in the order of their paths.
+    /// Returns all files under `folder`, the `src` of a crate, sorted by path.
     pub(crate) fn all(folder: &Path) -> Vec<Self> {
         let mut files = Vec::new();
         collect(folder, "rs", &mut files);
@@ -43,7 +43,8 @@ impl Source {
         read.collect()
     }
 
-    /// The paths that its code names, from the crate's root: `crate`, `self` and `super` are followed.
+    /// Returns the paths in the code, relative to the root of the crate; `crate`, `self` and `super` are
+    /// resolved.
     pub(crate) fn inner_paths(&self) -> Vec<Vec<String>> {
         let mut found = Vec::new();
         for path in paths(&self.code) {
@@ -62,7 +63,7 @@ impl Source {
     }
 }
 
-/// The files under `folder` that end in `extension`.
+/// Collects the files under `folder` with the extension `extension`.
 pub(crate) fn collect(folder: &Path, extension: &str, files: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -74,7 +75,7 @@ pub(crate) fn collect(folder: &Path, extension: &str, files: &mut Vec<PathBuf>) 
     }
 }
 
-/// The module that `file` is, as names from the root of the crate in `folder`.
+/// Returns the module path of `file` from the root of the crate in `folder`.
 fn module(folder: &Path, file: &Path) -> Vec<String> {
     let inner = file.strip_prefix(folder).unwrap().with_extension("");
     let mut names: Vec<String> = inner.iter().map(|name| name.to_string_lossy().into_owned()).collect();
@@ -82,31 +83,32 @@ fn module(folder: &Path, file: &Path) -> Vec<String> {
     names
 }
 
-/// The names of the files that a module keeps for its tests.
+/// Returns the names of the test modules in separate files.
 fn test_modules(text: &str) -> Vec<String> {
     let after = text.split("#[cfg(test)]\n").skip(1);
     let lines = after.filter_map(|rest| rest.lines().next());
     lines.filter_map(|line| Some(line.trim().strip_suffix(';')?.split_once("mod ")?.1.to_owned())).collect()
 }
 
-/// `text` without comments that fill a line.
+/// Returns `text` without whole-line comments.
 fn bare(text: &str) -> String {
     let lines = text.lines().filter(|line| !line.trim_start().starts_with("//"));
     lines.flat_map(|line| [line, "\n"]).collect()
 }
 
-/// The comments of `text` that fill a line.
+/// Returns the whole-line comments of `text`.
 fn comments(text: &str) -> String {
     let lines = text.lines().filter_map(|line| line.trim_start().strip_prefix("//"));
     lines.flat_map(|line| [line.trim_start_matches(['/', '!', ' ', '#']), "\n"]).collect()
 }
 
-/// The words of a text: what stands between all that cannot be in a name.
+/// Returns the words of a text: the parts that can be in a name.
 pub(crate) fn words(text: &str) -> impl Iterator<Item = &str> {
     text.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|word| !word.is_empty())
 }
 
-/// All paths of two and more names in `code`, and what is used, or named as a crate, by one name; those of a group in braces each by itself.
+/// Returns all paths of two or more names in `code`, and single names that are imported or refer to a crate.
+/// Paths in a group with braces are listed separately.
 pub(crate) fn paths(code: &str) -> Vec<Vec<String>> {
     let tokens = tokens(code);
     let (mut found, mut at) = (Vec::new(), 0);
@@ -121,7 +123,7 @@ pub(crate) fn paths(code: &str) -> Vec<Vec<String>> {
     found
 }
 
-/// Reads the path that begins at token `at`, behind the names `before`.
+/// Reads the path that begins at token `at`, after the names `before`.
 fn path(tokens: &[&str], at: &mut usize, before: &[String], found: &mut Vec<Vec<String>>) {
     let mut names = before.to_vec();
     while let Some(name) = tokens.get(*at).filter(|name| is_name(name)) {
@@ -151,7 +153,7 @@ fn is_name(token: &str) -> bool {
     token.starts_with(|c: char| c.is_alphabetic() || c == '_')
 }
 
-/// Names, `::`, and every other character that is no space by itself.
+/// Splits code into tokens: names, `::`, and all other characters except spaces.
 fn tokens(code: &str) -> Vec<&str> {
     let (mut found, mut rest) = (Vec::new(), code.trim_start());
     while let Some(first) = rest.chars().next() {

@@ -1,4 +1,4 @@
-//! A type of object with a mistake in it: it panics when it is told to. And it warns.
+//! Faulty object type: it panics on request. It also warns.
 
 use burgeon::kit::{Drawing, Warn, methods, object};
 use burgeon::scene::Material;
@@ -6,9 +6,9 @@ use burgeon::{Result, Warning, WarningKind, geometry};
 use glam::DVec3;
 
 /// A ball that may panic.
-#[object("fuse", draws, begins_empty, warns, crate = burgeon::kit)]
+#[object("fuse", draws, can(Warn), begins_empty, crate = burgeon::kit)]
 pub struct Fuse {
-    /// Whether it is to panic.
+    /// Set to panic in all methods.
     pub blown: bool,
     drawing: Drawing,
     warnings: Vec<Warning>,
@@ -34,7 +34,7 @@ impl Fuse {
         geometry::sphere(self.drawing.part(part), DVec3::ZERO, radius, 8)
     }
 
-    /// Tells whether it is blown, or panics.
+    /// Returns true if the fuse is blown, or panics.
     pub fn ask(&self) -> bool {
         assert!(!self.blown, "the fuse is blown");
         self.blown

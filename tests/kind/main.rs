@@ -1,5 +1,5 @@
-//! A type of object that a program brings, and one that a script declares, have the same rights and the same duties as
-//! those that come with Burgeon: what is asked of all of them is asked of these too.
+//! Object types of a program and of a script have the same capabilities and meet the same requirements as the
+//! types of Burgeon.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
 #![allow(unreachable_pub, reason = "what scripts can use is public")]
@@ -19,7 +19,7 @@ use burgeon::trace::{Pick, pick};
 use fuse::Fuse;
 use orchard::{EXPANSIONS, LOOKED_FOR, Orchard};
 
-/// All types that come with Burgeon, and one that does not.
+/// Returns all types of Burgeon, and one external type.
 fn registry() -> Registry {
     let mut registry = burgeon::objects::registry();
     registry.add(Arc::clone(Orchard::kind())).unwrap();
@@ -29,7 +29,7 @@ fn registry() -> Registry {
     registry
 }
 
-/// All types from all sides: those of the registry, and those of the scripts in `examples/types`.
+/// Returns types of all origins: the types of the registry, and the types of the scripts in `examples/types`.
 fn kinds() -> Vec<Arc<Kind>> {
     let mut kinds: Vec<Arc<Kind>> = registry().kinds().map(Arc::clone).collect();
     let (folder, mut scripts) = (Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/types"), 0);
@@ -43,7 +43,7 @@ fn kinds() -> Vec<Arc<Kind>> {
     kinds
 }
 
-/// The types that are made of a table.
+/// Returns the types that are made from a table.
 fn made_of_fields() -> Vec<Arc<Kind>> {
     let of_fields = |kind: &Arc<Kind>| matches!(kind.construct, Construct::Fields(_));
     kinds().into_iter().filter(of_fields).collect()
@@ -91,7 +91,7 @@ fn what_begins_each_pass_empty_has_nothing_left_of_the_pass_before() {
         let fresh = object.triangles();
         for method in &kind.methods {
             let Call::Write { numbers: Some(call), .. } = &method.call else { continue };
-            // What it refuses does not matter here.
+            // Errors do not matter here.
             let _ = call(&mut *object, &vec![1.0; method.arguments.len()]);
         }
         let _ = object.end();
@@ -117,7 +117,7 @@ orchards:interpret("Grow(r)", function(this, r) this:crowns(r / 2) end)
 orchards:derive()
 "#;
 
-/// A folder with the script and its data: so many fields that it pays to prefetch.
+/// Returns a folder with the script and its data, with enough fields that prefetching pays off.
 fn folder() -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let fields = (0..300).map(|number| {

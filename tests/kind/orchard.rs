@@ -1,4 +1,4 @@
-//! A type of object that the house does not know: rows of trees on a field of a data file.
+//! Object type outside of Burgeon: rows of trees on a field of a data file.
 
 use std::any::Any;
 use std::sync::Arc;
@@ -7,19 +7,20 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use burgeon::Result;
 use burgeon::geometry::sphere;
 use burgeon::kit::{
-    Drawing, Expand, Expectation, Features, GeometryObject, Object, Parameter, Prefetch, Rewriter, Table,
-    Value, Vector, methods, object,
+    Drawing, Expand, Expectation, Object, Parameter, Prefetch, Rewriter, Table, Value, Vector, methods,
+    object,
 };
 use burgeon::scene::Material;
-use burgeon::sources::{Geometry, Layer};
+use burgeon::sources::{Features, Geometry, Layer};
+use burgeon::spatial::GeometryObject;
 use glam::{DVec2, DVec3};
 
-/// How many middles were there before they were asked for, and how many were looked for.
+/// Number of centres that were looked up in the prefetch.
 pub static LOOKED_FOR: AtomicUsize = AtomicUsize::new(0);
-/// How often trees were set out.
+/// Number of expansions.
 pub static EXPANSIONS: AtomicUsize = AtomicUsize::new(0);
 
-/// The corners (m) of a field.
+/// Corners of a field (m).
 #[derive(Debug, Clone, Default)]
 pub struct Corners(Vec<DVec3>);
 
@@ -54,7 +55,7 @@ impl Parameter for Corners {
     }
 }
 
-/// A layer of a data file, as a whole.
+/// Complete layer of a data file.
 #[derive(Clone, Default)]
 pub struct Whole(Option<Arc<Layer>>);
 
@@ -87,33 +88,33 @@ impl Parameter for Whole {
     first = "geometry",
     make = planted,
     draws,
-    expands,
+    can(Expand),
     begins_empty,
     begin = restart,
     gathers = gather,
-    prefetches = |layer| Arc::new(Middles::new(layer)),
+    prefetches = |features| Some(Arc::new(Middles::new(features)?)),
     crate = burgeon::kit
 )]
 pub struct Orchard {
-    /// The field on which it stands: a feature's geometry.
+    /// Field of the orchard: the geometry of a feature.
     pub geometry: Corners,
-    /// The wells of the land, as a source: a tree stands farther than a metre from each.
+    /// Source of the wells: trees keep a distance of 1 m from each well.
     pub wells: Whole,
-    /// Distance (m) from tree to tree.
+    /// Distance between trees (m).
     #[default(4.0)]
     pub spacing: f64,
     middle: DVec3,
-    /// Distance (m) to the nearest other one.
+    /// Distance to the nearest other orchard (m).
     #[default(f64::INFINITY)]
     nearest: f64,
-    /// Where trees stand, from the middle.
+    /// Positions of the trees relative to the centre (m).
     trees: Vec<DVec3>,
     drawing: Drawing,
 }
 
 #[methods("orchard", crate = burgeon::kit)]
 impl Orchard {
-    /// Draws each tree as a ball of `radius` (m).
+    /// Draws each tree as a ball with `radius` (m).
     pub fn crowns(&mut self, radius: f64) -> Result<()> {
         let material = Material { base_color: [0.2, 0.5, 0.2, 1.0], ..Material::default() };
         let part = self.drawing.material(&material);
@@ -123,17 +124,17 @@ impl Orchard {
         Ok(())
     }
 
-    /// The number of its trees.
+    /// Returns the number of trees.
     pub fn trees(&self) -> f64 {
         self.trees.len() as f64
     }
 
-    /// Distance (m) to the nearest other orchard; infinite if there is none.
+    /// Returns the distance to the nearest other orchard (m); infinite if there is none.
     pub fn nearest(&self) -> f64 {
         self.nearest
     }
 
-    /// The number of features in the layer of wells.
+    /// Returns the number of features in the layer of wells.
     pub fn wells(&self) -> f64 {
         self.wells.0.as_ref().map_or(0.0, |layer| layer.features.len() as f64)
     }
@@ -151,7 +152,7 @@ impl Orchard {
     }
 }
 
-/// The middle of a feature's corners, if it was made before it was asked for.
+/// Returns the centre of a feature's corners, if it was prefetched.
 fn prefetched(table: &Table) -> Option<DVec3> {
     let Some(Value::Object(object)) = table.get("geometry") else { return None };
     let any: &dyn Any = &**object;
@@ -161,7 +162,7 @@ fn prefetched(table: &Table) -> Option<DVec3> {
     any.downcast_ref::<Middles>()?.middles.get(number)?.get().copied()
 }
 
-/// The middles of a layer's features, made by a thread that has time.
+/// Centres of a layer's features, computed by an idle thread.
 struct Middles {
     layer: Arc<Layer>,
     middles: Vec<std::sync::OnceLock<DVec3>>,
@@ -169,9 +170,11 @@ struct Middles {
 }
 
 impl Middles {
-    fn new(layer: &Arc<Layer>) -> Self {
+    fn new(features: &Arc<dyn Object>) -> Option<Self> {
+        let any: &dyn Any = &**features;
+        let layer = &any.downcast_ref::<Features>()?.0;
         let middles = layer.features.iter().map(|_| Default::default()).collect();
-        Self { layer: Arc::clone(layer), middles, over: AtomicBool::new(false) }
+        Some(Self { layer: Arc::clone(layer), middles, over: AtomicBool::new(false) })
     }
 }
 
@@ -190,7 +193,7 @@ impl Prefetch for Middles {
     }
 }
 
-/// Tells each how far the nearest other one is.
+/// Sets in each orchard the distance to the nearest other one.
 fn gather(all: &mut [Box<dyn Object>]) {
     let middle = |object: &dyn Object| {
         let any: &dyn Any = object;

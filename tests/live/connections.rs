@@ -1,4 +1,4 @@
-//! Connections that say nothing, and the server that comes after one.
+//! Idle connections, and a server that restarts on the same port.
 
 use std::io::{Read, Write};
 use std::net::TcpStream;
@@ -17,7 +17,7 @@ fn hundreds_of_half_open_connections_leave_files_and_answers_to_others() {
         .map(|i| {
             let mut stream = TcpStream::connect(("127.0.0.1", server.port)).unwrap();
             let head = ["", "GET", "GET / HTTP/1.1\r\n", "GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"][i % 4];
-            // One that was sent away already is no matter.
+            // The server may already have closed the connection.
             let _ = stream.write_all(head.as_bytes());
             stream
         })
@@ -47,7 +47,7 @@ fn who_does_not_finish_a_request_is_given_up_and_a_page_that_is_silent_is_not() 
         .collect();
     for stream in &mut half {
         let mut rest = Vec::new();
-        // It is closed, with or without a word.
+        // The server closes the connection, with or without an answer.
         stream.read_to_end(&mut rest).unwrap();
     }
     assert!(begin.elapsed() > Duration::from_secs(4));
@@ -58,7 +58,7 @@ fn who_does_not_finish_a_request_is_given_up_and_a_page_that_is_silent_is_not() 
 fn the_next_server_of_a_port_has_the_same_address_and_proves_that_it_knows_it() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("s.lua"), script(3)).unwrap();
-    // A port that is likely to stay free for a moment.
+    // The port is likely to remain free for a moment.
     let port =
         std::net::TcpListener::bind(("127.0.0.1", 0)).unwrap().local_addr().unwrap().port().to_string();
     let first = Server::start(folder, &["--port", &port]);
@@ -95,7 +95,7 @@ fn an_export_that_its_page_gave_up_ends_and_the_next_one_has_its_turn() {
     let path = format!("/{}/export/a.png?width=8192&height=8192", server.token);
     write!(page, "GET {path} HTTP/1.1\r\nHost: localhost\r\n\r\n").unwrap();
     std::thread::sleep(Duration::from_millis(500));
-    // It takes many times as long.
+    // The run takes much longer than this timeout.
     page.set_read_timeout(Some(Duration::from_millis(1))).unwrap();
     assert!(page.read(&mut [0; 1]).is_err());
     drop(page);

@@ -1,4 +1,5 @@
-//! The live page's server, as the real binary: requests, saves, wishes, exports; and `run --watch`.
+//! Server of the live view, tested with the real binary: requests, saves, parameters and exports; and `run
+//! --watch`.
 #![cfg(feature = "live")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 

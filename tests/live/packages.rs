@@ -1,5 +1,5 @@
-//! Packages that are added, removed, restored and changed while a script is shown: random sequences of what people do, each
-//! with what is to be seen after it.
+//! Packages that are added, removed, restored and changed while a script is shown: random sequences of
+//! actions, each with the expected result.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,12 +7,13 @@ use std::time::{Duration, Instant};
 
 use crate::support::{PATIENCE, Page, Server};
 
-/// A script that needs `size.lua` of castle, which needs `unit.lua` of masonry, and uses `more.lua` of banners if it is there.
+/// Script that needs `size.lua` of castle, which needs `unit.lua` of masonry, and uses `more.lua` of banners
+/// if it exists.
 const SCRIPT: &str = "local size = require(\"@castle/size\")\nlocal A = module(\"A\")\n\
     local s = lsystem({ object = extruder({ sides = 4, smooth = false }) })\ns:axiom(A())\n\
     s:interpret(\"A\", function(this) for _ = 1, size do this:extrude(1):advance(1) end end)\ns:derive()\n";
 
-/// What is there.
+/// State of the packages.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct There {
     castle: bool,
@@ -24,7 +25,7 @@ struct There {
 }
 
 impl There {
-    /// How many extrusions are to be seen; none if the script fails.
+    /// Returns the expected number of extrusions; `None` if the script fails.
     fn extrusions(self) -> Option<usize> {
         (self.castle && self.masonry && !self.off && self.size)
             .then_some(self.unit + if self.banners { 3 } else { 0 })
@@ -51,7 +52,7 @@ impl There {
         }
     }
 
-    /// Puts a package into a folder: whole at once, or file by file.
+    /// Puts a package into a folder: in one step, or file by file.
     fn put(self, at: &Path, name: &str, whole: bool) {
         let staged = if whole { at.with_file_name(format!(".{name}.new")) } else { at.to_path_buf() };
         fs::create_dir_all(&staged).unwrap();
@@ -69,11 +70,12 @@ impl There {
     }
 }
 
-/// Waits until a page has seen `count` extrusions, or an error if there are none.
+/// Waits until a page has received a model with the expected number of extrusions, or an error if the script
+/// fails.
 fn shows(page: &mut Page, there: There, done: &str, log: &[String]) {
     let end = Instant::now() + PATIENCE;
     let mut last = String::new();
-    // Four sides and two caps each.
+    // Each extrusion has four sides and two caps.
     let expected = there.extrusions().map(|count| count as u64);
     while Instant::now() < end {
         let Some(message) = page.within(end - Instant::now()) else { continue };
@@ -92,7 +94,7 @@ fn shows(page: &mut Page, there: There, done: &str, log: &[String]) {
     panic!("after {done}, with {there:?}, a page saw {last}\n{}", log.join("\n"));
 }
 
-/// A small generator, so that a failure is found again by its number.
+/// Random number generator with a seed, so that a failure can be reproduced.
 struct Draw(u64);
 
 impl Draw {
@@ -168,7 +170,7 @@ fn follow(seed: u64, steps: usize) {
                 format!("castle is off: {}", there.off)
             }
             5 => {
-                // The whole folder goes and comes back.
+                // The whole folder is moved away and back.
                 if at("").exists() {
                     let away = server.path("away");
                     fs::rename(server.path("mods"), &away).unwrap();
@@ -185,7 +187,7 @@ fn follow(seed: u64, steps: usize) {
                 "mods went and came".to_owned()
             }
             6 => {
-                // Another package, which nobody uses, and which is broken.
+                // A broken package that no script uses.
                 let other = at("other");
                 match other.exists() {
                     true => fs::remove_dir_all(other).unwrap(),

@@ -1,4 +1,4 @@
-//! What pages request: parameters, the seed, steps; and how requests outlive saves.
+//! Requests of pages: parameters, seed and steps; and pending requests during saves.
 
 use std::time::Duration;
 
@@ -41,7 +41,7 @@ fn values_are_set_shared_kept_across_saves_and_put_back() {
     );
     set(&mut page, json!("3"));
     assert_eq!(page.model_of(json!({ "type": "reset" }))["params"][0]["value"], 2.0);
-    // A change that changes nothing is answered, to this page alone.
+    // A request without a change gets an answer, sent only to this page.
     assert_eq!(set(&mut page, Value::Null)["params"][0]["value"], 2.0);
     for _ in 0..5 {
         other.next("model");
@@ -49,7 +49,7 @@ fn values_are_set_shared_kept_across_saves_and_put_back() {
     other.is_quiet(Duration::from_millis(50));
 }
 
-/// Has no end where `count` is 6, and fails where it is 7.
+/// Script that never ends if `count` is 6, and fails if it is 7.
 const HEAVY: &str = r#"local count = param("count", { default = 3, min = 1, max = 9, step = 1 })
 local tiny = param("tiny", { default = 1 })
 local A, S = module("A", "n"), module("S")
@@ -83,7 +83,7 @@ fn what_a_page_cancels_does_not_come_with_the_next_change() {
     late.is_quiet(Duration::from_millis(50));
     let next = page.model_of(json!({ "type": "set", "params": { "tiny": 2 } }));
     assert_eq!((&next["params"][0], &next["params"][1]["value"]), (&first["params"][0], &json!(2.0)));
-    // Of a script that was saved meanwhile no model is there to go back to, but the values are.
+    // The script was saved meanwhile, so there is no older model to return to, but the values remain.
     server.write("s.lua", format!("{HEAVY}-- saved"));
     page.next("model");
     page.say(&json!({ "type": "set", "params": { "count": 6 } }));
@@ -153,7 +153,7 @@ fn the_seed_and_the_steps_are_wished_and_the_last_step_is_known() {
     let whole = page.model_of(json!({ "type": "steps", "steps": null }));
     assert_eq!((&whole["url"], &whole["step_limit"]), (&seeded["url"], &Value::Null));
     page.model_of(json!({ "type": "steps", "steps": 0 }));
-    // With another script the number is not known, so it is found while there is nothing else to do.
+    // The number is unknown for the new script, so the server finds it while it is idle.
     server.write("s.lua", script(9));
     let guess = page.next("model");
     let found = page.next("model");
@@ -280,7 +280,7 @@ fn variations_come_as_pictures_to_the_page_that_asked() {
         assert!(picture.status == 200 && picture.body.starts_with(b"\x89PNG"));
     }
     page.say(&json!({ "type": "variations", "id": 8, "param": "length", "values": ["1", "9"] }));
-    // One camera for all: what is longer looks longer.
+    // All variations have the same camera, so a longer model fills more of its image.
     let seen = [1.0, 9.0].map(|length| {
         let made = page.next("variation");
         assert_eq!(made["params"]["length"], length);

@@ -1,4 +1,4 @@
-//! Who is answered, and what.
+//! Access checks and answers of the server.
 
 use std::io::{Read, Write};
 use std::net::TcpStream;
@@ -130,7 +130,7 @@ fn the_model_is_a_glb_that_never_changes_under_its_name() {
         answer.head
     );
     assert_eq!(answer.body.len() as u64, model["bytes"].as_u64().unwrap());
-    // Its normals are integers, which the reader does not know.
+    // The normals are integers, which the reader does not support.
     let document = gltf::Gltf::from_slice_without_validation(&answer.body).unwrap();
     assert!(document.meshes().len() > 0);
     assert_eq!(

@@ -1,4 +1,4 @@
-//! What happens when files change.
+//! Reactions to changed files.
 
 use std::fs;
 use std::io::Write;
@@ -130,7 +130,7 @@ fn a_save_during_a_long_run_stops_it_and_so_does_a_page() {
     page.until("progress");
     page.say(&json!({ "type": "cancel" }));
     assert_eq!(page.until("cancelled")["stale"], true);
-    // What was cancelled is not tried again until something changes.
+    // A cancelled run is repeated only after a change.
     page.is_quiet(Duration::from_millis(100));
     let mut late = server.page();
     late.next("model");
@@ -171,7 +171,7 @@ fn data_and_models_are_followed_even_where_they_are_missing() {
         ] })
         .to_string()
     };
-    // A model from a script of its own.
+    // Builds a model from a separate script.
     let model = |count: usize, to: &Path| {
         let other = tempfile::tempdir().unwrap();
         fs::write(other.path().join("s.lua"), script(count)).unwrap();
@@ -210,8 +210,8 @@ plots:derive()
     assert_eq!(page.next("model")["url"], taller["url"]);
 }
 
-/// Writes a file in place, in two parts with a pause between. Returns whether the second part came in time: a machine
-/// that is busy may make the pause so long that what is there has to be believed.
+/// Writes a file in place, in two parts with a pause between them. Returns true if the second part was
+/// written in time: on a busy machine the pause can be so long that the server has to accept the first part.
 fn write_slowly(server: &Server, name: &str, text: &str, closed: bool) -> bool {
     let (first, rest) = text.split_at(text.len() / 2);
     let begin = Instant::now();
@@ -241,7 +241,7 @@ fn a_file_that_is_seen_half_written_is_read_again_before_anyone_is_told() {
     page.next("model");
     let presets =
         |number: usize| format!("{:#}\n", json!({ format!("preset {number}"): { "seed": number } }));
-    // All that is told until a message holds what is wanted.
+    // Returns all messages up to one that satisfies `wanted`.
     let until = |page: &mut crate::support::Page, wanted: &dyn Fn(&Value) -> bool| {
         let mut told = Vec::new();
         while told.last().is_none_or(|last| !wanted(last)) {
@@ -250,7 +250,7 @@ fn a_file_that_is_seen_half_written_is_read_again_before_anyone_is_told() {
         told
     };
     let (mut checked, mut length) = ([0; 2], 3);
-    // Whether a file stays open between its parts can be known on some systems alone.
+    // Only some systems report whether a file is still open between its parts.
     for closed in [true, !cfg!(target_os = "linux")].repeat(10) {
         if checked[usize::from(closed)] >= 9 {
             continue;
@@ -314,7 +314,7 @@ fn a_model_of_nothing_says_why() {
     says(&mut page, "no module is left");
     server.write("s.lua", empty("s:rule(\"A\", function() return B(), B() end)\n"));
     says(&mut page, "system:interpret(\"B\"");
-    // What has an interpretation is not asked for one.
+    // An interpreted module gets no advice to add an interpretation.
     server
         .write("s.lua", empty("s:interpret(\"A\", function(this) if false then this:forward(1) end end)\n"));
     says(&mut page, "its interpretations draw nothing");
@@ -383,7 +383,7 @@ fn files_of_packages_are_followed_and_one_that_goes_leaves_the_last_model_with_t
     fs::remove_file(server.path("given/castle/size.lua")).unwrap();
     let error = page.next("error");
     assert!(error["text"].as_str().unwrap().contains("the package castle has no file size.lua"), "{error}");
-    // Whoever comes now sees the last good model, and why there is no newer one.
+    // A new page gets the last good model, and the error of the newer one.
     let mut second = server.page();
     assert_eq!(second.next("model")["url"], model["url"]);
     second.next("error");

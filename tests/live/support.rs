@@ -1,4 +1,4 @@
-//! A server of the real binary in a folder of its own, and pages that talk to it.
+//! Server of the real binary in a temporary folder, and pages that communicate with it.
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
@@ -9,10 +9,10 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 use tungstenite::{Message, WebSocket};
 
-/// How long anything may take; most takes a hundredth of it.
+/// Time limit of all actions; most take a hundredth of it.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(30);
 
-/// A script of `count` segments, with a parameter and a random turn.
+/// Returns a script of `count` segments, with a parameter and a random turn.
 pub(crate) fn script(count: usize) -> String {
     format!(
         r#"local length = param("length", {{ default = 1, min = 1, max = 9, step = 1 }})
@@ -26,12 +26,12 @@ s:derive()
     )
 }
 
-/// The triangles of that script's model.
+/// Returns the number of triangles of that script's model.
 pub(crate) fn triangles(count: usize) -> usize {
     16 * count + 12
 }
 
-/// A script whose run takes long.
+/// Script whose run takes a long time.
 pub(crate) const SLOW: &str = r#"local A = module("A", "n")
 local s = lsystem({})
 s:axiom(A(0))
@@ -39,7 +39,7 @@ s:rule("A(n)", function(this, n) return A(n + 1) end)
 s:derive()
 "#;
 
-/// A folder with a server in it, both gone when the test is over.
+/// Temporary folder with a server in it; both end with the test.
 pub(crate) struct Server {
     child: Child,
     pub port: u16,
@@ -48,7 +48,7 @@ pub(crate) struct Server {
 }
 
 impl Server {
-    /// Serves `s.lua`, which holds `script` if there is one, on any free port.
+    /// Serves `s.lua`, which contains `script` if there is one, on a free port.
     pub(crate) fn new(script: Option<&str>) -> Self {
         Self::with(script, &[])
     }
@@ -65,7 +65,7 @@ impl Server {
         Self::by(Command::new(env!("CARGO_BIN_EXE_burgeon")), folder, flags)
     }
 
-    /// A server that may open so many files at most.
+    /// Starts a server with a limit on the number of open files.
     #[cfg(target_os = "linux")]
     pub(crate) fn with_few_files(script: &str, files: usize) -> Self {
         let folder = tempfile::tempdir().unwrap();
@@ -105,12 +105,12 @@ impl Server {
         std::fs::write(self.path(name), text).unwrap();
     }
 
-    /// Asks for `path` below the token, as a browser does.
+    /// Requests `path` below the token, as a browser does.
     pub(crate) fn get(&self, path: &str) -> Answer {
         self.request(&format!("GET /{}/{path} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\n", self.token, self.port))
     }
 
-    /// Sends the head of a request as it is, but for the end.
+    /// Sends the head of a request unchanged, and adds the final empty line.
     pub(crate) fn request(&self, head: &str) -> Answer {
         let mut stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
         stream.set_read_timeout(Some(PATIENCE)).unwrap();
@@ -126,12 +126,12 @@ impl Server {
         }
     }
 
-    /// Opens a page, and takes its greeting.
+    /// Opens a page, and receives its greeting.
     pub(crate) fn page(&self) -> Page {
         self.greeted().0
     }
 
-    /// What a page is greeted with.
+    /// Returns the greeting of a new page.
     pub(crate) fn hello(&self) -> Value {
         self.greeted().1
     }
@@ -149,13 +149,13 @@ impl Server {
         (page, hello)
     }
 
-    /// The number of files that it has open.
+    /// Returns the number of open files of the server.
     #[cfg(target_os = "linux")]
     pub(crate) fn open_files(&self) -> usize {
         std::fs::read_dir(format!("/proc/{}/fd", self.child.id())).unwrap().count()
     }
 
-    /// Interrupts it as a person does. Returns how long it took to end, and its status.
+    /// Interrupts the server as a user does. Returns its shutdown time and its exit status.
     #[cfg(unix)]
     pub(crate) fn interrupt(mut self) -> (Duration, Option<i32>) {
         let begin = Instant::now();
@@ -164,7 +164,7 @@ impl Server {
         (begin.elapsed(), status.code())
     }
 
-    /// The page, the folder of the server that ends, and the flags for one that continues it.
+    /// Ends the server and returns its folder.
     pub(crate) fn end(mut self) -> tempfile::TempDir {
         self.child.kill().unwrap();
         self.child.wait().unwrap();
@@ -179,17 +179,17 @@ impl Drop for Server {
     }
 }
 
-/// What a request was answered.
+/// Answer to a request.
 pub(crate) struct Answer {
     pub status: u16,
     pub head: String,
     pub body: Vec<u8>,
 }
 
-/// A page's end of the socket.
+/// Page side of the socket.
 pub(crate) struct Page {
     socket: WebSocket<TcpStream>,
-    /// What was said last, for those who wonder why nothing comes.
+    /// Last message, for error messages.
     last: String,
 }
 
@@ -202,7 +202,7 @@ impl Page {
         self.socket.send(message).unwrap();
     }
 
-    /// The next message, whatever it is.
+    /// Returns the next message of any type.
     #[track_caller]
     pub(crate) fn any(&mut self) -> Value {
         match self.within(PATIENCE) {
@@ -211,7 +211,7 @@ impl Page {
         }
     }
 
-    /// The next message within `time`, if there is one.
+    /// Returns the next message within `time`, if there is one.
     pub(crate) fn within(&mut self, time: Duration) -> Option<Value> {
         let begin = Instant::now();
         while begin.elapsed() < time {
@@ -228,7 +228,7 @@ impl Page {
         None
     }
 
-    /// The next message, which must be of this type, but for news of a run that is under way.
+    /// Returns the next message, which must have this type; progress messages are skipped.
     #[track_caller]
     pub(crate) fn next(&mut self, kind: &str) -> Value {
         loop {
@@ -242,7 +242,7 @@ impl Page {
         }
     }
 
-    /// The next message of this type, whatever comes before.
+    /// Returns the next message of this type, and skips all others.
     #[track_caller]
     pub(crate) fn until(&mut self, kind: &str) -> Value {
         loop {
@@ -253,14 +253,14 @@ impl Page {
         }
     }
 
-    /// Says something, and gives the model that comes of it.
+    /// Sends a message, and returns the resulting model.
     #[track_caller]
     pub(crate) fn model_of(&mut self, message: Value) -> Value {
         self.say(&message);
         self.next("model")
     }
 
-    /// Nothing comes any more but an answer to a question that is asked now.
+    /// Asserts that the server sends nothing within `time` and then still answers a request.
     #[track_caller]
     pub(crate) fn is_quiet(&mut self, time: Duration) {
         assert_eq!(self.within(time), None);

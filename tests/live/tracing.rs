@@ -1,4 +1,4 @@
-//! From the picture to the script and back.
+//! Tracing from the image to the script and back.
 
 use serde_json::{Value, json};
 
@@ -99,7 +99,7 @@ fn a_line_of_a_required_file_is_found_by_any_name_that_means_it_alone() {
         "local s = lsystem({ object = turtle() })\nrequire(\"a/b/parts\")(s)\ns:derive()\n",
     )
     .unwrap();
-    // What was written when the server began counts as changed.
+    // A file written just before the start of the server counts as changed.
     std::thread::sleep(std::time::Duration::from_millis(200));
     let server = Server::start(folder, &[]);
     let mut page = server.page();

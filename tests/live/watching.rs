@@ -1,4 +1,4 @@
-//! `run --watch`.
+//! Tests of `run --watch`.
 
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};

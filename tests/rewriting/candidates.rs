@@ -1,5 +1,5 @@
-//! Random systems of guarded, weighted and contextual rules: the engine applies one of the rules that the design's
-//! law of choice allows.
+//! Random systems of guarded, weighted and contextual rules: the engine applies only rules that the choice
+//! law of the design allows.
 
 use burgeon::script::RunOptions;
 
@@ -10,7 +10,7 @@ use super::scripts::{as_lua, declare_with, run_with, words};
 struct Law {
     pattern: Pattern,
     weight: Option<f64>,
-    /// Where it is guarded: it holds for modules whose number leaves this rest when divided.
+    /// Guard, if any: it holds for modules whose number has this remainder for this divisor.
     guard: Option<(usize, usize)>,
 }
 
@@ -20,14 +20,14 @@ struct System {
     laws: Vec<Law>,
 }
 
-/// What was compared, to be sure that it tells something.
+/// Numbers of compared modules, to ensure that the test is meaningful.
 #[derive(Debug, Default)]
 pub(crate) struct Compared {
-    /// Modules that a rule was applied to.
+    /// Modules to which a rule was applied.
     pub applied: usize,
-    /// Modules that several rules were drawn from for.
+    /// Modules with a random choice among several rules.
     pub drawn: usize,
-    /// Modules that a rule of weight 0 would have been applied to.
+    /// Modules to which a rule of weight 0 would have been applied.
     pub weightless: usize,
 }
 
@@ -61,7 +61,8 @@ impl System {
         Self { laws: laws.collect(), words: made.words, ignored: made.ignored }
     }
 
-    /// One step, in which rule number I turns its module into `RI`, with the module's number.
+    /// Returns a script with one step, in which rule number I replaces its module by `RI`, with the module's
+    /// number.
     fn script(&self) -> String {
         let mut number = 0;
         let numbered = self.words.iter().map(|word| match *word {
@@ -128,7 +129,7 @@ impl System {
     }
 }
 
-/// Derives `count` random systems by a step, and looks at what became of each module.
+/// Derives `count` random systems by one step, and checks the result of each module.
 pub(crate) fn compare(seed: u64, count: usize, options: RunOptions) -> Compared {
     let mut dice = Dice::new(seed);
     let systems: Vec<System> = (0..count).map(|_| System::new(&mut dice)).collect();

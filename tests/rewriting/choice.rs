@@ -1,4 +1,4 @@
-//! Which rule is chosen, and that all are applied at once: the design's laws 1 and 2.
+//! Choice among rules, and parallel application: laws 1 and 2 of the design.
 
 use super::candidates::compare;
 use super::scripts::{Plain, chain, divided, error, lines, run_with};
@@ -8,7 +8,7 @@ const HEAD: &str = r#"
     local s = lsystem {}
 "#;
 
-/// `X`, `Y` or `Z`, by the rules for `A(1)` to `A(4)`, each between two `B`.
+/// Returns `X`, `Y` or `Z` for each of `A(1)` to `A(4)`, between two `B`.
 fn chosen(rules: &str) -> String {
     let text = chain(&format!(
         "{HEAD}\n s:axiom(B(), A(1), B(), A(2), B(), A(3), B(), A(4), B())\n {rules}\n s:derive(1)"
@@ -76,7 +76,7 @@ fn guards_see_the_parameters_of_contexts() {
 
 #[test]
 fn a_guard_without_contexts_asks_only_what_may_still_be_decided() {
-    // Where an earlier rule wins, the guard of a later one is not asked, so that it need not bear its values.
+    // If an earlier rule applies, the guard of a later one does not run, so it need not handle all values.
     let rules = "s:rule(\"A(n)\", { when = function(_, n) return n < 4 end }, [[ return X() ]])
                  s:rule(\"A(n)\", { when = function(_, n) if n < 4 then error(\"asked\") end return true end }, [[ return Y() ]])";
     assert_eq!(chosen(rules), "X X X Y");
@@ -96,7 +96,8 @@ fn a_weighted_rule_whose_guard_fails_is_no_candidate() {
         "s:rule(\"A(n)\", { weight = 1000, when = function(_, n) return n == 2 end }, [[ return X() ]])
                  s:rule(\"A(n)\", { when = function(_, n) return n == 3 end }, [[ return Y() ]])
                  s:rule(\"A\", { weight = 0.001 }, [[ return Z() ]])";
-    // For 2 the first candidate is weighted, so X and Z are drawn from; a million to one it is X.
+    // For 2, the first candidate has a weight, so X and Z are drawn; with odds of a million to one the result
+    // is X.
     assert_eq!(chosen(rules), "Z X Y Z");
 }
 
@@ -123,7 +124,8 @@ fn rules_of_other_symbols_do_not_disturb_the_order() {
 
 #[test]
 fn all_modules_are_rewritten_at_once() {
-    // Rule 90: each cell becomes the sum of its neighbours modulo 2. Any other order than all at once shows.
+    // Rule 90: each cell becomes the sum of its neighbours modulo 2. Any sequential application gives another
+    // result.
     let script = r#"
         local Cell = module("Cell", "x")
         local s = lsystem {}

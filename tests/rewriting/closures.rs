@@ -1,4 +1,5 @@
-//! Systems with closures beside the same systems in Lua: the chains are equal, random numbers included.
+//! Systems with closures, compared with the same systems in Lua: the chains are equal, including random
+//! numbers.
 
 use std::fmt::Write as _;
 
@@ -9,14 +10,15 @@ use super::scripts::{all_chains, divided, try_run};
 
 const NAMES: [&str; 3] = ["A", "B", "C"];
 
-/// A rule that both are given.
+/// Rule for both systems.
 struct RulePlan {
     pattern: String,
     arguments: usize,
     weight: Option<f64>,
-    /// Least value of the first argument for which the rule applies.
+    /// Minimum of the first argument for which the rule applies.
     least: Option<f64>,
-    /// Modules of the successor, each with its factor and whether it draws, and whether it stands on a branch.
+    /// Modules of the successor: index, factor, whether a random number is added, and whether the module is
+    /// on a branch.
     successor: Vec<(usize, f64, bool, bool)>,
 }
 
@@ -47,7 +49,7 @@ fn plan(dice: &mut Dice) -> RulePlan {
     }
 }
 
-/// The chain after `steps` steps, derived with closures.
+/// Returns the chain after `steps` steps, derived with closures.
 fn with_closures(seed: u64, rules: &[RulePlan], steps: usize) -> String {
     let mut system = ClosureSystem::new(seed);
     let symbols = NAMES.map(|name| system.module(name, &["x"]).expect("a module"));
@@ -80,7 +82,7 @@ fn with_closures(seed: u64, rules: &[RulePlan], steps: usize) -> String {
     system.text(&system.derive(first.expect("a chain"), steps).expect("it derives"))
 }
 
-/// The same system in Lua.
+/// Returns the same system in Lua.
 fn script(rules: &[RulePlan], steps: usize) -> String {
     let mut text = String::new();
     for name in NAMES {
@@ -129,7 +131,7 @@ fn closures_and_lua_derive_the_same_chains() {
         let text = script(&rules, 5);
         let run = try_run(&text, divided(1 + dice.below(3), 1 + dice.below(50))).expect("it runs");
         let expected = all_chains(&run);
-        // Values are shown by Rust here and by the run there: as short as they can be, so they are compared as numbers.
+        // Both sides format numbers as short as possible, but differently, so they are compared as numbers.
         assert_eq!(numbers(&with_closures(0, &rules, 5)), numbers(&expected), "{text}");
         grown += usize::from(expected.len() > 40);
         drawn += usize::from(rules.iter().any(|rule| rule.successor.iter().any(|made| made.2)));
@@ -137,7 +139,7 @@ fn closures_and_lua_derive_the_same_chains() {
     assert!(grown > 100 && drawn > 60, "{grown} grow, {drawn} draw");
 }
 
-/// The words of a chain, with its numbers read.
+/// Returns the words of a chain, with its numbers parsed.
 fn numbers(text: &str) -> Vec<(String, Option<u64>)> {
     let words = text.split(['(', ')', ' ', '\n']).filter(|word| !word.is_empty());
     words.map(|word| (word.chars().take(1).collect(), word.parse::<f64>().ok().map(f64::to_bits))).collect()

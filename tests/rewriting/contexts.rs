@@ -1,11 +1,11 @@
-//! Contexts along the tree: the design's law 4, a line for each of its cases.
+//! Contexts along the tree: law 4 of the design, one line per case.
 
 use burgeon::script::RunOptions;
 
 use super::naive::{self, Pattern};
 use super::scripts::{Case, Passing, Plain, chain, divided, error, lines, matched, run, run_with, words};
 
-/// What contexts pass over, the chain with a star before each module that matches, the pattern.
+/// Ignored symbols, chain with a star before each matching module, and pattern.
 const TABLE: &[(&str, &str, &str)] = &[
     // Along a chain without branches.
     ("", "A *B A", "A < B"),
@@ -18,7 +18,7 @@ const TABLE: &[(&str, &str, &str)] = &[
     ("", "S *S A B S B", "S > A B"),
     ("", "A B", "B < A"),
     ("", "A B", "B > A"),
-    // At the beginning and the end of a chain there is nothing to match.
+    // At the start and end of a chain there is nothing to match.
     ("", "S", "A < S"),
     ("", "S", "S > A"),
     ("", "A S", "A A < S"),
@@ -42,7 +42,7 @@ const TABLE: &[(&str, &str, &str)] = &[
     ("", "A [ S ] B", "S > B"),
     ("", "[ *S A ] A", "S > A"),
     ("", "*S [ ] A", "S > A"),
-    // It enters branches that it names.
+    // A right context enters branches that it names.
     ("", "*S [ A ]", "S > [ A ]"),
     ("", "*S [ A ] B", "S > [ A ] B"),
     ("", "S [ A ] C", "S > [ A ] B"),
@@ -60,7 +60,7 @@ const TABLE: &[(&str, &str, &str)] = &[
     ("", "*S [ [ A ] B ]", "S > [ [ A ] B ]"),
     ("", "*S [ [ A ] ]", "S > [ [ A ] ]"),
     ("", "S [ A ] B", "S > [ A B ]"),
-    // Named branches are taken in order, each the first that is left.
+    // Named branches match in order, each the first remaining one.
     ("", "*S [ A ] [ B ]", "S > [ A ] [ B ]"),
     ("", "S [ B ] [ A ]", "S > [ A ] [ B ]"),
     ("", "*S [ C ] [ A ] [ C ] [ B ] [ C ]", "S > [ A ] [ B ]"),
@@ -79,7 +79,7 @@ const TABLE: &[(&str, &str, &str)] = &[
     ("", "A B C [ D E ] [ S G [ H I [ J K ] L ] M N O ]", "B C < S > G H M"),
     ("", "A B C [ D E ] [ *S G [ H I [ J K ] L ] M N O ]", "A B C < S > G [ H I [ J ] L ] M N O"),
     ("", "A B C [ D E ] [ S G [ H I [ J K ] L ] M N O ]", "E < S > G"),
-    // Ignored symbols are passed over everywhere, and may still be rewritten.
+    // Ignored symbols are skipped everywhere, and can still be rewritten.
     ("X", "A X *S", "A < S"),
     ("X", "A X X *S X B", "A < S > B"),
     ("X", "A [ X *S ] B", "A < S"),
@@ -96,7 +96,7 @@ const TABLE: &[(&str, &str, &str)] = &[
     ("X", "A [ *X ] B", "A < X"),
     ("X", "*X *X [ X A ]", "X > [ A ]"),
     ("X Y", "A X Y *S Y X [ Y A ] B", "A < S > [ A ] B"),
-    // A symbol that is ignored is never found as a context.
+    // An ignored symbol never matches a context.
     ("X", "X S", "X < S"),
     ("X", "S X", "S > X"),
     ("X", "S [ X ]", "S > [ X ]"),
@@ -106,7 +106,7 @@ fn ignoring(names: &str) -> Passing<'_> {
     if names.is_empty() { Passing::Nothing } else { Passing::Ignore(names) }
 }
 
-/// The chain without stars, and the numbers of the modules that had one.
+/// Returns the chain without stars, and the numbers of the modules with a star.
 fn starred(chain: &str) -> (String, Vec<usize>) {
     let modules = words(chain).into_iter().filter(|word| word != "[" && word != "]");
     let stars = modules.enumerate().filter(|(_, word)| word.starts_with('*')).map(|(number, _)| number);

@@ -1,11 +1,11 @@
-//! The same bytes for any number of threads and any division into batches: the design's laws 8 and 9.
+//! Equal results for any number of threads and any division into batches: laws 8 and 9 of the design.
 
 use burgeon::Run;
 use burgeon::script::RunOptions;
 
 use super::scripts::{all_chains, divided, lines, run_with, words};
 
-/// Stochastic, contextual, branching, with strings, tables and an object that rules read.
+/// Stochastic, contextual and branching system, with strings, tables and an object that rules read.
 const TREE: &str = r##"
     local Apex = module("Apex", "age", "kind"); local Stem = module("Stem", "l", "w"); local Leaf = module("Leaf", "shade")
     local Turn = module("Turn", "a"); local Roll = module("Roll", "a"); local Signal = module("Signal", "tag")
@@ -74,7 +74,7 @@ fn seeds_give_different_trees() {
     assert!(of(1).1 != of(2).1);
 }
 
-/// A street of houses, one for each id.
+/// Returns a street of houses, one per id.
 fn street(ids: &[&str]) -> Vec<(String, String)> {
     let features: Vec<String> = ids.iter().map(|id| format!("{{ id = \"{id}\" }}")).collect();
     let script = format!(
@@ -128,7 +128,7 @@ fn a_random_number_of_the_top_level_is_the_same_every_time() {
 
 #[test]
 fn what_the_functions_of_axioms_draw_is_drawn_for_all_threads() {
-    // The first function is quiet, so that other threads do not run it; the second counts what it was called for.
+    // The first function is pure, so other threads do not run it; the second one counts its calls.
     let script = r#"
         local A = module("A", "u"); local B = module("B", "u")
         local features, count = {}, 0
@@ -176,7 +176,7 @@ fn many_small_chains_are_put_together_in_their_order() {
 
 #[test]
 fn what_the_function_of_an_axiom_changes_is_seen_by_every_machine() {
-    // The first function leaves a count behind, the second nothing; rules read the count.
+    // The first function changes a count, the second has no side effects; rules read the count.
     let script = r#"local A, B = module("A", "x"), module("B", "x", "y")
 local count, features = 0, {}
 for i = 1, 300 do

@@ -1,11 +1,11 @@
-//! Modules that stand for the parts of a geometry, and questions to the sources that a script has loaded.
+//! Fragment modules, which are replaced by the parts of a geometry, and queries about loaded sources.
 
 use burgeon::script::RunOptions;
 use burgeon::{Error, Run};
 
 use super::scripts::{all_chains, divided};
 
-/// A square with a hole, a bent line, a place, and a triangle beside the square.
+/// Layer of a square with a hole, a bent line, a point, and a triangle next to the square.
 const PLAN: &str = r#"{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:25832"}},"features":[
 {"type":"Feature","id":1,"properties":{"name":"square","floors":3},"geometry":{"type":"Polygon","coordinates":[
   [[500000,5000000],[500020,5000000],[500020,5000020],[500000,5000020],[500000,5000000]],
@@ -30,7 +30,7 @@ fn try_run(script: &str, options: RunOptions) -> burgeon::Result<Run> {
     burgeon::run(&path, options)
 }
 
-/// The chain of a script that goes on behind [`HEAD`], without the word for a geometry.
+/// Returns the chain of a script after [`HEAD`], without geometries.
 fn chain(script: &str) -> String {
     match try_run(script, burgeon::options()) {
         Ok(run) => without_geometries(all_chains(&run).trim_end()).replace('"', ""),
@@ -38,7 +38,7 @@ fn chain(script: &str) -> String {
     }
 }
 
-/// A chain without what stands before the first comma of modules that have a geometry.
+/// Returns a chain without the geometry parameter of its modules, up to its comma.
 fn without_geometries(chain: &str) -> String {
     let mut text = String::new();
     let mut rest = chain;
@@ -72,18 +72,18 @@ fn geometries_come_apart_level_by_level_with_their_parameters() {
             r#"query("select * from plan where id = '1'", Shape), fragment(Ring), fragment(Wall), fragment(Corner)"#,
             times(14, "Corner(square)"),
         ),
-        // All rows of a query come apart, each with what is its own, and what stands beside them stays.
+        // All rows of a query are split, each with its own attributes; modules next to them are unchanged.
         (
             r#"End(), query("select * from plan where id in ('2', '4')", Shape), fragment(Ring), End()"#,
             "End Ring(way) Ring(way) Ring(way) Ring(triangle) End".to_owned(),
         ),
-        // In branches, with a branch in between, and behind no rows.
+        // In branches, with a branch in between, and after a query without rows.
         (
             r#"{ query("select * from plan where id = '4'", Shape), { End() }, fragment(Ring), fragment(Wall) }, End()"#,
             "[ Wall(triangle) Wall(triangle) Wall(triangle) [ End ] ] End".to_owned(),
         ),
         (r#"query("select * from plan where false", Shape), fragment(Ring), End()"#, "End".to_owned()),
-        // A collection of what is united in the database.
+        // A collection that the database has united.
         (
             r#"query("select ST_Collect(geom) as geom, 'all' as name from plan where id in ('1', '4')", Shape), fragment(Shape), fragment(Ring)"#,
             times(3, "Ring(all)"),
@@ -158,7 +158,7 @@ fn parts_have_random_numbers_of_their_own_for_any_number_of_threads() {
     for (threads, batch) in [(1, 3), (2, 1), (7, 2)] {
         assert_eq!(chains(threads, batch), first);
     }
-    // What is left out changes nothing of the others.
+    // Skipped features do not change the others.
     let fewer = script.replace("floors > 0", "floors > 1");
     let fewer = all_chains(&try_run(&fewer, burgeon::options()).expect("it runs"));
     assert!(first.starts_with(fewer.trim_end()), "{fewer}\n{first}");

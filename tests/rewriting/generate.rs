@@ -1,4 +1,4 @@
-//! Random chains, patterns and rules of the kinds that are hard on an engine, for tests and benches alike.
+//! Random chains, patterns and rules that are hard for an engine, for tests and benches.
 
 use burgeon::rewriting::{Bindings, CLOSE, ContextMatcher};
 use burgeon::rewriting::{
@@ -7,10 +7,10 @@ use burgeon::rewriting::{
 
 use super::naive;
 
-/// Every module that is made; all but the first few are rare.
+/// All module names; most of them are rare.
 pub(crate) const NAMES: [&str; 8] = ["A", "B", "C", "X", "Y", "Z", "P", "Q"];
 
-/// Random numbers by a seed.
+/// Random numbers with a seed.
 pub(crate) struct Dice(Box<dyn FnMut() -> f64>);
 
 impl Dice {
@@ -32,27 +32,27 @@ impl Dice {
     }
 }
 
-/// What a chain and its patterns are like.
+/// Type of a chain and its patterns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Kind {
-    /// Long runs of ignored modules before what is named.
+    /// Long runs of ignored modules before named ones.
     Runs,
-    /// Many branches in a row, of which few begin as named.
+    /// Many branches in a row, of which few match.
     Branches,
-    /// Brackets within brackets within brackets.
+    /// Deeply nested brackets.
     Nests,
-    /// Few symbols are seen at all.
+    /// Few symbols are considered at all.
     Rare,
     /// Contexts of several modules on both sides.
     Several,
-    /// A little of everything.
+    /// Mixture of all types.
     Mixed,
 }
 
 pub(crate) const KINDS: [Kind; 6] =
     [Kind::Runs, Kind::Branches, Kind::Nests, Kind::Rare, Kind::Several, Kind::Mixed];
 
-/// A chain in words, and patterns for it.
+/// Chain as words, with patterns for it.
 #[derive(Debug)]
 pub(crate) struct Made {
     pub words: Vec<&'static str>,
@@ -61,7 +61,7 @@ pub(crate) struct Made {
 }
 
 impl Kind {
-    /// A chain of about `size` words with `patterns` patterns.
+    /// Creates a chain of about `size` words with `patterns` patterns.
     pub(crate) fn make(self, dice: &mut Dice, size: usize, patterns: usize) -> Made {
         let ignored: Vec<&str> = match self {
             Self::Runs | Self::Branches => vec!["X"],
@@ -144,7 +144,7 @@ impl Kind {
         }
     }
 
-    /// A pattern that matches in such chains now and then.
+    /// Returns a pattern that sometimes matches in such chains.
     pub(crate) fn pattern(self, dice: &mut Dice) -> String {
         let typical: &[&str] = match self {
             Self::Runs => {
@@ -204,7 +204,7 @@ fn context(dice: &mut Dice, text: &mut String, depth: usize) {
     }
 }
 
-/// A chain as the engine has it.
+/// Chain in the engine.
 pub(crate) struct Engine {
     pub chain: Chain,
     pub grammar: Grammar,
@@ -212,7 +212,7 @@ pub(crate) struct Engine {
 }
 
 impl Engine {
-    /// The chain of `made`, with its patterns as rules.
+    /// Creates the chain of `made`, with its patterns as rules.
     pub(crate) fn new(made: &Made) -> Self {
         let mut symbols = Symbols::default();
         for name in NAMES {
@@ -239,7 +239,7 @@ impl Engine {
         Self { chain, grammar, links }
     }
 
-    /// The numbers of the modules that a pattern matches, each with those of its context.
+    /// Returns the numbers of the modules that a pattern matches, each with the numbers of its context.
     pub(crate) fn bound(&self, rule: usize) -> Vec<(usize, Vec<usize>)> {
         let number = u16::try_from(rule).expect("few rules");
         let mut modules = 0;
@@ -261,7 +261,7 @@ impl Engine {
         found
     }
 
-    /// The places of the modules that a pattern matches.
+    /// Returns the indices of the modules that a pattern matches.
     pub(crate) fn matching(&self, rule: usize) -> impl Iterator<Item = usize> {
         let number = u16::try_from(rule).expect("few rules");
         let symbol = self.grammar.rules()[rule].pattern.predecessor.symbol;
@@ -278,7 +278,8 @@ impl Engine {
     }
 }
 
-/// Compares the engine with the naive matcher on one random chain; returns how many modules matched.
+/// Compares the engine with the naive matcher on one random chain; returns the number of modules that
+/// matched.
 pub(crate) fn compare(kind: Kind, seed: u64, size: usize) -> usize {
     let made = kind.make(&mut Dice::new(seed), size, 6);
     let engine = Engine::new(&made);

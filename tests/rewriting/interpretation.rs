@@ -1,4 +1,4 @@
-//! Interpretation passes: the design's law 6, and what rules read from the objects.
+//! Interpretation passes: law 6 of the design, and values that rules read from objects.
 
 use super::scripts::{chain, divided, error, lines, run, run_with};
 
@@ -24,7 +24,7 @@ fn a_rule_reads_its_object_as_the_pass_before_left_it() {
         s:rule(\"F(l)\", function(this, l) return F(l * 10) end)
         s:derive(1)"
     ));
-    // The axiom was interpreted before the first step, and the whole chain, not only what stands before the module.
+    // Before the first step, the whole axiom was interpreted, not only the part before the module.
     assert_eq!(text, "Say(0,0,3) F(10) F(20)");
 }
 
@@ -233,7 +233,7 @@ fn a_chain_without_its_own_object_gets_a_copy_of_the_systems() {
 
 #[test]
 fn an_interpretation_reads_its_object_in_the_middle_of_the_pass() {
-    // Calls are recorded and applied later; a question in between must see those before it.
+    // Calls are recorded and applied later; a read method must observe all earlier calls.
     let script = r#"
         local F = module("F", "l"); local Mirror = module("Mirror"); local Ask = module("Ask", "z")
         local s = lsystem { object = turtle {} }
@@ -243,7 +243,7 @@ fn an_interpretation_reads_its_object_in_the_middle_of_the_pass() {
         s:rule("Ask", function(this) return Ask(this:position().z) end)
         s:derive(1)
     "#;
-    // 1, doubled twice 4, 4.5, a branch, doubled twice 18.
+    // The length is 1, doubled twice 4, then 4.5, then a branch, then doubled twice 18.
     assert!(chain(script).ends_with("Ask(18)"), "{}", chain(script));
 }
 

@@ -1,4 +1,4 @@
-//! Which module made a triangle, and which rules led to it.
+//! Lineage: the module that made a triangle, and the rules that led to it.
 
 use burgeon::scene::Scene;
 use burgeon::trace::{Pick, highlight, pick};
@@ -41,7 +41,7 @@ fn a_triangle_of_a_solid_of_many_segments_knows_its_own_module() {
         let picked = pick(&file, &burgeon::options(), &run.scene, asked).expect("it is known");
         let made = picked.drawn.expect("a module made it");
         assert_eq!(picked.placed, None);
-        // The slabs are 4, 3, 2 and 1 m high, and lie on one another.
+        // The slabs are 4, 3, 2 and 1 m high, and are stacked.
         let slab: f64 = made.module.params[0].1.parse().expect("a number");
         let top: f64 = (0..).map(|i| 4.0 - f64::from(i)).take_while(|height| *height >= slab).sum();
         let [a, b, c] = corners(&run.scene, instance.mesh, 0, triangle);
@@ -102,7 +102,7 @@ fn a_branch_that_is_bent_or_placed_many_times_knows_its_module() {
             assert_eq!(drawn.module.symbol, "F");
             let [a, b, c] = corners(&run.scene, instance.mesh, 0, triangle);
             let reach = a.distance(b).max(b.distance(c)).max(c.distance(a));
-            // A triangle of a branch goes from ring to ring, or it is a part of an end.
+            // A triangle of a branch connects two rings, or is part of an end.
             assert!(reach < 0.08 || (reach - length).abs() < 0.05, "{reach} {length}");
             match picked.placed {
                 Some(placed) => {

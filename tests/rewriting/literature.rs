@@ -1,4 +1,4 @@
-//! Known answers: *The Algorithmic Beauty of Plants* (ABOP) and what it collects.
+//! Known answers from *The Algorithmic Beauty of Plants* (ABOP) and the works that it cites.
 
 use super::naive;
 use super::scripts::{Plain, chain, chain_of_each, words};
@@ -71,7 +71,7 @@ fn the_parametric_example_of_section_1_10_runs_as_printed() {
 
 #[test]
 fn the_row_of_trees_keeps_its_length_along_the_ground() {
-    // ABOP, section 1.10.2: of the four parts of a line the first and the last lie on it.
+    // ABOP, section 1.10.2: of the four parts of a line, the first and the last lie on it.
     let text = chain(
         r#"
         local F = module("F", "x"); local Plus = module("Plus"); local Minus = module("Minus")
@@ -97,7 +97,7 @@ fn the_row_of_trees_keeps_its_length_along_the_ground() {
     }
 }
 
-/// Axiom, rules, and the numbers of `F` after each step.
+/// Checks the numbers of `F` after each step of a system with this axiom and these rules.
 fn check_fractal(axiom: &str, rules: &str, counts: &[usize]) {
     let system = Plain { ignore: "", axiom, rules };
     for (steps, (chain, expected)) in system.first(counts.len()).iter().zip(counts).enumerate() {
@@ -116,7 +116,7 @@ fn the_quadratic_koch_island_has_eight_times_as_many_edges_each_step() {
 fn the_koch_curve_has_length_as_its_closed_form_says() {
     let curve = Plain { ignore: "", axiom: "F", rules: "F -> F Plus F Minus Minus F Plus F" };
     for (chain, edges) in curve.first(5).iter().zip([1usize, 4, 16, 64, 256]) {
-        // Four edges and four turns for each edge before, so turns are (4^n - 1) / 3 times 4.
+        // Each edge becomes four edges and four turns, so the number of turns is (4^n - 1) / 3 times 4.
         assert_eq!(words(chain).len(), edges + (edges - 1) / 3 * 4);
     }
 }
@@ -199,7 +199,7 @@ fn a_basipetal_signal_stays_on_the_main_axis() {
     assert_eq!(signal.derive([4]), [told[2]]);
 }
 
-/// The rules of Hogeweg and Hesper, by the successors of 000, 001, 010, 011, 100, 101, 110 and 111.
+/// Returns the rules of Hogeweg and Hesper for the successors of 000, 001, 010, 011, 100, 101, 110 and 111.
 fn hogeweg_hesper(successors: [&str; 8]) -> String {
     let mut rules = String::new();
     for (number, successor) in successors.iter().enumerate() {
@@ -210,7 +210,7 @@ fn hogeweg_hesper(successors: [&str; 8]) -> String {
 }
 
 const IGNORED: &str = "Plus Minus F";
-/// ABOP, figure 1.31 a to e.
+/// Systems of ABOP, figure 1.31 a to e.
 const PATTERNS: [(&str, [&str; 8]); 5] = [
     ("F I F I F I", ["O", "I [ Plus F I F I ]", "I", "I", "O", "I F I", "O", "O"]),
     ("F I F I F I", ["I", "I [ Minus F I F I ]", "I", "I", "O", "I F I", "I", "O"]),
@@ -230,7 +230,8 @@ fn the_first_steps_of_hogeweg_and_hesper_are_as_by_hand() {
         "F I F I F I F I",
         "F I F O F O F I",
         "F I F O F I [ Plus F I F I ] F I",
-        // The second module of the branch has no right neighbour; the first has the I before the branch on its left.
+        // The second module of the branch has no right neighbour; the left neighbour of the first is the I
+        // before the branch.
         "F I F I F I F I [ Minus F O F I ] F I",
     ];
     assert_eq!(system.first(6), by_hand);

@@ -1,4 +1,4 @@
-//! Rewriting, from a script's text to its chains: what the laws of the design and the literature say of it.
+//! Rewriting from a script to its chains, tested against the laws of the design and the literature.
 
 mod candidates;
 mod choice;

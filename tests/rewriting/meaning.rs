@@ -1,4 +1,4 @@
-//! A script means what it says, in every machine that runs it: the design's law 10.
+//! Scripts have the same result in every machine that runs them: law 10 of the design.
 
 use super::scripts::{all_chains, divided, lines, run_with, try_run};
 
@@ -14,7 +14,7 @@ const HEAD: &str = r#"
     end
 "#;
 
-/// All chains, after it was made sure that every division gives the same.
+/// Returns all chains. Asserts that every division into threads and batches gives equal chains.
 fn everywhere(script: &str) -> Vec<String> {
     let script = format!("{HEAD}\n{script}");
     let alone = all_chains(&run_with(&script, divided(1, 4096)));
@@ -177,7 +177,7 @@ fn the_steps_option_limits_every_system() {
 
 #[test]
 fn captured_state_that_would_depend_on_the_order_is_refused() {
-    // Each would let one application see what another did, so that threads and batches would show.
+    // Each script would let one application observe another, so threads and batches would change the result.
     let mut wrong = Vec::new();
     for state in [
         "local n = 0 local s = system(function(this, x) n += 1 return B(n) end)",

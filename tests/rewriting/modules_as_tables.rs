@@ -1,4 +1,4 @@
-//! Queries about the modules of chains, which are tables.
+//! Tests of queries of the modules of chains, which are tables.
 
 use burgeon::Run;
 use burgeon::script::RunOptions;
@@ -15,7 +15,7 @@ fn warnings(run: &Run) -> Vec<String> {
 
 #[test]
 fn a_rule_sees_its_chain_as_it_stood_when_the_step_began() {
-    // Each step doubles the modules, and each module notes how many there were before it.
+    // Each step doubles the modules, and each module stores the number of modules before the step.
     let script = r#"
         local A, B = module("A", "n"), module("B")
         local s = lsystem({})
@@ -216,7 +216,8 @@ fn a_table_that_is_not_there_is_refused_with_the_nearest_module() {
 
 #[test]
 fn chains_that_are_left_out_for_their_data_are_no_longer_seen() {
-    // The interpretation of the second one fails: rules see it before, and neither rules nor systems after it.
+    // The interpretation of the second module fails: rules observe it before the failure, but neither rules
+    // nor systems do afterwards.
     let script = r#"
         local A, Count = module("A", "height", "seen"), module("Count", "n")
         local function square(x, height)

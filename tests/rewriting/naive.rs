@@ -1,18 +1,18 @@
-//! Rewriting by the book and without haste: what the engine is compared with.
+//! Simple and slow reference implementation of rewriting, for comparison with the engine.
 //!
-//! Contexts are found by walking the tree of items from each module anew, straight from the design's law of
-//! context. Nothing here is shared with the engine.
+//! Contexts are found by walking the tree of items from each module, directly as the context law of the
+//! design says. Nothing here is shared with the engine.
 
 use std::collections::HashMap;
 
-/// An item of a chain or of a context.
+/// Item of a chain or of a context.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Item {
     Module(String),
     Branch(Vec<Item>),
 }
 
-/// A predecessor with contexts.
+/// Predecessor with contexts.
 #[derive(Debug, Clone)]
 pub(crate) struct Pattern {
     pub left: Vec<String>,
@@ -20,12 +20,12 @@ pub(crate) struct Pattern {
     pub right: Vec<Item>,
 }
 
-/// The words of a chain: modules by their names, and brackets.
+/// Returns the words of a chain: names of modules, and brackets.
 pub(crate) fn words(chain: &str) -> Vec<String> {
     chain.replace('[', " [ ").replace(']', " ] ").split_whitespace().map(str::to_owned).collect()
 }
 
-/// Reads `A [ B C ] D`.
+/// Parses `A [ B C ] D`.
 pub(crate) fn parse(text: &str) -> Vec<Item> {
     let words = words(text);
     let mut open: Vec<Vec<Item>> = vec![Vec::new()];
@@ -43,7 +43,7 @@ pub(crate) fn parse(text: &str) -> Vec<Item> {
     open.remove(0)
 }
 
-/// Writes what [`parse`] reads.
+/// Writes items in the format that [`parse`] reads.
 pub(crate) fn write(items: &[Item]) -> String {
     let text: Vec<String> = items
         .iter()
@@ -57,7 +57,7 @@ pub(crate) fn write(items: &[Item]) -> String {
 }
 
 impl Pattern {
-    /// Reads `A B < C > D [ E ]`.
+    /// Parses `A B < C > D [ E ]`.
     pub(crate) fn parse(text: &str) -> Self {
         let (left, rest) = text.split_once('<').unwrap_or(("", text));
         let (predecessor, right) = rest.split_once('>').unwrap_or((rest, ""));
@@ -65,7 +65,7 @@ impl Pattern {
         Self { left, predecessor: predecessor.trim().to_owned(), right: parse(right) }
     }
 
-    /// As the engine reads it.
+    /// Returns the pattern in the syntax of the engine.
     pub(crate) fn text(&self) -> String {
         let mut text = self.predecessor.clone();
         if !self.left.is_empty() {
@@ -77,8 +77,8 @@ impl Pattern {
         text
     }
 
-    /// The context modules around the module at `position` of `items`, in the order in which they are named, if it
-    /// matches; `path` is what leads there from the axiom.
+    /// Returns the context modules of the module at `position` of `items`, in the order of the pattern, if it
+    /// matches; `path` has the items from the axiom to that position.
     fn bind<'a>(
         &self,
         path: &[&'a Item],
@@ -110,7 +110,7 @@ impl Item {
     }
 }
 
-/// The modules of `items` that `contexts` name, if they begin so.
+/// Returns the modules of `items` that `contexts` name, if `items` begin with them.
 fn ahead<'a>(contexts: &[Item], items: &'a [Item], skipped: &dyn Fn(&str) -> bool) -> Option<Vec<&'a Item>> {
     let Some((first, others)) = contexts.split_first() else { return Some(Vec::new()) };
     for (position, item) in items.iter().enumerate() {
@@ -130,7 +130,8 @@ fn ahead<'a>(contexts: &[Item], items: &'a [Item], skipped: &dyn Fn(&str) -> boo
     None
 }
 
-/// The numbers of the modules that `pattern` matches, counted from 0 along the chain, each with those of its context.
+/// Returns the numbers of the modules that `pattern` matches, counted from 0 along the chain, each with the
+/// numbers of its context.
 pub(crate) fn bound(items: &[Item], pattern: &Pattern, ignored: &[String]) -> Vec<(usize, Vec<usize>)> {
     let mut found: Vec<(usize, Vec<&Item>)> = Vec::new();
     let mut numbers: HashMap<*const Item, usize> = HashMap::new();
@@ -143,12 +144,12 @@ pub(crate) fn bound(items: &[Item], pattern: &Pattern, ignored: &[String]) -> Ve
     found.into_iter().map(|(module, bound)| (module, bound.into_iter().map(number).collect())).collect()
 }
 
-/// The numbers of the modules, counted from 0 along the chain, that `pattern` matches.
+/// Returns the numbers of the modules that `pattern` matches, counted from 0 along the chain.
 pub(crate) fn matches(items: &[Item], pattern: &Pattern, ignored: &[String]) -> Vec<usize> {
     bound(items, pattern, ignored).into_iter().map(|(module, _)| module).collect()
 }
 
-/// Sees the path to an item, the items around it and its place among them.
+/// Visitor of an item: its path, the items around it, and its index among them.
 type See<'a, 'b> = dyn FnMut(&[&'a Item], &'a [Item], usize) + 'b;
 
 fn visit<'a>(items: &'a [Item], path: &mut Vec<&'a Item>, see: &mut See<'a, '_>) {
@@ -165,7 +166,7 @@ fn visit<'a>(items: &'a [Item], path: &mut Vec<&'a Item>, see: &mut See<'a, '_>)
     path.truncate(depth);
 }
 
-/// One step: each module becomes the successor of the first rule that matches it.
+/// Makes one step: each module becomes the successor of the first rule that matches it.
 pub(crate) fn step(items: &[Item], rules: &[(Pattern, Vec<Item>)], ignored: &[String]) -> Vec<Item> {
     fn rewrite(
         items: &[Item],
@@ -193,7 +194,7 @@ pub(crate) fn step(items: &[Item], rules: &[(Pattern, Vec<Item>)], ignored: &[St
     rewrite(items, &mut chosen.into_iter(), rules)
 }
 
-/// The chain after `steps` steps; `rules` are lines as in [`super::scripts::Plain`].
+/// Returns the chain after `steps` steps; `rules` are lines as in [`super::scripts::Plain`].
 pub(crate) fn derive(axiom: &str, rules: &str, ignored: &str, steps: usize) -> String {
     let rules: Vec<(Pattern, Vec<Item>)> = rules
         .lines()

@@ -1,8 +1,8 @@
-//! Parameters of every kind (law 7): they travel through modules and are the same when rules read them back.
+//! Parameters of every type (law 7): rules read the values that they were given.
 
 use super::scripts::{chain, chain_of_each, divided, error, lines, run, run_with};
 
-/// What each `P(value)` shows in the chain after it went through `passes` rewritings.
+/// Returns the text of each `P(value)` in the chain after `passes` rewritings.
 fn travelled(values: &[String], passes: usize) -> Vec<String> {
     let axioms: Vec<String> = values.iter().map(|value| format!("P({value})")).collect();
     let found = chain_of_each(&format!(
@@ -189,7 +189,7 @@ fn what_is_no_parameter_is_refused() {
 
 #[test]
 fn a_nan_with_any_payload_stays_a_number() {
-    // Boxed values stand in columns as NaNs; a script must not be able to make one up.
+    // Boxed values are stored in columns as NaNs; a script must not be able to forge one.
     let text = chain(
         r#"
         local P = module("P", "x"); local Q = module("Q", "kind"); local R = module("R", "x")

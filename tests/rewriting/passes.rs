@@ -1,4 +1,4 @@
-//! Passes that nobody can see are not made, and nobody can tell: the same bytes come out, for random systems.
+//! Skipped passes, which nothing can observe: the output is equal with and without them, for random systems.
 
 use burgeon::export::gltf;
 use burgeon::{Run, WarningKind};
@@ -7,7 +7,7 @@ use proptest::prelude::*;
 
 use super::scripts::{all_chains, divided, run, run_with};
 
-/// What random systems draw with, and how modules are drawn.
+/// Objects of random systems, and interpretations of their modules.
 const TURTLE: &str = r#"local s = lsystem({ object = turtle({ sides = 3, angle = 30 }) })
 s:interpret("A(x)", function(this, x) this:width(0.1 + random() * 0.1):forward(0.1 + x % 3) end)
 s:interpret("B(x)", function(this, x) this:turn(x * 40):roll(random(0, 90)):forward(0.5) end)
@@ -19,7 +19,7 @@ s:interpret("B(x)", function(this, x) this:turn(x * 40):taper(0.5):extrude(1 + t
 s:interpret("C", function(this) this:bend(20):extrude(0.5) end)
 "#;
 
-/// A rule that is never used, but may ask the object, so that all passes are made.
+/// Rule that never applies but may read the object, so that all passes run.
 const ASKS: &str =
     "local Never = module(\"Never\")\ns:rule(\"Never\", function(this) return B(this:position().z) end)\n";
 
@@ -52,7 +52,7 @@ fn rule() -> impl Strategy<Value = String> {
         2 => Just("{ when = function(_, x) return x < 3 end }, ")
     ];
     (pattern, options, successor(), any::<bool>()).prop_map(|(pattern, options, successor, as_text)| {
-        // The pattern's first parameter may be called otherwise.
+        // The first parameter of the pattern may have another name.
         let (options, successor) = match pattern {
             "A(y) < B(x)" => (options.replace("(_, x)", "(_, _, x)"), successor),
             _ => (options.to_owned(), successor),
@@ -66,7 +66,7 @@ fn rule() -> impl Strategy<Value = String> {
     })
 }
 
-/// The random parts of a script: what draws, the axiom, the rules, the steps.
+/// Returns the random parts of a script: object, axiom, rules and steps.
 fn script() -> impl Strategy<Value = [String; 2]> {
     let object = prop_oneof![Just(TURTLE), Just(EXTRUDER)];
     (object, vec(item(), 1..4), vec(rule(), 0..5), 0usize..6).prop_map(|(object, axiom, rules, steps)| {
@@ -78,7 +78,7 @@ fn script() -> impl Strategy<Value = [String; 2]> {
     })
 }
 
-/// How many modules were interpreted in all passes.
+/// Returns the number of modules that were interpreted in all passes.
 fn interpreted(run: &Run) -> usize {
     let rules = run.systems.iter().flat_map(|system| &system.rules).filter(|rule| rule.interprets);
     rules.map(|rule| rule.done.applied).sum()

@@ -1,4 +1,4 @@
-//! Random chains and patterns: the engine finds what the naive matcher finds.
+//! Random chains and patterns: the engine and the naive matcher find the same modules.
 
 use burgeon::script::RunOptions;
 use proptest::collection::vec;
@@ -11,7 +11,7 @@ use super::scripts::{Case, Passing, divided, matched, words};
 const NAMES: [&str; 4] = ["A", "B", "C", "X"];
 
 fn name() -> impl Strategy<Value = String> {
-    // A few common names, so that patterns match often.
+    // A few frequent names, so that patterns match often.
     prop_oneof![6 => Just(0), 3 => Just(1), 1 => Just(2), 2 => Just(3)]
         .prop_map(|index: usize| NAMES[index].to_owned())
 }
@@ -26,7 +26,7 @@ fn items(depth: u32, length: usize) -> impl Strategy<Value = Vec<Item>> {
     vec(item, 0..length)
 }
 
-/// A right context: no branch of it is empty.
+/// Right context without empty branches.
 fn context() -> impl Strategy<Value = Vec<Item>> {
     let item = name().prop_map(Item::Module).prop_recursive(
         2,
@@ -54,7 +54,7 @@ fn ignored() -> impl Strategy<Value = &'static str> {
     prop_oneof![Just(""), Just("X"), Just("X C"), Just("A")]
 }
 
-/// What the naive matcher finds in several chains.
+/// Returns the matches of the naive matcher in several chains.
 fn expected(chains: &[Vec<Item>], pattern: &Pattern, ignored: &str) -> Vec<usize> {
     let mut found = Vec::new();
     let mut before = 0;
@@ -128,7 +128,7 @@ fn contexts_of_every_hard_kind_match_and_bind_as_the_naive_matcher_says() {
 
 #[test]
 fn a_search_that_passes_many_branches_is_not_made_again() {
-    // 20,000 modules with 20,000 branches behind each take 200 million trials where nothing is remembered.
+    // 20,000 modules with 20,000 branches behind each take 200 million trials without a cache.
     for (unit, pattern) in [
         (&["X", "[", "C", "]"][..], "X > [ Z ]"),
         (&["X", "[", "C", "]"], "X > [ [ Z ] ]"),

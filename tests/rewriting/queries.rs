@@ -1,4 +1,4 @@
-//! Modules that stand for the rows of a query, and what functions ask of data while rules run.
+//! Modules for the rows of a query, and queries of functions while rules run.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -8,7 +8,7 @@ use burgeon::script::{Question, RowSource, Rows, RunOptions};
 
 use super::scripts::{all_chains, divided, lines, run_with, try_run};
 
-/// Answers the questions of these tests: `fid` and `n` of items, which are told apart by what stands behind `where`.
+/// Row source of these tests: `fid` and `n` of items, selected by the text after `where`.
 #[derive(Default)]
 struct Items {
     more: Option<f64>,
@@ -66,7 +66,7 @@ fn options() -> RunOptions {
     asking(Arc::new(Items::default()), burgeon::options())
 }
 
-/// The chains of a script that goes on behind [`HEAD`].
+/// Returns the chains of a script after [`HEAD`].
 fn chains(script: &str) -> Vec<String> {
     lines(&run_with(&format!("{HEAD}{script}"), options()))
 }
@@ -89,7 +89,7 @@ fn a_query_in_a_successor_becomes_a_module_for_each_row_before_the_next_step() {
             r#"s:axiom(A(3)) s:rule("A(n)", function(this, n) return B(n), query("n where n < $n", Item) end) s:derive()"#,
             "B(3) Item(1) Item(2)",
         ),
-        // In a branch, and two side by side.
+        // A query in a branch, and two side by side.
         (
             r#"s:axiom(A(2)) s:rule("A(n)", function(this, n) return { query("n where n < $n", Item), B(0) }, B(n) end) s:derive()"#,
             "[ Item(1) B(0) ] B(2)",
@@ -98,40 +98,40 @@ fn a_query_in_a_successor_becomes_a_module_for_each_row_before_the_next_step() {
             r#"s:axiom(A(2)) s:rule("A(n)", function(this, n) return query("n where n < $n", Item), query("n where n <> $n", Item) end) s:derive()"#,
             "Item(1) Item(1) Item(3) Item(4)",
         ),
-        // Without rows nothing is left of it.
+        // Without rows, the placeholder disappears.
         (
             r#"s:axiom(A(1)) s:rule("A(n)", function(this, n) return query("n where n < $n", Item), { query("n where false", Item) }, B(n) end) s:derive()"#,
             "[ ] B(1)",
         ),
-        // In an axiom.
+        // A query in an axiom.
         (
             r#"s:axiom(B(0), { query("n where n < $n", Item, { n = 2 }) }, query("n", Item)) s:derive()"#,
             "B(0) [ Item(1) ] Item(1) Item(2) Item(3) Item(4)",
         ),
-        // Rules see what it stands for, and contexts match across the seam.
+        // Rules see the resulting modules, and contexts match across the border.
         (
             r#"s:axiom(A(3)) s:rule("A(n)", function(this, n) return B(n), query("n where n < $n", Item) end)
             s:rule("B(m) < Item(n)", function(this, m, n) return Item(10 * m + n) end)
             s:rule("Item(a) < Item(n)", function(this, a, n) return Item(100 * a + n) end) s:derive(2)"#,
             "B(3) Item(31) Item(102)",
         ),
-        // What is left after the last step is resolved as well.
+        // Placeholders of the last step are resolved too.
         (
             r#"s:axiom(A(3)) s:rule("A(n)", function(this, n) return query("n where n < $n", Item) end) s:derive(1)"#,
             "Item(1) Item(2)",
         ),
         (r#"s:axiom(query("n where n < $n", Item, { n = 3 })) s:derive(0)"#, "Item(1) Item(2)"),
-        // Columns go to parameters by name; NULL is nil, and what is not asked for is left out.
+        // Columns are assigned to parameters by name; NULL is nil, and unused columns are ignored.
         (
             r#"s:axiom(query("odd, half, n, name where n < $n", Named, { n = 3 })) s:derive()"#,
             r#"Named("item 1",true) Named("item 2",false,1)"#,
         ),
-        // A query that makes what asks again.
+        // A query that makes modules with the same query.
         (
             r#"s:axiom(A(3)) s:rule("A(n)", function(this, n) return B(n), { query("n where n < $n", A) } end) s:derive()"#,
             "B(3) [ B(1) [ ] B(2) [ B(1) [ ] ] ]",
         ),
-        // The successor as a string, and in a local variable before it is returned.
+        // The successor as a string, and in a local variable before the return.
         (
             r#"s:axiom(A(3)) s:rule("A(n)", [[ return query("n where n < $n", Item), B(n) ]]) s:derive()"#,
             "Item(1) Item(2) B(3)",
@@ -148,12 +148,12 @@ fn a_query_in_a_successor_becomes_a_module_for_each_row_before_the_next_step() {
 #[test]
 fn values_come_from_the_call_the_pattern_and_the_names_of_the_modules_parameters() {
     for (script, expected) in [
-        // The formal parameter has another name than the module's: both mean it.
+        // The formal parameter has another name than the module's parameter: both work.
         (
             r#"s:axiom(A(2)) s:rule("A(x)", function(this, x) return query("n where n < $n", Item) end) s:derive()"#,
             "Item(1)",
         ),
-        // What the call gives comes first.
+        // Values in the call take precedence.
         (
             r#"s:axiom(A(2)) s:rule("A(n)", function(this, n) return query("n where n < $n", Item, { n = n + 2 }) end) s:derive()"#,
             "Item(1) Item(2) Item(3)",
@@ -168,7 +168,7 @@ fn values_come_from_the_call_the_pattern_and_the_names_of_the_modules_parameters
             r#"s:axiom(A(1), A(2), A(3)) s:rule("A(n)", function(this, n) return { query("n where n < $n", Item) } end) s:derive()"#,
             "[ ] [ Item(1) ] [ Item(1) Item(2) ]",
         ),
-        // In guards, with or without rows.
+        // Queries in guards, with or without rows.
         (
             r#"s:axiom(A(1), A(2), A(3))
             s:rule("A(n)", { when = function(this, n) return #query("n where n < $n") == 1 end }, function(this, n) return B(n) end) s:derive()"#,
@@ -183,7 +183,7 @@ fn values_come_from_the_call_the_pattern_and_the_names_of_the_modules_parameters
             end) s:derive()"#,
             "B(207)",
         ),
-        // At the top level.
+        // A query at the top level.
         (
             r#"local rows = query("n where n < $n", { n = 3 }) s:axiom(A(#rows), A(rows[2].n)) s:derive()"#,
             "A(2) A(2)",
@@ -258,7 +258,7 @@ fn threads_and_batches_change_nothing_and_the_same_question_is_asked_once() {
         (all_chains(&run), items.asked.load(Ordering::Relaxed))
     };
     let (first, asked) = chains(1, 4096);
-    // The guard's with 0 to 4, and those of the successors with 1 to 4.
+    // The queries of the guard with 0 to 4, and of the successors with 1 to 4.
     assert_eq!(asked, 5 + 4);
     assert!(first.len() > 20_000, "{}", first.len());
     for (threads, batch) in [(1, 7), (2, 64), (7, 16)] {
@@ -331,7 +331,7 @@ fn a_chain_that_grows_without_end_by_queries_is_stopped() {
     assert!(error.to_string().contains("query("), "{error}");
 }
 
-/// How the first module that is drawn came to be.
+/// Returns the lineage of the first module that is drawn.
 fn picked(script: &str) -> Vec<burgeon::results::Ancestor> {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("main.lua");

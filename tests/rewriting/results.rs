@@ -1,4 +1,4 @@
-//! What a successor may return, and what becomes of it: the design's law 3.
+//! Results of successors: law 3 of the design.
 
 use super::scripts::{chain, divided, error, lines, run, run_with};
 
@@ -7,12 +7,12 @@ const HEAD: &str = r#"
     local s = lsystem {}
 "#;
 
-/// The chain after one step of a system with the axiom `C A C` and a rule for `A`.
+/// Returns the chain after one step of a system with the axiom `C A C` and a rule for `A`.
 fn after(rule: &str) -> String {
     chain(&script(rule))
 }
 
-/// The same for many rules, each in a block with a system of its own.
+/// Returns the chains for many rules, each in a block with its own system.
 fn after_each(rules: &[String]) -> Vec<String> {
     let blocks: Vec<String> = rules
         .iter()
@@ -22,7 +22,7 @@ fn after_each(rules: &[String]) -> Vec<String> {
     run.systems.iter().map(|system| system.chain_text().trim_end().to_owned()).collect()
 }
 
-/// Checks that each rule gives its chain, and tells all that do not.
+/// Checks that each rule gives its chain, and reports all that do not.
 fn check(table: &[(String, &str)]) {
     let rules: Vec<String> = table.iter().map(|(rule, _)| rule.clone()).collect();
     let found = after_each(&rules);
@@ -45,7 +45,7 @@ fn script(rule: &str) -> String {
     format!("{HEAD}\n s:axiom(C(), A(), C())\n {rule}\n s:derive(1)")
 }
 
-/// Each body as a function on the spot, as a function in a variable, and as a string of Lua.
+/// Returns the body as an inline function, as a function in a variable, and as a string of Lua.
 fn bodies(body: &str) -> [String; 3] {
     [
         format!("s:rule(\"A\", function(this) {body} end)"),
@@ -57,20 +57,20 @@ fn bodies(body: &str) -> [String; 3] {
 #[test]
 fn the_three_kinds_of_result_hold_however_the_successor_is_written() {
     let table = [
-        // No value leaves the module.
+        // No value keeps the module.
         ("", "C A C"),
         ("return", "C A C"),
         ("local x = 1", "C A C"),
         ("if 1 > 2 then return B(1) end", "C A C"),
         ("local function nothing() end return nothing()", "C A C"),
         ("return table.unpack({})", "C A C"),
-        // Nil erases it.
+        // Nil erases the module.
         ("return nil", "C C"),
         ("local x = nil return x", "C C"),
         ("return (nil)", "C C"),
         ("local function nothing() end return (nothing())", "C C"),
         ("if true then return nil end return C()", "C C"),
-        // A list replaces it.
+        // A list replaces the module.
         ("return B(1)", "C B(1) C"),
         ("return (B(1))", "C B(1) C"),
         ("return A(), A()", "C A A C"),
@@ -127,7 +127,7 @@ fn anything_else_is_an_error_that_names_the_rule() {
         ("return { B(1), x = 2 }", "field x"),
     ];
     for (index, (body, what)) in table.into_iter().enumerate() {
-        // The first in every form, the others in turn.
+        // The first body in every form, the others in one form each.
         for rule in bodies(body).into_iter().enumerate().filter(|(form, _)| index == 0 || index % 3 == *form)
         {
             let rule = rule.1;
@@ -143,7 +143,7 @@ fn anything_else_is_an_error_that_names_the_rule() {
 #[test]
 fn modules_may_come_from_helper_functions() {
     check_all(&[
-        // One module, two, a branch, and a list that a helper made.
+        // One module, two, a branch, and a list that a helper function made.
         "local function make(x) return B(x) end
          s:rule(\"A\", function() return make(1), make(2) end)",
         "local function pair(x) return B(x), B(x + 1) end
@@ -251,7 +251,7 @@ fn modules_that_were_made_but_not_returned_do_not_appear() {
 
 #[test]
 fn a_module_of_another_application_is_refused() {
-    // The table is made at the top level and frozen while rules run, so a coroutine is the only way to keep one.
+    // The table is made at the top level and frozen while rules run, so only a coroutine can keep one.
     let told = error(&format!(
         "{HEAD}
         local keep = coroutine.wrap(function() local b = B(1) while true do coroutine.yield(b) end end)
@@ -336,7 +336,7 @@ fn large_successors_come_out_whole() {
     );
     let inner: Vec<String> = (1..=5000).map(|i| format!("[ B({i}) ]")).collect();
     assert_eq!(text, format!("C [ {} ] C C", inner.join(" ")));
-    // More modules in a batch than the columns hold at first.
+    // A batch makes more modules than the columns can initially store.
     let text = chain(
         r#"
         local A = module("A", "n"); local B = module("B", "a", "b", "c", "d")

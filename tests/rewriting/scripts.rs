@@ -6,7 +6,7 @@ use burgeon::script::RunOptions;
 use super::naive::Pattern;
 pub(crate) use super::naive::words;
 
-/// Runs a script as `main.lua` in a folder of its own.
+/// Runs a script as `main.lua` in a temporary folder.
 pub(crate) fn try_run(script: &str, options: RunOptions) -> burgeon::Result<Run> {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("main.lua");
@@ -25,17 +25,17 @@ pub(crate) fn run(script: &str) -> Run {
     run_with(script, burgeon::options())
 }
 
-/// Options with a number of threads and modules in a batch.
+/// Returns options with this number of threads, and of modules in a batch.
 pub(crate) fn divided(threads: usize, batch: usize) -> RunOptions {
     RunOptions { threads: Some(threads), batch, ..burgeon::options() }
 }
 
-/// The chains of every system, joined, with a line for each chain.
+/// Returns the chains of all systems, with one line per chain.
 pub(crate) fn all_chains(run: &Run) -> String {
     run.systems.iter().map(|system| system.chain_text()).collect()
 }
 
-/// The chains of the system that was derived last.
+/// Returns the chains of the system that was derived last.
 pub(crate) fn chains(script: &str) -> Vec<String> {
     lines(&run(script))
 }
@@ -44,19 +44,19 @@ pub(crate) fn lines(run: &Run) -> Vec<String> {
     run.systems.last().expect("a derived system").chain_text().lines().map(str::to_owned).collect()
 }
 
-/// The one chain of each system, in the order of derivation.
+/// Returns the only chain of each system, in the order of derivation.
 pub(crate) fn chain_of_each(script: &str) -> Vec<String> {
     run(script).systems.iter().map(|system| system.chain_text().trim_end_matches('\n').to_owned()).collect()
 }
 
-/// The one chain of the system that was derived last.
+/// Returns the only chain of the system that was derived last.
 pub(crate) fn chain(script: &str) -> String {
     let chains = chains(script);
     assert_eq!(chains.len(), 1, "one chain");
     chains.into_iter().next().unwrap_or_default()
 }
 
-/// What is wrong with a script.
+/// Returns the error message for a script.
 pub(crate) fn error(script: &str) -> String {
     match try_run(script, burgeon::options()) {
         Err(error) => error.to_string(),
@@ -76,7 +76,7 @@ pub(crate) fn declare_with<'a>(names: impl IntoIterator<Item = &'a str>, paramet
     declared.collect::<String>() + "\n"
 }
 
-/// A chain as Lua: `A [ B ] C` as `A(), { B() }, C()`.
+/// Converts a chain to Lua: `A [ B ] C` to `A(), { B() }, C()`.
 pub(crate) fn as_lua(chain: &str) -> String {
     let spaced = chain.replace('[', " [ ").replace(']', " ] ");
     let mut out = String::new();
@@ -91,7 +91,7 @@ pub(crate) fn as_lua(chain: &str) -> String {
     out.trim_end_matches([',', ' ']).to_owned()
 }
 
-/// A system without parameters: `rules` are lines such as `A < B > C -> D [ E ]`; an empty successor erases.
+/// System without parameters: `rules` are lines such as `A < B > C -> D [ E ]`; an empty successor erases.
 pub(crate) struct Plain<'a> {
     pub ignore: &'a str,
     pub axiom: &'a str,
@@ -99,19 +99,19 @@ pub(crate) struct Plain<'a> {
 }
 
 impl Plain<'_> {
-    /// The chain after each of the numbers of steps.
+    /// Returns the chain after each of the numbers of steps.
     pub(crate) fn derive<const N: usize>(&self, steps: [usize; N]) -> [String; N] {
         let mut chains = self.derive_each(&steps).into_iter();
         steps.map(|_| chains.next().unwrap_or_default())
     }
 
-    /// The chain after each of the numbers of steps.
+    /// Returns the chain after each of the numbers of steps.
     pub(crate) fn derive_each(&self, steps: &[usize]) -> Vec<String> {
         let run = run(&self.script(steps));
         run.systems.iter().map(|system| system.chain_text().trim_end().to_owned()).collect()
     }
 
-    /// The chain after 0, 1, 2, ... steps, `count` of them.
+    /// Returns the chain after 0, 1, 2, ... steps, `count` chains in total.
     pub(crate) fn first(&self, count: usize) -> Vec<String> {
         self.derive_each(&(0..count).collect::<Vec<_>>())
     }
@@ -145,7 +145,7 @@ impl Plain<'_> {
     }
 }
 
-/// What contexts pass over.
+/// Symbols that contexts skip.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Passing<'a> {
     Nothing,
@@ -153,16 +153,16 @@ pub(crate) enum Passing<'a> {
     Consider(&'a str),
 }
 
-/// A pattern, and the chains of the system that it is a rule of.
+/// Pattern of a rule, and the chains of its system.
 #[derive(Debug, Clone)]
 pub(crate) struct Case<'a> {
     pub passing: Passing<'a>,
-    /// With more than one chain, each comes from a feature.
+    /// Chains; if there are several, each comes from a feature.
     pub chains: Vec<String>,
     pub pattern: Pattern,
 }
 
-/// For each case the modules that the engine matches, numbered from 0 through all its chains.
+/// Returns for each case the modules that the engine matches, numbered from 0 through all its chains.
 pub(crate) fn matched(cases: &[Case], options: RunOptions) -> Vec<Vec<usize>> {
     let mut names: Vec<String> = Vec::new();
     for case in cases {
@@ -193,7 +193,7 @@ pub(crate) fn matched(cases: &[Case], options: RunOptions) -> Vec<Vec<usize>> {
 }
 
 impl Case<'_> {
-    /// A system in which every module that matches becomes a `Hit` with its number.
+    /// Returns a system in which every module that matches becomes a `Hit` with its number.
     fn script(&self) -> String {
         let mut number = 0;
         let mut numbered = |chain: &String| {

@@ -1,4 +1,4 @@
-//! Stochastic rules: frequencies, and where a module's random numbers come from (law 9).
+//! Stochastic rules: frequencies, and the streams of the modules' random numbers (law 9).
 
 use burgeon::script::RunOptions;
 
@@ -6,7 +6,7 @@ use super::scripts::{chain_of_each, error, lines, run_with, words};
 
 const BUDS: usize = 2000;
 
-/// A script whose axiom is many buds; `rules` decide what becomes of them in one step.
+/// Returns a script whose axiom is many buds, to which `rules` apply in one step.
 fn buds(rules: &str) -> String {
     format!(
         r#"
@@ -21,7 +21,7 @@ fn buds(rules: &str) -> String {
     )
 }
 
-/// The sum of chi-square over 5 seeds, and its degrees of freedom.
+/// Returns the sum of chi-square over 5 seeds, and its degrees of freedom.
 fn chi_square(rules: &str, shares: &[(&str, f64)]) -> (f64, usize) {
     let script = buds(rules);
     let total: f64 = shares.iter().map(|(_, share)| share).sum();
@@ -40,7 +40,8 @@ fn chi_square(rules: &str, shares: &[(&str, f64)]) -> (f64, usize) {
     (sum, 5 * (shares.len() - 1))
 }
 
-/// The sums are below what one honest generator in a thousand exceeds, and above what one in a thousand stays below.
+/// Checks that the sum is within bounds that a correct generator exceeds, or stays below, once in a thousand
+/// cases each.
 fn check_frequencies(rules: &str, shares: &[(&str, f64)]) {
     let (sum, freedom) = chi_square(rules, shares);
     let (low, high) = match freedom {
@@ -84,7 +85,7 @@ fn equal_weights_are_drawn_equally() {
 
 #[test]
 fn weights_need_not_sum_to_one_and_keep_their_proportion_among_the_candidates() {
-    // The guard of the heaviest never holds, so the others share as if it were not there.
+    // The guard of the rule with the largest weight never holds, so the other rules share the probability.
     let rules = "s:rule(\"Bud\", { weight = 50, when = function() return false end }, [[ return R() ]])
                  s:rule(\"Bud\", { weight = 0.3 }, [[ return P() ]])
                  s:rule(\"Bud\", { weight = 0.1, when = function() return true end }, [[ return Q() ]])";
@@ -96,13 +97,13 @@ fn guards_choose_between_weights_module_by_module() {
     let rules = "s:rule(\"Bud(n)\", { weight = 1, when = function(_, n) return n % 2 == 0 end }, [[ return P() ]])
                  s:rule(\"Bud(n)\", { weight = 1, when = function(_, n) return n % 2 == 1 end }, [[ return Q() ]])
                  s:rule(\"Bud\", { weight = 2 }, [[ return R() ]])";
-    // Half of the buds draw between P and R, half between Q and R.
+    // Half of the buds choose between P and R, half between Q and R.
     check_frequencies(rules, &[("P", 1.0), ("Q", 1.0), ("R", 4.0)]);
 }
 
 #[test]
 fn contexts_limit_which_weights_are_drawn_from() {
-    // The first bud has no left neighbour, so it is always Q; it is too few to matter to the sum.
+    // The first bud has no left neighbour, so it always becomes Q; one bud does not matter for the sum.
     let rules = "s:rule(\"Bud < Bud\", { weight = 1 }, [[ return P() ]])
                  s:rule(\"Bud\", { weight = 1 }, [[ return Q() ]])
                  s:rule(\"Bud > P\", { weight = 1000 }, [[ return R() ]])";
@@ -136,7 +137,7 @@ fn random_is_uniform_in_a_rule_and_within_its_bounds() {
 
 #[test]
 fn the_choice_and_what_the_rule_draws_are_independent() {
-    // Had the rule drawn the same number that chose it, P would only see the lower half.
+    // If the rule drew the same number that chose it, P would only see the lower half.
     let script = buds(
         "s:rule(\"Bud\", { weight = 1 }, function() return Bud(random()) end)
          s:rule(\"Bud\", { weight = 1 }, [[ return Q() ]])",
@@ -176,7 +177,7 @@ fn guards_draw_no_random_numbers() {
     assert!(told.contains("a guard draws no random numbers") && told.contains("rule Bud"), "{told}");
 }
 
-/// `n` modules that each draw after `waits` steps; `tail` follows in the axiom.
+/// Returns the random numbers of modules in a system with these rules, after `steps` steps.
 fn draws(rules: &str, axiom: &str, steps: usize, seed: u64) -> Vec<String> {
     let script = format!(
         r#"
@@ -221,7 +222,7 @@ fn a_module_draws_the_same_whatever_its_neighbours_became() {
 
 #[test]
 fn a_rule_that_ran_and_returned_no_value_advances_the_stream_of_its_module() {
-    // The rule draws in every step and keeps the module until it draws a number below a tenth.
+    // The rule draws in every step and keeps the module until it draws a number below 0.1.
     let rules = "s:rule(\"W(n)\", function(_, n) local u = random() if u < 0.1 then return U(u) end end)";
     let axiom = vec!["W(0)"; 50].join(", ");
     let ended = |steps| draws(rules, &axiom, steps, 3).iter().filter(|word| word.starts_with("U(")).count();
@@ -279,7 +280,8 @@ fn seeds_differ_and_a_system_may_have_its_own() {
 
 #[test]
 fn the_number_of_draws_before_changes_nothing_after_in_another_module() {
-    // A batch draws ahead for all its modules as many numbers as the hungriest rule wanted before.
+    // A batch draws for each of its modules in advance as many numbers as the rule with the most draws needed
+    // before.
     let rules = "s:rule(\"W(n)\", function(_, n) local u for i = 0, n do u = random() end return U(u) end)";
     let hungry = draws(rules, "W(40), W(0), W(3)", 1, 0);
     let modest = draws(rules, "W(0), W(0), W(3)", 1, 0);

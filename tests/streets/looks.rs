@@ -1,4 +1,4 @@
-//! Looks of towns that nobody planned: measures of those that grow, beside real ones taken by the same code.
+//! Statistics of unplanned towns: grown towns compared with real ones, measured by the same code.
 
 use std::path::Path;
 
@@ -6,11 +6,11 @@ use burgeon::sources::{Attribute, Source, SourceOptions};
 use burgeon_streets::StreetNetwork;
 use glam::DVec2;
 
-/// Distance (m) that the towns reach, and the number of rings of the same width in which their density is measured.
+/// Radius (m) of the towns, and number of rings of equal width in which their density is measured.
 pub(crate) const REACH: f64 = 1000.0;
 pub(crate) const RINGS: usize = 4;
 
-/// The names of the measures, in the order of [`looks`].
+/// Names of the measures, in the order of [`looks`].
 pub(crate) const NAMES: [&str; 16] = [
     "degree",
     "dead ends",
@@ -30,8 +30,8 @@ pub(crate) const NAMES: [&str; 16] = [
     "knots",
 ];
 
-/// Bounds of the mean of each measure over many seeds: as in London, Monaco and Helsinki. Areas are in m², density is in km/km²,
-/// and zigzags are on each kilometre. Blocks spread by 0.64 in Helsinki and by 0.74 in Monaco.
+/// Bounds of the mean of each measure over many seeds, as in London, Monaco and Helsinki. Areas are in m²,
+/// density in km/km², and zigzags are per kilometre. Spread of blocks: 0.64 in Helsinki, 0.74 in Monaco.
 pub(crate) const MEANS: [[f64; 2]; 16] = [
     [2.55, 2.9],
     [0.12, 0.25],
@@ -51,7 +51,8 @@ pub(crate) const MEANS: [[f64; 2]; 16] = [
     [0.0, 0.07],
 ];
 
-/// Bounds of the measures of each single town: those of the means, but for the measures that few streets change much.
+/// Bounds of the measures of each town: the bounds of the means, except for measures that few streets change
+/// much.
 pub(crate) const EACH: [[f64; 2]; 16] = {
     let [_, _, _, _, _, _, _, _, _, rest @ ..] = MEANS;
     let [largest, density, decline, zigzags, stubs, triangles, knots] = rest;
@@ -75,7 +76,8 @@ pub(crate) const EACH: [[f64; 2]; 16] = {
     ]
 };
 
-/// Measures a network; its decline, from one ring around the middle to the next, is the greatest quotient.
+/// Measures a network; the decline is the maximum quotient of densities of neighbouring rings around the
+/// centre.
 pub(crate) fn looks(network: &StreetNetwork) -> [f64; 16] {
     let of = network.measures();
     let [ends, three, four] = of.shares;
@@ -101,14 +103,14 @@ pub(crate) fn looks(network: &StreetNetwork) -> [f64; 16] {
     ]
 }
 
-/// Lists the measures outside of their bounds.
+/// Returns the measures outside of their bounds.
 pub(crate) fn faults(of: &[f64; 16], bounds: &[[f64; 2]; 16]) -> Vec<String> {
     let all = NAMES.iter().zip(of).zip(bounds);
     let wrong = all.filter(|((_, value), [least, most])| !(least..=most).contains(value));
     wrong.map(|((name, value), [least, most])| format!("{name} {value:.3}, not {least} to {most}")).collect()
 }
 
-/// Reads the streets of a real town, those for cars without ways to single houses; reports that the town is left out if its data is
+/// Reads the car streets of a real town, without driveways; reports that the town is skipped if its data is
 /// missing.
 pub(crate) fn real(file: &str) -> Option<StreetNetwork> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(file);
@@ -131,7 +133,7 @@ pub(crate) fn real(file: &str) -> Option<StreetNetwork> {
     let lines =
         streets.map(|street| street.geometry.points().map(|at| at.truncate()).collect::<Vec<DVec2>>());
     let lines: Vec<Vec<DVec2>> = lines.collect();
-    // Measures are the same anywhere, and streets are near the origin.
+    // The measures do not depend on the position, and coordinates near the origin are more precise.
     let origin = lines.iter().flatten().next().copied().unwrap_or_default();
     let lines: Vec<Vec<DVec2>> =
         lines.iter().map(|line| line.iter().map(|at| *at - origin).collect()).collect();

@@ -1,4 +1,4 @@
-//! Objects that others hold, and functions that say anew what others do.
+//! Child objects, and functions that override inherited ones.
 
 use crate::{glb, open_edges, printed, run, script};
 
@@ -53,7 +53,7 @@ end
 #[test]
 fn objects_of_types_of_scripts_are_held_by_others_and_keep_a_state_for_each_chain() {
     let one = printed(NESTED, 1);
-    // Features 0 and 3 begin alike, as do 1 and 4: what is held is not shared among chains.
+    // Features 0 and 3 begin equally, as do 1 and 4: chains do not share child objects.
     assert_eq!(
         (one[0] == one[3], one[1] == one[4], one[0] == one[1]),
         (true, true, false),

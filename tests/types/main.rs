@@ -1,5 +1,5 @@
-//! Types of objects that scripts declare: what they do while chains are drawn. What is asked of types from every side
-//! stands in `tests/kind`.
+//! Script-declared object types while chains are drawn. `tests/kind` tests requirements on types from all
+//! origins.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
 
@@ -17,7 +17,7 @@ use burgeon::script::{RunOptions, RunReports};
 use burgeon::trace::{Pick, pick};
 use burgeon::{Run, export};
 
-/// The scripts in `examples/types`, each of which declares a type.
+/// Returns the scripts in `examples/types`, each of which declares a type.
 fn examples() -> Vec<PathBuf> {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("examples/types");
     let mut paths: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|it| it.unwrap().path()).collect();
@@ -34,7 +34,7 @@ fn run(script: &Path, threads: usize) -> Run {
     burgeon::run(script, options(threads)).unwrap_or_else(|error| panic!("{}: {error}", script.display()))
 }
 
-/// A script in a folder of its own, with the features of `field.geojson` beside it.
+/// Returns a script in a temporary folder, next to the features of `field.geojson`.
 fn script(text: &str) -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let points = (0..200).map(|number| {
@@ -53,7 +53,7 @@ fn script(text: &str) -> (tempfile::TempDir, PathBuf) {
     (folder, path)
 }
 
-/// What the run prints, line by line.
+/// Returns the output of the run, line by line.
 fn printed(text: &str, threads: usize) -> Vec<String> {
     let (_folder, path) = script(text);
     let lines = Arc::new(std::sync::Mutex::new(Vec::new()));
@@ -71,7 +71,7 @@ fn glb(run: &Run) -> Vec<u8> {
     std::fs::read(path).unwrap()
 }
 
-/// How many edges of a model are used by one face only, or by more than two; points nearer than 1 nm are one.
+/// Returns the number of edges that do not belong to exactly two faces; points nearer than 1 nm are equal.
 fn open_edges(run: &Run) -> usize {
     let mut edges: BTreeMap<[[i64; 3]; 2], i32> = BTreeMap::new();
     for mesh in &run.scene.meshes {
@@ -150,7 +150,7 @@ end
 #[test]
 fn each_chain_has_a_state_of_its_own_which_rules_read_as_the_last_pass_left_it() {
     let one = printed(COUNTERS, 1);
-    // Feature 2 begins with A(2). Each step adds what the pass before has summed up, and remembers what came first.
+    // Feature 2 begins with A(2). Each step adds the sum of the previous pass, and stores the first value.
     let (mut chain, start) = (vec![2.0], 2.0);
     for _ in 0..3 {
         let (total, first) = (start + chain.iter().sum::<f64>(), chain[0]);
@@ -212,7 +212,7 @@ s:interpret("A", function(this) this:go() end)
 local object = s:derive(0).objects[1]
 print(object:count(), object.m, object:position().z, tostring(object))
 "#;
-    // Two forward and around; then three back down; then two further down, and around.
+    // Two forward and turn around; then three back down; then two further down, and turn around.
     assert_eq!(printed(text, 1), ["4\t7\t-3\ttwo"]);
 }
 

@@ -1,4 +1,4 @@
-//! Meshes that a script brings in lists and in buffers.
+//! Meshes that a script provides in lists and in buffers.
 
 use crate::{open_edges, run, script};
 
@@ -57,12 +57,12 @@ s:derive()
         found
     };
     assert_eq!(points(&listed), points(&held));
-    // Buffers and lists may stand together; what has no area is left out.
+    // Buffers and lists can be combined; triangles without area are skipped.
     let mixed = scene(&format!(
         "this:mesh({{ {{ 0, 0, 0 }}, {{ 1, 0, 0 }}, {{ 0, 1, 0 }}, {{ 0, 0, 1 }} }}, whole({{ {faces}, 1, 1, 2 }}))"
     ));
     assert_eq!(points(&mixed), points(&held));
-    // Normals, places on a texture and colours.
+    // Normals, texture coordinates and colours.
     let shaded = scene(&format!(
         "this:mesh(floats({{ {corners} }}), whole({{ {faces} }}), {{ normals = floats({{ {corners} }}), uvs = floats({{ 0, 0, 1, 0, 0, 1, 0.5, 0.5 }}),
            colors = whole({{ 0xff0000ff, 0xff00ff00, 0xff0000ff, 0xffff0000 }}) }})"

@@ -1,32 +1,33 @@
-//! The way through statements that hold others, for whoever walks a script and keeps the variables in scope.
+//! Traversal of nested statements for walks that track the variables in scope.
 
 use full_moon::ast::{Block, Expression, NumericFor, Stmt};
 
-/// A walk through a script that keeps the variables in scope.
+/// A walk through a script that tracks the variables in scope.
 pub(super) trait ScopeWalk {
-    /// How many variables are in scope.
+    /// Returns the number of variables in scope.
     fn in_scope(&self) -> usize;
 
-    /// Takes variables out of scope until so many are left.
+    /// Removes the latest variables from scope until `outside` of them are left.
     fn leave(&mut self, outside: usize);
 
-    /// Walks the expression of a condition or of a bound.
+    /// Walks the expression of a condition or of a loop bound.
     fn term(&mut self, expression: &Expression);
 
-    /// Puts the variable of a loop over numbers into scope.
+    /// Adds the variable of a numeric loop to the scope.
     fn counter(&mut self, numeric: &NumericFor);
 
-    /// Walks a block and leaves its variables in scope.
+    /// Walks a block and keeps its variables in scope.
     fn open_block(&mut self, block: &Block);
 
-    /// Walks a block, whose variables are known in it alone.
+    /// Walks a block and then removes its variables from scope.
     fn block(&mut self, block: &Block) {
         let outside = self.in_scope();
         self.open_block(block);
         self.leave(outside);
     }
 
-    /// Walks blocks, branches and loops but those over lists; anything else holds no statements of its own.
+    /// Walks the statements inside blocks, branches and loops, except for generic loops. Other statements contain no
+    /// statements.
     fn nested(&mut self, statement: &Stmt) {
         match statement {
             Stmt::Do(inner) => self.block(inner.block()),
@@ -52,7 +53,7 @@ pub(super) trait ScopeWalk {
                     self.block(block);
                 }
             }
-            // What it ends by sees the variables of its block.
+            // The condition of a repeat loop sees the variables of its block.
             Stmt::Repeat(repeat) => {
                 let outside = self.in_scope();
                 self.open_block(repeat.block());

@@ -1,8 +1,8 @@
-//! Holds a script's calls against what is declared: methods and fields that there are not, arguments that are too many or
-//! of another type, and changes of an object in a rule.
+//! Checks the calls of a script against the declarations: unknown methods and fields, too many arguments or arguments
+//! of wrong types, and changes of an object in a rule.
 //!
-//! It tells only of what is certain: of variables that are set once, and of values that stand in the script or that
-//! something declared gives. `burgeon check` asks for it; a run does not.
+//! The check reports only certain errors: it considers variables that are set once, literals, and declared results.
+//! `burgeon check` runs it; a normal run does not.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -23,28 +23,28 @@ use burgeon_base::error::{Error, SourcePlace};
 use burgeon_kit::{Kind, Registry};
 use burgeon_language::Literal;
 
-/// Walks a script for its calls.
+/// Walk that checks the calls of a script.
 pub(super) struct CallCheck<'a> {
     file: &'a str,
     pub(super) registry: &'a Registry,
-    /// The variables in scope.
+    /// Variables in scope.
     pub(super) scope: Vec<(String, Inference)>,
-    /// The names of variables that are set more than once.
+    /// Names of variables that are assigned after their declaration.
     assigned: BTreeSet<String>,
-    /// The package that the file is of; none for the script.
+    /// Package of the file; `None` for the script.
     pub(super) package: Option<&'a str>,
-    /// The functions that the file adds to types: the type's name, if it is known, and the function's.
+    /// Functions that the file adds to types: the type's name, if known, and the function's name.
     pub(super) added: BTreeSet<(Option<String>, String)>,
-    /// What the function is for that is being walked.
+    /// Role of the current function.
     pub(super) role: FunctionRole,
-    /// The rule that it belongs to, as errors name it.
+    /// Current rule, as errors name it.
     rule: Option<String>,
-    /// What is known of what another file gives, by the name that this one requires it by.
+    /// Function that infers the value that another file returns, from the name in `require`.
     pub(super) required: Option<&'a dyn Fn(&str) -> Inference>,
     pub(super) problems: Vec<Error>,
 }
 
-/// The names that something is assigned to, wherever that is.
+/// Collects the names of all assigned variables.
 fn collect_assigned(ast: &Ast, names: &mut BTreeSet<String>) {
     use full_moon::visitors::Visitor;
     struct AssignmentNames<'a>(&'a mut BTreeSet<String>);
@@ -118,7 +118,7 @@ impl<'a> CallCheck<'a> {
         }
     }
 
-    /// Walks the whole file. Gives what is known of the value that it returns.
+    /// Walks the whole file. Returns the inference for its return value.
     pub(super) fn file(&mut self, ast: &Ast) -> Inference {
         for statement in ast.nodes().stmts() {
             self.statement(statement);
@@ -190,7 +190,7 @@ impl<'a> CallCheck<'a> {
         self.scope.push((name, known));
     }
 
-    /// Walks a function; `this` is what its first parameter is, if that is known.
+    /// Walks a function; `this` is the type of its first parameter, if known.
     pub(super) fn function(&mut self, body: &FunctionBody, this: Option<&Arc<Kind>>) {
         let outside = self.scope.len();
         for (index, parameter) in body.parameters().iter().enumerate() {
@@ -206,7 +206,7 @@ impl<'a> CallCheck<'a> {
         self.scope.truncate(outside);
     }
 
-    /// Walks what is given to a method of systems; functions have `this` and a role.
+    /// Walks the arguments of a system's method; functions among them get `this` and a role.
     pub(super) fn rule(
         &mut self,
         call: &str,
@@ -407,7 +407,7 @@ impl<'a> CallCheck<'a> {
     }
 }
 
-/// The expressions that a call is given in brackets.
+/// Returns the arguments of a call with brackets.
 pub(super) fn expressions_of(args: &FunctionArgs) -> Vec<&Expression> {
     match args {
         FunctionArgs::Parentheses { arguments, .. } => arguments.iter().collect(),
@@ -415,7 +415,7 @@ pub(super) fn expressions_of(args: &FunctionArgs) -> Vec<&Expression> {
     }
 }
 
-/// The value of a field of a table that is written in place.
+/// Returns the value of a field in a table constructor.
 pub(super) fn field_named<'a>(table: &'a TableConstructor, name: &str) -> Option<&'a Expression> {
     table.fields().iter().find_map(|field| match field {
         Field::NameKey { key, value, .. } if text_of(key) == name => Some(&**value),
@@ -423,7 +423,7 @@ pub(super) fn field_named<'a>(table: &'a TableConstructor, name: &str) -> Option
     })
 }
 
-/// The line on which a piece of the script begins.
+/// Returns the line on which a node begins.
 pub(super) fn line_of(piece: &impl Node) -> usize {
     piece.start_position().map_or(1, |position| position.line())
 }

@@ -1,4 +1,4 @@
-//! Walks the expressions of a script: what they read, call and make.
+//! Walks the expressions of a script for the names that they read and the functions and modules that they call.
 
 use full_moon::ast::luau::{ElseIfExpression, IfExpression};
 use full_moon::ast::punctuated::Punctuated;
@@ -62,7 +62,8 @@ impl Walk<'_> {
         }
     }
 
-    /// Has what a loop goes through looked at first: the order of some keys is not certain. `pairs` sees to that itself.
+    /// Wraps the table of a loop in a check at run time, because the order of some keys is not deterministic. `pairs`
+    /// includes the check.
     pub(super) fn check_keys(&mut self, expressions: &Punctuated<Expression>) {
         let (Some(first), Some(last)) = (expressions.first(), expressions.last()) else { return };
         let certain = match first.value() {
@@ -140,7 +141,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Refuses weak tables: what they still hold depends on when memory was cleaned up.
+    /// Refuses weak tables, because their content depends on the time of garbage collection.
     fn refuse_weak(&mut self, token: &TokenReference, name: &str) {
         if name == "__mode" {
             let error = Error::script("what a weak table holds is not certain");
@@ -148,7 +149,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Refuses the fields of Luau's tables that scripts do not have.
+    /// Refuses library functions of Luau that scripts do not have.
     pub(super) fn library_field(&mut self, prefix: &Prefix, suffix: Option<&Suffix>) {
         if let (Prefix::Name(table), Some(Suffix::Index(Index::Dot { name, .. }))) = (prefix, suffix)
             && self.find(&text_of(table)).is_none()

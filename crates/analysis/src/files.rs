@@ -1,4 +1,4 @@
-//! Holds the calls of all files of a script against what is declared, those first that others require.
+//! Checks the calls of all files of a script against the declarations. Required files are checked first.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -13,28 +13,28 @@ use super::script::STACK;
 use burgeon_base::error::Error;
 use burgeon_kit::Registry;
 
-/// A file whose calls are to be checked.
+/// A file whose calls are checked.
 pub struct CheckedFile {
-    /// Its name for messages.
+    /// File name for messages.
     pub name: String,
-    /// The package that it is of; none for the script.
+    /// Package of the file; `None` for the script.
     pub package: Option<String>,
-    /// What stands in it.
+    /// Syntax tree.
     pub ast: Arc<Ast>,
-    /// By what it writes in `require`: the names of the files that are meant.
+    /// Names of the required files, by the text in `require`.
     pub required: BTreeMap<String, String>,
 }
 
-/// The files of a script, as far as they have been checked.
+/// Files of a script with the state of their checks.
 struct FileChecks<'a> {
     files: &'a [CheckedFile],
     registry: &'a Registry,
-    /// By name: what is known of the value that a file gives; nothing while it is being checked.
+    /// Inferred return values by file name; `Inference::Unknown` while a file is being checked.
     exports: RefCell<FxHashMap<&'a str, Inference>>,
     problems: RefCell<Vec<Error>>,
 }
 
-/// What is wrong with the calls in `files`, where the scripts' own types of objects are in the `registry` too.
+/// Returns the problems in the calls of `files`. `registry` must include the object types that the scripts declare.
 pub fn call_problems(files: &[CheckedFile], registry: &Registry) -> Vec<Error> {
     std::thread::scope(|scope| {
         let check = || {
@@ -44,13 +44,13 @@ pub fn call_problems(files: &[CheckedFile], registry: &Registry) -> Vec<Error> {
             checks.problems.into_inner()
         };
         let thread = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, check);
-        // Without a thread nobody checks; the script runs as well.
+        // If the thread cannot start, the check is skipped. The script can still run.
         thread.ok().and_then(|thread| thread.join().ok()).unwrap_or_default()
     })
 }
 
 impl<'a> FileChecks<'a> {
-    /// What is known of the value that `file` gives.
+    /// Returns the inference for the return value of `file`.
     fn exports(&self, file: &'a CheckedFile) -> Inference {
         if let Some(known) = self.exports.borrow().get(&*file.name) {
             return known.clone();
@@ -65,7 +65,7 @@ impl<'a> FileChecks<'a> {
         found
     }
 
-    /// What is known of `require(name)` in the file `asker`.
+    /// Returns the inference for `require(name)` in the file `asker`.
     fn required(&self, asker: &CheckedFile, name: &str) -> Inference {
         let meant = asker.required.get(name).and_then(|meant| self.files.iter().find(|it| it.name == *meant));
         meant.map_or(Inference::Unknown, |file| self.exports(file))

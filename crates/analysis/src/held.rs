@@ -1,4 +1,4 @@
-//! Holds what a call is given against what is declared: how many arguments, of which types, and the fields of tables.
+//! Checks the arguments of calls against the declarations: their number, their types, and the fields of tables.
 
 use full_moon::ast::{Expression, Field, FunctionArgs, TableConstructor};
 use full_moon::tokenizer::TokenReference;
@@ -11,7 +11,8 @@ use burgeon_kit::{Argument, Field as KindField, Kind};
 use burgeon_language::{CallForm, Literal, LuauType, NameKind, names};
 
 impl CallCheck<'_> {
-    /// Holds a call against the forms that it may have. `is_luau` tells that a text of digits is as good as a number.
+    /// Checks a call against its signatures. `is_luau` marks functions of Luau, which accept a string of digits as a
+    /// number.
     pub(super) fn hold_call(
         &mut self,
         word: &TokenReference,
@@ -35,7 +36,7 @@ impl CallCheck<'_> {
             let usage = format!("write {name}{}", CallForm { returns: String::new(), ..form.clone() });
             return self.problem(word, Error::argument(message).help(usage));
         };
-        // With several forms, a value is wrong only where none of them takes it.
+        // With several signatures, a value is only wrong if none of them accepts it.
         let wrong = |form: &CallForm, index: usize, value: &Inference| {
             let argument = form.argument(index)?;
             (!self.may_be(value, argument, is_luau)).then(|| argument.clone())
@@ -66,7 +67,7 @@ impl CallCheck<'_> {
         }
     }
 
-    /// Holds what a constructor is given against its fields.
+    /// Checks the arguments of a constructor against its fields.
     pub(super) fn hold_constructor(
         &mut self,
         kind: &Kind,
@@ -96,13 +97,13 @@ impl CallCheck<'_> {
             Field::NameKey { key, .. } => kind.fields.iter().any(|known| known.name == text_of(key)),
             _ => false,
         });
-        // A table that comes alone may be what the first field says.
+        // A single table may be the value of the first field.
         if first.is_none() || given.len() == most || names_a_field {
             self.hold_fields(&kind.name, table, &kind.fields);
         }
     }
 
-    /// Holds a table that is written in place against the fields that it may have, or those of its items.
+    /// Checks the fields of a table constructor, or the fields of its items if it is a list.
     fn hold_table(&mut self, owner: &str, table: &TableConstructor, luau: &str, fields: &[KindField]) {
         if fields.is_empty() {
             return;
@@ -134,7 +135,7 @@ impl CallCheck<'_> {
             let outer = std::mem::take(&mut self.problems);
             let found = self.expression(value);
             self.problems = outer;
-            // What is left out may be written as nil, as well.
+            // An omitted field can also be written as nil.
             let is_nil = matches!(&found, Inference::Value(Literal::Nil));
             let argument = Argument {
                 luau: known.luau.clone(),
@@ -149,7 +150,7 @@ impl CallCheck<'_> {
         }
     }
 
-    /// Whether a value may be given for an argument or a field.
+    /// Returns true if a value can be passed for an argument or a field.
     fn may_be(&self, known: &Inference, argument: &Argument, is_luau: bool) -> bool {
         let literal = match known {
             Inference::Value(Literal::Text(text)) if is_luau && text.trim().parse::<f64>().is_ok() => {
@@ -169,14 +170,14 @@ impl CallCheck<'_> {
             }
         };
         let name = argument.luau.trim_end_matches('?');
-        // A name for a table of fields.
+        // The type is a named table of fields.
         if !argument.fields.is_empty() && LuauType::read(name) == LuauType::Named(name.to_owned()) {
             return literal == Literal::Table || literal == Literal::Nil && argument.luau.ends_with('?');
         }
         LuauType::read(&argument.luau).accepts(&literal, &|name| self.stands_for(name))
     }
 
-    /// What a name in a type stands for.
+    /// Returns the type that a name in a type refers to.
     fn stands_for(&self, name: &str) -> Option<LuauType> {
         let itself = || LuauType::Named(name.to_owned());
         let family: Vec<LuauType> = self
@@ -197,13 +198,13 @@ impl CallCheck<'_> {
         match (&*given.instead, &*given.luau) {
             ("", luau) if luau == name => None,
             ("", luau) => Some(LuauType::read(luau)),
-            // An object of that type is told by its name.
+            // An object of that type is accepted by its name.
             (instead, _) => Some(LuauType::read(instead)),
         }
     }
 }
 
-/// How many arguments a function takes in words.
+/// Formats the number of arguments that a function accepts.
 fn count(forms: &[CallForm]) -> String {
     let least = forms.iter().map(CallForm::least).min().unwrap_or(0);
     let most: Option<usize> = forms.iter().map(CallForm::most).try_fold(0, |most, of| Some(most.max(of?)));
@@ -216,7 +217,7 @@ fn count(forms: &[CallForm]) -> String {
     }
 }
 
-/// What is wrong with a value.
+/// Formats the message for a wrong value.
 fn refused(owner: &str, name: &str, luau: &str, found: &Inference) -> String {
     let wanted = match luau.trim_end_matches('?') {
         "number" => "a number",
@@ -252,7 +253,7 @@ mod tests {
         check.problems.iter().map(|problem| problem.message().to_owned()).collect()
     }
 
-    /// Values that stand in a script.
+    /// Literals as they appear in a script.
     const VALUES: [(&str, Literal); 5] = [
         ("1", Literal::Number),
         ("true", Literal::Boolean),
@@ -261,7 +262,7 @@ mod tests {
         ("function() end", Literal::Function),
     ];
 
-    /// A value of this type, and one that is of another, if such stand in scripts.
+    /// Returns a literal that fits the argument, and one that does not, if there are any.
     fn values(argument: &Argument) -> (Option<&'static str>, Option<&'static str>) {
         let registry = burgeon_objects::registry();
         let ast = full_moon::parse("").expect("nothing");

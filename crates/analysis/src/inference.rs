@@ -1,4 +1,4 @@
-//! What is known of the values in a script: of variables, of what is called, and of what that gives.
+//! Inference of the values in a script: of variables, called functions and their results.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -13,29 +13,29 @@ use burgeon_base::error::Error;
 use burgeon_kit::{Construct, Kind};
 use burgeon_language::{CallForm, Literal, Name, NameKind, SYSTEM, names};
 
-/// What is known of a value.
+/// Inferred value of an expression.
 #[derive(Clone)]
 pub(super) enum Inference {
-    /// Nothing.
+    /// Unknown value.
     Unknown,
-    /// It stands in the script, or is of this type.
+    /// A literal, or a value of a literal's type.
     Value(Literal),
     /// An object of this type.
     Object(Arc<Kind>),
     /// The constructor of this type.
     Constructor(Arc<Kind>),
-    /// A table, and what is known of its named entries.
+    /// A table with the inferred values of its named entries.
     Table(Arc<BTreeMap<String, Self>>),
-    /// A system, and its object's type, if that is known.
+    /// A system with the type of its object, if known.
     System(Option<Arc<Kind>>),
-    /// What a name of the language gives, such as a vector.
+    /// A value of a type of the language, such as a vector.
     Given(&'static Name),
     /// A function or a library of the language.
     Name(&'static Name),
 }
 
 impl Inference {
-    /// Whether it is worth while to remember it of an entry of a table.
+    /// Returns true if the inference is worth storing for an entry of a table.
     pub(super) fn is_telling(&self) -> bool {
         matches!(self, Self::Object(_) | Self::Constructor(_) | Self::Table(_) | Self::System(_))
     }
@@ -57,7 +57,7 @@ impl CallCheck<'_> {
         names().iter().find(given).map_or(Inference::Unknown, Inference::Name)
     }
 
-    /// What a field of something is.
+    /// Infers the value of a field.
     pub(super) fn field(&mut self, of: &Inference, name: &TokenReference) -> Inference {
         let text = text_of(name);
         match of {
@@ -74,7 +74,7 @@ impl CallCheck<'_> {
         }
     }
 
-    /// What is known of a value of this type.
+    /// Infers a value from its Luau type.
     fn of_type(&self, luau: &str) -> Inference {
         match luau {
             "number" => Inference::Value(Literal::Number),
@@ -92,7 +92,7 @@ impl CallCheck<'_> {
         }
     }
 
-    /// Something is called by itself, which the script names by `path`.
+    /// Checks a function call and infers its result; `path` is the function as written in the script.
     pub(super) fn called(
         &mut self,
         what: &Inference,
@@ -136,7 +136,7 @@ impl CallCheck<'_> {
         }
     }
 
-    /// What a function of the language gives for certain.
+    /// Infers the result of a function of the language.
     fn result(&mut self, name: &'static Name, args: &FunctionArgs) -> Inference {
         let [form] = &name.forms[..] else { return Inference::Unknown };
         if form.returns == "System<T>" {
@@ -155,7 +155,7 @@ impl CallCheck<'_> {
         self.of_type(&form.returns)
     }
 
-    /// A method of something is called.
+    /// Checks a method call and infers its result.
     pub(super) fn method(&mut self, of: &Inference, name: &TokenReference, args: &FunctionArgs) -> Inference {
         let text = text_of(name);
         match of {

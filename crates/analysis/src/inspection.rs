@@ -1,9 +1,9 @@
-//! Whether a script could tell a table that is made later from one that is there.
+//! Search in the text of a script for functions that inspect tables, and for calls with string arguments.
 
-/// The functions with which a script sees a table as it is.
+/// Functions with which a script can inspect a table's entries.
 const INSPECTORS: [&str; 6] = ["pairs", "next", "rawget", "getmetatable", "clone", "foreach"];
 
-/// Whether a script could tell a table that is made later from one that is there.
+/// Returns true if a script could distinguish a table that is created lazily from an existing table.
 pub fn inspects_tables(text: &str) -> bool {
     let apart = |letter: Option<char>| letter.is_none_or(|it| !it.is_alphanumeric() && it != '_');
     INSPECTORS.iter().any(|name| {
@@ -13,8 +13,8 @@ pub fn inspects_tables(text: &str) -> bool {
     })
 }
 
-/// The first arguments of the calls of `function` in `text` that are texts in quotes, without escapes. Comments and other
-/// texts are passed over.
+/// Returns the first arguments of the calls of `function` in `text` that are string literals, with escape sequences
+/// unchanged. Ignores comments and other strings.
 pub fn calls_with_text<'a>(text: &'a str, function: &'a str) -> impl Iterator<Item = String> + use<'a> {
     let mut tokens = Tokens { rest: text };
     let mut called = 0;
@@ -34,7 +34,7 @@ pub fn calls_with_text<'a>(text: &'a str, function: &'a str) -> impl Iterator<It
     })
 }
 
-/// A part of a script, as far as its calls matter.
+/// A token of a script, as far as needed to find calls.
 enum ScriptToken<'a> {
     Word(&'a str),
     Text(&'a str),
@@ -83,7 +83,7 @@ impl<'a> Tokens<'a> {
     }
 }
 
-/// What stands between `[[` and `]]` at the beginning of `text`, and what comes after it.
+/// Returns the text between `[[` and `]]` at the start of `text`, and the text after it.
 fn long_bracket(text: &str) -> Option<(&str, &str)> {
     let level = text.strip_prefix('[')?.find(|c| c != '=')?;
     let inner = text.get(level + 1..)?.strip_prefix('[')?;

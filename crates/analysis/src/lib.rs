@@ -1,13 +1,14 @@
-//! Reads a script before it runs: finds mistakes that can be seen without running it, and prepares its rules.
+//! Static analysis of scripts: finds errors without running a script, and prepares its rules.
 //!
-//! Input: the text of a script, what it may use, and what makes bytecode of it. Output: an [`Analysis`], the text
-//! that is to run and what is known of its functions; then what is wrong with its calls. It never runs a script, and knows
-//! no virtual machine.
+//! Input: the text of a script, the names that it may use, and a function that compiles to bytecode. Output: an
+//! [`Analysis`] with the text to run and facts about its functions; then the problems of its calls. The crate never
+//! runs a script, and does not depend on a virtual machine.
 //!
-//! Four things are changed in the text, and no line break is: a rule's `return A(x), { B(y) }` becomes one call
-//! with all parameters, since its modules and brackets, its shape, can be seen from the text; its other
-//! returns are told apart into nothing, nil and lists; and an assignment in a function to a variable from
-//! outside it is preceded by a check that no rule is running.
+//! The analysis changes the text but no line break. If the modules and brackets of a rule's `return A(x), { B(y) }`,
+//! its shape, are visible in the text, the return becomes one call with all parameters. Other returns are marked as nil
+//! or as a list. An assignment in a function to a variable outside of the function is preceded by a check that no rule
+//! is running. Functions of rules are marked as prepared, and successors in strings get their line number. Loops over
+//! tables check the order of keys, and assignments to `self` check that the state can store the value.
 
 mod blocks;
 mod calls;

@@ -1,4 +1,4 @@
-//! What scripts do with types of objects that they declare: what their functions have as `self`, and what that has.
+//! Analysis of object types that scripts declare: the `self` of their functions, and its members.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -17,7 +17,7 @@ use burgeon_base::error::Error;
 use burgeon_kit::{Kind, Value};
 use burgeon_language::Literal;
 
-/// The names of the functions that are added to a type.
+/// Returns the names of the functions that a declaration adds to a type.
 fn added_names(table: &TableConstructor) -> Vec<String> {
     let named = |table: &TableConstructor| -> Vec<(String, Expression)> {
         let fields = table.fields().iter().filter_map(|field| match field {
@@ -34,8 +34,8 @@ fn added_names(table: &TableConstructor) -> Vec<String> {
 }
 
 impl Walk<'_> {
-    /// Has what is assigned to a part of `self` looked at where it is assigned: what cannot be kept in the state of an
-    /// object is told of in that line.
+    /// Wraps the value of an assignment to a field of `self` in a check at run time, so that a value that the state of
+    /// an object cannot store is reported in this line.
     pub(super) fn check_state(&mut self, assignment: &Assignment) {
         let (mut variables, mut values) = (assignment.variables().iter(), assignment.expressions().iter());
         let (Some(Var::Expression(variable)), None) = (variables.next(), variables.next()) else { return };
@@ -55,7 +55,7 @@ impl Walk<'_> {
     }
 }
 
-/// Whether a value can be seen to be a number, a text, a switch or nothing.
+/// Returns true if the syntax shows that a value is a number, a string, a boolean or nil.
 fn is_plain(value: &Expression) -> bool {
     match value {
         Expression::Number(_) | Expression::String(_) | Expression::InterpolatedString(_) => true,
@@ -68,8 +68,8 @@ fn is_plain(value: &Expression) -> bool {
 }
 
 impl CallCheck<'_> {
-    /// `object(name, { ... })` or `extend(constructor, { ... })`: walks its functions, which have objects of that type. Gives
-    /// the constructor, if it is known which type that is.
+    /// Walks the functions of `object(name, { ... })` or `extend(constructor, { ... })`, whose objects have that type.
+    /// Returns the constructor, if the type is known.
     pub(super) fn declares(&mut self, word: &str, args: &FunctionArgs) -> Inference {
         let written = expressions_of(args);
         let first = written.first().map(|first| (self.expression(first), *first));
@@ -89,7 +89,7 @@ impl CallCheck<'_> {
             Some(Expression::TableConstructor(table)) => {
                 self.declaration(table, kind.as_ref());
                 if word == "extend" {
-                    // Where the script ends before it comes to this, nobody else knows of it.
+                    // If the script stops before this call, the registry does not contain these functions.
                     let of = kind.as_ref().map(|kind| kind.name.to_string());
                     self.added.extend(added_names(table).into_iter().map(|name| (of.clone(), name)));
                 }
@@ -126,7 +126,7 @@ impl CallCheck<'_> {
         }
     }
 
-    /// A function of a type, alone or in a table behind its doc.
+    /// Walks a function of a type: alone, or in a table with its doc.
     fn declared_function(&mut self, value: &Expression, kind: Option<&Arc<Kind>>) {
         match value {
             Expression::Function(function) => self.function(function.body(), kind),
@@ -143,7 +143,7 @@ impl CallCheck<'_> {
         }
     }
 
-    /// What a field of an object is, or a part of its state.
+    /// Infers the value of a field or state variable of an object.
     pub(super) fn member(&mut self, kind: &Arc<Kind>, name: &TokenReference) -> Inference {
         let (text, Some(script)) = (text_of(name), &kind.script) else { return Inference::Unknown };
         if let Some((_, held)) = script.held.iter().find(|(held, _)| **held == *text) {
@@ -156,7 +156,7 @@ impl CallCheck<'_> {
                 _ => Inference::Unknown,
             };
         }
-        // A type that extends this one may have more than it has itself.
+        // A derived type may have members that this type lacks.
         let extends = |other: &Arc<Kind>| {
             let script =
                 other.script.as_ref().filter(|it| it.above.iter().any(|above| **above == *kind.name));
@@ -171,8 +171,8 @@ impl CallCheck<'_> {
         Inference::Unknown
     }
 
-    /// Whether an object of type `kind` may have the method `name`, though the type is not known to have it: it is added to
-    /// that type, or to one that nobody can tell, or the object is of a type that extends it.
+    /// Returns true if an object of type `kind` may have the method `name` although the type is not known to have it.
+    /// The file may add the method to the type or to an unknown type, or the object may be of a derived type.
     pub(super) fn may_be_above(&self, kind: &Kind, name: &str) -> bool {
         let above = |other: &Kind| {
             other.script.as_ref().is_some_and(|script| script.above.iter().any(|above| **above == *kind.name))
@@ -183,7 +183,7 @@ impl CallCheck<'_> {
                 && self.registry.kinds().any(|other| above(other) && other.method(name).is_some())
     }
 
-    /// Something is assigned to a variable, or to a part of what one holds.
+    /// Checks an assignment to a variable or to a field.
     pub(super) fn assigned_to(&mut self, variable: &Var, value: &Inference) {
         let Var::Expression(inner) = variable else { return };
         let suffixes: Vec<&Suffix> = inner.suffixes().collect();
@@ -221,7 +221,7 @@ impl CallCheck<'_> {
         self.problem(name, error);
     }
 
-    /// Remembers what is put into a table that a variable holds, such as `M.lantern = object(...)`.
+    /// Records a value that is stored in a table in a variable, such as `M.lantern = object(...)`.
     pub(super) fn remember(&mut self, variable: &Var, value: Inference) {
         let Var::Expression(inner) = variable else { return };
         let suffixes: Vec<&Suffix> = inner.suffixes().collect();
@@ -241,7 +241,7 @@ impl CallCheck<'_> {
         *known = Inference::Table(Arc::new(entries));
     }
 
-    /// `self:as(lantern)`: the object as a type sees it.
+    /// Infers the result of `self:as(lantern)`, the object as another type.
     pub(super) fn seen_as(&self, given: &[Inference]) -> Inference {
         match given.first() {
             Some(Inference::Constructor(kind)) => Inference::Object(Arc::clone(kind)),

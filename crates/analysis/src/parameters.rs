@@ -1,9 +1,9 @@
-//! The parameters of a text of SQL, `$name`.
+//! Parameters of SQL text, written as `$name`.
 
 use burgeon_base::error::{Error, Result};
 
-/// The names of the parameters in `sql`, each once, in the order in which they come first: `$name` outside of strings,
-/// quoted names and comments. Fails if one has no name.
+/// Returns the names of the parameters in `sql`, each once, in the order of first use: `$name` outside of strings,
+/// quoted names and comments. Fails if a `$` has no name.
 pub fn sql_parameters(sql: &str) -> Result<Vec<&str>> {
     let mut names: Vec<&str> = Vec::new();
     let mut rest = sql;
@@ -19,7 +19,7 @@ pub fn sql_parameters(sql: &str) -> Result<Vec<&str>> {
                 let name = &name[..name.find(|c| !is_word(c)).unwrap_or(name.len())];
                 let quote = &found[..1 + name.len()];
                 if found[quote.len()..].starts_with('$') && !name.starts_with(|c: char| c.is_ascii_digit()) {
-                    // A string as PostgreSQL writes them, $$ ... $$ or $word$ ... $word$.
+                    // PostgreSQL strings have the form $$ ... $$ or $word$ ... $word$.
                     let quote = &found[..quote.len() + 1];
                     quote.len() + closed(&found[quote.len()..], quote)
                 } else if name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_') {
@@ -40,7 +40,7 @@ pub fn sql_parameters(sql: &str) -> Result<Vec<&str>> {
     Ok(names)
 }
 
-/// How far it is to behind `end` in `text`, or to the end of what is never closed.
+/// Returns the length of `text` up to and including `end`, or the whole length if `end` is missing.
 fn closed(text: &str, end: &str) -> usize {
     text.find(end).map_or(text.len(), |at| at + end.len())
 }

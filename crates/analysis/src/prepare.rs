@@ -1,4 +1,4 @@
-//! Prepares rules: writes their returns so that what they make needs no taking apart.
+//! Preparation of rules: rewrites their returns so that the resulting modules need no parsing at run time.
 
 use full_moon::ast::luau::TypeSpecifier;
 use full_moon::ast::punctuated::Punctuated;
@@ -14,13 +14,13 @@ use burgeon_kit::Argument;
 use burgeon_language::CallForm;
 use burgeon_rewriting::Successors;
 
-/// The most parameters that a prepared return can have.
+/// Maximum number of parameters of a prepared return.
 const MOST_EMITTED: usize = 64;
 
-/// Mark of the numbers of shapes.
+/// Marker bit of shape numbers.
 const SHAPE: usize = Successors::SHAPE as usize;
 
-/// What a return makes, as far as its text tells: symbols and brackets, and where the parameters stand.
+/// Result of a return as far as the text shows it: symbols and brackets, and the locations of the parameters.
 #[derive(Default)]
 struct ReturnPattern {
     items: Vec<String>,
@@ -28,14 +28,15 @@ struct ReturnPattern {
 }
 
 enum ReturnArgument {
-    /// From one place to another; open if it may have any number of values, of which one is taken.
+    /// Byte range of an argument. The flag is set if the expression can have any number of values, of which the first
+    /// is used.
     At(usize, usize, bool),
-    /// Left out, before this place.
+    /// Omitted argument, before this byte position.
     Missing(usize),
 }
 
 impl Walk<'_> {
-    /// Walks the arguments of `:rule` or `:interpret`; the functions among them have a role.
+    /// Walks the arguments of `:rule` or `:interpret`; the functions among them get a role.
     pub(super) fn rule(&mut self, arguments: &FunctionArgs, role: FunctionRole) {
         let FunctionArgs::Parentheses { arguments, .. } = arguments else { return self.arguments(arguments) };
         let last = arguments.len().saturating_sub(1);
@@ -79,10 +80,10 @@ impl Walk<'_> {
         self.rule = outer;
     }
 
-    /// Puts the line on which the content of a text successor begins before it.
+    /// Inserts the number of the line on which a string successor begins before the string.
     fn mark_line(&mut self, text: &TokenReference) {
         let Some(begin) = text.start_position() else { return };
-        // Luau leaves out a line break behind the opening bracket.
+        // Luau ignores a line break directly after the opening bracket.
         let left_out = match text.token_type() {
             TokenType::StringLiteral { literal, quote_type: StringLiteralQuoteType::Brackets, .. } => {
                 literal.starts_with(['\n', '\r'])
@@ -93,7 +94,7 @@ impl Walk<'_> {
         self.edit(begin.bytes(), begin.bytes(), format!("\"{}\"..", super::script::marked(line)));
     }
 
-    /// Walks a function of a rule, and lets the script say that it has been seen.
+    /// Walks a function of a rule, and marks it in the text as prepared.
     fn prepared(&mut self, value: &Expression, body: &FunctionBody, role: FunctionRole) {
         if let (Some(begin), Some(end)) = (value.start_position(), end_of(value)) {
             self.edit(begin.bytes(), begin.bytes(), "__prepared(".to_owned());
@@ -103,7 +104,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Walks a function, which has a `self` if it `is_method`; gives the shapes of its returns.
+    /// Walks a function, with a `self` if it `is_method`. Returns the shapes of its returns.
     pub(super) fn function(
         &mut self,
         body: &FunctionBody,
@@ -113,7 +114,7 @@ impl Walk<'_> {
         self.walk_function(body, role, is_method).shapes
     }
 
-    /// Walks a function; gives what was learned of it.
+    /// Walks a function, with a `self` if it `is_method`. Returns the facts about it.
     pub(super) fn walk_function(
         &mut self,
         body: &FunctionBody,
@@ -148,7 +149,7 @@ impl Walk<'_> {
                     variable.receiver = is_first;
                 }
             } else if let (true, Some(function)) = (is_first, self.functions.last_mut()) {
-                // It may look at any of its parameters.
+                // A variadic function can read any of its arguments.
                 function.asks = true;
             }
         }
@@ -160,7 +161,7 @@ impl Walk<'_> {
             *self.pure.entry(begin.line()).or_insert(true) &= function.pure;
             *self.blind.entry(begin.line()).or_insert(true) &= !function.asks;
             if role == FunctionRole::Guard {
-                // A variable from outside is told apart from an earlier one of its name by its number.
+                // The id distinguishes an outer variable from an earlier variable of the same name.
                 let word = |token: String| match self.find(&token) {
                     Some(variable) => format!("{token}#{}", variable.id),
                     None => token,
@@ -224,7 +225,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Whether `value` can be seen to be a module, or a branch of them.
+    /// Returns true if the syntax shows that `value` is a module or a branch of modules.
     fn makes_modules(&self, value: &Expression) -> bool {
         match value {
             Expression::FunctionCall(call) => match (call.prefix(), call.suffixes().count()) {
@@ -239,7 +240,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Writes `return A(x), { B(y) }` as one call with the shape's number and the parameters in order.
+    /// Rewrites `return A(x), { B(y) }` as one call with the shape's number and the parameters in order.
     fn emit(&mut self, begin: usize, end: usize, values: &Punctuated<Expression>, shape: &ReturnPattern) {
         let number = self.globals.shapes.fetch_add(1, Ordering::Relaxed);
         self.edit(begin, begin, format!(" __emit{}({}", shape.arguments.len(), SHAPE + number));
@@ -259,7 +260,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Adds what `value` makes to `shape`; `false` if that cannot be seen from its text.
+    /// Adds the items of `value` to `shape`; `false` if the text does not show them.
     fn shape(&self, value: &Expression, shape: &mut ReturnPattern) -> bool {
         match value {
             Expression::FunctionCall(call) => {
@@ -275,7 +276,8 @@ impl Walk<'_> {
                 else {
                     return false;
                 };
-                // The shape is made outside of the rule's function, where the module must mean the same.
+                // The shape is created outside of the rule's function, so the module name must have the same meaning
+                // there.
                 let inside =
                     self.find(&text_of(name)).is_some_and(|known| known.function + 1 >= self.functions.len());
                 let given = arguments.len();
@@ -311,7 +313,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Takes away everything of a list of items but the arguments.
+    /// Removes everything from a list of items except for the arguments.
     fn blank_items(&mut self, values: &Punctuated<Expression>) {
         for pair in values.pairs() {
             self.blank_item(pair.value());
@@ -364,7 +366,7 @@ impl Walk<'_> {
         }
     }
 }
-/// How a function is called, as it says itself.
+/// Returns the declared signature of a function.
 fn signature(body: &FunctionBody) -> CallForm {
     let luau = |of: Option<&TypeSpecifier>| {
         let text = of.map(|of| of.type_info().to_string());

@@ -1,9 +1,10 @@
-//! Which functions of a script leave nothing behind, so that running them once in one machine is as good as running
-//! them in each.
+//! Detection of functions without side effects, so that one call in one machine has the same effect as a call in each
+//! machine.
 //!
-//! A function is pure if it assigns only its own variables and tables that it made itself, and calls only modules,
-//! constructors, what the library is known to do, and pure functions of the same file. What cannot be told is not
-//! pure. It may draw random numbers: how far it got with them is easily told to other machines.
+//! A function is pure if it assigns only its own variables and tables that it created, and calls only modules,
+//! constructors, library functions known to be pure, and pure functions of the same file. A function is not pure if the
+//! analysis cannot decide this. A pure function may use random numbers, because their state is easily passed to other
+//! machines.
 
 use full_moon::ast::punctuated::Punctuated;
 use full_moon::ast::{Call, Expression, FunctionArgs, FunctionCall, Index, Prefix, Suffix, Var};
@@ -11,20 +12,20 @@ use full_moon::tokenizer::TokenReference;
 
 use super::syntax::text_of;
 use super::walk::Walk;
-use burgeon_language::{Effect, is_pure_function, is_pure_method, library_effect};
+use burgeon_language::{Effect, is_pure_function, library_effect};
 
-/// Whether a script gives tables a behaviour of its own, so that even reading one may leave something behind.
+/// Returns true if a script sets metatables, so that even reading a table may have side effects.
 pub fn has_metatables(text: &str) -> bool {
     text.contains("setmetatable")
 }
 
 impl Walk<'_> {
-    /// The functions from this depth on leave something behind.
+    /// Marks the functions from this nesting depth on as impure.
     pub(super) fn impure_from(&mut self, depth: usize) {
         self.functions.iter_mut().skip(depth).for_each(|function| function.pure = false);
     }
 
-    /// A field of what `prefix` names is assigned.
+    /// Records an assignment to a field of `prefix`.
     pub(super) fn field_assigned(&mut self, prefix: &Prefix) {
         let owner = match prefix {
             Prefix::Name(name) => self.own_table(name),
@@ -33,13 +34,13 @@ impl Walk<'_> {
         self.impure_from(owner.map_or(1, |owner| owner + 1));
     }
 
-    /// The function that made the table that a variable always holds.
+    /// Returns the function that created the table in a variable, if the variable always contains that table.
     fn own_table(&self, name: &TokenReference) -> Option<usize> {
         let variable = self.find(&text_of(name))?;
         (variable.fresh && !self.fact(variable.id).assigned).then_some(variable.function)
     }
 
-    /// Something is called.
+    /// Records a function call.
     pub(super) fn called(&mut self, call: &FunctionCall) {
         let suffixes: Vec<&Suffix> = call.suffixes().collect();
         let Prefix::Name(name) = call.prefix() else { return self.impure_from(1) };
@@ -51,7 +52,7 @@ impl Walk<'_> {
                 self.library_called(&text_of(name), &text_of(field), arguments);
             }
             [fields @ .., Suffix::Call(Call::MethodCall(method))]
-                if is_pure_method(&text_of(method.name()))
+                if self.is_pure_method(&text_of(method.name()))
                     && fields.iter().all(|field| matches!(field, Suffix::Index(_)))
                     && self.find(&text_of(name)).is_some_and(|variable| variable.feature) => {}
             _ => self.impure_from(1),
@@ -73,6 +74,11 @@ impl Walk<'_> {
         }
     }
 
+    /// Returns true if a method of a value of a feature is pure: one of strings, or of objects that never change.
+    fn is_pure_method(&self, name: &str) -> bool {
+        library_effect("string", name) == Effect::Pure || self.globals.value_methods.contains(name)
+    }
+
     fn library_called(&mut self, library: &str, function: &str, arguments: &FunctionArgs) {
         let effect = library_effect(library, function);
         if effect == Effect::Pure {
@@ -88,7 +94,7 @@ impl Walk<'_> {
         }
     }
 
-    /// A loop goes through these, one of which may be a function that it calls.
+    /// Records the expressions of a generic loop, which may contain a function that the loop calls.
     pub(super) fn iterated(&mut self, expressions: &Punctuated<Expression>) {
         let known = |expression: &Expression| match expression {
             Expression::FunctionCall(_) => true,
@@ -112,11 +118,13 @@ impl Walk<'_> {
 mod tests {
     use crate::{Globals, analyse};
 
-    /// Whether the function in the last line but one is pure.
+    /// Returns true if the function in the last line is pure.
     fn pure(script: &str) -> bool {
         let names = ["math", "table", "string", "random", "footprint", "pairs", "source", "param", "pcall"];
         let names = names.map(str::to_owned).to_vec();
-        let globals = Globals { names, kinds: vec!["footprint".to_owned()], ..Globals::default() };
+        let value_methods = std::iter::once("area".to_owned()).collect();
+        let globals =
+            Globals { names, kinds: vec!["footprint".to_owned()], value_methods, ..Globals::default() };
         let analysis = analyse("s.lua", script, |_| Some(Vec::new()), &globals);
         analysis.pure.contains(&script.lines().count())
     }
@@ -129,6 +137,7 @@ mod tests {
             "local t = { 1 } table.insert(t, math.max(f.a, 2)) return table.concat(t)",
             "local h = 3 if f.a then h = 4 end return h",
             "return f.name:lower()",
+            "return f.geometry:area()",
             "return half(f.height)",
             "return random()",
         ] {

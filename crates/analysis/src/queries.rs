@@ -1,5 +1,5 @@
-//! Finds the questions to data that stand in the functions of rules as text, so that a parameter without a value is
-//! found before the rule runs.
+//! Detection of SQL queries in the functions of rules, so that parameters without a value are reported before a rule
+//! runs.
 
 use full_moon::ast::{Call, Expression, Field, FunctionArgs, FunctionCall, Prefix, Suffix};
 use full_moon::node::Node;
@@ -11,16 +11,16 @@ use super::walk::Walk;
 /// A call of `query` in a function of a rule.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct QueryCall {
-    /// Its line.
+    /// Line of the call.
     pub line: usize,
-    /// Its text of SQL, or the name of a table.
+    /// SQL text, or the name of a table.
     pub sql: String,
-    /// The parameters of its text to which the call itself gives no value.
+    /// Parameters of the text for which the call itself passes no value.
     pub open: Vec<String>,
 }
 
 impl Walk<'_> {
-    /// Notes a call of `query` if all that it gives can be seen.
+    /// Records a call of `query` if the syntax shows all its arguments.
     pub(super) fn query_called(&mut self, call: &FunctionCall) {
         let suffixes: Vec<&Suffix> = call.suffixes().collect();
         let (Prefix::Name(name), [Suffix::Call(Call::AnonymousCall(arguments))]) =
@@ -57,7 +57,7 @@ impl Walk<'_> {
     }
 }
 
-/// The names of a table's fields; none if there may be more than can be seen.
+/// Returns the names of a table's fields; `None` if some keys are not names.
 fn names_of(table: &full_moon::ast::TableConstructor) -> Option<Vec<String>> {
     let name = |field: &Field| match field {
         Field::NameKey { key, .. } => Some(text_of(key)),

@@ -1,4 +1,4 @@
-//! Reads a script before it runs.
+//! Entry point of the analysis of a script.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -17,67 +17,69 @@ use burgeon_rewriting::Signature;
 use full_moon::ast::Ast;
 use full_moon::node::Node;
 use full_moon::tokenizer::TokenType;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
-/// Makes bytecode of a text; none where Luau refuses it, which tells why when it is asked to run it.
+/// Function that compiles text to bytecode. Returns `None` if Luau refuses the text; running the text then reports the
+/// error.
 pub type Compile = fn(&str) -> Option<Vec<u8>>;
 
-/// What a script may use without declaring it.
+/// Names that a script can use without declaring them.
 #[derive(Debug, Clone, Default)]
 pub struct Globals {
-    /// The names of values.
+    /// Names of all values.
     pub names: Vec<String>,
-    /// The modules among them.
+    /// Modules among the names, with their signatures.
     pub modules: FxHashMap<String, Signature>,
-    /// The constructors of objects among them.
+    /// Constructors of objects among the names.
     pub kinds: Vec<String>,
-    /// Those that will go.
+    /// Methods of objects that never change, such as geometries.
+    pub value_methods: FxHashSet<String>,
+    /// Deprecated names.
     pub deprecated: Arc<BTreeMap<String, Deprecation>>,
-    /// Counts the shapes of the run's rules.
+    /// Counter for the shapes of the run's rules.
     pub shapes: Arc<AtomicUsize>,
-    /// Whether calls are to be held against what is declared.
+    /// Set if calls are to be checked against the declarations.
     pub checks_calls: bool,
 }
 
-/// What reading a script gives.
+/// Result of the analysis.
 #[derive(Debug, Clone, Default)]
 pub struct Analysis {
-    /// The text to run, with as many lines as the script.
+    /// Text to run, with as many lines as the script.
     pub text: String,
-    /// Its bytecode, if it is a file's and Luau compiles it.
+    /// Bytecode, if the text is a file that Luau compiles.
     pub code: Option<Vec<u8>>,
-    /// What is wrong, by line.
+    /// Errors, sorted by line.
     pub problems: Vec<Error>,
-    /// Whether the script names `random`.
+    /// Set if the script uses the name `random`.
     pub random: bool,
-    /// The lines on which functions begin that leave nothing behind.
+    /// Lines on which pure functions begin.
     pub pure: Vec<usize>,
-    /// The lines on which functions begin that do not look at their first parameter, a rule's `this`.
+    /// Lines on which functions begin that do not read their first parameter, a rule's `this`.
     pub blind: Vec<usize>,
-    /// By the line on which a rule's guard begins: its text without comments and line breaks. Guards of different texts on one
-    /// line are left out.
+    /// Text of a rule's guard without comments and line breaks, by the line on which the guard begins. Lines with
+    /// guards of different texts are omitted.
     pub guards: BTreeMap<usize, String>,
-    /// By the line on which an interpretation begins: where it returns modules.
+    /// Line on which an interpretation returns modules, by the line on which the interpretation begins.
     pub lost: BTreeMap<usize, usize>,
-    /// By the line on which a function of a rule begins: what it asks of data, as far as that can be seen.
+    /// Detected queries of a rule's function, by the line on which the function begins.
     pub queries: BTreeMap<usize, Vec<QueryCall>>,
-    /// The names that will go, and the lines on which they stand.
+    /// Deprecated names that the script uses, with their lines.
     pub deprecated: Vec<(String, usize)>,
-    /// By line: how the function is called that begins there.
+    /// Signature of a function, by the line on which the function begins.
     pub signatures: BTreeMap<usize, CallForm>,
-    /// What stands in it, if its calls are to be checked.
+    /// Syntax tree, if calls are to be checked.
     pub ast: Option<Arc<Ast>>,
-    /// The texts that may name files of packages, and their lines.
+    /// String literals that may name files of packages, with their lines.
     pub packages: Vec<(String, usize)>,
 }
 
-/// What stands before a successor that is given as text: the line on which it begins.
+/// Returns the prefix of a string successor, which contains the line on which the successor begins.
 pub(super) fn marked(line: usize) -> String {
     format!("@{line};")
 }
 
-/// Takes apart a successor that is given as text, before which the analysis has put its line: the line and the text
-/// itself. A text that comes from elsewhere has no line.
+/// Splits a string successor into its line, which the analysis has added, and its text. Other strings have no line.
 pub fn unmarked(text: &str) -> (Option<usize>, &str) {
     let parts = text.strip_prefix('@').and_then(|rest| rest.split_once(';'));
     match parts.and_then(|(line, rest)| Some((line.parse().ok()?, rest))) {
@@ -86,34 +88,34 @@ pub fn unmarked(text: &str) -> (Option<usize>, &str) {
     }
 }
 
-/// The stack (bytes) for reading a script: enough for the deepest nesting that Luau compiles.
+/// Stack size (bytes) for the analysis, enough for the deepest nesting that Luau compiles.
 pub(super) const STACK: usize = 256 << 20;
 
-/// How long reading a script may take. The parser's time doubles with each level of nested strings.
+/// Time limit of the analysis. The parser's time doubles with each level of nested strings.
 const PATIENCE: Duration = Duration::from_secs(30);
 
-/// Reads `text`, the content of `file`. What Luau does not compile is left as it stands, for it to tell.
+/// Analyses `text`, the content of `file`. Text that Luau does not compile is kept as it is, so Luau reports the error.
 pub fn analyse(file: &str, text: &str, compile: Compile, globals: &Globals) -> Analysis {
     ScriptReader::begin(file, text, compile).finish(globals)
 }
 
-/// A script that is being read in a thread of its own, which waits for what the script may use.
+/// A script that is analysed in another thread, which waits for the names that the script can use.
 pub struct ScriptReader {
     file: String,
     text: String,
     globals: Sender<Globals>,
-    /// Nothing comes of a thread that could not be started.
+    /// Channel for the result, which stays empty if the thread could not start.
     analysis: Receiver<Analysis>,
 }
 
 impl ScriptReader {
-    /// Begins to read `text`, the content of `file`.
+    /// Starts the analysis of `text`, the content of `file`.
     pub fn begin(file: &str, text: &str, compile: Compile) -> Self {
         let (sender, analysis) = channel();
         let (globals, known) = channel();
         let (file, text) = (file.to_owned(), text.to_owned());
         let (name, source) = (file.clone(), text.clone());
-        // Whoever asked may have given up.
+        // Sending fails if the receiver has timed out.
         let owner = MemoryOwner::current();
         let read = move || {
             let _charged = owner.enter();
@@ -125,9 +127,9 @@ impl ScriptReader {
         Self { file, text, globals, analysis }
     }
 
-    /// What the script is found to be, given what it may use.
+    /// Returns the analysis, given the names that the script can use.
     pub fn finish(self, globals: &Globals) -> Analysis {
-        // A thread that has ended already needs no globals.
+        // A thread that has already ended needs no globals.
         let _ = self.globals.send(globals.clone());
         self.analysis.recv_timeout(PATIENCE).unwrap_or_else(|_| {
             let error = Error::limit(Limit::Time, format!("reading {} takes too long", self.file))
@@ -137,13 +139,13 @@ impl ScriptReader {
     }
 }
 
-/// The analysis of a script that is not to be run.
+/// Returns the analysis of a script that must not run.
 fn unread(text: &str, problems: Vec<Error>) -> Analysis {
     Analysis { text: text.to_owned(), problems, random: true, ..Analysis::default() }
 }
 
 fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -> Analysis {
-    // Luau bounds the nesting of what it compiles; the parser used here does not, so it comes second.
+    // Luau limits the nesting depth, but the parser does not, so Luau compiles the text first.
     let Some(code) = compile(text) else { return unread(text, Vec::new()) };
     let refuse = |line: usize| {
         let place = SourcePlace { file: file.to_owned(), line };
@@ -155,9 +157,9 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         Ok(ast) => ast,
         Err(errors) => return refuse(errors.first().map_or(1, |error| error.range().0.line())),
     };
-    // Nobody waits for the analysis if none come.
+    // If the sender is gone, the result is not needed.
     let Ok(globals) = &globals.recv() else { return unread(text, Vec::new()) };
-    // The first walk learns which variables are assigned and which functions make no modules; the second uses it.
+    // The first walk collects assigned variables and pure functions; the second walk uses them.
     let mut first = Walk::new(file, globals, Facts::default());
     first.run(&ast);
     let mut second = Walk::new(file, globals, std::mem::take(&mut first.facts));
@@ -176,7 +178,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         deprecated,
         ..
     } = second;
-    // Luau knows functions by the line of their first word, which is then another.
+    // Luau identifies a function by the line of its keyword, which is an earlier line if the bracket begins a line.
     let is_apart =
         |begin: &usize| text[..*begin].rsplit('\n').next().is_some_and(|head| head.trim().is_empty());
     if begins.iter().any(is_apart) {
@@ -185,7 +187,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
     let pure = pure.into_iter().filter_map(|(line, pure)| pure.then_some(line)).collect();
     let blind = blind.into_iter().filter_map(|(line, blind)| blind.then_some(line)).collect();
     problems.sort_by(|a, b| a.place().cmp(&b.place()));
-    // What is put before a token comes before what replaces it.
+    // Text inserted before a token comes before the replacement of the token.
     edits.sort_by_key(|edit| (edit.begin, edit.end > edit.begin, edit.order));
     let mut out = String::with_capacity(text.len() + 64 * edits.len());
     let mut at = 0;
@@ -220,7 +222,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
     }
 }
 
-/// The texts of a script that begin as the names of packages' files do, and their lines.
+/// Returns the string literals that have the form of a package file name, with their lines.
 fn package_names(ast: &Ast) -> Vec<(String, usize)> {
     let texts = ast.nodes().tokens().filter_map(|token| match token.token_type() {
         TokenType::StringLiteral { literal, .. } if FileName::is_meant(literal) => {

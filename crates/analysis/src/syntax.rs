@@ -1,4 +1,4 @@
-//! Small questions about pieces of a script.
+//! Helpers for syntax nodes.
 
 use full_moon::ast::{Block, Call, Expression, FunctionArgs, Prefix, Suffix};
 use full_moon::node::Node;
@@ -7,7 +7,7 @@ use full_moon::tokenizer::TokenReference;
 use burgeon_rewriting::Signature;
 use full_moon::tokenizer::{Position, TokenType};
 
-/// What to write in place of a name of Lua that scripts do not have.
+/// Returns the advice for a name of Lua that scripts do not have.
 pub(super) fn instead_of(name: &str) -> Option<&'static str> {
     Some(match name {
         "io" | "os" | "package" | "dofile" | "loadfile" => {
@@ -25,7 +25,7 @@ pub(super) fn instead_of(name: &str) -> Option<&'static str> {
     })
 }
 
-/// Whether an expression may have any number of values.
+/// Returns true if an expression can have any number of values.
 pub(super) fn is_open(expression: &Expression) -> bool {
     match expression {
         Expression::FunctionCall(_) => true,
@@ -38,8 +38,8 @@ pub(super) fn text_of(token: &TokenReference) -> String {
     token.token().to_string()
 }
 
-/// Where a piece of the script ends. The parser's own answer is the place before a closing bracket; it goes through long
-/// lists quickly from the end only.
+/// Returns the end of a node. The parser's own function returns the position before a closing bracket, and is only fast
+/// from the end of long lists.
 pub(super) fn end_of(piece: &impl Node) -> Option<Position> {
     piece.tokens().rev().filter_map(|token| token.end_position()).max_by_key(|position| position.bytes())
 }
@@ -50,7 +50,7 @@ pub(super) fn first_position(block: &Block, end: &TokenReference) -> Option<usiz
     first.or_else(|| end.start_position()).map(|position| position.bytes())
 }
 
-/// The signature, where `value` is `module("Name", "parameter", ...)`.
+/// Returns the signature if `value` is `module("Name", "parameter", ...)`.
 pub(super) fn declared_module(value: &Expression) -> Option<Signature> {
     let Expression::FunctionCall(call) = value else { return None };
     let suffixes: Vec<&Suffix> = call.suffixes().collect();
@@ -74,7 +74,7 @@ pub(super) fn declared_module(value: &Expression) -> Option<Signature> {
         _ => return None,
     };
     let (name, parameters) = texts.split_first()?;
-    // A module of a package is named with it.
+    // The name of a package's module includes the package.
     let name = name.rsplit('.').next().unwrap_or(name);
     Signature::new(name, parameters).ok()
 }

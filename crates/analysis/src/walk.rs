@@ -1,4 +1,4 @@
-//! Walks a script: variables and their scopes, names, and the checks that need no running.
+//! Walks a script: variables and their scopes, names, and all other static checks.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use burgeon_base::error::{Error, SourcePlace};
 use burgeon_language::CallForm;
 use burgeon_rewriting::Signature;
 
-/// What the first walk learned about the variables, in the order of their declaration.
+/// Facts that the first walk collects about variables, in the order of declaration.
 #[derive(Default)]
 pub(super) struct Facts {
     pub(super) variables: Vec<Fact>,
@@ -25,7 +25,7 @@ pub(super) struct Facts {
 pub(super) struct Fact {
     pub(super) assigned: bool,
     pub(super) assigned_inside: bool,
-    /// Whether it is a function that leaves nothing behind.
+    /// Set for a pure function.
     pub(super) pure: bool,
 }
 
@@ -35,26 +35,26 @@ pub(super) enum FunctionRole {
     Rule,
     Guard,
     Interpretation,
-    /// Of a type of object, for rules and interpretations.
+    /// Read method of an object type, which rules and interpretations can call.
     Reading,
-    /// Of a type of object, for interpretations.
+    /// Write method of an object type, which interpretations can call.
     Changing,
     Other,
 }
 
 pub(super) struct Function {
     pub(super) role: FunctionRole,
-    /// The rule that it belongs to, as errors name it.
+    /// Rule of the function, as errors name it.
     pub(super) rule: Option<String>,
-    /// What its prepared returns make, as Lua tables.
+    /// Shapes of the prepared returns, as Lua tables.
     pub(super) shapes: Vec<String>,
-    /// Whether it has left nothing behind so far.
+    /// Set as long as no side effect was found.
     pub(super) pure: bool,
-    /// Whether it has looked at its first parameter so far.
+    /// Set if the function reads its first parameter.
     pub(super) asks: bool,
-    /// The first of its returns that gives modules, where nobody takes them.
+    /// Line of the first return of modules by an interpretation, which are ignored.
     pub(super) loses: Option<usize>,
-    /// What it asks of data, as far as that can be seen.
+    /// Detected queries.
     pub(super) queries: Vec<QueryCall>,
 }
 
@@ -69,11 +69,11 @@ pub(super) struct Variable {
     pub(super) id: usize,
     pub(super) function: usize,
     pub(super) module: Option<Signature>,
-    /// Whether it begins as a new table.
+    /// Set if the initial value is a new table.
     pub(super) fresh: bool,
-    /// Whether it is what the function of an axiom is given.
+    /// Set for the argument of an axiom's function.
     pub(super) feature: bool,
-    /// Whether it is the first parameter of its function.
+    /// Set for the first parameter of its function.
     pub(super) receiver: bool,
 }
 
@@ -94,25 +94,25 @@ pub(super) struct Walk<'a> {
     pub(super) edits: Vec<TextEdit>,
     pub(super) problems: Vec<Error>,
     pub(super) random: bool,
-    /// The rule whose functions are being walked.
+    /// Rule whose functions are being walked.
     pub(super) rule: Option<String>,
-    /// Whether the next function is that of an axiom.
+    /// Set if the next function belongs to an axiom.
     pub(super) axiom: bool,
-    /// By line: whether all functions that begin there leave nothing behind.
+    /// Purity of all functions that begin on a line, by line.
     pub(super) pure: BTreeMap<usize, bool>,
-    /// By line: whether no function that begins there looks at its first parameter.
+    /// Entry by line: true if no function that begins on the line reads its first parameter.
     pub(super) blind: BTreeMap<usize, bool>,
-    /// By line: the text of the guard that begins there, if that is one only.
+    /// Text of the guard that begins on a line, by line; `None` if guards on the line differ.
     pub(super) guards: BTreeMap<usize, Option<String>>,
-    /// By line: where an interpretation that begins there returns modules.
+    /// Line on which an interpretation returns modules, by the line on which it begins.
     pub(super) lost: BTreeMap<usize, usize>,
-    /// By line: how the function is called that begins there, if that is one only.
+    /// Signature of the function that begins on a line, by line; `None` if signatures on the line differ.
     pub(super) signatures: BTreeMap<usize, Option<CallForm>>,
-    /// By the line on which a function of a rule begins: what it asks of data.
+    /// Queries of a rule's function, by the line on which the function begins.
     pub(super) queries: BTreeMap<usize, Vec<QueryCall>>,
-    /// Where the parameters of functions begin.
+    /// Byte positions of the parameter lists of functions.
     pub(super) begins: Vec<usize>,
-    /// The names that will go, and their lines.
+    /// Deprecated names that are used, with their lines.
     pub(super) deprecated: Vec<(String, usize)>,
 }
 
@@ -249,7 +249,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Puts a variable into scope. `behind` is where a statement may follow its declaration.
+    /// Adds a variable to the scope. `behind` is the position where a statement can follow its declaration.
     pub(super) fn declare(&mut self, name: &TokenReference, behind: Option<usize>) -> usize {
         let id = self.facts.variables.len();
         self.facts.variables.push(Fact::default());
@@ -384,7 +384,7 @@ impl<'a> Walk<'a> {
         self.problem(token, error);
     }
 
-    /// The signature of the module whose constructor `name` is.
+    /// Returns the signature of the module whose constructor is called `name`.
     pub(super) fn module(&self, name: &TokenReference) -> Option<Signature> {
         let text = text_of(name);
         match self.find(&text) {

@@ -1,15 +1,16 @@
-//! Memory accounts: the memory that each run holds, counted where memory is allocated and freed.
+//! Memory accounts: the memory in use by each run, counted at each allocation and free.
 //!
-//! A run has one [`MemoryAccount`] for everything it keeps, so no store needs code of its own to be limited. The program's
-//! allocator, [`CountingAllocator`], reports each allocation and each free here, and the thread's current account is charged
-//! or credited. A thread charges the account of the run whose [`Stop`](crate::Stop) it works for; tasks on other threads enter
-//! the account with [`MemoryOwner`].
+//! A run has one [`MemoryAccount`] for all its data, so data structures need no code to enforce the limit. The
+//! program's allocator, [`CountingAllocator`], reports each allocation and each free here, and the thread's current
+//! account is charged or credited. A thread charges the account of the run whose [`Stop`](crate::Stop) it works for.
+//! Tasks on other threads enter the account with [`MemoryOwner`].
 //!
-//! An account over its limit does not fail an allocation, since most Rust code cannot go on without it. It is marked as
-//! exceeded, and the run's `Stop` reports this as an error: all long work polls it, and scripts are interrupted.
+//! An account that exceeds its limit does not make an allocation fail, because most Rust code cannot handle that. The
+//! account is marked as exceeded, and the run's `Stop` reports an error: all long work polls it, and scripts are
+//! interrupted.
 //!
-//! A host program without this allocator has no such accounts: then the limit holds for each virtual machine and for the
-//! readers of files only.
+//! A host program without this allocator has no accounts. The limit then applies only to each virtual machine and to
+//! file readers.
 
 use std::alloc::{GlobalAlloc, Layout};
 use std::cell::Cell;
@@ -17,21 +18,21 @@ use std::sync::atomic::{AtomicBool, AtomicIsize, AtomicU16, Ordering};
 
 use crate::error::{Error, Limit, Result};
 
-/// Accounts that can be open at the same time; slot 0 is nobody's and has no limit.
+/// Maximum number of open accounts plus one. Slot 0 belongs to no run and has no limit.
 const SLOTS: usize = 512;
-/// Bytes that a thread counts by itself before it charges them, so that threads do not compete for the counter.
+/// Number of bytes that a thread counts locally before it charges them, to avoid contention on the counter.
 const PENDING: isize = 64 << 10;
 
 static TABLE: [AccountSlot; SLOTS] = [const { AccountSlot::new() }; SLOTS];
-/// The slot for threads that work for no run.
+/// Slot for threads that work for no run.
 static ADOPTED: AtomicU16 = AtomicU16::new(0);
 
 thread_local! {
-    // Without a destructor, so that an allocator may use it at any time.
+    // The count has no destructor, so the allocator can use it at any time.
     static THREAD: ThreadCount = const { ThreadCount { slot: Cell::new(0), pending: Cell::new(0) } };
 }
 
-/// One account. Each has a cache line of its own.
+/// Slot of an account, on its own cache line.
 #[repr(align(64))]
 struct AccountSlot {
     used: AtomicIsize,
@@ -40,9 +41,9 @@ struct AccountSlot {
     open: AtomicBool,
 }
 
-/// The count of a thread.
+/// Allocation count of a thread.
 struct ThreadCount {
-    /// The account that the thread works for; 0 for none.
+    /// Slot of the account that the thread works for; 0 for none.
     slot: Cell<u16>,
     /// Bytes that are not charged yet.
     pending: Cell<isize>,
@@ -67,7 +68,7 @@ impl AccountSlot {
 }
 
 impl ThreadCount {
-    /// Charges everything that is pending.
+    /// Charges all pending bytes.
     fn settle(&self) {
         MemoryOwner { slot: self.slot.get() }.entry().add(self.pending.replace(0));
     }
@@ -76,7 +77,7 @@ impl ThreadCount {
 /// Counts bytes that this thread has allocated, or freed if the number is negative.
 #[inline]
 fn count(bytes: isize) {
-    // A thread that is ending counts no more.
+    // A thread that is exiting is not counted.
     let _ = THREAD.try_with(|thread| {
         let pending = thread.pending.get() + bytes;
         thread.pending.set(pending);
@@ -86,7 +87,7 @@ fn count(bytes: isize) {
     });
 }
 
-/// The memory of one run.
+/// Memory account of one run.
 #[derive(Debug)]
 pub struct MemoryAccount {
     slot: u16,
@@ -94,7 +95,7 @@ pub struct MemoryAccount {
 }
 
 impl MemoryAccount {
-    /// Opens an account for at most `limit` (bytes). If too many are open at the same time it counts nothing.
+    /// Opens an account with a limit (bytes). If too many accounts are open, it counts nothing.
     pub fn new(limit: usize) -> Self {
         let free = |slot: &&u16| {
             let open = &TABLE[usize::from(**slot)].open;
@@ -110,39 +111,40 @@ impl MemoryAccount {
         Self { slot, limit }
     }
 
-    /// Charges this account for all threads that work for no run, until it is closed. For programs that run one script.
+    /// Charges this account for all threads that work for no run, until the account is closed. For programs that run
+    /// one script.
     pub fn adopt_threads(&self) {
         ADOPTED.store(self.slot, Ordering::Relaxed);
     }
 
-    /// The account as an owner of what threads allocate.
+    /// Returns the account as an owner to charge for allocations.
     pub fn owner(&self) -> MemoryOwner {
         MemoryOwner { slot: self.slot }
     }
 
-    /// Checks if it has ever gone over its limit.
+    /// Returns true if the account has ever exceeded its limit.
     #[inline]
     pub fn is_exceeded(&self) -> bool {
         TABLE[usize::from(self.slot)].exceeded.load(Ordering::Relaxed)
     }
 
-    /// Memory (bytes) that may still be allocated.
+    /// Returns the memory (bytes) that may still be allocated.
     pub fn remaining(&self) -> usize {
         self.owner().remaining()
     }
 
-    /// Checks if more than half of the limit is used.
+    /// Returns true if more than half of the limit is used.
     pub fn is_half_full(&self) -> bool {
         self.remaining() < self.limit / 2
     }
 
-    /// The error of a run that exceeds the limit.
+    /// Returns the error for a run that exceeds the limit.
     pub fn error(&self) -> Error {
         too_much(self.limit)
     }
 }
 
-/// The error of a run that needs more than `limit` (bytes).
+/// Returns the error for a run that needs more than `limit` (bytes).
 fn too_much(limit: usize) -> Error {
     Error::limit(Limit::Memory, format!("the run needs more than {} MB of memory", limit / 1_000_000))
         .help("look for a table, a string or notes that grow, or raise the limit: --memory-limit MEGABYTES")
@@ -160,34 +162,34 @@ impl Drop for MemoryAccount {
     }
 }
 
-/// The account that a thread charges at present, to be taken to the threads of a pool.
+/// Account that a thread currently charges, which can be passed to other threads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MemoryOwner {
     slot: u16,
 }
 
 impl MemoryOwner {
-    /// The owner of what threads allocate that work for no run.
+    /// Owner of allocations by threads that work for no run.
     pub const NOBODY: Self = Self { slot: 0 };
 
-    /// The owner of what this thread allocates.
+    /// Returns the owner that this thread charges.
     pub fn current() -> Self {
         Self { slot: THREAD.try_with(|thread| thread.slot.get()).unwrap_or(0) }
     }
 
-    /// Charges this owner for what `work` allocates in this thread.
+    /// Charges this owner for the allocations of `work` in this thread.
     pub fn charge<T>(self, work: impl FnOnce() -> T) -> T {
         let _entered = self.enter();
         work()
     }
 
-    /// Charges this owner for what this thread allocates until the result is dropped.
+    /// Charges this owner for the allocations of this thread until the returned guard is dropped.
     #[must_use]
     pub fn enter(self) -> OwnerGuard {
         OwnerGuard { before: switch(self) }
     }
 
-    /// Checks if `bytes` more may be allocated, and otherwise marks the account as exceeded.
+    /// Returns true if `bytes` more may be allocated, and otherwise marks the account as exceeded.
     pub fn demand(self, bytes: usize) -> bool {
         let has_room = bytes <= self.remaining();
         if !has_room {
@@ -196,8 +198,8 @@ impl MemoryOwner {
         has_room
     }
 
-    /// Fails, and ends the run for which this thread allocates, if the run may not use `bytes` more. For those who are about to
-    /// allocate what a script or a file decides in one piece.
+    /// Fails and ends the current thread's run if the run may not use `bytes` more. Call it before a single allocation
+    /// whose size a script or a file determines.
     pub fn ensure_room(bytes: usize) -> Result<()> {
         let owner = Self::current();
         if owner.demand(bytes) {
@@ -211,7 +213,7 @@ impl MemoryOwner {
         &TABLE[usize::from(slot)]
     }
 
-    /// Memory (bytes) that may still be allocated; a great number without a limit.
+    /// Returns the memory (bytes) that may still be allocated; a very large number if there is no limit.
     pub fn remaining(self) -> usize {
         let entry = self.entry();
         let limit = entry.limit.load(Ordering::Relaxed);
@@ -219,7 +221,7 @@ impl MemoryOwner {
     }
 }
 
-/// Charges an owner in this thread until it is dropped.
+/// Guard that charges an owner in this thread until it is dropped.
 #[derive(Debug)]
 pub struct OwnerGuard {
     before: MemoryOwner,
@@ -231,7 +233,7 @@ impl Drop for OwnerGuard {
     }
 }
 
-/// Charges `owner` from now on in this thread. Returns the one before.
+/// Charges `owner` in this thread from now on. Returns the previous owner.
 pub(crate) fn switch(owner: MemoryOwner) -> MemoryOwner {
     let before = THREAD.try_with(|thread| {
         if thread.slot.get() != owner.slot {
@@ -242,7 +244,7 @@ pub(crate) fn switch(owner: MemoryOwner) -> MemoryOwner {
     MemoryOwner { slot: before.unwrap_or(0) }
 }
 
-/// An allocator that counts the memory of runs.
+/// Allocator that counts the memory of runs.
 ///
 /// ```
 /// use burgeon_base::account::CountingAllocator;
@@ -253,7 +255,7 @@ pub(crate) fn switch(owner: MemoryOwner) -> MemoryOwner {
 #[derive(Debug)]
 pub struct CountingAllocator<A>(pub A);
 
-/// A size as a signed number: a layout's fits.
+/// Converts a size to a signed number. The size of a layout always fits.
 #[inline]
 #[allow(clippy::cast_possible_wrap, reason = "a layout has at most isize::MAX bytes")]
 fn signed(size: usize) -> isize {
@@ -261,11 +263,11 @@ fn signed(size: usize) -> isize {
 }
 
 #[allow(unsafe_code, reason = "an allocator is made of another one")]
-// SAFETY: everything is handed on to an allocator that keeps the contract; counting allocates nothing and does not unwind.
+// SAFETY: all calls are forwarded to an allocator that fulfils the contract; counting neither allocates nor unwinds.
 unsafe impl<A: GlobalAlloc> GlobalAlloc for CountingAllocator<A> {
     #[inline]
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        // SAFETY: as the caller promises.
+        // SAFETY: guaranteed by the caller.
         let at = unsafe { self.0.alloc(layout) };
         if !at.is_null() {
             count(signed(layout.size()));
@@ -275,7 +277,7 @@ unsafe impl<A: GlobalAlloc> GlobalAlloc for CountingAllocator<A> {
 
     #[inline]
     unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
-        // SAFETY: as the caller promises.
+        // SAFETY: guaranteed by the caller.
         let at = unsafe { self.0.alloc_zeroed(layout) };
         if !at.is_null() {
             count(signed(layout.size()));
@@ -285,14 +287,14 @@ unsafe impl<A: GlobalAlloc> GlobalAlloc for CountingAllocator<A> {
 
     #[inline]
     unsafe fn dealloc(&self, at: *mut u8, layout: Layout) {
-        // SAFETY: as the caller promises.
+        // SAFETY: guaranteed by the caller.
         unsafe { self.0.dealloc(at, layout) }
         count(-signed(layout.size()));
     }
 
     #[inline]
     unsafe fn realloc(&self, at: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        // SAFETY: as the caller promises.
+        // SAFETY: guaranteed by the caller.
         let new = unsafe { self.0.realloc(at, layout, size) };
         if !new.is_null() {
             count(signed(size) - signed(layout.size()));

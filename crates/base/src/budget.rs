@@ -1,4 +1,4 @@
-//! What reading foreign bytes may take: time until someone stops it, and memory that is asked for before it is taken.
+//! Budgets for reading untrusted data: time until cancellation, and memory that is requested before it is allocated.
 
 use std::any::{Any, TypeId};
 use std::collections::BTreeMap;
@@ -10,32 +10,32 @@ use std::time::{Duration, Instant};
 use crate::error::{Error, Limit, Result};
 use crate::locks::LockRecovery;
 
-/// How many small pieces of work lie between two looks at the clock.
+/// Number of small work items between two time checks.
 const PIECES: usize = 1024;
 
-/// Tells whether to go on.
+/// Function that fails if the work must end.
 type BudgetCheck = dyn Fn() -> Result<()> + Send + Sync;
 
-/// What may be used to read files, by all that are read for one run.
+/// Budget for all files that are read for one run.
 ///
-/// Readers ask [`check`](Self::check) now and then, and [`take`](Self::take) memory before they allocate what the
-/// content of a file decides. What is counted is an estimate, to within a factor of two.
+/// Readers call [`check`](Self::check) regularly, and [`take`](Self::take) before allocations whose size the content of
+/// a file determines. The count is an estimate, accurate to a factor of two.
 pub struct Budget {
     check: Option<Box<BudgetCheck>>,
-    /// The most memory (bytes), and what is taken of it.
+    /// Memory limit (bytes), and the part of it that is in use.
     most: usize,
     taken: AtomicUsize,
-    /// Whether more was asked for than there is.
+    /// Set if a request exceeded the limit.
     spent: AtomicBool,
     pieces: AtomicUsize,
-    /// What readers share, by its type.
+    /// Values that readers share, by type.
     shared: Mutex<BTreeMap<TypeId, Arc<dyn Any + Send + Sync>>>,
-    /// The memory (bytes) that what is shared takes.
+    /// Memory (bytes) that shared values use.
     reserved: AtomicUsize,
 }
 
 impl Default for Budget {
-    /// As much as there is.
+    /// Creates an unlimited budget.
     fn default() -> Self {
         Self {
             check: None,
@@ -56,12 +56,12 @@ impl fmt::Debug for Budget {
 }
 
 impl Budget {
-    /// At most `memory` (bytes), for as long as `check` does not fail.
+    /// Creates a budget of `memory` (bytes) that ends when `check` fails.
     pub fn new(memory: usize, check: impl Fn() -> Result<()> + Send + Sync + 'static) -> Arc<Self> {
         Arc::new(Self { check: Some(Box::new(check)), most: memory, ..Self::default() })
     }
 
-    /// At most `memory` (bytes), for `time` from now on.
+    /// Creates a budget of `memory` (bytes) that ends after `time` from now.
     pub fn within(time: Duration, memory: usize) -> Arc<Self> {
         let begin = Instant::now();
         Self::new(memory, move || {
@@ -73,12 +73,12 @@ impl Budget {
         })
     }
 
-    /// The most memory (bytes).
+    /// Returns the memory limit (bytes).
     pub fn memory(&self) -> usize {
         self.most
     }
 
-    /// Fails if the work is to end: as its time is over, or memory was asked for that there is not.
+    /// Fails if the work must end, because `check` of [`Budget::new`] fails or a request has exceeded the memory limit.
     pub fn check(&self) -> Result<()> {
         if self.spent.load(Ordering::Relaxed) {
             return Err(self.too_much());
@@ -86,13 +86,13 @@ impl Budget {
         self.check.as_ref().map_or(Ok(()), |check| check())
     }
 
-    /// As [`check`](Self::check), at the cost of a counter, for small pieces of work.
+    /// Counts a small work item, and calls [`check`](Self::check) once for many items.
     #[inline]
     pub fn tick(&self) -> Result<()> {
         if self.pieces.fetch_add(1, Ordering::Relaxed).is_multiple_of(PIECES) { self.check() } else { Ok(()) }
     }
 
-    /// Takes memory (bytes) that will be kept. Fails if there is not as much left.
+    /// Takes memory (bytes) from the budget until [`give`](Self::give). Fails if too little is left.
     pub fn take(&self, bytes: usize) -> Result<()> {
         let taken = self.taken.fetch_add(bytes, Ordering::Relaxed);
         let reserved = self.reserved.load(Ordering::Relaxed);
@@ -113,45 +113,47 @@ impl Budget {
             .help("read a part, or raise the limit: --memory-limit MEGABYTES")
     }
 
-    /// Gives memory (bytes) back that was taken.
+    /// Returns taken memory (bytes) to the budget.
     pub fn give(&self, bytes: usize) {
         self.taken.fetch_sub(bytes, Ordering::Relaxed);
     }
 
-    /// Takes memory (bytes) until the result is dropped.
+    /// Takes memory (bytes) until the result is dropped. Fails if too little is left.
     pub fn hold(&self, bytes: usize) -> Result<MemoryReservation<'_>> {
         self.take(bytes)?;
         Ok(MemoryReservation { budget: self, bytes })
     }
 
-    /// Takes memory (bytes) for as long as the budget lasts, whatever readers give back. Fails if there is not as much left.
+    /// Takes memory (bytes) for the lifetime of the budget, regardless of the memory that readers return. Fails if too
+    /// little is left.
     pub fn reserve(&self, bytes: usize) -> Result<()> {
         drop(self.hold(bytes)?);
         self.reserved.fetch_add(bytes, Ordering::Relaxed);
         Ok(())
     }
 
-    /// Returns the value of type `T` that all readers of this budget share, which is made when first asked for.
+    /// Returns the value of type `T` that all readers of this budget share. The first call creates it.
     pub fn share<T: Any + Send + Sync + Default>(&self) -> Arc<T> {
         let mut shared = self.shared.lock().recover();
         let known = shared.entry(TypeId::of::<T>()).or_insert_with(|| Arc::new(T::default()));
-        // The type is the key.
+        // The key is the type, so the downcast succeeds.
         Arc::clone(known).downcast().unwrap_or_default()
     }
 
-    /// What is taken so far (bytes).
+    /// Returns the memory in use (bytes).
     pub fn taken(&self) -> usize {
         self.taken.load(Ordering::Relaxed)
     }
 
-    /// Gives back all but `bytes` of what was taken since [`taken`](Self::taken) told `before`, by one reader alone.
+    /// Reduces the memory taken by one reader to `bytes`. `before` is the result of [`taken`](Self::taken) before the
+    /// reader began; no other reader may run in between.
     pub fn settle(&self, before: usize, bytes: usize) {
         self.taken.store(before.saturating_add(bytes), Ordering::Relaxed);
         self.spent.store(false, Ordering::Relaxed);
     }
 }
 
-/// Memory that is given back when this is dropped.
+/// Reserved memory, which is returned to the budget on drop.
 #[derive(Debug)]
 pub struct MemoryReservation<'a> {
     budget: &'a Budget,

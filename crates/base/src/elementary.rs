@@ -1,21 +1,23 @@
-//! C's elementary functions for the whole program: sine, exponential, power and the like, the same on every platform.
+//! C's elementary functions for the whole program, such as sine, exponential and power, with equal results on every
+//! platform.
 //!
-//! IEEE 754 fixes the result of `+`, `-`, `*`, `/`, the square root and the remainder, but not of these. The C libraries differ
-//! in the last bit, and glibc chooses by processor. The crate [`libm`] computes with the fixed operations only.
+//! IEEE 754 fixes the results of `+`, `-`, `*`, `/`, the square root and the remainder, but not of these functions. The
+//! C libraries differ in the last bit, and glibc selects an implementation by processor. The crate [`libm`] uses only
+//! the fixed operations.
 //!
-//! The functions have C's names, so the linker prefers them to those of the system's library, for Rust's `f64::sin` as for
-//! Luau, SQLite and all crates. `libm` calls none of them. The compiler may still compute a call with a constant argument
-//! itself, with the functions of the computer that it runs on.
+//! The functions have C's names, so the linker prefers them to the system library. This applies to Rust's `f64::sin`,
+//! to Luau, to SQLite and to all crates. `libm` itself calls none of them. The compiler may still evaluate a call with
+//! a constant argument, with the functions of the computer that it runs on.
 #![allow(
     unsafe_code,
     reason = "the linker finds a function by its name only if the name is exported as it is"
 )]
 
-/// Defines functions of C as those of `libm`.
+/// Defines C functions by functions of `libm`.
 macro_rules! define {
     ($($name:ident($($argument:ident),+): $number:ty;)+) => {$(
         #[doc = concat!("C's `", stringify!($name), "`.")]
-        // SAFETY: it has the name, the arguments and the result of the function of C, and the meaning.
+        // SAFETY: the name, arguments, result and meaning are those of the C function.
         #[unsafe(no_mangle)]
         pub extern "C" fn $name($($argument: $number),+) -> $number {
             libm::$name($($argument),+)
@@ -74,20 +76,20 @@ define! {
     tanhf(x): f32;
 }
 
-/// Defines a function that gives a sine and a cosine, which compilers call where a program asks for both.
+/// Defines a function that computes sine and cosine together. Compilers call it if a program needs both.
 macro_rules! define_pair {
     ($($name:ident: $number:ty, $of:path;)+) => {$(
         #[doc = concat!("The `", stringify!($name), "` of glibc and others.")]
         ///
         /// # Safety
         ///
-        /// Both places may be written to.
+        /// Both pointers must be valid for writes.
         #[cfg(not(target_vendor = "apple"))]
-        // SAFETY: it has the name, the arguments and the meaning of the function of C.
+        // SAFETY: the name, arguments and meaning are those of the C function.
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $name(x: $number, sine: *mut $number, cosine: *mut $number) {
             let (of_sine, of_cosine) = $of(x);
-            // SAFETY: as the caller promises.
+            // SAFETY: guaranteed by the caller.
             unsafe {
                 sine.write(of_sine);
                 cosine.write(of_cosine);
@@ -101,20 +103,20 @@ define_pair! {
     sincosf: f32, libm::sincosf;
 }
 
-/// A sine and a cosine, as Apple's compilers want them.
+/// Sine and cosine in the layout of Apple's compilers.
 #[cfg(target_vendor = "apple")]
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct SineCosine {
-    /// The sine.
+    /// Sine.
     pub sine: f64,
-    /// The cosine.
+    /// Cosine.
     pub cosine: f64,
 }
 
-/// Apple's sine and cosine at once.
+/// Computes sine and cosine together, for Apple's compilers.
 #[cfg(target_vendor = "apple")]
-// SAFETY: it has the name, the arguments and the result of the function of Apple's library.
+// SAFETY: the name, arguments and result are those of the function in Apple's library.
 #[unsafe(no_mangle)]
 pub extern "C" fn __sincos_stret(x: f64) -> SineCosine {
     let (sine, cosine) = libm::sincos(x);

@@ -1,4 +1,4 @@
-//! Opens what a script or a command names: files, and nothing that could keep a reader waiting.
+//! Opening of files that a script or a command names. Refuses everything that can block a reader.
 
 use std::fs::{File, Metadata};
 use std::io::{Error, ErrorKind, Read, Result};
@@ -7,18 +7,18 @@ use std::sync::RwLock;
 
 use crate::locks::LockRecovery;
 
-/// The files that databases of this process have locked, by [`identity`], once for each lock.
+/// Identities of the files that databases of this process have locked, see [`identity`], one entry per lock.
 static LOCKED: RwLock<Vec<u64>> = RwLock::new(Vec::new());
 
-/// A file that a database of this process has locked, until this is dropped.
+/// Mark for a file that a database of this process has locked, until it is dropped.
 ///
-/// On Unix a process loses its locks on a file when it closes any handle of it, so nothing else of the process may open
-/// the file meanwhile. [`read_unlocked`] and [`is_locked`] ask for that.
+/// On Unix a process loses its locks on a file when it closes any handle of the file. No other code of the process may
+/// therefore open the file while it is locked; [`read_unlocked`] and [`is_locked`] check this.
 #[derive(Debug)]
 pub struct FileLock(u64);
 
 impl FileLock {
-    /// Announces that a database is about to lock the file at `path`. Waits for readers of the file.
+    /// Marks the file at `path` before a database locks it. Waits for readers of the file.
     pub fn announce(path: &Path) -> Result<Self> {
         let identity = identity(&path.metadata()?);
         LOCKED.write().recover().push(identity);
@@ -40,8 +40,8 @@ pub fn is_locked(meta: &Metadata) -> bool {
     cfg!(unix) && LOCKED.read().recover().contains(&identity(meta))
 }
 
-/// Returns what `read` makes of the file at `path`, or `None` if a database of this process has locked the file. No
-/// database locks it meanwhile.
+/// Opens the file at `path` and returns the result of `read`, or `None` if a database of this process has locked the
+/// file. No database can lock the file during the call.
 pub fn read_unlocked<T>(path: &Path, read: impl FnOnce(File, Metadata) -> Result<T>) -> Result<Option<T>> {
     let locked = LOCKED.read().recover();
     if cfg!(unix) && locked.contains(&identity(&path.metadata()?)) {
@@ -53,32 +53,33 @@ pub fn read_unlocked<T>(path: &Path, read: impl FnOnce(File, Metadata) -> Result
     read
 }
 
-/// Returns a number that tells a file or folder from one that gets its name later, where the system numbers them.
+/// Returns a number that distinguishes a file or folder from a later one with the same name, from the inode and the
+/// device.
 #[cfg(unix)]
 pub fn identity(metadata: &Metadata) -> u64 {
     use std::os::unix::fs::MetadataExt;
     metadata.ino() ^ metadata.dev().rotate_left(48)
 }
 
-/// Returns a number that tells a file or folder from one that gets its name later, by the time it was made.
+/// Returns a number that distinguishes a file or folder from a later one with the same name, from the time of creation.
 #[cfg(not(unix))]
 pub fn identity(metadata: &Metadata) -> u64 {
     let made = metadata.created().ok().and_then(|made| made.duration_since(std::time::UNIX_EPOCH).ok());
     made.map_or(0, |made| made.as_secs() ^ u64::from(made.subsec_nanos()).rotate_left(32))
 }
 
-/// Opens the file at `path` for reading. A pipe, a socket or a device is refused before anything is read from it, and
-/// so is a folder.
+/// Opens the file at `path` for reading. Fails for folders, and for pipes, sockets and devices before anything is read
+/// from them.
 pub fn open(path: &Path) -> Result<(File, Metadata)> {
     check(&path.metadata()?)?;
     let file = open_at_once(path)?;
-    // Something else may have taken its place.
+    // The file may have been replaced since the first check.
     let meta = file.metadata()?;
     check(&meta)?;
     Ok((file, meta))
 }
 
-/// The whole file at `path`. Fails if it has more than `most` bytes.
+/// Reads the whole file at `path`. Fails if it has more than `most` bytes.
 pub fn read(path: &Path, most: u64) -> Result<Vec<u8>> {
     let (file, meta) = open(path)?;
     let too_large = || Error::new(ErrorKind::FileTooLarge, format!("it has more than {most} bytes"));
@@ -86,12 +87,12 @@ pub fn read(path: &Path, most: u64) -> Result<Vec<u8>> {
         return Err(too_large());
     }
     let mut bytes = Vec::with_capacity(usize::try_from(meta.len()).unwrap_or(0));
-    // It may grow while it is read.
+    // The file may grow while it is read.
     file.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most { Err(too_large()) } else { Ok(bytes) }
 }
 
-/// Fails unless `meta` is that of a file.
+/// Fails if `meta` does not belong to a regular file.
 fn check(meta: &Metadata) -> Result<()> {
     if meta.is_file() {
         return Ok(());
@@ -105,7 +106,7 @@ fn check(meta: &Metadata) -> Result<()> {
 #[cfg(unix)]
 fn open_at_once(path: &Path) -> Result<File> {
     use std::os::unix::fs::OpenOptionsExt;
-    // A pipe that nobody writes to is opened at once, too.
+    // Opening a pipe without a writer must not block.
     File::options().read(true).custom_flags(libc::O_NONBLOCK).open(path)
 }
 

@@ -1,8 +1,7 @@
-//! What all of Burgeon stands on: errors and warnings, limits on foreign input, and files.
+//! Foundation of all crates: errors and warnings, limits on untrusted input, and files.
 //!
-//! Input: nothing of Burgeon. Output: an [`Error`] with its place, rule and remedy, a [`Warning`] that a run
-//! collects, a [`Budget`] for whoever reads foreign bytes, and a [`Stop`] that ends work nobody waits for. It never
-//! prints.
+//! Input: none of Burgeon's types. Output: an [`Error`] with its location, rule and remedy, a [`Warning`] that a run
+//! collects, a [`Budget`] for readers of untrusted data, and a [`Stop`] that cancels work. The crate never prints.
 
 pub mod account;
 pub mod budget;

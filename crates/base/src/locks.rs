@@ -1,11 +1,11 @@
-//! Locks of which a holder has panicked.
+//! Recovery of poisoned locks.
 
 use std::sync::{LockResult, PoisonError};
 
-/// What comes of asking for a lock, whether or not a thread has panicked that held it.
+/// Result of a lock request, to be used even if a thread panicked while it held the lock.
 ///
-/// Nothing here is half changed when something panics while it holds a lock, or else it is begun anew by the next holder.
-/// So a poisoned lock is as good as any other, and the panic is told where it happened.
+/// No code in Burgeon leaves data half changed if it panics while it holds a lock, or the next holder resets the data.
+/// A poisoned lock can therefore be used like any other, and the panic is reported where it occurred.
 ///
 /// ```
 /// use burgeon_base::locks::LockRecovery;
@@ -24,10 +24,10 @@ use std::sync::{LockResult, PoisonError};
 /// assert_eq!(*count.lock().recover(), 2);
 /// ```
 pub trait LockRecovery {
-    /// What the lock gives.
+    /// Guard of the lock.
     type Guard;
 
-    /// What the lock gives, poisoned or not.
+    /// Returns the guard, even if the lock is poisoned.
     fn recover(self) -> Self::Guard;
 }
 

@@ -1,28 +1,29 @@
-//! Memory for arrays of many megabytes: fresh pages cost more than what is written to them.
+//! Memory for arrays of many megabytes, for which fresh pages cost more time than the writes to them.
 
 use crate::account::MemoryOwner;
 
-/// Arrays from this size (bytes) on are given huge pages where they grow.
+/// Minimum size (bytes) of growing arrays that get huge pages.
 const LARGE: usize = 2 << 20;
-/// Those that take no more than they need are from this size (bytes) on, of which a part of a huge page is not much.
+/// Minimum size (bytes) of arrays with exact capacity that get huge pages. The unused part of a huge page is small in
+/// comparison.
 const LARGE_AND_EXACT: usize = 16 << 20;
-/// Arrays from this size (bytes) on are taken from the system itself by the program's allocator, as by most: they grow without
-/// being copied.
+/// Size (bytes) from which the program's allocator, like most, maps arrays directly from the system. Mapped arrays grow
+/// without being copied.
 pub const MAPPED: usize = 16 << 20;
-/// Memory (bytes) that a run must still be allowed to use for arrays to reserve much more than they hold.
+/// Memory (bytes) that a run must have left so that arrays reserve much more than they contain.
 const PLENTY: usize = 1 << 30;
-/// What a large array reserves at least (bytes) where it grows, so that it is copied once and mapped from then on: more than
-/// glibc ever takes from its heap.
+/// Minimum capacity (bytes) of a large array that grows, so that it is copied once and mapped from then on. Larger than
+/// any allocation from glibc's heap.
 const RESERVED: usize = 33 << 20;
 
-/// Makes room for `more` items in `array`, which doubles when it grows, or grows to 33 MB once it is large: memory that is not
-/// touched costs nothing, and copying does. From then on it grows by a quarter, without being copied.
+/// Reserves room for `more` items in `array`. The capacity doubles, or grows to 33 MB if the array is large: untouched
+/// memory costs nothing, but copying does. After that it grows by a quarter without being copied.
 ///
-/// A run that is near its memory limit reserves less, since reserved memory counts.
+/// A run that is near its memory limit reserves less, because reserved memory counts.
 ///
-/// A large array is laid on huge pages where the system has them, so that it is faulted in and cleared in pieces
-/// of megabytes. Twenty million points and triangles (480 MB), added one by one, take 0.06 s of CPU time so, and 0.19 s
-/// on pages of 4 KB.
+/// A large array is put on huge pages if the system supports them, so page faults and clearing happen in units of
+/// megabytes. Adding twenty million points and triangles (480 MB) one by one takes 0.06 s of CPU time, and 0.19 s on
+/// pages of 4 KB.
 #[inline]
 pub fn make_room<T>(array: &mut Vec<T>, more: usize) {
     if array.capacity() - array.len() < more {
@@ -30,7 +31,7 @@ pub fn make_room<T>(array: &mut Vec<T>, more: usize) {
     }
 }
 
-/// Makes room for `more` items in `array` and no more than that: for those who know how many there will be.
+/// Reserves room for exactly `more` items in `array`. For callers that know the final number of items.
 pub fn make_exact_room<T>(array: &mut Vec<T>, more: usize) {
     if array.capacity() - array.len() < more {
         array.reserve_exact(more);
@@ -38,7 +39,8 @@ pub fn make_exact_room<T>(array: &mut Vec<T>, more: usize) {
     }
 }
 
-/// So many zeros, or what else is the default: on huge pages where they are many, as they are first written to.
+/// Creates an array of `count` zeros, or other default values. A large array is put on huge pages as it is first
+/// written to.
 pub fn zeroed<T: Clone + Default>(count: usize) -> Vec<T> {
     let array = vec![T::default(); count];
     advise_from(LARGE_AND_EXACT, &array);
@@ -66,13 +68,13 @@ fn grow<T>(array: &mut Vec<T>, more: usize) {
         return;
     }
     let mut larger: Vec<T> = Vec::with_capacity(capacity);
-    // Before anything is written: what is there already lies on pages of its own.
+    // The advice comes before the first write, because existing data is on small pages.
     advise_from(LARGE, &larger);
     larger.append(array);
     *array = larger;
 }
 
-/// Asks for huge pages for an array, if it has so many bytes or more.
+/// Requests huge pages for an array of at least `least` bytes.
 fn advise_from<T>(least: usize, array: &Vec<T>) {
     let bytes = array.capacity() * size_of::<T>();
     if bytes >= least {
@@ -80,16 +82,17 @@ fn advise_from<T>(least: usize, array: &Vec<T>) {
     }
 }
 
-/// Asks for huge pages in a range of memory. It is only advice: a refusal changes nothing.
+/// Requests huge pages for a range of memory. The request is only advice: if it is refused, nothing changes.
 #[cfg(target_os = "linux")]
 fn advise(start: usize, bytes: usize) {
     const PAGE: usize = 4096;
-    // Whole pages, since an allocation that has this advice for only a part of it cannot be moved without copying.
+    // The range consists of whole pages, because an allocation with this advice for only a part of it cannot be moved
+    // without copying.
     let first = start / PAGE * PAGE;
     let length = (start + bytes).next_multiple_of(PAGE) - first;
     #[allow(unsafe_code, reason = "no safe interface gives this advice for memory of the global allocator")]
-    // SAFETY: MADV_HUGEPAGE changes neither what pages hold nor how they may be used, and all pages of the range hold
-    // a part of an allocation that is alive.
+    // SAFETY: MADV_HUGEPAGE changes neither the content nor the permissions of pages, and all pages of the range
+    // contain a part of a live allocation.
     unsafe {
         libc::madvise(first as *mut libc::c_void, length, libc::MADV_HUGEPAGE);
     }

@@ -1,23 +1,25 @@
-//! Names that people read: those that look alike are one, and none is shown in another order than it is written.
+//! Human-readable names: names that look alike compare as equal, and no name is displayed in another order than it is
+//! written.
 
 use std::borrow::Cow;
 
 use unicode_normalization::{UnicodeNormalization, is_nfc};
 
-/// The name in Unicode's normal form C, in which names are compared: `é` as one character and as two is the same.
+/// Returns the name in Unicode normal form C, in which names are compared: `é` as one character and as two are the
+/// same.
 pub fn normal_form(name: &str) -> Cow<'_, str> {
     if is_nfc(name) { Cow::Borrowed(name) } else { Cow::Owned(name.nfc().collect()) }
 }
 
-/// Whether `name` has characters that change the direction in which text is shown, so that `a\u{202e}gpj.lua` reads as
+/// Returns true if `name` has characters that change the text direction, so that `a\u{202e}gpj.lua` is displayed as
 /// `aaul.jpg`.
 pub fn has_bidi_controls(name: &str) -> bool {
     name.contains(|c| matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}'))
 }
 
-/// The name without differences of capitals, in which systems that ignore capitals compare names.
+/// Returns the name with its case folded, for comparison on systems that ignore case.
 pub fn folded(name: &str) -> String {
-    // A capital may become letters that are not in normal form, and the other way round.
+    // Changing the case can produce text that is not in normal form, and normalization can produce other case mappings.
     let lower = normal_form(name).to_lowercase();
     normal_form(&normal_form(&lower).to_uppercase()).to_lowercase()
 }

@@ -1,4 +1,4 @@
-//! Random numbers: xoshiro256++, seeded by one number.
+//! Random numbers: xoshiro256++ with a numeric seed.
 
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -8,13 +8,13 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 pub struct Stream(Xoshiro256PlusPlus);
 
 impl Stream {
-    /// The numbers of `seed`, from the first.
+    /// Creates the stream of `seed`, at its first number.
     #[inline]
     pub fn new(seed: u64) -> Self {
         Self(Xoshiro256PlusPlus::seed_from_u64(seed))
     }
 
-    /// The next number, uniform in [0, 1).
+    /// Returns the next number, uniform in [0, 1).
     #[inline]
     pub fn uniform(&mut self) -> f64 {
         #[allow(clippy::cast_precision_loss, reason = "53 bits fit an f64 exactly")]
@@ -22,7 +22,7 @@ impl Stream {
         bits * (1.0 / 9_007_199_254_740_992.0)
     }
 
-    /// A whole number below `count`, which is at least 1.
+    /// Returns a random integer from 0 to `count` - 1; 0 if `count` is 0.
     pub fn below(&mut self, count: usize) -> usize {
         #[allow(clippy::cast_possible_truncation, reason = "a remainder of a usize fits one")]
         let number = (self.0.next_u64() % count.max(1) as u64) as usize;

@@ -1,4 +1,4 @@
-//! The end of work that nobody waits for any more.
+//! Cancellation of work.
 
 use std::cell::RefCell;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -9,53 +9,54 @@ use crate::error::{Error, Result};
 use crate::locks::LockRecovery;
 
 thread_local! {
-    /// Those of all runs that this thread works on, the last one last.
+    /// Stops of all runs that this thread works on, the most recent last.
     static AT_WORK: RefCell<Vec<Arc<Stop>>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Tells everything that works on a run, or on what comes of it, to stop, and why.
+/// Cancellation of all work on a run or on its results, with the reason.
 #[derive(Debug, Default)]
 pub struct Stop {
     parent: Option<Arc<Stop>>,
-    /// The memory of the run, which is stopped once it exceeds its limit.
+    /// Memory account of the run, which is cancelled when it exceeds its limit.
     memory: Option<MemoryAccount>,
     stopped: AtomicBool,
     reason: Mutex<Option<Error>>,
 }
 
 impl Stop {
-    /// One that nobody has asked for.
+    /// Creates a stop that has not been requested.
     pub const fn new() -> Self {
         Self { parent: None, memory: None, stopped: AtomicBool::new(false), reason: Mutex::new(None) }
     }
 
-    /// Stops whenever `parent` does, too.
+    /// Creates a stop that is also requested whenever `parent` is.
     pub fn under(parent: Option<Arc<Self>>) -> Self {
         Self { parent, ..Self::default() }
     }
 
-    /// Stops as well once the run holds more than `limit` (bytes) of memory.
+    /// Also cancels the run when it uses more than `limit` (bytes) of memory.
     #[must_use]
     pub fn limited(self, limit: usize) -> Self {
         Self { memory: Some(MemoryAccount::new(limit)), ..self }
     }
 
-    /// The memory of the run, if it has a limit.
+    /// Returns the memory account of the run, if it has a limit.
     pub fn memory(&self) -> Option<&MemoryAccount> {
         self.memory.as_ref()
     }
 
-    /// That of the run which this thread works on, for long work that is not handed one: it takes it to its other threads.
+    /// Returns the stop of the run that this thread works on. For long work that receives no stop, which passes it to
+    /// its other threads.
     pub fn current() -> Option<Arc<Self>> {
         AT_WORK.with_borrow(|all| all.last().map(Arc::clone))
     }
 
-    /// Fails if the run is stopped which this thread works on. For loops that are handed no stop.
+    /// Fails if the run that this thread works on is cancelled. For loops that receive no stop.
     pub fn check_current() -> Result<()> {
         AT_WORK.with_borrow(|all| all.last().map_or(Ok(()), |stop| stop.check()))
     }
 
-    /// Lets this thread work on the run whose stop this is, until what comes of it goes.
+    /// Registers that this thread works on the run of this stop, until the result is dropped.
     pub fn at_work(self: &Arc<Self>) -> StopAtWork {
         AT_WORK.with_borrow_mut(|all| {
             all.push(Arc::clone(self));
@@ -64,13 +65,13 @@ impl Stop {
         StopAtWork { stop: Arc::clone(self) }
     }
 
-    /// Asks for a stop; the first reason is kept.
+    /// Cancels the work; the first reason is kept.
     pub fn stop(&self, reason: Error) {
         self.reason.lock().recover().get_or_insert(reason);
         self.stopped.store(true, Ordering::Release);
     }
 
-    /// Whether a stop was asked for.
+    /// Returns true if the work is cancelled.
     #[inline]
     pub fn is_stopped(&self) -> bool {
         self.stopped.load(Ordering::Acquire)
@@ -78,7 +79,7 @@ impl Stop {
             || self.parent.as_ref().is_some_and(|parent| parent.is_stopped())
     }
 
-    /// The reason as an error, if a stop was asked for.
+    /// Fails with the reason if the work is cancelled.
     pub fn check(&self) -> Result<()> {
         if !self.is_stopped() {
             return Ok(());
@@ -96,13 +97,13 @@ impl Stop {
     }
 }
 
-/// Work of a thread on a run.
+/// Guard for the work of a thread on a run.
 #[derive(Debug)]
 pub struct StopAtWork {
     stop: Arc<Stop>,
 }
 
-/// The owner of the memory that a thread allocates which works on all these runs, the last one last.
+/// Returns the memory owner to charge for a thread that works on all these runs, the most recent last.
 fn owner(at_work: &[Arc<Stop>]) -> MemoryOwner {
     at_work
         .iter()
@@ -113,7 +114,8 @@ fn owner(at_work: &[Arc<Stop>]) -> MemoryOwner {
 
 impl Drop for StopAtWork {
     fn drop(&mut self) {
-        // A thread may begin with the next run before it leaves the one before. While it ends, there may be nothing to leave.
+        // A thread may begin the next run before it leaves the previous one. While the thread exits, the list may be
+        // gone already.
         let _ = AT_WORK.try_with(|all| {
             let mut all = all.borrow_mut();
             if let Some(index) = all.iter().rposition(|known| Arc::ptr_eq(known, &self.stop)) {

@@ -1,24 +1,24 @@
-//! Foreign text on its way to a person: what a terminal would obey is written out, and what is long is cut.
+//! Untrusted text for display: control characters are escaped, and long text is shortened.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
-/// The most characters of a name or an id that are shown.
+/// Maximum length of a shown name or id (characters).
 const LONGEST: usize = 80;
 
-/// `text` on one line, with everything written out that a terminal would obey or that would change what stands beside it.
+/// Escapes `text` to one line, including all characters that control a terminal or change adjacent text.
 pub fn escaped(text: &str) -> Cow<'_, str> {
     escape(text, |_| false)
 }
 
-/// The same, but lines and tabs stay.
+/// Escapes `text` like [`escaped`], but keeps line breaks and tabs.
 pub fn escaped_lines(text: &str) -> Cow<'_, str> {
     escape(text, |letter| matches!(letter, '\n' | '\t'))
 }
 
-/// A name or an id for a message: escaped, and cut where it is long.
+/// Formats a name or an id for a message: escapes it, and shortens long text.
 pub fn shown(text: &str) -> Cow<'_, str> {
-    // A password cannot be told from other text once its address is cut.
+    // Passwords are hidden first, because a password in a truncated address cannot be recognized.
     let known = without_passwords(text);
     match (known.char_indices().nth(LONGEST), &known) {
         (Some((end, _)), known) => Cow::Owned(format!("{}...", escaped(&known[..end]))),
@@ -27,7 +27,7 @@ pub fn shown(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// Some of many names, and how many more there are.
+/// Joins the first names of a list, and adds the number of the others.
 pub fn listed<'a>(names: impl ExactSizeIterator<Item = &'a str>) -> String {
     const MOST: usize = 20;
     let count = names.len();
@@ -36,14 +36,14 @@ pub fn listed<'a>(names: impl ExactSizeIterator<Item = &'a str>) -> String {
     format!("{}{more}", some.join(", "))
 }
 
-/// `text`, with `***` in place of each password in an address such as `postgres://user:password@host/database`.
+/// Replaces each password in an address such as `postgres://user:password@host/database` by `***`.
 pub fn without_passwords(text: &str) -> Cow<'_, str> {
     let mut made = String::new();
     let mut rest = text;
     while let Some(found) = rest.find("://") {
         let (before, address) = rest.split_at(found + 3);
         made.push_str(before);
-        // An address ends where a word or a string does.
+        // An address ends where a word or a string ends.
         let end = address.find(|letter: char| letter.is_whitespace() || "\"'`<>".contains(letter));
         let (address, after) = address.split_at(end.unwrap_or(address.len()));
         match address.rfind('@').and_then(|at| Some((address[..at].find(':')?, at))) {
@@ -74,7 +74,7 @@ fn escape(text: &str, stays: impl Fn(char) -> bool) -> Cow<'_, str> {
             '\n' if obeyed(letter) => escaped.push_str("\\n"),
             '\r' => escaped.push_str("\\r"),
             '\t' if obeyed(letter) => escaped.push_str("\\t"),
-            // Writing into a string cannot fail.
+            // Writing to a string cannot fail.
             letter if obeyed(letter) => drop(write!(escaped, "\\u{{{:x}}}", u32::from(letter))),
             letter => escaped.push(letter),
         }
@@ -82,14 +82,14 @@ fn escape(text: &str, stays: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(escaped)
 }
 
-/// Whether a terminal does something else with a character than show it: control characters, and those that break
-/// lines or turn the direction of text.
+/// Returns true for characters that a terminal does not simply display: control characters, line breaks, and characters
+/// that change the text direction.
 fn is_obeyed(letter: char) -> bool {
     letter.is_control()
         || matches!(letter, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// A number with commas between thousands, for people.
+/// Formats an integer with commas between thousands.
 pub fn grouped(number: usize) -> String {
     let digits = number.to_string();
     let mut text = String::new();
@@ -102,12 +102,12 @@ pub fn grouped(number: usize) -> String {
     text
 }
 
-/// A number for a message. The exponent of what is very large tells more than all of its digits.
+/// Formats a number for a message. Very large numbers get an exponent, which is clearer than all digits.
 pub fn number(value: f64) -> String {
     if value.is_finite() && value.abs() >= 1e15 { format!("{value:e}") } else { value.to_string() }
 }
 
-/// What a panic says of itself.
+/// Returns the message of a panic.
 pub fn panic_message(panic: &(dyn std::any::Any + Send)) -> &str {
     let text = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
     text.unwrap_or("without a message")

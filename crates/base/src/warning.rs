@@ -1,23 +1,22 @@
-//! What a run tells people besides its result: what draws nothing, cannot happen or is left out.
+//! Warnings of a run: content that draws nothing, rules that cannot apply, skipped data.
 //!
-//! A [`Warning`] is a value of the run: it goes into `Session::warn`, which keeps each
-//! text of a place once, with a count, and comes out of `Run::warnings` in the order of files
-//! and lines, for any number of threads. Terminal, JSON and the live page show it from there; a strict run ends with it
-//! as an error. Whoever finds something says it in the way of its place:
+//! A [`Warning`] is a value of the run. `Session::warn` collects warnings and keeps each text of a location once, with
+//! a count. `Run::warnings` returns them in the order of files and lines, for any number of threads. The terminal, JSON
+//! and the live view show them from there; a strict run ends with the first as an error. Code reports a warning
+//! depending on its context:
 //!
-//! - *A function that scripts call, or a declaration*: `machine.warn(Warning::new(kind, "...").help("..."))`. The line of
-//!   the script is filled in, and machines that only help say nothing.
-//! - *An object* keeps a list, adds to it while it is made, in a method that changes it or while it grows, and gives it
-//!   away in `Object::take_warnings`. The line is that of the constructor's or
-//!   the method's call, or of the system. Where passes begin empty, only what the last pass said counts.
-//!   [`Warning::of_all`] keeps it back as long as some module of the kind does better, and [`Warning::of_pass`] lets a
-//!   later pass replace it.
-//! - *An object that is only asked* [defers](defer_warning) it; whoever asked it in the line of a script
-//!   [takes](take_deferred) what was deferred.
-//! - *A file*: what it was loaded into keeps the warnings, and the function that a script asked for it hands them on to
-//!   its machine, so that they are told by every run, also by one that need not read the file again.
+//! - *A function that scripts call, or a declaration*: `machine.warn(Warning::new(kind, "...").help("..."))`. The
+//!   machine adds the line of the script, and helper machines report nothing.
+//! - *An object* keeps a list, adds to it during construction, in write methods or while it grows, and returns it from
+//!   `Object::take_warnings`. The engine adds the line of the constructor's or the method's call, or of the system. If
+//!   passes begin empty, only the warnings of the last pass count. [`Warning::of_all`] suppresses a warning if some
+//!   module of the same symbol causes none, and [`Warning::of_pass`] lets a later pass replace it.
+//! - *An object that is only read* [defers](defer_warning) the warning. The caller in the line of a script
+//!   [takes](take_deferred) the deferred warnings.
+//! - *A file*: the loaded data keeps its warnings. The function with which a script loads the file passes them to its
+//!   machine, so every run reports them, even if it does not read the file again.
 //!
-//! What only one feature of many is about is a `Note` of the report.
+//! A `Note` of the report covers problems of single features.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -27,57 +26,57 @@ use std::sync::Mutex;
 use crate::error::{Error, ErrorKind, SourcePlace};
 use crate::locks::LockRecovery;
 
-/// What a warning is about, for code.
+/// Kind of a warning, for code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum WarningKind {
     /// A call that draws nothing.
     DrawsNothing,
-    /// A model without any triangle.
+    /// A model without triangles.
     EmptyModel,
-    /// A module that nothing draws, rewrites or looks at.
+    /// A module that is neither drawn, rewritten nor used as a context.
     UndrawnModule,
-    /// A module of the standard library that the script has declared anew, so that it is not drawn.
+    /// A module of the standard library that the script redeclares, so that it is not drawn.
     HiddenModule,
     /// An interpretation that returns modules.
     ReturnedModules,
     /// Interpretations of a system without an object.
     NoObject,
-    /// A declaration that came too late for the derivation.
+    /// A declaration after the derivation, which it cannot affect.
     LateDeclaration,
-    /// A rule that an earlier one always forestalls.
+    /// A rule that an earlier rule always shadows.
     UnreachableRule,
     /// A context that cannot occur.
     ImpossibleContext,
-    /// A system that was derived twice, so that both models stay.
+    /// A system that is derived twice, so both models are part of the result.
     DerivedTwice,
     /// Systems of which none is derived.
     NotDerived,
-    /// A parameter that was declared twice.
+    /// A parameter that is declared twice.
     ParameterTwice,
-    /// An option or a call that has no effect where it stands.
+    /// An option or a call without effect in its context.
     NoEffect,
-    /// A file that could be read, though not all of it is as it should be.
+    /// A file that is readable but partly invalid.
     Data,
-    /// Something that is done as asked, though hardly as meant.
+    /// A valid operation that is probably not intended.
     Doubtful,
-    /// A name that will go, for there is a better one.
+    /// A deprecated name with a replacement.
     Deprecated,
-    /// A package that is not used, for another of its name comes first.
+    /// A package that is not used, because another package of the same name takes precedence.
     HiddenPackage,
-    /// Something of a package that two others replace.
+    /// Something in a package that two other packages replace.
     ReplacedTwice,
-    /// A package that is there and cannot be used.
+    /// An installed package that cannot be used.
     BrokenPackage,
 }
 
 impl WarningKind {
-    /// Its name for machines, without the `warning.` of its [`code`](Self::code).
+    /// Returns the machine-readable name: the [`code`](Self::code) without `warning.`.
     pub fn name(self) -> &'static str {
         self.code().trim_start_matches("warning.")
     }
 
-    /// Its name among those of errors, which it is in a strict run.
+    /// Returns the code of the warning among the codes of errors, for strict runs.
     pub fn code(self) -> &'static str {
         match self {
             Self::DrawsNothing => "warning.draws-nothing",
@@ -107,21 +106,21 @@ thread_local! {
     static DEFERRED: RefCell<Vec<Warning>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Keeps a warning for the one for whom this thread is at work.
+/// Stores a warning for the caller that this thread works for.
 pub fn defer_warning(warning: Warning) {
     DEFERRED.with_borrow_mut(|deferred| deferred.push(warning));
 }
 
-/// Takes all warnings that were [deferred](defer_warning) in this thread since this was called last.
+/// Takes all warnings that were [deferred](defer_warning) in this thread since the last call.
 pub fn take_deferred() -> Vec<Warning> {
     DEFERRED.take()
 }
 
-/// Something that people should know of a run that has succeeded, with its place and a remedy.
+/// A warning of a successful run, with its location and a remedy.
 #[derive(Debug, Clone)]
 pub struct Warning {
     kind: WarningKind,
-    /// What it says, as the error that it is in a strict run.
+    /// Content of the warning, as the error of a strict run.
     told: Error,
     count: usize,
     of_all: bool,
@@ -129,7 +128,7 @@ pub struct Warning {
 }
 
 impl Warning {
-    /// A warning that says `message`, a clause without a full stop.
+    /// Creates a warning with `message`, a clause without a full stop.
     pub fn new(kind: WarningKind, message: impl fmt::Display) -> Self {
         Self {
             kind,
@@ -140,105 +139,105 @@ impl Warning {
         }
     }
 
-    /// Says what to do about it.
+    /// Sets the remedy, unless it is already set.
     #[must_use]
     pub fn help(self, help: impl fmt::Display) -> Self {
         Self { told: self.told.help(help), ..self }
     }
 
-    /// Says where, unless that is known already.
+    /// Sets the location, unless it is already set.
     #[must_use]
     pub fn at(self, place: Option<SourcePlace>) -> Self {
         Self { told: self.told.at(place), ..self }
     }
 
-    /// Says which line of the script led there, if that is known.
+    /// Sets the script line that led to the warning, unless it is already set.
     #[must_use]
     pub fn called_at(self, caller: Option<SourcePlace>) -> Self {
         Self { told: self.told.called_at(caller), ..self }
     }
 
-    /// Names the rule, unless it is named already.
+    /// Sets the rule, unless it is already set.
     #[must_use]
     pub fn rule(self, rule: impl fmt::Display) -> Self {
         Self { told: self.told.rule(rule), ..self }
     }
 
-    /// Names the module with its parameters and the derivation step, unless they are known already.
+    /// Sets the module with its parameters and the derivation step, unless they are already set.
     #[must_use]
     pub fn module(self, module: impl fmt::Display, step: usize) -> Self {
         Self { told: self.told.module(module, step), ..self }
     }
 
-    /// An object's: tells it only where all modules with the same symbol give rise to it, for a size may well be 0 here
-    /// and there.
+    /// Marks a warning of an object that is only reported if all modules with the same symbol cause it, because a size
+    /// of 0 can be intended for some of them.
     #[must_use]
     pub fn of_all(self) -> Self {
         Self { of_all: true, ..self }
     }
 
-    /// Whether only all modules with the same symbol together give rise to it.
+    /// Returns true if the warning is only reported if all modules with the same symbol cause it.
     pub fn is_of_all(&self) -> bool {
         self.of_all
     }
 
-    /// Holds for one interpretation pass only: a later pass of the system replaces it.
+    /// Marks a warning of one interpretation pass: a later pass of the system replaces it.
     #[must_use]
     pub fn of_pass(self) -> Self {
         Self { of_pass: true, ..self }
     }
 
-    /// Tells if a later interpretation pass replaces it.
+    /// Returns true if a later interpretation pass replaces the warning.
     pub fn is_of_pass(&self) -> bool {
         self.of_pass
     }
 
-    /// What it is about.
+    /// Returns the kind.
     pub fn kind(&self) -> WarningKind {
         self.kind
     }
 
-    /// What is doubtful, without the place.
+    /// Returns the message without the location.
     pub fn message(&self) -> &str {
         self.told.message()
     }
 
-    /// What to do about it, if known.
+    /// Returns the suggested fix, if any.
     pub fn remedy(&self) -> Option<&str> {
         self.told.remedy()
     }
 
-    /// Where, if known.
+    /// Returns the location, if known.
     pub fn place(&self) -> Option<&SourcePlace> {
         self.told.place()
     }
 
-    /// Whether it is of the kind of `other` and tells people the same, wherever that is.
+    /// Returns true if the warning has the same kind and message as `other`, at any location.
     pub fn says_the_same(&self, other: &Self) -> bool {
         self.told.says_the_same(&other.told)
     }
 
-    /// Whether it tells people the same as `other`, in the same place.
+    /// Returns true if the warning has the same kind, message and location as `other`.
     pub fn is_same(&self, other: &Self) -> bool {
         self.told.is_same(&other.told)
     }
 
-    /// How often it was found in this place.
+    /// Returns the number of times that the warning occurred at this location.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// Adds that it was found `more` times besides.
+    /// Adds `more` occurrences.
     pub fn again(&mut self, more: usize) {
         self.count += more;
     }
 
-    /// The error that it is in a strict run.
+    /// Converts the warning to the error of a strict run.
     pub fn into_error(self) -> Error {
         self.told
     }
 
-    /// The warning for machines: an error's fields, its `kind`, and the `count` of how often it was found.
+    /// Converts the warning to JSON: the fields of an error, the `kind`, and the number of occurrences as `count`.
     pub fn to_json(&self) -> serde_json::Value {
         let mut object = self.told.to_json();
         object["kind"] = self.kind.name().into();
@@ -246,7 +245,7 @@ impl Warning {
         object
     }
 
-    /// It as a text, with `line`, the text of the line that it is about, below its message.
+    /// Formats the warning, with `line`, the text of its source line, below the message.
     pub fn with_line(&self, line: Option<&str>) -> String {
         match self.count {
             1 => self.told.with_line(line),
@@ -261,15 +260,15 @@ impl fmt::Display for Warning {
     }
 }
 
-/// Where it stands, those without a place last, and what it says.
+/// Sort key: location, with unknown locations last, then message.
 type WarningOrder = (bool, Option<SourcePlace>, String);
 
-/// The warnings of a run.
+/// Warnings of a run.
 #[derive(Debug, Default)]
 pub struct Warnings(Mutex<BTreeMap<WarningOrder, Warning>>);
 
 impl Warnings {
-    /// Adds a warning; the same text in the same place is counted.
+    /// Adds a warning. A warning with the same text and location is only counted.
     pub fn add(&self, warning: Warning) {
         let mut known = self.0.lock().recover();
         let key = (warning.place().is_none(), warning.place().cloned(), warning.message().to_owned());
@@ -277,7 +276,7 @@ impl Warnings {
         known.entry(key).and_modify(|known| known.again(count)).or_insert(warning);
     }
 
-    /// All of them, in the order of files and lines.
+    /// Returns all warnings, in the order of files and lines.
     pub fn list(&self) -> Vec<Warning> {
         self.0.lock().recover().values().cloned().collect()
     }

@@ -1,4 +1,4 @@
-//! The limits of the work that a thread is at: long work that is not handed them asks here.
+//! Limits of the current work of a thread, for long work that does not receive them as arguments.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -8,11 +8,11 @@ use crate::error::Result;
 use crate::stop::Stop;
 
 thread_local! {
-    /// The budgets of all work that this thread is at, the last one last.
+    /// Budgets of all current work of this thread, the most recent last.
     static BUDGETS: RefCell<Vec<Arc<Budget>>> = const { RefCell::new(Vec::new()) };
 }
 
-/// The stop of the run and the budget of the query that a thread works on.
+/// Stop of the run and budget of the query that a thread works on.
 #[derive(Debug, Default)]
 pub struct WorkLimits {
     stop: Option<Arc<Stop>>,
@@ -20,24 +20,24 @@ pub struct WorkLimits {
 }
 
 impl WorkLimits {
-    /// Returns the limits of this thread's work; long work takes them to its other threads.
+    /// Returns the limits of this thread's work. Long work passes them to its other threads.
     pub fn current() -> Self {
         Self { stop: Stop::current(), budget: BUDGETS.with_borrow(|all| all.last().map(Arc::clone)) }
     }
 
-    /// Fails if the work is to end.
+    /// Fails if the work must end.
     pub fn check(&self) -> Result<()> {
         self.stop.as_ref().map_or(Ok(()), |stop| stop.check())?;
         self.budget.as_ref().map_or(Ok(()), |budget| budget.check())
     }
 }
 
-/// Work of a thread within a budget, until it is dropped.
+/// Guard for the work of a thread within a budget.
 #[derive(Debug)]
 pub struct WorkWithin(());
 
 impl WorkWithin {
-    /// Begins work within a budget. What begins later ends before.
+    /// Begins work within a budget. Guards must be dropped in reverse order.
     pub fn begin(budget: &Arc<Budget>) -> Self {
         BUDGETS.with_borrow_mut(|all| all.push(Arc::clone(budget)));
         Self(())
@@ -46,7 +46,7 @@ impl WorkWithin {
 
 impl Drop for WorkWithin {
     fn drop(&mut self) {
-        // While a thread ends, there may be nothing to leave.
+        // While the thread exits, the list may be gone already.
         let _ = BUDGETS.try_with(|all| all.borrow_mut().pop());
     }
 }

@@ -12,6 +12,7 @@ mod companions;
 mod content;
 mod derived_id;
 pub mod elevation;
+mod features;
 mod foreign;
 #[cfg_attr(not(feature = "data"), path = "absent.rs")]
 mod formats;
@@ -34,6 +35,7 @@ pub use burgeon_spatial::{Geometry, GeometryKind};
 pub use cache::Cache;
 pub use companions::companions;
 pub use content::LayeredFile;
+pub use features::Features;
 pub use formats::output::{check_geopackage, write_geopackage};
 pub use formats::{FlatGeobuf, GeoPackage, OsmFile};
 #[cfg(feature = "data")]

@@ -1,4 +1,4 @@
-//! What a script or a package declares, and every problem that is found without deriving anything.
+//! Checks of a script or a package: all problems that are found without derivation, and the declarations.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -11,31 +11,32 @@ use burgeon_base::warning::Warning;
 use burgeon_kit::Kind;
 use burgeon_packages::MANIFEST;
 
-/// What a script declares, without deriving anything.
+/// Declarations of a script, found without derivation.
 #[derive(Debug, Clone)]
 pub struct ScriptCheck {
-    /// Its parameters.
+    /// Declared parameters.
     pub params: Vec<Param>,
-    /// The types of objects that it declares, and those that it adds methods to.
+    /// Object types that the script declares or adds methods to.
     pub types: Vec<Arc<Kind>>,
-    /// What people should know of it, in the order of files and lines.
+    /// Warnings, in the order of files and lines.
     pub warnings: Vec<Warning>,
 }
 
-/// Reads the script and everything it requires, compiles every rule, and tells all problems at once; those that a strict
-/// run would end with are among them if it is to be strict.
+/// Checks the script and every file it requires, and compiles every rule.
+///
+/// Fails with all problems together. If `options` are strict, the problems include the warnings.
 pub fn check(path: &Path, options: RunOptions) -> Result<ScriptCheck> {
     let session = Session::new(path, RunOptions { check: true, ..options })?;
     checked(&session, Machine::run)
 }
 
-/// The same of all Lua files of the package in `folder`, and of the files that they name.
+/// Checks all Lua files of the package in `folder`, and the files that they name, as [`check`] does.
 pub fn check_package(folder: &Path, options: RunOptions) -> Result<ScriptCheck> {
     let session = Session::new(&folder.join(MANIFEST), RunOptions { check: true, ..options })?;
     let packages = session.packages();
     let package = packages.order().iter().find(|package| package.folder == session.root());
     let Some(package) = package else {
-        // It is hidden by another one, or there is a problem that tells why.
+        // Another package takes precedence, or a problem explains why the package is not used.
         let shown = folder.display();
         let broken = packages.broken.iter().filter(|broken| broken.folder == session.root());
         let broken = broken.map(|broken| broken.error.clone());
@@ -50,16 +51,18 @@ pub fn check_package(folder: &Path, options: RunOptions) -> Result<ScriptCheck> 
     checked(&session, |machine| machine.run_package(package))
 }
 
-/// The types of objects that the script at `path` declares, and those that it adds methods to, as far as it comes: for
-/// editors, which are of use before a script is complete.
+/// Returns the object types that the script at `path` declares or adds methods to.
+///
+/// Ignores errors: an editor needs the types before the script is complete. If the script fails, the result
+/// has the types declared up to that line.
 pub fn declared_types(path: &Path, options: RunOptions) -> Vec<Arc<Kind>> {
     let Ok(session) = Session::new(path, RunOptions { check: true, ..options }) else { return Vec::new() };
-    // What is wrong with it is told when it is run or checked.
+    // A run or a check reports the errors of the script.
     let _ = declare_with(&session, &mut Vec::new(), Machine::run);
     session.types()
 }
 
-/// The same of the package in `folder`.
+/// Returns the object types that the package in `folder` declares or adds methods to.
 pub fn declared_types_of_package(folder: &Path, options: RunOptions) -> Vec<Arc<Kind>> {
     let options = RunOptions { check: true, ..options };
     let Ok(session) = Session::new(&folder.join(MANIFEST), options) else { return Vec::new() };
@@ -70,7 +73,7 @@ pub fn declared_types_of_package(folder: &Path, options: RunOptions) -> Vec<Arc<
     session.types()
 }
 
-/// What comes of `run` in a session whose options say to check only.
+/// Checks what `run` runs in a session whose options request a check only.
 fn checked(session: &Arc<Session>, run: impl FnOnce(&Machine) -> Result<()>) -> Result<ScriptCheck> {
     let mut found = Vec::new();
     let ran = declare_with(session, &mut found, run);
@@ -83,7 +86,7 @@ fn checked(session: &Arc<Session>, run: impl FnOnce(&Machine) -> Result<()>) -> 
             let told =
                 problems.iter().any(|known| known.place().is_some() && known.place() == problem.place());
             match problems.iter_mut().find(|known| misses_same(known, problem)) {
-                // Whoever ran into it knows more of it than whoever read it.
+                // The error of the call has more detail than the error of the static analysis.
                 Some(known) => *known = problem.alone(),
                 None if told => {}
                 None => problems.push(problem.alone()),
@@ -104,7 +107,7 @@ fn checked(session: &Arc<Session>, run: impl FnOnce(&Machine) -> Result<()>) -> 
     Ok(ScriptCheck { params: session.params(), types: session.types(), warnings })
 }
 
-/// Whether two errors miss the same name in the same place.
+/// Returns true if both errors report the same missing name at the same location.
 fn misses_same(one: &Error, other: &Error) -> bool {
     let missed = |error: &Error| match error.kind() {
         ErrorKind::NotFound { name, .. } => Some(name.clone()),

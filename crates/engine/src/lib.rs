@@ -1,7 +1,7 @@
-//! Runs scripts: virtual machines, parallel rewriting, and interpretation in between.
+//! Runs scripts: virtual machines, parallel rewriting and interpretation passes.
 //!
-//! Input: a script and the [`Registry`](burgeon_kit::Registry) of types that it may use. Output: a [`Run`] with
-//! its scene. It never knows a type of object by name, and never writes a file.
+//! Input: a script and the [`Registry`](burgeon_kit::Registry) of object types that it may use. Output: a
+//! [`Run`] with its scene. The engine never refers to an object type by name, and never writes a file.
 
 mod check;
 mod declare;
@@ -13,7 +13,7 @@ pub mod results;
 pub mod run;
 pub mod trace;
 
-/// What a run is told, what its script declares, and the virtual machines that run it.
+/// Inputs of a run, declarations of its script, and the virtual machines that run it.
 pub mod script {
     pub use crate::declare::{
         API_VERSION, Control, Limits, Param, ParamValues, Preset, Print, RunInputs, RunOptions, RunProgress,

@@ -1,15 +1,15 @@
-//! Symbols of modules that stand for others until they are resolved.
+//! Symbols of placeholder modules, which are replaced by other modules when they are resolved.
 
 use burgeon_rewriting::{Signature, Symbol, Symbols, placeholder};
 
-/// Module that stands for those of the rows of a query: the SQL text, the name of the modules, the values of the text's
-/// parameters, and the line of the script.
+/// Placeholder for the rows of a query. Parameters: SQL text, name of the modules, values of the SQL
+/// parameters, line of the script.
 pub(crate) const QUERY: Symbol = placeholder(0);
 
-/// Module that stands for the parts of the module to its left: the name of the modules, and the line of the script.
+/// Placeholder for the parts of the module to its left. Parameters: name of the modules, line of the script.
 pub(crate) const FRAGMENT: Symbol = placeholder(1);
 
-/// Returns symbols of which only these are declared.
+/// Returns a symbol table that declares only the placeholders.
 pub(crate) fn symbols() -> Symbols {
     let signature = |name: &str, parameters: &[&str], required| Signature {
         name: name.to_owned(),

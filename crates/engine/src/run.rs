@@ -16,26 +16,26 @@ use burgeon_base::warning::Warning;
 use burgeon_data::ReferenceFrame;
 use burgeon_scene::{Scene, ScenePackage};
 
-/// What a run of a script gave.
+/// Result of running a script.
 pub struct Run {
-    /// What the systems have drawn, in the order in which they were derived.
+    /// Drawings of the systems, in the order of derivation.
     pub scene: Scene,
-    /// The derived systems, in order.
+    /// Derived systems, in order.
     pub systems: Vec<Arc<DerivedSystem>>,
-    /// The parameters that the script declared.
+    /// Parameters that the script declares.
     pub params: Vec<Param>,
-    /// The projection and the origin of its data, if it has any.
+    /// Projection and origin of the data, if there is any.
     pub frame: Option<ReferenceFrame>,
-    /// What people should know of it, in the order of files and lines.
+    /// Warnings, in the order of files and lines.
     pub warnings: Vec<Warning>,
-    /// Remarks about its data that are no warnings, such as which features have no ids of their own.
+    /// Report entries about the data that are not warnings, such as features without ids of their own.
     pub notes: Vec<String>,
-    /// Where the time went.
+    /// Time spent on the run.
     pub times: RunTimes,
 }
 
 impl Run {
-    /// How many features there were, and what could not be built as the script asked.
+    /// Returns the number of features, and the skipped and simplified features.
     pub fn report(&self) -> FeatureReport {
         let mut report = FeatureReport::default();
         for system in &self.systems {
@@ -44,7 +44,8 @@ impl Run {
         report
     }
 
-    /// Notes in its scene which packages it was made with, as they are: that reads all of their files.
+    /// Records the packages of the run in its scene, with versions and content hashes. Reads all package
+    /// files.
     pub fn note_packages(&mut self, session: &Session) -> Result<()> {
         let locked = session.lock()?.into_iter();
         let noted =
@@ -53,8 +54,9 @@ impl Run {
         Ok(())
     }
 
-    /// The warning that tells why nothing of a model is seen, also of one that was to be seen in part only; `None` if
-    /// something is seen, and if nothing is known of why.
+    /// Returns the warning that explains an empty model, even if the options limit steps or detail.
+    ///
+    /// `None` if the model has triangles, or if the reason is unknown.
     pub fn emptiness(&self) -> Option<Warning> {
         if self.scene.triangles() > 0 {
             return None;
@@ -64,27 +66,27 @@ impl Run {
     }
 }
 
-/// Where the time of a run went.
+/// Time spent on a run.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct RunTimes {
-    /// Starting the virtual machine and running the script, without derivation.
+    /// Time for starting the virtual machine and running the script, without derivation.
     pub script: Duration,
-    /// Derivation, of all systems.
+    /// Time for the derivation of all systems.
     pub derivation: Times,
-    /// Building the scene from the objects.
+    /// Time for building the scene from the objects.
     pub scene: Duration,
 }
 
 /// Runs the script at `path`.
 ///
-/// A program calls it in a thread, or in a pool of its own: not in a task of rayon's global pool, for whose threads the run
-/// would wait while it takes one.
+/// Call it from a thread, or from a dedicated thread pool. Inside a task of rayon's global pool it can
+/// deadlock: the run waits for threads of that pool and occupies one.
 pub fn run(path: &Path, options: RunOptions) -> Result<Run> {
     let session = Session::new(path, options)?;
     run_session(&session)
 }
 
-/// Runs a session, which may be stopped from outside.
+/// Runs a session, which another thread can cancel.
 pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     let begin = Instant::now();
     let _work = session.stop.at_work();
@@ -144,10 +146,10 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     Ok(Run { scene, systems, params, frame: session.data.frame(), warnings, notes: session.notes(), times })
 }
 
-/// The most lines that a note names.
+/// Maximum number of lines that the note on systems without placement lists.
 const MOST_LINES: usize = 3;
 
-/// Returns a note about systems that are not shown: rules can place them, and have not.
+/// Returns a report entry about systems that are not shown because rules can place them but never did.
 fn note_unplaced(systems: &[Arc<DerivedSystem>]) -> Option<String> {
     let unseen = systems.iter().filter(|system| system.is_placed() && !system.has_been_placed());
     let mut lines: Vec<String> = unseen
@@ -169,7 +171,7 @@ fn note_unplaced(systems: &[Arc<DerivedSystem>]) -> Option<String> {
     }
 }
 
-/// A machine for a session's script, which is read in the meantime.
+/// Creates the main machine for a session, while the script's files are prefetched.
 pub(crate) fn leading_machine(session: &Arc<Session>) -> Result<(Rc<Machine>, Rc<ThreadPool>)> {
     let problems = &session.packages().problems;
     if !problems.is_empty() {
@@ -181,7 +183,7 @@ pub(crate) fn leading_machine(session: &Arc<Session>) -> Result<(Rc<Machine>, Rc
     Ok((Machine::new(session, &watchdog, Rc::clone(&threads) as _)?, threads))
 }
 
-/// Runs a session whose options ask for a lineage, until that is known. None if the script does not come to it.
+/// Runs a session with a trace request until the trace is complete. `None` if the script does not reach it.
 pub(crate) fn run_traced(session: &Arc<Session>) -> Result<Option<Trace>> {
     let _work = session.stop.at_work();
     let (machine, threads) = leading_machine(session)?;
@@ -192,12 +194,12 @@ pub(crate) fn run_traced(session: &Arc<Session>) -> Result<Option<Trace>> {
     }
 }
 
-/// Runs the script of a session whose options say to check only, for the sake of its parameters.
+/// Runs the script of a session whose options request a check only, to collect its declared parameters.
 pub fn declare(session: &Arc<Session>) -> Result<()> {
     declare_with(session, &mut Vec::new(), Machine::run)
 }
 
-/// The same with `run` in place of the script, and with the `problems` of its rules.
+/// Runs `run` instead of the script, as [`declare`] does, and collects the `problems` of the rules.
 pub(crate) fn declare_with(
     session: &Arc<Session>,
     problems: &mut Vec<Error>,
@@ -210,7 +212,7 @@ pub(crate) fn declare_with(
     ran
 }
 
-/// Refuses values for parameters that the script does not have.
+/// Refuses values for parameters that the script does not declare.
 pub(crate) fn refuse_unknown(session: &Session, params: &[Param]) -> Result<()> {
     for (name, _) in &session.options.params.set {
         match Param::find(params, name) {
@@ -234,7 +236,7 @@ pub(crate) fn refuse_unknown(session: &Session, params: &[Param]) -> Result<()> 
     Ok(())
 }
 
-/// The error for a parameter `name` that `script` does not have.
+/// Returns the error for a parameter `name` that `script` does not declare.
 pub fn no_such(script: &Path, name: &str, params: &[Param]) -> Error {
     let names: Vec<&str> = params.iter().map(|param| param.name.as_str()).collect();
     let message = format!("{} has no parameter called {name}", script.display());
@@ -244,7 +246,7 @@ pub fn no_such(script: &Path, name: &str, params: &[Param]) -> Error {
     })
 }
 
-/// Turns the textures' names into files within the script's folder, or those of packages.
+/// Resolves texture names to files in the script's folder or in packages.
 fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
     let textures = scene.materials.iter_mut().filter_map(|material| material.texture.as_mut());
     for texture in textures.filter(|texture| texture.content.is_none()) {
@@ -269,7 +271,7 @@ fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
     Ok(())
 }
 
-/// A texture's path, if it leads to a file.
+/// Returns the path of a texture if the file can be opened.
 fn readable(path: PathBuf, shown: &str) -> Result<PathBuf> {
     burgeon_base::files::open(&path).map_err(|error| {
         Error::file(&path, format!("the texture {shown} cannot be read: {error}"))
@@ -304,7 +306,7 @@ mod tests {
         let unknown: Vec<&String> = there.iter().filter(|name| !declared.contains(name)).collect();
         assert!(unknown.is_empty(), "there, but not declared: {unknown:?}");
         assert!(there.len() > 70, "{}", there.len());
-        // What is locked is away, and so is no name of these.
+        // Locked names are removed from the scripts' globals.
         assert!(!LOCKED.iter().any(|locked| there.iter().any(|name| name == locked)));
     }
 

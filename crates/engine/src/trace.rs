@@ -1,4 +1,4 @@
-//! Where a triangle comes from, and what a line of a script has made: a chain is derived again to find out.
+//! Origin of a triangle, and products of a line of a script. Both derive the chain again, with its lineage.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_kit::Makers;
 use burgeon_scene::{Origin, Part, Scene};
 
-/// Symbols that are shown on each side of a module.
+/// Number of symbols shown on each side of a module.
 const AROUND: usize = 12;
 
 /// A triangle of a scene.
@@ -17,71 +17,71 @@ const AROUND: usize = 12;
 pub struct Pick {
     /// Index into [`Scene::instances`].
     pub instance: usize,
-    /// The part of its mesh.
+    /// Index of the part in its mesh.
     pub part: usize,
-    /// The triangle of the part.
+    /// Index of the triangle in its part.
     pub triangle: usize,
 }
 
-/// Triangles of one part of a mesh.
+/// Consecutive triangles of one part of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TriangleRun {
     /// Index into [`Scene::meshes`].
     pub mesh: usize,
-    /// The part of the mesh.
+    /// Index of the part in the mesh.
     pub part: usize,
-    /// The first triangle.
+    /// First triangle.
     pub from: usize,
-    /// How many.
+    /// Number of triangles.
     pub count: usize,
 }
 
-/// A module that made something, and how it came about.
+/// Module that made something, with its lineage.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ModuleOrigin {
-    /// Its chain.
+    /// System and chain of the module.
     pub origin: Origin,
-    /// Its place in the chain, brackets counted.
+    /// Index of the module in its chain, counting brackets.
     pub index: usize,
-    /// The module.
+    /// Name and parameters.
     pub module: Module,
-    /// The rule that interprets it; `None` if the standard library does.
+    /// Interpretation rule of the module; `None` if the standard library interprets it.
     pub interpretation: Option<RuleName>,
-    /// The modules that led to it, from the axiom on; the last one is itself as it was made.
+    /// Ancestors from the axiom on; the last entry is the module itself.
     pub path: Vec<Ancestor>,
-    /// Where the axiom was set.
+    /// Location where the axiom was set.
     pub axiom: Option<SourcePlace>,
-    /// The chain before it, itself, and the chain after it.
+    /// Text of the chain before the module, of the module, and of the chain after it.
     pub around: [String; 3],
-    /// What it has drawn.
+    /// Triangles that the module has drawn.
     pub runs: Vec<TriangleRun>,
 }
 
-/// What made a triangle.
+/// Origin of a triangle.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PickOrigin {
-    /// The module that drew it.
+    /// Module that drew the triangle.
     pub drawn: Option<ModuleOrigin>,
-    /// The module that placed the model to which it belongs.
+    /// Module that placed the model of the triangle.
     pub placed: Option<ModuleOrigin>,
 }
 
-/// What a line of a script has made.
+/// Products of a line of a script.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct LineProducts {
-    /// The rules at the line, each once.
+    /// Rules at the line, without duplicates.
     pub what: Vec<String>,
-    /// The number of modules that came of them.
+    /// Number of modules made by these rules.
     pub modules: usize,
-    /// What these have drawn.
+    /// Triangles drawn by these modules.
     pub runs: Vec<TriangleRun>,
-    /// The instances of models that these have placed, as indices into [`Scene::instances`].
+    /// Instances of models placed by these modules, as indices into [`Scene::instances`].
     pub instances: Vec<usize>,
 }
 
 /// Finds the modules that made a triangle of `scene`, which a run of `script` with these `options` has made.
 ///
-/// Derives the chain again, with its lineage. Fails if the script has changed so that it cannot.
+/// Derives the chain again, with its lineage. Fails if the changed script no longer derives the chain.
 pub fn pick(script: &Path, options: &RunOptions, scene: &Scene, pick: Pick) -> Result<PickOrigin> {
     let instance =
         scene.instances.get(pick.instance).ok_or_else(|| Error::unavailable("there is no such instance"))?;
@@ -100,9 +100,9 @@ pub fn pick(script: &Path, options: &RunOptions, scene: &Scene, pick: Pick) -> R
     Ok(picked)
 }
 
-/// Finds all that the rule, interpretation rule or axiom at a line has made in `scene`.
+/// Finds everything in `scene` that the rule, interpretation rule or axiom at a line has made.
 ///
-/// Derives all chains again, with their lineages.
+/// Derives all chains again, with their lineage.
 pub fn highlight(
     script: &Path,
     options: &RunOptions,
@@ -145,8 +145,8 @@ pub fn highlight(
     Ok(found)
 }
 
-/// The chain number `chain` of a derived system around place `index`: what is before it, itself, what is after it, and
-/// the number of symbols in the chain.
+/// Returns the text of chain `chain` of a derived system around symbol `index`: the chain before it, the
+/// symbol, the chain after it; and the number of symbols in the chain.
 pub fn around(system: &crate::results::DerivedSystem, chain: usize, index: usize) -> ([String; 3], usize) {
     let only = system.chain.only(chain, &system.symbols.arities());
     let count = only.symbols.len().saturating_sub(1);
@@ -193,7 +193,8 @@ pub fn trace(script: &Path, options: &RunOptions, wanted: TraceRequest) -> Resul
     })
 }
 
-/// The place among all triangles of `part` of number `triangle` among those that exporters write.
+/// Converts the index of an exported triangle to its index among all triangles of `part`. Exporters skip
+/// degenerate triangles.
 pub fn exported_triangle(part: &Part, triangle: usize) -> Option<usize> {
     let written = part.triangles.iter().enumerate().filter(|(_, [a, b, c])| a != b && b != c && c != a);
     written.map(|(index, _)| index).nth(triangle)

@@ -1,41 +1,42 @@
-//! An argument of a function that scripts call, and what docs tell of units and defaults.
+//! Arguments of functions that scripts call, with the units and defaults that their docs state.
 
 use super::Field;
 use super::kind::SharedText;
 
-/// The units that a doc gives in round brackets.
+/// Units that docs give in round brackets.
 const UNITS: [&str; 10] = ["m", "m²", "m³", "1/m", "m/m", "%", "degrees", "s", "bytes", "light years"];
 
 /// An argument of a method.
 #[derive(Debug, Clone)]
 pub struct Argument {
-    /// Its name.
+    /// Name of the argument.
     pub name: SharedText,
-    /// Its type in Luau.
+    /// Luau type.
     pub luau: String,
-    /// Its unit, if it has one, such as "m".
+    /// Unit, such as "m", if the argument has one.
     pub unit: Option<SharedText>,
-    /// What it may have itself, where it is a table of named fields.
+    /// Fields of the argument, if it is a table of named fields.
     pub fields: Vec<Field>,
-    /// The value where it is left out, as one would write it: `nil` where nothing stands for it; empty of what must be given.
+    /// Default as written in a script: `nil` if an omitted argument has no other value, empty if the argument is
+    /// required.
     pub default: String,
 }
 
 impl Argument {
-    /// An argument of any type.
+    /// Creates an argument of any type.
     pub fn new(name: impl Into<SharedText>) -> Self {
         Self::typed(name, "any")
     }
 
-    /// An argument of type `luau`, which may be left out if that ends with `?`.
+    /// Creates an argument of type `luau`; a type that ends with `?` makes it optional.
     pub fn typed(name: impl Into<SharedText>, luau: impl Into<String>) -> Self {
         let luau = luau.into();
         let default = if luau.ends_with('?') { "nil" } else { "" }.to_owned();
         Self { name: name.into(), luau, unit: None, fields: Vec::new(), default }
     }
 
-    /// With the unit and the default that the function's doc gives in round brackets right behind its name, such as
-    /// `margin` (m, 5 unless given).
+    /// Adds the unit and the default that the function's `doc` gives in round brackets directly after the argument's
+    /// name, such as `margin` (m, 5 unless given).
     #[must_use]
     pub fn described(mut self, doc: &str) -> Self {
         let doc = doc.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -51,17 +52,18 @@ impl Argument {
     }
 }
 
-/// The first unit that a doc gives in round brackets: `m` of "Its height (m)." and of "Its height (m, 5 unless given)."
+/// Returns the first unit that a doc gives in round brackets: `m` for "Its height (m)." and for "Its height (m, 5
+/// unless given)."
 pub fn unit(doc: &str) -> Option<&'static str> {
     doc.match_indices('(').find_map(|(at, _)| bracketed(&doc[at..]).and_then(unit_in))
 }
 
-/// What stands in the round brackets that `text` begins with.
+/// Returns the content of the round brackets that `text` begins with.
 fn bracketed(text: &str) -> Option<&str> {
     Some(text.strip_prefix('(')?.split_once(')')?.0)
 }
 
-/// The unit that what stands in brackets begins with.
+/// Returns the unit at the start of the content of a bracket.
 fn unit_in(told: &str) -> Option<&'static str> {
     let first = told.split(',').next()?.split(" from ").next()?;
     UNITS.into_iter().find(|unit| *unit == first)

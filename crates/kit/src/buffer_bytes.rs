@@ -1,4 +1,4 @@
-//! Buffers of Luau, for methods that take many numbers at once.
+//! Luau buffers, for methods that take many numbers at once.
 
 use std::sync::Arc;
 
@@ -6,9 +6,9 @@ use super::{Expectation, Object, Value};
 use burgeon_base::MemoryOwner;
 use burgeon_macros::{methods, object};
 
-/// A buffer as it was when it was given.
+/// A copy of a buffer's bytes, made when the buffer was passed.
 ///
-/// A method may take it; a script holds it as Luau's own buffer.
+/// Methods can take it as an argument; in scripts it is a Luau buffer.
 #[object("buffer", given)]
 pub struct BufferBytes(pub Arc<[u8]>);
 
@@ -16,17 +16,17 @@ pub struct BufferBytes(pub Arc<[u8]>);
 impl BufferBytes {}
 
 impl BufferBytes {
-    /// The bytes of a value, if it is a buffer.
+    /// Returns the bytes of a value, if it is a buffer.
     pub fn of(value: &Value) -> Option<&[u8]> {
         let Value::Object(object) = value else { return None };
         let any: &dyn std::any::Any = &**object as &dyn Object;
         any.downcast_ref::<Self>().map(|bytes| &*bytes.0)
     }
 
-    /// The 32-bit numbers in `bytes`, `N` in a row, as `buffer.writef32` writes them. Fails where a row is not whole or a
-    /// number is not finite; `rows` says what there is one of in each.
+    /// Reads rows of `N` 32-bit floating-point numbers, as `buffer.writef32` writes them. Fails if the last row is
+    /// incomplete or a number is not finite. `rows` names the content of one row for the message, such as "point".
     pub fn numbers<const N: usize>(bytes: &[u8], rows: &str) -> Result<Vec<[f32; N]>, Expectation> {
-        // Callers make numbers of 64 bits of them.
+        // The result takes as much memory as the bytes; callers convert it to 64-bit numbers, which take twice as much.
         if !MemoryOwner::current().demand(3 * bytes.len()) {
             return Err(Expectation::new("a buffer that fits into the memory limit"));
         }
@@ -39,13 +39,14 @@ impl BufferBytes {
         }
     }
 
-    /// The 32-bit whole numbers in `bytes`, `N` in a row, as `buffer.writeu32` writes them. Fails where a row is not whole.
+    /// Reads rows of `N` 32-bit unsigned integers, as `buffer.writeu32` writes them. Fails if the last row is
+    /// incomplete.
     pub fn indices<const N: usize>(bytes: &[u8], rows: &str) -> Result<Vec<[u32; N]>, Expectation> {
         Ok(whole::<N>(bytes, rows)?.iter().map(|row| row.map(u32::from_le_bytes)).collect())
     }
 }
 
-/// The rows of `N` numbers in `bytes`, each number as its four bytes.
+/// Splits `bytes` into rows of `N` numbers of four bytes each. Fails if bytes remain.
 fn whole<'a, const N: usize>(bytes: &'a [u8], rows: &str) -> Result<&'a [[[u8; 4]; N]], Expectation> {
     let (numbers, rest) = bytes.as_chunks::<4>();
     let (found, more) = numbers.as_chunks::<N>();
@@ -57,7 +58,7 @@ fn whole<'a, const N: usize>(bytes: &'a [u8], rows: &str) -> Result<&'a [[[u8; 4
     Ok(found)
 }
 
-/// What is wrong with a row.
+/// Returns the fault of a row that has a number that is not finite.
 fn odd(row: &[f32]) -> &'static str {
     if row.iter().any(|number| number.is_nan()) { "NaN" } else { "infinity" }
 }

@@ -1,8 +1,8 @@
-//! Colours as fields and arguments have them.
+//! Colours of fields and arguments.
 
 use super::{Expectation, Parameter, Value, colors};
 
-/// A colour with opacity; scripts give it as sRGB, here it is linear.
+/// A linear colour with opacity; scripts give it as sRGB.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Color(pub [f32; 4]);
 
@@ -44,7 +44,7 @@ impl Parameter for Color {
 }
 
 impl Color {
-    /// The colour of these bytes: red, green and blue as sRGB, and opacity.
+    /// Converts bytes to a colour: red, green and blue in sRGB, then opacity.
     pub fn of_bytes([red, green, blue, opacity]: [u8; 4]) -> Self {
         let channel = |byte: u8| narrow(linear(f64::from(byte) / 255.0));
         Self([channel(red), channel(green), channel(blue), f32::from(opacity) / 255.0])
@@ -65,7 +65,7 @@ fn narrow(value: f64) -> f32 {
     value as f32
 }
 
-/// The sRGB transfer function of IEC 61966-2-1, from display to linear.
+/// Converts an sRGB channel to linear by the transfer function of IEC 61966-2-1.
 fn linear(channel: f64) -> f64 {
     if channel <= 0.04045 { channel / 12.92 } else { ((channel + 0.055) / 1.055).powf(2.4) }
 }

@@ -1,14 +1,14 @@
-//! Colours as text: in hexadecimal digits, by name, and as mappers write them.
+//! Colours as text: in hexadecimal digits, by name, and as map data writes them.
 //!
 //! Source: W3C, CSS Color Module Level 4, 2022: sections 5.2 (hexadecimal) and 6.1 (names).
 
 use burgeon_base::error::nearest;
 
-/// The colour that a text means: red, green, blue and opacity, each to 255.
+/// Parses a colour: red, green, blue and opacity, each from 0 to 255.
 ///
-/// It may be `#rgb`, `#rgba`, `#rrggbb` or `#rrggbbaa`, in large or small letters and with or without the `#`; a name of
-/// CSS, whose words may be apart (`light_blue`); or several of these, of which the first counts (`red;white`). Fails
-/// with the name that may be meant, if one is near.
+/// Accepts `#rgb`, `#rgba`, `#rrggbb` and `#rrggbbaa`, in upper or lower case and with or without the `#`; CSS names,
+/// also with separated words (`light_blue`); and lists of colours, of which the first counts (`red;white`). On failure
+/// returns the nearest name, if one is similar.
 pub(super) fn read(text: &str) -> Result<[u8; 4], Option<&'static str>> {
     let first = text.split([';', ',', '/']).next().unwrap_or_default().trim();
     if let Some(channels) = hexadecimal(first.strip_prefix('#').unwrap_or(first)) {
@@ -44,7 +44,7 @@ fn hexadecimal(digits: &str) -> Option<[u8; 4]> {
     Some(channels)
 }
 
-/// The names of CSS in the order of the alphabet, and what they mean.
+/// CSS names in alphabetical order with their colours, as 0xrrggbb.
 const NAMES: [(&str, u32); 148] = [
     ("aliceblue", 0xf0f8ff),
     ("antiquewhite", 0xfaebd7),

@@ -1,4 +1,4 @@
-//! How an object type says what scripts can do with it: said once, in the type's own file.
+//! Helpers with which object types declare their scripting API in their own files.
 
 use std::any::Any;
 
@@ -7,7 +7,7 @@ use super::{Object, Parameter, Table, TableKey, Value};
 use burgeon_base::error::{Error, Result};
 use burgeon_rewriting::ColumnValue;
 
-/// Refuses entries of `table` that `fields` does not name.
+/// Refuses entries of `table` that are missing in `fields`.
 pub fn refuse_unknown(kind: &str, fields: &[&str], table: &Table) -> Result<()> {
     for (key, value) in &table.entries {
         let TableKey::Name(name) = key else {
@@ -27,7 +27,7 @@ pub fn refuse_unknown(kind: &str, fields: &[&str], table: &Table) -> Result<()> 
     Ok(())
 }
 
-/// The arguments of a call, taken one after the other. For the attribute `methods`.
+/// Arguments of a call, read in order. For the attribute `methods`.
 pub struct Arguments<'a> {
     kind: &'static str,
     method: &'static str,
@@ -36,12 +36,12 @@ pub struct Arguments<'a> {
 }
 
 impl<'a> Arguments<'a> {
-    /// The `values` that `method` of type `kind` is called with.
+    /// Wraps the `values` that a script passes to `method` of type `kind`.
     pub fn new(kind: &'static str, method: &'static str, values: &'a [Value]) -> Self {
         Self { kind, method, values, taken: 0 }
     }
 
-    /// The next argument, called `name` in messages.
+    /// Reads the next argument, called `name` in messages.
     pub fn next<T: Parameter>(&mut self, name: &str) -> Result<T> {
         let value = self.values.get(self.taken).cloned().unwrap_or(Value::Nil);
         self.taken += 1;
@@ -49,7 +49,7 @@ impl<'a> Arguments<'a> {
             .map_err(|expected| expected.refuse(&format!("{}:{}", self.kind, self.method), name, &value))
     }
 
-    /// Fails if there are more arguments than have been taken.
+    /// Fails if arguments remain.
     pub fn end(&self) -> Result<()> {
         if self.values.len() > self.taken {
             return Err(Error::argument(format!(
@@ -65,7 +65,7 @@ impl<'a> Arguments<'a> {
     }
 }
 
-/// The arguments of a call that takes only numbers.
+/// Arguments of a call that takes only numbers.
 pub struct Numbers<'a> {
     kind: &'static str,
     method: &'static str,
@@ -74,13 +74,13 @@ pub struct Numbers<'a> {
 }
 
 impl<'a> Numbers<'a> {
-    /// The `numbers` that `method` of type `kind` is called with.
+    /// Wraps the `numbers` that a script passes to `method` of type `kind`.
     #[inline]
     pub fn new(kind: &'static str, method: &'static str, numbers: &'a [f64]) -> Self {
         Self { kind, method, numbers, taken: 0 }
     }
 
-    /// The next argument, called `name` in messages.
+    /// Reads the next argument, called `name` in messages.
     #[inline]
     pub fn next<T: Parameter>(&mut self, name: &str) -> Result<T> {
         let number = self.numbers.get(self.taken).copied().unwrap_or(f64::NAN);
@@ -103,25 +103,27 @@ impl<'a> Numbers<'a> {
             .map_err(|expected| expected.refuse(&format!("{}:{}", self.kind, self.method), name, &value))
     }
 
-    /// Ends the reading of arguments; their number was checked before.
+    /// Ends the reading of arguments. Does nothing, because the caller has checked their number.
     #[inline]
     #[allow(clippy::unused_self, reason = "mirrors Arguments::end")]
     pub fn end(&self) {}
 }
 
-/// The object of type `T` that a method is called for: this one, or one that it extends.
+/// Returns the object of type `T` that a method is called for: `object` itself or its base object. Fails if neither is
+/// a `T`.
 #[inline]
 pub fn downcast_ref<T: Object>(object: &dyn Object) -> Result<&T> {
     as_ref(object).ok_or_else(wrong_type)
 }
 
-/// The object of type `T` that a method that changes it is called for: this one, or one that it extends.
+/// Returns the object of type `T` that a write method is called for: `object` itself or its base object. Fails if
+/// neither is a `T`.
 #[inline]
 pub fn downcast_mut<T: Object>(object: &mut dyn Object) -> Result<&mut T> {
     as_mut(object).ok_or_else(wrong_type)
 }
 
-/// `object` as a `T`, or the object that it extends, if one of them is.
+/// Returns `object` as a `T`, or its nearest base object that is a `T`.
 #[inline]
 pub fn as_ref<T: Object>(object: &dyn Object) -> Option<&T> {
     let any: &dyn Any = object;
@@ -131,14 +133,14 @@ pub fn as_ref<T: Object>(object: &dyn Object) -> Option<&T> {
     }
 }
 
-/// The same, to change it.
+/// Returns `object` as a `T` for changes, or its nearest base object that is a `T`.
 #[inline]
 pub fn as_mut<T: Object>(object: &mut dyn Object) -> Option<&mut T> {
     let is_one = (object as &dyn Any).is::<T>();
     if is_one {
         let any: &mut dyn Any = object;
         #[allow(unsafe_code, reason = "to ask for the type once more costs as much as a small method")]
-        // SAFETY: it is a `T`.
+        // SAFETY: `is` above has checked that `any` is a `T`.
         return Some(unsafe { &mut *std::ptr::from_mut(any).cast::<T>() });
     }
     object.base_mut().and_then(as_mut)

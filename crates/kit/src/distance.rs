@@ -1,11 +1,11 @@
-//! Distances from places to what an object has drawn, for rules that ask about their surroundings.
+//! Distances from positions to the drawn faces of an object, for rules that query their surroundings.
 
 use glam::DVec3;
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
 
 use burgeon_scene::Part;
 
-/// Triangles, arranged so that the nearest one to a place is found without asking all.
+/// Spatial index of triangles for nearest-point queries.
 pub(super) struct Nearest {
     tree: RTree<IndexedTriangle>,
 }
@@ -30,7 +30,7 @@ impl PointDistance for IndexedTriangle {
 }
 
 impl Nearest {
-    /// The triangles of `parts`.
+    /// Indexes the triangles of `parts`.
     pub(super) fn new(parts: &[Part]) -> Self {
         let corners = |part: &Part, triangle: [u32; 3]| {
             IndexedTriangle(triangle.map(|corner| part.positions[corner as usize].as_dvec3()))
@@ -39,7 +39,7 @@ impl Nearest {
         Self { tree: RTree::bulk_load(triangles.collect()) }
     }
 
-    /// Distance (m) from `place` to the nearest point of them; infinite without triangles.
+    /// Returns the distance (m) from `place` to the nearest point of the triangles; infinite if there are none.
     pub(super) fn distance(&self, place: DVec3) -> f64 {
         let place = place.to_array();
         let nearest = self.tree.nearest_neighbor(&place);
@@ -47,10 +47,10 @@ impl Nearest {
     }
 }
 
-/// The point of a triangle nearest to `place`.
+/// Returns the point of a triangle nearest to `place`.
 ///
-/// Method: Ericson, "Real-Time Collision Detection", 2005, section 5.1.5: by the regions around the corners,
-/// edges and face.
+/// Method: Ericson, "Real-Time Collision Detection", 2005, section 5.1.5: by the regions around the corners, edges and
+/// face.
 fn on_triangle(place: DVec3, a: DVec3, b: DVec3, c: DVec3) -> DVec3 {
     let (ab, ac, ap) = (b - a, c - a, place - a);
     let (d1, d2) = (ab.dot(ap), ac.dot(ap));

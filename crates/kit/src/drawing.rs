@@ -1,4 +1,4 @@
-//! What drawing objects share: faces by material, placed models, and which module made them.
+//! Content of a drawing object: faces by material, placed models, and the modules that made them.
 
 use std::sync::{Arc, OnceLock};
 
@@ -10,46 +10,46 @@ use super::makers::Makers;
 use burgeon_base::error::Result;
 use burgeon_scene::{Instance, Material, Mesh, Normal, Part, Scene, SurfaceMeaning};
 
-/// The faces that an object has drawn, by material, and the models that it has placed.
+/// Faces that an object has drawn, by material, and models that it has placed.
 #[derive(Clone, Default)]
 pub struct Drawing {
-    /// Where it lies in the scene (m).
+    /// Position in the scene (m).
     origin: DVec3,
     materials: Vec<Material>,
     parts: Vec<Part>,
-    /// What was placed, as what, and where; the same thing once.
+    /// Placed models with their surface meaning and frames. Each pair of model and meaning occurs once.
     placed: Vec<(Arc<Model>, Option<SurfaceMeaning>, Vec<DAffine3>)>,
-    /// How many instances that makes.
+    /// Number of instances of the placed models.
     instances: usize,
-    /// Whether it is not to be emptied.
+    /// Set if [`Drawing::clear`] keeps the content.
     kept: bool,
-    /// How many triangles are certain to come of what is not finished.
+    /// Number of triangles that unfinished content will certainly add.
     expected: usize,
-    /// Emptied parts, whose memory is used again: fresh pages cost more than drawing.
+    /// Emptied parts for reuse: allocating fresh pages costs more time than drawing.
     spare: Vec<Part>,
     makers: Option<Makers>,
-    /// The triangles by place, from the first question about them to the next change.
+    /// Spatial index of the triangles, built by the first query and dropped by the next change.
     nearest: OnceLock<Arc<Nearest>>,
 }
 
 impl Drawing {
-    /// An empty drawing whose origin is at `origin` (m).
+    /// Creates an empty drawing whose origin is at `origin` (m).
     pub fn at(origin: DVec3) -> Self {
         Self { origin, ..Self::default() }
     }
 
-    /// Where its origin is (m).
+    /// Returns the position of the origin in the scene (m).
     pub fn origin(&self) -> DVec3 {
         self.origin
     }
 
-    /// Has [`Drawing::clear`] do nothing, or forget all again: one that several objects draw into is emptied once. Gives what
-    /// was the case before.
+    /// Sets whether [`Drawing::clear`] keeps the content, and returns the previous setting. A drawing that several
+    /// objects share must be cleared only once.
     pub fn keep(&mut self, kept: bool) -> bool {
         std::mem::replace(&mut self.kept, kept)
     }
 
-    /// Forgets all faces and models.
+    /// Removes all faces and models.
     pub fn clear(&mut self) {
         if self.kept {
             return;
@@ -67,9 +67,9 @@ impl Drawing {
         }
     }
 
-    /// The number of the part with this material.
+    /// Returns the index of the part with this material, and adds the part if it is missing.
     pub fn material(&mut self, material: &Material) -> usize {
-        // Colours tell most of them apart at once.
+        // Most materials differ in colour, which is the fastest comparison.
         let same = |known: &Material| known.base_color == material.base_color && known == material;
         if let Some(index) = self.materials.iter().position(same) {
             return index;
@@ -80,19 +80,19 @@ impl Drawing {
         self.materials.len() - 1
     }
 
-    /// The material of the part with this number.
+    /// Returns the material of the part at `index`; the default material if there is no such part.
     pub fn material_of(&self, index: usize) -> Material {
         self.materials.get(index).cloned().unwrap_or_default()
     }
 
-    /// The part with this number, as [`Drawing::material`] gave it.
+    /// Returns the part at `index`, an index from [`Drawing::material`].
     #[inline]
     pub fn part(&mut self, index: usize) -> &mut Part {
         self.nearest.take();
         &mut self.parts[index]
     }
 
-    /// The same, where what is added next is known to be a surface of this kind.
+    /// Returns the part at `index`, and marks the faces that are added to it next as a surface with this meaning.
     #[inline]
     pub fn surface(&mut self, index: usize, meaning: SurfaceMeaning) -> &mut Part {
         let part = self.part(index);
@@ -100,22 +100,23 @@ impl Drawing {
         part
     }
 
-    /// The parts, in the order of the first use of their materials.
+    /// Returns the parts, in the order of the first use of their materials.
     pub fn parts(&self) -> &[Part] {
         &self.parts
     }
 
-    /// Distance (m) from `place` to the nearest point of the faces; infinite without any. Models are not asked.
+    /// Returns the distance (m) from `place` to the nearest point of the faces; infinite without faces. Ignores placed
+    /// models.
     pub fn distance(&self, place: DVec3) -> f64 {
         self.nearest.get_or_init(|| Arc::new(Nearest::new(&self.parts))).distance(place)
     }
 
-    /// Places `model` at `frame`; the same model many times is one mesh with many instances.
+    /// Places `model` at `frame`. Repeated models share one mesh with many instances.
     pub fn place(&mut self, model: &Arc<Model>, frame: DAffine3) {
         self.place_as(model, frame, None);
     }
 
-    /// The same, where all of it is known to be a surface of some kind.
+    /// Places `model` at `frame`; `meaning` is the surface meaning of the whole model, if known.
     pub fn place_as(&mut self, model: &Arc<Model>, frame: DAffine3, meaning: Option<SurfaceMeaning>) {
         let known = |(known, known_meaning, _): &(Arc<Model>, Option<SurfaceMeaning>, Vec<DAffine3>)| {
             Arc::ptr_eq(known, model) && *known_meaning == meaning
@@ -134,7 +135,8 @@ impl Drawing {
         }
     }
 
-    /// Draws the faces of `model` at `frame`, as if they were its own; `meaning` is what all of it is.
+    /// Copies the faces of `model` at `frame` into this drawing. `meaning`, if any, replaces the surface meaning of all
+    /// faces.
     pub fn draw_model(&mut self, model: &Model, frame: &DAffine3, meaning: Option<SurfaceMeaning>) {
         for (mesh, transform) in model.meshes() {
             let frame = *frame * transform;
@@ -163,28 +165,30 @@ impl Drawing {
         }
     }
 
-    /// The number of triangles, and of instances, each of which counts as one.
+    /// Returns the number of triangles, including expected triangles. An instance counts as one.
     pub fn triangles(&self) -> usize {
         self.parts.iter().map(|part| part.triangles.len()).sum::<usize>() + self.instances + self.expected
     }
 
-    /// Takes notice that what is not finished will be `triangles`, in the place of what was told before. They count.
+    /// Sets the number of triangles that unfinished content will add. It replaces the previous number, and counts in
+    /// [`Drawing::triangles`].
     pub fn expect(&mut self, triangles: usize) {
         self.expected = triangles;
     }
 
-    /// The number of triangles of the part with this number.
+    /// Returns the number of triangles of the part at `index`.
     pub fn triangles_of(&self, index: usize) -> usize {
         self.parts.get(index).map_or(0, |part| part.triangles.len())
     }
 
-    /// The symbol of the chain that draws at present, while a chain is traced.
+    /// Returns the chain symbol that draws at present; 0 if chains are not traced.
     #[inline]
     pub fn maker(&self) -> u32 {
         self.makers.as_ref().map_or(0, Makers::present)
     }
 
-    /// Draws into part `index` for the symbol `maker`, which may have come before the present one.
+    /// Draws into part `index` and attributes the new triangles to the symbol `maker`, which may be an earlier one than
+    /// the present symbol.
     #[inline]
     pub fn draw_for<T>(&mut self, maker: u32, index: usize, draw: impl FnOnce(&mut Part) -> T) -> T {
         self.nearest.take();
@@ -196,14 +200,14 @@ impl Drawing {
         result
     }
 
-    /// Notes that the triangles of part `index` up to `count`, which nobody is known to have made, are `maker`'s.
+    /// Attributes the triangles of part `index` up to `count` that have no maker yet to `maker`.
     pub fn made(&mut self, maker: u32, index: usize, count: usize) {
         if let Some(makers) = &mut self.makers {
             makers.settle(index, count, maker);
         }
     }
 
-    /// From now on notes which symbol of the chain draws what; the next one is `maker`.
+    /// Starts or continues tracing: attributes triangles drawn from now on to the chain symbol `maker`.
     pub fn trace(&mut self, maker: u32) {
         let makers = self.makers.get_or_insert_default();
         for (index, part) in self.parts.iter().enumerate() {
@@ -212,15 +216,16 @@ impl Drawing {
         makers.follow(maker);
     }
 
-    /// Which symbol made what: for each part that has triangles, and for placed models in their order.
+    /// Ends tracing, and returns the symbols that made the triangles of each part that has some, and the placed models
+    /// in their order. `None` if nothing was traced.
     pub fn take_makers(&mut self) -> Option<Makers> {
         self.trace(0);
         let shown: Vec<bool> = self.parts.iter().map(|part| !part.triangles.is_empty()).collect();
         self.makers.take().map(|makers| makers.shown(&shown))
     }
 
-    /// Adds the drawing to `scene` at its origin: one mesh, unless it is empty, and what was placed. Fails if the run is
-    /// stopped.
+    /// Adds the drawing to `scene` at its origin: one mesh, unless it is empty, and the placed models. Fails if the run
+    /// is cancelled.
     pub fn show(self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
         let parts = self.parts.into_iter().filter(|part| !part.triangles.is_empty());
         let parts =

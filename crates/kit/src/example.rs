@@ -1,17 +1,19 @@
-//! Scripts that show what names do, for the reference.
+//! Example scripts of the API reference.
 
-/// A script that shows what some names do.
+/// Script that demonstrates some names of the scripting API.
 #[derive(Debug, Clone, Copy)]
 pub struct ScriptExample {
-    /// Its file's name without the extension, from the folder `scripts` of the member that has it: `extruder/bend`.
+    /// Name of its file without the extension, relative to the folder `scripts` of its crate: `extruder/bend`.
     pub name: &'static str,
-    /// What it shows, as `burgeon api` takes it: `extruder:bend`, `extruder.along`, or a type or a function alone.
+    /// Demonstrated names, as `burgeon api` takes them: `extruder:bend`, `extruder.along`, or a type or a function
+    /// alone.
     pub shows: &'static [&'static str],
-    /// Its text.
+    /// Source text of the script.
     pub script: &'static str,
 }
 
-/// A list of [`ScriptExample`]s, whose scripts lie in `scripts` beside the folder of the file that lists them.
+/// Creates a list of [`ScriptExample`]s. Their scripts are in the folder `scripts`, next to the folder of the file that
+/// lists them.
 #[macro_export]
 macro_rules! examples {
     ($($name:literal shows $($shown:literal)+;)*) => {

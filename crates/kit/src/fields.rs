@@ -1,4 +1,4 @@
-//! Tables of named fields that are given as one value.
+//! Tables of named fields that are passed as one value.
 
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -6,21 +6,22 @@ use std::sync::Arc;
 use super::{Expectation, Field, Parameter, Table, Value};
 use burgeon_base::Result;
 
-/// What the attribute `fields` declares: a struct that is read from a script's table.
+/// Declaration that the attribute `fields` generates for a struct that is read from a script's table.
 pub trait Fields: Sized {
-    /// What the table may have.
+    /// Returns the fields that the table can have.
     fn list() -> Vec<Field>;
 
     /// Reads a script's table. Fails for unknown names and wrong types.
     fn read(table: &Table) -> Result<Self>;
 }
 
-/// A table of the fields of `T` that a method takes and reads itself, so that messages name what the table is for.
+/// Table of the fields of `T`. The method that takes it also reads it, so that error messages can name the purpose of
+/// the table.
 #[derive(Debug, Clone)]
 pub struct TableOf<T>(Arc<Table>, PhantomData<fn() -> T>);
 
 impl<T: Fields> TableOf<T> {
-    /// What the table says.
+    /// Reads the table. Fails for unknown names and wrong types.
     pub fn read(&self) -> Result<T> {
         T::read(&self.0)
     }

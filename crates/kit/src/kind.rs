@@ -1,165 +1,154 @@
-//! A type of object as data: what scripts can do with it, and what it can do for the engine.
+//! Object types as data: their scripting API and their capabilities for the engine.
 
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::capability::{
-    self, Capability, Draw, Expand, Gather, HasLayers, LevelOfDetail, Report, Show, Warn,
-};
-use super::{Argument, BeginPrefetch, Loader, Object, ScriptType, Table, Value};
+use super::capability::{Capabilities, Capability, Draw, Gather, Show};
+use super::{Argument, BeginPrefetch, Constructor, Loader, Object, ScriptType, Table, Value};
+use crate::capability;
 use burgeon_base::error::{Error, Result};
 
-/// Text that a built-in type has in the program, and another brings.
+/// Text that is static in a built-in type and owned in any other.
 pub(crate) type SharedText = Cow<'static, str>;
 
-/// A type of object: what its constructor takes, its methods and its capabilities.
+/// An object type: the fields of its constructor, its methods and its capabilities.
 ///
-/// It may come from Burgeon, from a host program or from a script: whoever adds it to a
-/// [`Registry`](super::Registry), it has the same rights.
+/// Burgeon, a host program or a script can define it. All types in a [`Registry`](super::Registry) have the same
+/// rights, regardless of their origin.
 #[derive(Clone)]
 pub struct Kind {
-    /// Its name in scripts, which is also its constructor's.
+    /// Name of the type and of its constructor in scripts.
     pub name: SharedText,
-    /// What it is; the first line is a summary.
+    /// Description; the first line is a summary.
     pub doc: SharedText,
-    /// How a script uses it; empty where nothing is to be said.
+    /// Usage example in Lua; empty if none is needed.
     pub example: SharedText,
-    /// What its constructor takes; of what something else gives, what scripts read of it.
+    /// Fields of the constructor. If scripts cannot construct the type, the fields that scripts can read.
     pub fields: Vec<Field>,
-    /// The field that may be given before the table, as `geometry` in `footprint(geometry, { ... })`.
+    /// Field that can precede the table, such as `geometry` in `footprint(geometry, { ... })`.
     pub first: Option<SharedText>,
-    /// What scripts may call.
+    /// Methods that scripts can call.
     pub methods: Vec<Method>,
-    /// What Luau calls all types of which one may stand where another does, such as `Wall`.
+    /// Luau name of the family of interchangeable types that this type belongs to, such as `Wall`.
     pub family: Option<SharedText>,
-    /// How one is made.
+    /// Construction of an object of the type.
     pub construct: Construct,
-    /// Whether [`Object::begin`] forgets all that earlier passes did.
+    /// Functions besides the constructor that create values of it.
+    pub functions: Vec<Constructor>,
+    /// Set if [`Object::begin`] discards the results of earlier passes.
     pub begins_empty: bool,
-    /// How it adds to the scene, if it does.
-    pub show: Option<Capability<dyn Show>>,
-    /// How it draws, if it draws with a [`Drawing`](super::Drawing).
-    pub draw: Option<Capability<dyn Draw>>,
-    /// How it expands by itself, if it does.
-    pub expand: Option<Capability<dyn Expand>>,
-    /// How it takes a level of detail, if it does.
-    pub detail: Option<Capability<dyn LevelOfDetail>>,
-    /// How it warns, if it does.
-    pub warn: Option<Capability<dyn Warn>>,
-    /// How it tells what it did otherwise than asked, if it does.
-    pub report: Option<Capability<dyn Report>>,
-    /// Gives its features as layers.
-    pub layers: Option<Capability<dyn HasLayers>>,
-    /// What lets all objects of a system know of one another.
+    /// Traits that its objects implement, for the engine.
+    pub capabilities: Capabilities,
+    /// Function that shares data between all objects of a system.
     pub gather: Option<Gather>,
-    /// What a thread may prepare of a layer's features before they are asked for.
+    /// Function that starts preparing a layer's features in another thread before they are used.
     pub prefetch: Option<BeginPrefetch>,
-    /// What a script declared of it, if it comes from one.
+    /// Declaration by a script, if a script defined the type.
     pub script: Option<Arc<ScriptType>>,
-    /// Which of its names will go, and what is used instead.
+    /// Deprecated names with their replacements.
     pub deprecated: Vec<Deprecation>,
 }
 
-/// A name that still does what it did, but will go.
+/// A deprecated name, which still works and will be removed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Deprecation {
-    /// A field or a method; empty for the type itself.
+    /// Name of a field or method; empty for the type itself.
     pub name: SharedText,
-    /// The version of the script API from which on something else is to be used.
+    /// First version of the script API that deprecates the name.
     pub since: SharedText,
-    /// What is to be used.
+    /// Replacement.
     pub instead: SharedText,
 }
 
 impl Deprecation {
-    /// What people are told of `name`, as they write it.
+    /// Returns the warning for users; `name` is the name as the script writes it.
     pub fn message(&self, name: &str) -> String {
         format!("{name} is deprecated since version {} of the script API", self.since)
     }
 }
 
-/// Makes an object of the constructor's table.
+/// Function that makes an object from the constructor's table.
 pub type Make = Arc<dyn Fn(&Table) -> Result<Box<dyn Object>> + Send + Sync>;
 
-/// How an object comes to be.
+/// Construction of objects of a type.
 #[derive(Clone)]
 pub enum Construct {
-    /// A script calls its constructor, with a table of fields.
+    /// By its constructor, which a script calls with a table of fields.
     Fields(Make),
-    /// A script names a file, at its top level.
+    /// From a file, which a script names at its top level.
     File(Loader),
-    /// It is what something else gives.
+    /// By another object or function; scripts cannot construct it.
     Given,
 }
 
 /// A field of a constructor's table.
 #[derive(Debug, Clone)]
 pub struct Field {
-    /// Its name.
+    /// Name of the field.
     pub name: SharedText,
-    /// What it means, with the unit.
+    /// Description with the unit.
     pub doc: SharedText,
-    /// Its type in Luau.
+    /// Luau type.
     pub luau: String,
-    /// Its unit, if it has one, such as "m".
+    /// Unit, such as "m", if the field has one.
     pub unit: Option<SharedText>,
-    /// What it may have itself, where it is a table of named fields.
+    /// Nested fields, if the field is a table of named fields.
     pub fields: Vec<Field>,
-    /// The value where it is left out, as one would write it.
+    /// Value of an omitted field, as written in a script.
     pub default: String,
 }
 
-/// A method that scripts may call.
+/// A method that scripts can call.
 #[derive(Clone)]
 pub struct Method {
-    /// Its name.
+    /// Name of the method.
     pub name: SharedText,
-    /// What it does; the first sentence is its help.
+    /// Description; the first sentence is its help.
     pub doc: SharedText,
-    /// Its arguments, `self` not counted.
+    /// Arguments without `self`.
     pub arguments: Vec<Argument>,
-    /// The type of its result in Luau; empty where it returns the object itself.
+    /// Luau type of the result; empty if the method returns the object itself.
     pub returns: String,
-    /// The function.
+    /// Implementation.
     pub call: Call,
 }
 
 impl Field {
-    /// A field of type `luau`, which may be left out if that ends with `?`.
+    /// Creates a field of type `luau`; a type that ends with `?` makes the field optional.
     pub fn new(name: impl Into<SharedText>, luau: &str, doc: impl Into<SharedText>) -> Self {
         let (luau, default) = (luau.to_owned(), String::new());
         Self { name: name.into(), doc: doc.into(), luau, unit: None, fields: Vec::new(), default }
     }
 }
 
-/// Calls a method by itself.
+/// Function that calls a read method.
 pub type ReadCall = Arc<dyn Fn(&dyn Object, &[Value]) -> Result<Value> + Send + Sync>;
-/// Calls a method that changes the object.
+/// Function that calls a write method.
 pub type Write = Arc<dyn Fn(&mut dyn Object, &[Value]) -> Result<Value> + Send + Sync>;
-/// Calls a method that changes the object and takes only numbers.
+/// Function that calls a write method that takes only numbers.
 pub type WriteNumbers = Arc<dyn Fn(&mut dyn Object, &[f64]) -> Result<()> + Send + Sync>;
 
-/// How a method is called.
+/// Implementation of a method.
 #[derive(Clone)]
 pub enum Call {
-    /// It only reads, so rules may call it.
+    /// A read method, which rules can call.
     Read(ReadCall),
-    /// It changes the object, so only interpretation rules may call it.
+    /// A write method, which changes the object, so only interpretation rules can call it.
     Write {
-        /// With any values.
+        /// Call with any values.
         values: Write,
-        /// With numbers only, where all its arguments are numbers: the fast way.
+        /// Faster call with numbers, if all arguments are numbers.
         numbers: Option<WriteNumbers>,
     },
-    /// It is a function of the script, which the virtual machine runs.
+    /// A function of the script, which the virtual machine runs.
     Script {
-        /// Whether it changes the object, so that only interpretation rules may call it.
+        /// Set if the function changes the object, so only interpretation rules can call it.
         changes: bool,
     },
 }
 
 impl Call {
-    /// Whether it changes the object, so that only interpretation rules may call it.
+    /// Returns true if the method changes the object, so only interpretation rules can call it.
     pub fn changes(&self) -> bool {
         match self {
             Self::Read(_) => false,
@@ -176,13 +165,13 @@ impl std::fmt::Debug for Kind {
 }
 
 impl Kind {
-    /// Its name for a message: "an extruder", "a panel".
+    /// Returns the name with its article for a message: "an extruder", "a panel".
     pub fn with_article(&self) -> String {
         let name = &self.name;
         format!("{} {name}", if name.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" })
     }
 
-    /// A type that scripts can neither make nor ask, which something else gives.
+    /// Creates a type without fields, methods or capabilities that scripts cannot construct.
     pub fn new(name: impl Into<SharedText>, doc: impl Into<SharedText>) -> Self {
         Self {
             name: name.into(),
@@ -193,14 +182,9 @@ impl Kind {
             methods: Vec::new(),
             family: None,
             construct: Construct::Given,
+            functions: Vec::new(),
             begins_empty: false,
-            show: None,
-            draw: None,
-            expand: None,
-            detail: None,
-            warn: None,
-            report: None,
-            layers: None,
+            capabilities: Capabilities::default(),
             gather: None,
             prefetch: None,
             script: None,
@@ -208,13 +192,13 @@ impl Kind {
         }
     }
 
-    /// Is used as this script shows.
+    /// Sets the usage example.
     #[must_use]
     pub fn example(self, example: impl Into<SharedText>) -> Self {
         Self { example: example.into(), ..self }
     }
 
-    /// Has a constructor that takes `fields`, of which `make` makes one.
+    /// Adds a constructor that takes a table of `fields`, from which `make` makes an object.
     #[must_use]
     pub fn made_of<T: Object>(
         self,
@@ -225,14 +209,14 @@ impl Kind {
         Self { fields, construct: Construct::Fields(Arc::new(make)), ..self }
     }
 
-    /// Is given by something else, and has these fields, which scripts read.
+    /// Sets the fields that scripts can read of an object that they cannot construct.
     #[must_use]
     pub fn has(self, fields: Vec<Field>) -> Self {
         Self { fields, ..self }
     }
 
-    /// Will do without `name`, a field or a method, or empty for the type itself: scripts that use it are told that
-    /// since this version of the script API they should use `instead`.
+    /// Deprecates `name`, a field or a method, or the type itself if empty. Scripts that use it are warned to use
+    /// `instead` since version `since` of the script API.
     #[must_use]
     pub fn deprecates(
         mut self,
@@ -244,18 +228,18 @@ impl Kind {
         self
     }
 
-    /// That the field or the method `name` is deprecated, if it is.
+    /// Returns the deprecation of the field or method `name`, if it is deprecated.
     pub fn deprecation(&self, name: &str) -> Option<&Deprecation> {
         self.deprecated.iter().find(|known| known.name == name)
     }
 
-    /// The field `first` may be given before the table.
+    /// Allows the field `first` before the table.
     #[must_use]
     pub fn first(self, first: impl Into<SharedText>) -> Self {
         Self { first: Some(first.into()), ..self }
     }
 
-    /// Is made of a file, by `loader`, which takes these `fields` besides.
+    /// Sets that objects are loaded from a file by `loader`, which also takes these `fields`.
     #[must_use]
     pub fn loaded(self, fields: Vec<Field>, loader: Loader) -> Self {
         Self {
@@ -266,79 +250,66 @@ impl Kind {
         }
     }
 
-    /// Has these methods.
+    /// Adds functions to scripts that create values of it.
+    #[must_use]
+    pub fn functions(self, functions: impl Into<Vec<Constructor>>) -> Self {
+        Self { functions: functions.into(), ..self }
+    }
+
+    /// Sets the methods.
     #[must_use]
     pub fn methods(self, methods: Vec<Method>) -> Self {
         Self { methods, ..self }
     }
 
-    /// May stand where any type of this family may, which Luau calls `family`.
+    /// Adds the type to the family of interchangeable types that Luau calls `family`.
     #[must_use]
     pub fn of_family(self, family: impl Into<SharedText>) -> Self {
         Self { family: Some(family.into()), ..self }
     }
 
-    /// Begins each pass as if there had been none before.
+    /// Marks the type as discarding the results of earlier passes when a pass begins.
     #[must_use]
     pub fn begins_empty(self) -> Self {
         Self { begins_empty: true, ..self }
     }
 
-    /// Adds something to the scene.
+    /// Adds the capability [`Show`].
     #[must_use]
-    pub fn shows<T: Object + Show>(self) -> Self {
-        Self { show: Some(capability::show::<T>()), ..self }
+    pub fn can<C: ?Sized + 'static>(mut self, capability: Capability<C>) -> Self {
+        self.capabilities.insert(capability);
+        self
     }
 
-    /// Draws with a [`Drawing`](super::Drawing).
+    /// Adds the capabilities [`Draw`] and [`Show`].
     #[must_use]
     pub fn draws<T: Object + Draw>(self) -> Self {
-        Self { draw: Some(capability::draw::<T>()), ..self.shows::<T>() }
+        self.can(capability!(T: Draw)).can(capability!(T: Show))
     }
 
-    /// Expands by itself.
-    #[must_use]
-    pub fn expands<T: Object + Expand>(self) -> Self {
-        Self { expand: Some(capability::expand::<T>()), ..self }
+    /// Returns the capability of the trait `C`, if its objects have it.
+    pub fn capability<C: ?Sized + 'static>(&self) -> Option<Capability<C>> {
+        self.capabilities.get()
     }
 
-    /// Draws in levels of detail.
-    #[must_use]
-    pub fn has_detail<T: Object + LevelOfDetail>(self) -> Self {
-        Self { detail: Some(capability::detail::<T>()), ..self }
+    /// Returns true if its objects have the capability of the trait `C`.
+    pub fn has_capability<C: ?Sized + 'static>(&self) -> bool {
+        self.capability::<C>().is_some()
     }
 
-    /// Has features for files of layers.
-    #[must_use]
-    pub fn has_layers<T: Object + HasLayers>(self) -> Self {
-        Self { layers: Some(capability::layers::<T>()), ..self }
-    }
-
-    /// Warns.
-    #[must_use]
-    pub fn warns<T: Object + Warn>(self) -> Self {
-        Self { warn: Some(capability::warn::<T>()), ..self }
-    }
-
-    /// Tells what it did otherwise than asked.
-    #[must_use]
-    pub fn reports<T: Object + Report>(self) -> Self {
-        Self { report: Some(capability::report::<T>()), ..self }
-    }
-
-    /// All objects of a system get to know of one another by `gather`.
+    /// Sets `gather` as the function that shares data between all objects of a system.
     #[must_use]
     pub fn gathers(self, gather: Gather) -> Self {
         Self { gather: Some(gather), ..self }
     }
 
-    /// What `prefetch` begins may be made of a layer's features before they are asked for.
+    /// Sets `prefetch` as the function that starts preparing a layer's features before they are used.
     #[must_use]
     pub fn prefetches(self, prefetch: BeginPrefetch) -> Self {
         Self { prefetch: Some(prefetch), ..self }
     }
 
-    /// Makes one of the fields of a constructor. Fails where nothing is made so.
+    /// Makes an object from the fields of the constructor. Fails if the type has no constructor with fields.
     pub fn make(&self, table: &Table) -> Result<Box<dyn Object>> {
         match &self.construct {
             Construct::Fields(make) => make(table),
@@ -348,7 +319,7 @@ impl Kind {
         }
     }
 
-    /// What Luau calls the type: `Extruder` of `extruder`, `StreetLamp` of `street_lamp`.
+    /// Returns the Luau name of the type: `Extruder` for `extruder`, `StreetLamp` for `street_lamp`.
     pub fn luau(&self) -> String {
         let capital = |word: &str| {
             let mut letters = word.chars();
@@ -362,18 +333,18 @@ impl Kind {
         self.name.split(['_', '-', '.']).map(capital).collect()
     }
 
-    /// Whether it is called `name`, or extends a type that is.
+    /// Returns true if `name` is the name of the type or of one of its base types.
     pub fn is_a(&self, name: &str) -> bool {
         self.name == name
             || self.script.as_ref().is_some_and(|script| script.above.iter().any(|it| **it == *name))
     }
 
-    /// The method called `name`.
+    /// Returns the method called `name`.
     pub fn method(&self, name: &str) -> Option<&Method> {
         self.methods.iter().find(|method| method.name == name)
     }
 
-    /// The error for a name that is no method, with the nearest one that is.
+    /// Returns the error for a method name that does not exist, with the nearest existing name.
     pub fn unknown_method(&self, name: &str) -> Error {
         let is_own = |method: &&Method| matches!(method.call, Call::Script { .. });
         let (own, others): (Vec<_>, Vec<_>) = self.methods.iter().partition(is_own);

@@ -1,7 +1,8 @@
-//! The contract of objects: values, types of objects and what rules need of them.
+//! Contract of objects: values, object types and the interfaces that rules need from them.
 //!
 //! Input: values from scripts. Output: [`Kind`]s in a [`Registry`], [`Object`]s with their drawings, and the [`Values`]
-//! that modules of chains carry. It never knows a virtual machine, nor a type of object but the [`Model`], which is what a system has drawn, and the [`GeometryObject`], which is a value.
+//! that chain modules contain. The crate does not depend on a virtual machine. It defines only two object types:
+//! [`Model`], the drawn result of a system, and [`GeometryObject`], a value.
 
 extern crate self as burgeon_kit;
 
@@ -12,12 +13,11 @@ mod buffer_bytes;
 mod capability;
 mod color;
 mod colors;
+mod constructor;
 mod distance;
 mod drawing;
 mod example;
-mod features;
 mod fields;
-mod geometry;
 mod kind;
 mod loading;
 mod makers;
@@ -25,7 +25,6 @@ mod model;
 mod note;
 mod object;
 mod parameter;
-mod planar;
 mod prefetch;
 mod registry;
 mod rewriter;
@@ -38,13 +37,15 @@ mod values;
 
 pub use argument::Argument;
 pub use buffer_bytes::BufferBytes;
-pub use capability::{Capability, Draw, Expand, Gather, HasLayers, LevelOfDetail, Report, Show, Warn};
+pub use capability::{
+    Capabilities, Capability, Draw, Expand, Gather, HasLayers, LevelOfDetail, Members, ObjectContent, Report,
+    Show, Warn,
+};
 pub use color::Color;
+pub use constructor::Constructor;
 pub use drawing::Drawing;
 pub use example::ScriptExample;
-pub use features::Features;
 pub use fields::{Fields, TableOf};
-pub use geometry::{Constructor, GeometryObject, Path, Shape, constructors};
 pub use kind::{Call, Construct, Deprecation, Field, Kind, Make, Method, ReadCall, Write, WriteNumbers};
 pub use loading::{LoadRequest, LoadedObject, Loader, Resources};
 pub use makers::Makers;
@@ -52,7 +53,6 @@ pub use model::Model;
 pub use note::Note;
 pub use object::Object;
 pub use parameter::{Answer, AxisScale, Expectation, ObjectParameter, Parameter, Vector, object};
-pub use planar::{Lines, rings};
 pub use prefetch::{BeginPrefetch, Prefetch};
 pub use registry::Registry;
 pub use rewriter::{RewriteOutcome, Rewriter, RuleSet, System};

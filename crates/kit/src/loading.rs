@@ -1,5 +1,6 @@
-//! How a type of object is made of a file.
+//! Loading of objects from files.
 
+use std::any::Any;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -7,76 +8,78 @@ use super::{Object, Table};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
-use burgeon_data::{Cache, ReferenceFrame};
 
-/// Makes objects of files.
+/// A loader that makes objects from files.
 #[derive(Clone)]
 pub struct Loader {
-    /// What its files are, for messages: "file of heights".
+    /// Name of the files' content for messages: "file of heights".
     pub what: &'static str,
-    /// How a script calls it.
+    /// Example of a call in a script.
     pub example: &'static str,
-    /// The same, with fields.
+    /// Example of a call with fields.
     pub example_with_fields: &'static str,
-    /// The extensions of the files that a folder means, if one object may be made of several files; otherwise none.
+    /// Extensions of the files that a folder stands for, if one object can be made from several files; otherwise empty.
     pub several: &'static [&'static str],
-    /// Makes one of a file, with the fields that the script gives besides.
+    /// Function that loads an object from a file. The table contains the additional fields from the script.
     pub load: fn(&mut LoadRequest<'_>, &Table) -> Result<LoadedObject>,
 }
 
-/// An object that was made of a file.
+/// An object that was loaded from a file.
 #[derive(Clone)]
 pub struct LoadedObject {
     /// The object.
     pub object: Arc<dyn Object>,
-    /// About how much memory (bytes) it takes.
+    /// Approximate memory use (bytes).
     pub memory: usize,
-    /// What people should know of the file.
+    /// Warnings about the file.
     pub warnings: Vec<Warning>,
 }
 
-/// A file that a script has named, and what may be used to read it.
+/// Request to load a file that a script names, with the resources for reading it.
 pub struct LoadRequest<'a> {
-    /// The name that the script gave.
+    /// File name as written in the script.
     pub name: &'a str,
-    /// Where it is.
+    /// Path of the file.
     pub path: &'a Path,
-    /// The names and the paths of all files that the script has named, of which the first is this one.
+    /// Names and paths of all files that the script names. This file is the first.
     pub files: &'a [(String, PathBuf)],
-    /// What reading may take.
+    /// Memory and time budget for reading.
     pub budget: &'a Arc<Budget>,
-    /// The most triangles that it may hold.
+    /// Maximum number of triangles.
     pub triangles: usize,
-    /// The projection and the origin of the run, which the first data decides.
-    pub frame: &'a mut Option<ReferenceFrame>,
-    /// What else the run has.
+    /// Values of the run that some loaders need, found by their type with [`LoadRequest::service`].
+    pub services: &'a mut [&'a mut dyn Any],
+    /// Files of the run.
     pub resources: &'a dyn Resources,
 }
 
-/// What a run gives to those who read its files.
+/// Resources of a run for loaders.
 pub trait Resources {
-    /// The file that a script means by `name`, which is to be a `what`. Fails for one that it may not read.
+    /// Returns the path of the file that a script calls `name`; `what` describes the file in messages. Fails if the
+    /// script may not read the file.
     fn find(&self, what: &'static str, name: &str) -> Result<PathBuf>;
-
-    /// What earlier runs have read.
-    fn cache(&self) -> Option<&Cache>;
 }
 
-/// The largest file (bytes) that is read whole.
+/// Maximum size (bytes) of a file that is read at once.
 const LARGEST: u64 = 1_000_000_000;
 
 impl LoadRequest<'_> {
-    /// The content of the file; `remedy` is told where it cannot be read.
+    /// Returns the service of type `T`, if the run provides it, such as the projection that all its data share.
+    pub fn service<T: Any>(&mut self) -> Option<&mut T> {
+        self.services.iter_mut().find_map(|service| service.downcast_mut())
+    }
+
+    /// Reads the file. `remedy` is the suggested fix if reading fails.
     pub fn read(&self, remedy: &str) -> Result<Vec<u8>> {
         self.read_from(self.path, self.name, remedy)
     }
 
-    /// The content of another file, which the first one names; it is a `what`.
+    /// Reads another file, to which the first file refers; `what` describes it in messages.
     pub fn read_beside(&self, what: &'static str, name: &str, remedy: &str) -> Result<Vec<u8>> {
         self.read_from(&self.resources.find(what, name)?, name, remedy)
     }
 
-    /// The content of a file, for which memory is taken.
+    /// Reads a file, and takes its size from the memory budget.
     fn read_from(&self, path: &Path, name: &str, remedy: &str) -> Result<Vec<u8>> {
         let cannot = |why: &dyn std::fmt::Display| Error::file(path, format!("cannot read {name}: {why}"));
         let (_, meta) = burgeon_base::files::open(path).map_err(|error| cannot(&error).help(remedy))?;

@@ -1,27 +1,27 @@
-//! Which module made what of a drawing: kept only while a chain is traced.
+//! Makers of a drawing's content: the chain symbols that drew it. Recorded only while a chain is traced.
 
-/// The makers of a drawing's triangles and placed models, each a symbol of the chain by its place in it.
+/// Makers of a drawing's triangles and placed models. A maker is the index of a symbol in the chain.
 #[derive(Debug, Clone, Default)]
 pub struct Makers {
     present: u32,
-    /// For each part, runs of triangles: where each ends, and who made it.
+    /// Runs of triangles for each part: the end index and the maker of each run.
     parts: Vec<Vec<(usize, u32)>>,
-    /// For each model that was placed, the makers of its frames.
+    /// Makers of the frames of each placed model.
     placed: Vec<Vec<u32>>,
 }
 
 impl Makers {
-    /// The symbol that draws at present.
+    /// Returns the symbol that draws at present.
     pub(super) fn present(&self) -> u32 {
         self.present
     }
 
-    /// Lets `maker` draw what follows.
+    /// Sets `maker` as the symbol that draws from now on.
     pub(super) fn follow(&mut self, maker: u32) {
         self.present = maker;
     }
 
-    /// Notes that `maker` made the triangles of part `index` that nobody is known to have made, up to `count`.
+    /// Attributes the triangles of part `index` up to `count` that have no maker yet to `maker`.
     pub(super) fn settle(&mut self, index: usize, count: usize, maker: u32) {
         if self.parts.len() <= index {
             self.parts.resize(index + 1, Vec::new());
@@ -35,7 +35,7 @@ impl Makers {
         }
     }
 
-    /// Notes that the model number `index` was placed once more.
+    /// Records another placement of the model at `index` by the present symbol.
     pub(super) fn place(&mut self, index: usize) {
         if self.placed.len() <= index {
             self.placed.resize(index + 1, Vec::new());
@@ -48,7 +48,7 @@ impl Makers {
         self.placed.clear();
     }
 
-    /// Only the parts that are `shown`.
+    /// Keeps only the parts that are set in `shown`.
     pub(super) fn shown(mut self, shown: &[bool]) -> Self {
         self.parts.resize(shown.len(), Vec::new());
         let mut shown = shown.iter();
@@ -56,19 +56,19 @@ impl Makers {
         self
     }
 
-    /// Who made triangle number `triangle` of part `part`.
+    /// Returns the maker of a triangle of a part.
     pub fn of_triangle(&self, part: usize, triangle: usize) -> Option<usize> {
         let runs = self.parts.get(part)?;
         let run = runs.partition_point(|(end, _)| *end <= triangle);
         runs.get(run).map(|(_, maker)| *maker as usize)
     }
 
-    /// Who placed model number `placement`, counted over all models.
+    /// Returns the maker of a placement; placements are numbered across all models.
     pub fn of_placement(&self, placement: usize) -> Option<usize> {
         self.placed.iter().flatten().nth(placement).map(|maker| *maker as usize)
     }
 
-    /// Runs of triangles whose makers `wanted` names: part, first triangle and their number.
+    /// Returns the runs of triangles whose maker satisfies `wanted`: part, first triangle and number of triangles.
     pub fn runs(&self, wanted: impl Fn(usize) -> bool) -> Vec<(usize, usize, usize)> {
         let mut found: Vec<(usize, usize, usize)> = Vec::new();
         for (part, runs) in self.parts.iter().enumerate() {
@@ -88,7 +88,7 @@ impl Makers {
         found
     }
 
-    /// All runs of triangles: part, triangles and maker.
+    /// Returns all runs of triangles: part, range of triangles and maker.
     pub fn all_runs(&self) -> impl Iterator<Item = (usize, std::ops::Range<usize>, usize)> + '_ {
         self.parts.iter().enumerate().flat_map(|(part, runs)| {
             let mut start = 0;
@@ -100,12 +100,12 @@ impl Makers {
         })
     }
 
-    /// The makers of all placed models, in the order of their numbers.
+    /// Returns the makers of all placements, in order.
     pub fn all_placements(&self) -> impl Iterator<Item = usize> + '_ {
         self.placed.iter().flatten().map(|maker| *maker as usize)
     }
 
-    /// The placed models, counted over all, whose makers `wanted` names.
+    /// Returns the numbers of the placements whose maker satisfies `wanted`.
     pub fn placements(&self, wanted: impl Fn(usize) -> bool) -> Vec<usize> {
         let all = self.placed.iter().flatten().enumerate();
         all.filter(|(_, maker)| wanted(**maker as usize)).map(|(number, _)| number).collect()

@@ -1,4 +1,4 @@
-//! What a derived system has drawn, or a file holds, as one thing that systems can place.
+//! The drawn result of a derived system, or the content of a file, as one object that systems can place.
 
 use std::sync::Arc;
 
@@ -10,45 +10,45 @@ use burgeon_base::{MemoryOwner, Stop};
 use burgeon_macros::{methods, object};
 use burgeon_scene::{Instance, Material, Part, Scene, SurfaceMeaning};
 
-/// From so many instances on, the memory for them is asked for at once.
+/// Minimum number of instances for which memory is requested in advance.
 const MANY: usize = 4096;
 
-/// What a derived system has drawn, or a glTF file holds, for placing elsewhere.
+/// A model to place: the drawn result of a derived system, or a glTF file.
 ///
 /// It never changes. The way in which files are read is no part of its kind here.
-#[object("model", given, shows)]
+#[object("model", given, can(Show))]
 pub struct Model {
     scene: Arc<Scene>,
-    /// The box around it (m).
+    /// Bounding box (m).
     bounds: (DVec3, DVec3),
 }
 
 #[methods("model")]
 impl Model {
-    /// The lowest corner of the box around it (m).
+    /// Returns the lowest corner of the bounding box (m).
     pub fn low(&self) -> DVec3 {
         self.bounds.0
     }
 
-    /// The highest corner of the box around it (m).
+    /// Returns the highest corner of the bounding box (m).
     pub fn high(&self) -> DVec3 {
         self.bounds.1
     }
 }
 
 impl Model {
-    /// A model of all that `scene` shows.
+    /// Creates a model of the whole `scene`.
     pub fn new(scene: Scene) -> Self {
         let bounds = scene.bounds().unwrap_or_default();
         Self { scene: Arc::new(scene), bounds }
     }
 
-    /// The number of its triangles.
+    /// Returns the number of triangles.
     pub fn size(&self) -> usize {
         self.scene.triangles()
     }
 
-    /// About how much memory (bytes) it takes.
+    /// Returns the approximate memory use (bytes).
     pub fn memory(&self) -> usize {
         let parts = self.scene.meshes.iter().flat_map(|mesh| &mesh.parts);
         let images =
@@ -58,12 +58,12 @@ impl Model {
             + images.map(|image| image.len()).sum::<usize>()
     }
 
-    /// The number of meshes that it shows, each as often as it is seen.
+    /// Returns the number of instances. A mesh counts once for each instance.
     pub fn instances(&self) -> usize {
         self.scene.instances.len()
     }
 
-    /// Its meshes as often as they are seen, each as parts with their materials, and where it stands.
+    /// Returns the mesh of each instance as parts with their materials, and the instance's transform.
     pub fn meshes(&self) -> impl Iterator<Item = (Vec<(&Part, &Material)>, DAffine3)> {
         self.scene.instances.iter().map(|instance| {
             let parts = self.scene.meshes[instance.mesh].parts.iter();
@@ -71,10 +71,10 @@ impl Model {
         })
     }
 
-    /// Adds an instance of everything to `scene` at each of `frames`; its meshes are added once.
+    /// Adds an instance of the whole model to `scene` at each of `frames`; the meshes are added once.
     ///
-    /// The frames are numbered from `first` on, as [`Instance::placement`] tells; `meaning` is what all of it is. Fails if the
-    /// run is stopped, or has no memory left for them.
+    /// The frames are numbered from `first` on, see [`Instance::placement`]. `meaning`, if any, is the surface meaning
+    /// of the whole model. Fails if the run is cancelled or has too little memory.
     pub fn place(
         &self,
         scene: &mut Scene,
@@ -87,13 +87,14 @@ impl Model {
         let stop = Stop::current();
         let more = frames.len().saturating_mul(self.scene.instances.len());
         if more > MANY {
-            // Models that place each other double; so much more is refused before it is made.
+            // Models that place each other can double in size at each step, so too many instances are refused before
+            // allocation.
             MemoryOwner::ensure_room(more.saturating_mul(size_of::<Instance>() + name.len()))?;
             scene.instances.reserve_exact(more);
         }
         for (number, frame) in (first..).zip(frames) {
             for (index, instance) in self.scene.instances.iter().enumerate() {
-                // Models that place each other multiply.
+                // Models that place each other multiply, so cancellation is checked often.
                 if (number + index).is_multiple_of(256) {
                     stop.as_ref().map_or(Ok(()), |stop| stop.check())?;
                 }

@@ -1,120 +1,124 @@
-//! What every object has.
+//! Interface of all objects.
 
 use std::any::Any;
 use std::sync::Arc;
 
+use super::capability::{Draw, Expand, HasLayers, LevelOfDetail, Report, Show, Warn};
 use super::{Drawing, Kind, Note, Rewriter, Value};
 use burgeon_base::error::Result;
 use burgeon_base::warning::Warning;
 use burgeon_scene::Scene;
 
-/// Something that a script can make and ask, and that the modules of a chain may draw with.
+/// An object that scripts can make and read, and that the modules of a chain can draw with.
 ///
-/// What only some can do, such as to draw, is a [`Capability`](super::Capability) of their [`Kind`].
+/// Optional abilities, such as drawing, are [`Capability`](super::Capability) values of its [`Kind`].
 pub trait Object: Any + Send + Sync {
-    /// Its type: name, fields, methods and capabilities.
+    /// Returns the object's type: name, fields, methods and capabilities.
     fn kind(&self) -> &Arc<Kind>;
 
-    /// A copy, for one chain of many.
+    /// Returns a copy. Each chain draws with its own copy.
     fn boxed(&self) -> Box<dyn Object>;
 
-    /// Empties a drawing object before an interpretation pass.
+    /// Prepares for an interpretation pass; a drawing object is emptied.
     fn begin(&mut self) {}
 
-    /// Remembers the frame where a branch opens.
+    /// Saves the frame at the start of a branch.
     fn push(&mut self) {}
 
-    /// Returns to the frame of the matching [`Object::push`].
+    /// Restores the frame that the matching [`Object::push`] saved.
     fn pop(&mut self) -> Result<()> {
         Ok(())
     }
 
-    /// Closes what is still open at the end of a pass.
+    /// Completes unfinished content at the end of a pass.
     fn end(&mut self) -> Result<()> {
         Ok(())
     }
 
-    /// Takes the number that its random choices come from; chains with other seeds or features get other ones.
+    /// Sets the seed of the object's random choices. Chains with other seeds or features get other numbers.
     fn seed(&mut self, _: u64) {}
 
-    /// The object that it extends, whose methods and capabilities it has besides its own.
+    /// Returns the base object, whose methods and capabilities this object inherits.
     fn base(&self) -> Option<&dyn Object> {
         None
     }
 
-    /// The same, to change it.
+    /// Returns the base object for changes.
     fn base_mut(&mut self) -> Option<&mut dyn Object> {
         None
     }
 }
 
-/// What the capabilities of its kind make of an object whose type is not known.
+/// Capabilities of an object of unknown type, with defaults if its kind lacks them.
 impl dyn Object {
-    /// The number of triangles drawn so far, for the limit; an instance counts as one.
+    /// Returns the object as one with the capability `C`, if it has it.
+    pub fn capability<C: ?Sized + 'static>(&self) -> Option<&C> {
+        self.kind().capability::<C>()?.of(self)
+    }
+
+    /// Returns the object as a mutable one with the capability `C`, if it has it.
+    pub fn capability_mut<C: ?Sized + 'static>(&mut self) -> Option<&mut C> {
+        self.kind().capability::<C>()?.of_mut(self)
+    }
+
+    /// Returns the number of triangles drawn so far, for the limit; an instance counts as one.
     pub fn triangles(&self) -> usize {
-        self.kind().show.as_ref().and_then(|show| show.of(self)).map_or(0, |it| it.triangles())
+        self.capability::<dyn Show>().map_or(0, |it| it.triangles())
     }
 
-    /// Adds what it has drawn to `scene`, if it draws; `name` and `feature` are for its instances.
+    /// Adds the drawn content to `scene`, if the object draws; `name` and `feature` are for its instances.
     pub fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        let show = self.kind().show.as_ref().and_then(|show| show.of(self));
-        show.map_or(Ok(()), |it| it.show(scene, name, feature))
+        self.capability::<dyn Show>().map_or(Ok(()), |it| it.show(scene, name, feature))
     }
 
-    /// As `show`, but may give away what it has drawn, for nobody will look at the object again.
+    /// Adds the drawn content like `show`, but may move it out of the object, because the object is not used again.
     pub fn hand_over(&mut self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        let kind = Arc::clone(self.kind());
-        let show = kind.show.as_ref().and_then(|show| show.of_mut(self));
-        show.map_or(Ok(()), |it| it.hand_over(scene, name, feature))
+        self.capability_mut::<dyn Show>().map_or(Ok(()), |it| it.hand_over(scene, name, feature))
     }
 
-    /// Where it draws, if it draws with a [`Drawing`]: then people can ask which module made what.
+    /// Returns the drawing, if the object draws with a [`Drawing`]. Such drawings can be traced to the modules that
+    /// made them.
     pub fn drawing_mut(&mut self) -> Option<&mut Drawing> {
-        let kind = Arc::clone(self.kind());
-        kind.draw.as_ref()?.of_mut(self).map(|it| it.drawing_mut())
+        self.capability_mut::<dyn Draw>().map(|it| it.drawing_mut())
     }
 
-    /// Gives away what people should know of how it was made, and of what it was asked since it was asked this last.
+    /// Takes the warnings about the object's construction and about the calls since the last time.
     pub fn take_warnings(&mut self) -> Vec<Warning> {
-        let warn = self.kind().warn;
-        warn.and_then(|warn| warn.of_mut(self)).map_or_else(Vec::new, |it| it.take_warnings())
+        self.capability_mut::<dyn Warn>().map_or_else(Vec::new, |it| it.take_warnings())
     }
 
-    /// Whether it expands what it shows by itself, and so can stand without an axiom.
+    /// Returns true if the object expands its content automatically, so it needs no axiom.
     pub fn expands(&self) -> bool {
-        self.kind().expand.is_some()
+        self.kind().has_capability::<dyn Expand>()
     }
 
-    /// Expands what it was last asked to show, if it does so by itself.
+    /// Expands the content that was last requested, if the object has the capability.
     pub fn expand(&mut self, rules: &dyn Rewriter) -> Result<()> {
-        let kind = Arc::clone(self.kind());
-        let expand = kind.expand.as_ref().and_then(|expand| expand.of_mut(self));
-        expand.map_or(Ok(()), |it| it.expand(rules))
+        self.capability_mut::<dyn Expand>().map_or(Ok(()), |it| it.expand(rules))
     }
 
-    /// Takes that its script is only checked: nothing is expanded or shown, and it answers as if it were even.
+    /// Prepares for a check of the script: nothing is expanded or shown, and read methods return results as for level
+    /// ground.
     pub fn sketch(&mut self) {
-        let kind = Arc::clone(self.kind());
-        if let Some(it) = kind.expand.as_ref().and_then(|expand| expand.of_mut(self)) {
+        if let Some(it) = self.capability_mut::<dyn Expand>() {
             it.sketch();
         }
     }
 
-    /// Takes the level of detail to draw in: 0 the ground plan, 1 blocks, 2 roofs, 3 everything.
+    /// Sets the level of detail to draw in: 0 footprints, 1 blocks, 2 roofs, 3 everything.
     pub fn set_detail(&mut self, detail: u8) {
-        let kind = Arc::clone(self.kind());
-        if let Some(it) = kind.detail.as_ref().and_then(|capability| capability.of_mut(self)) {
+        if let Some(it) = self.capability_mut::<dyn LevelOfDetail>() {
             it.set_detail(detail);
         }
     }
 
-    /// Its features as layers, by name, if it has any.
+    /// Returns the features as named layers; empty if the object has no features.
     pub fn layers(&self) -> Vec<(&'static str, Vec<Value>)> {
-        self.kind().layers.as_ref().and_then(|layers| layers.of(self)).map_or_else(Vec::new, |it| it.layers())
+        self.capability::<dyn HasLayers>().map_or_else(Vec::new, |it| it.layers())
     }
 
-    /// What it had to do otherwise than it was asked since the pass began.
+    /// Returns the report entries since the pass began.
     pub fn notes(&self) -> &[Note] {
-        self.kind().report.as_ref().and_then(|report| report.of(self)).map_or(&[], |it| it.notes())
+        self.capability::<dyn Report>().map_or(&[], |it| it.notes())
     }
 }

@@ -1,45 +1,45 @@
-//! The types that fields, arguments and results of methods may have, and how each reads a script's value.
+//! Types of fields, arguments and results of methods, and their conversion from and to script values.
 
 use std::any::Any;
 use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Field, Object, Table, TableKey, Value, geometry};
+use super::{Field, Object, ObjectContent, Table, TableKey, Value};
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
 use burgeon_rewriting::ColumnValue;
 
-/// Items of a list that are read between two looks at the stop of the run.
+/// Number of list items that are read between two checks for cancellation.
 const STRETCH: usize = 4096;
 
-/// What was expected instead of a value, such as "a positive whole number".
+/// Description of an expected value, such as "a positive whole number".
 #[derive(Debug, Clone)]
 pub struct Expectation {
     what: String,
-    /// What was found instead, where that is only a part of the value.
+    /// Description of the wrong part, if only a part of the value is wrong.
     found: Option<String>,
 }
 
 impl Expectation {
-    /// Expected `what`, with its article.
+    /// Creates an expectation of `what`, which includes the article.
     pub fn new(what: impl Into<String>) -> Self {
         Self { what: what.into(), found: None }
     }
 
-    /// The same, where `found` is what is wrong within the value.
+    /// Sets `found` as the wrong part of the value, unless it is already set.
     #[must_use]
     pub fn found(self, found: &Value) -> Self {
         Self { found: self.found.or_else(|| Some(shown(found))), ..self }
     }
 
-    /// The same, where what was found is called `found`.
+    /// Sets the text that describes the found value.
     #[must_use]
     pub fn but_was(self, found: impl Into<String>) -> Self {
         Self { found: Some(found.into()), ..self }
     }
 
-    /// What is wrong with item `number` of a list.
+    /// Returns the message for item `number` of a list.
     pub fn item(&self, number: usize) -> String {
         match &self.found {
             Some(found) => format!("item {number} must be {}, not {found}", self.what),
@@ -47,16 +47,17 @@ impl Expectation {
         }
     }
 
-    /// The error: `name` of `owner` is not as expected. What a feature has may be right with another one.
+    /// Returns the error that `name` of `owner` is not as expected. It counts as an error of the data, because the
+    /// value can be valid for another feature.
     pub fn refuse(&self, owner: &str, name: &str, value: &Value) -> Error {
         let found = self.found.clone().unwrap_or_else(|| shown(value));
         Error::argument(format!("{owner}: {name} must be {}, not {found}", self.what)).of_data()
     }
 }
 
-/// A value for a message.
+/// Formats a value for a message.
 fn shown(value: &Value) -> String {
-    /// The longest text of a value that is shown.
+    /// Maximum length of a shown value (bytes).
     const LONGEST: usize = 40;
     match value {
         Value::Number(number) if number.is_nan() => "NaN".to_owned(),
@@ -74,42 +75,42 @@ fn shown(value: &Value) -> String {
     }
 }
 
-/// A type that a field or an argument may have.
+/// A type of fields and arguments.
 pub trait Parameter: Sized {
-    /// Whether it stands in a column of numbers as itself, so that calls may be recorded.
+    /// Set if a column of numbers can store the value itself, so calls can be recorded.
     const IS_NUMBER: bool = false;
 
-    /// Its name in Luau's type language.
+    /// Returns the type in Luau syntax.
     fn luau() -> String;
 
-    /// What it may have, where it is a table of named fields or a list of such.
+    /// Returns the fields, if the type is a table of named fields or a list of such tables.
     fn fields() -> Vec<Field> {
         Vec::new()
     }
 
-    /// Reads a script's value.
+    /// Converts a script's value.
     fn from_value(value: Value) -> Result<Self, Expectation>;
 
-    /// Reads a column's number; `None` where [`Parameter::from_value`] is to refuse it.
+    /// Converts a column's number; `None` if [`Parameter::from_value`] must refuse it.
     fn from_number(_: f64) -> Option<Self> {
         None
     }
 
-    /// The value for the script.
+    /// Converts to a script's value.
     fn into_value(self) -> Value;
 
-    /// The value as one would write it in a script.
+    /// Formats the value as written in a script.
     fn written(self) -> String {
         self.into_value().to_string()
     }
 }
 
-/// A type that a method may return.
+/// A result type of methods.
 pub trait Answer {
-    /// Its name in Luau's type language; empty where the method returns the object itself.
+    /// Returns the type in Luau syntax; empty if the method returns the object itself.
     fn luau() -> String;
 
-    /// The value for the script.
+    /// Converts to a script's value.
     fn answer(self) -> Result<Value>;
 }
 
@@ -149,7 +150,17 @@ macro_rules! answers {
     )*};
 }
 
-answers!(f64, u32, bool, String, DVec3, Vec<f64>, Value);
+answers!(f64, u32, bool, String, DVec3, Value);
+
+impl<T: Parameter> Answer for Vec<T> {
+    fn luau() -> String {
+        <Self as Parameter>::luau()
+    }
+
+    fn answer(self) -> Result<Value> {
+        Ok(self.into_value())
+    }
+}
 
 impl<T: Answer> Answer for Option<T> {
     fn luau() -> String {
@@ -161,18 +172,18 @@ impl<T: Answer> Answer for Option<T> {
     }
 }
 
-/// The object of type `T` that a value is; otherwise `what` was expected.
+/// Returns the object of type `T` in a value. Otherwise fails with the expectation `what`.
 pub fn object<T: Object>(value: Value, what: &str) -> Result<Arc<T>, Expectation> {
     let Value::Object(object) = value else { return Err(Expectation::new(what)) };
     let any: Arc<dyn Any + Send + Sync> = object;
     any.downcast().map_err(|_| Expectation::new(what))
 }
 
-/// A type of object that fields and arguments may be, shared and unchanging.
+/// An object type for fields and arguments. The objects are shared and immutable.
 pub trait ObjectParameter: Object {
-    /// Its name in Luau's type language.
+    /// Type in Luau syntax.
     const LUAU: &str;
-    /// What was expected where something else is given, with its article.
+    /// Expected value for messages, with its article.
     const EXPECTED: &str;
 }
 
@@ -368,7 +379,7 @@ impl<T: Parameter> Parameter for Vec<T> {
                 list.into_iter()
                     .enumerate()
                     .map(|(index, value)| {
-                        // The reason of a stopped run is reported in place of this.
+                        // The run reports the reason of the cancellation instead of this error.
                         if index % STRETCH == STRETCH - 1 && Stop::check_current().is_err() {
                             return Err(what());
                         }
@@ -398,11 +409,11 @@ fn list(values: impl Iterator<Item = Value>) -> Value {
     Value::Table(Arc::new(Table { class: None, entries }))
 }
 
-/// Two or three numbers, as a list or with the names x, y and z.
+/// Two or three numbers, as a list or with the names x, y and z. Two numbers have the z value 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Vector(pub DVec3);
 
-/// A scale for each axis, or one for all of them.
+/// A scale for each axis, or one scale for all axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisScale(pub DVec3);
 
@@ -441,8 +452,10 @@ impl Parameter for Vector {
 
     fn from_value(value: Value) -> Result<Self, Expectation> {
         let what = || Expectation::new("a vector: { x, y, z } or vec(x, y, z)");
-        if let Some(place) = geometry::vector(&value) {
-            return Ok(place);
+        if let Value::Object(object) = &value
+            && let Some(position) = object.capability::<dyn ObjectContent>().and_then(|it| it.position())
+        {
+            return Ok(Self(position));
         }
         let Value::Table(table) = value else { return Err(what()) };
         let mut parts = table.list();

@@ -1,18 +1,18 @@
-//! Work on a layer's features that another thread does before anyone asks for them.
+//! Preparation of a layer's features in another thread before a script uses them.
 
 use std::any::Any;
 use std::sync::Arc;
 
-use burgeon_data::Layer;
+use super::Object;
 
-/// Begins to prepare a layer's features.
-pub type BeginPrefetch = fn(&Arc<Layer>) -> Arc<dyn Prefetch>;
+/// Begins to prepare the features of a source; `None` if the source has nothing to prepare.
+pub type BeginPrefetch = fn(&Arc<dyn Object>) -> Option<Arc<dyn Prefetch>>;
 
-/// What is being made of a layer's features before they are asked for.
+/// Preparation of a layer's features in advance.
 pub trait Prefetch: Any + Send + Sync {
-    /// Makes what comes next, from the first question on until [`Prefetch::end`].
+    /// Prepares features in order, from the first query until [`Prefetch::end`].
     fn work(&self);
 
-    /// Lets the thread go that works.
+    /// Stops the working thread.
     fn end(&self);
 }

@@ -1,20 +1,20 @@
-//! The types of objects that the scripts of a run can use.
+//! Object types that the scripts of a run can use.
 
 use std::sync::Arc;
 
 use super::Kind;
 use burgeon_base::error::{Error, Result};
 
-/// Types of objects by name, in the order in which they were added.
+/// Object types by name, in the order of insertion.
 #[derive(Debug, Clone, Default)]
 pub struct Registry {
     kinds: Vec<Arc<Kind>>,
-    /// Why a type is left out of those that the registry was made of.
+    /// Error for the first type that was skipped when the registry was collected from an iterator.
     problem: Option<Error>,
 }
 
 impl Registry {
-    /// All types of a list. Fails if two of them have one name.
+    /// Creates a registry of all types of a list. Fails if two types have the same name.
     ///
     /// ```
     /// use burgeon_kit::{Kind, Registry};
@@ -33,7 +33,7 @@ impl Registry {
         Ok(registry)
     }
 
-    /// Adds a type. Fails if there is one of that name.
+    /// Adds a type. Fails if a type of that name exists.
     pub fn add(&mut self, kind: impl Into<Arc<Kind>>) -> Result<()> {
         let kind = kind.into();
         self.refuse_taken(&kind.name)?;
@@ -41,7 +41,7 @@ impl Registry {
         Ok(())
     }
 
-    /// Fails if there is a type called `name`.
+    /// Fails if a type called `name` exists.
     pub fn refuse_taken(&self, name: &str) -> Result<()> {
         let Some(known) = self.get(name) else { return Ok(()) };
         let place = known.script.as_ref().and_then(|script| script.place.as_ref());
@@ -51,24 +51,24 @@ impl Registry {
             .help("give this one another name, or add to that one: extend(constructor, { ... })"))
     }
 
-    /// Fails if the registry was made of types of which two have one name.
+    /// Fails if the registry was collected from types of which two have the same name.
     pub fn check(&self) -> Result<()> {
         self.problem.clone().map_or(Ok(()), Err)
     }
 
-    /// The type called `name`.
+    /// Returns the type called `name`.
     pub fn get(&self, name: &str) -> Option<&Arc<Kind>> {
         self.kinds.iter().find(|kind| kind.name == name)
     }
 
-    /// All types, in the order in which they were added.
+    /// Returns all types, in the order of insertion.
     pub fn kinds(&self) -> impl Iterator<Item = &Arc<Kind>> {
         self.kinds.iter()
     }
 }
 
-/// All types of a list. Of two with one name only the first is there, which [`Registry::check`] tells; no script runs with
-/// such a registry. [`Registry::try_from_kinds`] fails at once.
+/// Collects all types of a list. Of two types with the same name, only the first is kept. [`Registry::check`] then
+/// fails, and no script runs with such a registry. [`Registry::try_from_kinds`] fails immediately.
 impl FromIterator<Arc<Kind>> for Registry {
     fn from_iter<I: IntoIterator<Item = Arc<Kind>>>(kinds: I) -> Self {
         let mut registry = Self::default();

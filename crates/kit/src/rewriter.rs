@@ -1,4 +1,4 @@
-//! How an object that expands by itself has the rules of a system applied.
+//! Application of a system's rules for an object that expands automatically.
 
 use std::sync::Arc;
 
@@ -9,54 +9,54 @@ use burgeon_rewriting::{Chain, Grammar};
 
 /// A system whose rules an object applies.
 ///
-/// The script handed it to the object.
+/// The script passes it to the object.
 #[object("system", given)]
 #[derive(Debug)]
 pub struct System {
-    /// Its place among the systems of the script.
+    /// Index of the system in the script.
     pub index: usize,
 }
 
 #[methods("system")]
 impl System {}
 
-/// What is known of a system whose rules are applied for an object.
+/// Rules of a system with the data to apply them for an object.
 pub struct RuleSet {
-    /// Its rules.
+    /// Rules of the system.
     pub grammar: Grammar,
-    /// The parameters of its modules that are not numbers.
+    /// Parameters of its modules that are not numbers.
     pub values: Arc<Values>,
-    /// Where it was made.
+    /// Source location of the system's declaration.
     pub place: Option<SourcePlace>,
-    /// Whether it has an object of its own.
+    /// Set if the system has its own object.
     pub has_object: bool,
-    /// Symbols that a thread takes at a time: chains are marked so.
+    /// Number of symbols per unit of work of a thread; chains are marked accordingly.
     pub batch: usize,
 }
 
-/// A chain after a step.
+/// Result of a rewriting step.
 pub struct RewriteOutcome {
-    /// The chain.
+    /// The new chain.
     pub chain: Chain,
-    /// For each symbol of the chain before: the number of the rule that ran, or [`NO_RULE`](burgeon_rewriting::NO_RULE), and how many
-    /// symbols came of it.
+    /// Applied rule for each symbol of the previous chain, or [`NO_RULE`](burgeon_rewriting::NO_RULE), and the number
+    /// of symbols that replace it.
     pub applied: Vec<(u16, u32)>,
 }
 
-/// Applies the rules of a script's systems.
+/// Access to the rules of a script's systems.
 pub trait Rewriter {
-    /// System `index` of the script.
+    /// Returns the rules of system `index` of the script.
     fn rules(&self, index: usize) -> Result<Arc<RuleSet>>;
 
-    /// The first chain of system `index`.
+    /// Returns the axiom of system `index`.
     fn axiom(&self, index: usize) -> Result<Chain>;
 
-    /// Applies the rules of system `index` once to a marked `chain`, in what is told as step `step`.
+    /// Applies the rules of system `index` once to a marked `chain`; `step` is the number of the step for messages.
     fn rewrite(&self, index: usize, chain: Chain, step: usize) -> Result<RewriteOutcome>;
 
-    /// Takes back a chain that is no longer needed, for its memory.
+    /// Takes back a chain that is no longer needed, to reuse its memory.
     fn reuse(&self, index: usize, chain: Chain);
 
-    /// Fails once the run is to stop.
+    /// Fails if the run is cancelled.
     fn check(&self) -> Result<()>;
 }

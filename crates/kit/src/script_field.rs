@@ -1,4 +1,4 @@
-//! A field of a type of object that a script declares: what its constructor may be given, and what is refused.
+//! Fields of object types that a script declares, with the checks of their values.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -6,15 +6,15 @@ use std::sync::Arc;
 use super::{Expectation, Field, Parameter, Table, TableKey, Value};
 use burgeon_base::error::{Error, Result};
 
-/// What a field is declared with.
+/// Keys of a field's declaration.
 const PARTS: [&str; 7] = ["default", "type", "min", "max", "choices", "unit", "doc"];
 
-/// A field of the table that a constructor takes.
+/// A field of a constructor's table.
 #[derive(Debug, Clone)]
 pub struct ScriptField {
-    /// Its name.
+    /// Name of the field.
     pub name: Arc<str>,
-    /// Its value where it is left out; it must be given where there is none.
+    /// Value of an omitted field. Without a default, the field is required.
     pub default: Option<Value>,
     sort: ValueSort,
     min: Option<f64>,
@@ -24,7 +24,7 @@ pub struct ScriptField {
     doc: Arc<str>,
 }
 
-/// What a field's values are.
+/// Type of a field's values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum ValueSort {
     Number,
@@ -73,7 +73,7 @@ impl ValueSort {
 }
 
 impl ScriptField {
-    /// Reads what a script declares of the field `name` of the type `of`: a table, or the default alone.
+    /// Reads the declaration of the field `name` of the type `of`: a table, or only the default.
     pub fn declare(of: &str, name: &str, declared: &Value) -> Result<Self> {
         let owner = format!("{of}.{name}");
         let bare = Table { class: None, entries: vec![(TableKey::Name("default".into()), declared.clone())] };
@@ -135,7 +135,7 @@ impl ScriptField {
         Ok(Self { default, ..field })
     }
 
-    /// The value that a constructor of `of` was given, if the field may have it.
+    /// Checks a `value` for the field, passed to a constructor of `of`. Fails if the field does not allow it.
     pub fn read(&self, of: &str, value: Value) -> Result<Value> {
         match self.expected(&value) {
             None => Ok(value),
@@ -143,7 +143,7 @@ impl ScriptField {
         }
     }
 
-    /// What `value` should be, if it may not be what it is.
+    /// Returns a description of the allowed values, if `value` is not allowed.
     fn expected(&self, value: &Value) -> Option<String> {
         let fits = match value {
             Value::Number(number) => number.is_finite(),
@@ -172,7 +172,7 @@ impl ScriptField {
         }
     }
 
-    /// The field as people are told of it.
+    /// Describes the field for the API reference.
     pub fn describe(&self) -> Field {
         Field {
             name: Cow::Owned(self.name.to_string()),
@@ -190,7 +190,7 @@ impl ScriptField {
     }
 }
 
-/// The part of a declaration called `part`.
+/// Reads the entry `part` of a declaration.
 fn read<T: Parameter>(owner: &str, table: &Table, part: &str) -> Result<Option<T>> {
     let Some(value) = table.get(part) else { return Ok(None) };
     T::from_value(value.clone()).map(Some).map_err(|expected| expected.refuse(owner, part, value))

@@ -1,4 +1,4 @@
-//! An object whose type a script declares: the object that it extends, its fields, and its state between passes.
+//! An object whose type a script declares: its base object, its fields and its state between passes.
 
 use std::sync::Arc;
 
@@ -10,8 +10,8 @@ use burgeon_macros::methods;
 
 /// An object of a type that a script declares.
 ///
-/// While a pass runs, its state lives in the virtual machine that interprets its chain; here is what it was after the
-/// last one.
+/// During a pass, its state is in the virtual machine that interprets its chain. This struct contains the state after
+/// the last pass.
 pub struct ScriptObject {
     kind: Arc<Kind>,
     of: Arc<ScriptType>,
@@ -19,33 +19,33 @@ pub struct ScriptObject {
     fields: Arc<Table>,
     state: Arc<Table>,
     held: Vec<Box<dyn Object>>,
-    /// What it has drawn, where it extends nothing that draws.
+    /// Drawing of the object, if it has no base object that draws.
     drawing: Drawing,
     detail: u8,
     notes: Vec<Note>,
 }
 
-/// The most notes that one object keeps of a pass.
+/// Maximum number of report entries that one object keeps per pass.
 const MOST_NOTES: usize = 1000;
 
 #[methods("object")]
 impl ScriptObject {
-    /// Notes what was done otherwise than asked, for the report of the run, such as "a short arm instead of a long one".
+    /// Adds a report entry about a result that differs from the request, such as "a short arm instead of a long one".
     pub fn note(&mut self, what: String, why: Option<String>) {
-        // Nobody reads more of one object, and a loop that never ends must not fill the memory.
+        // An endless loop must not fill the memory, and more entries of one object are not useful.
         if self.notes.len() < MOST_NOTES {
             self.notes.push(Note::new(what, why.unwrap_or_default()));
         }
     }
 
-    /// The level of detail to draw in: 0 the ground plan, 1 blocks, 2 roofs, 3 everything.
+    /// Returns the level of detail to draw in: 0 footprints, 1 blocks, 2 roofs, 3 everything.
     pub fn detail(&self) -> u32 {
         u32::from(self.detail)
     }
 }
 
 impl ScriptObject {
-    /// One with these `fields`, and `base` for what it extends, before its first pass.
+    /// Creates an object with these `fields`, and `base` as its base object, before its first pass.
     pub(super) fn new(
         kind: Arc<Kind>,
         of: Arc<ScriptType>,
@@ -67,22 +67,22 @@ impl ScriptObject {
         }
     }
 
-    /// The values of the fields that its own type declares.
+    /// Returns the values of the fields that the object's own type declares.
     pub fn fields(&self) -> &Arc<Table> {
         &self.fields
     }
 
-    /// Its state after the last pass.
+    /// Returns the state after the last pass.
     pub fn state(&self) -> &Arc<Table> {
         &self.state
     }
 
-    /// Keeps the state that a pass has left.
+    /// Stores the state at the end of a pass.
     pub fn set_state(&mut self, state: Arc<Table>) {
         self.state = state;
     }
 
-    /// The field or the part of its state called `name`.
+    /// Returns the field or state variable called `name`.
     pub fn member(&self, name: &str) -> Option<Value> {
         let held = || {
             let index = self.of.held.iter().position(|(known, _)| **known == *name)?;
@@ -91,7 +91,8 @@ impl ScriptObject {
         self.fields.get(name).or_else(|| self.state.get(name)).cloned().or_else(held)
     }
 
-    /// The object number `slot` among those that it holds, to be asked. Each is followed by those that it holds itself.
+    /// Returns the child object at `slot` for reading. Slots number the child objects recursively: the children of a
+    /// child object follow it.
     pub fn held(&self, slot: usize) -> Result<&dyn Object> {
         let (index, inner) = self.of.held_at(slot).ok_or_else(none_held)?;
         let object = self.held.get(index).map(|object| &**object).ok_or_else(none_held)?;
@@ -101,12 +102,12 @@ impl ScriptObject {
         }
     }
 
-    /// The objects in its state, in the order of their names' declaration; not those that they hold themselves.
+    /// Returns the direct child objects with their names, in the order of declaration.
     pub fn held_directly(&self) -> impl Iterator<Item = (&Arc<str>, &dyn Object)> {
         self.of.held.iter().map(|(name, _)| name).zip(self.held.iter().map(|object| &**object))
     }
 
-    /// Does something with the object number `slot` among those that it holds, which draws into this object's drawing.
+    /// Calls `act` with the child object at `slot`, which meanwhile draws into this object's drawing.
     pub fn with_held<T>(&mut self, slot: usize, act: impl FnOnce(&mut dyn Object) -> Result<T>) -> Result<T> {
         let (index, inner) = self.of.held_at(slot).ok_or_else(none_held)?;
         self.with_direct(index, |object| match inner {
@@ -115,7 +116,7 @@ impl ScriptObject {
         })
     }
 
-    /// The drawing that it and what it holds draw into.
+    /// Returns the drawing that the object and its child objects share.
     fn shared(&mut self) -> &mut Drawing {
         let Self { base, drawing, .. } = self;
         base.as_deref_mut().and_then(|base| base.drawing_mut()).unwrap_or(drawing)
@@ -171,9 +172,9 @@ impl Object for ScriptObject {
         if let Some(base) = &mut self.base {
             base.begin();
         }
-        // What is held draws into the same drawing, and finds its materials there.
+        // Child objects draw into the shared drawing, so their `begin` must not clear it again.
         let before = self.shared().keep(true);
-        // Beginning refuses nothing.
+        // The closure never fails.
         let _: Result<()> = self.each_held(|object| {
             object.begin();
             Ok(())

@@ -1,44 +1,46 @@
-//! A type of object that a script declares, as far as Rust knows it; its functions stay in the virtual machine.
+//! The part of a script's object type that Rust knows; its functions stay in the virtual machine.
 
 use std::collections::BTreeSet;
 use std::sync::{Arc, Weak};
 
+use super::capability::{Draw, LevelOfDetail, Report, Warn};
 use super::declare::refuse_unknown;
 use super::{Argument, Call, Construct, Kind, Method, Object, ScriptField, ScriptObject, Table, Value};
+use crate::capability;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 
-/// What a script declares of a type.
+/// Declaration of an object type by a script.
 #[derive(Clone, Default)]
 pub struct ScriptType {
-    /// The type of Rust that it extends, if any, by itself or through others.
+    /// Built-in base type, direct or inherited through other types, if any.
     pub base: Option<Arc<Kind>>,
-    /// The names of the types that it extends, the nearest first.
+    /// Names of the base types, the nearest first.
     pub above: Vec<Arc<str>>,
-    /// What its constructor takes besides what the base's takes.
+    /// Fields of the constructor in addition to the base type's fields.
     pub fields: Vec<ScriptField>,
-    /// The names and first values of its state.
+    /// Names and initial values of the state variables.
     pub state: Arc<Table>,
-    /// Objects in its state that it draws with, by name.
+    /// Child objects of the state, by name.
     pub held: Vec<(Arc<str>, Arc<dyn Object>)>,
-    /// Whether a function of its own runs where a branch opens, and where it closes.
+    /// Set if the script defines a function for the start of a branch, and for its end.
     pub branches: [bool; 2],
-    /// Where it is declared.
+    /// Source location of the declaration.
     pub place: Option<SourcePlace>,
 }
 
-/// How deeply types that hold objects of types that hold objects may be nested.
+/// Maximum nesting depth of child objects.
 const DEEPEST_HELD: usize = 8;
 
-/// The most objects that one may hold, with those that these hold.
+/// Maximum number of child objects of an object, counted recursively.
 const MOST_HELD: usize = 64;
 
 impl ScriptType {
-    /// How many objects one holds, with those that these hold.
+    /// Returns the number of child objects, counted recursively.
     pub fn held_count(&self) -> usize {
         self.held.iter().map(|(_, object)| 1 + inner(object).map_or(0, Self::held_count)).sum()
     }
 
-    /// The names of its fields, and of what is in its state.
+    /// Returns the names of the fields, state variables and child objects.
     pub fn parts(&self) -> impl Iterator<Item = &str> {
         let fields = self.fields.iter().map(|field| &*field.name);
         let state = self.state.entries.iter().filter_map(|(key, _)| match key {
@@ -52,8 +54,9 @@ impl ScriptType {
         self.held.iter().map(|(_, object)| 1 + inner(object).map_or(0, Self::held_depth)).max().unwrap_or(0)
     }
 
-    /// Which object of its state number `slot` is, or is held by, and then which of those: each is followed by those that it
-    /// holds itself.
+    /// Returns the index of the direct child object that `slot` refers to. If the slot belongs to a descendant, also
+    /// returns the slot within that child. Slots number the child objects recursively: the children of a child object
+    /// follow it.
     pub(super) fn held_at(&self, slot: usize) -> Option<(usize, Option<usize>)> {
         let mut left = slot;
         for (index, (_, object)) in self.held.iter().enumerate() {
@@ -70,11 +73,11 @@ impl ScriptType {
         None
     }
 
-    /// Refuses what cannot be held, and too much of it.
+    /// Fails if a child object cannot draw, or if there are too many child objects or nesting levels.
     fn check_held(&self, name: &str) -> Result<()> {
         for (held, object) in &self.held {
             let kind = object.kind();
-            if kind.draw.is_none() {
+            if !kind.has_capability::<dyn Draw>() {
                 return Err(Error::argument(format!(
                     "{name}: {held} of its state is a {}, which cannot be held",
                     kind.name
@@ -96,7 +99,8 @@ impl ScriptType {
         Ok(())
     }
 
-    /// The type as the engine knows it: what it extends, and besides `methods` of the script.
+    /// Creates the kind for the engine: the base type, extended by the script's `methods`. Fails if the base type has
+    /// no constructor with fields, or if names or child objects are not allowed.
     pub fn kind(self, name: &str, doc: &str, methods: Vec<Method>) -> Result<Arc<Kind>> {
         let base = self.base.clone();
         if let Some(base) = &base
@@ -109,7 +113,7 @@ impl ScriptType {
         }
         self.check_held(name)?;
         if let (Some(base), false) = (&base, self.held.is_empty())
-            && base.draw.is_none()
+            && !base.has_capability::<dyn Draw>()
         {
             return Err(Error::argument(format!(
                 "a {} does not draw, so {name} can hold nothing that does",
@@ -165,28 +169,27 @@ impl ScriptType {
                 made.make(kind, table)
             };
             let own = Kind::new(name.to_owned(), doc).made_of(fields, make).methods(all);
-            let own = own.has_detail::<ScriptObject>().reports::<ScriptObject>();
             let mut within = base.iter().chain(of.held.iter().map(|(_, object)| object.kind()));
-            let own = if within.any(|kind| kind.warn.is_some()) { own.warns::<ScriptObject>() } else { own };
-            match base {
+            let warns = within.any(|kind| kind.has_capability::<dyn Warn>());
+            let own = match base {
                 None => Kind { script: Some(of), ..own.begins_empty().draws::<ScriptObject>() },
                 Some(base) => Kind {
                     first: base.first.clone(),
                     begins_empty: base.begins_empty,
-                    show: base.show,
-                    draw: base.draw,
-                    layers: base.layers,
-                    expand: base.expand,
+                    capabilities: base.capabilities.clone(),
                     gather: base.gather,
                     prefetch: base.prefetch,
                     script: Some(of),
                     ..own
                 },
-            }
+            };
+            let own =
+                own.can(capability!(ScriptObject: LevelOfDetail)).can(capability!(ScriptObject: Report));
+            if warns { own.can(capability!(ScriptObject: Warn)) } else { own }
         }))
     }
 
-    /// Makes one of the table that a constructor was given.
+    /// Makes an object from the constructor's table.
     fn make(self: &Arc<Self>, kind: Arc<Kind>, table: &Table) -> Result<ScriptObject> {
         let names: Vec<&str> = kind.fields.iter().map(|field| &*field.name).collect();
         refuse_unknown(&kind.name, &names, table)?;
@@ -217,12 +220,12 @@ impl ScriptType {
     }
 }
 
-/// What a script declared of the type of an object, if one did.
+/// Returns the declaration of an object's type, if a script declared the type.
 fn inner(object: &Arc<dyn Object>) -> Option<&ScriptType> {
     object.kind().script.as_deref()
 }
 
-/// The method that all types of scripts have besides their own.
+/// Name of the method that all types of scripts have in addition to their own.
 const AS: &str = "as";
 
 fn seen_as() -> Method {

@@ -1,11 +1,11 @@
-//! Seeds as scripts give them.
+//! Seeds from scripts.
 
 use super::{Expectation, Parameter, Value};
 use burgeon_rewriting::ModuleKey;
 
-/// What random numbers come from: 64 bits, as a number or a string.
+/// Seed of random numbers: 64 bits, as a number or a string.
 ///
-/// A string of 16 hexadecimal digits is those bits, as other objects give them; any other string is as good.
+/// A string of 16 hexadecimal digits, as other objects return it, is used as these bits. Any other string is hashed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Seed(pub u64);
 
@@ -33,7 +33,7 @@ impl Parameter for Seed {
     }
 
     fn written(self) -> String {
-        // As a number where that is exact.
+        // A number is only exact below 2^53.
         if self.0 < 1 << 53 { self.0.to_string() } else { self.into_value().to_string() }
     }
 }

@@ -1,18 +1,15 @@
-//! Values as scripts have them, owned by Rust: parameters of modules, arguments and results of methods.
+//! Script values that Rust owns: parameters of modules, arguments and results of methods.
 
 use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
-use super::{GeometryObject, Object};
-
-/// About how many letters of a geometry are shown.
-const SHORT: usize = 60;
+use super::{Object, ObjectContent};
 
 /// A number, a boolean, a string, a frozen table or an object.
 #[derive(Clone)]
 pub enum Value {
-    /// Nothing, or an optional value that was left out.
+    /// No value, or an omitted optional value.
     Nil,
     /// `true` or `false`.
     Boolean(bool),
@@ -22,20 +19,20 @@ pub enum Value {
     Text(Arc<str>),
     /// A frozen table.
     Table(Arc<Table>),
-    /// A geometry or another object, shared and unchanging.
+    /// A geometry or another object, shared and immutable.
     Object(Arc<dyn Object>),
 }
 
 /// A frozen table of values.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Hash)]
 pub struct Table {
-    /// The class that gives it operators in scripts, such as the vectors of the standard library.
+    /// Class that gives the table operators in scripts, such as the vectors of the standard library.
     pub class: Option<Arc<str>>,
-    /// The entries, in the order of their keys.
+    /// Entries, in the order of their keys.
     pub entries: Vec<(TableKey, Value)>,
 }
 
-/// The key of a table's entry.
+/// Key of a table entry.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum TableKey {
     /// A position, from 1.
@@ -53,9 +50,8 @@ impl PartialEq for Value {
             (Self::Text(a), Self::Text(b)) => a == b,
             (Self::Table(a), Self::Table(b)) => a == b,
             (Self::Object(a), Self::Object(b)) => {
-                // Geometries are values.
-                let same = || Some(GeometryObject::of(&**a)? == GeometryObject::of(&**b)?);
-                Arc::ptr_eq(a, b) || same().unwrap_or(false)
+                Arc::ptr_eq(a, b)
+                    || a.capability::<dyn ObjectContent>().is_some_and(|content| content.equals(&**b))
             }
             _ => false,
         }
@@ -73,8 +69,8 @@ impl Hash for Value {
             Self::Number(value) => value.to_bits().hash(state),
             Self::Text(value) => value.hash(state),
             Self::Table(value) => value.hash(state),
-            Self::Object(value) => match GeometryObject::of(&**value) {
-                Some(geometry) => GeometryObject::hash(geometry, state),
+            Self::Object(value) => match value.capability::<dyn ObjectContent>() {
+                Some(content) => content.hash(state),
                 None => Arc::as_ptr(value).cast::<()>().hash(state),
             },
         }
@@ -82,7 +78,7 @@ impl Hash for Value {
 }
 
 impl Value {
-    /// What it is, for messages: "a number", "a table".
+    /// Returns the type for messages: "a number", "a table".
     pub fn describe(&self) -> &'static str {
         match self {
             Self::Nil => "nothing",
@@ -96,7 +92,7 @@ impl Value {
 }
 
 impl Table {
-    /// The value of the entry called `name`.
+    /// Returns the value of the entry called `name`.
     pub fn get(&self, name: &str) -> Option<&Value> {
         self.entries
             .iter()
@@ -104,7 +100,7 @@ impl Table {
             .map(|(_, value)| value)
     }
 
-    /// The entries 1, 2, 3 and so on, as long as there are.
+    /// Returns the entries 1, 2, 3 and so on, up to the first missing index.
     pub fn list(&self) -> Vec<Value> {
         let mut list = Vec::new();
         for (key, value) in &self.entries {
@@ -129,8 +125,8 @@ impl fmt::Display for Value {
             Self::Boolean(value) => write!(f, "{value}"),
             Self::Number(value) => write_number(*value, f),
             Self::Text(value) => write!(f, "{value:?}"),
-            Self::Object(value) => match GeometryObject::of(&**value) {
-                Some(geometry) => f.write_str(&geometry.to_short_wkt(SHORT)),
+            Self::Object(value) => match value.capability::<dyn ObjectContent>() {
+                Some(content) => f.write_str(&content.text()),
                 None => f.write_str(&value.kind().name),
             },
             Self::Table(table) => {
@@ -153,7 +149,7 @@ impl fmt::Display for Value {
     }
 }
 
-/// Whether `name` is a word of Lua's own, and so no name.
+/// Returns true if `name` is a keyword of Lua.
 pub fn is_keyword(name: &str) -> bool {
     const KEYWORDS: [&str; 21] = [
         "and", "break", "do", "else", "elseif", "end", "false", "for", "function", "if", "in", "local",
@@ -162,14 +158,14 @@ pub fn is_keyword(name: &str) -> bool {
     KEYWORDS.contains(&name)
 }
 
-/// Whether Lua takes `name` for the name of a field without quotation marks.
+/// Returns true if Lua accepts `name` as a field name without quotation marks.
 fn is_field(name: &str) -> bool {
     name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
         && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
         && !is_keyword(name)
 }
 
-/// Writes the shortest decimal that reads back as the same number.
+/// Writes the shortest decimal that parses as the same number.
 fn write_number(value: f64, f: &mut fmt::Formatter<'_>) -> fmt::Result {
     if value.is_nan() {
         f.write_str("nan")

@@ -1,4 +1,4 @@
-//! The parameters of modules that are not numbers, kept once each.
+//! Parameters of modules that are not numbers, with each value stored once.
 
 use std::hash::{BuildHasher as _, Hash, Hasher};
 use std::sync::RwLock;
@@ -10,7 +10,7 @@ use crate::Value;
 use burgeon_base::locks::LockRecovery;
 use burgeon_rewriting::{ColumnValue, ShowParameters};
 
-/// The strings, tables and objects that the modules of one derivation carry, each kept once.
+/// Strings, tables and objects in the modules of one derivation, each stored once.
 #[derive(Default)]
 pub struct Values {
     slots: RwLock<Slots>,
@@ -25,7 +25,7 @@ struct Slots {
     free: Vec<u32>,
 }
 
-/// A value with its hash, which is not computed anew as there come to be more of them.
+/// A value with its hash, so that growing the map does not recompute hashes.
 #[derive(PartialEq, Eq)]
 struct HashedValue {
     hash: u64,
@@ -45,7 +45,7 @@ impl Hash for HashedValue {
 }
 
 impl Values {
-    /// Stores `value` and gives the f64 for the column.
+    /// Stores `value`, and returns the number for a column.
     pub fn pack(&self, value: Value) -> f64 {
         let boxed = match value {
             Value::Nil => ColumnValue::Nil,
@@ -56,7 +56,7 @@ impl Values {
         boxed.pack()
     }
 
-    /// The value that a column's f64 stands for.
+    /// Returns the value that a column's number represents.
     pub fn unpack(&self, stored: f64) -> Value {
         match ColumnValue::unpack(stored) {
             ColumnValue::Number(value) => Value::Number(value),
@@ -66,26 +66,26 @@ impl Values {
         }
     }
 
-    /// The value with this handle, unless it has been dropped.
+    /// Returns the value with this handle, unless it was dropped.
     pub fn get(&self, handle: u32) -> Option<Value> {
         self.read().list.get(handle as usize).cloned().flatten()
     }
 
-    /// The number of values kept.
+    /// Returns the number of stored values.
     pub fn len(&self) -> usize {
         let slots = self.read();
         slots.list.len() - slots.free.len()
     }
 
-    /// Whether no value is kept.
+    /// Returns true if no value is stored.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Drops every value that `columns` do not name, if there have been many new ones since the last time.
+    /// Drops all values that `columns` do not contain, if many values were added since the last time.
     ///
-    /// A dropped handle may be given to another value, so caches of handles must be emptied when
-    /// [`Values::epoch`] has changed.
+    /// A dropped handle can be reused for another value. Caches of handles must be emptied when [`Values::epoch`] has
+    /// changed.
     pub fn retain_if_many(&self, columns: &[&[f64]]) {
         let held = self.len();
         if held > 2 * self.survivors.load(Ordering::Relaxed) + 10_000 {
@@ -94,7 +94,8 @@ impl Values {
         }
     }
 
-    /// The same if there have been a few new ones, for runs with little memory left.
+    /// Drops unused values like [`Values::retain_if_many`], but even after a few additions, for runs with little memory
+    /// left.
     pub fn retain_if_new(&self, columns: &[&[f64]]) {
         if self.len() > self.survivors.load(Ordering::Relaxed) + 16 {
             self.retain(columns);
@@ -102,7 +103,7 @@ impl Values {
         }
     }
 
-    /// The number of times that values have been dropped.
+    /// Returns the number of times that values were dropped.
     pub fn epoch(&self) -> usize {
         self.epoch.load(Ordering::Acquire)
     }

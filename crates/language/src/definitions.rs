@@ -1,13 +1,12 @@
-//! The definition file for editors: all that scripts can use, as Luau's type checker takes it.
+//! Definition file for editors: the scripting API in the syntax of Luau's type checker.
 //!
-//! Where Luau's types cannot say what is allowed, anything is: a script that runs has no error for its types. What a
-//! method or a table takes is told more widely than what it gives, since Luau holds lists and tables to be of one type
-//! exactly.
+//! If Luau's types cannot express a type, the file declares `any`, so valid scripts have no type errors. The types of
+//! arguments are wider than the types of results, because Luau compares the types of lists and tables exactly.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
-use burgeon_kit::{Argument, Construct, Field, Kind, Method, Registry, is_keyword};
+use burgeon_kit::{Argument, Construct, Expand, Field, Kind, Method, Registry, Show, is_keyword};
 
 use crate::form::{is_name, may_be_left_out};
 use crate::luau_type::LuauType;
@@ -15,16 +14,16 @@ use crate::names::{Name, NameKind, OBJECT, Operator, names};
 use crate::notation::{capital, is_plain, key, merged, module_form, optional, with_parameters};
 use crate::script_types::{members, plain_name};
 
-/// What editors are given.
+/// Definitions for editors.
 #[derive(Debug, Clone)]
 pub struct Definitions {
-    /// The definition file.
+    /// Content of the definition file.
     pub luau: String,
-    /// By the symbol that an editor asks for, such as `@burgeon/global/lerp`: what it shows beside.
+    /// Documentation by the symbol that an editor looks up, such as `@burgeon/global/lerp`.
     pub docs: BTreeMap<String, String>,
 }
 
-/// What editors are given of the types in `registry` and of the language.
+/// Creates the definitions of the types in `registry` and of the language.
 pub fn definitions(registry: &Registry) -> Definitions {
     let mut writer = Writer::default();
     for kind in registry.kinds().filter(|kind| kind.script.is_none()) {
@@ -35,7 +34,7 @@ pub fn definitions(registry: &Registry) -> Definitions {
     writer.types.extend(["Module", "Object", "ScriptObject"].map(str::to_owned));
     for kind in registry.kinds().filter(|kind| kind.script.is_some()) {
         let mut own = kind.luau();
-        // A script may call its type what Burgeon calls another.
+        // A script may declare a type whose Luau name is already used by Burgeon.
         while !writer.types.insert(own.clone()) {
             own.push_str("Type");
         }
@@ -54,7 +53,7 @@ pub fn definitions(registry: &Registry) -> Definitions {
     for kind in registry.kinds() {
         writer.kind(&mut body, kind);
     }
-    // A derived system is a model, which comes after what names give.
+    // A derived system extends the model class, which must be declared first.
     let late: Vec<&Name> = names().iter().filter(|name| !name.extends.is_empty()).collect();
     late.into_iter().for_each(|name| writer.class(&mut body, &name.luau, name, &name.extends));
     for name in names() {
@@ -89,12 +88,12 @@ pub fn definitions(registry: &Registry) -> Definitions {
     Definitions { luau: luau + body.trim_end() + "\n", docs: writer.docs }
 }
 
-/// What Luau calls what a name gives: `Vector` of vector.
+/// Returns the Luau type of the values that a name describes: `Vector` for vector.
 fn type_name(name: &Name) -> String {
     Kind::new(name.name.clone(), "").luau()
 }
 
-/// What a function gives that has a type as a parameter, without that: `System`.
+/// Returns the generic type that a function returns, without its type parameter: `System`.
 fn generic_returns(name: &Name) -> Option<&str> {
     let mut returns = name.forms.iter().map(|form| form.returns.as_str());
     let generic = returns.find(|returns| names().iter().any(|it| it.is_generic() && it.luau == *returns))?;
@@ -103,16 +102,16 @@ fn generic_returns(name: &Name) -> Option<&str> {
 
 #[derive(Default)]
 struct Writer {
-    /// The names of types that are declared.
+    /// Names of declared types.
     types: BTreeSet<String>,
-    /// The names of types that are used.
+    /// Names of used types.
     unknown: BTreeSet<String>,
-    /// Tables of fields that have a name of their own, and what may be given in place of something.
+    /// Named tables of fields, and types that are accepted instead of another type.
     aliases: BTreeMap<String, String>,
     docs: BTreeMap<String, String>,
-    /// What the next table of named fields is called.
+    /// Name of the next table of named fields.
     options: String,
-    /// By the names of types that scripts declare: what their classes are called.
+    /// Class names of the types that scripts declare, by type name.
     classes: BTreeMap<String, String>,
 }
 
@@ -123,11 +122,11 @@ impl Writer {
         self.docs.insert(format!("@burgeon/{symbol}"), doc);
     }
 
-    /// What others give: a class where it has methods, else a table or another name for a type.
+    /// Declares the type of a returned value: a class if it has methods, otherwise a table or an alias.
     fn given(&mut self, out: &mut String, name: &Name) {
         let own = type_name(name);
         if !name.instead.is_empty() {
-            // A list of what Luau does not know is a list of anything.
+            // A list with items of a type that Luau cannot infer is a list of `any`.
             let instead = match &*name.instead {
                 "{ number }" => format!("{own} | {{ number }} | {{ any }}"),
                 _ => "any".to_owned(),
@@ -149,7 +148,7 @@ impl Writer {
             return;
         }
         let _ = writeln!(out, "export type {own} = {{");
-        // What is taken out of a list stands in brackets, as attributes of a feature do.
+        // Items of a list and attributes of a feature are declared by their index type in brackets.
         if !name.items.is_empty() {
             let _ = writeln!(out, "  [number]: {},", name.items);
         }
@@ -160,7 +159,7 @@ impl Writer {
                 continue;
             }
             self.doc(out, &format!("globaltype/{own}.{}", field.name), &field.doc, "  ");
-            // What scripts give they may leave out.
+            // Scripts can omit a field with the default nil.
             let optional = if field.default == "nil" { "?" } else { "" };
             let _ = writeln!(out, "  read {}: {luau}{optional},", field.name);
         }
@@ -192,7 +191,7 @@ impl Writer {
         out.push_str("end\n\n");
     }
 
-    /// What has a type as a parameter, such as a system its object's: no class of Luau has that.
+    /// Declares a generic type, such as a system with the type of its object. A Luau class cannot have type parameters.
     fn generic(&mut self, out: &mut String, own: &str, name: &Name) {
         self.doc(out, &format!("globaltype/{own}"), &name.doc, "");
         let _ = writeln!(out, "export type {} = {{", name.luau);
@@ -227,14 +226,14 @@ impl Writer {
         for method in &kind.methods {
             let doubled = kind.script.as_ref().is_some_and(|it| it.parts().any(|part| part == method.name));
             if doubled {
-                // It is a part of the state and a method of one name, which no class has.
+                // A class cannot have a state variable and a method of the same name.
                 let _ = writeln!(out, "  {}: any", method.name);
                 continue;
             }
             self.doc(out, &format!("globaltype/{own}.{}", method.name), &method.doc, "  ");
             self.options = format!("{own}{}Options", capital(&method.name));
             let arguments = self.arguments(&method.arguments, true);
-            // What gives nothing gives the object itself, so that calls can follow one another.
+            // A method without a result returns the object itself, so that calls can be chained.
             let returns = if method.returns.is_empty() {
                 own.clone()
             } else {
@@ -249,7 +248,7 @@ impl Writer {
         }
     }
 
-    /// The arguments of a type's constructor; `None` where scripts cannot make one.
+    /// Returns the arguments of a type's constructor; `None` if scripts cannot construct the type.
     fn constructor(&mut self, kind: &Kind) -> Option<String> {
         let options = format!("{}Options", self.class_name(kind));
         if !kind.fields.is_empty() && !matches!(kind.construct, Construct::Given) {
@@ -265,13 +264,14 @@ impl Writer {
                     false => format!("file: {file}, options: {options}?"),
                 }
             }
-            // It may be the table of options itself, or what the field says: Luau finds neither in a union.
+            // The first argument is either the options table or the value of the field. Luau infers neither from a
+            // union.
             (Construct::Fields(_), Some(first)) => format!("{first}: any, options: {options}?"),
             (Construct::Fields(_), None) => format!("options: {options}?"),
         })
     }
 
-    /// A table of which all fields may be left out.
+    /// Returns a table type whose fields are all optional.
     fn table(&mut self, fields: &[Field]) -> String {
         let mut table = String::from("{\n");
         for field in fields {
@@ -287,7 +287,7 @@ impl Writer {
         for argument in arguments {
             let luau = self.taken(&argument.luau, &argument.fields);
             let left_out = may_be_left_out(&argument.luau) && !may_be_left_out(&luau);
-            // A word of Luau's own is no name to it.
+            // Keywords of Luau cannot be names.
             let more = if is_keyword(&argument.name) { "_" } else { "" };
             let optional = if left_out { "?" } else { "" };
             list.push(format!("{}{more}: {luau}{optional}", argument.name));
@@ -303,7 +303,8 @@ impl Writer {
         let _ = writeln!(out, "declare function {}({arguments}): Module\n", name.name);
     }
 
-    /// The function that gives what has its object's type as a parameter: it knows that by the object or by its constructor.
+    /// Declares a function whose generic result depends on the type of the object, which is passed as an object or as
+    /// its constructor.
     fn object_function(&mut self, out: &mut String, name: &Name, generic: &str, registry: &Registry) {
         let given = |of: &str| format!("{generic}<{of}>");
         self.doc(out, &format!("global/{}", name.name), &name.doc, "");
@@ -315,7 +316,9 @@ impl Writer {
             given("ScriptObject")
         );
         // Those that neither draw nor divide anything are of no use to a system.
-        let of_use = |kind: &&std::sync::Arc<Kind>| kind.show.is_some() || kind.expand.is_some();
+        let of_use = |kind: &&std::sync::Arc<Kind>| {
+            kind.has_capability::<dyn Show>() || kind.has_capability::<dyn Expand>()
+        };
         for kind in registry.kinds().filter(of_use) {
             if let (Construct::Fields(_), Some(arguments)) = (&kind.construct, self.constructor(kind)) {
                 let own = self.class_name(kind);
@@ -326,7 +329,7 @@ impl Writer {
                 );
             }
         }
-        // Without an object only the seed says anything; Luau gives up on more forms.
+        // Without an object, the seed is the only useful option. Luau cannot resolve more overloads.
         for field in name.options().filter(|field| field.name == "seed") {
             let luau = field.luau.trim_end_matches('?');
             let _ = writeln!(out, "  & ((options: {{ read seed: {luau} }}) -> {})", given("any"));
@@ -334,12 +337,12 @@ impl Writer {
         let _ = writeln!(out, "  & (() -> {})\n", given("any"));
     }
 
-    /// What Luau calls the class of a type.
+    /// Returns the Luau class name of a type.
     fn class_name(&self, kind: &Kind) -> String {
         self.classes.get(&*kind.name).cloned().unwrap_or_else(|| kind.luau())
     }
 
-    /// The function that declares a type of object: by its name it is known which type that is.
+    /// Declares the function that declares object types, with an overload for each known type name.
     fn declaring(&mut self, out: &mut String, name: &Name, registry: &Registry) {
         let scripts: Vec<_> = registry.kinds().filter(|kind| kind.script.is_some()).collect();
         let is_alone =
@@ -371,7 +374,7 @@ impl Writer {
         self.doc(out, &format!("global/{}", name.name), &name.doc, "");
         let default = name.options().find(|field| field.name == "default");
         if let (Some(_), [form]) = (default, &name.forms[..]) {
-            // What it gives is of the type of its default.
+            // The result has the type of the default.
             let (first, returns) = (&form.arguments[0], "T");
             let _ = writeln!(
                 out,
@@ -397,7 +400,7 @@ impl Writer {
         } else if let [form] = &name.forms[..] {
             self.options = format!("{}Options", capital(&name.name));
             let arguments = self.arguments(&form.arguments, false);
-            // What makes objects of a type that a script declares.
+            // The function returns a constructor of a type that a script declares.
             let returns = match &*form.returns {
                 "(fields: { ... }?) -> any" => "(fields: any?) -> ScriptObject".to_owned(),
                 returns => self.got(returns),
@@ -408,7 +411,8 @@ impl Writer {
             let luau = self.got(&name.luau);
             let _ = writeln!(out, "declare {}: {luau}\n", name.name);
         } else {
-            // Several forms with arguments of other types: Luau finds none of them where it knows too little.
+            // For overloads with arguments of different types, Luau often finds no match, so the arguments are declared
+            // as `any`.
             let forms = name.forms.iter().map(|form| form.arguments.iter().map(|it| it.name.to_string()));
             let names: Vec<String> = forms.max_by_key(ExactSizeIterator::len).into_iter().flatten().collect();
             let arguments: Vec<String> = names.iter().map(|name| format!("{name}: any")).collect();
@@ -416,7 +420,7 @@ impl Writer {
         }
     }
 
-    /// A type as a script gets it.
+    /// Returns the Luau type of a value that a script receives.
     fn got(&mut self, luau: &str) -> String {
         let found = LuauType::read(luau);
         if found == LuauType::Any {
@@ -425,17 +429,17 @@ impl Writer {
         self.shown(&found, false)
     }
 
-    /// A type as a script may give it, where it has these `fields` if it is a table of such.
+    /// Returns the Luau type of a value that a script passes. `fields` are the fields of a table of named fields.
     fn taken(&mut self, luau: &str, fields: &[Field]) -> String {
         let name = luau.trim_end_matches('?');
         if !fields.is_empty() && is_name(name) {
             if !self.aliases.contains_key(name) {
-                // It may contain itself.
+                // The placeholder stops the recursion for types that contain themselves.
                 self.aliases.insert(name.to_owned(), String::new());
                 let table = self.table(fields);
                 self.aliases.insert(name.to_owned(), table);
             }
-            // Luau takes no table for it that a variable holds and that leaves a field out.
+            // Luau rejects a table in a variable that omits a field of the type.
             return "any".to_owned();
         }
         if !fields.is_empty() && matches!(name, "{ [string]: any }" | "{ ... }") {
@@ -476,7 +480,7 @@ impl Writer {
                     (_, false) => some.join(" | "),
                 }
             }
-            // A list of tables that a script made is of no other type.
+            // Luau gives a list of tables its own type and accepts it as no other type.
             LuauType::List(item) if taken && !is_plain(item) => "any".to_owned(),
             LuauType::List(item) => format!("{{ {} }}", self.shown(item, taken)),
             LuauType::Map => "any".to_owned(),

@@ -1,4 +1,4 @@
-//! What Visual Studio Code with luau-lsp needs in a folder of scripts: definitions, settings, snippets.
+//! Setup of a script folder for Visual Studio Code with luau-lsp: definitions, settings and snippets.
 
 use burgeon_kit::Registry;
 use serde_json::{Map, Value, json};
@@ -6,24 +6,25 @@ use serde_json::{Map, Value, json};
 use crate::definitions::definitions;
 use crate::jsonc::{add_missing, is_comments};
 
-/// A file that an editor reads.
+/// A file for an editor.
 #[derive(Debug, Clone)]
 pub struct EditorFile {
-    /// Where it is, from the folder of the scripts.
+    /// Path relative to the script folder.
     pub path: &'static str,
-    /// What is in it.
+    /// Content of the file.
     pub text: String,
-    /// Whether it follows from the program, and is written anew each time; others stay as people made them.
+    /// Set if the program generates the file and overwrites it each time; other files keep the changes of users.
     pub generated: bool,
 }
 
-/// Where the settings are, from the folder of the scripts.
+/// Path of the settings, relative to the script folder.
 pub const SETTINGS: &str = ".vscode/settings.json";
 
-/// Where Luau's own settings are, from the folder of the scripts.
+/// Path of Luau's own settings, relative to the script folder.
 pub const LUAURC: &str = ".luaurc";
 
-/// The files that an editor reads, without its settings and [`LUAURC`]. Types that scripts declare may be in `registry`.
+/// Returns the files for the editor, except for its settings and [`LUAURC`]. `registry` can include types that scripts
+/// declare.
 pub fn editor_files(registry: &Registry) -> Vec<EditorFile> {
     let definitions = definitions(registry);
     let docs: Map<String, Value> =
@@ -36,17 +37,17 @@ pub fn editor_files(registry: &Registry) -> Vec<EditorFile> {
     ]
 }
 
-/// The settings of an editor with what Burgeon needs: what stands in them stays, comments too. None if it all stands there
-/// already.
+/// Adds the settings that Burgeon needs to the settings of an editor. Existing settings and comments are kept. `None`
+/// if nothing is missing.
 ///
-/// `there` is the content of the file, if there is one. Fails with what is wrong if that is no JSON, where comments may
-/// stand.
+/// `there` is the content of the file, if it exists. Fails with a message if it is not valid JSON with optional
+/// comments.
 pub fn merged_settings(there: Option<&str>) -> Result<Option<String>, String> {
     merged(there, &settings())
 }
 
-/// The `.luaurc` with an alias for each of `packages`, a name and a folder, so that `require("@castle/towers")` is found;
-/// what stands in it stays. None if it all stands there already. Fails as [`merged_settings`] does.
+/// Adds to a `.luaurc` an alias for each of `packages`, a name and a folder, so that `require("@castle/towers")` is
+/// resolved. Existing settings are kept. `None` if nothing is missing. Fails like [`merged_settings`].
 pub fn merged_luaurc(there: Option<&str>, packages: &[(String, String)]) -> Result<Option<String>, String> {
     let mut wanted = Map::new();
     if there.is_none_or(|there| there.trim().is_empty()) {
@@ -119,7 +120,7 @@ fn snippets() -> Value {
     })
 }
 
-/// JSON for people.
+/// Formats JSON with indentation.
 fn written(value: &Value) -> String {
     format!("{value:#}\n")
 }

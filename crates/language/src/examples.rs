@@ -1,8 +1,8 @@
-//! Scripts that show what the names of the language do, for the reference.
+//! Example scripts for the names of the language, for the API reference.
 
 use burgeon_kit::{ScriptExample, examples};
 
-/// All of them.
+/// All example scripts of this crate.
 pub const EXAMPLES: &[ScriptExample] = examples! {
     "BeginPolygon" shows "BeginPolygon" "Point" "EndPolygon";
     "Color" shows "Color";

@@ -1,28 +1,29 @@
-//! How a function is called: its arguments, one after the other, and what it gives.
+//! Signatures of functions: their arguments and results.
 
 use burgeon_kit::Argument;
 
-/// One form of calling a function; some have several, with arguments of other kinds.
+/// A signature of a function. Some functions have several with different arguments.
 #[derive(Debug, Clone, Default)]
 pub struct CallForm {
-    /// Its arguments. The name of the last one is `...` where there may be any number, each of that type.
+    /// Arguments. If the last one is called `...`, any number of arguments of its type can follow.
     pub arguments: Vec<Argument>,
-    /// The type of what it gives in Luau; `()` for nothing.
+    /// Luau type of the result; `()` if there is none.
     pub returns: String,
 }
 
-/// An argument called `name`, of type `luau`; one whose type ends with `?` may be left out.
+/// Creates an argument called `name` of type `luau`; a type that ends with `?` makes it optional.
 pub fn argument(name: &'static str, luau: &str) -> Argument {
     Argument::typed(name, luau)
 }
 
 impl CallForm {
-    /// A form with these arguments, which gives a value of type `returns`.
+    /// Creates a signature with these arguments and a result of type `returns`.
     pub fn new(arguments: Vec<Argument>, returns: &str) -> Self {
         Self { arguments, returns: returns.to_owned() }
     }
 
-    /// Reads a function's type as Luau writes it, `(a: number, b: number?) -> number`. `None` if it is none.
+    /// Parses a function type in Luau syntax: `(a: number, b: number?) -> number`. `None` if the text is not a function
+    /// type.
     pub fn read(text: &str) -> Option<Self> {
         let inner = text.trim().strip_prefix('(')?;
         let end = closing(inner)?;
@@ -38,7 +39,7 @@ impl CallForm {
         Some(Self { arguments: arguments.collect(), returns: returns.to_owned() })
     }
 
-    /// The argument at this place, counted from 0.
+    /// Returns the argument at a position, counted from 0.
     pub fn argument(&self, place: usize) -> Option<&Argument> {
         match self.arguments.get(place) {
             Some(argument) => Some(argument),
@@ -46,20 +47,20 @@ impl CallForm {
         }
     }
 
-    /// How many arguments must be given.
+    /// Returns the minimum number of arguments.
     pub fn least(&self) -> usize {
         let must = |argument: &&Argument| argument.name != "..." && !may_be_left_out(&argument.luau);
         self.arguments.iter().rposition(|argument| must(&argument)).map_or(0, |last| last + 1)
     }
 
-    /// How many arguments may be given; `None` for any number.
+    /// Returns the maximum number of arguments; `None` for any number.
     pub fn most(&self) -> Option<usize> {
         (self.arguments.last().is_none_or(|last| last.name != "...")).then_some(self.arguments.len())
     }
 }
 
 impl std::fmt::Display for CallForm {
-    /// As Luau writes a function's type, with what each argument is if it is left out.
+    /// Writes a function type in Luau syntax, with the defaults of the arguments.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str("(")?;
         for (index, Argument { name, luau, default, .. }) in self.arguments.iter().enumerate() {
@@ -77,19 +78,19 @@ impl std::fmt::Display for CallForm {
     }
 }
 
-/// Whether a value of this type may be left out.
+/// Returns true if a value of this type is optional.
 pub(crate) fn may_be_left_out(luau: &str) -> bool {
     luau.ends_with('?') || luau == "any"
 }
 
-/// Whether `text` could be a name.
+/// Returns true if `text` is a valid name or `...`.
 pub(crate) fn is_name(text: &str) -> bool {
     text == "..."
         || text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
             && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
 }
 
-/// Where the bracket ends that was opened before `text`.
+/// Returns the position of the bracket that closes one opened before `text`.
 fn closing(text: &str) -> Option<usize> {
     let mut depth = 0;
     text.char_indices().find_map(|(at, letter)| {
@@ -102,7 +103,7 @@ fn closing(text: &str) -> Option<usize> {
     })
 }
 
-/// The parts of `text` between commas that stand in no brackets.
+/// Splits `text` at the commas outside of brackets.
 fn parts(text: &str) -> Vec<&str> {
     let mut parts = Vec::new();
     let (mut depth, mut begin) = (0, 0);

@@ -1,33 +1,33 @@
-//! JSON with comments, as editors keep their settings: edited in place, so that comments and order stay.
+//! JSON with comments, the format of editor settings. Edits change the text in place, so comments and order are kept.
 
 use std::ops::Range;
 
 use serde_json::{Map, Value};
 
-/// How deep objects and lists may be within one another.
+/// Maximum nesting depth of objects and lists.
 const DEEPEST: usize = 64;
 
-/// A value and where it stands in the text.
+/// A value with its range in the text.
 struct JsonNode {
     range: Range<usize>,
     content: NodeContent,
 }
 
 enum NodeContent {
-    /// The members, by their names.
+    /// Members with their names.
     Object(Vec<(String, JsonNode)>),
     List(Vec<JsonNode>),
     Other(Value),
 }
 
 impl JsonNode {
-    /// The last member called `name`, which is the one that counts.
+    /// Returns the last member called `name`, which takes precedence over earlier ones.
     fn member(&self, name: &str) -> Option<&Self> {
         let NodeContent::Object(members) = &self.content else { return None };
         members.iter().rev().find(|(known, _)| known == name).map(|(_, node)| node)
     }
 
-    /// The value without comments.
+    /// Returns the value without comments.
     fn plain(&self) -> Value {
         match &self.content {
             NodeContent::Object(members) => {
@@ -39,10 +39,10 @@ impl JsonNode {
     }
 }
 
-/// Adds to the object in `text` what it lacks of `wanted`: members, members of objects in it, and items of lists. What
-/// stands there stays as it is, with comments and spaces. None if it lacks nothing.
+/// Adds the parts of `wanted` that the object in `text` lacks: members, members of nested objects, and items of lists.
+/// The existing text is kept with its comments and spaces. `None` if nothing is missing.
 ///
-/// Fails if `text` is no object of JSON, in which comments and commas behind the last member may stand.
+/// Fails if `text` is not a JSON object. Comments and commas after the last member are allowed.
 pub(crate) fn add_missing(text: &str, wanted: &Map<String, Value>) -> Result<Option<String>, String> {
     let mut edited = text.to_owned();
     let mut root = read(&edited)?;
@@ -71,20 +71,20 @@ pub(crate) fn add_missing(text: &str, wanted: &Map<String, Value>) -> Result<Opt
             (Some(NodeContent::List(_)), Value::Array(more)) => {
                 more.iter().try_for_each(|value| add(&mut root, Some(name), None, value))?;
             }
-            // What somebody chose stays.
+            // Existing values are kept.
             _ => {}
         }
     }
     Ok((edited != text).then_some(edited))
 }
 
-/// Whether nothing but comments stands in `text`.
+/// Returns true if `text` contains only comments and spaces.
 pub(crate) fn is_comments(text: &str) -> bool {
     let text = text.trim_start_matches('\u{feff}');
     skipped(text) == text.len()
 }
 
-/// The text with one more entry at the end of the object or the list `of`.
+/// Returns the text with another entry at the end of the object or list `of`.
 fn with_entry(text: &str, of: &JsonNode, name: Option<&str>, value: &Value) -> String {
     let newline = if text.contains("\r\n") { "\r\n" } else { "\n" };
     let ranges: Vec<&Range<usize>> = match &of.content {
@@ -114,7 +114,7 @@ fn with_entry(text: &str, of: &JsonNode, name: Option<&str>, value: &Value) -> S
     };
     let mut edited = text.to_owned();
     let Some(last) = ranges.last().map(|last| last.end) else {
-        // Comments may stand in it.
+        // The object or list can contain comments.
         let end = of.range.start + text[of.range.start..close].trim_end().len();
         edited.replace_range(end..close, &format!("{newline}{indent}{entry}{newline}{outer}"));
         return edited;
@@ -137,7 +137,8 @@ fn with_entry(text: &str, of: &JsonNode, name: Option<&str>, value: &Value) -> S
     edited
 }
 
-/// The end of the comments that begin behind `from` and end before `line_end`: they belong to what stands before them.
+/// Returns the end of the comments that begin after `from` and end before `line_end`, which belong to the preceding
+/// entry.
 fn end_of_comments(text: &str, from: usize, line_end: usize) -> usize {
     let mut end = from;
     loop {
@@ -154,7 +155,7 @@ fn end_of_comments(text: &str, from: usize, line_end: usize) -> usize {
     }
 }
 
-/// The whole of `text` as a value.
+/// Parses the whole of `text` as a value.
 fn read(text: &str) -> Result<JsonNode, String> {
     let mut reader = JsoncReader { text, at: 0 };
     if text.starts_with('\u{feff}') {
@@ -165,7 +166,7 @@ fn read(text: &str) -> Result<JsonNode, String> {
     if reader.at < text.len() { Err(reader.complaint()) } else { Ok(node) }
 }
 
-/// The length of the spaces and comments that `text` begins with.
+/// Returns the length of the leading spaces and comments of `text`.
 fn skipped(text: &str) -> usize {
     let mut reader = JsoncReader { text, at: 0 };
     reader.skip();
@@ -340,7 +341,7 @@ mod tests {
         })
     }
 
-    /// `value` as someone may have written it: with comments, with commas behind the last, on one line or on several.
+    /// Formats `value` as a user may write it: with comments, trailing commas, and one or several lines.
     fn untidy(value: &Value, style: &mut impl Iterator<Item = u8>) -> String {
         let mut next = || style.next().unwrap_or(0);
         let gap = ["", " ", "\n  ", " // c }\n", "/* [ */", "\n\n\t"][usize::from(next()) % 6];

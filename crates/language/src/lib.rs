@@ -1,8 +1,9 @@
-//! What scripts can use, told once: the names of the language, their arguments and types, and what follows from them.
+//! The scripting API as data: the names of the language with their arguments and types, and everything derived from
+//! them.
 //!
-//! Input: a registry of types of objects, and the text of the standard library. Output: names with their forms of
-//! calling, types that a value may be held against, and the definition file for editors. It never runs a script, and
-//! knows no virtual machine.
+//! Input: a registry of object types, and the text of the standard library. Output: names with their signatures, types
+//! to check values against, and the definition file for editors. The crate never runs a script, and does not depend on
+//! a virtual machine.
 
 mod definitions;
 mod editor;
@@ -21,7 +22,7 @@ pub use form::{CallForm, argument};
 pub use luau_type::{Literal, LuauType};
 pub use names::{
     DERIVED, EXTEND, Effect, LAYER, LOCKED, LSYSTEM, Name, NameKind, OBJECT, Operator, PARAM, RULE, SOURCE,
-    SYSTEM, VECTOR, deprecated_names, is_pure_function, is_pure_method, library_effect, names,
+    SYSTEM, VECTOR, deprecated_names, is_pure_function, library_effect, names,
 };
 pub use notation::module_form;
 pub use script_types::with_types;

@@ -1,29 +1,29 @@
-//! Types as Luau writes them, as far as a value that stands in a script can be held against them.
+//! Luau types, as far as literal values in a script can be checked against them.
 
-/// A type that an argument or a field may have.
+/// Type of an argument or a field.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LuauType {
-    /// Anything.
+    /// Any value.
     Any,
-    /// Nothing.
+    /// The type of `nil`.
     Nil,
-    /// `number`, `string`, `boolean`, or the name of a type that is told of elsewhere.
+    /// `number`, `string`, `boolean`, or the name of a type that is declared elsewhere.
     Named(String),
-    /// This text and no other.
+    /// The type of a single string.
     Text(String),
-    /// One of these.
+    /// A union of types.
     Union(Vec<Self>),
-    /// A list of these.
+    /// A list with items of a type.
     List(Box<Self>),
-    /// A table with other keys than names.
+    /// A table with keys other than names.
     Map,
     /// A table with these fields.
     Table(Vec<(String, Self)>),
-    /// A function, as it is written.
+    /// A function type, as text.
     Function(String),
 }
 
-/// A value that can be seen in a script without running it.
+/// A value in the source text of a script, known without running it.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Literal {
     /// `nil`.
@@ -32,26 +32,26 @@ pub enum Literal {
     Boolean,
     /// A number.
     Number,
-    /// This text.
+    /// A string with its content.
     Text(String),
-    /// A table that is written in place.
+    /// A table constructor.
     Table,
-    /// A function that is written in place.
+    /// A function expression.
     Function,
-    /// An object whose type has this name in Luau.
+    /// An object, with the Luau name of its type.
     Object(String),
 }
 
 impl LuauType {
-    /// Reads a type. What is not understood is [`LuauType::Any`].
+    /// Parses a type. Unsupported syntax results in [`LuauType::Any`].
     pub fn read(text: &str) -> Self {
         let mut reader = Reader { rest: text };
         let found = reader.union();
         if reader.rest.trim().is_empty() { found.unwrap_or(Self::Any) } else { Self::Any }
     }
 
-    /// Whether `literal` may be a value of this type. What a name stands for is told by `known`: itself, if it is a type
-    /// of object; nothing, if nobody knows, and then it may be anything.
+    /// Returns true if `literal` can be a value of this type. `known` resolves a named type: an object type resolves to
+    /// itself. An unknown name resolves to `None` and accepts any value.
     pub fn accepts(&self, literal: &Literal, known: &dyn Fn(&str) -> Option<Self>) -> bool {
         match self {
             Self::Any => true,
@@ -64,7 +64,7 @@ impl LuauType {
                 ("number", _) => *literal == Literal::Number,
                 ("boolean", _) => *literal == Literal::Boolean,
                 ("string", _) => matches!(literal, Literal::Text(_)),
-                // No value that stands in a script is one.
+                // A literal cannot be a buffer.
                 ("buffer", _) => false,
                 (name, Literal::Object(given)) if name == given => true,
                 (name, _) => known(name).is_none_or(|stands_for| {
@@ -74,7 +74,7 @@ impl LuauType {
         }
     }
 
-    /// The type of what it holds, if it is a list, or may be one.
+    /// Returns the type of the items, if the type is a list or a union with a list.
     pub fn item(&self) -> Option<&Self> {
         match self {
             Self::List(item) => Some(item),
@@ -83,7 +83,7 @@ impl LuauType {
         }
     }
 
-    /// The fields that it has, if it is a table, or may be one.
+    /// Returns the fields, if the type is a table or a union with a table.
     pub fn fields(&self) -> Option<&[(String, Self)]> {
         match self {
             Self::Table(fields) => Some(fields),
@@ -149,13 +149,13 @@ impl Reader<'_> {
         Some(match &*name {
             "any" | "unknown" => LuauType::Any,
             "nil" => LuauType::Nil,
-            // The type of a system's object.
+            // `T` is the type of a system's object.
             "T" => LuauType::Any,
             _ => LuauType::Named(name),
         })
     }
 
-    /// A function's arguments and its result, or a type in brackets.
+    /// Parses a function type or a type in brackets, after the opening bracket.
     fn bracket(&mut self) -> Option<LuauType> {
         let begin = self.rest;
         let mut inner = Vec::new();

@@ -1,4 +1,4 @@
-//! How Luau's type checker has forms and types written.
+//! Notation of signatures and types for Luau's type checker.
 
 use burgeon_kit::{Argument, Kind, Method, is_keyword};
 
@@ -6,7 +6,7 @@ use crate::form::{CallForm, argument, is_name};
 use crate::luau_type::LuauType;
 use crate::names::Name;
 
-/// Whether Luau knows the type of a list of these whoever made it.
+/// Returns true if Luau infers the type of a list of such items, regardless of the code that creates it.
 pub(crate) fn is_plain(item: &LuauType) -> bool {
     match item {
         LuauType::Named(name) => matches!(&**name, "number" | "string" | "boolean"),
@@ -14,12 +14,12 @@ pub(crate) fn is_plain(item: &LuauType) -> bool {
     }
 }
 
-/// The name of a field in a table's type.
+/// Formats the name of a field in a table type.
 pub(crate) fn key(name: &str) -> String {
     if is_keyword(name) { format!("[\"{name}\"]") } else { name.to_owned() }
 }
 
-/// A type that may be left out.
+/// Formats a type as optional.
 pub(crate) fn optional(luau: &str) -> String {
     let is_one = is_name(luau) || luau.starts_with('{') && luau.find('}') == Some(luau.len() - 1);
     match luau {
@@ -29,12 +29,12 @@ pub(crate) fn optional(luau: &str) -> String {
     }
 }
 
-/// A name as a part of a type's name.
+/// Formats a name as a part of a type name.
 pub(crate) fn capital(name: &str) -> String {
     Kind::new(name.to_owned(), "").luau()
 }
 
-/// The form of a module's constructor, with what is known of the method that it calls.
+/// Returns the signature of a module's constructor, completed by the arguments of the method that it calls.
 pub fn module_form(name: &Name, method: Option<&Method>) -> CallForm {
     let mut form = name.forms.first().cloned().unwrap_or_default();
     for (index, argument) in form.arguments.iter_mut().enumerate() {
@@ -52,17 +52,17 @@ pub fn module_form(name: &Name, method: Option<&Method>) -> CallForm {
     form
 }
 
-/// A function's type with parameters of its own in place of any number of any values: Luau passes on to a function in a
-/// call only the types of single parameters.
+/// Replaces variadic arguments in a function type by named parameters. Luau infers the parameters of a function
+/// expression in a call only from named parameters.
 pub(crate) fn with_parameters(luau: &str) -> String {
     let parameters: String = ('a'..='l').map(|name| format!("{name}: any, ")).collect();
     luau.replace("this: T, ...any", &format!("this: T, {parameters}...any"))
 }
 
-/// One form for several: what not all have may be left out.
+/// Merges several signatures into one. Arguments that not all of them have are optional.
 ///
-/// Luau tells a function in a call what its parameters are only where there is one form, and where it is not one of
-/// several types; so a text may not stand there where only some forms have an argument.
+/// Luau infers the parameters of a function expression only if there is one signature and the argument's type is not a
+/// union. The alternative type `string` is therefore removed from arguments that only some signatures have.
 pub(crate) fn merged(forms: &[CallForm]) -> CallForm {
     let Some((first, others)) = forms.split_first() else { return CallForm::default() };
     let mut form = first.clone();
@@ -76,7 +76,8 @@ pub(crate) fn merged(forms: &[CallForm]) -> CallForm {
             match form.arguments.get_mut(index) {
                 Some(known) if known.luau == argument.luau => {}
                 Some(known) => {
-                    // Among several types, a function must take what it is given for certain: nothing else than never.
+                    // In a union, the parameters of a function type must accept every possible argument, so they are
+                    // `never`.
                     let known_luau = known.luau.replace("...any)", "...never)");
                     let luau = format!("{known_luau} | {}", in_place(argument));
                     *known = Argument { luau, ..argument.clone() };
@@ -91,7 +92,7 @@ pub(crate) fn merged(forms: &[CallForm]) -> CallForm {
     form
 }
 
-/// The type of an argument, with the fields of its table where it stands.
+/// Returns the type of an argument. If it is a table with fields, the table type is written out.
 fn in_place(argument: &Argument) -> String {
     if argument.fields.is_empty() {
         return argument.luau.clone();

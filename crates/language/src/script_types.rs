@@ -1,13 +1,13 @@
-//! Types of objects that scripts declare, as editors are told of them.
+//! Object types that scripts declare, in the form for editors.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use burgeon_kit::{Kind, Registry, Value};
 
-/// The types of `registry` with those that scripts have declared, and with the methods that they have added to others.
+/// Adds the types that scripts declare to `registry`, and the methods that they add to other types.
 ///
-/// Scripts of one folder may each declare a type of one name; what is not the same in all of them is left out.
+/// Several scripts of a folder may declare a type of the same name. If the declarations differ, the type is omitted.
 pub fn with_types(registry: &Registry, declared: impl IntoIterator<Item = Arc<Kind>>) -> Registry {
     let mut kinds: Vec<Arc<Kind>> = registry.kinds().cloned().collect();
     let own = kinds.len();
@@ -30,7 +30,7 @@ pub fn with_types(registry: &Registry, declared: impl IntoIterator<Item = Arc<Ki
     kinds.into_iter().filter(|kind| !differing.iter().any(|name| kind.name == *name)).collect()
 }
 
-/// Whether two types have the same members.
+/// Returns true if two types have the same members.
 fn is_same(one: &Kind, other: &Kind) -> bool {
     let names = |kind: &Kind| -> Vec<String> {
         let fields = kind.fields.iter().map(|field| format!("{}: {}", field.name, field.luau));
@@ -41,12 +41,12 @@ fn is_same(one: &Kind, other: &Kind) -> bool {
     names(one) == names(other)
 }
 
-/// The name of a type as the script that declares it writes it, without its package.
+/// Returns the name of a type as its script writes it, without the package.
 pub(crate) fn plain_name(kind: &Kind) -> &str {
     kind.name.rsplit('.').next().unwrap_or(&kind.name)
 }
 
-/// What an object of a type that a script declares has besides methods: its fields and its state, with their types.
+/// Returns the fields and state variables of a type that a script declares, with their types.
 pub(crate) fn members(kind: &Kind) -> BTreeMap<String, String> {
     let Some(script) = &kind.script else { return BTreeMap::new() };
     let mut members = BTreeMap::new();
@@ -67,7 +67,7 @@ pub(crate) fn members(kind: &Kind) -> BTreeMap<String, String> {
     for (name, object) in &script.held {
         members.insert(name.to_string(), object.kind().luau());
     }
-    // What is a method, too, is one or the other by how it is written.
+    // A name that is also a method can mean either, depending on the syntax of the access.
     members.retain(|name, _| kind.method(name).is_none());
     members
 }

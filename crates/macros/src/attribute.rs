@@ -1,14 +1,14 @@
-//! What the attributes take, and what becomes of an item that they refuse.
+//! Arguments of the attributes, and the expansion of refused items.
 
 use proc_macro2::TokenStream;
 use syn::parse::{Parse, ParseStream};
 use syn::{LitStr, Path, Result, Token, parse_quote};
 
-/// What stands in the attribute: what is declared, and the crate with the contract of objects.
+/// Arguments of an attribute: the declared name, and the crate with the contract of objects.
 pub(crate) struct AttributeArguments {
-    /// The name for scripts and messages.
+    /// Name for scripts and messages.
     pub name: LitStr,
-    /// The path of the contract.
+    /// Path of the contract.
     pub kit: Path,
 }
 
@@ -25,8 +25,8 @@ impl Parse for AttributeArguments {
     }
 }
 
-/// What `expand` makes of an item; where it refuses it, the item as it stands and the error, so that an editor still
-/// knows what the item has.
+/// Expands an item with `expand`. If it fails, returns the item unchanged with the error, so editors still know the
+/// members of the item.
 pub(crate) fn expand<A: Parse>(
     arguments: TokenStream,
     item: TokenStream,
@@ -42,7 +42,7 @@ pub(crate) fn expand<A: Parse>(
     })
 }
 
-/// All of `results`; every error among them if there is one.
+/// Returns all of `results`, or all errors among them combined into one.
 pub(crate) fn collect<T>(results: impl Iterator<Item = Result<T>>) -> Result<Vec<T>> {
     let mut all = Vec::new();
     let mut errors: Option<syn::Error> = None;

@@ -1,15 +1,15 @@
-//! Doc comments: their text.
+//! Text of doc comments.
 
 use syn::{Attribute, Expr, ExprLit, Lit, Meta};
 
-/// The text of a doc comment, or `None` where there is none.
+/// Returns the text of a doc comment, or `None` if there is none.
 pub(crate) fn text(attributes: &[Attribute]) -> Option<String> {
     let lines: Vec<String> = attributes.iter().filter_map(line).collect();
     let text = lines.join("\n");
     (!text.trim().is_empty()).then_some(text)
 }
 
-/// The first paragraph of a doc, on one line.
+/// Returns the first paragraph of a doc on one line.
 pub(crate) fn first_paragraph(doc: &str) -> String {
     let lines = doc.trim().lines().map(str::trim).take_while(|line| !line.is_empty());
     lines.collect::<Vec<_>>().join(" ")

@@ -1,10 +1,10 @@
-//! Where an object that draws has its drawing.
+//! Implementation of `Draw` for objects that draw.
 
 use proc_macro2::TokenStream;
 use quote::quote;
 use syn::{Error, Field, ItemStruct, Path, Result, Type};
 
-/// `Draw` for a struct with one field of type `Drawing`.
+/// Implements `Draw` for a struct with one field of type `Drawing`.
 pub(crate) fn implementation(kit: &Path, item: &ItemStruct) -> Result<TokenStream> {
     let name = &item.ident;
     let mut drawings = item.fields.members().zip(&item.fields).filter(|(_, field)| is_drawing(field));
@@ -24,7 +24,7 @@ pub(crate) fn implementation(kit: &Path, item: &ItemStruct) -> Result<TokenStrea
     })
 }
 
-/// Whether a field's type is called `Drawing`, with or without a path.
+/// Returns true if the type of a field is called `Drawing`, with or without a path.
 pub(crate) fn is_drawing(field: &Field) -> bool {
     let Type::Path(of) = &field.ty else { return false };
     of.path.segments.last().is_some_and(|last| last.ident == "Drawing" && last.arguments.is_empty())

@@ -1,4 +1,4 @@
-//! `#[fields]`: a struct, and how it is read from a script's table.
+//! `#[fields]`: implements reading a struct from a script's table.
 
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
@@ -9,7 +9,8 @@ use crate::attribute::{AttributeArguments, collect};
 use crate::doc;
 use crate::methods::at;
 
-/// The struct and how it is read; the struct and an error where scripts could not give all that it has.
+/// Returns the struct with the code that reads it. On failure, returns the struct and an error for fields that scripts
+/// cannot set.
 pub(crate) fn expand(
     declared: &AttributeArguments,
     item: TokenStream,
@@ -34,7 +35,7 @@ pub(crate) fn expand(
     }
 }
 
-/// Takes away what only this macro knows.
+/// Removes the attributes that only this macro knows.
 pub(crate) fn strip_defaults(table: &mut ItemStruct) {
     table.fields.iter_mut().for_each(|field| field.attrs.retain(|attribute| !is_default(attribute)));
 }
@@ -72,8 +73,8 @@ fn reading(declared: &AttributeArguments, table: &ItemStruct) -> Result<TokenStr
     })
 }
 
-/// `Default`, `fields` and `from_table` for the struct `options`: scripts may give its `fields`, and never its `others`,
-/// each of which has its default.
+/// Generates `Default`, `fields` and `from_table` for the struct `options`. Scripts can set its `fields`, but not its
+/// `others`, which always begin with their defaults.
 pub(crate) fn reader(
     declared: &AttributeArguments,
     options: &Ident,
@@ -102,12 +103,12 @@ pub(crate) fn reader(
         }
 
         impl #options {
-            /// The fields, for documentation.
+            /// Returns the fields, for documentation.
             pub fn fields() -> ::std::vec::Vec<#kit::Field> {
                 ::std::vec![#(#described),*]
             }
 
-            /// Reads a script's table.
+            /// Reads a script's table. Fails for unknown names and wrong types.
             pub fn from_table(table: &#kit::Table) -> #kit::Result<Self> {
                 #kit::declare::refuse_unknown(#kind, &[#(#texts),*], table)?;
                 let mut options = <Self as ::std::default::Default>::default();
@@ -118,7 +119,7 @@ pub(crate) fn reader(
     }
 }
 
-/// The expression of what a field is where nobody says what.
+/// Returns the expression of a field's default.
 pub(crate) fn default(field: &Field) -> Result<TokenStream> {
     let of = &field.ty;
     let mut given = field.attrs.iter().filter(|attribute| is_default(attribute));
@@ -137,10 +138,10 @@ pub(crate) fn default(field: &Field) -> Result<TokenStream> {
     }
 }
 
-/// A field as it was written.
+/// Source of a field.
 pub(crate) struct Declaration<'a> {
     name: &'a Ident,
-    /// Its name in scripts.
+    /// Name in scripts.
     text: String,
     doc: String,
     of: &'a Type,
@@ -166,7 +167,7 @@ impl<'a> Declaration<'a> {
         Ok(Self { name, text, doc, of, default })
     }
 
-    /// The expression of the field's description for scripts.
+    /// Returns the expression of the field's description for scripts.
     fn describe(&self, declared: &AttributeArguments) -> TokenStream {
         let kit = &declared.kit;
         let Self { text, doc, of, default, .. } = self;

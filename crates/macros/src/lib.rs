@@ -1,7 +1,7 @@
-//! Attributes that declare a type of object, and what scripts can do with it.
+//! Attributes that declare an object type and its scripting API.
 //!
-//! Input: an `impl` block or a struct, as anyone would write it. Output: the same, and what the contract of
-//! objects, the crate `burgeon_kit`, needs to know of it. They never read a file, and keep nothing.
+//! Input: an ordinary `impl` block or struct. Output: the same item, and the description that the contract of objects,
+//! the crate `burgeon_kit`, needs. The attributes neither read files nor keep state.
 
 mod attribute;
 mod doc;
@@ -15,14 +15,15 @@ use proc_macro::TokenStream;
 
 /// Declares the methods of an object type: an `impl` block whose methods scripts can call.
 ///
-/// It takes the name of the type in scripts, and the path of the contract where that is not `::burgeon_kit`:
-/// `#[methods("beads", crate = burgeon::kit)]`. The block stays as it is; besides, the type gets `methods`, which lists
-/// them. `&self` methods may be called while rewriting, `&mut self` ones while interpreting. Arguments are of types
-/// that implement `Parameter`, results of types that implement `Answer`.
+/// The arguments are the name of the type in scripts, and the path of the contract if it is not `::burgeon_kit`:
+/// `#[methods("beads", crate = burgeon::kit)]`. The block is kept unchanged. In addition, the type gets `methods`,
+/// which lists the methods. `&self` methods are read methods, which rules can call; `&mut self` methods are write
+/// methods, which only interpretations can call. Arguments have types that implement `Parameter`, results have types
+/// that implement `Answer`.
 ///
 /// Every method is public, takes `self`, has no type parameters, and has a doc comment, which is also its help in
-/// scripts. An argument's unit is the one in round brackets after its name in the doc, "by `height` (m)", and so is its
-/// default: "over `margin` (m, 5 unless given)".
+/// scripts. The doc gives the unit of an argument in round brackets after the argument's name, "by `height` (m)", and
+/// likewise its default: "over `margin` (m, 5 unless given)".
 ///
 /// ```
 /// # use burgeon_kit::{methods, object};
@@ -43,7 +44,7 @@ use proc_macro::TokenStream;
 /// assert_eq!(Tower::methods()[0].doc, "Raises it by `height` (m).");
 /// ```
 ///
-/// What else the type can do stands in a second block. These are refused: a method that scripts could not call,
+/// Other methods of the type belong in a second block. The attribute refuses a method that scripts cannot call,
 ///
 /// ```compile_fail
 /// # use burgeon_kit::{methods, object};
@@ -61,7 +62,7 @@ use proc_macro::TokenStream;
 /// }
 /// ```
 ///
-/// and one of which nobody would know what it does.
+/// and a method without documentation.
 ///
 /// ```compile_fail
 /// # use burgeon_kit::{methods, object};
@@ -84,12 +85,12 @@ pub fn methods(arguments: TokenStream, item: TokenStream) -> TokenStream {
 
 /// Declares the table that a constructor or a method takes: a struct with documented, defaulted fields.
 ///
-/// It takes what the table is for, which messages name, and the path of the contract where that is not
-/// `::burgeon_kit`: `#[fields("beads", crate = burgeon::kit)]`. The struct gets `Debug`, `Clone`, `Default`, `fields`, which
-/// lists them, and `from_table`, which refuses unknown names and wrong types.
+/// The arguments are the owner of the table for messages, and the path of the contract if it is not `::burgeon_kit`:
+/// `#[fields("beads", crate = burgeon::kit)]`. The struct gets `Debug`, `Clone`, `Default`, `fields`, which lists the
+/// fields, and `from_table`, which refuses unknown names and wrong types.
 ///
 /// Every field is public, has a type that implements `Parameter`, and has a doc comment with the unit in round
-/// brackets. A field that is left out is what its `#[default(...)]` says, or the `Default` of its type.
+/// brackets. An omitted field has the value of its `#[default(...)]`, or the `Default` of its type.
 ///
 /// ```
 /// # use burgeon_kit::fields;
@@ -107,7 +108,7 @@ pub fn methods(arguments: TokenStream, item: TokenStream) -> TokenStream {
 /// assert_eq!(TowerOptions::fields()[0].unit.as_deref(), Some("m"));
 /// ```
 ///
-/// A field that scripts could not give is refused, as is one without a doc comment.
+/// The attribute refuses a field that scripts cannot set, or that has no doc comment.
 ///
 /// ```compile_fail
 /// # use burgeon_kit::fields;
@@ -124,13 +125,14 @@ pub fn fields(arguments: TokenStream, item: TokenStream) -> TokenStream {
     attribute::expand(arguments.into(), item.into(), fields::expand).into()
 }
 
-/// Declares a type of object: a struct that scripts make, and ask with its `#[methods]`.
+/// Declares an object type: a struct that scripts construct, and whose `#[methods]` they call.
 ///
-/// It takes the name of the type in scripts. The struct gets `Clone`, `kind`, which scripts and a registry know it by, and
-/// `Object`. The first paragraph of its doc comment is its help in scripts.
+/// The first argument is the name of the type in scripts. The struct gets `Clone`, `Object`, and `kind`, the
+/// description for scripts and registries. The first paragraph of its doc comment is its help in scripts.
 ///
-/// Its public fields are what the constructor takes, as those of `#[fields]`: each has a doc comment, and a default. The
-/// others are its state, which begins with their defaults. It gets `Default`, `fields` and `from_table` for that.
+/// Its public fields are the fields of the constructor, as with `#[fields]`: each has a doc comment and a default. The
+/// other fields are its state, which begins with their defaults. For this purpose the struct gets `Default`, `fields`
+/// and `from_table`.
 ///
 /// ```
 /// # use burgeon_kit::{Drawing, Object, methods, object};
@@ -161,22 +163,24 @@ pub fn fields(arguments: TokenStream, item: TokenStream) -> TokenStream {
 ///
 /// After the name, in any order:
 ///
-/// - what it can do, as its `Kind` says it: `draws` (in its field of type `Drawing`), `shows`, `expands`, `has_detail`,
-///   `has_layers`, `reports` and `warns`, each but the first with a trait to implement;
-/// - `begins_empty`: each pass begins as if there had been none before. Its state gets its defaults again, a drawing keeps
-///   its memory;
+/// - capabilities, named as the methods of `Kind`: `draws` (in its field of type `Drawing`), `shows`, `expands`,
+///   `has_detail`, `has_layers`, `reports` and `warns`. Each except `draws` requires an implementation of its trait;
+/// - `begins_empty`: each pass discards the results of earlier passes. The state is reset to its defaults; a drawing
+///   keeps its memory;
 /// - `first = "field"`, `example = "..."`, `gathers = function`, `prefetches = function`, as its `Kind` takes them;
-/// - `deprecates("height", "1.3", "size")`: a name that will go, since when, and what is used instead; as often as needed;
-/// - `make = function`: the function of the type that makes one of a script's `&Table`, where there is more to do than to
-///   read it;
-/// - `options = TowerOptions`: the constructor takes the fields of that struct, which has `#[fields]`, and `new` makes one
-///   of it, unless `make` names another function. Public fields are no matter of scripts then;
-/// - `loader = ...`: it is made of a file; `given`: something else gives it;
-/// - what the engine calls, and the method of the type that does it: `begin = restart`, and in the same way `push`, `pop`,
-///   `end` and `seed`;
-/// - `crate = burgeon::kit`: the path of the contract, where that is not `::burgeon_kit`.
+/// - `deprecates("height", "1.3", "size")`: a deprecated name, the version that deprecates it, and its replacement; can
+///   be repeated;
+/// - `make = function`: the function of the type that makes an object from a script's `&Table`, if reading the fields
+///   is not enough;
+/// - `options = TowerOptions`: the constructor takes the fields of that struct, which has `#[fields]`, and `new` makes
+///   an object from the struct, unless `make` names another function. Scripts then cannot set public fields;
+/// - `loader = ...`: objects are loaded from files; `given`: scripts cannot construct objects, and receive them from
+///   elsewhere;
+/// - hooks that the engine calls, with the method of the type that implements them: `begin = restart`, and likewise
+///   `push`, `pop`, `end` and `seed`;
+/// - `crate = burgeon::kit`: the path of the contract, if it is not `::burgeon_kit`.
 ///
-/// These are refused: a type of which nobody would know what it is,
+/// The attribute refuses a type without documentation,
 ///
 /// ```compile_fail
 /// # use burgeon_kit::{methods, object};
@@ -186,7 +190,7 @@ pub fn fields(arguments: TokenStream, item: TokenStream) -> TokenStream {
 /// # impl Tower {}
 /// ```
 ///
-/// one that draws nowhere,
+/// a type that draws but has no drawing,
 ///
 /// ```compile_fail
 /// # use burgeon_kit::{methods, object};
@@ -197,18 +201,18 @@ pub fn fields(arguments: TokenStream, item: TokenStream) -> TokenStream {
 /// # impl Tower {}
 /// ```
 ///
-/// one that says it can do what it cannot,
+/// a type that declares a capability without implementing it,
 ///
 /// ```compile_fail,E0277
 /// # use burgeon_kit::{methods, object};
 /// /// A tower.
-/// #[object("tower", expands)]
+/// #[object("tower", can(burgeon_kit::Expand))]
 /// pub struct Tower {}
 /// # #[methods("tower")]
 /// # impl Tower {}
 /// ```
 ///
-/// and one that names a method it does not have.
+/// and a type that names a missing method.
 ///
 /// ```compile_fail,E0599
 /// # use burgeon_kit::{methods, object};

@@ -1,4 +1,4 @@
-//! `#[methods]`: an `impl` block, and the list of its methods for scripts.
+//! `#[methods]`: lists the methods of an `impl` block for scripts.
 
 use proc_macro2::{Span, TokenStream};
 use quote::{quote, quote_spanned};
@@ -11,10 +11,11 @@ use syn::{
 use crate::attribute::{AttributeArguments, collect};
 use crate::doc;
 
-/// Where what is no method for scripts belongs.
+/// Advice for items that are not methods for scripts.
 const ELSEWHERE: &str = "put helpers into a second impl block, without #[methods]";
 
-/// The block and the list of its methods; the block and an error where scripts could not call all that it has.
+/// Returns the block with the list of its methods. On failure, returns the block and an error for items that scripts
+/// cannot call.
 pub(crate) fn expand(
     declared: &AttributeArguments,
     item: TokenStream,
@@ -38,7 +39,7 @@ fn list(declared: &AttributeArguments, block: &ItemImpl) -> Result<TokenStream> 
     let methods = methods.iter().map(|method| method.describe(declared, object));
     Ok(quote! {
         impl #object {
-            /// The methods that scripts can call.
+            /// Returns the methods that scripts can call.
             pub fn methods() -> ::std::vec::Vec<#kit::Method> {
                 ::std::vec![#(#methods),*]
             }
@@ -46,11 +47,11 @@ fn list(declared: &AttributeArguments, block: &ItemImpl) -> Result<TokenStream> 
     })
 }
 
-/// A method as it was written.
+/// Source of a method.
 struct MethodSource<'a> {
     name: &'a Ident,
     doc: String,
-    /// Whether it changes the object.
+    /// Set if the method changes the object.
     changes: bool,
     arguments: Vec<(&'a Ident, &'a Type)>,
     returns: Option<&'a Type>,
@@ -88,7 +89,7 @@ impl<'a> MethodSource<'a> {
         Ok(Self { name: &sig.ident, doc, changes, arguments, returns })
     }
 
-    /// The expression of the method's description for scripts.
+    /// Returns the expression of the method's description for scripts.
     fn describe(&self, declared: &AttributeArguments, object: &Type) -> TokenStream {
         let kit = &declared.kit;
         let name = self.name.to_string();
@@ -135,11 +136,11 @@ impl<'a> MethodSource<'a> {
         }
     }
 
-    /// The closure that calls it with values, or, where `numbers`, with numbers only.
+    /// Returns the closure that calls the method with values, or only with numbers if `numbers` is set.
     fn call(&self, declared: &AttributeArguments, object: &Type, name: &str, numbers: bool) -> TokenStream {
         let AttributeArguments { name: kind, kit } = declared;
         let method = self.name;
-        // Names of their own, whatever the arguments are called.
+        // Hygienic names cannot clash with the names of arguments.
         let this = Ident::new("this", Span::mixed_site());
         let given = Ident::new("given", Span::mixed_site());
         let taken: Vec<Ident> = (0..self.arguments.len())
@@ -174,7 +175,7 @@ impl<'a> MethodSource<'a> {
     }
 }
 
-/// Whether a method with this receiver changes its object.
+/// Returns true if a method with this receiver changes its object.
 fn changes(receiver: &Receiver) -> Result<bool> {
     match (&receiver.reference, &receiver.colon_token) {
         (Some(_), None) => Ok(receiver.mutability.is_some()),
@@ -182,7 +183,7 @@ fn changes(receiver: &Receiver) -> Result<bool> {
     }
 }
 
-/// Refuses what scripts cannot call.
+/// Refuses signatures that scripts cannot call.
 fn refuse_unusual(sig: &Signature) -> Result<()> {
     let refuse =
         |span: Span, what: &str| Err(Error::new(span, format!("a method for scripts {what}: {ELSEWHERE}")));
@@ -202,7 +203,7 @@ fn refuse_unusual(sig: &Signature) -> Result<()> {
     generic.map_or(Ok(()), |argument| refuse(argument.span(), "has no type parameters"))
 }
 
-/// The name and the type of an argument.
+/// Returns the name and the type of an argument.
 fn named(argument: &PatType) -> Result<(&Ident, &Type)> {
     match &*argument.pat {
         Pat::Ident(name) if name.by_ref.is_none() && name.subpat.is_none() => Ok((&name.ident, &argument.ty)),
@@ -210,7 +211,7 @@ fn named(argument: &PatType) -> Result<(&Ident, &Type)> {
     }
 }
 
-/// Where an error about a type points, for code that is not the user's.
+/// Returns the span for errors about a type in generated code.
 pub(crate) fn at(of: &Type) -> Span {
     Span::mixed_site().located_at(of.span())
 }
@@ -221,7 +222,7 @@ mod tests {
 
     use super::*;
 
-    /// What the errors about `text` say.
+    /// Returns the messages of the errors for `text`.
     fn errors(text: &str) -> Vec<String> {
         let declared: AttributeArguments = parse_str("\"tower\"").unwrap();
         let (_, error) = expand(&declared, text.parse().unwrap()).expect_err(text);
@@ -298,7 +299,7 @@ mod tests {
         let expanded = expand(&declared, block.clone()).unwrap();
         assert!(expanded.to_string().starts_with(&block.to_string()));
         assert!(expanded.to_string().contains(":: burgeon_kit :: Method"));
-        // With an error, too: an editor then still completes its methods.
+        // On failure the block is kept as well, so editors can complete its methods.
         let block: TokenStream = "impl Tower { fn raise(&self) {} }".parse().unwrap();
         let given = block.to_string();
         let expanded = crate::attribute::expand("\"tower\"".parse().unwrap(), block, expand).to_string();

@@ -1,4 +1,4 @@
-//! `#[object]`: a struct, its kind, and what every object has.
+//! `#[object]`: implements the kind and the trait `Object` for a struct.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{quote, quote_spanned};
@@ -10,7 +10,7 @@ use crate::fields::{Declaration, default, reader, strip_defaults};
 use crate::object_arguments::{Hook, Making, ObjectArguments};
 use crate::{doc, draw};
 
-/// The struct and what makes a type of object of it; the struct and an error where that cannot be.
+/// Returns the struct with the code that makes it an object type. On failure, returns the struct and an error.
 pub(crate) fn expand(
     declared: &ObjectArguments,
     item: TokenStream,
@@ -48,7 +48,7 @@ fn implementation(declared: &ObjectArguments, object: &ItemStruct) -> Result<Tok
         _ => None,
     };
     let reader = state.as_ref().map(|state| reader(&declared.own, name, &state.given, &state.others));
-    let draw = declared.draws().then(|| draw::implementation(kit, object)).transpose()?;
+    let draw = declared.draws.is_some().then(|| draw::implementation(kit, object)).transpose()?;
     let kind = kind(declared, name, &doc::first_paragraph(&doc));
     let hooks = hooks(declared, name, state.as_ref())?;
     Ok(quote! {
@@ -56,7 +56,7 @@ fn implementation(declared: &ObjectArguments, object: &ItemStruct) -> Result<Tok
         #draw
 
         impl #name {
-            /// The type, as scripts see it.
+            /// Returns the type for scripts.
             pub fn kind() -> &'static ::std::sync::Arc<#kit::Kind> {
                 static KIND: ::std::sync::LazyLock<::std::sync::Arc<#kit::Kind>> =
                     ::std::sync::LazyLock::new(|| ::std::sync::Arc::new(#kind));
@@ -78,7 +78,7 @@ fn implementation(declared: &ObjectArguments, object: &ItemStruct) -> Result<Tok
     })
 }
 
-/// The expression of the kind.
+/// Returns the expression of the kind.
 fn kind(declared: &ObjectArguments, object: &Ident, doc: &str) -> TokenStream {
     let kit = &declared.own.kit;
     let name = &declared.own.name;
@@ -106,15 +106,18 @@ fn kind(declared: &ObjectArguments, object: &Ident, doc: &str) -> TokenStream {
         }
     };
     let values = declared.values.iter().map(|(verb, value)| quote_spanned! { verb.span() => .#verb(#value) });
-    let flags =
-        declared.capabilities.iter().map(|verb| quote_spanned! { verb.span() => .#verb::<#object>() });
+    let draws = declared.draws.as_ref().map(|verb| quote_spanned! { verb.span() => .#verb::<#object>() });
+    let capabilities = declared
+        .capabilities
+        .iter()
+        .map(|of| quote_spanned! { of.span() => .can(#kit::capability!(#object: #of)) });
     let begins_empty = declared.begins_empty.as_ref().map(|_| quote! { .begins_empty() });
     quote! {
-        #kit::Kind::new(#name, #doc) #made #(#values)* .methods(#object::methods()) #begins_empty #(#flags)*
+        #kit::Kind::new(#name, #doc) #made #(#values)* .methods(#object::methods()) #begins_empty #draws #(#capabilities)*
     }
 }
 
-/// What the object does when the engine calls: the methods that are named, and to empty itself.
+/// Generates the hooks that the engine calls: the named methods, and `begin` for an object that begins empty.
 fn hooks(declared: &ObjectArguments, object: &Ident, state: Option<&State<'_>>) -> Result<TokenStream> {
     let kit = &declared.own.kit;
     let named = declared.hooks.iter().map(|(hook, method)| {
@@ -141,13 +144,13 @@ fn hooks(declared: &ObjectArguments, object: &Ident, state: Option<&State<'_>>) 
     Ok(quote! { #(#named)* #empty })
 }
 
-/// The fields of an object that is made of its own.
+/// Fields of an object that is constructed from its own public fields.
 struct State<'a> {
-    /// Those that scripts may give: the public ones.
+    /// Public fields, which scripts can set.
     given: Vec<Declaration<'a>>,
-    /// The others, and what they are at first.
+    /// Other fields with their defaults.
     others: Vec<(&'a Ident, TokenStream)>,
-    /// The statements that make the others what they were at first; a drawing keeps its memory.
+    /// Statements that reset the other fields to their defaults; a drawing keeps its memory.
     empty: Vec<TokenStream>,
 }
 
@@ -181,7 +184,7 @@ mod tests {
 
     use super::*;
 
-    /// What the error about `text` says, with these arguments.
+    /// Returns the error message for `text` with these arguments.
     fn error(arguments: &str, text: &str) -> String {
         let error = match parse_str::<ObjectArguments>(arguments) {
             Ok(declared) => expand(&declared, text.parse().unwrap()).expect_err(text).1,
@@ -215,11 +218,10 @@ mod tests {
             (
                 "\"tower\", shines",
                 tower,
-                "object takes no shines: it takes begins_empty, crate, deprecates, draws, example, expands, first, gathers, given, has, \
-                 has_detail, has_layers, loader, make, options, prefetches, reports, shows, warns, and of what the engine calls begin, push, \
-                 pop, end, seed",
+                "object takes no shines: it takes begins_empty, can, crate, deprecates, draws, example, first, functions, gathers, given, has, loader, \
+                 make, options, prefetches, and of what the engine calls begin, push, pop, end, seed",
             ),
-            ("\"tower\", shows, shows", tower, "shows stands here already"),
+            ("\"tower\", draws, draws", tower, "draws stands here already"),
             (
                 "\"tower\", push = pop",
                 tower,
@@ -246,7 +248,7 @@ mod tests {
         assert!(expanded.contains("impl burgeon :: kit :: Object for Tower"), "{expanded}");
         assert!(!expanded.contains("self . height ="), "what scripts gave stays: {expanded}");
         assert!(expanded.contains("self . floors = < u32 as"), "{expanded}");
-        // With an error, too: an editor then still completes its fields.
+        // On failure the struct is kept as well, so editors can complete its fields.
         let expanded =
             crate::attribute::expand("\"tower\", shines".parse().unwrap(), text.parse().unwrap(), expand);
         let expanded = expanded.to_string();

@@ -1,4 +1,4 @@
-//! What `#[object]` takes.
+//! Arguments of `#[object]`.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::ToTokens;
@@ -8,45 +8,44 @@ use syn::{Error, Expr, Path, Result, Token, Type, parenthesized, parse_quote};
 
 use crate::attribute::AttributeArguments;
 
-/// The verbs of a kind that take the type.
-const CAPABILITIES: [&str; 7] = ["draws", "expands", "has_detail", "has_layers", "reports", "shows", "warns"];
 /// The verbs of a kind that take a value.
-const VALUES: [&str; 5] = ["example", "first", "gathers", "has", "prefetches"];
+const VALUES: [&str; 6] = ["example", "first", "functions", "gathers", "has", "prefetches"];
 /// Everything, for messages.
-const ALL: &str = "begins_empty, crate, deprecates, draws, example, expands, first, gathers, given, has, has_detail, has_layers, loader, make, \
-                   options, prefetches, reports, shows, warns";
+const ALL: &str = "begins_empty, can, crate, deprecates, draws, example, first, functions, gathers, given, has, loader, make, options, prefetches";
 
-/// What stands in the attribute.
+/// Arguments of the attribute.
 pub(crate) struct ObjectArguments {
-    /// The name for scripts, and the path of the contract.
+    /// Name for scripts, and path of the contract.
     pub own: AttributeArguments,
-    /// How scripts come by one.
+    /// Construction of objects.
     pub making: Making,
-    /// The function of the type that makes one of a table.
+    /// Function of the type that makes an object from a table.
     pub make: Option<Ident>,
-    /// Where it says that it begins empty.
+    /// Location of the argument `begins_empty`, if it is set.
     pub begins_empty: Option<Ident>,
-    /// What it can do, as a kind says it.
-    pub capabilities: Vec<Ident>,
-    /// What else a kind says of it.
+    /// Set if it draws with the field of type `Drawing`.
+    pub draws: Option<Ident>,
+    /// Traits that the engine may use it as: `can(Warn, Report)`.
+    pub capabilities: Vec<Path>,
+    /// Other arguments of the kind, as names of methods of `Kind` with their values.
     pub values: Vec<(Ident, TokenStream)>,
-    /// The methods of the type that the engine calls.
+    /// Hooks with the methods of the type that implement them.
     pub hooks: Vec<(Hook, Ident)>,
 }
 
-/// How scripts come by an object.
+/// Construction of objects.
 pub(crate) enum Making {
-    /// They give its public fields.
+    /// From the public fields of the struct.
     Fields,
-    /// They give the fields of another struct.
+    /// From the fields of another struct.
     Options(Type),
-    /// They name a file, which a loader reads, with the fields of another struct if there is one.
+    /// From a file that a loader reads, and optionally the fields of another struct.
     File(Expr, Option<Type>),
-    /// Something else gives it.
+    /// By another object or function.
     Given,
 }
 
-/// What the engine calls.
+/// Hook that the engine calls.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Hook {
     Begin,
@@ -70,13 +69,6 @@ impl Hook {
     }
 }
 
-impl ObjectArguments {
-    /// Whether it draws, so that its drawing has to be found.
-    pub(crate) fn draws(&self) -> bool {
-        self.capabilities.iter().any(|verb| verb == "draws")
-    }
-}
-
 impl Parse for ObjectArguments {
     fn parse(input: ParseStream<'_>) -> Result<Self> {
         let own = AttributeArguments { name: input.parse()?, kit: parse_quote!(::burgeon_kit) };
@@ -85,6 +77,7 @@ impl Parse for ObjectArguments {
             making: Making::Fields,
             make: None,
             begins_empty: None,
+            draws: None,
             capabilities: Vec::new(),
             values: Vec::new(),
             hooks: Vec::new(),
@@ -106,15 +99,22 @@ impl Parse for ObjectArguments {
                 return Err(Error::new(name.span(), format!("{name} stands here already")));
             }
             known.push(name.clone());
+            if name == "can" {
+                let traits;
+                parenthesized!(traits in input);
+                let traits = traits.parse_terminated(Path::parse_mod_style, Token![,])?;
+                declared.capabilities.extend(traits);
+                continue;
+            }
             let text = name.to_string();
             match text.as_str() {
                 "begins_empty" => declared.begins_empty = Some(name),
+                "draws" => declared.draws = Some(name),
                 "given" => given = true,
                 "crate" => declared.own.kit = value(input, Path::parse_mod_style)?,
                 "options" => options = Some(value(input, Type::parse)?),
                 "make" => declared.make = Some(value(input, Ident::parse)?),
                 "loader" => loader = Some(value(input, Expr::parse)?),
-                verb if CAPABILITIES.contains(&verb) => declared.capabilities.push(name),
                 verb if VALUES.contains(&verb) => {
                     let value = value(input, Expr::parse)?;
                     declared.values.push((name, value.into_token_stream()));
@@ -122,7 +122,8 @@ impl Parse for ObjectArguments {
                 _ => {
                     let Some(hook) = Hook::named(&name) else { return Err(unknown(&name)) };
                     let method = value(input, Ident::parse)?;
-                    // A method of the same name that is not there would be the trait's, which calls it.
+                    // If the type lacks a method of this name, the call would resolve to the trait's method and recurse
+                    // endlessly.
                     if Hook::named(&method).is_some() {
                         let text = "is what the engine calls: give the method of the type another name";
                         return Err(Error::new(method.span(), format!("{method} {text}")));

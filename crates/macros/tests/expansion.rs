@@ -1,7 +1,7 @@
-//! What the attributes make of a type of object, as the contract sees it.
+//! Tests of the code that the attributes generate for an object type.
 
 use burgeon_kit::{
-    Call, Construct, Drawing, Object, Result, Table, TableKey, Value, fields, methods, object,
+    Call, Construct, Draw, Drawing, Object, Result, Table, TableKey, Value, fields, methods, object,
 };
 
 /// What `tower { ... }` takes.
@@ -241,7 +241,11 @@ fn a_type_is_what_its_struct_says() {
     let instead = ["width", "add"].map(|name| Heap::kind().deprecation(name).map(|it| it.instead.clone()));
     assert_eq!(instead, [Some("size".into()), Some("grow".into())]);
     assert!(matches!(Other::kind().construct, Construct::Given) && Other::kind().fields.is_empty());
-    assert!(kind.draw.is_none() && Heap::kind().draw.is_some() && Heap::kind().begins_empty);
+    assert!(
+        !kind.has_capability::<dyn Draw>()
+            && Heap::kind().has_capability::<dyn Draw>()
+            && Heap::kind().begins_empty
+    );
 }
 
 #[test]

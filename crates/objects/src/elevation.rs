@@ -7,6 +7,7 @@ use glam::{DVec2, DVec3};
 
 use burgeon_base::error::{Error, Result};
 use burgeon_data::elevation::{HeightOptions, Raster, Relief};
+use burgeon_data::{Cache, ReferenceFrame};
 use burgeon_kit::{Expectation, LoadRequest, LoadedObject, Loader, fields, methods, object};
 use burgeon_kit::{Parameter, Table, Value, Vector};
 use burgeon_terrain::HeightSource;
@@ -132,7 +133,7 @@ fn load(file: &mut LoadRequest<'_>, options: &Table) -> Result<LoadedObject> {
     let options = ElevationOptions::from_table(options)?;
     let fill = options.fill;
     let wanted = options.wanted()?;
-    let raster = match file.resources.cache() {
+    let raster = match file.service::<Option<Arc<Cache>>>().cloned().flatten() {
         Some(cache) => cache.raster(file.files, &wanted, file.budget),
         None => Raster::open_all(file.files, &wanted, file.budget).map(Arc::new),
     };
@@ -143,7 +144,9 @@ fn load(file: &mut LoadRequest<'_>, options: &Table) -> Result<LoadedObject> {
     if !fill {
         warnings.extend(raster.missing_warnings());
     }
-    let object = Arc::new(Elevation::new(Arc::new(Relief::new(raster, file.frame)?)));
+    let mut own_frame = None;
+    let frame = file.service::<Option<ReferenceFrame>>().unwrap_or(&mut own_frame);
+    let object = Arc::new(Elevation::new(Arc::new(Relief::new(raster, frame)?)));
     Ok(LoadedObject { object, memory, warnings })
 }
 

@@ -142,7 +142,9 @@ mod tests {
             for method in &kind.methods {
                 let name = format!("{}:{}", kind.name, method.name);
                 let shows = |list: &[ScriptExample]| list.iter().any(|it| it.shows.contains(&&*name));
-                let drawn = kind.draw.is_some() && method.call.changes() && name != "turtle:material";
+                let drawn = kind.has_capability::<dyn burgeon_kit::Draw>()
+                    && method.call.changes()
+                    && name != "turtle:material";
                 assert!(!drawn || shows(EXAMPLES), "no picture shows {name}");
                 let called = kind.example.contains(&format!(":{}(", method.name));
                 assert!(called || shows(EXAMPLES) || shows(PLAIN_EXAMPLES), "{name} is shown by no script");

@@ -35,7 +35,8 @@ pub use universe::Universe;
 
 use std::sync::Arc;
 
-use burgeon_kit::{GeometryObject, Registry};
+use burgeon_kit::Registry;
+use burgeon_spatial::GeometryObject;
 
 /// Returns the registry of the object types that Burgeon provides.
 pub fn registry() -> Registry {

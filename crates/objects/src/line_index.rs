@@ -11,7 +11,8 @@ use burgeon_base::error::Result;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::Line;
 use burgeon_kit::{Expectation, fields, methods, object};
-use burgeon_kit::{Lines, Parameter, Value, Vector, Warn};
+use burgeon_kit::{Parameter, Value, Vector, Warn};
+use burgeon_spatial::Lines;
 
 /// Maximum distance (m) between a street and an edge that faces it.
 const FARTHEST: f64 = 300.0;
@@ -32,10 +33,10 @@ pub struct LineIndexOptions {
 /// They are lines on the ground, indexed by position.
 #[object(
     "streets",
+    can(Warn),
     options = LineIndexOptions,
     first = "lines",
     example = include_str!("../scripts/streets.lua"),
-    warns
 )]
 pub struct LineIndex {
     pieces: Arc<RTree<Piece<[f64; 2]>>>,

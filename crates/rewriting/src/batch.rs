@@ -1,4 +1,4 @@
-//! Rewrites one piece of a chain: runs the chosen rules in batches, one call of their functions for each.
+//! Rewriting of a piece of a chain: applies the chosen rules in batches, with one call of each rule's functions.
 
 use std::time::Instant;
 
@@ -13,17 +13,17 @@ use crate::successors::{ModuleOrder, Successors};
 use crate::text::module_brief;
 use burgeon_base::error::{Error, Result};
 
-/// In place of the number of a rule: no rule was applied.
+/// Rule number for a module to which no rule was applied.
 pub const NO_RULE: u16 = u16::MAX;
 
-/// Piece of a chain: from a mark up to another symbol.
+/// Piece of a chain, from a mark to another symbol.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ChainPiece {
     pub begin: Mark,
     pub end: usize,
 }
 
-/// Memory that a thread uses again from batch to batch.
+/// Memory that a thread reuses from batch to batch.
 #[derive(Debug, Default)]
 pub struct Scratch {
     pub(crate) active: Vec<Active>,
@@ -46,7 +46,7 @@ pub(crate) struct Active {
     pub rule: u16,
 }
 
-/// Step at hand, for one thread.
+/// Current step, for one thread.
 pub(crate) struct Batch<'a> {
     pub rules: &'a dyn Rules,
     pub plan: &'a StepPlan,
@@ -56,7 +56,7 @@ pub(crate) struct Batch<'a> {
 }
 
 impl Batch<'_> {
-    /// Rewrites `piece`. The memory of `spare`, an emptied output, is used again.
+    /// Rewrites `piece`. Reuses the memory of `spare`, an emptied output.
     pub(crate) fn rewrite(&self, piece: ChainPiece, scratch: &mut Scratch, spare: Output) -> Result<Output> {
         let rules = self.plan.grammar.rules().len();
         scratch.groups.resize_with(rules, Successors::default);
@@ -142,7 +142,7 @@ impl Batch<'_> {
         }
     }
 
-    /// Runs every chosen rule over its modules. Returns the error that comes first in the chain.
+    /// Applies every chosen rule to its modules. Returns the error that comes first in the chain.
     fn apply(&self, scratch: &mut Scratch) -> Result<()> {
         let mut first: Option<(u32, Error)> = None;
         for rule in 0..scratch.groups.len() {
@@ -173,7 +173,7 @@ impl Batch<'_> {
         applied.map_err(|failure| self.blame(failure, rule, members, scratch))
     }
 
-    /// Leaves the chain of application `index` out if its data is wrong: its modules stay as they are, and its applications
+    /// Skips the chain of application `index` if its data is wrong: its modules stay unchanged, and its applications
     /// are removed from `members`. Returns every other error.
     pub(crate) fn forgive(
         &self,
@@ -195,7 +195,7 @@ impl Batch<'_> {
         Ok(())
     }
 
-    /// Returns the error of a rule with its place, rule, module and step.
+    /// Returns the error of a rule with its location, rule, module and step.
     pub(crate) fn blame(
         &self,
         failure: RuleFailure,
@@ -216,7 +216,7 @@ impl Batch<'_> {
     }
 }
 
-/// Converts a place in a chain; chains have fewer than 2^32 symbols and parameters, below the limit on modules.
+/// Converts an index in a chain to 32 bits; the limit on modules keeps chains below 2^32 symbols and parameters.
 #[allow(clippy::cast_possible_truncation, reason = "below the limit on modules")]
 pub(crate) fn narrow(index: usize) -> u32 {
     index as u32

@@ -1,40 +1,40 @@
-//! Chains as columns: all chains of a system stand one after the other in one structure of arrays.
+//! Chains in columns: all chains of a system are stored one after the other in a structure of arrays.
 
 use super::key::ModuleKey;
 
-/// A module's symbol.
+/// Symbol of a module.
 pub type Symbol = u16;
-/// Opens a branch.
+/// Symbol that opens a branch.
 pub const OPEN: Symbol = 0;
-/// Closes a branch.
+/// Symbol that closes a branch.
 pub const CLOSE: Symbol = 1;
-/// Ends a chain.
+/// Symbol that ends a chain.
 pub const END: Symbol = 2;
 
-/// How deep the branches of one successor, axiom or context may be nested.
+/// Maximum nesting depth of branches in a successor, axiom or context.
 pub const DEEPEST: usize = 200;
 
-/// The chains of a system, in columns. Each chain ends with [`END`]; brackets balance within it.
+/// Chains of a system, in columns. Each chain ends with [`END`]; brackets balance within it.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Chain {
-    /// One for each module, bracket and end.
+    /// Symbols of all modules, brackets and ends.
     pub symbols: Vec<Symbol>,
-    /// The parameters of all modules, in order; a symbol's arity tells how many are its own.
+    /// Parameters of all modules, in order; the arity of a symbol is the number of its parameters.
     pub params: Vec<f64>,
-    /// The random key of each symbol; empty where no rule draws random numbers.
+    /// Random key of each symbol; empty if no rule uses random numbers.
     pub keys: Vec<ModuleKey>,
-    /// Places where work on the chain may be divided, in order; the first is the beginning.
+    /// Marks at which work on the chain can be divided, in order; the first is the beginning.
     pub marks: Vec<Mark>,
 }
 
-/// A place in a chain, by the number of symbols, parameters and ends before it.
+/// Position in a chain, as the number of symbols, parameters and ends before it.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Mark {
-    /// Symbols before it.
+    /// Number of symbols before the position.
     pub module: usize,
-    /// Parameters before it.
+    /// Number of parameters before the position.
     pub param: usize,
-    /// Whole chains before it.
+    /// Number of complete chains before the position.
     pub chain: usize,
 }
 
@@ -47,18 +47,19 @@ impl Chain {
         self.marks.clear();
     }
 
-    /// The place behind the last symbol, given the number of chains before it.
+    /// Returns the position after the last symbol; `chain` is the number of chains before it.
     #[inline]
     pub fn end(&self, chain: usize) -> Mark {
         Mark { module: self.symbols.len(), param: self.params.len(), chain }
     }
 
-    /// The number of modules, without brackets and ends.
+    /// Returns the number of modules, without brackets and ends.
     pub fn modules(&self) -> usize {
         self.symbols.iter().filter(|symbol| **symbol > END).count()
     }
 
-    /// Divides the columns into pieces of about `size` symbols. `arities` gives the parameters by symbol.
+    /// Sets marks that divide the columns into pieces of about `size` symbols. `arities` contains the number of
+    /// parameters by symbol.
     pub fn mark(&mut self, size: usize, arities: &[u8]) {
         self.marks.clear();
         let mut here = Mark::default();
@@ -72,7 +73,7 @@ impl Chain {
         }
     }
 
-    /// Chain number `index` alone; empty if there is none.
+    /// Returns only the chain at `index`; empty if there is no such chain.
     #[must_use]
     pub fn only(&self, index: usize, arities: &[u8]) -> Self {
         let starts = self.starts(arities);
@@ -88,7 +89,7 @@ impl Chain {
         }
     }
 
-    /// Where each chain begins; one more for the end of the last.
+    /// Returns the beginning of each chain, and the end of the last.
     pub fn starts(&self, arities: &[u8]) -> Vec<Mark> {
         let mut starts = vec![Mark::default()];
         let mut here = Mark::default();

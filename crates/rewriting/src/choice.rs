@@ -1,11 +1,11 @@
-//! The law of choice: which of the rules of a module's symbol is applied to it.
+//! Selection of the rule that is applied to a module, among the rules of its symbol.
 
 use smallvec::SmallVec;
 
 use super::grammar::Rule;
 use burgeon_base::random::Stream;
 
-/// The candidates for one module, of its symbol's rules in the order of their declaration.
+/// Candidates for one module: rules of its symbol, in the order of declaration.
 ///
 /// ```
 /// use burgeon_rewriting::{Candidates, ModuleKey, Pattern, Rule, Signature, Symbols};
@@ -25,20 +25,20 @@ use burgeon_base::random::Stream;
 /// ```
 #[derive(Debug, Clone, Default)]
 pub struct Candidates {
-    /// A candidate without a weight that came before all others.
+    /// Candidate without a weight that came before all others.
     winner: Option<u16>,
     weighted: SmallVec<[(u16, f64); 4]>,
 }
 
 impl Candidates {
-    /// Whether `rule` can still be chosen, if its contexts match and its guard holds: a rule without a weight only
-    /// as the first of all, one with a weight until such a rule has won.
+    /// Returns true if `rule` can still be chosen, provided its contexts match and its guard holds. A rule without a
+    /// weight can only be chosen as the first candidate, a rule with a weight until a rule without a weight has won.
     #[inline]
     pub fn admit(&self, rule: &Rule) -> bool {
         self.winner.is_none() && (rule.weight.is_some() || self.weighted.is_empty())
     }
 
-    /// Takes `rule`, which has this number, for a candidate.
+    /// Adds `rule`, which has this number, as a candidate.
     #[inline]
     pub fn add(&mut self, number: u16, rule: &Rule) {
         match rule.weight {
@@ -47,21 +47,21 @@ impl Candidates {
         }
     }
 
-    /// Whether no other rule can be chosen any more.
+    /// Returns true if no other rule can be chosen.
     #[inline]
     pub fn is_settled(&self) -> bool {
         self.winner.is_some()
     }
 
-    /// The rule that is applied, if there is a candidate. Weighted ones are drawn from, in proportion, with the first
-    /// number of the module's `stream`.
+    /// Returns the rule to apply, if there is a candidate. Among weighted rules, the first number of the module's
+    /// `stream` selects one in proportion to the weights.
     #[inline]
     pub fn choose(&self, stream: impl FnOnce() -> Stream) -> Option<u16> {
         if self.winner.is_some() {
             return self.winner;
         }
         let (last, _) = self.weighted.last()?;
-        // A power of two keeps the proportions to the last bit, and no sum leaves the range of numbers.
+        // Scaling by a power of two is exact, and keeps the sum finite.
         let scale = scale(self.weighted.iter().fold(0.0, |most, (_, weight)| weight.max(most)));
         let total: f64 = self.weighted.iter().map(|(_, weight)| weight * scale).sum();
         let mut left = stream().uniform() * total;
@@ -75,7 +75,7 @@ impl Candidates {
     }
 }
 
-/// A power of two that brings `heaviest` near 1, or as near as numbers go.
+/// Returns a power of two that scales `heaviest` to about 1, as far as the range of numbers allows.
 fn scale(heaviest: f64) -> f64 {
     const EXPONENT: u64 = 0x7FF;
     let exponent = heaviest.to_bits() >> 52 & EXPONENT;

@@ -1,4 +1,4 @@
-//! Chooses the rule of each module by its contexts, its guard and its weight.
+//! Choice of the rule for each module, by contexts, guards and weights.
 
 use crate::batch::{Active, Batch, ChainPiece, NO_RULE, Scratch, narrow};
 use crate::chain::{END, Symbol};
@@ -13,7 +13,7 @@ impl Batch<'_> {
         let arities = grammar.arities();
         scratch.active.clear();
         let mut guarded: Vec<u32> = Vec::new();
-        // Chains that are left out stay as they are.
+        // Skipped chains stay unchanged.
         let failed = self.plan.failed.as_ref().filter(|failed| failed.any());
         let (mut param, mut chain) = (piece.begin.param, piece.begin.chain);
         for module in piece.begin.module..piece.end {
@@ -66,13 +66,13 @@ impl Batch<'_> {
         self.chosen(&candidates, module)
     }
 
-    /// Returns the rule that is applied to `module`, or [`NO_RULE`].
+    /// Returns the rule to apply to `module`, or [`NO_RULE`].
     #[inline]
     fn chosen(&self, candidates: &Candidates, module: usize) -> u16 {
         candidates.choose(|| self.chain.keys[module].stream()).unwrap_or(NO_RULE)
     }
 
-    /// Runs the guards of each symbol's rules, rule by rule, each for all modules that it may still decide.
+    /// Calls the guards of each symbol's rules, one rule at a time, for all modules that the rule can still decide.
     ///
     /// Returns the error that comes first in the chain.
     fn choose_guarded(&self, mut open: Vec<u32>, scratch: &mut Scratch) -> Result<()> {
@@ -117,8 +117,8 @@ impl Batch<'_> {
         first.map_or(Ok(()), |(_, error)| Err(error))
     }
 
-    /// Retains the applications of `members` for which the guard of `rule` holds. If it fails, retains only those before the
-    /// failure, which is returned with its application.
+    /// Retains the applications in `members` for which the guard of `rule` holds. If the guard fails, retains only
+    /// those before the failure, and returns the failure with its application.
     fn guard(
         &self,
         rule: u16,

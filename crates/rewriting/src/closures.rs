@@ -19,17 +19,17 @@ use burgeon_base::error::{Error, Limit, Result};
 type SuccessorClosure = Box<dyn Fn(&AppliedModule<'_>, &mut Successors)>;
 type GuardClosure = Box<dyn Fn(&AppliedModule<'_>) -> bool>;
 
-/// A module that a closure is called for.
+/// Module to which a closure is applied.
 #[derive(Debug)]
 pub struct AppliedModule<'a> {
-    /// Arguments that the pattern names, in its order: those of the left contexts, of the module, of the right contexts.
+    /// Arguments that the pattern names, in its order: first the left context, then the module, then the right context.
     pub arguments: &'a [f64],
     key: ModuleKey,
     drawn: Cell<usize>,
 }
 
 impl AppliedModule<'_> {
-    /// Draws a random number, uniform in [0, 1), from the module's own stream.
+    /// Returns the next random number of the module's own stream, uniform in [0, 1).
     pub fn random(&self) -> f64 {
         let mut stream = self.key.stream();
         for _ in 0..self.drawn.get() {
@@ -40,9 +40,9 @@ impl AppliedModule<'_> {
     }
 }
 
-/// A system whose rules are closures.
+/// System whose rules are closures.
 ///
-/// A parametric system with a guard; a stem of Lindenmayer's *Anabaena*, whose cells divide once they are long enough:
+/// A parametric system with a guard: a stem of Lindenmayer's *Anabaena*, whose cells divide when they are long enough:
 ///
 /// ```
 /// use burgeon_rewriting::ClosureSystem;
@@ -79,7 +79,7 @@ impl AppliedModule<'_> {
 /// # Ok::<(), burgeon_base::Error>(())
 /// ```
 ///
-/// A stochastic system: random numbers depend on the seed and on where a module comes from, and on nothing else.
+/// A stochastic system: random numbers depend only on the seed and the lineage of a module.
 ///
 /// ```
 /// # use burgeon_rewriting::ClosureSystem;
@@ -117,14 +117,15 @@ impl ClosureSystem {
         }
     }
 
-    /// Declares a module with named parameters. Fails if a name is wrong, or if the module is declared with other parameters.
+    /// Declares a module with named parameters. Fails if a name is invalid, or if the module is already declared with
+    /// other parameters.
     pub fn module(&mut self, name: &str, parameters: &[&str]) -> Result<Symbol> {
         let parameters: Vec<String> = parameters.iter().map(|&parameter| parameter.to_owned()).collect();
         self.symbols.declare(Signature::new(name, &parameters)?)
     }
 
-    /// Adds a rule. `successor` writes the modules that take the place of the module into the [`Successors`]; a successor that
-    /// writes nothing erases it. Fails if the pattern is wrong.
+    /// Adds a rule. `successor` writes the modules that replace the module to the [`Successors`]; a successor that
+    /// writes nothing erases it. Fails if the pattern is invalid.
     pub fn rule(
         &mut self,
         pattern: &str,
@@ -133,7 +134,7 @@ impl ClosureSystem {
         self.add(pattern, None, None, Box::new(successor))
     }
 
-    /// Adds a rule that applies where `guard` holds.
+    /// Adds a rule that applies if `guard` holds.
     pub fn rule_when(
         &mut self,
         pattern: &str,
@@ -143,7 +144,7 @@ impl ClosureSystem {
         self.add(pattern, None, Some(Box::new(guard)), Box::new(successor))
     }
 
-    /// Adds a rule that is drawn among the weighted rules of its module, in proportion to its weight.
+    /// Adds a rule that is chosen at random among the weighted rules of its module, in proportion to its weight.
     pub fn rule_weighted(
         &mut self,
         pattern: &str,
@@ -182,13 +183,13 @@ impl ClosureSystem {
         self.ignored.extend_from_slice(symbols);
     }
 
-    /// Sets the largest number of modules and brackets of a chain; 100 million if it is not set.
+    /// Sets the maximum number of modules and brackets of a chain; 100 million by default.
     pub fn limit(&mut self, modules: usize) {
         self.limit = modules;
     }
 
-    /// Returns a chain of the modules that `write` pushes. Fails if brackets do not match, nest too deep, or if a module has the
-    /// wrong number of parameters.
+    /// Returns a chain of the modules that `write` pushes. Fails if brackets do not match or nest too deep, or if a
+    /// module has the wrong number of parameters.
     pub fn chain(&self, write: impl FnOnce(&mut Successors)) -> Result<Chain> {
         let mut made = Successors::default();
         write(&mut made);
@@ -247,20 +248,20 @@ impl ClosureSystem {
         Ok(Arc::unwrap_or_clone(derived.chain))
     }
 
-    /// Returns the chains as text, one line for each.
+    /// Returns the chains as text, one line per chain.
     pub fn text(&self, chain: &Chain) -> String {
         chain_text(chain, &self.symbols, &PlainNumbers)
     }
 }
 
-/// Number of symbols that rules are applied to at a time.
+/// Number of symbols to which rules are applied at a time.
 const BATCH: usize = 4096;
 
 fn unbalanced() -> Error {
     Error::argument("the brackets of the chain do not match").help("close each branch that was opened")
 }
 
-/// Applies the closures of a system.
+/// Phase that applies the closures of a system.
 struct RewritePhase<'a>(&'a ClosureSystem);
 
 impl Phase<Stepper> for RewritePhase<'_> {
@@ -272,7 +273,7 @@ impl Phase<Stepper> for RewritePhase<'_> {
 }
 
 impl ClosureSystem {
-    /// Returns the modules that a closure is called for.
+    /// Returns the modules to which a closure is applied.
     fn each<'a>(&self, applications: &'a Applications<'_>) -> impl Iterator<Item = AppliedModule<'a>> {
         let arity = self.rules[usize::from(applications.rule)].arguments();
         (0..applications.count).map(move |application| AppliedModule {

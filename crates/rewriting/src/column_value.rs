@@ -1,17 +1,18 @@
-//! How a value stands in a column of f64: as itself, or as a NaN that names it.
+//! Encoding of values in a column of f64: a number as itself, any other value as a NaN with a payload.
 
-/// What a column's f64 holds: a number, or a NaN whose payload says what else.
+/// Decoded f64 of a column: a number, or another value from the payload of a NaN.
 ///
-/// The upper 16 bits are `0xFFFC`, which no arithmetic gives; the next 16 tell the kind, the lower 32 the value.
+/// The upper 16 bits of such a NaN are `0xFFFC`, which no arithmetic produces; the next 16 bits are the type, the lower
+/// 32 the value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ColumnValue {
     /// A number.
     Number(f64),
-    /// An optional parameter that was left out.
+    /// An omitted optional parameter.
     Nil,
     /// `true` or `false`.
     Boolean(bool),
-    /// Place of the value in a table of values.
+    /// Index of the value in a table of values.
     Handle(u32),
 }
 
@@ -22,10 +23,10 @@ const HANDLE: u64 = MARK | 2 << 32;
 const KIND: u64 = 0xFFFF_FFFF_0000_0000;
 
 impl ColumnValue {
-    /// The f64 to store.
+    /// Returns the f64 to store.
     pub fn pack(self) -> f64 {
         match self {
-            // One NaN for all, since the others mean something else.
+            // All NaN numbers become the same NaN, because other payloads represent other values.
             Self::Number(value) if value.is_nan() => f64::NAN,
             Self::Number(value) => value,
             Self::Nil => f64::from_bits(NIL),
@@ -34,7 +35,7 @@ impl ColumnValue {
         }
     }
 
-    /// What a stored f64 holds.
+    /// Decodes a stored f64.
     #[inline]
     pub fn unpack(stored: f64) -> Self {
         let bits = stored.to_bits();

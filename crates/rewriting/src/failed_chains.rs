@@ -1,11 +1,11 @@
-//! Chains that are left out because their data is wrong.
+//! Chains that are skipped because their data is wrong.
 
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use burgeon_base::error::{Error, Result};
 
-/// Failures of the chains of a system. Nothing more is done with a chain that has failed.
+/// Failures of the chains of a system. A failed chain is not processed further.
 #[derive(Debug, Default)]
 pub struct FailedChains {
     failures: Vec<OnceLock<Error>>,
@@ -14,7 +14,8 @@ pub struct FailedChains {
 }
 
 impl FailedChains {
-    /// Creates the failures of `chains` chains. If `forgiving`, wrong data leaves a chain out and does not end the run.
+    /// Creates the failures of `chains` chains. If `forgiving`, a chain with wrong data is skipped and the run
+    /// continues.
     pub fn new(chains: usize, forgiving: bool) -> Self {
         let failures = (0..chains).map(|_| OnceLock::new()).collect();
         Self { failures, any_failed: AtomicBool::new(false), forgiving }
@@ -40,11 +41,11 @@ impl FailedChains {
         }
     }
 
-    /// Leaves a chain out if its data is the cause of `error`; returns every other error.
+    /// Skips a chain if its data is the cause of `error`; returns every other error.
     pub fn forgive(&self, chain: usize, error: Error) -> Result<()> {
         match self.failures.get(chain) {
             Some(failure) if self.forgiving && error.is_of_data() => {
-                // The first one counts.
+                // Only the first failure is kept.
                 let _ = failure.set(error);
                 self.any_failed.store(true, Ordering::Relaxed);
                 Ok(())

@@ -1,4 +1,4 @@
-//! A system's rules, ready for derivation.
+//! Rules of a system, prepared for derivation.
 
 use std::sync::Arc;
 
@@ -8,50 +8,50 @@ use super::pattern::{Item, Pattern};
 use super::symbols::Symbols;
 use burgeon_base::error::SourcePlace;
 
-/// The largest number of rules that a system may have: they are numbered in 16 bits.
+/// Maximum number of rules of a system, because they are numbered in 16 bits.
 pub const MOST_RULES: usize = 65_000;
 
-/// A production, without its successor: that is a function in each of the script's virtual machines.
+/// A production without its successor, which is a function in each of the script's virtual machines.
 #[derive(Debug, Clone)]
 pub struct Rule {
-    /// What it matches.
+    /// Pattern with the predecessor and its contexts.
     pub pattern: Pattern,
-    /// Its share among the weighted candidates; a rule without a weight always wins.
+    /// Weight among the weighted candidates; a rule without a weight always wins.
     pub weight: Option<f64>,
-    /// Whether a guard decides on top of the contexts.
+    /// Set if a guard decides in addition to the contexts.
     pub guarded: bool,
-    /// Where it was declared.
+    /// Source location of the declaration.
     pub place: Option<SourcePlace>,
     contexts: Vec<Item>,
 }
 
 impl Rule {
-    /// A rule for `pattern`.
+    /// Creates a rule for `pattern`.
     pub fn new(pattern: Pattern, weight: Option<f64>, guarded: bool, place: Option<SourcePlace>) -> Self {
         let contexts = pattern.context_items();
         Self { pattern, weight, guarded, place, contexts }
     }
 
-    /// The context modules, in the order in which the pattern names them.
+    /// Returns the context modules, in the order in which the pattern names them.
     pub fn contexts(&self) -> &[Item] {
         &self.contexts
     }
 
-    /// The number of values that the rule's functions take besides `this`.
+    /// Returns the number of arguments of the rule's functions, without `this`.
     #[inline]
     pub fn arguments(&self) -> usize {
         self.pattern.formals.len()
     }
 }
 
-/// How a rule is chosen among those of a symbol.
+/// Method of choosing a rule among the rules of a symbol.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Choice {
-    /// There is one, and it always applies.
+    /// The only rule, which always applies.
     Sole(u16),
     /// Contexts and weights decide.
     Contexts,
-    /// Guards have a say.
+    /// Guards decide, in addition to contexts and weights.
     Guards,
 }
 
@@ -70,13 +70,13 @@ impl Choice {
     }
 }
 
-/// All rules of a system, unchanging while it derives.
+/// All rules of a system, immutable during derivation.
 #[derive(Debug, Clone)]
 pub struct Grammar {
     symbols: Arc<Symbols>,
     rules: Vec<Rule>,
     by_symbol: Vec<Vec<u16>>,
-    /// By rule: its right context.
+    /// Right context of each rule.
     rights: Vec<Box<[ContextElement]>>,
     branches: Branches,
     choices: Vec<Choice>,
@@ -88,11 +88,11 @@ pub struct Grammar {
 }
 
 impl Grammar {
-    /// A grammar of `rules` in the order of their declaration, at most [`MOST_RULES`]. A rule of weight 0 is no
-    /// candidate: it never applies.
+    /// Creates a grammar of `rules` in the order of declaration, at most [`MOST_RULES`]. A rule of weight 0 is never a
+    /// candidate, so it never applies.
     ///
-    /// `ignored` lists the symbols that contexts pass over. `random` tells whether successors may draw random
-    /// numbers; weights are seen from the rules themselves.
+    /// `ignored` lists the symbols that contexts skip. `random` is set if successors may use random numbers; weighted
+    /// rules are detected automatically.
     pub fn new(symbols: Arc<Symbols>, rules: Vec<Rule>, ignored: &[Symbol], random: bool) -> Self {
         let arities = symbols.arities();
         let mut by_symbol = vec![Vec::new(); arities.len()];
@@ -115,72 +115,72 @@ impl Grammar {
         Self { symbols, rules, by_symbol, rights, branches, choices, skipped, arities, left, right, random }
     }
 
-    /// The declared modules.
+    /// Returns the declared modules.
     pub fn symbols(&self) -> &Arc<Symbols> {
         &self.symbols
     }
 
-    /// The rules in the order of their declaration.
+    /// Returns the rules in the order of declaration.
     #[inline]
     pub fn rules(&self) -> &[Rule] {
         &self.rules
     }
 
-    /// The rules of a symbol that can be chosen, in the order of their declaration.
+    /// Returns the rules of a symbol that can be chosen, in the order of declaration.
     #[inline]
     pub fn rules_of(&self, symbol: Symbol) -> &[u16] {
         &self.by_symbol[usize::from(symbol)]
     }
 
-    /// The right context of rule number `rule`.
+    /// Returns the right context of rule number `rule`.
     #[inline]
     pub fn right_of(&self, rule: u16) -> &[ContextElement] {
         &self.rights[usize::from(rule)]
     }
 
-    /// The branches that contexts name.
+    /// Returns the branches that contexts name.
     #[inline]
     pub fn branches(&self) -> &Branches {
         &self.branches
     }
 
-    /// How the rule for a module with this symbol is chosen.
+    /// Returns the method of choosing the rule for a module with this symbol.
     #[inline]
     pub fn choice(&self, symbol: Symbol) -> Choice {
         self.choices[usize::from(symbol)]
     }
 
-    /// Whether contexts pass over `symbol`.
+    /// Returns true if contexts skip `symbol`.
     #[inline]
     pub fn is_skipped(&self, symbol: Symbol) -> bool {
         self.skipped[usize::from(symbol)]
     }
 
-    /// The number of parameters by symbol, brackets included.
+    /// Returns the number of parameters by symbol, including brackets.
     #[inline]
     pub fn arities(&self) -> &[u8] {
         &self.arities
     }
 
-    /// Whether modules need random keys.
+    /// Returns true if modules need random keys.
     #[inline]
     pub fn draws_random(&self) -> bool {
         self.random
     }
 
-    /// Whether a rule looks at the neighbours of its module.
+    /// Returns true if a rule has a context.
     #[inline]
     pub fn has_contexts(&self) -> bool {
         self.left || self.right
     }
 
-    /// Whether a rule looks at what comes before its module.
+    /// Returns true if a rule has a left context.
     #[inline]
     pub fn has_left_contexts(&self) -> bool {
         self.left
     }
 
-    /// Whether a rule looks at what comes after its module.
+    /// Returns true if a rule has a right context.
     #[inline]
     pub fn has_right_contexts(&self) -> bool {
         self.right

@@ -1,52 +1,53 @@
-//! Keys of random numbers: they depend on the seed and on where a module comes from, and on nothing else.
+//! Keys of random numbers, which depend only on the seed and the lineage of a module.
 
 use burgeon_base::random::Stream;
 
-/// The seed and a module's lineage, mixed into one number.
+/// Hash of the seed and a module's lineage.
 ///
-/// A child's key follows from its parent's and its place among the successors, so a module keeps its random
-/// numbers whatever happens elsewhere in the chain.
+/// A child's key depends on its parent's key and its index among the successors. A module therefore keeps its random
+/// numbers when other parts of the chain change.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
 pub struct ModuleKey(pub u64);
 
 impl ModuleKey {
-    /// The key of a whole system.
+    /// Returns the key of a whole system.
     pub fn seed(seed: u64) -> Self {
         Self(mix(seed))
     }
 
-    /// The key of a chain that came from the feature with this id.
+    /// Returns the key of the chain for the feature with this id.
     #[must_use]
     pub fn feature(self, id: &str) -> Self {
         id.bytes().fold(Self(mix(self.0 ^ 0xFEA7)), |key, byte| Self(mix(key.0 ^ u64::from(byte))))
     }
 
-    /// The key of the successor's module number `ordinal`, from 0.
+    /// Returns the key of the successor's module number `ordinal`, from 0.
     #[must_use]
     #[inline]
     pub fn child(self, ordinal: usize) -> Self {
         Self(mix(self.0.wrapping_add((ordinal as u64 + 1).wrapping_mul(GOLDEN))))
     }
 
-    /// The key after a rule ran and left the module.
+    /// Returns the key of a module after a rule was applied and kept it.
     #[must_use]
     pub fn advanced(self) -> Self {
         Self(mix(self.0 ^ 0x5A17))
     }
 
-    /// The numbers of this key, from the first.
+    /// Returns the random numbers of this key, from the first.
     #[inline]
     pub fn stream(self) -> Stream {
         Stream::new(self.0)
     }
 
-    /// The key of the numbers that are drawn beside the module: number `place` of what runs there and is no rule.
+    /// Returns the key of the random numbers for another computation at the module that is not a rule, with the number
+    /// `place`.
     #[must_use]
     pub fn beside(self, place: usize) -> Self {
         Self(mix(self.0 ^ 0xBE51)).child(place)
     }
 
-    /// The key of the numbers that an interpretation rule draws.
+    /// Returns the key of the random numbers of an interpretation rule.
     #[must_use]
     pub fn interpretation(self) -> Self {
         Self(mix(self.0 ^ 0x1D7E))
@@ -55,7 +56,8 @@ impl ModuleKey {
 
 const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
-/// The finaliser of `SplitMix64` (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014).
+/// Mixes bits with the finaliser of `SplitMix64` (Steele, Lea and Flood, "Fast splittable pseudorandom number
+/// generators", 2014).
 #[inline]
 fn mix(state: u64) -> u64 {
     let mut z = state.wrapping_add(GOLDEN);

@@ -1,15 +1,16 @@
 //! Rewriting of L-systems: parallel, parametric, context-sensitive and stochastic, without a scripting language.
 //!
-//! Input: modules and patterns as text, and what the functions of rules do, as an implementation of [`Rules`]. Output:
-//! the next [`Chain`], the same for any number of threads. It never knows a virtual machine, an object or a geometry.
+//! Input: modules and patterns as text, and the functions of rules as an implementation of [`Rules`]. Output: the next
+//! [`Chain`], the same for any number of threads. The crate does not depend on a virtual machine, objects or geometry.
 //!
-//! - [`Symbols`] are the declared modules. A [`Pattern`] is the left side of a rule; a [`Grammar`] holds the rules of a system.
-//! - A [`Chain`] holds all modules of a system in columns. [`Links`] find the neighbours of its modules once a step, and a
-//!   [`ContextMatcher`] matches contexts with them.
-//! - A [`Stepper`] makes steps: it chooses the rule of each module, applies the rules in batches, and splices the
-//!   [`Successors`] into the next chain. [`Helpers`] are threads that take pieces of a step.
+//! - [`Symbols`] are the declared modules. A [`Pattern`] is the left side of a rule; a [`Grammar`] contains the rules
+//!   of a system.
+//! - A [`Chain`] contains all modules of a system in columns. [`Links`] find the neighbours of its modules once per
+//!   step, and a [`ContextMatcher`] uses them to match contexts.
+//! - A [`Stepper`] performs steps: it chooses the rule of each module, applies the rules in batches, and splices the
+//!   [`Successors`] into the next chain. [`Helpers`] are threads that process pieces of a step.
 //! - [`derive()`] runs [`Phase`]s, of which rewriting is one, until nothing can change.
-//! - Random numbers come from the [`ModuleKey`] of a module, which depends on the seed and the lineage alone.
+//! - Random numbers come from the [`ModuleKey`] of a module, which depends only on the seed and the lineage.
 //! - A [`ClosureSystem`] is a whole system whose rules are closures.
 //!
 //! Lindenmayer's algae, whose lengths are the Fibonacci numbers:

@@ -1,4 +1,4 @@
-//! Neighbours along the tree, found once a step so that a context costs O(1) for each of its modules.
+//! Neighbours along the tree, found once per step, so that matching a context costs O(1) per context module.
 
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -6,32 +6,32 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use super::chain::{CLOSE, Chain, END, OPEN};
 use super::grammar::Grammar;
 
-/// No neighbour.
+/// Index that means no neighbour.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// The neighbours of every symbol of a chain, as columns. Only those that the grammar's contexts need are filled.
+/// Neighbours of every symbol of a chain, in columns. Only the columns that the grammar's contexts need are filled.
 #[derive(Debug, Default)]
 pub struct Links {
-    /// The nearest module towards the axiom that is not ignored. A closed branch is not on that path.
+    /// Nearest module towards the axiom that is not ignored. A closed branch is not on that path.
     pub(crate) left: Vec<u32>,
-    /// For [`OPEN`] its closing bracket; for a module the next one on its own branch that is not ignored; for [`CLOSE`]
-    /// the first such module behind the branch.
+    /// For [`OPEN`] its closing bracket; for a module the next module on its own branch that is not ignored; for
+    /// [`CLOSE`] the first such module after the branch.
     pub(crate) right: Vec<u32>,
-    /// The first branch on the symbol's own that begins there or behind it, with only ignored modules before it.
+    /// First branch at or after the symbol on the symbol's own branch, with only ignored modules before it.
     pub(crate) branch: Vec<u32>,
-    /// Where each symbol's parameters begin.
+    /// Index of each symbol's first parameter.
     pub param: Vec<u32>,
-    /// For each branch that the grammar names, what searches for it have found.
+    /// Cached search results for each branch that the grammar names.
     known: Vec<OnceLock<BranchSearches>>,
     stack: Vec<u32>,
 }
 
-/// What the searches of a step for one named branch have found, by the opening bracket that they came by. All threads
-/// add to it: whoever finds something finds the same.
+/// Search results of a step for one named branch, by the opening bracket at which a search passed. All threads add
+/// results; the result for a bracket is always the same.
 #[derive(Debug)]
 pub struct BranchSearches(Vec<AtomicU32>);
 
-/// Nothing is known yet; an opening bracket is never so far that it could stand for a place.
+/// Index that means no cached result; an opening bracket never has so large an index.
 const UNKNOWN: u32 = NONE - 1;
 
 impl BranchSearches {
@@ -46,7 +46,7 @@ impl BranchSearches {
 }
 
 impl Links {
-    /// Finds the neighbours in `chain`, one pass to each side.
+    /// Finds the neighbours in `chain` with one pass in each direction.
     pub fn build(&mut self, chain: &Chain, grammar: &Grammar) {
         self.left.clear();
         self.right.clear();
@@ -69,7 +69,7 @@ impl Links {
         }
     }
 
-    /// What is known of the named branch of this number. It takes memory only once it is asked for.
+    /// Returns the search results of the named branch with this number. Memory is allocated at the first call.
     pub fn known(&self, number: u32) -> &BranchSearches {
         self.known[number as usize]
             .get_or_init(|| BranchSearches((0..self.right.len()).map(|_| AtomicU32::new(UNKNOWN)).collect()))
@@ -143,7 +143,7 @@ impl Links {
     }
 }
 
-/// Chains have fewer than 2^32 symbols; the limit on modules sees to that.
+/// Converts an index to 32 bits; the limit on modules keeps chains below 2^32 symbols.
 fn narrow(index: usize) -> u32 {
     u32::try_from(index).unwrap_or(NONE)
 }

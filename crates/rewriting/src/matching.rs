@@ -1,4 +1,4 @@
-//! How contexts match along the tree, with links that are found once a step: O(1) for each context module.
+//! Matching of contexts along the tree with links that are found once per step: O(1) per context module.
 
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
@@ -8,19 +8,19 @@ use super::grammar::Grammar;
 use super::links::{Links, NONE};
 use super::pattern::Context;
 
-/// The places of the context modules that a pattern matched, in the order in which it names them.
+/// Indices of the context modules that a pattern matched, in the order in which the pattern names them.
 pub type Bindings = SmallVec<[u32; 8]>;
 
-/// One element of a right context.
+/// An element of a right context.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum ContextElement {
     /// A module on the main path.
     Module(Symbol),
-    /// A branch that begins like the grammar's named branch of this number.
+    /// A branch that begins like the named branch with this number in the grammar.
     Branch(u32),
 }
 
-/// The branches that the contexts of a grammar name, each once.
+/// Branches that the contexts of a grammar name, each stored once.
 #[derive(Debug, Clone, Default)]
 pub struct Branches {
     list: Vec<Box<[ContextElement]>>,
@@ -28,7 +28,7 @@ pub struct Branches {
 }
 
 impl Branches {
-    /// A right context with its branches replaced by their numbers.
+    /// Returns a right context with its branches replaced by their numbers.
     pub fn number(&mut self, contexts: &[Context]) -> Box<[ContextElement]> {
         let ahead = contexts.iter().map(|context| match context {
             Context::Module(item) => ContextElement::Module(item.symbol),
@@ -45,13 +45,13 @@ impl Branches {
         ahead.collect()
     }
 
-    /// How many there are.
+    /// Returns the number of branches.
     pub fn len(&self) -> usize {
         self.list.len()
     }
 }
 
-/// The contexts of a grammar's rules around the modules of a chain.
+/// Matcher of a grammar's contexts around the modules of a chain.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -90,23 +90,23 @@ impl Branches {
 pub struct ContextMatcher<'a> {
     /// The chain.
     pub chain: &'a Chain,
-    /// What [`Links::build`] made of the chain and the grammar.
+    /// Links that [`Links::build`] created for the chain and the grammar.
     pub links: &'a Links,
-    /// The rules.
+    /// Rules.
     pub grammar: &'a Grammar,
 }
 
-/// Where a right context continues.
+/// Position at which a right context continues.
 #[derive(Clone, Copy)]
 enum ContextPosition {
-    /// Behind a module, whose next neighbour is linked.
+    /// After a module, whose next neighbour is linked.
     Module(usize),
-    /// At this symbol, which may be anything.
+    /// At this symbol, of any kind.
     At(usize),
 }
 
 impl ContextMatcher<'_> {
-    /// Whether the contexts of rule number `rule` match around the module at `index`.
+    /// Returns true if the contexts of rule number `rule` match around the module at `index`.
     #[inline]
     pub fn matches(self, rule: u16, index: usize) -> bool {
         let declared = &self.grammar.rules()[usize::from(rule)];
@@ -124,7 +124,7 @@ impl ContextMatcher<'_> {
         right.is_empty() || self.ahead(right, ContextPosition::Module(index), None)
     }
 
-    /// Fills `bindings` for a rule and a module that match.
+    /// Fills `bindings` for a rule that matches at a module.
     pub fn bind(self, rule: u16, index: usize, bindings: &mut Bindings) {
         bindings.clear();
         let mut here = index;
@@ -137,7 +137,8 @@ impl ContextMatcher<'_> {
         self.ahead(self.grammar.right_of(rule), ContextPosition::Module(index), Some(bindings));
     }
 
-    /// Whether `contexts` match from a place on. What is named within branches is only gone through to be bound.
+    /// Returns true if `contexts` match from a position on. Modules within branches are only traversed if `bindings`
+    /// are requested.
     fn ahead(
         self,
         contexts: &[ContextElement],
@@ -180,7 +181,7 @@ impl ContextMatcher<'_> {
         true
     }
 
-    /// The first module at or behind `index` on its own branch that is not ignored.
+    /// Returns the first module at or after `index` on its own branch that is not ignored.
     fn next_module(self, index: usize) -> u32 {
         let right = &self.links.right;
         match self.chain.symbols[index] {
@@ -191,10 +192,10 @@ impl ContextMatcher<'_> {
         }
     }
 
-    /// The first branch that begins like the named one: `open` itself or one that can be reached from it.
+    /// Returns the first branch that begins like the named branch: `open` itself or one that is reachable from it.
     ///
-    /// Where it is not `open` itself, the answer is noted for every branch that was passed, so that all searches of a
-    /// step together try each branch once.
+    /// If the result is not `open` itself, it is cached for every branch that was passed, so that all searches of a
+    /// step together test each branch once.
     fn first_branch(self, number: u32, open: u32) -> u32 {
         if open == NONE || self.begins_so(number, open) {
             return open;
@@ -225,7 +226,7 @@ impl ContextMatcher<'_> {
         found
     }
 
-    /// The next branch behind the one that begins at `open`, with nothing but ignored modules between them.
+    /// Returns the next branch after the one that begins at `open`, with only ignored modules in between.
     fn branch_behind(self, open: u32) -> u32 {
         self.links.branch[self.links.right[open as usize] as usize + 1]
     }

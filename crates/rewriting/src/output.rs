@@ -1,9 +1,9 @@
-//! Result of a piece of a chain: the next chain, and the work of each rule.
+//! Result of a piece of a chain: its part of the next chain, and the work of each rule.
 
 use crate::chain::Chain;
 use crate::uses::Use;
 
-/// Next chain where a piece was.
+/// Part of the next chain that replaces a piece.
 #[derive(Debug, Default)]
 pub(crate) struct Output {
     pub chain: Chain,
@@ -13,7 +13,8 @@ pub(crate) struct Output {
     pub changed: bool,
     /// Work of each rule that ran.
     pub uses: Vec<(u16, Use)>,
-    /// For each symbol of the piece, the rule that ran and the number of its successors; empty unless traced.
+    /// For each symbol of the piece, the rule that ran and the number of its successors; empty if the plan is not
+    /// traced.
     pub applied: Vec<(u16, u32)>,
 }
 

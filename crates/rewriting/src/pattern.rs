@@ -1,47 +1,47 @@
-//! Patterns such as `A B < S(x) > C [D] E`, and how they are read.
+//! Patterns such as `A B < S(x) > C [D] E`, and their parser.
 
 use super::chain::{DEEPEST, Symbol};
 use super::symbols::{NameScope, Symbols};
 use burgeon_base::error::{Error, Result};
 
-/// Characters of a pattern that are shown before the place where reading stopped, and behind it.
+/// Maximum number of characters of a pattern that an error shows before its position, and after it.
 const AROUND: usize = 100;
 
 /// A predecessor with its contexts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pattern {
-    /// The left context, as written: the last one is the nearest.
+    /// Left context, as written: the last module is the nearest.
     pub left: Vec<Item>,
-    /// The module to be rewritten.
+    /// Module to be rewritten.
     pub predecessor: Item,
-    /// The right context, as written.
+    /// Right context, as written.
     pub right: Vec<Context>,
-    /// The names of all formal parameters, in the order in which they are written.
+    /// Names of all formal parameters, in the order in which they are written.
     pub formals: Vec<String>,
-    /// The pattern as written, with single spaces.
+    /// Text of the pattern, with single spaces.
     pub text: String,
 }
 
-/// One module of a pattern.
+/// A module of a pattern.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Item {
-    /// Its symbol.
+    /// Symbol of the module.
     pub symbol: Symbol,
-    /// How many of its parameters are bound to names: all, or none where it is written without any.
+    /// Number of parameters that are bound to names: all, or none if the module is written without parameters.
     pub bound: usize,
 }
 
-/// One element of a right context.
+/// An element of a right context.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Context {
     /// A module on the main path.
     Module(Item),
-    /// A branch that begins so.
+    /// A branch that begins with these elements.
     Branch(Vec<Context>),
 }
 
 impl Pattern {
-    /// Reads a pattern; its symbols must be declared in `symbols`.
+    /// Parses a pattern; its symbols must be declared in `symbols`.
     ///
     /// ```
     /// use burgeon_rewriting::{Context, Pattern, Signature, Symbols};
@@ -62,13 +62,13 @@ impl Pattern {
         Self::parse_in(text, symbols, &NameScope::default())
     }
 
-    /// Reads a pattern whose names mean what they mean where `scope` asks; see [`Symbols::find_in`].
+    /// Parses a pattern whose names are resolved in `scope`; see [`Symbols::find_in`].
     pub fn parse_in(text: &str, symbols: &Symbols, scope: &NameScope) -> Result<Self> {
         PatternReader { text, at: 0, depth: 0, symbols, scope, formals: Vec::new() }.pattern()
     }
 
-    /// The names of the values that the functions of a rule are given besides `this`, each with its place among them:
-    /// the formal parameters, and those of the predecessor as its module was declared where no formal one is called so.
+    /// Returns the names of the arguments of a rule's functions, without `this`, each with its index. These are the
+    /// formal parameters, and the declared parameters of the predecessor whose names no formal parameter has.
     pub fn arguments<'a>(&'a self, symbols: &'a Symbols) -> Vec<(usize, &'a str)> {
         let formals = self.formals.iter().map(String::as_str);
         let own: usize = self.left.iter().map(|item| item.bound).sum();
@@ -84,7 +84,7 @@ impl Pattern {
         arguments
     }
 
-    /// The context modules in the order in which [`Bindings`](super::matching::Bindings) lists them.
+    /// Returns the context modules in the order in which [`Bindings`](super::matching::Bindings) lists them.
     pub fn context_items(&self) -> Vec<Item> {
         fn flatten(contexts: &[Context], items: &mut Vec<Item>) {
             for context in contexts {
@@ -103,7 +103,7 @@ impl Pattern {
 struct PatternReader<'a> {
     text: &'a str,
     at: usize,
-    /// How many branches are open there.
+    /// Number of branches that are open at the current position.
     depth: usize,
     symbols: &'a Symbols,
     scope: &'a NameScope,
@@ -245,7 +245,7 @@ impl PatternReader<'_> {
         Ok(Item { symbol, bound })
     }
 
-    /// The name of a module, before which that of a package may stand: `castle.Stone`.
+    /// Parses the name of a module, optionally with a package: `castle.Stone`.
     fn module_name(&mut self) -> Result<String> {
         self.peek();
         let rest = &self.text[self.at..];
@@ -277,14 +277,14 @@ impl PatternReader<'_> {
         Ok(rest[..length].to_owned())
     }
 
-    /// The next character that is not a space; `at` stands on it.
+    /// Skips spaces, and returns the character at the new position.
     fn peek(&mut self) -> Option<char> {
         let rest = &self.text[self.at..];
         self.at += rest.len() - rest.trim_start().len();
         self.text[self.at..].chars().next()
     }
 
-    /// An error that shows the place where reading stopped.
+    /// Returns an error that shows the current position.
     fn unexpected(&self, help: &str) -> Error {
         let found = match self.text[self.at..].chars().next() {
             Some(c) => format!("unexpected '{c}'"),

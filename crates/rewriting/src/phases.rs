@@ -1,13 +1,13 @@
-//! DerivedChain as a list of phases.
+//! Derivation as a list of phases.
 
 use std::sync::Arc;
 
 use crate::chain::Chain;
 use burgeon_base::error::Result;
 
-/// A phase of a derivation: rewriting, or what comes before, between and after steps. `S` is the state of the derivation.
+/// A phase of a derivation: rewriting, or work before, between and after steps. `S` is the state of the derivation.
 pub trait Phase<S> {
-    /// Runs the phase on the chain as it stands after `step` steps, or in step number `step` if it is run in a step.
+    /// Runs the phase on the chain after `step` steps, or in step number `step` if the phase belongs to a step.
     fn run(&self, state: &mut S, chain: Arc<Chain>, step: usize) -> Result<PhaseOutcome>;
 }
 
@@ -16,12 +16,12 @@ pub trait Phase<S> {
 pub struct PhaseOutcome {
     /// Chain after the phase.
     pub chain: Arc<Chain>,
-    /// Set if nothing can change in later steps, so that the derivation ends and this step does not count.
+    /// Set if nothing can change in later steps. The derivation then ends, and this step does not count.
     pub settled: bool,
 }
 
 impl PhaseOutcome {
-    /// Creates the result of a phase after which the derivation goes on.
+    /// Creates the result of a phase after which the derivation continues.
     pub fn next(chain: Arc<Chain>) -> Self {
         Self { chain, settled: false }
     }
@@ -47,7 +47,8 @@ pub struct DerivedChain {
     pub steps: usize,
 }
 
-/// Runs the phases of a derivation from a chain after `begin` steps up to `end` steps, or until a phase of a step has settled.
+/// Runs the phases of a derivation, from a chain after `begin` steps up to `end` steps, or until a phase of a step has
+/// settled.
 pub fn derive<S>(
     phases: &Phases<'_, S>,
     state: &mut S,

@@ -1,11 +1,11 @@
-//! Functions of rules, which are run for batches of modules.
+//! Functions of rules, which are called for batches of modules.
 
 use crate::key::ModuleKey;
 use crate::successors::Successors;
 use crate::text::{PlainNumbers, ShowParameters};
 use burgeon_base::error::{Error, Result};
 
-/// Modules that one rule is applied to in one call.
+/// Modules to which one rule is applied in one call.
 #[derive(Debug)]
 pub struct Applications<'a> {
     /// Number of the rule in the [`Grammar`](crate::Grammar).
@@ -16,18 +16,19 @@ pub struct Applications<'a> {
     pub arguments: &'a [f64],
     /// Chain of each application; empty if there is only one chain.
     pub chains: &'a [u32],
-    /// Random key of each application; empty if no rule draws random numbers.
+    /// Random key of each application; empty if no rule uses random numbers.
     pub keys: &'a [ModuleKey],
-    /// Place of each application in the chain; empty unless [`StepPlan::notes_places`](crate::StepPlan::notes_places).
+    /// Index of each application's module in the chain; empty unless
+    /// [`StepPlan::notes_places`](crate::StepPlan::notes_places) is set.
     pub places: &'a [u32],
-    /// Set if the choice among weighted rules has taken the first number of each stream.
+    /// Set if the choice among weighted rules has consumed the first number of each stream.
     pub weighted: bool,
 }
 
 /// Failure of a function.
 #[derive(Debug)]
 pub struct RuleFailure {
-    /// Application that failed.
+    /// Index of the application that failed.
     pub at: usize,
     /// Reason.
     pub error: Error,
@@ -39,19 +40,19 @@ impl From<Error> for RuleFailure {
     }
 }
 
-/// Runs the successors and guards of the rules of a system, in one thread.
+/// Caller of the successors and guards of a system's rules, in one thread.
 ///
-/// Virtual machines and [closures](crate::ClosureSystem) are two implementations. The grammar says which rule is applied to which
-/// module; an implementation only runs functions, and never sees the chain.
+/// Virtual machines and [closures](crate::ClosureSystem) are two implementations. The grammar determines which rule is
+/// applied to which module; an implementation only calls functions, and never sees the chain.
 pub trait Rules {
-    /// Runs the successor of a rule for each application, in order, and adds what it makes to `successors`.
+    /// Calls the successor of a rule for each application, in order, and adds the resulting modules to `successors`.
     fn apply(&self, applications: &Applications<'_>, successors: &mut Successors) -> Result<(), RuleFailure>;
 
-    /// Runs the guard of a rule for each application, in order, and adds a number for each to `holds`: 0 if the guard does not
-    /// hold. After a failure `holds` has the numbers of the applications before it.
+    /// Calls the guard of a rule for each application, in order, and adds a number for each to `holds`: 0 if the guard
+    /// does not hold. After a failure, `holds` contains the numbers of the applications before it.
     fn guard(&self, applications: &Applications<'_>, holds: &mut Vec<u32>) -> Result<(), RuleFailure>;
 
-    /// Returns how errors show the parameters of a module.
+    /// Returns the formatter of module parameters in errors.
     fn parameters(&self) -> &dyn ShowParameters {
         &PlainNumbers
     }

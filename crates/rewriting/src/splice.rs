@@ -1,4 +1,4 @@
-//! Splices the successors of the modules of a piece into the next chain.
+//! Splicing of the successors of a piece's modules into the next chain.
 
 use crate::batch::{Batch, ChainPiece, NO_RULE, Scratch, narrow, narrow_rule};
 use crate::chain::{Chain, END, Symbol};
@@ -8,7 +8,7 @@ use crate::successors::Successor;
 use crate::uses::Use;
 
 impl Batch<'_> {
-    /// Returns the next chain where `piece` was.
+    /// Returns the part of the next chain that replaces `piece`.
     pub(crate) fn splice(&self, piece: ChainPiece, scratch: &mut Scratch, mut output: Output) -> Output {
         let grammar = &self.plan.grammar;
         let random = grammar.draws_random();

@@ -1,4 +1,4 @@
-//! One derivation step: distributes pieces of the chain and merges the results in their order.
+//! A derivation step: distributes pieces of the chain and merges the results in order.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex};
@@ -21,17 +21,17 @@ use burgeon_base::memory::make_exact_room;
 pub struct StepPlan {
     /// Rules.
     pub grammar: Grammar,
-    /// Chains that are left out, if there can be any.
+    /// Skipped chains, if chains can be skipped.
     pub failed: Option<Arc<FailedChains>>,
     /// Number of chains.
     pub chains: usize,
-    /// Number of symbols that a thread takes at a time.
+    /// Number of symbols that a thread processes at a time.
     pub batch: usize,
-    /// Largest number of symbols of a chain.
+    /// Maximum number of symbols of a chain.
     pub limit: usize,
-    /// Set if [`StepOutcome::applied`] is wanted.
+    /// Set if [`StepOutcome::applied`] is required.
     pub traced: bool,
-    /// Set if rules are given the places of their modules.
+    /// Set if rules receive the positions of their modules.
     pub notes_places: bool,
 }
 
@@ -44,16 +44,16 @@ pub struct StepWork {
     step: usize,
     pieces: Vec<ChainPiece>,
     next: AtomicUsize,
-    /// First piece that failed; later ones are not begun.
+    /// First piece that failed; later pieces are not started.
     failed: AtomicUsize,
     results: Mutex<Vec<Option<Result<Output>>>>,
-    /// Cleared outputs, whose memory is used again: fresh pages cost more than the rewriting itself.
+    /// Cleared outputs for reuse: allocating fresh pages costs more time than rewriting.
     spare: Mutex<Vec<Output>>,
     ready: Condvar,
 }
 
 impl StepWork {
-    /// Rewrites the next piece with the functions of this thread; returns `false` if none is left.
+    /// Rewrites the next piece with the functions of this thread; returns `false` if no piece is left.
     pub fn work(&self, rules: &dyn Rules, stop: &Stop, scratch: &mut Scratch) -> bool {
         let index = self.next.fetch_add(1, Ordering::Relaxed);
         if index >= self.pieces.len() || index > self.failed.load(Ordering::Relaxed) {
@@ -71,7 +71,7 @@ impl StepWork {
         true
     }
 
-    /// Abandons the pieces that no thread has begun.
+    /// Abandons the pieces that no thread has started.
     fn abandon(&self) {
         self.failed.store(0, Ordering::Relaxed);
         self.next.store(self.pieces.len(), Ordering::Relaxed);
@@ -92,14 +92,14 @@ impl StepWork {
     }
 }
 
-/// Threads that take pieces of a step.
+/// Threads that process pieces of a step.
 pub trait Helpers {
-    /// Offers a step of so many pieces to other threads, which call [`StepWork::work`] until it returns `false`. They hold
-    /// the step only while they work.
+    /// Offers a step of `pieces` pieces to other threads, which call [`StepWork::work`] until it returns `false`. They
+    /// keep the step only while they work.
     fn offer(&self, step: &Arc<StepWork>, pieces: usize) -> Result<()>;
 }
 
-/// No threads besides the one that steps.
+/// Helpers without threads: the calling thread does all the work.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct NoHelpers;
 
@@ -118,19 +118,19 @@ pub struct StepOutcome {
     pub ran: bool,
     /// Set if any rule that ran replaced or erased its module.
     pub changed: bool,
-    /// For each symbol of the chain before, the rule that ran or [`NO_RULE`](crate::NO_RULE), and the number of its successors;
-    /// empty unless the plan is traced.
+    /// For each symbol of the previous chain, the rule that ran or [`NO_RULE`](crate::NO_RULE), and the number of its
+    /// successors; empty if the plan is not traced.
     pub applied: Vec<(u16, u32)>,
 }
 
-/// Results of all pieces, besides their chain.
+/// Merged results of all pieces except for the chain.
 struct StepTotals {
     ran: bool,
     changed: bool,
     applied: Vec<(u16, u32)>,
 }
 
-/// Makes steps, and keeps the memory of the last chain for the next.
+/// Executor of steps, which reuses the memory of the last chain for the next.
 #[derive(Debug)]
 pub struct Stepper {
     plan: Arc<StepPlan>,
@@ -155,9 +155,9 @@ impl Stepper {
         }
     }
 
-    /// Makes step number `step` on `chain`, which is marked (see [`Chain::mark`]).
+    /// Performs step number `step` on `chain`, which must be marked (see [`Chain::mark`]).
     ///
-    /// Fails if a function of a rule fails, if the chain grows past the limit of the plan, and once `stop` is stopped.
+    /// Fails if a function of a rule fails, if the chain exceeds the limit of the plan, or if `stop` is requested.
     pub fn step(
         &mut self,
         rules: &dyn Rules,
@@ -193,7 +193,7 @@ impl Stepper {
         Ok(StepOutcome { chain: std::mem::take(&mut self.spare), ran, changed, applied })
     }
 
-    /// Takes back a chain that is no longer needed, for its memory.
+    /// Takes back a chain that is no longer needed, to reuse its memory.
     pub fn reuse(&mut self, chain: Arc<Chain>) {
         if let Ok(chain) = Arc::try_unwrap(chain)
             && chain.symbols.capacity() > self.spare.symbols.capacity()
@@ -254,7 +254,7 @@ impl Stepper {
         &self.uses
     }
 
-    /// Returns the error for a chain that has grown past the limit, with the rule that has made most.
+    /// Returns the error for a chain that exceeds the limit, with the rule that has produced the most symbols.
     fn limit_error(&self, growth: &[usize], step: usize) -> Error {
         let limit = self.plan.limit;
         let error = Error::limit(Limit::Modules, format!("the chain grew past {limit} modules in step {step}"))
@@ -282,10 +282,10 @@ fn reclaim(mut work: Arc<StepWork>) -> StepWork {
     }
 }
 
-/// Appends `items`, the result of one more piece, to `array`, once `read` of `all` symbols have been read.
+/// Appends `items`, the result of the next piece, to `array` after `read` of `all` symbols.
 ///
-/// If the array is empty or full, reserves memory for all pieces, as if the rest made as much as what has been read; but at
-/// most four times the present size.
+/// If the array is empty or full, reserves memory for all pieces by extrapolating the growth so far, but at most four
+/// times the present size.
 fn append<T: Copy>(array: &mut Vec<T>, items: &[T], [read, all]: [usize; 2]) {
     let length = array.len() + items.len();
     if array.is_empty() || length > array.capacity() {
@@ -296,7 +296,7 @@ fn append<T: Copy>(array: &mut Vec<T>, items: &[T], [read, all]: [usize; 2]) {
     array.extend_from_slice(items);
 }
 
-/// Joins the chain's marks to pieces of at least `size` symbols.
+/// Merges the chain's marks into pieces of at least `size` symbols.
 fn pieces(chain: &Chain, size: usize) -> Vec<ChainPiece> {
     let mut pieces: Vec<ChainPiece> = Vec::new();
     for mark in &chain.marks {

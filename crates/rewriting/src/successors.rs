@@ -1,11 +1,11 @@
-//! Modules that one rule makes of a piece of a chain.
+//! Modules that one rule produces for a piece of a chain.
 
 use std::sync::Arc;
 use std::time::Duration;
 
 use crate::chain::{CLOSE, OPEN, Symbol};
 
-/// Symbols of a successor that is always the same, by which only parameters need to be written.
+/// Symbols of a successor that is always the same, so that only its parameters are written.
 #[derive(Debug, Clone, Default)]
 pub struct ReturnShape {
     /// Symbols of modules and brackets.
@@ -16,7 +16,7 @@ pub struct ReturnShape {
 
 /// Successor of one application.
 pub(crate) enum Successor {
-    /// The module stays.
+    /// Keep the module.
     Keep,
     /// Modules and brackets of the shape with this number.
     Shape(usize),
@@ -27,7 +27,7 @@ pub(crate) enum Successor {
 }
 
 impl Successor {
-    /// Reads a word of [`Successors::ends`].
+    /// Decodes a word of [`Successors::ends`].
     #[inline]
     pub(crate) fn read(word: u32) -> Self {
         if word & Successors::KEEP != 0 {
@@ -48,19 +48,19 @@ impl Successor {
 /// then [`end`](Self::end) or [`keep`](Self::keep) for each application, or fills the columns itself.
 #[derive(Debug, Default)]
 pub struct Successors {
-    /// Symbols of all modules that were made.
+    /// Symbols of all produced modules.
     pub symbols: Vec<Symbol>,
-    /// Parameters of all modules that were made.
+    /// Parameters of all produced modules.
     pub params: Vec<f64>,
-    /// For each application: the number of modules made so far, with [`KEEP`](Self::KEEP) or [`ORDERED`](Self::ORDERED) if that is
-    /// so; or the number of a shape with [`SHAPE`](Self::SHAPE).
+    /// For each application, the number of modules produced so far, combined with [`KEEP`](Self::KEEP) or
+    /// [`ORDERED`](Self::ORDERED) if applicable; or the number of a shape with [`SHAPE`](Self::SHAPE).
     pub ends: Vec<u32>,
-    /// For each application whose modules are in another order: the number of its items, then the items, which are numbers of
+    /// For each application with reordered modules, the number of its items, then the items, which are numbers of
     /// modules of the application, [`OPEN_ITEM`](Self::OPEN_ITEM) or [`CLOSE_ITEM`](Self::CLOSE_ITEM).
     pub order: Vec<u32>,
-    /// Successors that are always the same, by number.
+    /// Constant successors, by number.
     pub shapes: Arc<Vec<ReturnShape>>,
-    /// Largest number of random numbers that the rule has drawn for one module.
+    /// Maximum number of random numbers that the rule has used for one module.
     pub draws: usize,
     pub(crate) members: Vec<u32>,
     pub(crate) next: usize,
@@ -72,11 +72,11 @@ pub struct Successors {
 }
 
 impl Successors {
-    /// Marks an application that leaves its module.
+    /// Flag of an application that keeps its module.
     pub const KEEP: u32 = 0x8000_0000;
-    /// Marks the number of a shape.
+    /// Flag of the number of a shape.
     pub const SHAPE: u32 = 0x4000_0000;
-    /// Marks an application whose modules are in another order than they were made.
+    /// Flag of an application whose modules are in another order than they were made.
     pub const ORDERED: u32 = 0x2000_0000;
     /// Opening bracket among the items of [`order`](Self::order).
     pub const OPEN_ITEM: u32 = 0xFFFF_FFFE;
@@ -92,7 +92,8 @@ impl Successors {
         self.rewind();
     }
 
-    /// Adds a module to the successor of the application at hand. `params` has as many parameters as the module takes.
+    /// Adds a module to the successor of the current application. The length of `params` must be the arity of the
+    /// module.
     #[inline]
     pub fn push(&mut self, symbol: Symbol, params: &[f64]) {
         self.symbols.push(symbol);
@@ -111,24 +112,25 @@ impl Successors {
         self.symbols.push(CLOSE);
     }
 
-    /// Ends the successor of an application: the modules since the last one take the place of its module.
+    /// Ends the successor of an application: the modules since the previous application replace its module.
     #[inline]
     pub fn end(&mut self) {
         self.ends.push(word(self.symbols.len()));
     }
 
-    /// Ends an application that leaves its module as it is.
+    /// Ends an application that keeps its module.
     #[inline]
     pub fn keep(&mut self) {
         self.ends.push(word(self.symbols.len()) | Self::KEEP);
     }
 
-    /// Begins to read from the first application.
+    /// Restarts reading at the first application.
     pub(crate) fn rewind(&mut self) {
         (self.next, self.symbol_at, self.param_at, self.order_at, self.made) = (0, 0, 0, 0, 0);
     }
 
-    /// Reads the successor of the application whose modules end at `end`: its symbols, and its parameters behind `params`.
+    /// Reads the reordered successor of the application whose modules end at `end`: writes its symbols to `to`, and
+    /// appends its parameters to `params`.
     pub(crate) fn arrange(
         &mut self,
         end: usize,
@@ -164,7 +166,7 @@ impl Successors {
     }
 }
 
-/// Batches have far fewer than 2^29 modules; the memory limit sees to that.
+/// Converts a count to a word. The memory limit keeps batches far below 2^29 modules.
 #[allow(clippy::cast_possible_truncation, reason = "below the limit on modules")]
 fn word(count: usize) -> u32 {
     debug_assert!(count < Successors::ORDERED as usize);
@@ -175,6 +177,6 @@ fn word(count: usize) -> u32 {
 #[derive(Debug, Default)]
 pub(crate) struct ModuleOrder {
     pub symbols: Vec<Symbol>,
-    /// Begin of the parameters of each module that was made.
+    /// Index of the first parameter of each produced module.
     starts: Vec<usize>,
 }

@@ -1,4 +1,4 @@
-//! The declared modules: their names and parameters.
+//! Declared modules with their names and parameters.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -9,14 +9,14 @@ use rustc_hash::FxHashMap;
 use super::chain::{END, Symbol};
 use burgeon_base::error::{Error, Limit, Result};
 
-/// Number of symbols that are reserved for placeholders: modules that stand for others until a phase resolves them.
+/// Number of symbols that are reserved for placeholders: modules that a phase replaces by other modules.
 pub const PLACEHOLDERS: Symbol = 8;
 
-/// First number of a declared symbol. Those below are the brackets, the end of a chain, and placeholders; no pattern can name
-/// them, so no rule sees them.
+/// First number of a declared symbol. Lower numbers are the brackets, the end of a chain, and placeholders. Patterns
+/// cannot name them, so no rule sees them.
 pub const FIRST_SYMBOL: Symbol = END + 1 + PLACEHOLDERS;
 
-/// Returns the symbol of placeholder number `number`, which is below [`PLACEHOLDERS`].
+/// Returns the symbol of placeholder number `number`, which must be below [`PLACEHOLDERS`].
 pub const fn placeholder(number: Symbol) -> Symbol {
     assert!(number < PLACEHOLDERS, "there are fewer placeholders");
     END + 1 + number
@@ -25,25 +25,26 @@ pub const fn placeholder(number: Symbol) -> Symbol {
 /// Symbol of the first placeholder.
 const FIRST_PLACEHOLDER: Symbol = END + 1;
 
-/// The largest number of modules that a script may declare, those of the standard library among them.
+/// Maximum number of modules that a script can declare, including the standard library.
 const MOST_MODULES: usize = 65_000;
 
-/// The largest number of parameters that a module may have.
+/// Maximum number of parameters of a module.
 const MOST_PARAMETERS: usize = 32;
 
-/// What `module(name, parameters...)` declares.
+/// Declaration of a module by `module(name, parameters...)`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Signature {
-    /// The symbol's name.
+    /// Name of the symbol.
     pub name: String,
-    /// The parameters' names, in order.
+    /// Names of the parameters, in order.
     pub parameters: Vec<String>,
-    /// How many of them must be given; the rest may be left out.
+    /// Number of required parameters; the others are optional.
     pub required: usize,
 }
 
 impl Signature {
-    /// Checks the names. A parameter whose name ends in `?` may be left out, as may those after it.
+    /// Creates a signature. A parameter whose name ends with `?` is optional, and so are all parameters after it. Fails
+    /// if a name is invalid or repeated, or if there are too many parameters.
     pub fn new(name: &str, parameters: &[String]) -> Result<Self> {
         if !is_name(name) {
             return Err(Error::argument(format!("{name:?} cannot be a module's name"))
@@ -81,12 +82,12 @@ impl Signature {
         Ok(Self { name: name.to_owned(), parameters: names, required })
     }
 
-    /// The number of parameters.
+    /// Returns the number of parameters.
     pub fn arity(&self) -> usize {
         self.parameters.len()
     }
 
-    /// The module as one would write it, such as `Floor(n, radius)`.
+    /// Formats the module as written in a script, such as `Floor(n, radius)`.
     pub fn usage(&self) -> String {
         if self.parameters.is_empty() {
             return self.name.clone();
@@ -100,7 +101,7 @@ impl Signature {
         format!("{}({})", self.name, shown.join(", "))
     }
 
-    /// How many parameters may be given, in words.
+    /// Formats the number of parameters.
     pub fn count(&self) -> String {
         match (self.required, self.arity()) {
             (_, 0) => "no parameters".to_owned(),
@@ -116,29 +117,30 @@ fn is_name(text: &str) -> bool {
         && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
 }
 
-/// Who asks for a module by its name: the script, or a package.
+/// Scope in which a module name is resolved: the script or a package.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct NameScope {
-    /// The package whose file asks; none for the script's own.
+    /// Package of the file; `None` for the script's own files.
     pub package: Option<Arc<str>>,
-    /// The packages that whoever asks has required, as far as it has run.
+    /// Packages that the file has required so far.
     pub required: BTreeSet<Arc<str>>,
 }
 
-/// All declared modules. A symbol is a place in this list.
+/// All declared modules. A symbol is an index into this list.
 ///
-/// What a package declares is its own: modules of two packages, or of a package and the script, may have one name.
+/// Declarations of packages are separate: modules of two packages, or of a package and the script, can have the same
+/// name.
 #[derive(Debug, Clone)]
 pub struct Symbols {
     /// Signatures of placeholders, then of declared modules.
     signatures: Vec<Signature>,
-    /// By symbol: the package that declares it.
+    /// Package that declares each symbol.
     owners: Vec<Option<Arc<str>>>,
-    /// By symbol: the name that people are shown, with its package where there are several of one name.
+    /// Display name of each symbol, with its package if several modules have the same name.
     shown: Vec<String>,
-    /// The symbols of each name, in the order of their declaration.
+    /// Symbols of each name, in the order of declaration.
     by_name: FxHashMap<String, Vec<Symbol>>,
-    /// How many of the declared ones are the standard library's.
+    /// Number of declared modules that belong to the standard library.
     standard: usize,
 }
 
@@ -149,7 +151,7 @@ impl Default for Symbols {
 }
 
 impl Symbols {
-    /// Creates symbols of which only placeholders are declared: those of `signatures`, in order, at most [`PLACEHOLDERS`].
+    /// Creates symbols with only placeholders, which have these `signatures`, in order, at most [`PLACEHOLDERS`].
     pub fn with_placeholders(mut signatures: Vec<Signature>) -> Self {
         let unused = Signature { name: String::new(), parameters: Vec::new(), required: 0 };
         signatures.resize(usize::from(PLACEHOLDERS), unused);
@@ -162,10 +164,10 @@ impl Symbols {
         }
     }
 
-    /// Declares a module of the script and gives its symbol; the same declaration again gives the same symbol.
+    /// Declares a module of the script and returns its symbol; a repeated declaration returns the same symbol.
     ///
-    /// A script may declare a module of the standard library again, with other parameters; then the name means
-    /// the script's.
+    /// A script can redeclare a module of the standard library with other parameters. The name then refers to the
+    /// script's module. Fails if the script has already declared the module with other parameters.
     pub fn declare(&mut self, signature: Signature) -> Result<Symbol> {
         self.declare_in(signature, None)
     }
@@ -194,7 +196,7 @@ impl Symbols {
         self.owners.push(owner.map(Into::into));
         let of_name = self.by_name.entry(signature.name.clone()).or_default();
         of_name.push(symbol);
-        // A module of the script's own hides that of the standard library, so these two need no other names.
+        // A module of the script hides a module of the standard library, so these two need no qualified names.
         let same: Vec<Symbol> = if of_name.len() > 1 { of_name.clone() } else { Vec::new() };
         self.signatures.push(signature);
         for other in same {
@@ -206,27 +208,27 @@ impl Symbols {
         Ok(symbol)
     }
 
-    /// Marks what is declared so far as the standard library's.
+    /// Marks all current declarations as part of the standard library.
     pub fn end_of_standard(&mut self) {
         self.standard = self.declared().len();
     }
 
-    /// Whether `symbol` is one of the standard library's.
+    /// Returns true if `symbol` belongs to the standard library.
     pub fn is_standard(&self, symbol: Symbol) -> bool {
         usize::from(symbol) < usize::from(FIRST_SYMBOL) + self.standard
     }
 
-    /// The package that declares `symbol`; none if the script or the standard library does.
+    /// Returns the package that declares `symbol`; `None` for the script and the standard library.
     pub fn owner(&self, symbol: Symbol) -> Option<&str> {
         self.owners[usize::from(symbol - FIRST_PLACEHOLDER)].as_deref()
     }
 
-    /// The name of `symbol` for people: with its package, `castle.Stone`, where several modules have one name.
+    /// Returns the display name of `symbol`: with its package, `castle.Stone`, if several modules have the same name.
     pub fn shown(&self, symbol: Symbol) -> &str {
         &self.shown[usize::from(symbol - FIRST_PLACEHOLDER)]
     }
 
-    /// Returns the name that means `symbol` wherever the script asks: with its package if one declares it.
+    /// Returns the name that refers to `symbol` everywhere in the script: with its package if a package declares it.
     pub fn qualified(&self, symbol: Symbol) -> Cow<'_, str> {
         let name = self.signature(symbol).name.as_str();
         match self.owner(symbol) {
@@ -235,16 +237,17 @@ impl Symbols {
         }
     }
 
-    /// The symbol that `name` means in the script; see [`find_in`](Self::find_in).
+    /// Returns the symbol that `name` refers to in the script; see [`find_in`](Self::find_in).
     pub fn find(&self, name: &str) -> Result<Symbol> {
         self.find_in(name, &NameScope::default())
     }
 
-    /// The symbol that `name` means where `scope` asks: its own module of that name, or that of the standard library, or
-    /// otherwise the only one that others declare, or the only one of those that it has required.
+    /// Returns the symbol that `name` refers to in `scope`. The scope's own module of that name takes precedence, then
+    /// the standard library. Otherwise it is the only module of that name, or the only one in the packages that the
+    /// scope has required.
     ///
-    /// `castle.Stone` is that of the package castle. Fails if there is none, with the nearest known one, and if there are
-    /// several, with all of them.
+    /// `castle.Stone` is the module of the package castle. Fails if there is none, with the nearest known name, or if
+    /// there are several, with all of them.
     pub fn find_in(&self, name: &str, scope: &NameScope) -> Result<Symbol> {
         if let Some((package, inner)) = name.split_once('.') {
             return self.find_of_package(name, package, inner);
@@ -291,7 +294,7 @@ impl Symbols {
         })
     }
 
-    /// The declared names, in the order of their declaration.
+    /// Returns the declared names, in the order of declaration.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.declared().iter().map(|signature| signature.name.as_str())
     }
@@ -300,12 +303,12 @@ impl Symbols {
         self.signatures.get(usize::from(FIRST_SYMBOL - FIRST_PLACEHOLDER)..).unwrap_or_default()
     }
 
-    /// How `symbol` was declared; `symbol` is one that [`Symbols::declare`] gave, or one that stands for others.
+    /// Returns the signature of `symbol`, which must be a result of [`Symbols::declare`] or a placeholder.
     pub fn signature(&self, symbol: Symbol) -> &Signature {
         &self.signatures[usize::from(symbol - FIRST_PLACEHOLDER)]
     }
 
-    /// The number of parameters by symbol, brackets included.
+    /// Returns the number of parameters by symbol, including brackets.
     pub fn arities(&self) -> Vec<u8> {
         let declared =
             self.signatures.iter().map(|signature| u8::try_from(signature.arity()).unwrap_or(u8::MAX));
@@ -370,7 +373,8 @@ mod tests {
                 .to_string()
                 .contains("did you mean tower.Stone?")
         );
-        // What a package declares again is its own, and hides the standard library's from nobody else.
+        // A module that a package redeclares belongs to the package, and hides the standard library's module only
+        // there.
         let own = symbols.declare_in(signature("F", &["l", "w"]).unwrap(), Some("castle")).unwrap();
         assert_eq!(symbols.find_in("F", &of(Some("castle"), &[])).unwrap(), own);
         assert_eq!(symbols.find_in("F", &of(None, &["castle"])).unwrap(), standard);

@@ -6,9 +6,9 @@ use super::chain::{CLOSE, Chain, END, OPEN, Symbol};
 use super::symbols::Symbols;
 use burgeon_base::error::shortened;
 
-/// Text of parameters, which may stand for values that are not numbers.
+/// Formatter of parameters, which can represent values that are not numbers.
 pub trait ShowParameters {
-    /// Returns a stored parameter as text; `nil` for an optional one that was left out.
+    /// Formats a stored parameter; `nil` for an omitted optional one.
     fn show(&self, stored: f64) -> String;
 }
 
@@ -18,7 +18,7 @@ impl<T: ShowParameters + ?Sized> ShowParameters for std::sync::Arc<T> {
     }
 }
 
-/// Parameters that are numbers.
+/// Formatter of parameters that are all numbers.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct PlainNumbers;
 
@@ -28,15 +28,16 @@ impl ShowParameters for PlainNumbers {
     }
 }
 
-/// Characters of a parameter that people are shown.
+/// Maximum number of characters of a parameter in a short text.
 const SHOWN: usize = 200;
 
-/// A module as `Name(p1,p2)`, or `Name` without parameters; optional ones left out at the end are not shown.
+/// Formats a module as `Name(p1,p2)`, or `Name` without parameters. Omitted optional parameters at the end are not
+/// shown.
 pub fn module_text(symbols: &Symbols, values: &dyn ShowParameters, symbol: Symbol, params: &[f64]) -> String {
     write_module(symbols, values, symbol, params, |text| text)
 }
 
-/// The same for people: of a long parameter the middle is left out.
+/// Formats a module like [`module_text`], but shortens long parameters in the middle.
 pub fn module_brief(
     symbols: &Symbols,
     values: &dyn ShowParameters,
@@ -68,7 +69,7 @@ fn write_module(
     if shown.is_empty() { name.to_owned() } else { format!("{name}({})", shown.join(",")) }
 }
 
-/// Writes one line for each chain: modules separated by one space, branches as `[ ... ]`.
+/// Writes one line per chain: modules separated by one space, branches as `[ ... ]`.
 pub fn write_chains(
     out: &mut impl Write,
     chain: &Chain,
@@ -95,10 +96,10 @@ pub fn write_chains(
     Ok(())
 }
 
-/// The chains as one string; see [`write_chains`].
+/// Returns the chains as one string; see [`write_chains`].
 pub fn chain_text(chain: &Chain, symbols: &Symbols, values: &dyn ShowParameters) -> String {
     let mut bytes = Vec::new();
-    // Writing into memory cannot fail.
+    // Writing to memory cannot fail.
     let _ = write_chains(&mut bytes, chain, symbols, values);
     String::from_utf8_lossy(&bytes).into_owned()
 }

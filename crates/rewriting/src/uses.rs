@@ -8,9 +8,9 @@ use std::time::Duration;
 pub struct Use {
     /// Number of applications.
     pub applied: usize,
-    /// Number of modules and brackets that it made.
+    /// Number of modules and brackets that the rule produced.
     pub made: usize,
-    /// Time of all threads together.
+    /// Total time of all threads.
     pub time: Duration,
 }
 

@@ -26,6 +26,7 @@ mod plane;
 #[cfg(test)]
 mod properties;
 mod relation;
+mod scripting;
 mod skeleton;
 mod topology;
 mod validity;
@@ -39,6 +40,7 @@ pub use geometry::{FARTHEST, Geometry};
 pub use kind::GeometryKind;
 pub use overlay::union_all;
 pub use relation::Relation;
+pub use scripting::{GeometryList, GeometryObject, Lines, Path, PolygonArgument, Shape, constructors, rings};
 pub use topology::PreparedGeometry;
 
 /// Maximum nesting depth of collections.

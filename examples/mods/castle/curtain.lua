@@ -1,11 +1,11 @@
 --!strict
--- Curtain walls between places, thicker at the foot, with battlements to the outside.
+-- Curtain walls between towers, thicker at the foot, with battlements on the outside.
 local masonry = require("@masonry")
 local materials = masonry.materials
 
 local Span = module("Span", "from", "to")
 
--- Walls from place to place, around the ward to the left; `height` (m) is that of the wall walk.
+-- Returns walls between positions, counter-clockwise around the ward; `height` (m) is the height of the wall walk.
 return function(places: { any }, height: number)
   local wall = lsystem({ object = extruder({ smooth = false }) })
   local spans = {}

@@ -5,10 +5,10 @@ local materials = masonry.materials
 
 local Gate = module("Gate", "width", "depth", "height")
 
--- Half the width of the passage (m), and the height from which on it is an arch.
+-- Half the width of the passage (m), and the height (m) at which its arch begins.
 local OPEN, SPRING = 1.9, 3.2
 
--- Its passage runs along y, its front looks to -y.
+-- Returns a gatehouse. Its passage runs along y, and its front faces -y.
 return function(width: number, depth: number, height: number)
   local gate = lsystem({ object = extruder({ smooth = false }) })
   gate:axiom(Gate(width, depth, height))

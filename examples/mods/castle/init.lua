@@ -1,5 +1,5 @@
 --!strict
--- The parts of a castle: require("@castle") gives functions that make models of them.
+-- The parts of a castle: require("@castle") returns functions that make models of them.
 return {
   tower = require("./towers"),
   curtain = require("./curtain"),

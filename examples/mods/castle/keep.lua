@@ -1,12 +1,12 @@
 --!strict
--- A keep: walls of lancets by the mason's templates, under a steep roof of slate.
+-- A keep: walls with lancets from the templates of masonry, under a steep slate roof.
 local masonry = require("@masonry")
 local materials = masonry.materials
 
 local Keep = module("Keep", "height")
 local Roof = module("Roof")
 
--- A keep over an outline, so many metres high.
+-- Returns a keep over an outline; `height` is in metres.
 return function(outline: { any }, height: number)
   local keep = lsystem({ object = footprint(outline) })
   keep:axiom(Keep(height), Roof())

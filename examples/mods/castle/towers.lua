@@ -11,7 +11,7 @@ local Spire = module("Spire", "radius")
 
 local STOREY = 4.2
 
--- An arrow slit in the wall at an angle (degrees): a dark gap in a dressed stone.
+-- Draws an arrow slit in the wall at an angle (degrees): a dark gap in dressed stone.
 local function slit(this, center, radius: number, angle: number)
   local out = vec(math.cos(math.rad(angle)), math.sin(math.rad(angle)), 0)
   local along = vec(-out.y, out.x, 0)
@@ -22,7 +22,7 @@ local function slit(this, center, radius: number, angle: number)
   masonry.block(this, face + vec(0, 0, 0.2), along, 0.2, 0.38, 1.6)
 end
 
--- A tower of so many storeys; `roof` says whether it ends in a spire or in battlements.
+-- Returns a tower with `storeys` storeys; `roof` selects a spire instead of battlements.
 return function(options: { storeys: number, radius: number, roof: boolean, seed: number })
   local tower = lsystem({ object = extruder({ smooth = true }), seed = options.seed })
   tower:axiom(Footing(options.radius), Tower(options.storeys, options.radius))
@@ -58,7 +58,7 @@ return function(options: { storeys: number, radius: number, roof: boolean, seed:
     this:jump(top)
   end)
 
-  -- Corbels carry a wall walk that is wider than the tower.
+  -- Corbels support a wall walk that is wider than the tower.
   tower:interpret("Crown(radius)", function(this, radius)
     local wide = radius + 0.7
     local from = this:position()

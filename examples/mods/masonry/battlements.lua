@@ -18,7 +18,7 @@ local function merlon(this, foot, way)
   block(this, foot + vec(0, 0, 0.9), way, size + 0.14, thick + 0.14, 0.14)
 end
 
--- From one place to another, both on the wall walk.
+-- Draws battlements between two positions on the wall walk.
 function battlements.straight(this, from, to)
   local span = to - from
   local length = span:length()
@@ -34,7 +34,7 @@ function battlements.straight(this, from, to)
   end
 end
 
--- Around a place at a radius (m).
+-- Draws battlements around a centre at a radius (m).
 function battlements.round(this, center, radius: number)
   local ring, hole = {}, {}
   for step = 0, 35 do

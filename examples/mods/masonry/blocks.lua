@@ -1,8 +1,8 @@
 --!strict
--- Upright blocks for extruders. The extruder looks up before and after, so that x and y are those of the world.
+-- Upright blocks for extruders. The extruder must point up before and after, so that x and y are those of the world.
 local blocks = {}
 
--- A block on `foot`, `length` along `way` and `thick` across it (m), both around the foot, and `height` high.
+-- Draws a block around `foot`: `length` along `way`, `thick` across it, and `height` high (all in m).
 function blocks.block(this, foot, way, length: number, thick: number, height: number)
   local across = vec(-way.y, way.x, 0) * (thick / 2)
   local half = vec(way.x, way.y, 0) * (length / 2)

@@ -1,5 +1,5 @@
 --!strict
--- What masons know: require("@masonry") gives the materials, wall templates and battlements of this package.
+-- Exports of require("@masonry"): the materials, wall templates and battlements of this package.
 return {
   materials = require("./materials"),
   lancets = require("./lancets"),

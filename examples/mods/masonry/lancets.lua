@@ -1,10 +1,10 @@
 --!strict
--- Templates for walls of stone: few narrow windows, higher ones above.
+-- Templates for stone walls: few narrow windows, taller ones above.
 local materials = require("./materials")
 
 local dark = panel({ material = materials.void, width = { 0.45, 0.6, 0.8 }, height = { 1.2, 1.7, 2.4 } })
 
--- A window between splayed jambs, over a sill of dressed stone.
+-- A window between splayed jambs, above a sill of dressed stone.
 local function lancet(side: number, sill: number)
   local framed = bordered(extruded(dark, { depth = -0.45 }), {
     left = { 0.18, "fixed" },
@@ -23,7 +23,7 @@ end
 
 local course = extruded(panel({ material = materials.dressed, height = { 0.3, 0.3 } }), { depth = 0.12 })
 
--- Storeys of lancets with a string course between them, above a ground floor without windows.
+-- Storeys of lancets with string courses between them, above a ground floor without windows.
 local function wall(bay: number)
   local storey = list({
     grid(lancet(bay / 2, 1.1), { rows = 1, height = { 3.2, 3.8, 4.6 } }),
@@ -34,7 +34,7 @@ local function wall(bay: number)
 end
 
 return {
-  -- A facade for footprints; `bay` is the width (m) of stone from one window to the next.
+  -- A facade for footprints; `bay` is the width (m) of the wall between two windows.
   facade = function(bay: number)
     return facade({
       template({ wall = wall(bay), material = materials.ashlar }),

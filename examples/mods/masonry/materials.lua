@@ -1,5 +1,5 @@
 --!strict
--- Materials with images of this package. Other packages replace the images, or this file.
+-- Materials with images of this package. Other packages can replace the images or this file.
 local tint = param("stone", { default = "#fff3dc", text = "tint of the masonry" })
 
 local function stone(color)
@@ -14,9 +14,9 @@ end
 
 return {
   ashlar = stone(tint),
-  -- Sills, string courses and corbels: the same stone, newly dressed.
+  -- Sills, string courses and corbels: the same stone, freshly dressed.
   dressed = stone(mix(tint, "#ffffff", 0.45)),
-  -- What the weather has darkened, near the ground.
+  -- Stone near the ground, darkened by the weather.
   footing = stone(mix(tint, "#6b6a58", 0.4)),
   slate = {
     color = "#d5d8de",

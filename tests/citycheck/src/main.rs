@@ -1,5 +1,5 @@
-//! Tells which of the CityJSON files that are named are not valid, and why. It is no member of the workspace, for the
-//! validator needs a hundred crates that nothing else does: the gate builds it elsewhere.
+//! Reports which of the given CityJSON files are invalid, with the reasons. It is not a member of the
+//! workspace, because the validator needs a hundred additional crates; the gate builds it separately.
 
 use std::process::ExitCode;
 

@@ -1,4 +1,5 @@
-//! Holds scripts against Luau's type checker.
+//! Checks scripts with Luau's type checker.
 //!
-//! Only its test does anything. It is a package of its own since the checker brings a Luau of its own, which cannot be
-//! linked beside the one that runs scripts; so what it tests is the members that know of no virtual machine.
+//! Only the test of this package does anything. It is a separate package, because the checker includes its
+//! own Luau, which cannot be linked together with the Luau that runs scripts. It therefore tests only crates
+//! without a virtual machine.

@@ -1,4 +1,4 @@
-//! The definitions for editors are ones that Luau takes, and no script that is shipped has an error by them.
+//! Luau accepts the definitions for editors, and finds no type errors in the shipped scripts.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
 
@@ -13,7 +13,7 @@ fn checker() -> Checker {
     checker
 }
 
-/// What the checker says of a script, each with its line.
+/// Returns the errors that the checker finds in a script, each with its line.
 fn errors(checker: &mut Checker, script: &str) -> Vec<String> {
     let checked = checker.check(script).unwrap();
     assert!(!checked.timed_out);
@@ -37,7 +37,7 @@ fn no_shipped_script_has_an_error_in_strict_mode() {
         ["scripts", "scripts/templates", "scripts/templates/roads", "examples", "crates/objects/scripts"]
     {
         for path in scripts(folder) {
-            // Its type of object is declared by the program beside it.
+            // The program next to it declares its object type.
             if path.ends_with("examples/beads.lua") {
                 continue;
             }

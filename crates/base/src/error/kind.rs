@@ -1,4 +1,4 @@
-//! What an error is about, for code: a kind with a stable name for machines.
+//! Error kinds for code, with stable machine-readable names.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -7,76 +7,76 @@ use super::Error;
 use super::suggest::nearest;
 use crate::warning::WarningKind;
 
-/// What an error is about. Its text is for people; whoever has to tell errors apart matches on this.
+/// Kind of an error. The message is for users; code that must distinguish errors matches on the kind.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ErrorKind {
-    /// A value that a function, a field, an option or a message does not take.
+    /// A value that a function, a field, an option or a message does not accept.
     Argument,
-    /// What a data file, a model or an image holds.
+    /// Invalid content of a data file, a model or an image.
     Data,
     /// A file or a folder that cannot be read or written.
     File {
-        /// Which.
+        /// Path of the file or folder.
         path: PathBuf,
     },
     /// A shape that cannot be built.
     Geometry,
-    /// A mistake in Burgeon.
+    /// A bug in Burgeon.
     Internal,
-    /// More than is allowed.
+    /// An exceeded limit.
     Limit(Limit),
-    /// A name that nothing has.
+    /// An unknown name.
     NotFound {
-        /// What it would be the name of, such as `field`.
+        /// Type of the named thing, such as `field`.
         what: &'static str,
-        /// The name.
+        /// The unknown name.
         name: String,
-        /// The nearest name that there is, if one is near enough to be meant.
+        /// Nearest known name, if one is similar enough.
         suggestion: Option<String>,
     },
-    /// What a host program, or an object of its own, says.
+    /// An error from a host program or from one of its objects.
     Other,
-    /// Something that may not be done where it stands, such as a change of an object in a rule.
+    /// An operation that is not allowed in its context, such as a change of an object in a rule.
     Scope,
-    /// A mistake of the script: what it raises, and what it does in the wrong order or twice.
+    /// An error of the script: an error that it raises, or calls that are repeated or in the wrong order.
     Script,
-    /// Work that was stopped, since nobody waits for it any more.
+    /// Cancelled work.
     Stopped,
-    /// A text that cannot be parsed.
+    /// Text that cannot be parsed.
     Syntax,
-    /// What the operating system refuses: threads, ports, other programs.
+    /// An operation that the operating system refuses: threads, ports, other programs.
     System,
-    /// Something that is not there at the moment, such as the model of a script that has changed since, or that the
-    /// program was built without.
+    /// Something that is not available now, such as the model of a script that has changed since, or that is not part
+    /// of this build.
     Unavailable,
-    /// The command line.
+    /// An invalid command line.
     Usage,
     /// A warning that ends a strict run.
     Warning(WarningKind),
 }
 
-/// A bound that was passed.
+/// An exceeded limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Limit {
-    /// What a file format can hold.
+    /// Capacity of a file format.
     Format,
-    /// The memory of a run.
+    /// Memory of a run.
     Memory,
-    /// The modules of a system.
+    /// Number of modules of a system.
     Modules,
-    /// What Burgeon takes at most, whatever a run is allowed.
+    /// Fixed maximum of Burgeon, independent of the limits of a run.
     Size,
-    /// The time of a run.
+    /// Time of a run.
     Time,
-    /// The triangles of a system or of a model.
+    /// Number of triangles of a system or model.
     Triangles,
 }
 
 impl ErrorKind {
-    /// Every code, in order, and what it says. Those of warnings that end a strict run stand in
-    /// [`WarningKind`](crate::warning::WarningKind).
+    /// All codes in alphabetical order with their meanings. [`WarningKind`](crate::warning::WarningKind) has the codes
+    /// of warnings that end a strict run.
     pub const CODES: [(&str, &str); 20] = [
         ("argument", "a value that a function, a field, an option or a message does not take"),
         ("data", "what a data file, a model or an image holds"),
@@ -100,8 +100,8 @@ impl ErrorKind {
         ("usage", "the command line"),
     ];
 
-    /// Its name for machines, one of [`CODES`](Self::CODES), or that of a warning. It stays the same from version to
-    /// version.
+    /// Returns the machine-readable name: one of [`CODES`](Self::CODES), or the code of a warning. Names are stable
+    /// across versions.
     pub fn code(&self) -> &'static str {
         match self {
             Self::Argument => "argument",
@@ -129,40 +129,40 @@ impl ErrorKind {
     }
 }
 
-/// Errors of each kind; each says `message`, a clause without a full stop.
+/// Constructors for each kind of error. `message` is a clause without a full stop.
 impl Error {
-    /// A value that is not taken.
+    /// Creates an error for a value that is not accepted.
     pub fn argument(message: impl fmt::Display) -> Self {
         Self::of(ErrorKind::Argument, message)
     }
 
-    /// Something wrong in a data file, a model or an image.
+    /// Creates an error for invalid content of a data file, a model or an image.
     pub fn data(message: impl fmt::Display) -> Self {
         Self::of(ErrorKind::Data, message)
     }
 
-    /// A file or a folder that cannot be read or written.
+    /// Creates an error for a file or a folder that cannot be read or written.
     pub fn file(path: impl AsRef<Path>, message: impl fmt::Display) -> Self {
         Self::of(ErrorKind::File { path: path.as_ref().to_owned() }, message)
     }
 
-    /// A shape that cannot be built.
+    /// Creates an error for a shape that cannot be built.
     pub fn geometry(message: impl fmt::Display) -> Self {
         Self::of(ErrorKind::Geometry, message)
     }
 
-    /// A mistake in Burgeon.
+    /// Creates an error for a bug in Burgeon.
     pub fn internal(message: impl fmt::Display) -> Self {
         Self::of(ErrorKind::Internal, message)
     }
 
-    /// More than is allowed.
+    /// Creates an error for an exceeded limit.
     pub fn limit(limit: Limit, message: impl fmt::Display) -> Self {
         Self::of(ErrorKind::Limit(limit), message)
     }
 
-    /// A `name` that nothing has; `what` it would be the name of. The remedy is the nearest of the names that are
-    /// `known`, where one is near enough to be meant, and otherwise what is given to [`help`](Self::help).
+    /// Creates an error for an unknown `name` of a `what`. If one of the `known` names is similar enough, the remedy
+    /// suggests it, and a later call of [`help`](Self::help) has no effect.
     pub fn not_found<'a>(
         what: &'static str,
         name: impl fmt::Display,
@@ -179,48 +179,48 @@ impl Error {
         }
     }
 
-    /// What a host program, or an object of its own, says.
+    /// Creates an error from a host program or from one of its objects.
     pub fn other(message: impl fmt::Display) -> Self {
         Self::of(ErrorKind::Other, message)
     }
 
-    /// Something that may not be done where it stands.
+    /// Creates an error for an operation that is not allowed in its context.
     pub fn scope(message: impl fmt::Display) -> Self {
         Self::of(ErrorKind::Scope, message)
     }
 
-    /// A mistake of the script.
+    /// Creates an error of the script.
     pub fn script(message: impl fmt::Display) -> Self {
         Self::of(ErrorKind::Script, message)
     }
 
-    /// The reason why work is stopped.
+    /// Creates the reason for cancelling work.
     pub fn stopped(message: impl fmt::Display) -> Self {
         Self::of(ErrorKind::Stopped, message)
     }
 
-    /// A text that cannot be parsed.
+    /// Creates an error for text that cannot be parsed.
     pub fn syntax(message: impl fmt::Display) -> Self {
         Self::of(ErrorKind::Syntax, message)
     }
 
-    /// Something that the operating system refuses.
+    /// Creates an error for an operation that the operating system refuses.
     pub fn system(message: impl fmt::Display) -> Self {
         Self::of(ErrorKind::System, message)
     }
 
-    /// Something that is not there at the moment, or not in this program.
+    /// Creates an error for something that is not available now or not part of this build.
     pub fn unavailable(message: impl fmt::Display) -> Self {
         Self::of(ErrorKind::Unavailable, message)
     }
 
-    /// What this program was built without, and the cargo feature that brings it: `pictures`, `pictures`.
+    /// Creates an error for a part that this build lacks, such as "pictures", with the cargo feature that adds it.
     pub fn left_out(what: &str, feature: &str) -> Self {
         Self::unavailable(format!("this program was built without {what}"))
             .help(format!("build it with --features {feature}"))
     }
 
-    /// A wrong command line.
+    /// Creates an error for an invalid command line.
     pub fn usage(message: impl fmt::Display) -> Self {
         Self::of(ErrorKind::Usage, message)
     }
@@ -230,7 +230,7 @@ impl Error {
 mod tests {
     use super::*;
 
-    /// One error of each kind, but for the warnings.
+    /// Returns one error of each kind except warnings.
     fn every_kind() -> Vec<Error> {
         let limits =
             [Limit::Format, Limit::Memory, Limit::Modules, Limit::Size, Limit::Time, Limit::Triangles];

@@ -1,4 +1,4 @@
-//! What is told of an error: the place, the rule, the message and the remedy.
+//! Content of an error: location, rule, message and remedy.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -6,32 +6,32 @@ use std::fmt;
 use super::{ErrorKind, Limit};
 use crate::text::{escaped_lines, without_passwords};
 
-/// The characters of a message or a remedy that are told at most; more are left out in the middle.
+/// Maximum length of a message or a remedy (characters). Longer text is shortened in the middle.
 const LONGEST: usize = 2000;
 
-/// The same for the name of a rule and for a module.
+/// Maximum length of the name of a rule and of a module (characters).
 const LONGEST_NAME: usize = 500;
 
-/// The crate's result.
+/// Result type of the crate.
 pub type Result<T, E = Error> = std::result::Result<T, E>;
 
 /// A line of a script or data file.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct SourcePlace {
-    /// The file as the user named it.
+    /// File name as the user wrote it.
     pub file: String,
-    /// The line, counted from 1.
+    /// Line number, from 1.
     pub line: usize,
 }
 
-/// The longest file (bytes) of which lines are shown, and the longest line (characters).
+/// Maximum size (bytes) of a file whose lines are shown, and maximum length (characters) of a shown line.
 const LARGEST: u64 = 16_000_000;
 
 const WIDEST: usize = 160;
 
 impl SourcePlace {
-    /// The lines from so many before it to so many after, each with its number. None if the file cannot be read, and if
-    /// the line itself is empty or not there.
+    /// Returns the lines from `before` lines before the location to `after` lines after it, with their numbers. Empty
+    /// if the file cannot be read, or if the line itself is empty or missing.
     pub fn excerpt(&self, before: usize, after: usize) -> Vec<(usize, String)> {
         let path = std::path::Path::new(&self.file);
         let fits = |metadata: std::fs::Metadata| metadata.is_file() && metadata.len() <= LARGEST;
@@ -56,9 +56,9 @@ impl fmt::Display for SourcePlace {
     }
 }
 
-/// An error with its place and remedy. Each part is filled in by the first layer that knows it.
+/// An error with its location and remedy. The first layer that knows a part sets it.
 ///
-/// It reads, with everything known:
+/// A complete error has this format:
 ///
 /// ```text
 /// city.lua:41: rule Lot(w): the parts take 12.5 m but the shape is 10 m wide
@@ -82,20 +82,20 @@ struct ErrorParts {
     fault: Fault,
 }
 
-/// Who can mend what is wrong.
+/// Cause of an error, which determines who can fix it.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 enum Fault {
-    /// That is not known.
+    /// Unknown cause.
     #[default]
     Unknown,
-    /// Whoever made the data.
+    /// Error in the data.
     Data,
-    /// Whoever wrote the script.
+    /// Error in the script.
     Script,
 }
 
 impl Error {
-    /// An error of a kind that says `message`, a clause without a full stop.
+    /// Creates an error of a kind with `message`, a clause without a full stop.
     pub fn of(kind: ErrorKind, message: impl fmt::Display) -> Self {
         Self(Box::new(ErrorParts {
             kind,
@@ -111,7 +111,7 @@ impl Error {
         }))
     }
 
-    /// Several problems found in one go; `problems` is not empty.
+    /// Combines several problems into one error; `problems` must not be empty.
     pub fn several(mut problems: Vec<Error>) -> Self {
         if problems.is_empty() {
             return Self::internal("nothing is wrong");
@@ -121,7 +121,7 @@ impl Error {
         first
     }
 
-    /// The same place, rule and module, but the kind, the message and the remedy of `cause`.
+    /// Replaces the kind, the message and the remedy by those of `cause`. Keeps the location, rule and module.
     #[must_use]
     pub fn because(mut self, cause: &Self) -> Self {
         self.0.kind.clone_from(&cause.0.kind);
@@ -130,21 +130,21 @@ impl Error {
         self
     }
 
-    /// Is of another kind.
+    /// Replaces the kind.
     #[must_use]
     pub fn in_kind(mut self, kind: ErrorKind) -> Self {
         self.0.kind = kind;
         self
     }
 
-    /// Says `message` in place of its own, and something else about the same.
+    /// Replaces the message.
     #[must_use]
     pub fn saying(mut self, message: impl fmt::Display) -> Self {
         self.0.message = told(&message.to_string(), LONGEST);
         self
     }
 
-    /// Says what it is about, unless the message says that already.
+    /// Adds `what` as the subject before the message, unless the message already contains it.
     #[must_use]
     pub fn about(mut self, what: &str) -> Self {
         let what = without_passwords(what);
@@ -161,14 +161,14 @@ impl Error {
         self
     }
 
-    /// Says which feature was being read when it happened.
+    /// Adds the id of the feature that was being read to the message.
     #[must_use]
     pub fn feature(self, id: &str) -> Self {
         self.noting(&format!("feature {id}"))
     }
 
-    /// Blames the data: what a feature holds cannot be built, whatever the script does with it. A run that is out of time or
-    /// memory, or cancelled, is never blamed on one feature, since the next one would fail as well.
+    /// Marks the data as the cause: the feature cannot be built, regardless of the script. Has no effect on a run that
+    /// is out of time or memory or cancelled, because the next feature would fail as well.
     #[must_use]
     pub fn of_data(mut self) -> Self {
         let ends_run =
@@ -179,26 +179,26 @@ impl Error {
         self
     }
 
-    /// Says that the script is at fault, whatever the data holds, and not the data.
+    /// Marks the script as the cause, regardless of the data.
     #[must_use]
     pub fn of_script(mut self) -> Self {
         self.0.fault = Fault::Script;
         self
     }
 
-    /// Whether the data is at fault, and not the script: then a run may leave the feature out and go on.
+    /// Returns true if the data is the cause. A run can then skip the feature and continue.
     pub fn is_of_data(&self) -> bool {
         self.0.fault == Fault::Data
     }
 
-    /// Says what to do about it.
+    /// Sets the remedy, unless it is already set.
     #[must_use]
     pub fn help(mut self, help: impl fmt::Display) -> Self {
         self.0.help.get_or_insert_with(|| told(&help.to_string(), LONGEST));
         self
     }
 
-    /// Says where, unless that is known already.
+    /// Sets the location, unless it is already set.
     #[must_use]
     pub fn at(mut self, place: Option<SourcePlace>) -> Self {
         if self.0.place.is_none() {
@@ -207,7 +207,7 @@ impl Error {
         self
     }
 
-    /// Says where more exactly than is known so far.
+    /// Replaces the location by a more precise one, if `place` is known.
     #[must_use]
     pub fn rather_at(mut self, place: Option<SourcePlace>) -> Self {
         if place.is_some() {
@@ -216,7 +216,8 @@ impl Error {
         self
     }
 
-    /// Says which line of the script led there, unless that is known already. It is told if the place is in another file.
+    /// Sets the script line that led to the error, unless it is already set. It is only shown if the location is in
+    /// another file.
     #[must_use]
     pub fn called_at(mut self, caller: Option<SourcePlace>) -> Self {
         if self.0.caller.is_none() {
@@ -225,22 +226,22 @@ impl Error {
         self
     }
 
-    /// Says which line of the script led there more exactly than is known so far: no line calls a rule, so what led there is
-    /// what made its system.
+    /// Replaces the script line that led to the error. For a rule, which no line calls, it is the line that created the
+    /// system.
     #[must_use]
     pub fn rather_called_at(mut self, caller: Option<SourcePlace>) -> Self {
         self.0.caller = caller;
         self
     }
 
-    /// Names the rule, unless it is named already.
+    /// Sets the rule, unless it is already set.
     #[must_use]
     pub fn rule(mut self, rule: impl fmt::Display) -> Self {
         self.0.rule.get_or_insert_with(|| told(&rule.to_string(), LONGEST_NAME));
         self
     }
 
-    /// Names the module with its parameters and the derivation step, unless they are known already.
+    /// Sets the module with its parameters and the derivation step, unless they are already set.
     #[must_use]
     pub fn module(mut self, module: impl fmt::Display, step: usize) -> Self {
         if self.0.module.is_none() {
@@ -250,43 +251,43 @@ impl Error {
         self
     }
 
-    /// What it is about, for code.
+    /// Returns the kind.
     pub fn kind(&self) -> &ErrorKind {
         &self.0.kind
     }
 
-    /// What is wrong, without the place.
+    /// Returns the message without the location.
     pub fn message(&self) -> &str {
         &self.0.message
     }
 
-    /// What to do about it, if known.
+    /// Returns the suggested fix, if any.
     pub fn remedy(&self) -> Option<&str> {
         self.0.help.as_deref()
     }
 
-    /// Where, if known.
+    /// Returns the location, if known.
     pub fn place(&self) -> Option<&SourcePlace> {
         self.0.place.as_ref()
     }
 
-    /// The line that led to the place, if it is to be told.
+    /// Returns the line that led to the location, if it should be shown.
     fn caller(&self) -> Option<&SourcePlace> {
         let (place, caller) = (self.0.place.as_ref()?, self.0.caller.as_ref()?);
         (place.file != caller.file).then_some(caller)
     }
 
-    /// Whether it is of the kind of `other` and tells people the same, wherever that is.
+    /// Returns true if the error has the same kind and message as `other`, at any location.
     pub fn says_the_same(&self, other: &Self) -> bool {
         self.0.kind == other.0.kind && self.0.message == other.0.message
     }
 
-    /// Whether it tells people the same as `other`, in the same place.
+    /// Returns true if the error has the same kind, message and location as `other`.
     pub fn is_same(&self, other: &Self) -> bool {
         self.0.place == other.0.place && self.says_the_same(other)
     }
 
-    /// This problem without those reported with it.
+    /// Returns this problem without the problems reported with it.
     #[must_use]
     pub fn alone(&self) -> Self {
         let mut alone = self.clone();
@@ -294,13 +295,13 @@ impl Error {
         alone
     }
 
-    /// This problem and those reported with it, in order.
+    /// Returns this problem and the problems reported with it, in order.
     pub fn problems(&self) -> impl Iterator<Item = &Error> {
         std::iter::once(self).chain(&self.0.more)
     }
 
-    /// The error for machines: `{ code, message, file, line, called_at: { file, line }, rule, module, step, help }`, absent
-    /// where unknown; codes are those of [`ErrorKind::code`].
+    /// Converts the error to JSON: `{ code, message, file, line, called_at: { file, line }, rule, module, step, help
+    /// }`. Unknown parts are omitted; codes are from [`ErrorKind::code`].
     pub fn to_json(&self) -> serde_json::Value {
         let mut object = serde_json::Map::new();
         let parts = &*self.0;
@@ -325,7 +326,7 @@ impl Error {
         object.into()
     }
 
-    /// This problem alone, with `line`, the text of the line that it is about, below its message.
+    /// Formats only this problem, with `line`, the text of its source line, below the message.
     pub fn with_line(&self, line: Option<&str>) -> String {
         let parts = &*self.0;
         let mut text = String::new();
@@ -371,14 +372,14 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
-/// Returns a text for people: without passwords, and not too long.
+/// Prepares a text for users: hides passwords and shortens it to `most` characters.
 fn told(text: &str, most: usize) -> String {
     shortened(&without_passwords(text), most).into_owned()
 }
 
-/// `text`, without its middle where it has more than `most` characters: how long it is stands in its place.
+/// Shortens `text` to about `most` characters by replacing its middle with a note of the full length.
 pub fn shortened(text: &str, most: usize) -> Cow<'_, str> {
-    // A text has at least as many bytes as characters.
+    // The number of bytes is at least the number of characters.
     if text.len() <= most {
         return Cow::Borrowed(text);
     }

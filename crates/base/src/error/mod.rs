@@ -1,6 +1,6 @@
-//! What a person is told when something is wrong: where, in which rule, on which module, and what to do.
+//! Error messages for users: location, rule, module, message and remedy.
 //!
-//! Input: what went wrong, as it is found. Output: a text or JSON. No code compares the text.
+//! Input: a fault where it is detected. Output: text or JSON. No code compares the text.
 
 mod kind;
 mod message;

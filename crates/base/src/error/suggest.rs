@@ -1,20 +1,20 @@
-//! "Did you mean": the name that was meant by one that is not there.
+//! Suggestions for misspelt names ("did you mean").
 
-/// Characters that a misspelt name may have: a longer one is no name at all, and comparing it takes long.
+/// Maximum length of a misspelt name (bytes). Longer text is not a name, and comparing it takes long.
 const LONGEST_NEAR: usize = 100;
 
-/// The remedy that proposes a name.
+/// Returns the remedy that suggests a name.
 pub fn did_you_mean(near: &str) -> String {
     format!("did you mean {near}?")
 }
 
-/// The nearest of `known` to a misspelt `name`, if one is near enough to be meant.
+/// Returns the name in `known` that is nearest to a misspelt `name`, if one is similar enough.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     if name.len() > LONGEST_NEAR {
         return None;
     }
     let lower = name.to_lowercase();
-    // Every name of one letter is one letter away from every other.
+    // Names of one letter all differ by one letter, so no suggestion is useful.
     let limit = match name.chars().count() {
         0 | 1 => 0,
         length => (length / 3).max(1),

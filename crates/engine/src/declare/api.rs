@@ -1,20 +1,20 @@
-//! The version of what scripts can use, and whether a name is part of it.
+//! Version of the scripting API, and a test for its names.
 
 use burgeon_kit::Registry;
 use burgeon_language::names;
 use burgeon_packages::Version;
 
-/// The version of the script API: of the names that scripts have, and of what they mean.
+/// Version of the scripting API: of the names that scripts have, and of their meaning.
 ///
-/// What a script can do then and could not before raises the second number; what may break a script raises the first.
+/// Additions raise the second number. Changes that can break a script raise the first.
 pub const API_VERSION: &str = "1.0.0";
 
-/// [`API_VERSION`] as a version.
+/// Returns [`API_VERSION`] as a version.
 pub fn api_version() -> Version {
     Version::parse(API_VERSION).unwrap_or(Version::new(1, 0, 0))
 }
 
-/// Whether scripts have what `name` means: a name, or one and a field or a method of it, such as `extruder.bend`.
+/// Returns true if scripts have `name`: a global name, or a field or method such as `extruder.bend`.
 pub(crate) fn has_name(name: &str, registry: &Registry) -> bool {
     let (owner, member) = match name.split_once(['.', ':']) {
         Some((owner, member)) => (owner, Some(member)),

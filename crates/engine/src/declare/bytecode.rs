@@ -1,18 +1,18 @@
-//! The bytecode of Lua's texts.
+//! Compilation of Lua sources to bytecode.
 
 use mlua::chunk::Compiler;
 
-/// Functions that the prelude defines, since Luau's own give other bits in native code than in bytecode. The compiler would
-/// call its own all the same.
+/// Functions that the prelude redefines, because Luau's own versions give different bits in native code and
+/// in bytecode. Without this list the compiler would still inline its own versions.
 const DIFFERENT: [&str; 1] = ["math.lerp"];
 
-/// How every text is compiled that a virtual machine runs.
+/// Returns the compiler for all sources that a virtual machine runs.
 pub(crate) fn compiler() -> Compiler {
     let compiler = Compiler::new().set_optimization_level(2).set_type_info_level(1).set_debug_level(1);
     compiler.set_disabled_builtins(DIFFERENT)
 }
 
-/// The bytecode of `text`; none where Luau refuses it, which tells why when it is asked to run it.
+/// Returns the bytecode of `text`; `None` if it has a syntax error, which Luau reports when it runs the text.
 pub(crate) fn compile(text: &str) -> Option<Vec<u8>> {
     compiler().compile(text).ok()
 }

@@ -1,4 +1,4 @@
-//! What scripts get of data files: which they may read, and how a run reads each of them once.
+//! Data files of scripts: access checks, and loading of each file once per run.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -15,8 +15,10 @@ use burgeon_data::{Cache, Layer, ReferenceFrame, Source, SourceOptions, nearest_
 use burgeon_kit::{LoadRequest, LoadedObject, Loader, Resources, Table};
 use burgeon_packages::Package;
 
-/// The data of a run. All virtual machines call `source` in the same order, so whoever comes first decides nothing
-/// that another would decide otherwise; and what was read once is not read again.
+/// Data of a run.
+///
+/// All virtual machines call `source` in the same order, so the results do not depend on the machine that
+/// loads first. Each file is read once.
 #[derive(Default)]
 pub(crate) struct Data {
     known: Mutex<LayerStore>,
@@ -24,14 +26,14 @@ pub(crate) struct Data {
 
 #[derive(Default)]
 pub(super) struct LayerStore {
-    /// The projection and the origin, which the first source decides.
+    /// Projection and origin, set by the first source.
     pub(super) frame: Option<ReferenceFrame>,
     loaded: BTreeMap<String, Result<Arc<Layer>>>,
-    /// What was made of files, by type, file and fields.
+    /// Objects loaded from files, by type, files and fields.
     objects: BTreeMap<String, Result<LoadedObject>>,
-    /// The sources as tables.
+    /// Sources as tables.
     pub(super) tables: SourceTables,
-    /// What all reading of the run may take.
+    /// Memory budget of all reading in the run.
     budget: Option<Arc<Budget>>,
 }
 
@@ -46,7 +48,8 @@ impl LayerStore {
 }
 
 impl Data {
-    /// The features that `source(text, wanted)` means where a file of `asker` says it.
+    /// Loads the features of `source(text, wanted)`, called in a file of the package `asker`, or of the
+    /// script.
     pub(crate) fn load(
         &self,
         session: &Session,
@@ -72,8 +75,8 @@ impl Data {
 }
 
 impl Data {
-    /// The object that `loader` makes of the files that a script, or a file of the package `asker`, calls `names`: the same each
-    /// time. It is of the type `kind`.
+    /// Loads the object of type `kind` that `loader` makes of the files `names`; equal calls return the same
+    /// object. The caller is a file of the package `asker`, or of the script.
     pub(crate) fn object(
         &self,
         session: &Session,
@@ -88,7 +91,7 @@ impl Data {
         };
         let alone = if names.len() == 1 { session.package_file(loader.what, name, asker) } else { None };
         let (files, asker) = match alone.transpose()? {
-            // A file that another one replaces names files of its own package.
+            // A replacement file names further files of its own package.
             Some(located) => (vec![(located.name.to_string(), located.path)], Some(located.package)),
             None => {
                 let files = names.iter().map(|name| find_all(session, asker, loader, name));
@@ -103,13 +106,14 @@ impl Data {
         }
         let budget = known.budget(session);
         let before = budget.taken();
+        let mut cache = session.options.inputs.cache.clone();
         let mut file = LoadRequest {
             name: own,
             path,
             files: &files,
             budget: &budget,
             triangles: session.options.limits.triangles,
-            frame: &mut known.frame,
+            services: &mut [&mut known.frame, &mut cache],
             resources: &FileAccess { session, asker },
         };
         let loaded = (loader.load)(&mut file, fields);
@@ -119,18 +123,18 @@ impl Data {
         loaded
     }
 
-    /// Adds a list that the script made as the table `name`.
+    /// Adds a list of the script as the table `name`.
     pub(crate) fn add_list(&self, name: &str, list: ListTable) {
         let mut known = self.known.lock().recover();
         known.tables.add(SourceTable { name: name.to_owned(), content: TableContent::List(list) });
     }
 
-    /// The lists that the script made tables of, with the names of those.
+    /// Returns the lists that the script made into tables, with the table names.
     pub(crate) fn lists(&self) -> Vec<RecordTable> {
         self.known.lock().recover().tables.lists()
     }
 
-    /// What comes of the tables, the projection of the run, and what reading them may take.
+    /// Calls `act` with the tables, the projection of the run, and the memory budget for reading.
     #[cfg(feature = "data")]
     pub(super) fn with_tables<T>(
         &self,
@@ -143,13 +147,13 @@ impl Data {
         act(tables, frame.as_ref(), &budget)
     }
 
-    /// The projection and the origin of the run, if any data has decided them.
+    /// Returns the projection and origin of the run, once data has set them.
     pub(crate) fn frame(&self) -> Option<ReferenceFrame> {
         self.known.lock().recover().frame.clone()
     }
 }
 
-/// The files of a run, for the script or for a package.
+/// Access to the files of a run, for the script or for a package.
 struct FileAccess<'a> {
     session: &'a Session,
     asker: Option<&'a Package>,
@@ -158,10 +162,6 @@ struct FileAccess<'a> {
 impl Resources for FileAccess<'_> {
     fn find(&self, what: &'static str, name: &str) -> Result<PathBuf> {
         find(self.session, self.asker, what, name)
-    }
-
-    fn cache(&self) -> Option<&Cache> {
-        self.session.options.inputs.cache.as_deref()
     }
 }
 
@@ -226,8 +226,9 @@ fn read(
     Ok(layer)
 }
 
-/// The files that a script means by `name`: one, or, where `loader` takes several, those in a folder or those whose names are as a
-/// pattern says, in their order. At least one.
+/// Returns the files named by `name`, sorted; at least one.
+///
+/// If `loader` accepts several files, `name` can be a folder or a pattern with `*` and `?`.
 fn find_all(
     session: &Session,
     asker: Option<&Package>,
@@ -267,13 +268,13 @@ fn find_all(
         .collect()
 }
 
-/// The most files that one name means.
+/// Maximum number of files that one name can match.
 const MOST_FILES: usize = 1000;
 
-/// Whether a name is as a pattern says, in which `*` means any text and `?` any byte.
+/// Returns true if a file name matches a pattern, in which `*` matches any text and `?` any byte.
 fn matches_pattern(pattern: &[u8], name: &[u8]) -> bool {
     let (mut at, mut read) = (0, 0);
-    // Where to go on after the last star, if what follows does not fit.
+    // Position after the last star, to which the match returns if the rest does not fit.
     let mut star: Option<(usize, usize)> = None;
     while read < name.len() {
         match pattern.get(at) {
@@ -292,8 +293,10 @@ fn matches_pattern(pattern: &[u8], name: &[u8]) -> bool {
     pattern[at..].iter().all(|byte| *byte == b'*')
 }
 
-/// The file that a script means by `name`, which is to be a `what`: in its own folder, or in one of those given with
-/// `--data`, or in a package's if `name` says so, for the package `asker` if it is one that asks.
+/// Returns the path of the file `name` of type `what`.
+///
+/// Searches the script's folder and the `--data` folders, or a package if `name` has a package prefix.
+/// `asker` is the package that requests the file, if any.
 fn find(session: &Session, asker: Option<&Package>, what: &'static str, name: &str) -> Result<PathBuf> {
     if let Some(found) = session.package_file(what, name, asker) {
         return Ok(found?.path);
@@ -320,7 +323,7 @@ fn find(session: &Session, asker: Option<&Package>, what: &'static str, name: &s
         let found = path.canonicalize();
         session.seek(&path, found.is_ok());
         match found {
-            // A link may lead from one of the folders into another.
+            // A link may point from one of the folders into another.
             Ok(found) if roots().any(|root| found.starts_with(root)) => return Ok(found),
             Ok(_) => return Err(outside()),
             Err(_) => {

@@ -1,4 +1,4 @@
-//! Names that will go: scripts that use one are told once, with the first line on which they do.
+//! Deprecated names: each used name gets one warning, at the first line that uses it.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
@@ -10,12 +10,13 @@ use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::{Deprecation, Registry};
 use burgeon_language::deprecated_names;
 
-/// The names that will go, and those of them that were used.
+/// Deprecated names, and the names that scripts have used.
 #[derive(Default)]
 pub(crate) struct Deprecations {
-    /// Values, such as constructors.
+    /// Deprecated values, such as constructors.
     names: Arc<BTreeMap<String, Deprecation>>,
-    /// What was used, as people write it, and where first: threads come to a line in any order.
+    /// Names that were used, with the first location. Threads reach a line in any order, so the minimum is
+    /// kept.
     used: Mutex<BTreeMap<String, (Deprecation, Option<SourcePlace>)>>,
 }
 
@@ -24,7 +25,7 @@ impl Deprecations {
         Self { names: Arc::new(deprecated_names(registry)), used: Mutex::default() }
     }
 
-    /// A warning for each name that was used.
+    /// Returns one warning for each name that was used.
     pub(super) fn warnings(&self) -> Vec<Warning> {
         let used = self.used.lock().recover();
         let warning = |(name, (deprecation, place)): (&String, &(Deprecation, Option<SourcePlace>))| {
@@ -36,12 +37,12 @@ impl Deprecations {
 }
 
 impl Session {
-    /// The names of values that will go.
+    /// Returns the deprecated names of values.
     pub(crate) fn deprecated_names(&self) -> &Arc<BTreeMap<String, Deprecation>> {
         &self.deprecated.names
     }
 
-    /// Takes notice that a script uses `name`, as people write it, in `place`.
+    /// Records that a script uses the deprecated `name` at `place`.
     pub(crate) fn use_deprecated(&self, name: &str, deprecation: &Deprecation, place: Option<SourcePlace>) {
         let mut used = self.deprecated.used.lock().recover();
         match used.get_mut(name) {

@@ -1,7 +1,7 @@
-//! What a run is told and what its script declares, without a virtual machine.
+//! Inputs of a run and declarations of its script, without a virtual machine.
 //!
-//! Input: the options of a run and the text of its files. Output: a [`Session`] that all virtual machines of the run
-//! share, with the parameters, the data and the analysis of every file. It never runs Lua.
+//! Input: the options of a run and the text of its files. Output: a [`Session`], which all virtual machines
+//! of the run share: parameters, data and the analysis of every file. This folder runs no Lua.
 
 mod api;
 pub(crate) mod bytecode;

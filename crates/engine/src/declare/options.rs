@@ -1,4 +1,4 @@
-//! How a script is to be run, and how much it may use.
+//! Options and limits of a run.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -11,19 +11,20 @@ use burgeon_base::stop::Stop;
 use burgeon_data::Cache;
 use burgeon_kit::Registry;
 
-/// How much a run may use.
+/// Limits of a run.
 #[derive(Debug, Clone)]
 pub struct Limits {
-    /// Time for the whole run.
+    /// Time limit of the whole run.
     pub time: Duration,
-    /// Memory (bytes) of the run: its virtual machines, files, chains, objects and results. A program that does not use
-    /// [`CountingAllocator`](burgeon_base::account::CountingAllocator) limits each virtual machine, and the files, to it.
+    /// Memory limit (bytes) of the run: virtual machines, files, chains, objects and results. If the program
+    /// does not use [`CountingAllocator`](burgeon_base::account::CountingAllocator), the limit applies to
+    /// each virtual machine, and to the files, separately.
     pub memory: usize,
-    /// Whether the memory of all threads of the program counts: it does nothing but this run.
+    /// Set to count the memory of all threads of the program, which then does nothing but this run.
     pub whole_program: bool,
-    /// Modules in all chains of a system.
+    /// Maximum number of modules in all chains of a system.
     pub modules: usize,
-    /// Triangles of all objects of a system.
+    /// Maximum number of triangles of all objects of a system.
     pub triangles: usize,
 }
 
@@ -39,12 +40,12 @@ impl Default for Limits {
     }
 }
 
-/// Takes what scripts print, call by call, from any thread.
+/// Receiver of the texts that scripts print, called from any thread.
 #[derive(Clone)]
 pub struct Print(Arc<dyn Fn(&str) + Send + Sync>);
 
 impl Print {
-    /// Hands each text that is printed to `take`, without a line break at its end.
+    /// Creates a receiver that passes each printed text to `take`, without a final line break.
     pub fn new(take: impl Fn(&str) + Send + Sync + 'static) -> Self {
         Self(Arc::new(take))
     }
@@ -60,12 +61,12 @@ impl fmt::Debug for Print {
     }
 }
 
-/// The chains that a run is to trace.
+/// Chains to trace in a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TraceRequest {
-    /// The system's place in the script, from 0. The run ends once it is derived.
+    /// Index of the system in the script, from 0. The run ends once the system is derived.
     pub system: usize,
-    /// The chain's number in the system; all of them if `None`.
+    /// Index of the chain in the system; all chains if `None`.
     pub chain: Option<usize>,
 }
 
@@ -74,10 +75,11 @@ pub struct TraceRequest {
 pub struct ParamValues {
     /// Values by name, as text.
     pub set: Vec<(String, String)>,
-    /// Values for those that are not in `set`. Its seed does not count: that of the run does.
+    /// Values for parameters that are not in `set`. The seed of the preset is ignored; the seed of the run
+    /// applies.
     pub preset: Option<Preset>,
-    /// Whether values in `set` that the script does not take are left out, and not an error;
-    /// [`Session::left_out`] tells which.
+    /// Set to skip unusable values in `set` instead of reporting an error; [`Session::left_out`] returns the
+    /// skipped values.
     ///
     /// [`Session::left_out`]: super::Session::left_out
     pub forgiving: bool,
@@ -89,78 +91,79 @@ impl From<Vec<(String, String)>> for ParamValues {
     }
 }
 
-/// What a run may read besides the folder of its script.
+/// Inputs of a run, in addition to the folder of its script.
 #[derive(Debug, Clone, Default)]
 pub struct RunInputs {
-    /// Folders whose data files it may read.
+    /// Folders whose data files the script may read.
     pub data: Vec<PathBuf>,
-    /// Addresses of databases that it may ask, with a password where one is needed.
+    /// Addresses of the databases that the script may query, with a password if necessary.
     pub databases: Vec<String>,
-    /// Answers what scripts ask in SQL, in place of the sources that they have loaded.
+    /// Source that runs the SQL queries of scripts, instead of the loaded sources.
     pub rows: Option<Arc<dyn RowSource>>,
-    /// Layers that earlier runs have read.
+    /// Cache of layers that earlier runs have read.
     pub cache: Option<Arc<Cache>>,
-    /// Folders besides `mods` beside the script that packages are in, or that are packages.
+    /// Package folders, or single packages, in addition to `mods` next to the script.
     pub mods: Vec<PathBuf>,
-    /// The user's own folder of packages, which need not be there.
+    /// Package folder of the user; it need not exist.
     pub user_mods: Option<PathBuf>,
-    /// A file in the place of the built-in standard library.
+    /// File that replaces the built-in standard library.
     pub stdlib: Option<PathBuf>,
 }
 
-/// What a run tells besides what it makes.
+/// Reports of a run, in addition to the model.
 #[derive(Debug, Clone, Default)]
 pub struct RunReports {
-    /// Takes what scripts print; without it, nobody does.
+    /// Receiver of the texts that scripts print; `None` discards them.
     pub print: Option<Print>,
-    /// Whether to measure the time of each interpretation rule, which takes about a twentieth of it.
+    /// Set to measure the time of each interpretation rule, which adds about 5 % to it.
     pub profile: bool,
-    /// Whether what is known of the features in lists that scripts make is kept, for files that tell it.
+    /// Set to keep the attributes of features in lists of the script, for export.
     pub records: bool,
-    /// The chains to note the lineage of; see [`trace`](crate::trace).
+    /// Chains whose lineage is recorded; see [`trace`](crate::trace).
     pub trace: Option<TraceRequest>,
 }
 
-/// How a script is to be run.
+/// Options of a run.
 #[derive(Debug, Clone)]
 pub struct RunOptions {
-    /// Values for its parameters.
+    /// Values for the parameters.
     pub params: ParamValues,
-    /// The seed of all random numbers.
+    /// Seed of all random numbers.
     pub seed: u64,
-    /// The greatest number of derivation steps of each system; as the script says if `None`.
+    /// Maximum number of derivation steps of each system; `None` leaves it to the script.
     pub steps: Option<usize>,
-    /// The level of detail: 0 ground plans, 1 blocks, 2 roofs, 3 everything. Scripts read it as `lod`.
+    /// Level of detail: 0 footprints, 1 blocks, 2 roofs, 3 full detail. Scripts read it as `lod`.
     pub lod: u8,
-    /// The types of objects that scripts can use.
+    /// Object types that scripts can use.
     pub registry: Registry,
-    /// What it may read.
+    /// Files and databases that the script may read.
     pub inputs: RunInputs,
-    /// What it tells.
+    /// Reports of the run.
     pub reports: RunReports,
-    /// How much it may use.
+    /// Limits of the run.
     pub limits: Limits,
-    /// Ends it, too, when it is stopped.
+    /// Parent signal: if it is stopped, the run is cancelled too.
     pub stop: Option<Arc<Stop>>,
-    /// Whether to stop before deriving, after all declarations have been read.
+    /// Set to end the run before the first derivation, after all declarations have been read.
     pub check: bool,
-    /// Whether warnings end the run as errors, and bad data does; otherwise its features are left out, and
-    /// [`DerivedSystem::remarks`] tells which.
+    /// Set to treat warnings and faulty data as errors. Otherwise faulty features are skipped, and
+    /// [`DerivedSystem::remarks`] lists them.
     ///
     /// [`DerivedSystem::remarks`]: crate::results::DerivedSystem::remarks
     pub strict: bool,
-    /// Worker threads; as many as there are cores if `None`.
+    /// Number of worker threads; the number of cores if `None`.
     pub threads: Option<usize>,
-    /// Modules that a worker takes at a time. The result does not depend on it.
+    /// Number of modules that a worker takes at a time. It does not affect the result.
     pub batch: usize,
 }
 
-/// How many threads can run at once. Asking the system reads files, which takes longer than a step of a small chain.
+/// Number of threads that can run in parallel. The value is cached, because the system reads files to find
+/// it, which takes longer than a step of a small chain.
 static CORES: LazyLock<usize> =
     LazyLock::new(|| std::thread::available_parallelism().map_or(1, std::num::NonZero::get));
 
 impl RunOptions {
-    /// The number of worker threads.
+    /// Returns the number of worker threads.
     pub fn worker_threads(&self) -> usize {
         self.threads.unwrap_or_else(|| *CORES).max(1)
     }

@@ -1,4 +1,4 @@
-//! The files of packages, as a run's scripts ask for them.
+//! Access to the files of packages, for the scripts of a run.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -10,18 +10,18 @@ use burgeon_base::locks::LockRecovery;
 use burgeon_data::split_name;
 use burgeon_packages::{FileName, LockedPackage, Package, PackageFile};
 
-/// The file of a package's presets.
+/// File name of the presets of a package.
 const PRESETS: &str = "presets.json";
 
 impl Session {
-    /// The package whose file people find as `file`; none for the script's own.
+    /// Returns the package of the file with the display name `file`; `None` for the script's own files.
     pub(crate) fn package_of(&self, file: &str) -> Option<&Package> {
         let packages = self.packages();
         if packages.order().is_empty() { None } else { packages.owner(Path::new(file)) }
     }
 
-    /// The file that `name` means, such as `@castle/stone.png`, which is to be a `what`, where a file of the package
-    /// `asker` asks for it. Takes notice of what was looked for.
+    /// Finds the package file `name` of type `what`, such as `@castle/stone.png`, for a file of the package
+    /// `asker`. Records the paths that were searched.
     pub(crate) fn locate(
         &self,
         what: &'static str,
@@ -32,18 +32,20 @@ impl Session {
         if let Some(package) = self.packages().get(&name.package) {
             self.together(package)?;
         }
-        // It may be of a package that has replaced the file.
+        // The file can belong to a package that replaces it.
         self.together(located.package)?;
         Ok(located)
     }
 
-    /// The packages that the run has used, as they are, in order. Fails if one cannot be read.
+    /// Returns the packages that the run has used, in order, with versions and content hashes. Fails if a
+    /// package cannot be read.
     pub fn lock(&self) -> Result<Vec<LockedPackage>> {
         let used = self.used.lock().recover().clone();
         self.packages().lock(|name| used.contains(name))
     }
 
-    /// The files of presets that packages have: of those that are there for this script, and of others that it has used.
+    /// Returns the preset files of the packages that replace files, and of the packages that the script has
+    /// used.
     pub fn package_presets(&self) -> Vec<(String, PathBuf)> {
         let used = self.used.lock().recover().clone();
         let meant = |package: &&Package| package.replaces() || used.contains(&package.manifest.name);
@@ -56,7 +58,7 @@ impl Session {
         found.collect()
     }
 
-    /// Where those packages have, or would have, their presets, and whether a file is there.
+    /// Returns the paths of these preset files, and whether each file exists.
     pub fn package_preset_places(&self) -> Vec<(PathBuf, bool)> {
         let used = self.used.lock().recover().clone();
         let packages = self.packages().order().iter();
@@ -65,7 +67,7 @@ impl Session {
         places.map(|path| (path.clone(), path.is_file())).collect()
     }
 
-    /// Whether there is a package `name` that `asker` can use; the script can use all.
+    /// Returns true if there is a package `name` that `asker` can use. The script can use all packages.
     pub(crate) fn has_package(&self, name: &str, asker: Option<&Package>) -> bool {
         let Some(package) = self.packages().get(name) else { return false };
         let wanted = asker.and_then(|asker| asker.manifest.dependencies().find(|wanted| wanted.name == name));
@@ -73,7 +75,8 @@ impl Session {
             && wanted.is_none_or(|wanted| wanted.versions.matches(&package.manifest.version))
     }
 
-    /// Refuses packages that cannot be used with others whose files were asked for before.
+    /// Adds a package and its dependencies to the used packages. Fails if they conflict with packages used
+    /// before.
     fn together(&self, package: &Package) -> Result<()> {
         let mut used = self.used.lock().recover();
         if used.contains(&package.manifest.name) {
@@ -96,7 +99,7 @@ impl Session {
         Ok(())
     }
 
-    /// The file of a package that `name` means, if a name is that of one at all.
+    /// Finds a package file if `name` has a package prefix; otherwise returns `None`.
     pub(crate) fn package_file(
         &self,
         what: &'static str,
@@ -109,7 +112,8 @@ impl Session {
         Some(FileName::parse(name).and_then(|name| self.locate(what, &name, asker)))
     }
 
-    /// The errors for the texts of a file that name files of packages which the package it is of does not depend on.
+    /// Returns the errors for strings in a file that name files of packages which the file's package does not
+    /// depend on.
     pub(super) fn undeclared(&self, file: &str, texts: &[(String, usize)]) -> Vec<Error> {
         let Some(owner) = self.package_of(file) else { return Vec::new() };
         let refused = texts.iter().filter_map(|(text, line)| {
@@ -122,21 +126,21 @@ impl Session {
         refused.collect()
     }
 
-    /// The errors for the texts in a file of `package` that name files of packages which are not there.
+    /// Returns the errors for strings in a file of `package` that name missing files of packages.
     pub(crate) fn missing(&self, package: &Package, file: &str, texts: &[(String, usize)]) -> Vec<Error> {
         let missing = texts.iter().filter_map(|(text, line)| {
             let name = FileName::parse(split_name(text).0).ok().filter(|name| !name.path.is_empty())?;
             self.packages().get(&name.package)?;
             let script = FileName { path: format!("{}.lua", name.path), ..name.clone() };
             let error = self.locate("file", &name, Some(package)).err()?;
-            // What `require` takes has no extension.
+            // The argument of `require` has no file extension.
             let found = self.locate("file", &script, Some(package)).is_ok();
             (!found).then(|| error.rather_at(Some(SourcePlace { file: file.to_owned(), line: *line })))
         });
         missing.collect()
     }
 
-    /// Says of an `error` for a file called `name` that some package has one, if one has.
+    /// Adds to an `error` about a missing file `name` the packages that have such a file, if any.
     pub(crate) fn propose_packages(&self, name: &str, error: Error) -> Error {
         match self.packages().files_called(name).as_slice() {
             [] => error,
@@ -144,8 +148,8 @@ impl Session {
         }
     }
 
-    /// Gives a parameter that is declared in a file of `owner` the default that packages ask for, if any does. Its name is
-    /// that without a package yet.
+    /// Sets the default of a parameter, declared in a file of `owner`, to the default that another package
+    /// defines, if one does. The name of `param` does not have its package prefix yet.
     pub(crate) fn redefault(&self, param: &mut Param, owner: &Package) -> Result<()> {
         for package in self.packages().order().iter().filter(|package| package.replaces()) {
             let manifest = &package.manifest;

@@ -1,59 +1,60 @@
-//! `param`: the values of a script that a person may change without editing it.
+//! Script parameters (`param`): values that users can change without editing the script.
 
 use super::preset::Preset;
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::{Color, Parameter, Table, Value};
 use burgeon_language::PARAM;
 
-/// A declared parameter and the value it has in this run.
+/// Declared parameter and its value in this run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Param {
-    /// Its name, by which it is set: that of a package has the package before it, `castle.size`.
+    /// Name with which the parameter is set. A parameter of a package has the package as prefix:
+    /// `castle.size`.
     pub name: String,
-    /// The package whose file declares it, if it is of one.
+    /// Package that declares it, if any.
     pub package: Option<String>,
-    /// Its value in this run.
+    /// Value in this run.
     pub value: Setting,
-    /// The script's own value.
+    /// Default value from the script.
     pub default: Setting,
-    /// What values it may have.
+    /// Allowed values.
     pub control: Control,
-    /// The unit, for people; may be empty.
+    /// Display unit; may be empty.
     pub unit: String,
-    /// What it does, for people; may be empty.
+    /// Description for users; may be empty.
     pub text: String,
-    /// Whether the script declares it, and no file that it requires.
+    /// Set if the script itself declares it, not a file that it requires.
     pub own: bool,
 }
 
-/// The value of a parameter.
+/// Value of a parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Setting {
     /// A number.
     Number(f64),
-    /// A switch.
+    /// A boolean.
     Boolean(bool),
     /// A choice, a colour or free text.
     Text(String),
 }
 
-/// What values a parameter may have.
+/// Allowed values of a parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Control {
-    /// A number within bounds, on a grid of steps from the lower bound.
+    /// Number within bounds, on a grid of steps from the lower bound.
     Number {
-        /// The least value.
+        /// Minimum.
         min: Option<f64>,
-        /// The greatest value.
+        /// Maximum.
         max: Option<f64>,
-        /// The distance of neighbouring values.
+        /// Distance between neighbouring values.
         step: Option<f64>,
     },
-    /// On or off.
+    /// True or false.
     Switch,
-    /// One of these.
+    /// One of these choices.
     Choice(Vec<String>),
-    /// A colour as `#rrggbb`.
+    /// Colour as `#rrggbb`.
     Color,
     /// Free text.
     Text,
@@ -70,7 +71,7 @@ impl std::fmt::Display for Setting {
 }
 
 impl Setting {
-    /// The value as text that reads back as the same value.
+    /// Returns the value as text that parses to the same value.
     pub fn plain(&self) -> String {
         match self {
             Self::Number(number) => number.to_string(),
@@ -79,7 +80,7 @@ impl Setting {
         }
     }
 
-    /// The value for the script.
+    /// Returns the value for the script.
     pub fn to_value(&self) -> Value {
         match self {
             Self::Number(number) => Value::Number(*number),
@@ -90,10 +91,10 @@ impl Setting {
 }
 
 impl Param {
-    /// The parameter of `params` that `name` means: one of that very name, or otherwise the only one of a package that is
-    /// called so without its package. None if there is no such parameter.
+    /// Returns the parameter of `params` with this name. Otherwise returns the only parameter of a package
+    /// that has the name without its package prefix, or `None`.
     ///
-    /// Fails if several packages have one, with their names.
+    /// Fails with their names if several packages have such a parameter.
     pub fn find<'a>(params: &'a [Self], name: &str) -> Result<Option<&'a Self>> {
         if let Some(exact) = params.iter().find(|param| param.name == name) {
             return Ok(Some(exact));
@@ -105,13 +106,13 @@ impl Param {
         }
     }
 
-    /// Its name as its file declares it, without its package.
+    /// Returns the name from the declaration, without the package prefix.
     pub fn short_name(&self) -> &str {
         let prefix = self.package.as_ref().map_or(0, |package| package.len() + 1);
         self.name.get(prefix..).unwrap_or(&self.name)
     }
 
-    /// The error for a plain name that these have.
+    /// Returns the error for a name without package prefix that several parameters have.
     pub(crate) fn ambiguous(of: &[&Self]) -> Error {
         let owner = |param: &&&Self| param.package.clone().unwrap_or_else(|| "the script".to_owned());
         let owners: Vec<String> = of.iter().map(|param| owner(&param)).collect();
@@ -121,7 +122,7 @@ impl Param {
             .help(format!("say which one: {}", named.join(" or ")))
     }
 
-    /// Reads `param(name, { default = ..., ... })`; its value is the default.
+    /// Parses the declaration `param(name, { default = ..., ... })`. The value is the default.
     pub fn declare(name: &str, options: &Table) -> Result<Self> {
         for (key, _) in &options.entries {
             let key = match key {
@@ -175,7 +176,7 @@ impl Param {
                 (Setting::Text(default.to_string()), Control::Choice(choices))
             }
             (Some(Value::Text(default)), None) => {
-                // A word may be the name of anything.
+                // A word without `#` is a string, because it may be the name of anything.
                 let is_color =
                     default.starts_with('#') && Color::from_value(Value::Text(default.clone())).is_ok();
                 (Setting::Text(default.to_string()), if is_color { Control::Color } else { Control::Text })
@@ -208,8 +209,9 @@ impl Param {
         Ok(param)
     }
 
-    /// Its value where `set` holds those given from outside, which override those of `preset`. Its name without its package
-    /// means it, too, if it is `alone` with it.
+    /// Returns the value for this run, with values from `set` before values from `preset`.
+    ///
+    /// If `alone` is set, the name without its package prefix also denotes this parameter.
     pub(crate) fn given(
         &self,
         set: &[(String, String)],
@@ -230,7 +232,7 @@ impl Param {
         }
     }
 
-    /// The value that the text `given` stands for. Fails if the parameter cannot have it.
+    /// Parses the text `given` as a value. Fails if the parameter does not allow the value.
     pub fn accept(&self, given: &str) -> Result<Setting> {
         let setting = self.read(given)?;
         self.check(&setting)?;

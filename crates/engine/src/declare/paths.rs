@@ -1,13 +1,14 @@
-//! Where the names of files lead that scripts give.
+//! Resolution of file names from scripts.
 
 use std::path::{Component, Path, PathBuf};
 
-/// Whether a name begins at the root of the file system, where no script may look.
+/// Returns true if a path starts at the root of the file system, which scripts may not do.
 pub(crate) fn is_absolute(name: &Path) -> bool {
     name.components().any(|part| matches!(part, Component::RootDir | Component::Prefix(_)))
 }
 
-/// Where `name` leads from `folder`, by the names alone: links are not followed, and it may be outside.
+/// Resolves `name` from `folder` by its components only: links are not followed, and the result may be
+/// outside.
 pub(crate) fn lead(folder: &Path, name: &Path) -> PathBuf {
     let mut path = folder.to_path_buf();
     for part in name.components() {

@@ -1,4 +1,4 @@
-//! How far the top level of a script has got with its random numbers.
+//! Positions in the random stream of a script's top level.
 
 use std::collections::BTreeMap;
 use std::sync::Mutex;
@@ -6,18 +6,18 @@ use std::sync::Mutex;
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::random::Stream;
 
-/// The stream of the top level after the axiom of each derivation, in their order: a machine that does not run an
-/// axiom's function itself goes on from there.
+/// Random stream of the top level after the axiom of each derivation, by the number of the derivation. A
+/// machine that does not run the axiom's function continues from this position.
 #[derive(Debug, Default)]
 pub(crate) struct RandomPositions(Mutex<BTreeMap<usize, Stream>>);
 
 impl RandomPositions {
-    /// Notes the stream after the axiom of derivation `number`.
+    /// Records the stream after the axiom of derivation `number`.
     pub(crate) fn note(&self, number: usize, stream: &Stream) {
         self.0.lock().recover().insert(number, stream.clone());
     }
 
-    /// The stream after the axiom of derivation `number`, if that has drawn from it.
+    /// Returns the stream after the axiom of derivation `number`, if that axiom has drawn random numbers.
     pub(crate) fn after(&self, number: usize) -> Option<Stream> {
         self.0.lock().recover().get(&number).cloned()
     }

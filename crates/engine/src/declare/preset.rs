@@ -1,33 +1,33 @@
-//! A preset: values of a script's parameters and a seed, under a name.
+//! Presets: named values of parameters with a seed.
 
 use super::param::{Param, Setting};
 use burgeon_base::error::{Error, SourcePlace};
 
-/// Values of a script's parameters and a seed, under a name.
+/// Named values of a script's parameters, with a seed.
 ///
-/// Parameters that it does not name keep the script's own values.
+/// Other parameters keep the defaults of the script.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Preset {
-    /// Its name.
+    /// Name of the preset.
     pub name: String,
-    /// The seed of all random numbers, if it has one.
+    /// Seed of all random numbers, if the preset has one.
     pub seed: Option<u64>,
-    /// Values by the parameters' names, in the order of the file.
+    /// Values by parameter name, in the order of the file.
     pub params: Vec<(String, Setting)>,
-    /// Where it begins in its file, if it came from one.
+    /// Location of the preset in its file, if it came from one.
     pub place: Option<SourcePlace>,
-    /// Where each of `params` stands; empty if it came from no file.
+    /// Location of each entry of `params`; empty if the preset came from no file.
     pub places: Vec<SourcePlace>,
 }
 
 impl Preset {
-    /// The values as text, as [`ParamValues::set`](super::ParamValues::set) takes them.
+    /// Returns the values as text, in the format of [`ParamValues::set`](super::ParamValues::set).
     pub fn set(&self) -> Vec<(String, String)> {
         self.params.iter().map(|(name, value)| (name.clone(), value.plain())).collect()
     }
 
-    /// The same as a preset of `package`, whose names mean that package's own parameters: those of others have their package
-    /// before them, as in `masonry.stone`.
+    /// Returns the preset as a preset of `package`: names without prefix become parameters of that package.
+    /// Names of other packages' parameters have a prefix, as in `masonry.stone`.
     #[must_use]
     pub fn of_package(mut self, package: &str) -> Self {
         for (name, _) in &mut self.params {
@@ -40,18 +40,18 @@ impl Preset {
         self
     }
 
-    /// Whether `other` has the same name, seed and values, wherever they stand.
+    /// Returns true if `other` has the same name, seed and values, regardless of locations.
     pub fn is_like(&self, other: &Self) -> bool {
         (&self.name, self.seed, &self.params) == (&other.name, other.seed, &other.params)
     }
 
-    /// Where the value of the parameter `name` stands.
+    /// Returns the location of the value of the parameter `name`.
     pub(crate) fn place_of(&self, name: &str) -> Option<SourcePlace> {
         let index = self.params.iter().position(|(known, _)| known == name)?;
         self.places.get(index).or(self.place.as_ref()).cloned()
     }
 
-    /// The error for the value of a parameter `name` that `script` does not have.
+    /// Returns the error for a value of a parameter `name` that `script` does not have.
     pub(crate) fn outdated(&self, name: &str, script: &str, params: &[Param]) -> Error {
         let preset = &self.name;
         let names = params.iter().map(|param| param.name.as_str());
@@ -61,7 +61,7 @@ impl Preset {
             .at(self.place_of(name))
     }
 
-    /// An `error` that the value of the parameter `name` led to.
+    /// Adds the preset and the location of the value of parameter `name` to an error.
     pub(crate) fn refused(&self, name: &str, error: &Error) -> Error {
         let said = Error::of(error.kind().clone(), format!("preset {}: {}", self.name, error.message()));
         let said = match error.remedy() {

@@ -1,4 +1,4 @@
-//! The files of a run's scripts: each is read once for all virtual machines, and begun before it is asked for.
+//! Script files of a run: each file is read once for all virtual machines, and prefetched if possible.
 
 use std::collections::{BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
@@ -19,30 +19,30 @@ const LARGEST: u64 = 4_000_000;
 /// Memory (bytes) that reading a script takes for each byte of it.
 const READING: usize = 300;
 
-/// How many files are read at once before they are asked for.
+/// Maximum number of files that are prefetched at the same time.
 const MOST_AHEAD: usize = 4;
 
-/// A file, read once, as every virtual machine runs it.
+/// Script file as all virtual machines run it.
 #[derive(Debug)]
 pub(crate) struct SourceFile {
-    /// The name in messages, relative to where the script was called.
+    /// Display name in messages, relative to the working directory.
     pub name: String,
-    /// What reading it gave.
+    /// Result of parsing and analysing the file.
     pub analysis: Analysis,
 }
 
-/// The files that were read, are being read and will be read.
+/// Script files that are read, being read or queued.
 #[derive(Default)]
 pub(super) struct ScriptFiles {
-    /// Those that were asked for, by their paths.
+    /// Requested files, by path.
     pub read: FxHashMap<PathBuf, Arc<SourceFile>>,
     ahead: FxHashMap<PathBuf, ScriptReader>,
-    /// Their paths, and their names for messages.
+    /// Paths and display names of the files to prefetch next.
     next: VecDeque<(PathBuf, String)>,
 }
 
 impl ScriptFiles {
-    /// Begins to read those that come next. What goes wrong is told when a file is asked for.
+    /// Starts reading the next queued files. Errors are reported when a file is requested.
     fn begin(&mut self) {
         while self.ahead.len() < MOST_AHEAD
             && let Some((path, name)) = self.next.pop_front()
@@ -64,12 +64,12 @@ impl ScriptFiles {
 }
 
 impl Session {
-    /// The files of its scripts.
+    /// Returns the script files of the run.
     pub(super) fn script_files(&self) -> MutexGuard<'_, ScriptFiles> {
         self.scripts.lock().recover()
     }
 
-    /// Begins to read the main file, so that it is read while a machine is made.
+    /// Starts reading the main file, in parallel with the creation of a machine.
     pub(crate) fn read_ahead(&self) {
         if let Ok(path) = self.script().canonicalize() {
             let mut files = self.script_files();
@@ -78,7 +78,7 @@ impl Session {
         }
     }
 
-    /// The source of the file at `path`, which lies in the script's folder; `name` is for messages.
+    /// Returns the source of the file at `path`, which is in the script's folder; `name` is for messages.
     pub(crate) fn source(&self, path: &Path, name: &str, globals: &Globals) -> Result<Arc<SourceFile>> {
         let mut files = self.script_files();
         if let Some(source) = files.read.get(path) {
@@ -101,7 +101,7 @@ impl Session {
         Ok(source)
     }
 
-    /// The scripts of packages that the texts of a file name: their paths, and their names for messages.
+    /// Returns paths and display names of the package scripts that strings of a file name.
     fn named_scripts(&self, file: &str, texts: &[(String, usize)]) -> Vec<(PathBuf, String)> {
         let asker = self.package_of(file);
         let located = texts.iter().filter_map(|(text, _)| {
@@ -113,11 +113,11 @@ impl Session {
     }
 }
 
-/// The most files that are looked through for parameters.
+/// Maximum number of files that are searched for parameters.
 const MOST_LOOKED_THROUGH: usize = 1000;
 
-/// The names of the parameters that the file `script` declares, and those that it requires from the folder `root`, as far
-/// as their texts tell.
+/// Returns the names of the parameters that the file `script` declares, and files that it requires from the
+/// folder `root`. Considers only calls with literal strings.
 pub(super) fn own_params(script: &Path, root: &Path) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     let mut next: Vec<PathBuf> = script.canonicalize().into_iter().collect();
@@ -137,7 +137,7 @@ pub(super) fn own_params(script: &Path, root: &Path) -> BTreeSet<String> {
     names
 }
 
-/// Begins to read the file at `path`; `name` is for messages.
+/// Starts reading the file at `path`; `name` is for messages.
 fn begin_reading(path: &Path, name: &str) -> Result<ScriptReader> {
     let bytes =
         burgeon_base::files::read(path, LARGEST).map_err(|error| unreadable(Path::new(name), &error))?;
@@ -149,7 +149,7 @@ fn begin_reading(path: &Path, name: &str) -> Result<ScriptReader> {
     Ok(ScriptReader::begin(name, text.strip_prefix('\u{feff}').unwrap_or(&text), compile))
 }
 
-/// The name and the text of a file in the place of the standard library.
+/// Returns name and text of a file that replaces the standard library.
 pub(super) fn read_stdlib(path: &Path) -> Result<(String, String)> {
     let name = path.display().to_string();
     let remedy = "--stdlib names a Lua file; without it the built-in one is used";
@@ -163,7 +163,7 @@ pub(super) fn read_stdlib(path: &Path) -> Result<(String, String)> {
     Ok((name, text))
 }
 
-/// The error for a script that cannot be read.
+/// Returns the error for a script that cannot be read.
 pub(super) fn unreadable(path: &Path, error: &std::io::Error) -> Error {
     let shown = path.display();
     match error.kind() {

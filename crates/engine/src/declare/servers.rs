@@ -1,4 +1,4 @@
-//! Sources on servers: which of them a script may ask.
+//! Sources on database servers, with access checks.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use super::session::Session;
 use burgeon_base::error::{Error, Result};
 use burgeon_data::{Layer, SourceOptions};
 
-/// The layer that an address means, if the script may ask its database.
+/// Reads the layer at an address. Fails if the script may not access its database.
 #[cfg(feature = "postgis")]
 pub(super) fn read(
     session: &Session,
@@ -43,7 +43,7 @@ pub(super) fn read(
     Ok(layer)
 }
 
-/// The error for an address where there is nobody to ask it.
+/// Returns the error for builds without database support.
 #[cfg(not(feature = "postgis"))]
 pub(super) fn read(
     _: &Session,

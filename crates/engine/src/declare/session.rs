@@ -1,4 +1,4 @@
-//! What all virtual machines of one run share: source files, parameters, the reason to stop.
+//! Shared state of one run: script files, parameters, warnings and the signal to stop.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -31,7 +31,7 @@ use burgeon_packages::{PackageSearch, Packages};
 use burgeon_rewriting::Symbol;
 use rustc_hash::FxHashSet;
 
-/// How far a run has come, for those who wait.
+/// Progress of a run, for display.
 #[derive(Debug, Default)]
 pub struct RunProgress {
     step: AtomicUsize,
@@ -41,7 +41,7 @@ pub struct RunProgress {
 }
 
 impl RunProgress {
-    /// Notes that `step` of at most `steps` has made a chain of `modules`.
+    /// Records that `step` of at most `steps` has made a chain of `modules` modules.
     pub(crate) fn note(&self, step: usize, steps: usize, modules: usize) {
         self.step.store(step, Ordering::Relaxed);
         self.steps.store(steps, Ordering::Relaxed);
@@ -49,14 +49,15 @@ impl RunProgress {
         self.total.fetch_add(modules, Ordering::Relaxed);
     }
 
-    /// The last step that is done, the greatest number of steps if there is one, and the modules of the chain.
+    /// Returns the last completed step, the maximum number of steps if there is one, and the number of
+    /// modules.
     pub fn counts(&self) -> (usize, Option<usize>, usize) {
         let load = |count: &AtomicUsize| count.load(Ordering::Relaxed);
         let steps = load(&self.steps);
         (load(&self.step), (steps != usize::MAX && steps > 0).then_some(steps), load(&self.modules))
     }
 
-    /// Says it in words, with the rate and an estimate of the time left.
+    /// Returns a progress message with the rate and an estimate of the remaining time.
     pub fn message(&self, elapsed: Duration) -> String {
         let load = |count: &AtomicUsize| count.load(Ordering::Relaxed);
         let (step, steps) = (load(&self.step), load(&self.steps));
@@ -67,7 +68,7 @@ impl RunProgress {
         let rate = load(&self.total) as f64 / elapsed.as_secs_f64().max(1e-3) / 1e6;
         let modules = load(&self.modules);
         let of = if steps == usize::MAX { String::new() } else { format!(" of {steps}") };
-        // Chains grow, so the steps that are left take at least as long as those that are done.
+        // Chains grow, so the remaining steps take at least as long as the completed steps.
         let left = match (step, steps) {
             (1.., steps) if steps != usize::MAX && steps > step => {
                 #[allow(clippy::cast_precision_loss, reason = "an estimate")]
@@ -80,47 +81,47 @@ impl RunProgress {
     }
 }
 
-/// What any of the files of a script may do, as far as their texts tell.
+/// Facts about the script files, found by static analysis.
 #[derive(Default)]
 struct ScriptFacts {
-    /// Draw random numbers.
+    /// Set if a file may draw random numbers.
     randoms: AtomicBool,
-    /// Tell a table that is made later from one that is there.
+    /// Set if a file may distinguish a new table from an existing one.
     inspects_tables: AtomicBool,
-    /// Give tables metatables.
+    /// Set if a file may set metatables.
     metatables: AtomicBool,
 }
 
-/// One run of a script.
+/// Run of a script.
 pub struct Session {
-    /// How to run it.
+    /// Options of the run.
     pub options: RunOptions,
-    /// Asks the run to stop.
+    /// Signal to stop the run.
     pub stop: Arc<Stop>,
-    /// How far the run has come.
+    /// Progress of the run.
     pub progress: RunProgress,
-    /// The parameters of modules that are not numbers.
+    /// Module parameters other than numbers.
     pub(crate) values: Arc<Values>,
     script: PathBuf,
     root: PathBuf,
     data_roots: Vec<PathBuf>,
     packages: Packages,
-    /// The packages whose files were asked for, by name.
+    /// Names of the packages whose files were requested.
     pub(super) used: Mutex<BTreeSet<String>>,
-    /// The data files that were read.
+    /// Data files that were read.
     pub(crate) data: Data,
-    /// What was asked of them.
+    /// Results of SQL queries.
     pub(crate) rows: RowCache,
-    /// The chains that rules and interpretations see.
+    /// Chains that queries of rules and interpretations see.
     chains: Mutex<Arc<ChainView>>,
-    /// The modules that questions have named.
+    /// Symbols of the modules that queries have named.
     asked: Mutex<FxHashSet<Symbol>>,
-    /// How far its random numbers have got.
+    /// Positions in the random stream of the top level.
     pub(crate) drawn: RandomPositions,
-    /// The types of objects that scripts have declared, and the methods that they have added to others.
+    /// Object types that scripts have declared, and methods that they have added to others.
     pub(crate) declared: Mutex<DeclaredTypes>,
     stdlib: Option<(String, String)>,
-    /// By file: what it writes in `require`, and the files that are meant.
+    /// For each file, its arguments of `require` and the files that they refer to.
     required: Mutex<BTreeMap<String, BTreeMap<String, String>>>,
     pub(super) scripts: Mutex<ScriptFiles>,
     sought: Mutex<BTreeMap<PathBuf, bool>>,
@@ -128,20 +129,20 @@ pub struct Session {
     params: Mutex<Vec<Param>>,
     left_out: Mutex<Vec<(String, Error)>>,
     warnings: Warnings,
-    /// The names that will go, all of them and those that scripts have used.
+    /// Deprecated names, and the names that scripts have used.
     pub(super) deprecated: Deprecations,
-    /// Counts the shapes of the rules' returns.
+    /// Counter that numbers the shapes of the rules' results.
     pub(crate) shapes: Arc<AtomicUsize>,
     facts: ScriptFacts,
-    /// Whether modules have been made that stand for others.
+    /// Set once a placeholder module has been made.
     pending: AtomicBool,
     kept: Mutex<Vec<f64>>,
-    /// The names of the parameters that the script's own files declare, as far as their texts tell, once someone asks.
+    /// Names of the parameters that the script's own files declare, as far as static analysis finds them.
     own_params: OnceLock<BTreeSet<String>>,
 }
 
 impl Session {
-    /// A run of the file `script`.
+    /// Creates a run of the file `script`.
     pub fn new(script: &Path, options: RunOptions) -> Result<Arc<Self>> {
         options.registry.check()?;
         let path = script.canonicalize().map_err(|error| unreadable(script, &error))?;
@@ -193,40 +194,41 @@ impl Session {
         }))
     }
 
-    /// The script's file as it was named.
+    /// Returns the path of the script as given by the caller.
     pub fn script(&self) -> &Path {
         &self.script
     }
 
-    /// The folder that holds the script and all that it may read.
+    /// Returns the folder of the script, which contains all files that it may read by default.
     pub fn root(&self) -> &Path {
         &self.root
     }
 
-    /// The folders besides the script's whose data files it may read.
+    /// Returns the additional folders whose data files the script may read.
     pub(crate) fn data_roots(&self) -> &[PathBuf] {
         &self.data_roots
     }
 
-    /// The packages that its scripts may use.
+    /// Returns the packages that the scripts may use.
     pub fn packages(&self) -> &Packages {
         &self.packages
     }
 
-    /// Whether a file of the script's own, and none of a package, declares a parameter `name`, as far as their texts tell.
+    /// Returns true if one of the script's own files, outside packages, declares a parameter `name` in a
+    /// literal call.
     pub(crate) fn declares_own(&self, name: &str) -> bool {
         self.own_params.get_or_init(|| own_params(&self.script, &self.root)).contains(name)
     }
 
-    /// Every file that was read, in the order of their paths.
+    /// Returns all script files that were read, sorted by path.
     pub fn files(&self) -> Vec<PathBuf> {
         let mut files: Vec<PathBuf> = self.script_files().read.keys().cloned().collect();
         files.sort();
         files
     }
 
-    /// Every path that decides what the run makes, and whether something was there: the script, the standard library's
-    /// replacement, all that was read or looked for, and the folders of packages, in the order of their paths.
+    /// Returns all paths on which the run depends, sorted, and whether each exists: the script, the
+    /// replacement of the standard library, files that were read or searched, and package folders.
     pub fn sought(&self) -> Vec<(PathBuf, bool)> {
         let mut files = self.sought.lock().recover().clone();
         let read =
@@ -236,32 +238,33 @@ impl Session {
         files.into_iter().collect()
     }
 
-    /// Adds a remark about the run's data that is no warning.
+    /// Adds a report entry about the run's data that is not a warning.
     pub(crate) fn add_note(&self, text: String) {
         self.notes.lock().recover().insert(text);
     }
 
-    /// The remarks about the run's data that are no warnings, sorted.
+    /// Returns the report entries about the run's data that are not warnings, sorted.
     pub fn notes(&self) -> Vec<String> {
         self.notes.lock().recover().iter().cloned().collect()
     }
 
-    /// Takes notice of a file that was looked for, and whether it was there.
+    /// Records a path that was looked up, and whether it exists.
     pub(crate) fn seek(&self, path: &Path, there: bool) {
         self.sought.lock().recover().insert(path.to_path_buf(), there);
     }
 
-    /// The name and the text of the file in the place of the standard library, if there is one.
+    /// Returns name and text of the file that replaces the standard library, if there is one.
     pub(crate) fn stdlib(&self) -> Option<(&str, &str)> {
         self.stdlib.as_ref().map(|(name, text)| (name.as_str(), text.as_str()))
     }
 
-    /// The values that a forgiving run did not use: the parameter's name and what is wrong.
+    /// Returns the parameter values that a forgiving run skipped, with the name of the parameter and the
+    /// error.
     pub fn left_out(&self) -> Vec<(String, Error)> {
         self.left_out.lock().recover().clone()
     }
 
-    /// Passes `error` on, or notes it if the run forgives that a value of `name` cannot be used.
+    /// Returns `error`, or records it if the run skips unusable values of parameters.
     pub(crate) fn forgive(&self, name: &str, error: Error) -> Result<()> {
         if !self.options.params.forgiving {
             return Err(error);
@@ -273,12 +276,12 @@ impl Session {
         Ok(())
     }
 
-    /// Takes notice of something that people should know; what is said twice is counted.
+    /// Adds a warning; repeated warnings are counted.
     pub fn warn(&self, warning: Warning) {
         self.warnings.add(warning);
     }
 
-    /// What people should know of the run so far, in the order of files and lines.
+    /// Returns the warnings so far, in the order of files and lines.
     pub fn warnings(&self) -> Vec<Warning> {
         let mut warnings = self.warnings.list();
         warnings.extend(self.deprecated.warnings());
@@ -286,7 +289,7 @@ impl Session {
         warnings
     }
 
-    /// The parameters that the script declared, in order.
+    /// Returns the declared parameters, in order.
     pub fn params(&self) -> Vec<Param> {
         self.params.lock().recover().clone()
     }
@@ -298,49 +301,51 @@ impl Session {
         }
     }
 
-    /// Whether any file of the script names `random`.
+    /// Returns true if a script file may draw random numbers.
     pub(crate) fn draws_random(&self) -> bool {
         self.facts.randoms.load(Ordering::Acquire)
     }
 
-    /// Whether any file of the script could tell a table that is made later from one that is there.
+    /// Returns true if a script file may distinguish a new table from an existing one.
     pub(crate) fn inspects_tables(&self) -> bool {
         self.facts.inspects_tables.load(Ordering::Acquire)
     }
 
-    /// Whether the functions that begin in a line of a file leave nothing behind.
+    /// Returns true if the functions that begin at a line of a file have no side effects.
     pub(crate) fn is_pure(&self, file: &str, line: usize) -> bool {
         !self.facts.metatables.load(Ordering::Acquire)
             && self.source_called(file).is_some_and(|source| source.analysis.pure.contains(&line))
     }
 
-    /// Whether the functions that begin in a line of a file do not look at their first parameter.
+    /// Returns true if the functions that begin at a line of a file do not use their first parameter.
     pub(crate) fn is_blind(&self, file: &str, line: usize) -> bool {
         self.source_called(file).is_some_and(|source| source.analysis.blind.contains(&line))
     }
 
-    /// The text of the guard that begins in a line of a file, if it is the only one there.
+    /// Returns the source text of the guard that begins at a line of a file, if it is the only guard there.
     pub(crate) fn guard_text(&self, file: &str, line: usize) -> Option<String> {
         self.source_called(file)?.analysis.guards.get(&line).cloned()
     }
 
-    /// Where the interpretation that begins in a line of a file returns modules, if that can be seen.
+    /// Returns the line at which the interpretation that begins at `line` returns modules, if static analysis
+    /// finds one.
     pub(crate) fn loses_modules(&self, file: &str, line: usize) -> Option<usize> {
         self.source_called(file)?.analysis.lost.get(&line).copied()
     }
 
-    /// How the function is called that begins in a line of a file, if it is the only one there.
+    /// Returns the signature of the function that begins at a line of a file, if it is the only function
+    /// there.
     pub(crate) fn signature(&self, file: &str, line: usize) -> Option<CallForm> {
         self.source_called(file)?.analysis.signatures.get(&line).cloned()
     }
 
-    /// Takes notice that the file `asker` means the file `meant` by `require(name)`.
+    /// Records that `require(name)` in the file `asker` refers to the file `meant`.
     pub(crate) fn note_required(&self, asker: &str, name: &str, meant: &str) {
         let mut required = self.required.lock().recover();
         required.entry(asker.to_owned()).or_default().insert(name.to_owned(), meant.to_owned());
     }
 
-    /// What is wrong with the calls of all files that were read, once the script has declared its types of objects.
+    /// Returns the errors in the calls of all files, once the script has declared its object types.
     pub(crate) fn call_problems(&self) -> Vec<Error> {
         let required = self.required.lock().recover().clone();
         let scripts = self.script_files();
@@ -358,13 +363,14 @@ impl Session {
         call_problems(&files, &self.registry_with_types())
     }
 
-    /// What the functions of rules ask of data that begin in a line of a file, as far as that can be seen.
+    /// Returns the SQL queries of the rule functions that begin at a line of a file, as far as static
+    /// analysis finds them.
     pub(crate) fn queries(&self, file: &str, line: usize) -> Vec<QueryCall> {
         let queries = self.source_called(file).and_then(|source| source.analysis.queries.get(&line).cloned());
         queries.unwrap_or_default()
     }
 
-    /// How people find a file that was read.
+    /// Returns the display name of a file.
     pub(crate) fn name_of(&self, path: &Path) -> String {
         let scripts = self.script_files();
         let known = scripts.read.get(path).filter(|_| !path.starts_with(&self.root));
@@ -377,7 +383,7 @@ impl Session {
         scripts.read.values().find(|source| source.name == file).cloned()
     }
 
-    /// Checks if a file of the script has `name` as a word, so that it may use an attribute of that name.
+    /// Returns true if a script file contains `name` as a word, so that it may use an attribute of that name.
     pub fn names_attribute(&self, name: &str) -> bool {
         let scripts = self.script_files();
         let is_letter = |letter: char| letter.is_alphanumeric() || letter == '_';
@@ -390,37 +396,37 @@ impl Session {
             })
     }
 
-    /// Takes notice of what a piece of the script may do.
+    /// Records the facts that the analysis found.
     pub(crate) fn note(&self, analysis: &Analysis) {
         self.facts.randoms.fetch_or(analysis.random, Ordering::AcqRel);
         self.facts.metatables.fetch_or(has_metatables(&analysis.text), Ordering::AcqRel);
         self.facts.inspects_tables.fetch_or(inspects_tables(&analysis.text), Ordering::AcqRel);
     }
 
-    /// Notes that a module has been made that stands for others.
+    /// Records that a placeholder module has been made.
     pub(crate) fn note_pending(&self) {
         self.pending.store(true, Ordering::Release);
     }
 
-    /// Whether there may be modules that stand for others.
+    /// Returns true if chains may contain placeholder modules.
     pub(crate) fn has_pending(&self) -> bool {
         self.pending.load(Ordering::Acquire)
     }
 
-    /// Shows questions of rules and interpretations another state of the chains. Nobody is asking.
+    /// Sets the chains that queries of rules and interpretations see. No query may be running.
     pub(crate) fn show_chains(&self, view: ChainView) {
         *self.chains.lock().recover() = Arc::new(view);
         self.rows.forget_views();
     }
 
-    /// The rows that answer `question` of a rule or an interpretation, the same for as long as they are kept.
+    /// Returns the rows of a query of a rule or an interpretation; equal while they are cached.
     pub(crate) fn ask(&self, question: &Question) -> Result<Arc<Rows>> {
         let view = Arc::clone(&self.chains.lock().recover());
         self.ask_about(question, &view, false)
     }
 
-    /// The rows that answer `question` about a state of the chains, the same for as long as they are kept, which is to the end
-    /// if the answer `stays`.
+    /// Returns the rows of a query about a state of the chains. The rows are cached, until the end of the run
+    /// if `stays` is set.
     #[cfg(feature = "data")]
     pub(crate) fn ask_about(&self, question: &Question, view: &ChainView, stays: bool) -> Result<Arc<Rows>> {
         let words = self.rows.words(&question.statement(), burgeon_query::table_words);
@@ -441,26 +447,27 @@ impl Session {
         rows
     }
 
-    /// Reports whether a question has named modules with a symbol.
+    /// Reports whether a query has named modules with a symbol.
     pub(crate) fn has_asked(&self, symbol: Symbol) -> bool {
         self.asked.lock().recover().contains(&symbol)
     }
 
-    /// The words that may name tables in the queries of all rules, as far as their texts are known.
+    /// Returns the words that may name tables in the queries of all rules, as far as static analysis finds
+    /// the SQL texts.
     pub(crate) fn queried_words(&self) -> BTreeSet<String> {
         #[cfg(feature = "data")]
         {
             let scripts = self.script_files();
             let queries = scripts.read.values().flat_map(|source| source.analysis.queries.values().flatten());
             let words = queries.flat_map(|query| burgeon_query::table_words(&query.sql));
-            // The last part names the module.
+            // The last part of a qualified name is the module.
             words.filter_map(|word| Some(word.rsplit('.').next()?.to_owned())).collect()
         }
         #[cfg(not(feature = "data"))]
         BTreeSet::new()
     }
 
-    /// The rows that answer `question`, the same for as long as they are kept, which is to the end if the answer `stays`.
+    /// Returns the rows of a query. The rows are cached, until the end of the run if `stays` is set.
     #[cfg(not(feature = "data"))]
     pub(crate) fn ask_about(&self, question: &Question, _: &ChainView, stays: bool) -> Result<Arc<Rows>> {
         let Some(source) = self.options.inputs.rows.as_deref() else {
@@ -473,7 +480,7 @@ impl Session {
         rows
     }
 
-    /// Keeps the values that `params` names for the rest of the run.
+    /// Keeps the values that `params` refers to until the end of the run.
     pub(crate) fn keep(&self, params: &[f64]) {
         if self.values.is_empty() {
             return;
@@ -482,7 +489,8 @@ impl Session {
         self.kept.lock().recover().extend(boxed);
     }
 
-    /// Drops the values that neither `params` nor earlier systems name, once they are many or memory is scarce.
+    /// Drops the values that neither `params` nor earlier systems refer to, if there are many values or
+    /// memory is scarce.
     pub(crate) fn forget_unused(&self, params: &[f64]) {
         let kept = self.kept.lock().recover();
         let columns = [params, &kept];
@@ -492,7 +500,7 @@ impl Session {
         }
     }
 
-    /// All problems that reading the files showed, in the order of the files' names.
+    /// Returns all errors found while reading the files, sorted by file name.
     pub(crate) fn problems(&self) -> Vec<Error> {
         let scripts = self.script_files();
         let mut sources: Vec<_> = scripts.read.values().collect();
@@ -501,7 +509,7 @@ impl Session {
     }
 }
 
-/// A folder of data files, without links in its path.
+/// Returns the canonical path of a data folder.
 fn data_root(folder: &Path) -> Result<PathBuf> {
     let found = folder.canonicalize().ok().filter(|found| found.is_dir());
     found.ok_or_else(|| {

@@ -1,4 +1,4 @@
-//! What a run's scripts have declared of types of objects, for those who want to know afterwards.
+//! Object types and methods that the scripts of a run have declared.
 
 use std::sync::Arc;
 
@@ -6,16 +6,17 @@ use super::session::Session;
 use burgeon_base::locks::LockRecovery;
 use burgeon_kit::{Argument, Call, Kind, Method, Registry};
 
-/// Types of objects that scripts have declared, and methods that they have added to others.
+/// Object types that scripts have declared, and methods that they have added to others.
 #[derive(Default)]
 pub(crate) struct DeclaredTypes {
     types: Vec<Arc<Kind>>,
-    /// By the names of the type and of the package that adds it, which is empty for the script.
+    /// Added methods, each with its type and the package that adds it; an empty package is the script.
     methods: Vec<(String, String, Method)>,
 }
 
 impl DeclaredTypes {
-    /// The methods that were added, each with its type: by their plain names, and those of packages also in full.
+    /// Returns the added methods with their types: each by its plain name, and methods of packages also by
+    /// qualified name.
     fn added(&self) -> Vec<(&String, Method)> {
         let mut all: Vec<(&String, Method)> = Vec::new();
         for (of, owner, method) in &self.methods {
@@ -38,7 +39,7 @@ impl DeclaredTypes {
 }
 
 impl Session {
-    /// Takes notice of a type that a script declares; each machine of a run tells of it.
+    /// Records a type that a script declares. Every machine of a run calls this.
     pub(crate) fn note_type(&self, kind: &Arc<Kind>) {
         let mut declared = self.declared.lock().recover();
         if !declared.types.iter().any(|known| known.name == kind.name) {
@@ -46,7 +47,7 @@ impl Session {
         }
     }
 
-    /// Takes notice of a method that a script adds to the type called `kind`.
+    /// Records a method that a script adds to the type `kind`.
     pub(crate) fn note_method(&self, kind: &str, owner: &str, method: Method) {
         let mut declared = self.declared.lock().recover();
         let is_same = |(of, by, known): &(String, String, Method)| {
@@ -57,14 +58,14 @@ impl Session {
         }
     }
 
-    /// The registry with what the scripts have declared besides, or have added to what is there.
+    /// Returns the registry with the declared types and added methods.
     pub(crate) fn registry_with_types(&self) -> Registry {
         let own = self.types();
         let others = self.options.registry.kinds().filter(|kind| !own.iter().any(|it| it.name == kind.name));
         others.cloned().chain(own.iter().cloned()).collect()
     }
 
-    /// The types of objects that the scripts have declared, in order, and those that they have added methods to.
+    /// Returns the declared object types, in order, and the types with added methods.
     pub fn types(&self) -> Vec<Arc<Kind>> {
         let declared = self.declared.lock().recover();
         let mut types = declared.types.clone();
@@ -84,12 +85,12 @@ impl Session {
     }
 }
 
-/// The name by which scripts find what the package `owner` has added as `name`, whoever else has.
+/// Returns the qualified name of a method that the package `owner` has added as `name`.
 pub(crate) fn qualified_name(owner: &str, name: &str) -> String {
     format!("{}_{name}", owner.replace('-', "_"))
 }
 
-/// What people are told of a method that several packages have added: it may be any of theirs.
+/// Returns the documentation of a method that several packages have added.
 pub(crate) fn contested_method<'a>(name: &str, owners: impl Iterator<Item = &'a String>) -> Method {
     let named = owners.filter(|owner| !owner.is_empty()).map(|owner| qualified_name(owner, name));
     let doc = format!(

@@ -1,17 +1,17 @@
-//! Functions of rules that run in a virtual machine.
+//! Rule functions that run in a virtual machine.
 
 use crate::machine::{Machine, SystemFunctions, read_column, write_column};
 use burgeon_base::error::Result;
 use burgeon_rewriting::{Applications, RuleFailure, Rules, ShowParameters, Successors};
 
-/// Functions of a script in a virtual machine.
+/// Rule functions of a system in a virtual machine.
 pub(super) struct LuaRules<'a> {
     pub machine: &'a Machine,
     pub declared: &'a SystemFunctions,
 }
 
 impl LuaRules<'_> {
-    /// Hands the machine what its functions are to be run for.
+    /// Passes arguments, places, chains and random keys of a batch of applications to the machine.
     fn prepare(&self, applications: &Applications<'_>) -> Result<()> {
         let current = &self.machine.current;
         if !applications.places.is_empty() {
@@ -35,7 +35,7 @@ impl LuaRules<'_> {
         write_column(input.map_err(|error| self.machine.translate(error))?, applications.arguments)
     }
 
-    /// Draws the first numbers of every application's stream before they are asked for.
+    /// Draws the first `draws` random numbers of each application's stream in advance.
     fn prepare_random(&self, count: usize, draws: usize) -> Result<()> {
         let current = &self.machine.current;
         let mut column = Vec::with_capacity(count * draws);
@@ -50,11 +50,11 @@ impl LuaRules<'_> {
         write_column(buffer.map_err(|error| self.machine.translate(error))?, &column)
     }
 
-    /// Where a function failed, and why.
+    /// Returns the failure with the index of the application that failed.
     fn failure(&self, error: mlua::Error) -> RuleFailure {
         let prelude = self.machine.prelude();
         let at = self.machine.failed_at().map_or(0, |(at, ..)| at);
-        // A machine that cannot even end the batch is thrown away with the run.
+        // If ending the batch fails too, the machine is dropped with the run.
         let _ = prelude.finish.call::<()>(());
         RuleFailure { at, error: self.machine.translate(error) }
     }
@@ -89,7 +89,7 @@ impl Rules for LuaRules<'_> {
         let counts = counts.map_err(|error| self.machine.translate(error))?;
         let Some(guard) = &self.declared.guards[usize::from(applications.rule)] else { return Ok(()) };
         let asked = self.machine.call::<()>(guard, applications.count).map_err(|error| self.failure(error));
-        // What was told before the failure counts.
+        // Guard results before the failure remain valid.
         read_column(counts, applications.count, holds)?;
         asked
     }

@@ -1,4 +1,4 @@
-//! A whole derivation in the leading machine: plans it, runs its phases, and settles its result.
+//! Complete derivation in the leading machine: plan, phases and result.
 
 use std::sync::Arc;
 
@@ -10,15 +10,15 @@ use crate::results::{DerivedSystem, Remark, RowFeatures, RuleName, SystemUses, T
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_kit::{Drawing, Object};
 
-/// How a derivation has ended.
+/// Result of a derivation.
 pub(super) enum Ending {
-    /// With a system as the script asked for it.
+    /// Derived system, as requested by the script.
     Derived(Box<DerivedSystem>),
-    /// With the lineage that the options of the run ask for.
+    /// Lineage requested by the options of the run.
     Traced(Box<Trace>),
 }
 
-/// Derives system `index` of the machine's script by at most `steps` steps, or to the end.
+/// Derives system `index` of the machine's script by at most `steps` steps, or until nothing changes.
 pub(super) fn lead(
     machine: &Machine,
     threads: &ThreadPool,
@@ -31,7 +31,7 @@ pub(super) fn lead(
     settle(machine, derivation, grown)
 }
 
-/// Takes leave of the machine: tells what is to be told, and gives the objects to who looks at them.
+/// Builds the result of a derivation: reports warnings, and takes the objects out of the plan.
 fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -> Result<Ending> {
     let session = &machine.session;
     let Derivation { mut axiom, plan, declared, traced, place, caller, axiom_place, draws, .. } = derivation;
@@ -70,7 +70,7 @@ fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -
         Some(objects) => {
             let mut remarks = Vec::new();
             let objects = shared(objects, &axiom, rows.as_mut(), &mut remarks)?;
-            // What was left out before comes first, and the chains follow in their order.
+            // Features skipped earlier come first; the chains follow in their order.
             axiom.remarks.append(&mut remarks);
             objects
         }
@@ -101,7 +101,8 @@ fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -
     })))
 }
 
-/// The objects as they are after the last pass, and what is to be remarked on them. Fails if all of them have failed.
+/// Returns the objects after the last pass, and adds their skipped and simplified features to `remarks`.
+/// Fails if all objects have failed.
 fn shared(
     objects: Objects,
     axiom: &Axiom,

@@ -1,12 +1,13 @@
-//! Derivation: rewrites the chains of a system step by step, in parallel, and has them interpreted in between.
+//! Derivation: rewrites the chains of a system step by step in parallel, with interpretation passes in
+//! between.
 //!
-//! Input: a system as a script declared it. Output: a [`DerivedSystem`](crate::results::DerivedSystem). The chain of a
-//! step is read-only while the next one is made, so a batch never sees what another batch does. It never knows what type
-//! an object is.
+//! Input: a system as declared by a script. Output: a [`DerivedSystem`](crate::results::DerivedSystem). The
+//! chain of a step is read-only while the next chain is made, so batches are independent of each other. The
+//! derivation is independent of the types of objects.
 //!
-//! Steps are made by `burgeon_rewriting`, which calls the functions of rules through [`LuaRules`](functions::LuaRules).
-//! [`lead()`] plans a derivation, runs its phases, and settles its result; [`ThreadPool`] has other machines take pieces of the
-//! work.
+//! `burgeon_rewriting` makes the steps, and calls the functions of rules through
+//! [`LuaRules`](functions::LuaRules). [`lead()`] plans a derivation, runs its phases and builds its result.
+//! [`ThreadPool`] distributes pieces of the work to other machines.
 
 mod functions;
 mod interpret;

@@ -1,4 +1,4 @@
-//! Phases of a derivation in the leading machine: rewriting, resolving placeholders, publishing the chain to queries, and
+//! Phases of a derivation in the leading machine: rewriting, resolving placeholders, publishing and
 //! interpreting.
 
 use std::cell::RefCell;
@@ -17,13 +17,13 @@ use burgeon_base::error::Result;
 use burgeon_base::warning::Warning;
 use burgeon_rewriting::{Chain, Phase, PhaseOutcome, Phases, Stepper, Use};
 
-/// State of a derivation that its phases share.
+/// State of a derivation, shared by its phases.
 pub(super) struct DerivationState<'a> {
     leader: LeadingMachine<'a>,
     derivation: &'a Derivation,
     rewriter: SystemRewriter<'a>,
     stepper: Stepper,
-    /// Chain before the step at hand, whose memory is used again once nothing reads it.
+    /// Chain before the current step; its memory is reused once nothing reads it.
     previous: Option<Arc<Chain>>,
     times: Times,
     interpretations: Vec<Use>,
@@ -32,7 +32,7 @@ pub(super) struct DerivationState<'a> {
     /// Warnings of objects since the first pass.
     later: Vec<Warning>,
     steps: Vec<Step>,
-    /// Features that modules came from, if they are recorded.
+    /// Features of the modules, if they are recorded.
     features: Option<RefCell<RowFeatures>>,
     /// Number of states of the chain that were published.
     published: u32,
@@ -92,8 +92,10 @@ pub(super) fn derive(
     })
 }
 
-/// Returns the phases of a system: a script that is only checked is neither resolved nor interpreted, and if nothing can see
-/// the passes before it, only the last chain is interpreted.
+/// Returns the phases of a system.
+///
+/// For a check, placeholders are not resolved and chains are not interpreted. If nothing can observe the
+/// earlier passes, only the last chain is interpreted.
 fn phases<'a>(state: &DerivationState<'a>) -> Phases<'static, DerivationState<'a>> {
     let (derivation, options) = (state.derivation, &state.leader.machine.session.options);
     if options.check {
@@ -144,13 +146,13 @@ impl Phase<DerivationState<'_>> for Rewrite {
             state.steps.push(Step { number, chain: before, applied, answers: Vec::new(), asked });
         }
         state.previous = Some(chain);
-        // A step that could be repeated for ever without a difference does not count.
+        // A step that could repeat forever without a difference does not count.
         let repeats = !outcome.changed && state.derivation.draws_afresh && !plan.steps.grammar.draws_random();
         Ok(PhaseOutcome { chain: Arc::new(outcome.chain), settled: !outcome.ran || repeats })
     }
 }
 
-/// Replaces placeholders by the modules that they stand for.
+/// Replaces placeholders by other modules.
 struct Resolve;
 
 impl Phase<DerivationState<'_>> for Resolve {
@@ -170,7 +172,7 @@ impl Phase<DerivationState<'_>> for Resolve {
     }
 }
 
-/// Shows the chain to queries, and frees what only the chain before needed.
+/// Publishes the chain to queries, and frees the memory of the previous chain.
 struct Publish;
 
 impl Phase<DerivationState<'_>> for Publish {
@@ -186,7 +188,7 @@ impl Phase<DerivationState<'_>> for Publish {
     }
 }
 
-/// Tells objects that expand by themselves that the script is only checked.
+/// Marks self-expanding objects as checked only.
 struct Sketch;
 
 impl Phase<DerivationState<'_>> for Sketch {
@@ -196,7 +198,7 @@ impl Phase<DerivationState<'_>> for Sketch {
     }
 }
 
-/// Lets objects that expand by themselves do so before the first pass.
+/// Expands self-expanding objects before the first pass.
 struct ExpandObjects;
 
 impl Phase<DerivationState<'_>> for ExpandObjects {
@@ -214,7 +216,7 @@ impl Phase<DerivationState<'_>> for Interpret {
         let begin = Instant::now();
         let plan = &state.derivation.plan;
         if state.derivation.draws_afresh {
-            // The drawings of earlier passes are gone.
+            // The drawings of earlier passes are discarded.
             state.later.clear();
         }
         state.later.retain(|warning| !warning.is_of_pass());
@@ -231,7 +233,8 @@ impl Phase<DerivationState<'_>> for Interpret {
 }
 
 impl DerivationState<'_> {
-    /// Returns a copy of the chain for the lineage, if its modules will be asked for.
+    /// Returns a copy of the chain for the lineage, if its modules will be inspected; otherwise an empty
+    /// chain.
     fn traced_chain(&self, chain: &Chain) -> Chain {
         match self.derivation.traced {
             Some(TraceRequest { chain: Some(_), .. }) => chain.clone(),
@@ -239,7 +242,7 @@ impl DerivationState<'_> {
         }
     }
 
-    /// Shows queries the chain as it stands.
+    /// Publishes the current chain to queries.
     fn publish(&mut self, chain: &Arc<Chain>) {
         let (machine, plan) = (self.leader.machine, &self.derivation.plan);
         self.published += 1;
@@ -249,13 +252,13 @@ impl DerivationState<'_> {
         machine.session.show_chains(view);
     }
 
-    /// Returns the chains whose data is wrong.
+    /// Returns the indices of the chains with faulty data.
     fn failed(&self) -> Vec<usize> {
         self.derivation.plan.objects.as_ref().map(|objects| objects.failed().list()).unwrap_or_default()
     }
 }
 
-/// Returns the work of the rules and interpretation rules, in the order of their declaration.
+/// Returns the work of the rules and interpretation rules, in the order of declaration.
 fn reports(plan: &DerivationPlan, rules: &[Use], interpretations: &[Use]) -> Vec<RuleReport> {
     let rules = plan.steps.grammar.rules().iter().zip(rules).map(|(rule, done)| RuleReport {
         name: RuleName { text: rule.pattern.text.clone(), place: rule.place.clone() },

@@ -1,4 +1,4 @@
-//! What is decided before the first step of a derivation.
+//! Plan of a derivation, made before the first step.
 
 use std::sync::Arc;
 
@@ -9,20 +9,20 @@ use burgeon_base::error::{Result, SourcePlace};
 use burgeon_base::warning::Warning;
 use burgeon_rewriting::{ModuleKey, StepPlan};
 
-/// What does not change while a system derives; shared by all threads.
+/// Constant data of a derivation, shared by all threads.
 pub(crate) struct DerivationPlan {
-    /// The system's place among those of the script.
+    /// Index of the system in the script.
     pub system: usize,
     /// Rules, and how they are applied.
     pub steps: Arc<StepPlan>,
     pub interpretations: Interpretations,
     pub objects: Option<Arc<Objects>>,
-    /// Whether the time of each interpretation rule is measured.
+    /// Set if the time of each interpretation rule is measured.
     pub profiled: bool,
 }
 
 impl DerivationPlan {
-    /// Tells objects that expand by themselves that the script is only checked.
+    /// Marks self-expanding objects as checked only.
     pub(super) fn sketch(&self) -> Result<()> {
         let Some(objects) = &self.objects else { return Ok(()) };
         (0..self.steps.chains).try_for_each(|chain| {
@@ -33,7 +33,7 @@ impl DerivationPlan {
         })
     }
 
-    /// Has objects that expand by themselves do so; adds to `said` what they warn of.
+    /// Expands self-expanding objects, and adds their warnings to `said`.
     pub(super) fn expand(&self, rules: &SystemRewriter<'_>, said: &mut Vec<Warning>) -> Result<()> {
         let Some(objects) = &self.objects else { return Ok(()) };
         if !objects.read(0, |object| Ok(object.expands()))? {
@@ -50,38 +50,38 @@ impl DerivationPlan {
     }
 }
 
-/// A derivation that is about to begin.
+/// Derivation before its first step.
 pub(super) struct Derivation {
-    /// The first chains, whose objects the plan has.
+    /// Initial chains; their objects are in the plan.
     pub axiom: Axiom,
     pub plan: Arc<DerivationPlan>,
-    /// The functions of its rules in the leading machine.
+    /// Rule functions in the leading machine.
     pub declared: SystemFunctions,
-    /// The chains whose lineage is asked for.
+    /// Chains whose lineage is requested.
     pub traced: Option<TraceRequest>,
-    /// Where the system was made.
+    /// Location where the system was created.
     pub place: Option<SourcePlace>,
-    /// The line of the script that led there.
+    /// Line of the script from which that location was called.
     pub caller: Option<SourcePlace>,
-    /// Where its axiom was set.
+    /// Location where the axiom was set.
     pub axiom_place: Option<SourcePlace>,
-    /// Whether only the last pass is made, as nobody could see the others.
+    /// Set if only the last pass runs, because nothing can observe the others.
     pub last_only: bool,
-    /// Whether what passes drew before the last one is gone after it.
+    /// Set if each pass discards the drawings of the passes before.
     pub draws_afresh: bool,
-    /// Whether it has an object that draws.
+    /// Set if the system has an object that draws.
     pub draws: bool,
-    /// The greatest number of steps.
+    /// Maximum number of steps.
     pub limit: usize,
 }
 
 impl Derivation {
-    /// Plans the derivation of system `index` by at most `steps` steps: its first chains, its rules and its objects.
+    /// Plans the derivation of system `index` by at most `steps` steps: initial chains, rules and objects.
     pub(super) fn plan(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Self> {
         let session = &machine.session;
         let options = &session.options;
         let traced = options.reports.trace.filter(|traced| traced.system == index);
-        // What was declared since the last derivation holds as well.
+        // Declarations since the last derivation also apply.
         machine.current.system.set(None);
         machine.library.systems.borrow()[index].note_derivation(machine);
         let systems = machine.library.systems.borrow();
@@ -93,7 +93,7 @@ impl Derivation {
             axiom = axiom.only(chain, grammar.arities());
         }
         let objects = std::mem::take(&mut axiom.objects);
-        // Where nothing else would be built, the error tells more.
+        // If the system has only one feature, the error is more helpful than an empty model.
         let forgiving = axiom.given > 1 && !options.strict;
         let objects = (!objects.is_empty()).then(|| Arc::new(Objects::new(objects, forgiving)));
         let plan = Arc::new(DerivationPlan {

@@ -1,4 +1,4 @@
-//! Applies the rules of a script's systems for objects that expand by themselves.
+//! Applies the rules of a script's systems for self-expanding objects.
 
 use std::cell::{RefCell, RefMut};
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use burgeon_base::error::{Error, Result};
 use burgeon_kit::{RewriteOutcome, Rewriter, RuleSet};
 use burgeon_rewriting::{Chain, ModuleKey, StepOutcome, StepPlan, Stepper};
 
-/// The systems of a machine's script whose rules objects apply.
+/// Systems of a script whose rules objects apply.
 pub(super) struct SystemRewriter<'a> {
     leader: LeadingMachine<'a>,
     known: RefCell<FxHashMap<usize, Arc<RuleSet>>>,
@@ -22,7 +22,7 @@ pub(super) struct SystemRewriter<'a> {
     axioms: RefCell<FxHashMap<usize, Chain>>,
 }
 
-/// A system whose rules have been applied.
+/// System prepared for steps.
 struct Ready {
     declared: SystemFunctions,
     plan: Arc<DerivationPlan>,
@@ -34,7 +34,7 @@ impl<'a> SystemRewriter<'a> {
         Self { leader, known: RefCell::default(), ready: RefCell::default(), axioms: RefCell::default() }
     }
 
-    /// Makes system `index` ready to be derived.
+    /// Prepares system `index` for steps.
     fn prepare(&self, index: usize) -> Result<Ready> {
         let rules = self.rules(index)?;
         let plan = Arc::new(DerivationPlan {
@@ -45,7 +45,7 @@ impl<'a> SystemRewriter<'a> {
                 chains: 1,
                 batch: rules.batch,
                 limit: self.leader.machine.session.options.limits.modules,
-                // The number of successors of each module has to be known.
+                // The caller needs the number of successors of each module.
                 traced: true,
                 notes_places: false,
             }),
@@ -57,7 +57,7 @@ impl<'a> SystemRewriter<'a> {
         Ok(Ready { declared, stepper: Stepper::new(Arc::clone(&plan.steps)), plan })
     }
 
-    /// System `index`, ready to be derived.
+    /// Returns system `index`, prepared for steps.
     fn ready(&self, index: usize) -> Result<RefMut<'_, Ready>> {
         if !self.ready.borrow().contains_key(&index) {
             let ready = self.prepare(index)?;
@@ -133,7 +133,7 @@ impl Rewriter for SystemRewriter<'_> {
     }
 }
 
-/// What rules have `applied`, with the number of symbols that there are once those that stood for others are resolved.
+/// Returns `applied` with the numbers of successors after placeholders have been resolved.
 fn together(applied: Vec<(u16, u32)>, resolution: &Resolution) -> Vec<(u16, u32)> {
     let mut became = resolution.applied.iter();
     let counted = applied.into_iter().map(|(rule, count)| {

@@ -1,4 +1,4 @@
-//! One derivation step in the leading machine, with the other machines as helpers.
+//! One derivation step in the leading machine, with the help of the other machines.
 
 use std::sync::Arc;
 
@@ -28,7 +28,7 @@ impl Helpers for MachineHelpers<'_> {
     }
 }
 
-/// Makes step number `number` on `chain` with the functions `declared` of the leading machine.
+/// Makes step `number` on `chain` with the functions `declared` of the leading machine.
 pub(super) fn step(
     leader: LeadingMachine<'_>,
     plan: &Arc<DerivationPlan>,

@@ -1,4 +1,4 @@
-//! The threads that help: each runs the same script in a machine of its own and waits at `derive` for work.
+//! Helper threads: each runs the same script in its own machine and waits at `derive` for work.
 
 use std::cell::RefCell;
 use std::collections::hash_map::Entry;
@@ -21,7 +21,8 @@ use burgeon_base::error::{Error, Result};
 use burgeon_kit::Prefetch;
 use burgeon_rewriting::{Scratch, StepWork};
 
-/// Work for all threads, unless it is done before they come to it: a helper that is still starting keeps nobody waiting.
+/// Work for all threads. The references are weak, so a helper that starts late does not keep finished work
+/// alive.
 #[derive(Clone)]
 pub(crate) enum ThreadJob {
     Rewrite { work: Weak<StepWork>, plan: Weak<DerivationPlan> },
@@ -39,27 +40,27 @@ struct Helper {
     thread: JoinHandle<()>,
 }
 
-/// About what it costs to start a helper.
+/// Approximate time to start a helper.
 const STARTING: Duration = Duration::from_millis(20);
 
-/// The machine whose result counts, and the threads that help it.
+/// Machine whose result counts, and its helper threads.
 #[derive(Clone, Copy)]
 pub(crate) struct LeadingMachine<'a> {
     pub machine: &'a Machine,
     pub threads: &'a ThreadPool,
 }
 
-/// The threads of a run, as one machine sees them: it leads the others, or follows.
+/// Threads of a run from the view of one machine, which leads or follows.
 pub(crate) struct ThreadPool {
-    /// What each derivation has given so far, in order.
+    /// Results of the derivations so far, in order.
     done: RefCell<Vec<Result<Arc<DerivedSystem>>>>,
     role: RefCell<ThreadRole>,
-    /// The lineage that was asked for, once it is known.
+    /// Requested lineage, once it is complete.
     trace: RefCell<Option<Trace>>,
 }
 
 enum ThreadRole {
-    /// With the time when there was work for helpers first.
+    /// Leading machine. `since` is the first time at which there was work for helpers.
     Lead {
         helpers: Vec<Helper>,
         watchdog: Arc<Watchdog>,
@@ -72,7 +73,7 @@ enum ThreadRole {
 }
 
 impl ThreadPool {
-    /// The threads as the machine sees them whose result counts.
+    /// Creates the threads of the leading machine.
     pub(crate) fn leading(watchdog: &Arc<Watchdog>) -> Self {
         Self::new(ThreadRole::Lead { helpers: Vec::new(), watchdog: Arc::clone(watchdog), since: None })
     }
@@ -81,12 +82,13 @@ impl ThreadPool {
         Self { done: RefCell::default(), role: RefCell::new(role), trace: RefCell::default() }
     }
 
-    /// The lineage that the options of the run ask for, if it has come to it.
+    /// Takes the lineage that the options request, if it is complete.
     pub(crate) fn take_trace(&self) -> Option<Trace> {
         self.trace.borrow_mut().take()
     }
 
-    /// In a following machine: works for the leader until system `index` is derived, and returns the result.
+    /// Works for the leader until system `index` is derived, and returns the result. `None` in the leading
+    /// machine.
     fn follow(&self, machine: &Machine, index: usize) -> Result<Option<Arc<DerivedSystem>>> {
         let (inbox, known) = match &*self.role.borrow() {
             ThreadRole::Lead { .. } => return Ok(None),
@@ -94,7 +96,8 @@ impl ThreadPool {
                 (Rc::clone(inbox), recorded.get(self.done.borrow().len()).cloned())
             }
         };
-        // What the axiom's function changes or draws is seen by what follows, in every machine.
+        // The axiom's function can change variables and draw random numbers; the following code depends on
+        // both in every machine.
         machine.library.systems.borrow()[index].replay_axiom(machine)?;
         let derived = match known {
             Some(derived) => derived,
@@ -105,7 +108,7 @@ impl ThreadPool {
         derived.map(Some)
     }
 
-    /// Notes what a system became, and shows it to the questions of the script's top level.
+    /// Records the result of a system, and publishes its chains to queries at the top level of the script.
     fn note_derived(&self, machine: &Machine, derived: &Result<Arc<DerivedSystem>>) {
         if let Ok(derived) = derived {
             let mut view = machine.current.chains_derived.borrow_mut();
@@ -114,20 +117,21 @@ impl ThreadPool {
         self.done.borrow_mut().push(derived.clone());
     }
 
-    /// In the leading machine: tells the others what a system became, or why it did not.
+    /// Sends the result of a system from the leading machine to the helpers.
     fn finished(&self, machine: &Machine, derived: &Result<Arc<DerivedSystem>>) {
         if let ThreadRole::Lead { helpers, .. } = &*self.role.borrow() {
             for helper in helpers {
-                // A helper that has ended needs no news.
+                // A helper that has ended does not need the result.
                 let _ = helper.outbox.send(Message::Derived(derived.clone()));
             }
         }
         self.note_derived(machine, derived);
     }
 
-    /// Gives a job of `pieces` pieces to as many helpers as can be of use.
+    /// Offers a job of `pieces` pieces to helpers, at most one per piece.
     ///
-    /// Helpers are started for `many` pieces, or when there has been work for them for longer than their start takes.
+    /// Helpers are started for `many` pieces, or after there has been work for helpers for longer than a
+    /// start takes.
     pub(crate) fn hand_out(
         &self,
         machine: &Machine,
@@ -148,13 +152,13 @@ impl ThreadPool {
             helpers.push(Helper::start(&machine.session, watchdog, self.done.borrow().clone())?);
         }
         for helper in helpers.iter().take(useful) {
-            // A helper that has ended leaves its share to the others.
+            // If a helper has ended, the other threads do its share.
             let _ = helper.outbox.send(Message::Work(job()));
         }
         Ok(())
     }
 
-    /// Waits until every helper has let go of a job.
+    /// Waits until every helper has released a job.
     pub(crate) fn reclaim<T>(&self, mut job: Arc<T>) -> T {
         loop {
             match Arc::try_unwrap(job) {
@@ -181,12 +185,12 @@ impl Driver for ThreadPool {
             Ending::Derived(derived) => Ok(Arc::from(derived)),
             Ending::Traced(trace) => {
                 self.trace.replace(Some(*trace));
-                // Nobody wants to know what else the script does.
+                // The rest of the script does not matter.
                 Err(Error::stopped("the traced system is derived"))
             }
         });
         let derived = derived.map_err(|error: Error| {
-            // Which machine came upon it must not show.
+            // The error must not depend on the machine that found it.
             error.rather_called_at(machine.library.systems.borrow()[index].caller.clone())
         });
         machine.current.objects.replace(None);
@@ -216,7 +220,7 @@ impl Drop for ThreadPool {
         if let ThreadRole::Lead { helpers, .. } = self.role.get_mut() {
             for Helper { outbox, thread } in helpers.drain(..) {
                 drop(outbox);
-                // A helper that panicked has been left out of the result already.
+                // The result does not depend on a helper that panicked.
                 let _ = thread.join();
             }
         }
@@ -235,7 +239,7 @@ impl Helper {
             let threads = ThreadPool::new(ThreadRole::Follow { inbox: Rc::new(inbox), recorded });
             if let Ok(machine) = Machine::new(&session, &watchdog, Rc::new(threads)) {
                 machine.silence();
-                // What goes wrong here goes wrong in the leading machine as well, which tells of it.
+                // An error here also occurs in the leading machine, which reports it.
                 let _ = machine.run();
             }
         };
@@ -249,7 +253,7 @@ impl Helper {
 
 /// Works on jobs for system `index` until the leader has derived it.
 fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<Result<Arc<DerivedSystem>>> {
-    // What was declared since the last derivation holds as well.
+    // Declarations since the last derivation also apply.
     machine.current.system.set(None);
     let mut known: FxHashMap<usize, SystemFunctions> = FxHashMap::default();
     let mut scratch = Scratch::default();
@@ -259,10 +263,10 @@ fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<R
             Ok(Message::Derived(derived)) => return Ok(derived),
             Err(_) => return Err(Error::stopped("the run has ended")),
         };
-        // Everything that belongs to a job is let go of before the job itself, for which the leader waits.
+        // The leader waits for the job, so all other parts of a job are dropped before the job itself.
         match job {
             ThreadJob::Rewrite { work, plan } => {
-                // The leader waits for the work, so it has to be the last that is dropped.
+                // The leader waits for the work, so `work` must be dropped last.
                 let Some(work) = work.upgrade() else { continue };
                 let Some(plan) = plan.upgrade() else { continue };
                 let declared = prepared(machine, &mut known, plan.system)?;
@@ -291,7 +295,7 @@ fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<R
     }
 }
 
-/// A system ready to derive in this machine, whose tables stay frozen as long as it is known.
+/// Returns a system prepared for derivation in this machine. Its tables stay frozen while it is in `known`.
 fn prepared<'a>(
     machine: &Machine,
     known: &'a mut FxHashMap<usize, SystemFunctions>,

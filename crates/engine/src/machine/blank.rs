@@ -1,4 +1,4 @@
-//! The part of a machine that is the same for every run, which a thread may make before it is needed.
+//! State of a machine that is the same for every run, so that a thread can create it in advance.
 
 use std::cell::RefCell;
 
@@ -11,15 +11,15 @@ thread_local! {
     static READY: RefCell<Option<BlankMachine>> = const { RefCell::new(None) };
 }
 
-/// A state without anything of a script.
+/// Luau state without any data of a script.
 pub(super) struct BlankMachine {
     pub(super) lua: Lua,
-    /// The prelude, which has not been called.
+    /// Prelude, compiled but not yet called.
     pub(super) prelude: Function,
 }
 
 impl BlankMachine {
-    /// The one that this thread has made ready, or a new one.
+    /// Takes the state that [`make_ready`] prepared in this thread, or creates one.
     pub(super) fn take() -> mlua::Result<Self> {
         READY.take().map_or_else(Self::new, Ok)
     }
@@ -43,8 +43,10 @@ impl BlankMachine {
     }
 }
 
-/// Begins the next machine of this thread, for a thread that waits and is to run a script as soon as it is asked to:
-/// with native code of all that scripts may come to use, it takes longer than a machine that is begun for a run.
+/// Prepares the next machine of this thread, for a thread that waits and must start a script without delay.
+///
+/// Compiles native code for everything that scripts may use, which takes longer than creating a machine for a
+/// run.
 pub fn make_ready() {
     if READY.with_borrow(Option::is_some) {
         return;
@@ -53,7 +55,7 @@ pub fn make_ready() {
         native(&begun.lua, &begun.prelude)?;
         Ok(begun)
     });
-    // What goes wrong here goes wrong again in the run, which tells of it.
+    // The run meets the same error again and reports it.
     READY.set(begun.ok());
 }
 

@@ -1,4 +1,4 @@
-//! Functions and operators of Luau give the same bits in native code as in bytecode.
+//! Functions and operators of Luau give the same bits in native code and in bytecode.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -10,7 +10,7 @@ use super::native::as_bytecode;
 use crate::declare::{RunOptions, Session};
 use crate::run::leading_machine;
 
-/// Expressions in the numbers `a`, `b` and `c`, and in the whole number `i` from 0 to 40.
+/// Expressions in the numbers `a`, `b` and `c`, and in the integer `i` from 0 to 40.
 const EXPRESSIONS: &[&str] = &[
     "a + b",
     "a - b",
@@ -138,8 +138,8 @@ const EXPRESSIONS: &[&str] = &[
     "count(a, b, c)",
 ];
 
-/// Functions that the expressions call, and how results are written: numbers by their bits, and one that is none by its
-/// name, since its sign depends on the processor.
+/// Functions that the expressions call, and the output format: numbers as bits, and NaN by name, because its
+/// sign depends on the processor.
 const HELPERS: &str = r#"
 local function kept(write)
     local at = buffer.create(48)
@@ -174,7 +174,7 @@ local function written(done, value)
 end
 "#;
 
-/// A chunk that gives a list of functions, one for each expression.
+/// Returns a chunk that returns a list of functions, one per expression.
 fn chunk() -> String {
     let mut text = format!(
         "{HELPERS}return function(compute, a, b, c, i) return written(pcall(compute, a, b, c, i)) end, {{\n"
@@ -186,7 +186,7 @@ fn chunk() -> String {
     text + "}"
 }
 
-/// Numbers of all kinds, and then by chance: bits, and sizes that people use.
+/// Returns special values, followed by random bits and random numbers of common sizes.
 fn numbers(count: usize) -> Vec<f64> {
     let mut all = vec![
         0.0,
@@ -264,7 +264,7 @@ fn native_code_gives_the_bits_of_bytecode() {
         for place in 0..numbers.len() {
             let [a, b, c] = [1, 7, 31].map(|step| numbers[place * step % numbers.len()]);
             let given = (a, b, c, place % 41);
-            // Results are any bytes.
+            // Results can contain arbitrary bytes.
             let written = |ask: &Function, compute: &Function| {
                 let text: LuaString = ask.call((compute.clone(), given)).unwrap();
                 text.as_bytes().escape_ascii().to_string()

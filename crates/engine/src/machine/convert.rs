@@ -1,4 +1,4 @@
-//! Values across the border between Lua and Rust.
+//! Conversion of values between Lua and Rust.
 
 use std::sync::Arc;
 
@@ -11,38 +11,39 @@ use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::{MemoryOwner, Stop};
 use burgeon_kit::{BufferBytes, System, Table, TableKey, Value};
 
-/// The field of a metatable that names a class of tables, so that they keep their operators as parameters.
+/// Metatable field with the name of a table class. Tables of a class keep their operators as parameters.
 const CLASS: &str = "__class";
 const DEEPEST: usize = 64;
-/// Strings of more bytes are copied only if the run has memory for them.
+/// Length (bytes) from which a string is copied only if the run has enough memory.
 const LONG: usize = 64 << 10;
-/// Entries of a table that are copied between two looks at the stop of the run.
+/// Number of copied table entries between two checks for cancellation.
 const STRETCH: usize = 4096;
 
-/// How values are copied.
+/// Conversion mode.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum CopyMode {
-    /// As they are.
+    /// Without changes.
     Plain,
-    /// Tables are made read-only on the way.
+    /// Makes tables read-only.
     Freeze,
-    /// As they are; systems may be among them.
+    /// Allows systems and sources.
     Field,
-    /// As they are, and buffers too, for methods that read them at once.
+    /// Copies buffers too, for methods that read them immediately.
     Argument,
 }
 
-/// Copies a Lua value to Rust. With `freeze`, tables are made read-only on the way.
+/// Converts a Lua value to Rust. If `freeze` is set, tables are made read-only.
 pub(crate) fn to_value(value: &LuaValue, freeze: bool) -> Result<Value> {
     convert(value, if freeze { CopyMode::Freeze } else { CopyMode::Plain }, 0)
 }
 
-/// Copies what a constructor takes to Rust, where it may find sources as [`Features`](burgeon_kit::Features), and systems.
+/// Converts the argument of a constructor to Rust. It can contain systems, and sources as
+/// [`Features`](burgeon_kit::Features).
 pub(crate) fn to_field(value: &LuaValue) -> Result<Value> {
     convert(value, CopyMode::Field, 0)
 }
 
-/// Copies what a method is given to Rust, where it may find buffers as [`BufferBytes`].
+/// Converts the argument of a method to Rust. It can contain buffers as [`BufferBytes`].
 pub(crate) fn to_argument(value: &LuaValue) -> Result<Value> {
     convert(value, CopyMode::Argument, 0)
 }
@@ -145,7 +146,7 @@ fn no_module() -> Error {
         .help("pass its parameters on, and make the module where it belongs into the chain")
 }
 
-/// Makes the Lua value; tables are frozen if `freeze`.
+/// Converts a value to Lua. Tables are frozen if `freeze` is set.
 pub(crate) fn to_lua(lua: &Lua, value: &Value, freeze: bool) -> mlua::Result<LuaValue> {
     Ok(match value {
         Value::Nil => LuaValue::Nil,

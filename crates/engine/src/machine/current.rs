@@ -1,4 +1,4 @@
-//! The work that a machine is at, for the functions that Rust gives to Lua.
+//! Current work of a machine, for the Rust functions that Lua calls.
 
 use std::cell::{Cell, RefCell};
 use std::sync::Arc;
@@ -13,47 +13,49 @@ use burgeon_kit::declare::{downcast_mut, downcast_ref};
 use burgeon_kit::{Call, Kind, Object, Registry, ScriptObject, Table, Value};
 use burgeon_rewriting::{ModuleKey, ReturnShape, Successors, Symbol};
 
-/// Applies recorded method calls to objects while a batch is interpreted.
+/// Applies recorded method calls to objects during the interpretation of a batch.
 pub(crate) trait Flusher: std::any::Any {
-    /// Applies all calls recorded so far: those of the entries before `entry` and the first `called` of it.
+    /// Applies all recorded calls: the calls of the entries before `entry`, and the first `called` calls of
+    /// `entry`.
     fn flush(&mut self, entry: usize, called: usize) -> Result<()>;
 
-    /// The chain that is being interpreted.
+    /// Returns the index of the chain that is being interpreted.
     fn chain(&self) -> usize;
 
-    /// Takes what the object of the chain has warned of.
+    /// Adds warnings of the chain's object.
     fn warn(&mut self, said: Vec<Warning>);
 
-    /// Notes that the interpretation rule of `entry` has returned a `value`, in words, or modules where there is none.
+    /// Records that the interpretation rule of `entry` has returned a `value`, given as text, or modules if
+    /// `None`.
     fn lost(&mut self, entry: usize, value: Option<&str>);
 }
 
-/// What is being rewritten or interpreted.
+/// State of the current rewriting or interpretation.
 pub(crate) struct WorkState {
     pub session: Arc<Session>,
-    /// The system that the machine works for.
+    /// System that the machine works for.
     pub system: Cell<Option<usize>>,
-    /// The objects of the system at work.
+    /// Objects of that system.
     pub objects: RefCell<Option<Arc<Objects>>>,
-    /// The chain of each application in the batch.
+    /// Chain of each application in the batch.
     pub chains: RefCell<Vec<u32>>,
-    /// The random key of each application in the batch.
+    /// Random key of each application in the batch.
     pub keys: RefCell<Vec<ModuleKey>>,
-    /// The place in the chain of each application in the batch, where it is noted what they ask of data.
+    /// Index in the chain of each application in the batch, if queries are recorded.
     pub places: RefCell<Vec<u32>>,
-    /// How many numbers of its stream an application's weighted choice has used already.
+    /// Number of random numbers that the weighted choice has already used.
     pub used: Cell<usize>,
-    /// The most random numbers that one application has drawn lately.
+    /// Maximum number of random numbers that one recent application has drawn.
     pub drawn: Cell<usize>,
-    /// The type of `this`, whose methods Lua knows by their numbers.
+    /// Type of `this`; Lua refers to its methods by number.
     pub kind: RefCell<Option<Arc<Kind>>>,
-    /// The shapes of prepared returns, by number.
+    /// Shapes of prepared results, by number.
     pub shapes: RefCell<Arc<Vec<ReturnShape>>>,
-    /// Applies recorded calls while interpreting.
+    /// Applier of recorded calls during interpretation.
     pub flusher: RefCell<Option<Box<dyn Flusher>>>,
-    /// The stream of the top level of the script.
+    /// Random stream of the top level of the script.
     pub top: RefCell<Stream>,
-    /// The chains of the systems that are derived, as the top level of the script sees them.
+    /// Chains of the derived systems, for queries at the top level of the script.
     pub chains_derived: RefCell<ChainView>,
 }
 
@@ -88,7 +90,7 @@ impl WorkState {
         shapes[number] = ReturnShape { symbols, params };
     }
 
-    /// Draws number `index` of an application's stream.
+    /// Draws number `index` of an application's random stream.
     pub(crate) fn draw(&self, application: usize, index: usize) -> Result<f64> {
         let keys = self.keys.borrow();
         let key = keys.get(application).ok_or_else(|| Error::scope("random is not available here"))?;
@@ -100,7 +102,7 @@ impl WorkState {
         Ok(stream.uniform())
     }
 
-    /// The chain that is interpreted, or that of an application in the batch.
+    /// Returns the chain being interpreted, or the chain of an application in the batch.
     pub(crate) fn chain_of(&self, application: usize) -> usize {
         match self.flusher.borrow().as_ref() {
             Some(flusher) => flusher.chain(),
@@ -108,7 +110,8 @@ impl WorkState {
         }
     }
 
-    /// Asks the object of `chain`, whose type the script declared, or the one that it holds at `slot`.
+    /// Calls `ask` with the object of `chain`, whose type the script declared, or with its child object at
+    /// `slot`.
     pub(crate) fn script_object<T>(
         &self,
         chain: usize,
@@ -126,7 +129,7 @@ impl WorkState {
         })
     }
 
-    /// Keeps the state that a pass has left with the object of `chain`, or with the one that it holds at `slot`.
+    /// Stores the state after a pass in the object of `chain`, or in its child object at `slot`.
     pub(crate) fn keep_state(&self, chain: usize, slot: Option<usize>, state: Arc<Table>) -> Result<()> {
         let objects = self.objects.borrow();
         let objects = objects.as_ref().ok_or_else(outside)?;
@@ -140,7 +143,7 @@ impl WorkState {
         })
     }
 
-    /// The error for a name that objects of the type `kind` do not have.
+    /// Returns the error for a name that objects of the type `kind` do not have.
     pub(crate) fn unknown_member(&self, kind: &str, name: &str, registry: &Registry) -> Error {
         let of = self.kind.borrow().as_ref().filter(|known| known.name == kind).cloned();
         match of.or_else(|| registry.get(kind).cloned()) {
@@ -149,8 +152,8 @@ impl WorkState {
         }
     }
 
-    /// Calls a method of `this`, or of the object that it holds at `slot`, at once, while rewriting or interpreting, in the
-    /// line at `place`.
+    /// Calls a method of `this`, or of its child object at `slot`, immediately. `place` is the line of the
+    /// call.
     pub(crate) fn call(
         &self,
         slot: Option<usize>,

@@ -1,4 +1,4 @@
-//! What a machine asks of whoever drives it.
+//! Interface between a machine and its driver.
 
 use std::sync::Arc;
 
@@ -7,20 +7,20 @@ use crate::results::DerivedSystem;
 use burgeon_base::error::Result;
 use burgeon_kit::Prefetch;
 
-/// Derives the systems that a machine's script declares, and has other threads help.
+/// Driver of a machine: derives the systems of its script with the help of other threads.
 pub(crate) trait Driver {
-    /// Derives system `index` of the machine's script by at most `steps` steps, or to the end.
+    /// Derives system `index` of the machine's script by at most `steps` steps, or until nothing changes.
     fn derive(&self, machine: &Machine, index: usize, steps: Option<usize>) -> Result<Arc<DerivedSystem>>;
 
-    /// What each derivation has given so far, in order.
+    /// Returns the results of the derivations so far, in order.
     fn derived(&self) -> Vec<Result<Arc<DerivedSystem>>>;
 
-    /// How many derivations there have been.
+    /// Returns the number of derivations so far.
     fn count(&self) -> usize;
 
-    /// Whether the machine is the one whose result counts; the others run the same script to help it.
+    /// Returns true if the result of this machine counts. The other machines run the same script to help it.
     fn leads(&self) -> bool;
 
-    /// Has a thread that helps prepare what will be asked for, if there is one.
+    /// Lets a helper thread, if there is one, prepare results that will be requested.
     fn prefetch(&self, machine: &Machine, prefetch: &Arc<dyn Prefetch>) -> Result<()>;
 }

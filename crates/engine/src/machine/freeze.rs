@@ -1,4 +1,4 @@
-//! Freezes what rules can reach from outside themselves, for as long as they run.
+//! Freezes the tables that rules can reach from outside, while the rules run.
 
 use mlua::{Function, Lua, Table, Value, ffi};
 use rustc_hash::FxHashSet;
@@ -6,7 +6,7 @@ use rustc_hash::FxHashSet;
 use super::types::DerivedHandle;
 use burgeon_base::error::{Error, Result, SourcePlace};
 
-/// A function that rules run, and where it was declared.
+/// Function that rules run, with its name and location.
 #[derive(Clone)]
 pub(crate) struct ReachableFunction {
     pub function: Function,
@@ -14,7 +14,7 @@ pub(crate) struct ReachableFunction {
     pub place: Option<SourcePlace>,
 }
 
-/// Tables that were writable before; they are so again when this is dropped.
+/// Frozen tables; they become writable again when this is dropped.
 pub(crate) struct TableFreeze(Vec<Table>);
 
 impl Drop for TableFreeze {
@@ -25,10 +25,10 @@ impl Drop for TableFreeze {
     }
 }
 
-/// Freezes every table that `functions` can reach through their captured variables.
+/// Freezes every table that `functions` can reach through captured variables.
 ///
-/// Refuses what cannot be frozen and yet remembers: coroutines, buffers, and functions of C that are not among
-/// the `stateless` ones, such as iterators.
+/// Fails for values that keep state and cannot be frozen: coroutines, buffers, and C functions outside
+/// `stateless`, such as iterators.
 pub(crate) fn freeze<'a>(
     lua: &Lua,
     stateless: &FxHashSet<usize>,
@@ -87,7 +87,7 @@ pub(crate) fn freeze<'a>(
     Ok(frozen)
 }
 
-/// What a Lua function captures; nothing for the machine's own.
+/// Returns the values that a Lua function captures; empty for the machine's own functions.
 pub(crate) fn captured(lua: &Lua, function: &Function) -> mlua::Result<Vec<Value>> {
     if function.info().source.as_deref() == Some("=burgeon") {
         return Ok(Vec::new());

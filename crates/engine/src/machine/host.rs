@@ -1,4 +1,4 @@
-//! The functions that Rust gives to the prelude.
+//! Rust functions for the prelude.
 
 use std::rc::Rc;
 use std::sync::Arc;
@@ -13,21 +13,21 @@ use crate::machine::types::{ObjectHandle, claim};
 use burgeon_base::error::{Error, Limit, SourcePlace};
 use burgeon_base::warning::take_deferred;
 use burgeon_kit::declare::as_ref;
-use burgeon_kit::{Call, GeometryObject, ScriptObject, Value};
+use burgeon_kit::{Call, Draw, ObjectContent, ScriptObject, Value};
 use burgeon_rewriting::{ColumnValue, DEEPEST, module_text};
 
-/// An answer of more entries is made without a collection of garbage meanwhile.
+/// Number of entries from which the conversion of a result pauses garbage collection.
 const LONG: usize = 256;
 
-/// While guards run, in the prelude.
+/// Phase of the prelude in which guards run.
 const GUARD: u8 = 2;
-/// At the top level, in the prelude.
+/// Phase of the prelude at the top level.
 const TOP: u8 = 0;
 
-/// A held object's place, a method's number, the application, and what the method is given.
+/// Slot of a child object, method number, application, and arguments.
 type HostCall = (Option<usize>, usize, usize, MultiValue);
 
-/// A method's number and name, the object, the application whose guard asks if it is one, and what the method is given.
+/// Method number, method name, object, application whose guard makes the call (if any), and arguments.
 type ObjectCall = (usize, LuaString, LuaValue, Option<usize>, MultiValue);
 
 pub(crate) fn functions(lua: &Lua, current: &Rc<WorkState>, library: &Rc<Library>) -> mlua::Result<Table> {
@@ -42,7 +42,7 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<WorkState>, library: &Rc<Library
     Ok(host)
 }
 
-/// Those that pack values into columns and take them out again.
+/// Adds the functions that pack values into columns and unpack them.
 fn add_values(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Library>) -> mlua::Result<()> {
     let state = Rc::clone(current);
     host.set(
@@ -88,7 +88,7 @@ fn add_values(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Lib
     Ok(())
 }
 
-/// Those for functions, tables and errors of Lua.
+/// Adds the functions for Lua functions, tables and errors.
 fn add_tables(lua: &Lua, host: &Table) -> mlua::Result<()> {
     host.set(
         "native",
@@ -133,7 +133,7 @@ fn add_tables(lua: &Lua, host: &Table) -> mlua::Result<()> {
     Ok(())
 }
 
-/// Those that rules and interpretations call while they run.
+/// Adds the functions that rules and interpretations call while they run.
 fn add_applications(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::Result<()> {
     let state = Rc::clone(current);
     host.set(
@@ -187,7 +187,7 @@ fn add_applications(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::R
     Ok(())
 }
 
-/// Those that call methods of objects.
+/// Adds the functions that call methods of objects.
 fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Library>) -> mlua::Result<()> {
     let state = Rc::clone(current);
     host.set(
@@ -214,7 +214,7 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Li
                 ));
             };
             let handle = data.borrow::<ObjectHandle>()?;
-            // Those of a type that extends another have other numbers.
+            // A type that inherits from another type numbers its methods differently.
             let kind = handle.0.kind();
             let known = kind.methods.get(number).filter(|known| *known.name == *method);
             let Some(method) = known.or_else(|| kind.method(method)) else {
@@ -228,13 +228,15 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Li
                     let machine = owner.machine().map_err(mlua::Error::external)?;
                     take_deferred().into_iter().for_each(|warning| machine.warn(warning));
                     let place = guard.and_then(|guard| state.places.borrow().get(guard).copied());
-                    if let Some(place) = place.filter(|_| GeometryObject::of(&*handle.0).is_some()) {
+                    if let Some(place) =
+                        place.filter(|_| handle.0.kind().has_capability::<dyn ObjectContent>())
+                    {
                         let given: Vec<String> = given.iter().map(Value::to_string).collect();
                         let this = Value::Object(Arc::clone(&handle.0));
                         let text = format!("{this}:{}({}): {answer}", method.name, given.join(", "));
                         state.session.rows.note_answer(place as usize, text);
                     }
-                    // All of a long answer stays, so looking for what does not would be in vain.
+                    // The complete result stays alive, so a collection would free nothing of it.
                     let is_long = matches!(&answer, Value::Table(table) if table.entries.len() > LONG);
                     let pauses = is_long && lua.gc_is_running();
                     if pauses {
@@ -255,7 +257,7 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Li
     Ok(())
 }
 
-/// What is asked of objects whose types the script declares, and kept of them.
+/// Adds the functions that read and store the fields and state of script-declared objects.
 fn add_script_objects(
     lua: &Lua,
     host: &Table,
@@ -323,7 +325,7 @@ fn add_script_objects(
         lua.create_function(|_, value: LuaValue| {
             let LuaValue::UserData(data) = &value else { return Ok(None) };
             let Ok(handle) = data.borrow::<ObjectHandle>() else { return Ok(None) };
-            Ok(handle.0.kind().draw.is_some().then(|| handle.0.kind().name.to_string()))
+            Ok(handle.0.kind().has_capability::<dyn Draw>().then(|| handle.0.kind().name.to_string()))
         })?,
     )?;
     host.set("is_object", lua.create_function(|_, value: LuaValue| Ok(to_value(&value, false).is_ok()))?)?;
@@ -351,7 +353,7 @@ fn add_script_objects(
     )
 }
 
-/// A table of the script of what Rust keeps, frozen within.
+/// Converts a stored table to a Lua table whose nested tables are frozen.
 fn to_table(lua: &Lua, kept: &burgeon_kit::Table) -> mlua::Result<Table> {
     let table = lua.create_table()?;
     for (key, value) in &kept.entries {

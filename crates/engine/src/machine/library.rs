@@ -1,4 +1,4 @@
-//! The names that scripts have: `module`, `lsystem`, `param`, `require`, objects, and the standard library.
+//! Global names of scripts: `module`, `lsystem`, `param`, `require`, objects, and the standard library.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -13,7 +13,7 @@ use super::require::require;
 use super::system::{EagerMark, SourceHandle, SystemDeclaration, SystemHandle, install_lazy};
 use super::table_classes::declare_class;
 use super::types::{
-    Extension, ScriptTypeEntry, declare_type, extend_type, install_geometries, install_kind, named_fields,
+    Extension, ScriptTypeEntry, declare_type, extend_type, install_functions, install_kind, named_fields,
     no_table,
 };
 use super::{Machine, compile, native};
@@ -23,65 +23,65 @@ use burgeon_analysis::Globals;
 use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_kit::{Construct, Kind, Registry};
+use burgeon_kit::{Construct, Kind, ObjectContent, Registry};
 use burgeon_language::LOCKED;
 use burgeon_packages::{FileName, Package};
 use burgeon_rewriting::{NameScope, Signature, Symbol, Symbols};
 
-/// The standard library, which every script has, compiled once for all machines.
+/// Bytecode of the standard library, compiled once for all machines.
 static STANDARD_COMPILED: LazyLock<Vec<u8>> =
     LazyLock::new(|| compile(include_str!("../../../../stdlib.lua")));
 
-/// An interpretation that the standard library gives to modules of every system with a type of object.
+/// Interpretation by the standard library, in all systems with an object of type `kind`.
 pub(crate) struct StandardInterpretation {
     pub kind: String,
     pub symbol: Symbol,
-    /// The place of a method among those of the type, called with the module's parameters.
+    /// Index of the method, which is called with the parameters of the module.
     pub method: usize,
 }
 
-/// By package, and `None` for the script: the names of packages.
+/// Names of the required packages by package; `None` is the script.
 type RequiredPackages = BTreeMap<Option<Arc<str>>, BTreeSet<Arc<str>>>;
 
-/// What a machine knows of its script.
+/// Declarations of a machine's script.
 #[derive(Default)]
 pub(crate) struct Library {
     pub symbols: RefCell<Symbols>,
     pub systems: RefCell<Vec<SystemDeclaration>>,
     pub standard: RefCell<Vec<StandardInterpretation>>,
     pub problems: RefCell<Vec<Error>>,
-    /// Where the script declared its modules.
+    /// Location of each module's declaration.
     pub places: RefCell<FxHashMap<Symbol, SourcePlace>>,
     /// Constructors of modules, by symbol.
     pub constructors: RefCell<FxHashMap<Symbol, Function>>,
-    /// The files that are being required, from the main one on.
+    /// Files that are being required, from the main file on.
     pub(super) loading: RefCell<Vec<PathBuf>>,
     pub(super) loaded: RefCell<FxHashMap<PathBuf, LuaValue>>,
-    /// Functions of Rust and C that rules may reach, by address.
+    /// Rust and C functions that rules may reach, by address.
     pub stateless: RefCell<FxHashSet<usize>>,
-    /// The functions of the standard library, and the whole of it until it is made native code.
+    /// Names of the standard library's functions.
     functions: RefCell<Vec<String>>,
     standard_chunk: RefCell<Option<Function>>,
     names: RefCell<Vec<String>>,
     modules: RefCell<FxHashMap<String, Signature>>,
-    /// The types of objects that there are: those of the run, and those that the script has declared so far.
+    /// Object types of the run, and types that the script has declared so far.
     pub registry: RefCell<Registry>,
-    /// The types of objects by the addresses of their constructors.
+    /// Object types by the address of their constructor.
     constructed: RefCell<FxHashMap<usize, Arc<Kind>>>,
-    /// The functions of the types that the script declared, and those that it added to others, by their names.
+    /// Functions of the types that the script declared.
     pub script_types: RefCell<Vec<ScriptTypeEntry>>,
     pub extensions: RefCell<Vec<Extension>>,
-    /// The constructors of objects, by name.
+    /// Names of the object constructors.
     kinds: RefCell<Vec<String>>,
-    /// The parameters as they were declared first, and where.
+    /// First declaration of each parameter, with its location.
     params: RefCell<Vec<(Param, Option<SourcePlace>)>>,
-    /// By package, and none for the script: the packages that its files have required.
+    /// Packages that files have required, by package; `None` is the script.
     pub(super) required: RefCell<RequiredPackages>,
     machine: RefCell<Option<std::rc::Weak<Machine>>>,
 }
 
 impl Library {
-    /// What scripts may use without declaring it.
+    /// Returns the names that scripts can use without declaring them.
     pub(crate) fn globals(&self) -> Globals {
         let session = self.machine().map(|machine| Arc::clone(&machine.session)).ok();
         let (shapes, deprecated) = session
@@ -93,17 +93,25 @@ impl Library {
             names: self.names.borrow().clone(),
             modules: self.modules.borrow().clone(),
             kinds: self.kinds.borrow().clone(),
+            value_methods: self.value_methods(),
             deprecated,
             shapes,
         }
     }
 
-    /// Creates the names of a script of which nothing has run.
+    /// Returns the methods of objects that never change.
+    fn value_methods(&self) -> FxHashSet<String> {
+        let registry = self.registry.borrow();
+        let values = registry.kinds().filter(|kind| kind.has_capability::<dyn ObjectContent>());
+        values.flat_map(|kind| kind.methods.iter().map(|method| method.name.to_string())).collect()
+    }
+
+    /// Creates the library of a script that has not run.
     pub(crate) fn new() -> Self {
         Self { symbols: RefCell::new(placeholders::symbols()), ..Self::default() }
     }
 
-    /// The machine that this library belongs to, once it is complete.
+    /// Returns the machine of this library. Fails until the machine is complete.
     pub(crate) fn machine(&self) -> Result<std::rc::Rc<Machine>> {
         let machine = self.machine.borrow().as_ref().and_then(std::rc::Weak::upgrade);
         machine.ok_or_else(|| Error::internal("this cannot be used while the machine is being made"))
@@ -113,17 +121,17 @@ impl Library {
         *self.machine.borrow_mut() = Some(std::rc::Rc::downgrade(machine));
     }
 
-    /// Notes what `constructor` makes.
+    /// Records that `constructor` makes objects of type `kind`.
     pub(super) fn note_constructor(&self, constructor: &Function, kind: &Arc<Kind>) {
         self.constructed.borrow_mut().insert(constructor.to_pointer() as usize, Arc::clone(kind));
     }
 
-    /// The type of what `constructor` makes, if it makes objects.
+    /// Returns the type of the objects that `constructor` makes, if it is an object constructor.
     pub(super) fn kind_of(&self, constructor: &Function) -> Option<Arc<Kind>> {
         self.constructed.borrow().get(&(constructor.to_pointer() as usize)).cloned()
     }
 
-    /// Whoever runs the line at hand, as one that asks for names.
+    /// Returns the name scope of the line that is being run.
     pub(crate) fn scope_at(&self, lua: &Lua) -> NameScope {
         match self.machine() {
             Ok(machine) => self.scope_of(Machine::asker(lua, &machine.session)),
@@ -131,7 +139,7 @@ impl Library {
         }
     }
 
-    /// Returns who asks a question, if there are packages whose modules may have one name.
+    /// Returns the scope of a query; `None` without packages, because then module names are unique.
     pub(crate) fn question_scope<'a>(
         &self,
         session: &'a Session,
@@ -141,14 +149,14 @@ impl Library {
         has_packages.then(|| Arc::new(self.scope_of(asker(session))))
     }
 
-    /// A package, or the script, as one that asks for names.
+    /// Returns the name scope of a package, or of the script.
     pub(crate) fn scope_of(&self, package: Option<&Package>) -> NameScope {
         let package: Option<Arc<str>> = package.map(|package| package.manifest.name.as_str().into());
         let required = self.required.borrow().get(&package).cloned().unwrap_or_default();
         NameScope { package, required }
     }
 
-    /// The value of a parameter that is being declared, as far as it is given from outside.
+    /// Returns the value of a parameter for this run, from options, preset or default.
     fn given(&self, param: &Param) -> Result<Setting> {
         let machine = self.machine()?;
         let session = &machine.session;
@@ -170,13 +178,13 @@ impl Library {
                 .filter(|other| other.short_name() == name && other.package != param.package)
         };
         match param.package {
-            // The script's own is meant, wherever it is declared.
+            // The name denotes the script's own parameter, even if it is declared later.
             Some(_) if session.declares_own(name) => param.given(&values.set, values.preset.as_ref(), false),
             Some(_) => match others().find(|other| other.package.is_some()) {
                 Some(other) => Err(Param::ambiguous(&[other, param])),
                 None => param.given(&values.set, values.preset.as_ref(), true),
             },
-            // That it is the script's own could not be seen before.
+            // Static analysis did not find this declaration, so the value may have gone to a package before.
             None => match others().find(|other| !is_set(&other.name) && !session.declares_own(name)) {
                 Some(other) => {
                     let owner = other.package.as_deref().unwrap_or("a package");
@@ -188,8 +196,8 @@ impl Library {
         }
     }
 
-    /// Declares a parameter, or tells that it has been declared before. The same words in another file, or in the same
-    /// line once more, share it.
+    /// Adds a parameter, or warns that the name is already declared. An equal declaration in another file, or
+    /// in the same line again, shares the parameter.
     fn add_param(&self, param: Param, place: Option<SourcePlace>) -> Result<()> {
         let machine = self.machine()?;
         let mut params = self.params.borrow_mut();
@@ -213,12 +221,13 @@ impl Library {
         Ok(())
     }
 
-    /// Refuses what belongs at the top level while rules run; the standard library is always at the top.
+    /// Fails if rules are running, because `what` is allowed only at the top level. The standard library
+    /// always runs at the top level.
     pub(super) fn at_top_level(&self, what: &str) -> Result<()> {
         self.machine()?.refuse_in_rules(what)
     }
 
-    /// Gives the machine its globals and runs the standard library.
+    /// Sets the globals of the machine and runs the standard library.
     pub(crate) fn install(&self, machine: &Machine) -> Result<()> {
         self.install_names(machine).map_err(|error| machine.translate(error))?;
         self.install_pending(machine).map_err(|error| machine.translate(error))?;
@@ -258,14 +267,14 @@ impl Library {
         Ok(())
     }
 
-    /// Gives the machine what makes modules that stand for others.
+    /// Creates the constructors of placeholder modules.
     fn install_pending(&self, machine: &Machine) -> mlua::Result<()> {
         let symbols = self.symbols.borrow();
         let [query, fragment] = [QUERY, FRAGMENT].map(|symbol| machine.constructor(&symbols, symbol));
         machine.prelude().pending.call((query?, fragment?))
     }
 
-    /// Makes native code of the standard library once a script that names one of its functions is loaded.
+    /// Compiles the standard library to native code once a script that names one of its functions is loaded.
     pub(crate) fn prepare_functions(&self, lua: &Lua, text: &str) -> mlua::Result<()> {
         if self.functions.borrow().iter().any(|name| text.contains(name))
             && let Some(chunk) = self.standard_chunk.take()
@@ -275,7 +284,7 @@ impl Library {
         Ok(())
     }
 
-    /// Notes the functions of Rust and C that every script has; they remember nothing between calls.
+    /// Records the Rust and C functions of all scripts as stateless.
     fn note_functions(&self, globals: &Table) {
         let mut known = self.stateless.borrow_mut();
         for pair in globals.pairs::<LuaValue, LuaValue>().flatten() {
@@ -333,10 +342,10 @@ impl Library {
         self.install_api(machine, &globals)?;
         lua.set_app_data(EagerMark(Arc::clone(&machine.session)));
         install_lazy(lua, self)?;
-        install_geometries(machine, &globals)?;
         self.registry.borrow_mut().clone_from(&machine.session.options.registry);
         for kind in machine.session.options.registry.kinds() {
             install_kind(machine, &globals, kind)?;
+            install_functions(machine, kind, &globals)?;
             if matches!(kind.construct, Construct::Fields(_)) {
                 self.kinds.borrow_mut().push(kind.name.to_string());
             }
@@ -346,7 +355,7 @@ impl Library {
             "__interpretation",
             lua.create_function(move |_, (kind, module, method): (String, String, String)| {
                 let symbol = library.symbols.borrow().find(&module).map_err(mlua::Error::external)?;
-                // A run without the type has no system that draws with it.
+                // If the run does not have this type, no system draws with it.
                 let registry = library.registry.borrow();
                 let Some(known) = registry.get(&kind) else { return Ok(()) };
                 let method = known.methods.iter().position(|known| known.name == method);
@@ -368,7 +377,7 @@ impl Library {
         )
     }
 
-    /// What declares modules and parameters, and what tells of the run.
+    /// Sets the globals that declare modules and parameters, and the globals about the run.
     fn install_plain(&self, machine: &Machine, globals: &Table) -> mlua::Result<()> {
         let lua = machine.lua();
         let library = std::rc::Rc::clone(&machine.library);
@@ -429,7 +438,7 @@ impl Library {
         )
     }
 
-    /// What declares systems and types of objects.
+    /// Sets the globals that declare systems and object types.
     fn install_systems(&self, machine: &Machine, globals: &Table) -> mlua::Result<()> {
         let lua = machine.lua();
         let library = std::rc::Rc::clone(&machine.library);
@@ -467,7 +476,7 @@ impl Library {
         )
     }
 
-    /// What brings data and other files.
+    /// Sets the globals that load data and other files.
     fn install_files(&self, machine: &Machine, globals: &Table) -> mlua::Result<()> {
         let lua = machine.lua();
         let library = std::rc::Rc::clone(&machine.library);
@@ -495,7 +504,7 @@ impl Library {
         )
     }
 
-    /// What scripts can rely on.
+    /// Sets the global `api`.
     fn install_api(&self, machine: &Machine, globals: &Table) -> mlua::Result<()> {
         let lua = machine.lua();
         let api = lua.create_table()?;
@@ -529,7 +538,7 @@ fn declare(
     parameters: &[String],
 ) -> Result<(Symbol, Function)> {
     let symbol = match name.contains('.') {
-        // Burgeon itself names modules of packages so, in successors that are given as texts.
+        // Successors given as text use qualified names of package modules.
         true => library.symbols.borrow().find_in(name, scope)?,
         false => {
             let signature = Signature::new(name, parameters)?;
@@ -539,7 +548,8 @@ fn declare(
     if let Some(constructor) = library.constructors.borrow().get(&symbol) {
         return Ok((symbol, constructor.clone()));
     }
-    // The standard library declares modules before the machine is complete, so the prelude is asked directly.
+    // The standard library declares modules before the machine is complete, so the prelude is called
+    // directly.
     let machine = library.machine()?;
     let constructor =
         machine.constructor(&library.symbols.borrow(), symbol).map_err(|error| machine.translate(error))?;
@@ -555,7 +565,7 @@ fn print(lua: &Lua, values: &MultiValue, hook: &Print) -> mlua::Result<()> {
     let mut texts = Vec::new();
     for value in values {
         let text = tostring.call::<LuaString>(value)?;
-        // It is copied again where it is shown.
+        // The receiver copies the text again.
         MemoryOwner::ensure_room(3 * text.as_bytes().len()).map_err(mlua::Error::external)?;
         texts.push(any_bytes(&text.as_bytes()));
     }
@@ -563,7 +573,7 @@ fn print(lua: &Lua, values: &MultiValue, hook: &Print) -> mlua::Result<()> {
     Ok(())
 }
 
-/// Bytes as text; those that are not UTF-8 are written out, such as `\xff`.
+/// Returns bytes as text; invalid UTF-8 is escaped, such as `\xff`.
 fn any_bytes(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len());
     for chunk in bytes.utf8_chunks() {
@@ -573,6 +583,6 @@ fn any_bytes(bytes: &[u8]) -> String {
     text
 }
 
-/// Marks a machine whose script another machine runs, too, so that its top level prints nothing. Holds the
-/// function that tells whether the top level is running.
+/// Marks a machine that runs the same script as another machine, so its top level must not print. Contains
+/// the function that returns the current phase.
 pub(crate) struct PrintSwitch(pub Function);

@@ -1,7 +1,7 @@
-//! A virtual machine: a sandboxed Luau with the hot path's Lua side, one in each thread.
+//! Virtual machine: a sandboxed Luau state with the Lua side of the hot path; one per thread.
 //!
-//! Input: a script and a session. Output: the systems that the script declares, and what their rules return. Nothing
-//! is rewritten here, and nothing of a script reaches files or the system but through the session.
+//! Input: a script and a session. Output: the declared systems, and the results of their rules. This folder
+//! rewrites nothing. Scripts reach files and the operating system only through the session.
 
 mod blank;
 #[cfg(test)]

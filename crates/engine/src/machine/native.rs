@@ -1,22 +1,23 @@
-//! Native code of Lua functions: made where the program has the feature `jit` and the processor is one that Luau knows.
-//! Otherwise functions stay bytecode, and do the same.
+//! Native code for Lua functions, with the feature `jit` on processors that Luau supports. Otherwise
+//! functions stay bytecode, with the same results.
 
 use mlua::{Function, Lua};
 
 #[cfg(feature = "jit")]
 use std::sync::LazyLock;
 
-/// Whether Luau makes native code for this processor. Asking takes tens of microseconds where the computer is virtual.
+/// Set if Luau makes native code for this processor. The value is cached, because the test takes tens of
+/// microseconds in a virtual machine.
 #[cfg(feature = "jit")]
 static SUPPORTED: LazyLock<bool> = LazyLock::new(|| {
     #[allow(unsafe_code, reason = "mlua does not tell")]
-    // SAFETY: the function takes nothing and only looks at what the processor says of itself.
+    // SAFETY: the function takes no arguments and only reads the processor's features.
     unsafe {
         mlua::ffi::luau_codegen_supported() != 0
     }
 });
 
-/// Whether what is loaded from now on becomes native code at once.
+/// Sets whether functions are compiled to native code as soon as they are loaded.
 pub(super) fn set_native(lua: &Lua, on: bool) {
     #[cfg(feature = "jit")]
     lua.enable_jit(on);
@@ -24,7 +25,7 @@ pub(super) fn set_native(lua: &Lua, on: bool) {
     let _ = (lua, on);
 }
 
-/// What `load` gives of `lua`, which stays bytecode until it is made [`native`].
+/// Calls `load` so that the loaded functions stay bytecode until [`native`] compiles them.
 pub(super) fn as_bytecode<T>(lua: &Lua, load: impl FnOnce() -> T) -> T {
     set_native(lua, false);
     let loaded = load();
@@ -32,12 +33,12 @@ pub(super) fn as_bytecode<T>(lua: &Lua, load: impl FnOnce() -> T) -> T {
     loaded
 }
 
-/// Makes native code of a Lua function and of those within it, unless it has been made.
+/// Compiles a Lua function, and the functions inside it, to native code, unless this has been done.
 #[cfg(feature = "jit")]
 pub(crate) fn native(lua: &Lua, function: &Function) -> mlua::Result<()> {
     #[allow(unsafe_code, reason = "mlua makes native code of whole files only")]
-    // SAFETY: luau_codegen_compile takes the index of a Lua function and leaves the stack as it was; mlua has set up
-    // code generation for this state, which it has done wherever it made native code itself.
+    // SAFETY: luau_codegen_compile takes the index of a Lua function and leaves the stack unchanged. mlua has
+    // set up code generation for this state, as it does wherever it makes native code itself.
     unsafe {
         lua.exec_raw::<()>(function, |state| {
             if *SUPPORTED {
@@ -48,7 +49,7 @@ pub(crate) fn native(lua: &Lua, function: &Function) -> mlua::Result<()> {
     }
 }
 
-/// Leaves a Lua function as it is.
+/// Leaves a Lua function unchanged.
 #[cfg(not(feature = "jit"))]
 #[allow(clippy::unnecessary_wraps, reason = "with native code it may fail")]
 pub(crate) fn native(_: &Lua, _: &Function) -> mlua::Result<()> {

@@ -1,4 +1,4 @@
-//! The prelude: the Lua side of the hot path, and what scripts see.
+//! Prelude: the Lua side of the hot path, and globals of scripts.
 
 use std::sync::LazyLock;
 
@@ -10,7 +10,7 @@ use crate::machine::system::UNREAD;
 use crate::machine::types::POINTS;
 use burgeon_rewriting::Successors;
 
-/// Its parts: one chunk of Luau, whose locals each part has from those before it.
+/// Parts of the prelude: one chunk of Luau, in which each part uses the locals of the parts before it.
 const PARTS: [&str; 12] = [
     include_str!("prelude/batch.luau"),
     include_str!("prelude/constructors.luau"),
@@ -26,50 +26,53 @@ const PARTS: [&str; 12] = [
     include_str!("prelude/exports.luau"),
 ];
 
-/// The parts written out and compiled, once for all machines.
+/// Bytecode of the expanded parts, compiled once for all machines.
 static COMPILED: LazyLock<Vec<u8>> = LazyLock::new(|| super::compile(&expand(&with_words(&PARTS.concat()))));
 
-/// The functions of the prelude that Rust calls.
+/// Functions of the prelude that Rust calls.
 pub(crate) struct Prelude {
-    /// `(symbol, signature)`: a module's constructor.
+    /// `(symbol, signature)`: returns the constructor of a module.
     pub constructor: Function,
-    /// `(query, fragment)`: the constructors of the modules that stand for others.
+    /// `(query, fragment)`: sets the constructors of the placeholder modules.
     pub pending: Function,
-    /// `(rule, arity, places)`: a function that applies the rule to a batch; `places` are those of its arguments by name.
+    /// `(rule, arity, places)`: returns a function that applies the rule to a batch; `places` has the
+    /// argument indices by name.
     pub driver: Function,
-    /// `(guard, arity, places)`: a function that asks the guard about a batch.
+    /// `(guard, arity, places)`: returns a function that evaluates the guard for a batch.
     pub guard_driver: Function,
     /// `(id, rule, arity, places)`: sets an interpretation rule.
     pub interpreter: Function,
-    /// `(method, name, arity, kind)`: a method that records its calls.
+    /// `(method, name, arity, kind)`: returns a method that records its calls.
     pub recorder: Function,
-    /// `(method, name, changes, kind)`: a method that runs at once.
+    /// `(method, name, changes, kind)`: returns a method that runs immediately.
     pub direct: Function,
-    /// `(count)`: interprets a batch; gives the calls and arguments recorded last.
+    /// `(count)`: interprets a batch; returns the numbers of calls and arguments recorded last.
     pub interpret: Function,
-    /// `(entry, call)`: runs an interpretation rule again, and fails at one of its recorded calls.
+    /// `(entry, call)`: runs an interpretation rule again, and raises an error at one of its recorded calls.
     pub relive: Function,
     /// Ends a batch that failed.
     pub finish: Function,
-    /// The application at hand.
+    /// Returns the current application.
     pub at: Function,
-    /// `(object, kind, type)`: sets `this`, the name of its type, and the type itself if the script declared it.
+    /// `(object, kind, type)`: sets `this`, the name of its type, and the type itself if the script declared
+    /// it.
     pub set_this: Function,
-    /// `(type)`: makes a type known that the script declares.
+    /// `(type)`: adds a type that the script declares.
     pub script_type: Function,
     /// `(kind, methods, type, reads, changes)`: adds functions of the script to a type.
     pub extension: Function,
-    /// `(type)`: what is run at the beginning and the end of a chain, and where a branch opens and closes.
+    /// `(type)`: returns the functions that run at the start and end of a chain, and at the start and end of
+    /// a branch.
     pub hooks: Function,
-    /// Forgets cached parameters.
+    /// Drops cached parameters.
     pub forget_values: Function,
-    /// Forgets the interpretation rules of the last system.
+    /// Drops the interpretation rules of the last system.
     pub fresh_interpreters: Function,
-    /// What scripts get from it.
+    /// Globals of scripts.
     pub globals: Table,
-    /// What is being done: 0 nothing, 1 a rule, 2 a guard, 3 an interpretation.
+    /// Returns the current phase: 0 top level, 1 rule, 2 guard, 3 interpretation.
     pub phase: Function,
-    /// `(value)`: whether it is a module made outside of rules.
+    /// `(value)`: returns true for a module made outside of rules.
     pub is_module: Function,
     points: Function,
     unread: Function,
@@ -82,7 +85,8 @@ pub(crate) struct Prelude {
 }
 
 impl Prelude {
-    /// The prelude as bytecode: called with the functions that Rust gives to it, it returns what [`Prelude::new`] takes.
+    /// Loads the prelude as bytecode. The function takes the Rust functions for the prelude, and returns the
+    /// argument of [`Prelude::new`].
     pub(super) fn chunk(lua: &Lua) -> mlua::Result<Function> {
         let chunk = lua.load(COMPILED.as_slice()).set_name("=burgeon").set_mode(ChunkMode::Binary);
         as_bytecode(lua, || chunk.into_function())
@@ -121,44 +125,45 @@ impl Prelude {
         })
     }
 
-    /// Keeps what makes features and their geometries where sources find it.
+    /// Stores the functions that make features and their geometries in the registry, for sources.
     pub(super) fn keep_features(&self, lua: &Lua) -> mlua::Result<()> {
         lua.set_named_registry_value(UNREAD, &self.unread)?;
         lua.set_named_registry_value(POINTS, &self.points)
     }
 
-    /// The column of arguments, at least `size` bytes long.
+    /// Returns the column of arguments, at least `size` bytes long.
     pub(crate) fn input(&self, size: usize) -> mlua::Result<Buffer> {
         self.input.call(size)
     }
 
-    /// The column of counts, at least `size` bytes long.
+    /// Returns the column of counts, at least `size` bytes long.
     pub(crate) fn counts(&self, size: usize) -> mlua::Result<Buffer> {
         self.counts.call(size)
     }
 
-    /// The column of random numbers, `each` for an application.
+    /// Returns the column of random numbers, `each` per application.
     pub(crate) fn randoms(&self, size: usize, each: usize) -> mlua::Result<Buffer> {
         self.randoms.call((size, each))
     }
 
-    /// The column that tells which interpretation rule each entry runs.
+    /// Returns the column of the interpretation rule of each entry.
     pub(crate) fn entries(&self, size: usize) -> mlua::Result<Buffer> {
         self.entries.call(size)
     }
 
-    /// The columns of new symbols and parameters, and that of their order with its length.
+    /// Returns the columns of new symbols and parameters, and the column of their order with its length.
     pub(crate) fn outputs(&self) -> mlua::Result<(Buffer, Buffer, Buffer, usize)> {
         self.outputs.call(())
     }
 
-    /// The columns of recorded calls, their arguments, and the number of calls up to each entry.
+    /// Returns the columns of recorded calls, of their arguments, and of the number of calls up to each
+    /// entry.
     pub(crate) fn recorded(&self) -> mlua::Result<(Buffer, Buffer, Buffer)> {
         self.recorded.call(())
     }
 }
 
-/// Puts the words of successors that Rust reads in the places of their names, such as `@KEEP`.
+/// Replaces names such as `@KEEP` by the constants with which Rust reads successors.
 fn with_words(template: &str) -> String {
     [
         ("@KEEP", Successors::KEEP),
@@ -193,7 +198,7 @@ fn expand(template: &str) -> String {
     out
 }
 
-/// One line of the template for `count` parameters.
+/// Returns one line of the template for `count` parameters.
 fn instance(line: &str, count: usize) -> String {
     let names: Vec<String> = (1..=count).map(|index| format!("a{index}")).collect();
     if let Some(each) = line.trim().strip_prefix("@{").and_then(|line| line.strip_suffix('}')) {

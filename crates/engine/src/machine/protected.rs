@@ -1,5 +1,5 @@
-//! Calls functions of a script so that it is known where memory ran out: an error of that kind has no place, and
-//! nothing can be asked of the stack any more once the call has failed.
+//! Protected calls of script functions, which record the line where memory ran out. Such an error has no
+//! location, and the stack is gone once the call has failed.
 
 use std::cell::RefCell;
 use std::ffi::{CStr, c_int};
@@ -10,15 +10,16 @@ use super::Machine;
 use super::virtual_machine::OUT_OF_MEMORY_IN_LUA;
 use burgeon_base::error::SourcePlace;
 
-/// A heap that has grown by half of this (bytes) or less is not worth a collection.
+/// Minimum remaining memory (bytes) that is assumed when deciding on a collection: smaller heap growth is not
+/// worth one.
 const SCARCE: usize = 2 << 20;
 
 thread_local! {
-    /// Where memory ran out last.
+    /// Location where memory ran out last.
     static EXHAUSTED: RefCell<Option<SourcePlace>> = const { RefCell::new(None) };
 }
 
-/// Where memory ran out, if that has not been asked since.
+/// Takes the location where memory ran out, if there is a new one.
 pub(super) fn exhausted() -> Option<SourcePlace> {
     EXHAUSTED.take()
 }
@@ -34,43 +35,44 @@ impl Machine {
         self.protected.call((function, arguments))
     }
 
-    /// Limits the memory of the machine to what it uses and what the run has left.
+    /// Limits the memory of the machine to its used memory plus the remaining memory of the run.
     fn limit_memory(&self) {
         let Some(memory) = self.session.stop.memory() else { return };
         let mut remaining = memory.remaining();
-        // Luau collects garbage when the heap has doubled, which is too late for one that takes most of the memory.
+        // Luau collects garbage when the heap has doubled, which is too late for a heap with most of the
+        // memory.
         let is_scarce = remaining < self.session.options.limits.memory / 4;
         if is_scarce && self.lua().used_memory() > self.collected.get() + remaining.max(SCARCE) / 2 {
-            // What goes wrong is met by the call as well.
+            // The following call meets the same error.
             let _ = self.lua().gc_collect();
             self.collected.set(self.lua().used_memory());
             remaining = memory.remaining();
         }
         let limit = self.lua().used_memory().saturating_add(remaining);
-        // Only machines without an allocator of mlua's refuse a limit.
+        // Setting a limit fails only for machines without mlua's allocator.
         let _ = self.lua().set_memory_limit(limit.min(self.session.options.limits.memory).max(1));
     }
 }
 
-/// The function through which others are called: it takes one and its arguments.
+/// Returns the function for protected calls: it takes a function and its arguments.
 pub(super) fn function(lua: &Lua) -> mlua::Result<mlua::Function> {
     #[allow(unsafe_code, reason = "mlua keeps its handler of errors to itself")]
-    // SAFETY: `call` follows Luau's protocol for functions of C.
+    // SAFETY: `call` follows Luau's protocol for C functions.
     let function = unsafe { lua.create_c_function(call)? };
-    // Room for the handler is made now, by calls within calls: once memory has run out there is none to be had.
+    // Nested calls reserve stack space for the handler now: once memory has run out, none can be allocated.
     let mut nested: Vec<mlua::Value> = vec![mlua::Value::Function(function.clone()); DEPTH];
     nested.push(lua.globals().raw_get("type")?);
     function.call::<mlua::MultiValue>(mlua::Variadic::from(nested)).ok();
     Ok(function)
 }
 
-/// Calls within each other that a machine has room for from the beginning.
+/// Depth of nested calls for which a machine reserves stack space.
 const DEPTH: usize = 12;
 
 #[allow(unsafe_code, reason = "called by Luau")]
 unsafe extern "C-unwind" fn call(state: *mut ffi::lua_State) -> c_int {
-    // SAFETY: the function and its arguments are on the stack, and the handler goes below them; a function of C has
-    // room for at least 20 more values.
+    // SAFETY: the function and its arguments are on the stack, and the handler is inserted below them. A C
+    // function has room for at least 20 more values.
     unsafe {
         let arguments = ffi::lua_gettop(state) - 1;
         ffi::lua_pushcfunction(state, note);
@@ -82,21 +84,22 @@ unsafe extern "C-unwind" fn call(state: *mut ffi::lua_State) -> c_int {
     }
 }
 
-/// Notes where memory ran out; to any other error it adds the stack, as mlua does, which it leaves behind.
+/// Records the location where memory ran out. To any other error it adds the stack trace, as mlua does.
 #[allow(unsafe_code, reason = "called by Luau")]
 unsafe extern "C-unwind" fn note(state: *mut ffi::lua_State) -> c_int {
-    // SAFETY: the error is the one argument; texts that Luau points to end with 0 and live as long as the frame.
+    // SAFETY: the error is the only argument. Strings that Luau points to end with 0 and live as long as the
+    // frame.
     unsafe {
         match ffi::lua_type(state, 1) {
             ffi::LUA_TSTRING => {
                 let text = CStr::from_ptr(ffi::lua_tolstring(state, 1, std::ptr::null_mut()));
-                // Functions of C put their own line before it.
+                // C functions put their own location before the message.
                 if text.to_bytes().ends_with(OUT_OF_MEMORY_IN_LUA.as_bytes()) {
                     EXHAUSTED.set(place(state));
                     return 1;
                 }
             }
-            // One that comes from Rust knows its place, unless memory ran out.
+            // An error from Rust has its location, unless memory ran out.
             ffi::LUA_TUSERDATA => {
                 EXHAUSTED.set(place(state));
                 return 1;
@@ -111,10 +114,10 @@ unsafe extern "C-unwind" fn note(state: *mut ffi::lua_State) -> c_int {
     }
 }
 
-/// The innermost line of the script that is being run. Takes no memory of Lua's.
+/// Returns the innermost line of the script that is being run, without allocating Lua memory.
 #[allow(unsafe_code, reason = "Luau's functions take raw states")]
 unsafe fn place(state: *mut ffi::lua_State) -> Option<SourcePlace> {
-    // SAFETY: lua_getinfo fills the fields that "s" and "l" stand for, wherever it finds a function at the level.
+    // SAFETY: lua_getinfo fills the fields for "s" and "l" if it finds a function at the level.
     unsafe {
         let mut debug: ffi::lua_Debug = std::mem::zeroed();
         for level in 0..100 {

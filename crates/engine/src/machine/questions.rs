@@ -1,4 +1,4 @@
-//! The functions that Rust gives to `prelude/questions.luau`: what scripts ask of data, and what comes of it.
+//! Rust functions for `prelude/questions.luau`: SQL queries of scripts, and their results.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -15,17 +15,17 @@ use burgeon_analysis::sql_parameters;
 use burgeon_kit::Value;
 use burgeon_rewriting::{Pattern, Symbols};
 
-/// The values of answers that a machine keeps as tables.
+/// Maximum number of result values that a machine keeps as tables.
 const MOST: usize = 200_000;
 
-/// Answers as tables, by where they lie in memory.
+/// Query results as tables, by the address of the rows.
 #[derive(Default)]
 struct RowTables {
     known: FxHashMap<usize, (Arc<Rows>, Table)>,
     values: usize,
 }
 
-/// Adds those that [`prelude/questions.luau`](self) calls.
+/// Adds the functions that [`prelude/questions.luau`](self) calls.
 pub(super) fn add_questions(
     lua: &Lua,
     host: &Table,
@@ -90,7 +90,7 @@ pub(super) fn add_questions(
     )
 }
 
-/// A frozen list of frozen tables, one for each row, without what is NULL.
+/// Returns a frozen list of frozen tables, one per row, without NULL values.
 fn row_tables(lua: &Lua, rows: &Rows) -> mlua::Result<Table> {
     let names: Vec<LuaString> =
         rows.names.iter().map(|name| lua.create_string(name.as_bytes())).collect::<mlua::Result<_>>()?;
@@ -107,7 +107,7 @@ fn row_tables(lua: &Lua, rows: &Rows) -> mlua::Result<Table> {
     Ok(list)
 }
 
-/// The places of the arguments of a rule with this pattern, by name, for `prelude/questions.luau`.
+/// Returns the argument indices of a rule with this pattern, by name, for `prelude/questions.luau`.
 pub(super) fn argument_places(lua: &Lua, pattern: &Pattern, symbols: &Symbols) -> mlua::Result<Table> {
     let places = lua.create_table()?;
     for (place, name) in pattern.arguments(symbols) {

@@ -1,4 +1,4 @@
-//! `require`: other files of the script's folder and of packages, each run once.
+//! `require`: files of the script's folder and of packages, each run once.
 
 use std::path::{Path, PathBuf};
 
@@ -12,7 +12,7 @@ use crate::declare::paths::{is_absolute, lead};
 use burgeon_base::error::{Error, ErrorKind, Result, SourcePlace};
 use burgeon_packages::{FileName, Package};
 
-/// Runs another file once and gives what it returns.
+/// Runs another file once and returns its result.
 pub(super) fn require(library: &Library, session: &Session, lua: &Lua, name: &str) -> Result<LuaValue> {
     let machine = library.machine()?;
     let bare = name.strip_suffix(".lua").unwrap_or(name);
@@ -53,7 +53,7 @@ pub(super) fn require(library: &Library, session: &Session, lua: &Lua, name: &st
 }
 
 impl Machine {
-    /// Runs every Lua file of `package`, and looks for the files of packages that they name.
+    /// Runs every Lua file of `package`, and checks the names of package files in them.
     pub(crate) fn run_package(&self, package: &Package) -> Result<()> {
         let (library, session) = (&self.library, &self.session);
         let mut problems = session.packages().check_files(package);
@@ -72,7 +72,7 @@ impl Machine {
     }
 }
 
-/// Runs the file at `path`, which people find as `shown`.
+/// Runs the file at `path` with the display name `shown`.
 fn load(
     library: &Library,
     session: &Session,
@@ -99,9 +99,11 @@ fn load(
     Ok(value)
 }
 
-/// Makes what a package gives to others read-only, so that none of them changes it for the rest: every table that can be
-/// reached through tables and their metatables, also through those that are read-only already. What functions capture stays
-/// as it is. Fails for a buffer, which nothing makes read-only.
+/// Makes the exports of a package read-only, so that no user of the package can change them for the others.
+///
+/// Freezes every table that can be reached through tables and metatables, also through tables that are
+/// already read-only. Captured variables of functions stay writable. Fails for a buffer, which cannot be
+/// read-only.
 fn freeze_all(value: &LuaValue, package: &str) -> Result<()> {
     let mut queue = vec![value.clone()];
     let mut seen = FxHashSet::default();
@@ -126,20 +128,20 @@ fn freeze_all(value: &LuaValue, package: &str) -> Result<()> {
     Ok(())
 }
 
-/// The folder of the file that is being run, as people find it.
+/// Returns the folder of the file that is being run, as in messages.
 fn caller(lua: &Lua) -> PathBuf {
     let place = Machine::place(lua);
     place.and_then(|place| Some(Path::new(&place.file).parent()?.to_path_buf())).unwrap_or_default()
 }
 
-/// The file of a package and its name for messages.
+/// Returns the path of a package file and its display name.
 fn located(session: &Session, name: &FileName, asker: Option<&Package>) -> Result<(PathBuf, String)> {
     let located = session.locate("file", name, asker)?;
     Ok((located.path, located.shown.display().to_string()))
 }
 
-/// The file that `require(bare)` means in a file of `package` in the folder `from`: from that folder, or from the
-/// package's.
+/// Finds the file for `require(bare)` in a file of `package` in the folder `from`: relative to `from`, or to
+/// the package.
 fn find_in_package(
     session: &Session,
     package: &Package,
@@ -172,7 +174,7 @@ fn find_in_package(
     Err(missing.unwrap_or_else(outside))
 }
 
-/// The file that `require(name)` means, and its name for messages.
+/// Finds the file for `require(name)`, and returns its path and display name.
 fn find(session: &Session, from: &Path, name: &str, bare: &str) -> Result<(PathBuf, String)> {
     let outside = || {
         Error::file(name, format!("require(\"{name}\") leads outside the script's folder"))

@@ -1,4 +1,4 @@
-//! The classes of tables that the standard library declares, such as vectors: they keep their operators as parameters.
+//! Table classes of the standard library, such as vectors: their tables keep their operators as parameters.
 
 use mlua::{Function, Lua, MultiValue, Table as LuaTable};
 use rustc_hash::FxHashMap;
@@ -7,20 +7,20 @@ use burgeon_kit::{Table, TableKey};
 
 use super::convert::to_lua;
 
-/// The classes that a virtual machine knows, by their names.
+/// Table classes of a virtual machine, by name.
 #[derive(Default)]
 struct TableClasses(FxHashMap<String, TableClass>);
 
 struct TableClass {
     metatable: LuaTable,
-    /// Makes one of the values of its fields, which is quicker than to make a table field by field; a library of
-    /// somebody's own may do without.
+    /// Constructor from the values of the fields, which is faster than setting the fields one by one. A
+    /// custom standard library can omit it.
     make: Option<Function>,
-    /// The fields that every table of the class has, in order.
+    /// Fields that every table of the class has, in order.
     fields: Vec<String>,
 }
 
-/// Takes a class up: `make` gives a table of it for the values of its `fields`, which are in order.
+/// Declares a class. `make` returns a table of the class for the values of its `fields`, in order.
 pub(super) fn declare_class(
     lua: &Lua,
     name: String,
@@ -35,7 +35,7 @@ pub(super) fn declare_class(
     Ok(())
 }
 
-/// The table in Lua if its class has just these fields; tables in it are frozen if `freeze`.
+/// Returns the Lua table if its class has exactly these fields. Nested tables are frozen if `freeze` is set.
 pub(super) fn made_of_class(lua: &Lua, table: &Table, freeze: bool) -> mlua::Result<Option<LuaTable>> {
     let Some(class) = &table.class else { return Ok(None) };
     let Some(make) = lua.app_data_ref::<TableClasses>().and_then(|classes| {
@@ -52,7 +52,7 @@ pub(super) fn made_of_class(lua: &Lua, table: &Table, freeze: bool) -> mlua::Res
     make.call(values.collect::<mlua::Result<MultiValue>>()?).map(Some)
 }
 
-/// The metatable of a class.
+/// Returns the metatable of a class.
 pub(super) fn metatable_of(lua: &Lua, class: &str) -> Option<LuaTable> {
     lua.app_data_ref::<TableClasses>()?.0.get(class).map(|class| class.metatable.clone())
 }

@@ -1,4 +1,4 @@
-//! The virtual machine: its libraries, its limits, and what its errors say.
+//! Virtual machine: libraries, limits, and translation of errors.
 
 use std::cell::Cell;
 use std::io::{Read, Write};
@@ -20,39 +20,39 @@ use burgeon_rewriting::{Symbol, Symbols};
 use mlua::chunk::ChunkMode;
 use mlua::{Buffer, Function, Lua, Value};
 
-/// The name of the machine's own Lua code in tracebacks.
+/// Name of the machine's own Lua code in tracebacks.
 const OWN: &str = "burgeon";
 
-/// What Luau says when there is no memory left.
+/// Message of Luau if memory is exhausted.
 pub(super) const OUT_OF_MEMORY_IN_LUA: &str = "not enough memory";
 
-/// Bytes of an error's message that are shown; a script may raise a string of any length.
+/// Maximum length (bytes) of a shown error message; scripts can raise strings of any length.
 const LONGEST_MESSAGE: usize = 10_000;
 
-/// A virtual machine that runs a script and the rules it declares.
+/// Virtual machine that runs a script and its rules.
 pub struct Machine {
-    // Declared before the state, so that nobody reaches for the state while it closes.
+    // Declared before the state, so it is dropped first and the watchdog never uses a closing state.
     guard: watchdog::Registration,
     lua: Lua,
-    /// The run that it belongs to.
+    /// Run that the machine belongs to.
     pub session: Arc<Session>,
-    /// It stays in its thread, which works on that run until the machine goes.
+    /// Marks the thread as working on the run until the machine is dropped.
     _work: StopAtWork,
-    /// What the functions that Rust gives to Lua need to know of the work at hand.
+    /// Current work, for the Rust functions that Lua calls.
     pub(crate) current: Rc<WorkState>,
     pub(crate) library: Rc<Library>,
-    /// Who derives its systems.
+    /// Driver that derives the systems.
     pub(crate) driver: Rc<dyn Driver>,
     prelude: Prelude,
-    /// Calls a function of the script.
+    /// Function for protected calls of script functions.
     pub(super) protected: Function,
     epoch: Cell<usize>,
-    /// Memory (bytes) that was left after the last collection that was forced.
+    /// Used memory (bytes) after the last forced collection.
     pub(super) collected: Cell<usize>,
 }
 
 impl Machine {
-    /// A machine with the standard library loaded and everything else locked away.
+    /// Creates a sandboxed machine with the standard library.
     pub(crate) fn new(
         session: &Arc<Session>,
         watchdog: &Watchdog,
@@ -95,7 +95,7 @@ impl Machine {
         Ok(machine)
     }
 
-    /// Runs the script's main file, and tells what it has declared in vain.
+    /// Runs the script's main file, and warns about declarations without effect.
     pub fn run(&self) -> Result<()> {
         let session = &self.session;
         let path = session
@@ -115,20 +115,20 @@ impl Machine {
         Ok(())
     }
 
-    /// Takes notice of something that people should know of the line of the script that is being run. A machine that
-    /// only helps says nothing, for the leading one runs the same line.
+    /// Adds a warning at the line of the script that is being run. A helper machine adds none, because the
+    /// leading machine runs the same line.
     pub(crate) fn warn(&self, warning: Warning) {
         if self.driver.leads() {
             self.session.warn(warning.at(Self::place(&self.lua)).called_at(Self::outermost(&self.lua)));
         }
     }
 
-    /// Keeps the script from printing, since another machine runs it too.
+    /// Suppresses the output of the script, because another machine also runs it.
     pub(crate) fn silence(&self) {
         self.lua.set_app_data(PrintSwitch(self.prelude.phase.clone()));
     }
 
-    /// Empties the caches of parameters if some of them have been dropped.
+    /// Clears the caches of parameters if parameter values have been dropped.
     pub(crate) fn refresh(&self) {
         let epoch = self.session.values.epoch();
         if self.epoch.replace(epoch) != epoch {
@@ -137,7 +137,7 @@ impl Machine {
         }
     }
 
-    /// Works for system `index` of the script from now on.
+    /// Switches the machine to system `index` of the script.
     pub(crate) fn enter(&self, index: usize) -> Result<()> {
         if self.current.system.replace(Some(index)) == Some(index) {
             return Ok(());
@@ -145,7 +145,8 @@ impl Machine {
         self.library.systems.borrow()[index].enter(self).map_err(|error| self.translate(error))
     }
 
-    /// The application that a batch was at when it failed, the modules that it had made, and the calls it had recorded.
+    /// Returns the application at which a batch failed, the number of modules it had made, and the number of
+    /// calls it had recorded.
     pub(crate) fn failed_at(&self) -> Option<(usize, f64, usize)> {
         self.guard.despite_stop(|| self.prelude.at.call(()).ok())
     }
@@ -158,12 +159,12 @@ impl Machine {
         &self.prelude
     }
 
-    /// Compiles `text`; errors name the file `name`.
+    /// Compiles `text`. Errors refer to the file `name`.
     pub(crate) fn load(&self, name: &str, text: &str) -> Result<Function> {
         self.load_text(name, text, None)
     }
 
-    /// The function that is a whole file of the script.
+    /// Returns the function of a script file.
     pub(crate) fn load_file(&self, file: &SourceFile) -> Result<Function> {
         self.load_text(&file.name, &file.analysis.text, file.analysis.code.as_deref())
     }
@@ -177,14 +178,14 @@ impl Machine {
         chunk.set_name(format!("@{name}")).into_function().map_err(|error| self.translate(error))
     }
 
-    /// A function from what [`compile`] gave, as bytecode until it is made [`native`]; what goes wrong in it is told in
-    /// the line of the script that called it.
+    /// Loads bytecode from [`compile`], without native code until [`native`] is called. Errors in it refer to
+    /// the calling line of the script.
     pub(crate) fn load_compiled(&self, code: &[u8]) -> Result<Function> {
         let chunk = self.lua.load(code).set_name(format!("={OWN}")).set_mode(ChunkMode::Binary);
         as_bytecode(&self.lua, || chunk.into_function()).map_err(|error| self.translate(error))
     }
 
-    /// A module's constructor.
+    /// Creates the constructor of a module.
     pub(crate) fn constructor(&self, symbols: &Symbols, symbol: Symbol) -> mlua::Result<Function> {
         let signature = symbols.signature(symbol);
         let table = self.lua.create_table()?;
@@ -201,10 +202,11 @@ impl Machine {
         self.prelude.constructor.call((symbol, table))
     }
 
-    /// What a Lua error means: the place and the remedy taken out of its text.
+    /// Converts a Lua error: extracts location and remedy from its text, and replaces it if the run was
+    /// stopped.
     pub(crate) fn translate(&self, error: mlua::Error) -> Error {
         let limit = self.session.options.limits.memory;
-        // Where memory is out there may be none to tell of it either.
+        // If memory is exhausted, the error handler may fail too.
         let is_full = self.lua.used_memory() > limit / 2;
         let out_of_memory = is_out_of_memory(&error) || is_full && is_error_of_a_handler(&error);
         let translated = translate(&error);
@@ -224,7 +226,7 @@ impl Machine {
         }
     }
 
-    /// Refuses what belongs at the top level while rules run.
+    /// Fails if rules are running, because `what` is allowed only at the top level.
     pub(crate) fn refuse_in_rules(&self, what: &str) -> Result<()> {
         match self.prelude.phase.call::<u8>(()) {
             Ok(0) => Ok(()),
@@ -233,7 +235,7 @@ impl Machine {
         }
     }
 
-    /// The package whose file is being run; none for the script's own.
+    /// Returns the package of the file that is being run; `None` for the script's own files.
     pub(crate) fn asker<'a>(lua: &Lua, session: &'a Session) -> Option<&'a Package> {
         if session.packages().order().is_empty() {
             return None;
@@ -241,18 +243,18 @@ impl Machine {
         session.package_of(&Self::place(lua)?.file)
     }
 
-    /// The line of the script that is being run.
+    /// Returns the line of the script that is being run.
     pub(crate) fn place(lua: &Lua) -> Option<SourcePlace> {
         (1..20).find_map(|level| Self::frame(lua, level)?)
     }
 
-    /// The line from which all is called that is being run.
+    /// Returns the outermost line of the script in the current call stack.
     pub(crate) fn outermost(lua: &Lua) -> Option<SourcePlace> {
         (1..200).map_while(|level| Self::frame(lua, level)).flatten().last()
     }
 
-    /// The line that is being run so many calls up from the Rust function that asks: none within that if it is no line of a
-    /// script, and none at all if there are not so many calls.
+    /// Returns the line at stack level `level`, counted from the calling Rust function. `Some(None)` if it is
+    /// not a line of a script, `None` if the stack has fewer levels.
     fn frame(lua: &Lua, level: usize) -> Option<Option<SourcePlace>> {
         lua.inspect_stack(level, |debug| {
             let source = debug.source();
@@ -262,12 +264,12 @@ impl Machine {
     }
 }
 
-/// Compiles Burgeon's own Lua text, which has no mistakes in it; nothing comes of one that has.
+/// Compiles Burgeon's own Lua code; empty if it has a syntax error.
 pub(crate) fn compile(text: &str) -> Vec<u8> {
     bytecode::compile(text).unwrap_or_default()
 }
 
-/// Whether Lua had no memory left.
+/// Returns true if Lua ran out of memory.
 fn is_out_of_memory(error: &mlua::Error) -> bool {
     match error {
         mlua::Error::CallbackError { cause, .. } | mlua::Error::WithContext { cause, .. } => {
@@ -279,7 +281,7 @@ fn is_out_of_memory(error: &mlua::Error) -> bool {
     }
 }
 
-/// Whether what was to tell of an error failed itself.
+/// Returns true if the error handler itself failed.
 fn is_error_of_a_handler(error: &mlua::Error) -> bool {
     match error {
         mlua::Error::CallbackError { cause, .. } | mlua::Error::WithContext { cause, .. } => {
@@ -308,8 +310,8 @@ pub(super) fn translate(error: &mlua::Error) -> Error {
     }
 }
 
-/// Takes `file:line: message`, a remedy behind the character 1, a kind behind the character 3 and a traceback apart; the
-/// character 2 at the end of the remedy says that data may be at fault.
+/// Splits `file:line: message`, a remedy after character 1, a kind after character 3, and a traceback.
+/// Character 2 at the end of the remedy marks a possible fault of the data.
 fn parse(text: &str) -> Error {
     let (text, traceback) = text.split_once("\nstack traceback:").unwrap_or((text, ""));
     let text = text.trim_end();
@@ -337,7 +339,7 @@ fn parse(text: &str) -> Error {
             .called_at(places(traceback).last())
             .help("write error(\"what is wrong\")");
     }
-    // What a function of Luau's library refuses has no place of its own.
+    // An error of a Luau library function has no location of its own.
     let error = Error::of(kind, message).at(place).at(places(traceback).next());
     let error = error.called_at(places(traceback).last());
     match help {
@@ -357,7 +359,7 @@ fn parse(text: &str) -> Error {
     }
 }
 
-/// Whether `message` is how Lua writes a value that is neither a string nor a number.
+/// Returns true if `message` is Lua's text for a value that is neither a string nor a number.
 fn is_no_text(message: &str) -> bool {
     let is_address = |kind: &str| {
         let rest = message.strip_prefix(kind).and_then(|rest| rest.strip_prefix(": "));
@@ -367,7 +369,7 @@ fn is_no_text(message: &str) -> bool {
         || ["table", "function", "userdata", "thread", "buffer", "vector"].into_iter().any(is_address)
 }
 
-/// Whether a message of Luau's is about a value that is of another type than it should be, as what a feature has may be.
+/// Returns true if a Luau message is about a value of the wrong type, which faulty feature data can cause.
 fn is_of_values(message: &str) -> bool {
     const BEGINNINGS: [&str; 9] = [
         "attempt to perform arithmetic",
@@ -383,7 +385,7 @@ fn is_of_values(message: &str) -> bool {
     BEGINNINGS.iter().any(|beginning| message.starts_with(beginning))
 }
 
-/// Parts `file:line: message`; no place for the machine's own code.
+/// Splits `file:line: message`. The location is `None` for the machine's own code.
 fn split_place(text: &str) -> Option<(Option<SourcePlace>, &str)> {
     let mut from = 0;
     while let Some(found) = text[from..].find(':') {
@@ -402,12 +404,12 @@ fn split_place(text: &str) -> Option<(Option<SourcePlace>, &str)> {
     None
 }
 
-/// The lines of scripts in a traceback, the innermost first; its own lines read `file:line: in function <...>`.
+/// Returns the script lines in a traceback, the innermost first. A line reads `file:line: in function <...>`.
 fn places(traceback: &str) -> impl Iterator<Item = SourcePlace> {
     traceback.lines().filter_map(|line| split_place(line.trim())?.0)
 }
 
-/// Copies a column into the beginning of a buffer, which is long enough.
+/// Copies a column to the start of a buffer, which must be long enough.
 pub(crate) fn write_column<T: bytemuck::Pod>(buffer: Buffer, column: &[T]) -> Result<()> {
     buffer
         .cursor()

@@ -1,4 +1,4 @@
-//! Stops scripts that run too long, at no cost until it happens.
+//! Time limit and cancellation of scripts, without cost while a script runs.
 
 use std::ffi::c_int;
 use std::sync::{Arc, Condvar, Mutex};
@@ -13,15 +13,15 @@ use burgeon_base::error::{Error, Limit};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::grouped;
 
-/// Time between two looks at the stop of the run.
+/// Time between two checks for cancellation.
 const PERIOD: Duration = Duration::from_millis(20);
-/// The same while more than half of the memory limit is used.
+/// Time between two checks while more than half of the memory limit is used.
 const SHORT_PERIOD: Duration = Duration::from_millis(1);
 
-/// A thread that ends every virtual machine of a run when its time is over or a stop is asked for.
+/// Thread that stops all virtual machines of a run at its time limit or on cancellation.
 ///
-/// A machine polls for an interrupt at loops and calls in any case. As long as none is set, that costs nothing;
-/// once it is set it raises an error again and again, so that `pcall` cannot swallow it.
+/// Luau polls for an interrupt callback at loops and calls in any case, so an unset callback costs nothing.
+/// Once set, the callback raises an error at every poll, so that `pcall` cannot suppress it.
 pub struct Watchdog {
     shared: Arc<WatchdogLock>,
     thread: Option<JoinHandle<()>>,
@@ -44,17 +44,18 @@ struct WatchdogState {
 struct StatePointer(*mut ffi::lua_State);
 
 #[allow(unsafe_code, reason = "the watchdog sets a callback of machines that run in other threads")]
-// SAFETY: the pointer is only used to set the interrupt callback, while the machine is registered and so alive.
+// SAFETY: the pointer is used only to set the interrupt callback, while the machine is registered and
+// therefore alive.
 unsafe impl Send for StatePointer {}
 
-/// Keeps a machine on the watchdog's list; must go before the machine's state does.
+/// Registration of a machine with the watchdog; must be dropped before the machine's state.
 pub(crate) struct Registration {
     shared: Arc<WatchdogLock>,
     state: StatePointer,
 }
 
 impl Registration {
-    /// Does something short in the machine even though its run was stopped.
+    /// Runs a short action in the machine even if its run has been stopped.
     pub(crate) fn despite_stop<T>(&self, act: impl FnOnce() -> T) -> T {
         let inner = self.shared.inner.lock().recover();
         if inner.stopped {
@@ -69,7 +70,7 @@ impl Registration {
 }
 
 impl Watchdog {
-    /// Watches over `session` from now on.
+    /// Starts watching `session`.
     pub fn new(session: &Arc<Session>) -> Self {
         let shared = Arc::new(WatchdogLock::default());
         let (theirs, stop) = (Arc::clone(&shared), Arc::clone(&session.stop));
@@ -110,7 +111,7 @@ impl Watchdog {
     }
 }
 
-/// What a run is told whose time is over.
+/// Returns the error for a run that reached its time limit.
 fn overdue(session: &Session) -> Error {
     let error = Error::limit(
         Limit::Time,
@@ -131,7 +132,7 @@ impl Drop for Watchdog {
         self.shared.inner.lock().recover().over = true;
         self.shared.wake.notify_all();
         if let Some(thread) = self.thread.take() {
-            // A watchdog that panicked has nothing left to stop.
+            // A watchdog that panicked cannot stop anything.
             let _ = thread.join();
         }
     }
@@ -167,13 +168,13 @@ fn set_interrupt(
 
 #[allow(unsafe_code, reason = "called by Luau")]
 unsafe extern "C-unwind" fn raise(state: *mut ffi::lua_State, collecting: c_int) {
-    // Luau also calls it during garbage collection, with a number from 0, where no error may be raised.
+    // Luau also calls this during garbage collection, with a number from 0; then no error may be raised.
     if collecting < 0 {
-        // SAFETY: `state` is the running state that Luau passed in; the frame owns nothing to be dropped, and
-        // luaL_where pushes one string, of which at most three are on the stack.
+        // SAFETY: `state` is the running state from Luau. The frame owns nothing that must be dropped, and
+        // luaL_where pushes one string; at most three are on the stack.
         unsafe {
             ffi::lua_checkstack(state, 4);
-            // The innermost function may be one of C, which has no line.
+            // The innermost function can be a C function, which has no line.
             for level in 0..3 {
                 ffi::luaL_where(state, level);
                 if ffi::lua_objlen(state, -1) > 0 || level == 2 {

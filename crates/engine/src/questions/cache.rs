@@ -1,4 +1,4 @@
-//! Answers that are kept, so that the same question is asked once.
+//! Cache of query results.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
@@ -9,27 +9,27 @@ use super::{Question, RowSource, Rows};
 use burgeon_base::error::Result;
 use burgeon_base::locks::LockRecovery;
 
-/// The values of answers that are kept from step to step.
+/// Maximum number of values that are cached from step to step.
 const MOST: usize = 2_000_000;
 
-/// The texts of SQL whose words are kept.
+/// Maximum number of SQL texts whose words are cached.
 #[cfg(feature = "data")]
 const MOST_TEXTS: usize = 10_000;
 
-/// The rows of a question, once they are known. Whoever asks meanwhile waits for them.
+/// Result of a query. Other threads wait while one thread computes it.
 type Slot = Arc<OnceLock<Result<Arc<Rows>>>>;
 
-/// The answers of a run, by question. What the top level of the script asks is kept to its end, since every virtual
-/// machine is to see the same.
+/// Query results of a run. Results for the top level of the script are kept until the end of the run, because
+/// every virtual machine must see the same rows.
 #[derive(Default)]
 pub(crate) struct RowCache {
     known: Mutex<FxHashMap<(Question, u64), CacheEntry>>,
-    /// The words of texts of SQL that may name modules.
+    /// Words of SQL texts that may name modules.
     #[cfg(feature = "data")]
     words: Mutex<FxHashMap<Arc<str>, Arc<[String]>>>,
-    /// Set once a question was about a state of the chains.
+    /// Set once a query has named modules of the chains.
     views: AtomicBool,
-    /// The places of modules whose rules have asked data or geometries in the step at hand, and what; in words.
+    /// Queries of rules in the current step, by the index of the module, as text.
     noted: Mutex<Vec<(usize, String)>>,
     values: AtomicUsize,
 }
@@ -39,20 +39,20 @@ struct CacheEntry {
     stays: bool,
 }
 
-/// Who asks, and how.
+/// Parameters of a query.
 pub(crate) struct AskedRows<'a> {
-    /// Who answers what is not known yet.
+    /// Source that computes missing results.
     pub source: &'a dyn RowSource,
-    /// The most rows of an answer.
+    /// Maximum number of rows.
     pub most: usize,
-    /// The state of the chains that the question is about, if it names modules; otherwise 0.
+    /// State of the chains that the query reads, if it names modules; otherwise 0.
     pub view: u64,
-    /// Whether the answer is kept to the end of the run.
+    /// Set to keep the result until the end of the run.
     pub stays: bool,
 }
 
 impl RowCache {
-    /// The answer to `question`.
+    /// Returns the result of `question`.
     pub(crate) fn ask(&self, question: &Question, asked: &AskedRows<'_>) -> Result<Arc<Rows>> {
         let slot = {
             let mut known = self.known.lock().recover();
@@ -73,26 +73,26 @@ impl RowCache {
         rows.clone()
     }
 
-    /// Notes for the step at hand what a rule has asked for the module at `place`, and how many rows it got.
+    /// Records a query of a rule for the module at `place` in the current step, with its number of rows.
     pub(crate) fn note(&self, place: usize, question: &Question, rows: usize) {
         self.note_answer(place, format!("{question}: {rows} row{}", if rows == 1 { "" } else { "s" }));
     }
 
-    /// The same in words.
+    /// Records a query or another result as text.
     pub(crate) fn note_answer(&self, place: usize, text: String) {
         self.noted.lock().recover().push((place, text));
     }
 
-    /// What was noted in the step at hand, by place; of each in the order in which it was asked.
+    /// Takes the records of the current step, sorted by place, and in query order for each place.
     pub(crate) fn take_noted(&self) -> Vec<(usize, String)> {
         let mut noted = std::mem::take(&mut *self.noted.lock().recover());
         noted.sort_by_key(|(place, _)| *place);
-        // Several guards often ask the same.
+        // Several guards often run the same query.
         noted.dedup();
         noted
     }
 
-    /// Returns the words of a text of SQL that may name modules, which `find` finds once.
+    /// Returns the words of an SQL text that may name modules. Calls `find` once per text.
     #[cfg(feature = "data")]
     pub(crate) fn words(&self, sql: &str, find: impl FnOnce(&str) -> Vec<String>) -> Arc<[String]> {
         let mut words = self.words.lock().recover();
@@ -107,14 +107,14 @@ impl RowCache {
         found
     }
 
-    /// Forgets what was answered about states of the chains that are over. Nobody is asking.
+    /// Drops results about earlier states of the chains. No query may be running.
     pub(crate) fn forget_views(&self) {
         if self.views.swap(false, Ordering::Relaxed) {
             self.known.lock().recover().retain(|(_, view), kept| *view == 0 || kept.stays);
         }
     }
 
-    /// Forgets answers once they are many. Nobody is asking.
+    /// Drops results if there are many. No query may be running.
     pub(crate) fn forget_many(&self) {
         if self.values.load(Ordering::Relaxed) > MOST {
             self.known.lock().recover().retain(|_, kept| kept.stays);

@@ -1,42 +1,42 @@
-//! The chains that questions see, in which the modules of a symbol are the rows of a table.
+//! Chains as seen by queries, in which the modules of a symbol are the rows of a table.
 //!
-//! A rule sees its chain as it stood when the step began, an interpretation as it stands, and both see what the systems
-//! derived before have become.
+//! A rule sees its chain at the start of the step. An interpretation sees the current chain. Both see the
+//! final chains of systems that are already derived.
 
 use std::sync::Arc;
 
 use burgeon_base::error::Result;
 use burgeon_rewriting::{Chain, END, NameScope, Symbol, Symbols};
 
-/// The chain of a system.
+/// Chain of a system.
 #[derive(Debug, Clone)]
 struct SystemChain {
     system: usize,
     symbols: Arc<Symbols>,
     chain: Arc<Chain>,
-    /// The chains that are left out, since their data is at fault, in order.
+    /// Indices of chains that are skipped because of faulty data, ascending.
     left_out: Arc<[usize]>,
 }
 
-/// A module that a query names.
+/// Module that a query names.
 #[derive(Debug)]
 pub(crate) struct NamedModule {
-    /// Its name in the query.
+    /// Name in the query.
     pub word: String,
     pub symbol: Symbol,
 }
 
-/// A state of all chains of a run.
+/// State of all chains of a run.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct ChainView {
-    /// Systems derived so far, and states of the one that is being derived.
+    /// Number of derived systems, and number of states of the system being derived.
     number: [u32; 2],
     symbols: Arc<Symbols>,
     chains: Vec<SystemChain>,
 }
 
 impl ChainView {
-    /// Returns the view once `system` is derived; its earlier chains are gone.
+    /// Returns the view once `system` is derived, without its earlier chains.
     pub(crate) fn with_derived(
         &self,
         system: usize,
@@ -60,8 +60,8 @@ impl ChainView {
         self.without(system, symbols)
     }
 
-    /// Returns the view while `system` is derived, in a state that `number` counts from 1; `left_out` are the chains that are
-    /// not seen.
+    /// Returns the view while `system` is derived, in state `number`, counted from 1. Chains in `left_out`
+    /// are hidden.
     pub(crate) fn with_current(
         &self,
         system: usize,
@@ -87,19 +87,19 @@ impl ChainView {
         Self { number: self.number, symbols: Arc::clone(symbols), chains }
     }
 
-    /// Number of this state in the run, from 1; the same in every virtual machine.
+    /// Returns the number of this state in the run, from 1; the same in every virtual machine.
     pub(crate) fn number(&self) -> u64 {
         (u64::from(self.number[0]) << 32 | u64::from(self.number[1])) + 1
     }
 
-    /// Returns the modules that `words` name where `scope` asks.
+    /// Returns the modules that `words` name in `scope`.
     pub(crate) fn find_modules(&self, words: &[String], scope: Option<&NameScope>) -> Vec<NamedModule> {
         let named =
             |word: &String| Some(NamedModule { word: word.clone(), symbol: self.find(word, scope).ok()? });
         words.iter().filter_map(named).collect()
     }
 
-    /// Returns the module that a word of a query means where `scope` asks.
+    /// Returns the module that a word of a query names in `scope`.
     pub(crate) fn find(&self, word: &str, scope: Option<&NameScope>) -> Result<Symbol> {
         match scope {
             Some(scope) => self.symbols.find_in(word, scope),
@@ -107,13 +107,13 @@ impl ChainView {
         }
     }
 
-    /// The declared modules.
+    /// Returns the declared modules.
     pub(crate) fn symbols(&self) -> &Symbols {
         &self.symbols
     }
 
-    /// Returns the parameters of each module with a symbol, in the order of systems and chains, without chains that are left
-    /// out.
+    /// Returns the parameters of each module with a symbol, in the order of systems and chains, without
+    /// skipped chains.
     pub(crate) fn modules(&self, wanted: Symbol) -> impl Iterator<Item = &[f64]> {
         self.chains.iter().flat_map(move |SystemChain { symbols, chain, left_out, .. }| {
             let arities = symbols.arities();

@@ -1,15 +1,16 @@
-//! Which column, or parameter of another module, becomes which parameter of a module.
+//! Assignment of columns, or of another module's parameters, to the parameters of a module.
 
 use burgeon_rewriting::Signature;
 
-/// Names that a geometry often has.
+/// Common names of geometry columns.
 const GEOMETRY: [&str; 5] = ["geometry", "geom", "shape", "the_geom", "wkb_geometry"];
 
-/// For each parameter of `target`, the number of the name that it takes its value from; `is_geometry` tells of each of
-/// the `names` whether geometries are called so. Names that no parameter has are left out.
+/// Returns for each parameter of `target` the index of the name that it takes its value from. `is_geometry`
+/// marks the `names` of geometries. Names without a parameter are ignored.
 ///
-/// A geometry whose name no parameter has goes to the parameter that is called as geometries often are, or else to the
-/// only one that must be given and is not. Fails with the parameters that must be given and are not.
+/// If no parameter has the name of the only geometry, the geometry goes to a parameter with a common geometry
+/// name, or otherwise to the only required parameter without a value. Fails with the required parameters that
+/// have no value.
 pub(crate) fn fit<'a>(
     names: &[&str],
     is_geometry: &[bool],
@@ -39,7 +40,7 @@ pub(crate) fn fit<'a>(
     if missing.is_empty() { Ok(found) } else { Err(missing) }
 }
 
-/// Names in a sentence: "a", "a and b", "a, b and c".
+/// Joins names in a sentence: "a", "a and b", "a, b and c".
 pub(crate) fn listed(names: &[impl AsRef<str>]) -> String {
     match names {
         [] => "none".to_owned(),

@@ -1,9 +1,8 @@
-//! Questions to data: what scripts ask in SQL, and the rows that answer them.
+//! SQL queries of scripts, and their rows.
 //!
-//! Input: a text of SQL with the values of its parameters, and something that can answer it, a [`RowSource`]. Goes
-//! out: [`Rows`], the same for the same question for as long as they are kept, and which of their columns fits which
-//! parameter of a module. It never runs Lua, and knows no database. A question that names modules is about a state of the
-//! chains, a [`ChainView`].
+//! Input: an SQL text with the values of its parameters, and a [`RowSource`] that runs it. Output: [`Rows`],
+//! which are cached, and the assignment of columns to the parameters of a module. A query that names modules
+//! reads a state of the chains, a [`ChainView`]. This folder runs no Lua and depends on no database.
 
 mod cache;
 #[cfg_attr(not(feature = "data"), allow(dead_code, reason = "nobody can ask"))]

@@ -1,4 +1,4 @@
-//! A question, its answer, and who answers.
+//! Query, result, and source of rows.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -12,14 +12,14 @@ use rustc_hash::FxBuildHasher;
 
 use burgeon_analysis::sql_parameters;
 
-/// A text of SQL with the values of its parameters. Two are equal if they ask the same.
+/// SQL text with the values of its parameters. Two queries are equal if text, values and scope are equal.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Question {
-    /// What it adds to a hash: its values may be large, and lists of many questions ask for it again and again.
+    /// Cached hash of text and values: values can be large, and lookups need the hash repeatedly.
     hash: u64,
     sql: Arc<str>,
     values: Option<Arc<Table>>,
-    /// Package or script that asks, where packages may have modules of one name.
+    /// Package or script that runs the query, if packages can have modules of the same name.
     scope: Option<Arc<NameScope>>,
 }
 
@@ -30,32 +30,32 @@ impl Hash for Question {
 }
 
 impl Question {
-    /// Asks `sql`, whose parameters have these `values`, by name; those that are not there are NULL.
+    /// Creates a query with the text `sql` and parameter `values` by name. Missing values are NULL.
     pub fn new(sql: Arc<str>, values: Option<Arc<Table>>) -> Self {
         let values = values.filter(|values| !values.entries.is_empty());
         Self { hash: FxBuildHasher.hash_one((&sql, &values)), sql, values, scope: None }
     }
 
-    /// Returns the question as a package or the script asks it, whose modules its names mean.
+    /// Returns the query with the scope in which its names of modules are resolved.
     pub(crate) fn asked_in(mut self, scope: Option<Arc<NameScope>>) -> Self {
         self.scope = scope;
         self
     }
 
-    /// Returns who asks, where packages may have modules of one name.
+    /// Returns the scope in which names of modules are resolved.
     #[cfg(feature = "data")]
     pub(crate) fn scope(&self) -> Option<&NameScope> {
         self.scope.as_deref()
     }
 
-    /// Returns the text as a statement: the name of a table alone asks for all of its rows.
+    /// Returns the text as a statement: the name of a table alone selects all rows.
     pub fn statement(&self) -> Cow<'_, str> {
         let name = self.sql.trim();
         let is_name = |part: &str| {
             part.starts_with(|letter: char| letter.is_alphabetic() || letter == '_')
                 && part.chars().all(|letter| letter.is_alphanumeric() || letter == '_')
         };
-        // Names of packages may have hyphens.
+        // Names of packages can have hyphens.
         let is_table = match name.split_once('.') {
             Some((schema, table)) => is_name(&schema.replace('-', "_")) && is_name(table),
             None => is_name(name),
@@ -66,12 +66,12 @@ impl Question {
         }
     }
 
-    /// The text.
+    /// Returns the text.
     pub fn sql(&self) -> &str {
         &self.sql
     }
 
-    /// The values of all parameters that the text names; [`Value::Nil`] for NULL.
+    /// Returns the values of all parameters that the text names; [`Value::Nil`] for NULL.
     pub fn values(&self) -> Result<Vec<(&str, Value)>> {
         let of = |name: &str| self.values.as_deref().and_then(|values| values.get(name)).cloned();
         Ok(sql_parameters(&self.sql)?
@@ -82,7 +82,7 @@ impl Question {
 }
 
 impl fmt::Display for Question {
-    /// The text, and behind it the values that its parameters have.
+    /// Writes the text, followed by the parameter values.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.sql)?;
         let entries = self.values.iter().flat_map(|values| &values.entries);
@@ -95,38 +95,38 @@ impl fmt::Display for Question {
     }
 }
 
-/// What a question is answered with: rows in their order, each with a value for every name.
+/// Result of a query: ordered rows, each with one value per column.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Rows {
-    /// The names of the columns.
+    /// Column names.
     pub names: Vec<Arc<str>>,
-    /// The values, row by row; [`Value::Nil`] for NULL.
+    /// Values, row by row; [`Value::Nil`] for NULL.
     pub values: Vec<Value>,
 }
 
 impl Rows {
-    /// How many there are.
+    /// Returns the number of rows.
     pub fn len(&self) -> usize {
         self.values.len() / self.names.len().max(1)
     }
 
-    /// Whether there are none.
+    /// Returns true if there are no rows.
     pub fn is_empty(&self) -> bool {
         self.values.is_empty()
     }
 
-    /// Each row.
+    /// Returns an iterator over the rows.
     pub fn iter(&self) -> impl Iterator<Item = &[Value]> {
         self.values.chunks_exact(self.names.len().max(1))
     }
 
-    /// The column that tells rows apart, if there is one.
+    /// Returns the index of the id column, if there is one.
     pub fn id(&self) -> Option<usize> {
         const IDS: [&str; 3] = ["fid", "id", "ogc_fid"];
         IDS.iter().find_map(|id| self.names.iter().position(|name| name.eq_ignore_ascii_case(id)))
     }
 
-    /// By column: whether it holds geometries.
+    /// Returns for each column whether it contains geometries.
     pub fn geometries(&self) -> Vec<bool> {
         let of = |column: usize| self.iter().map(move |row| &row[column]);
         let is_of_geometries = |column| {
@@ -138,9 +138,9 @@ impl Rows {
     }
 }
 
-/// Answers questions: a database, or something in the place of one.
+/// Source of query results, such as a database.
 pub trait RowSource: Send + Sync {
-    /// The rows that answer `question`, at most `most` of them, always in the same order.
+    /// Returns the rows of `question`, at most `most`, always in the same order.
     fn rows(&self, question: &Question, most: usize) -> Result<Rows>;
 }
 

@@ -1,4 +1,4 @@
-//! A system that has been derived.
+//! Results of the derivation of one system.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
@@ -16,98 +16,101 @@ use burgeon_kit::{Model, Object};
 use burgeon_rewriting::{Chain, Symbol, Symbols, Use, chain_text, write_chains};
 use burgeon_scene::{CityClass, Origin, Scene};
 
-/// Where the time of a derivation went.
+/// Time spent on a derivation.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Times {
-    /// Finding and applying rules.
+    /// Time for finding and applying rules.
     pub rewriting: Duration,
-    /// Symbols that all steps together have read: the length of the chains before each step.
+    /// Number of symbols read by all steps: the sum of the chain lengths before each step.
     pub read: usize,
-    /// Interpretation passes.
+    /// Time for interpretation passes.
     pub interpretation: Duration,
 }
 
-/// What a rule has done in a derivation.
+/// Statistics of one rule in a derivation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RuleReport {
-    /// The rule.
+    /// Name and location of the rule.
     pub name: RuleName,
-    /// Whether it is an interpretation rule.
+    /// Set for an interpretation rule.
     pub interprets: bool,
-    /// How much it has done. The time of interpretation rules is measured if
-    /// [`RunReports::profile`](crate::script::RunReports::profile) says so.
+    /// Number of matches and applications, and time. The time of interpretation rules is measured only if
+    /// [`RunReports::profile`](crate::script::RunReports::profile) is set.
     pub done: Use,
 }
 
-/// The chains and objects that a system ended with.
+/// Chains and objects at the end of a system's derivation.
 pub struct DerivedSystem {
-    /// The system's place in the script, from 0.
+    /// Index of the system in the script, from 0.
     pub system: usize,
-    /// The chains.
+    /// Final chains.
     pub chain: Arc<Chain>,
-    /// The chains that are left out, since their data is at fault, in order.
+    /// Indices of the chains that were skipped because of faulty data, ascending.
     pub(crate) left_out: Arc<[usize]>,
-    /// The declared modules.
+    /// Declared modules.
     pub symbols: Arc<Symbols>,
-    /// The parameters that are not numbers.
+    /// Parameter values other than numbers.
     pub values: Arc<Values>,
-    /// The object of each chain; none if the system has no objects. After a run they have given away what
-    /// they had drawn to the run's scene.
+    /// Object of each chain; empty if the system has no objects. After a run, the objects have moved their
+    /// drawings to the scene of the run.
     pub objects: Vec<Arc<dyn Object>>,
-    /// The id of each chain's feature.
+    /// Feature id of each chain.
     pub features: Vec<Option<String>>,
-    /// The number of derivation steps.
+    /// Number of derivation steps.
     pub steps: usize,
-    /// Where the time went.
+    /// Time spent on the derivation.
     pub times: Times,
-    /// What the rules and the interpretation rules have done, in the order of their declaration.
+    /// Statistics of the rules and interpretation rules, in the order of declaration.
     pub rules: Vec<RuleReport>,
-    /// Where the system was made.
+    /// Location where the system was created.
     pub place: Option<SourcePlace>,
-    /// The line of the script that led there.
+    /// Line of the script from which that location was called.
     pub caller: Option<SourcePlace>,
-    /// The number of features that it was given, those that were left out among them.
+    /// Number of input features, including skipped features.
     pub given: usize,
-    /// What could not be built as asked: features that got no chain, then the chains in their order.
+    /// Skipped and simplified features: first the features without a chain, then the chains in order.
     pub remarks: Vec<Remark>,
-    /// What its chains are in a city, if the script says.
+    /// Class of the chains as CityJSON objects, if the script sets one.
     pub city: Option<CityClass>,
     pub(crate) source: SourceFeatures,
-    /// The features that its modules came from, if rows of queries were put into its chains.
+    /// Features of the rows that queries put into the chains, and the modules that came from each row.
     pub(crate) rows: Option<RowFeatures>,
-    /// Whether it has an object that draws.
+    /// Set if the system has an object that draws.
     pub(crate) draws: bool,
-    /// What its chains hold that nothing draws; it counts unless the script reads the chains.
+    /// Warnings about symbols of the final chains that nothing draws; ignored if the script reads the chains.
     pub(crate) undrawn: Vec<(Symbol, Warning)>,
-    /// The number of modules in all chains, without brackets.
+    /// Number of modules in all chains, without brackets.
     pub(crate) modules: usize,
-    /// What the script has done with it since.
+    /// Later uses of the system by the script.
     pub(crate) uses: SystemUses,
 }
 
-/// What a script has done with a derived system.
+/// Uses of a derived system by the script.
 #[derive(Default)]
 pub(crate) struct SystemUses {
-    /// Whether it has read the chains.
+    /// Set once the script has read the chains.
     read: AtomicBool,
-    /// What it places.
+    /// Model for placing the system, built at the first use.
     model: OnceLock<Arc<Model>>,
-    /// Whether it has placed it.
+    /// Set once the system has been placed.
     placed: AtomicBool,
-    /// Whether functions of rules capture it.
+    /// Set if functions of rules capture the system.
     captured: AtomicBool,
-    /// Whether the script has read any of its fields.
+    /// Set once the script has read a field of the system.
     inspected: AtomicBool,
 }
 
 impl DerivedSystem {
-    /// The number of modules in all chains, without brackets.
+    /// Returns the number of modules in all chains, without brackets.
     pub fn modules(&self) -> usize {
         self.modules
     }
 
-    /// What is known of the features that its chains came from, in the order of the chains; nothing without features.
-    /// What a list of the script knows is kept if [`RunReports::records`](crate::script::RunReports::records) says so.
+    /// Returns the attributes of the chains' features as a table, in the order of the chains; `None` without
+    /// features.
+    ///
+    /// Attributes of a list from the script are kept only if
+    /// [`RunReports::records`](crate::script::RunReports::records) is set.
     pub fn records(&self) -> Option<RecordTable> {
         match &self.rows {
             Some(rows) => Some(rows.table(self.system + 1)),
@@ -115,30 +118,31 @@ impl DerivedSystem {
         }
     }
 
-    /// The chains as text, a line for each.
+    /// Returns the chains as text, one line per chain.
     pub fn chain_text(&self) -> String {
         chain_text(&self.chain, &self.symbols, &self.values)
     }
 
-    /// The chains as text for the script, which may make of their modules what it likes.
+    /// Returns the chains as text for the script, and marks the chains as read: the script may use any of
+    /// their modules.
     pub(crate) fn read_chains(&self) -> String {
         self.uses.read.store(true, Ordering::Relaxed);
         self.chain_text()
     }
 
-    /// Whether the script has read its chains.
+    /// Returns true if the script has read the chains.
     pub(crate) fn is_read(&self) -> bool {
         self.uses.read.load(Ordering::Relaxed)
     }
 
-    /// Writes the chains as text, a line for each.
+    /// Writes the chains as text, one line per chain.
     pub fn write_chains(&self, out: &mut impl std::io::Write) -> std::io::Result<()> {
         write_chains(out, &self.chain, &self.symbols, &self.values)
     }
 
-    /// What its objects have drawn, as one model that another system can place.
+    /// Returns the drawings of all objects as one model, which another system can place.
     ///
-    /// A system that is placed somewhere is not shown by itself.
+    /// A placed system is not shown on its own.
     pub fn model(&self) -> Result<Arc<dyn Object>> {
         self.uses.placed.store(true, Ordering::Relaxed);
         if let Some(model) = self.uses.model.get() {
@@ -150,13 +154,15 @@ impl DerivedSystem {
         Ok(model as Arc<dyn Object>)
     }
 
-    /// What others place of it, once one has asked for it.
+    /// Returns the model that others place, if it has been requested.
     pub(crate) fn placed_model(&self) -> Option<&Model> {
         self.uses.model.get().map(Arc::as_ref)
     }
 
-    /// Whether another system places it: it has done so, or a function of its rules holds this system only to place it, be it
-    /// never.
+    /// Returns true if another system places this one, or if a function of a rule captures it and the script
+    /// reads none of its fields.
+    ///
+    /// A captured system counts as placed even if the function never places it.
     pub fn is_placed(&self) -> bool {
         let is = |use_of_it: &AtomicBool| use_of_it.load(Ordering::Relaxed);
         is(&self.uses.placed) || is(&self.uses.captured) && !is(&self.uses.inspected)
@@ -167,17 +173,18 @@ impl DerivedSystem {
         self.uses.placed.load(Ordering::Relaxed)
     }
 
-    /// Notes that a function of a rule can reach it.
+    /// Records that a function of a rule can reach the system.
     pub(crate) fn note_captured(&self) {
         self.uses.captured.store(true, Ordering::Relaxed);
     }
 
-    /// Notes that the script reads a field of it.
+    /// Records that the script reads a field of the system.
     pub(crate) fn note_inspected(&self) {
         self.uses.inspected.store(true, Ordering::Relaxed);
     }
 
-    /// As [`DerivedSystem::add_to`], but the objects that nobody else holds give away what they have drawn.
+    /// Adds the drawings to `scene` as [`DerivedSystem::add_to`] does, but moves the drawings of objects
+    /// without other references.
     pub(crate) fn hand_over(&mut self, scene: &mut Scene) -> Result<()> {
         let name = self.name();
         for (chain, (object, feature)) in self.objects.iter_mut().zip(&self.features).enumerate() {
@@ -198,7 +205,7 @@ impl DerivedSystem {
         format!("system {}", self.system + 1)
     }
 
-    /// Adds what its objects have drawn to `scene`, in the order of the chains.
+    /// Adds the drawings of the objects to `scene`, in the order of the chains.
     pub fn add_to(&self, scene: &mut Scene) -> Result<()> {
         let name = self.name();
         for (chain, (object, feature)) in self.objects.iter().zip(&self.features).enumerate() {
@@ -213,10 +220,10 @@ impl DerivedSystem {
     }
 }
 
-/// Notes the origin of the meshes and instances that `scene` has got since it had as many as `known`.
+/// Sets the origin of the meshes and instances that were added to `scene` after the counts in `known`.
 fn sign(scene: &mut Scene, known: (usize, usize), origin: Origin) {
     for mesh in &mut scene.meshes[known.0..] {
-        // A mesh that was placed keeps its own.
+        // A placed mesh keeps its origin.
         mesh.origin.get_or_insert(origin);
     }
     for instance in &mut scene.instances[known.1..] {

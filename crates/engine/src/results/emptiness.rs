@@ -1,4 +1,4 @@
-//! Why nothing is seen of a model, of a system, or of some of its features.
+//! Warnings about an empty model, an empty system and skipped features.
 
 use std::sync::Arc;
 
@@ -8,13 +8,14 @@ use burgeon_base::text::shown;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_scene::Scene;
 
-/// Whether a warning tells why nothing of some module is seen.
+/// Returns true if the warning explains why modules are not visible.
 pub(crate) fn tells_of_emptiness(warning: &Warning) -> bool {
     use WarningKind::{DrawsNothing, HiddenModule, ReturnedModules, UndrawnModule};
     matches!(warning.kind(), DrawsNothing | HiddenModule | ReturnedModules | UndrawnModule)
 }
 
-/// The warning for an empty model of drawing objects, of which `warnings` are known.
+/// Returns the warning for an empty model, if a system has drawing objects. `warnings` are the existing
+/// warnings.
 pub(crate) fn emptiness(warnings: &[Warning], systems: &[Arc<DerivedSystem>]) -> Option<Warning> {
     let mut drawing = systems.iter().filter(|system| system.draws);
     let drawing = drawing.clone().find(|system| !system.is_placed()).or_else(|| drawing.next())?;
@@ -35,10 +36,11 @@ pub(crate) fn emptiness(warnings: &[Warning], systems: &[Arc<DerivedSystem>]) ->
     Some(warning.at(drawing.place.clone()).called_at(drawing.caller.clone()).help(help))
 }
 
-/// What to look for where interpretations draw nothing.
+/// Advice for interpretations that draw nothing.
 const NO_EXTENT: &str = "its interpretations draw nothing: see that lengths and scales are above 0";
 
-/// The warning for a system that draws nothing in a model where others do, though its interpretations ran.
+/// Returns the warning for a system that draws nothing although its interpretations ran and other systems
+/// draw.
 pub(crate) fn idleness(session: &Session, scene: &Scene, system: &DerivedSystem) -> Option<Warning> {
     let is_told = scene.triangles() == 0 || session.warnings().iter().any(tells_of_emptiness);
     if is_told || !system.draws || !is_interpreted(system) || !is_whole(session) {
@@ -48,17 +50,18 @@ pub(crate) fn idleness(session: &Session, scene: &Scene, system: &DerivedSystem)
     Some(warning.at(system.place.clone()).called_at(system.caller.clone()).help(NO_EXTENT))
 }
 
-/// Whether nobody has asked to see less of the model.
+/// Returns true if the options neither limit the steps nor reduce the level of detail.
 pub(crate) fn is_whole(session: &Session) -> bool {
     session.options.steps.is_none() && session.options.lod == RunOptions::default().lod
 }
 
-/// Whether interpretation rules of a system ran.
+/// Returns true if interpretation rules of the system ran.
 fn is_interpreted(system: &DerivedSystem) -> bool {
     system.rules.iter().any(|rule| rule.interprets && rule.done.applied > 0)
 }
 
-/// Which features of a system were left out, and why; those that its source has told of are not counted.
+/// Returns the warning about skipped features of a system, with the first reason. Features that the source
+/// has already reported are not counted.
 pub(crate) fn left_out(system: &DerivedSystem) -> Option<Warning> {
     let mut skipped = system.remarks.iter().filter(|remark| remark.skipped && !remark.unread);
     let first = skipped.next()?;

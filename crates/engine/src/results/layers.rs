@@ -1,24 +1,24 @@
-//! What rules made that has a geometry, as layers for other programs.
+//! Layers with geometry for other programs: lists, layers of objects, and modules.
 
 use std::sync::Arc;
 
 use burgeon_data::Attribute;
-use burgeon_data::Geometry;
 use burgeon_data::output::{Record, RecordTable};
-use burgeon_kit::{GeometryObject, Object, Value};
+use burgeon_kit::{Object, Value};
 use burgeon_rewriting::{END, FIRST_SYMBOL, Symbol};
+use burgeon_spatial::{Geometry, GeometryObject};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::DerivedSystem;
 use super::records::{Columns, attribute};
 use crate::declare::Session;
 
-/// What a run of a `session` gave that has a geometry, in the order in which it is found: the lists that the script made
-/// tables of, the layers of the objects of all `systems`, and the modules of their final chains, a table for each symbol.
+/// Returns the results of a run that have geometry, in this order: lists that the script made into tables,
+/// layers of the objects of all `systems`, and modules of their final chains, one table per symbol.
 ///
-/// A list of the script stands for the layers of objects that are called so. A record of a symbol is a module. Its geometry
-/// is the first parameter that has one; its other parameters are its attributes, later geometries as well-known text. Its id
-/// is that of the feature that its chain came from. An id that is taken has a number behind it.
+/// A list of the script replaces object layers of the same name. A record of a symbol's table is a module.
+/// Its geometry is the first geometry parameter. The other parameters are attributes; further geometries are
+/// stored as well-known text. The id is the id of the chain's feature. A repeated id gets a number as suffix.
 pub fn layers(session: &Session, systems: &[Arc<DerivedSystem>]) -> Vec<RecordTable> {
     let mut layers = LayerTables::default();
     for list in session.data.lists() {
@@ -35,14 +35,14 @@ pub fn layers(session: &Session, systems: &[Arc<DerivedSystem>]) -> Vec<RecordTa
     tables.map(|LayerTable { columns, table, .. }| RecordTable { columns: columns.0, ..table }).collect()
 }
 
-/// Tables that are being filled.
+/// Tables under construction.
 #[derive(Default)]
 struct LayerTables {
     tables: Vec<LayerTable>,
     by_name: FxHashMap<String, usize>,
 }
 
-/// A table, and the ids that are taken in it.
+/// A table under construction, and the ids used in it.
 #[derive(Default)]
 struct LayerTable {
     columns: Columns,
@@ -67,7 +67,7 @@ impl LayerTables {
         &mut self.tables[index]
     }
 
-    /// Adds a list that the script made a table of.
+    /// Adds a list that the script made into a table.
     fn list(&mut self, list: RecordTable) {
         let layer = self.named(&list.name);
         let numbers: Vec<usize> = list.columns.iter().map(|name| layer.columns.number(name)).collect();
@@ -77,13 +77,13 @@ impl LayerTables {
         }
     }
 
-    /// Adds the layers of an object that are not called as one of the `lists`.
+    /// Adds the layers of an object, except layers named in `lists`.
     fn object(&mut self, object: &dyn Object, lists: &FxHashSet<String>) {
         for (name, features) in object.layers() {
             if lists.contains(name) {
                 continue;
             }
-            // A layer without features is one, too.
+            // A layer without features becomes an empty table.
             self.named(name);
             for (number, feature) in (1..).zip(&features) {
                 let Value::Table(feature) = feature else { continue };
@@ -107,7 +107,7 @@ impl LayerTables {
             let stored = &system.chain.params[param..param + arity];
             param += arity;
             chain += usize::from(*symbol == END);
-            // Geometries are no numbers, so most modules are passed over at once.
+            // A geometry is stored as NaN, so a module without a NaN parameter is skipped.
             if *symbol >= FIRST_SYMBOL && stored.iter().any(|stored| stored.is_nan()) {
                 let values: Vec<Value> = stored.iter().map(|stored| system.values.unpack(*stored)).collect();
                 self.module(system, *symbol, chain, &values);
@@ -123,7 +123,7 @@ impl LayerTables {
         let own = values.iter().zip(&signature.parameters).enumerate().filter(|(number, _)| *number != place);
         let mut attributes = Vec::new();
         for (_, (value, name)) in own {
-            // The same symbol may have other parameters in another place.
+            // The same symbol name can have other parameters in another system.
             let column = layer.columns.number(name);
             let text = |value: &Value| geometry_of(value).map(|it| Attribute::Text(it.to_wkt().into()));
             attributes.extend(attribute(value).or_else(|| text(value)).map(|value| (column, value)));
@@ -133,13 +133,13 @@ impl LayerTables {
     }
 }
 
-/// The geometry that a value is, if it is one.
+/// Returns the geometry in `value`, if it is a geometry object.
 fn geometry_of(value: &Value) -> Option<&Geometry> {
     let Value::Object(object) = value else { return None };
     GeometryObject::of(&**object)
 }
 
-/// `id`, or with a number behind it if it is taken.
+/// Returns `id`, with a number as suffix if it is already in `taken`.
 fn apart(id: String, taken: &mut FxHashSet<String>) -> String {
     let mut free = id.clone();
     let mut count = 1;

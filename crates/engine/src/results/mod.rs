@@ -1,7 +1,8 @@
-//! What a derivation gives: the derived system, what could not be built of it, and which rules made what.
+//! Results of a derivation: the derived system, its skipped and simplified features, and the lineage of
+//! modules.
 //!
-//! Input: what the derivation hands over. Output: the same, to be asked by scripts, by commands and by the page.
-//! It never runs a rule.
+//! Input: the output of the derivation. Output: the same data, for queries by scripts, commands and the live
+//! view. This folder runs no rules.
 
 mod derived_system;
 mod emptiness;

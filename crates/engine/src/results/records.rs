@@ -1,4 +1,4 @@
-//! What is known of the features that chains came from, for files that tell it.
+//! Attributes of the features that chains came from, for export.
 
 use std::sync::Arc;
 
@@ -6,20 +6,20 @@ use burgeon_data::output::{Record, RecordTable};
 use burgeon_data::{Attribute, Layer};
 use burgeon_kit::{Table, TableKey, Value};
 
-/// The features that the chains of a system came from, one for each chain.
+/// Features of the chains of a system, one per chain.
 #[derive(Default)]
 pub(crate) enum SourceFeatures {
-    /// None, or it is not asked for.
+    /// No features, or the run does not request them.
     #[default]
     None,
-    /// Those with these numbers of a layer.
+    /// Layer, and the row numbers of its features.
     Layer(Arc<Layer>, Vec<usize>),
-    /// Those of a list that the script made.
+    /// Features from a list of the script.
     List(Vec<Value>),
 }
 
 impl SourceFeatures {
-    /// Adds the feature of the next chain: number `index` of a layer, or a value of the script.
+    /// Adds the feature of the next chain: row `index` of a layer, or a value of the script.
     pub(crate) fn push(&mut self, layer: Option<&Arc<Layer>>, index: usize, value: Option<Value>) {
         match (&mut *self, layer, value) {
             (Self::Layer(_, rows), Some(_), _) => rows.push(index),
@@ -30,7 +30,7 @@ impl SourceFeatures {
         }
     }
 
-    /// That of chain number `index` alone.
+    /// Returns only the feature of chain `index`.
     pub(crate) fn only(self, index: usize) -> Self {
         match self {
             Self::None => Self::None,
@@ -39,7 +39,7 @@ impl SourceFeatures {
         }
     }
 
-    /// What is known of them as a table, where chains have these `ids`; nothing without features.
+    /// Returns the attributes as a table with the feature `ids` of the chains; `None` without features.
     pub(crate) fn table(&self, ids: &[Option<String>], number: usize) -> Option<RecordTable> {
         let id = |chain: usize| ids.get(chain).cloned().flatten().unwrap_or_default();
         match self {
@@ -68,7 +68,7 @@ impl SourceFeatures {
     }
 }
 
-/// The names of attributes, in the order in which they are found.
+/// Attribute names, in the order of their first occurrence.
 #[derive(Default)]
 pub(super) struct Columns(pub(super) Vec<String>);
 
@@ -80,7 +80,7 @@ impl Columns {
         })
     }
 
-    /// The values of a feature's table, but for its id, its geometry and what no file can hold.
+    /// Returns the values of a feature's table, without id, geometry and values that files cannot store.
     pub(super) fn values(&mut self, table: &Table) -> Vec<(usize, Attribute)> {
         let values = table.entries.iter().filter_map(|(key, value)| match key {
             TableKey::Name(name) if !["id", "geometry"].contains(&&**name) => {
@@ -92,7 +92,7 @@ impl Columns {
     }
 }
 
-/// A value as files hold it; none for what they cannot.
+/// Converts a value to an attribute; `None` for nil and objects.
 pub(super) fn attribute(value: &Value) -> Option<Attribute> {
     match value {
         Value::Nil | Value::Object(_) => None,
@@ -103,7 +103,7 @@ pub(super) fn attribute(value: &Value) -> Option<Attribute> {
     }
 }
 
-/// A value as JSON: a table whose keys are 1, 2, 3 and so on is a list.
+/// Converts a value to JSON; a table with the keys 1 to n becomes an array.
 fn json(value: &Value) -> serde_json::Value {
     match value {
         Value::Nil | Value::Object(_) => serde_json::Value::Null,

@@ -1,4 +1,4 @@
-//! What could not be built as the script asked, for the report of a run.
+//! Skipped and simplified features, for the report of a run.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -9,25 +9,25 @@ use burgeon_base::error::Error;
 use burgeon_base::text::grouped;
 use burgeon_kit::Note;
 
-/// A feature that was left out or simplified, and why.
+/// Skipped or simplified feature, with the reason.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Remark {
-    /// The source of the feature; empty for a list that the script made, and for a chain without a feature.
+    /// Source of the feature; empty for a list of the script and for a chain without a feature.
     pub source: String,
-    /// The feature's id, if the chain came from one.
+    /// Feature id, if the chain came from a feature.
     pub feature: Option<String>,
-    /// Whether nothing of it was built.
+    /// Set if nothing was built for the feature.
     pub skipped: bool,
-    /// What was done, in words that can be counted.
+    /// Change that was made, as a text without details of the feature, so that equal changes can be counted.
     pub what: String,
-    /// Why, for this one alone; may be empty.
+    /// Reason for this feature; may be empty.
     pub why: String,
-    /// Whether it could not even be read, of which its source has warned.
+    /// Set if the feature could not be read; its source has already reported it.
     pub unread: bool,
 }
 
 impl Remark {
-    /// Nothing was built of a feature because of `error`.
+    /// Creates the remark for a feature that was skipped because of `error`.
     pub(crate) fn skipped(source: &str, feature: Option<&str>, error: &Error) -> Self {
         let (source, feature) = (source.to_owned(), feature.map(str::to_owned));
         Self {
@@ -40,7 +40,7 @@ impl Remark {
         }
     }
 
-    /// What an object noted.
+    /// Creates the remark for a note of an object.
     pub(crate) fn simplified(source: &str, feature: Option<&str>, note: &Note) -> Self {
         let (source, feature) = (source.to_owned(), feature.map(str::to_owned));
         Self {
@@ -64,23 +64,23 @@ impl Remark {
     }
 }
 
-/// How many features a run had, and what became of those that it could not build as asked.
+/// Number of features of a run, and the skipped and simplified features.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct FeatureReport {
-    /// The features of all systems that were shown or placed.
+    /// Number of features of all systems that were shown or placed.
     pub features: usize,
-    /// How many of them were left out.
+    /// Number of skipped features.
     pub skipped: usize,
-    /// How many chains were simplified.
+    /// Number of simplified chains.
     pub simplified: usize,
-    /// How often each thing was done.
+    /// Number of remarks per kind of change.
     pub counts: BTreeMap<String, usize>,
-    /// Each single one: by system those that got no chain, then the chains in their order.
+    /// All remarks: for each system first the features without a chain, then the chains in order.
     pub remarks: Vec<Remark>,
 }
 
 impl FeatureReport {
-    /// Adds a system of `features` features, with what became of some of them.
+    /// Adds the remarks of a system with `features` features.
     pub(crate) fn add(&mut self, features: usize, remarks: &[Remark]) {
         self.features += features;
         for (index, remark) in remarks.iter().enumerate() {
@@ -95,12 +95,12 @@ impl FeatureReport {
         self.remarks.extend_from_slice(remarks);
     }
 
-    /// Whether all was built as asked.
+    /// Returns true if nothing was skipped or simplified.
     pub fn is_clean(&self) -> bool {
         self.remarks.is_empty()
     }
 
-    /// The counts for machines: `{ features, skipped, simplified, counts }`.
+    /// Returns the counts as JSON: `{ features, skipped, simplified, counts }`.
     pub fn counts_json(&self) -> serde_json::Value {
         json!({
             "features": self.features,
@@ -110,7 +110,7 @@ impl FeatureReport {
         })
     }
 
-    /// Writes the counts and all remarks as one JSON document, with a line for each remark.
+    /// Writes the counts and all remarks as one JSON document, one line per remark.
     pub fn write_json(&self, out: &mut impl std::io::Write) -> std::io::Result<()> {
         let counts = self.counts_json().to_string();
         let counts = counts.strip_suffix('}').unwrap_or(&counts);
@@ -128,7 +128,7 @@ impl fmt::Display for FeatureReport {
         let what = if self.features == 1 { "feature" } else { "features" };
         let all = grouped(self.features);
         if self.features == 0 {
-            // Chains that came from no feature cannot be left out.
+            // A chain that came from no feature cannot be skipped.
             let chains = if self.simplified == 1 { "chain" } else { "chains" };
             return write!(f, "{} {chains} simplified", grouped(self.simplified));
         }

@@ -1,8 +1,9 @@
-//! The features that modules came from, where a query put rows of data into a chain.
+//! Features of modules in chains that queries fill with rows of data.
 //!
-//! A chain that an axiom or a rule fills by `query(...)` has modules of many features. For files that tell whose everything is,
-//! each symbol of the chain is followed from the row that it came from to the final chain, and what it drew is that feature's.
-//! Nothing of this is kept unless [`RunReports::records`](crate::script::RunReports::records) asks for it.
+//! A chain that an axiom or a rule fills with `query(...)` has modules of many features. For exports with
+//! feature attributes, each symbol is traced from its row to the final chain, and its drawing is assigned to
+//! that feature. These records are kept only if [`RunReports::records`](crate::script::RunReports::records)
+//! is set.
 
 use burgeon_data::output::{Record, RecordTable};
 use burgeon_kit::{Makers, Value};
@@ -12,37 +13,37 @@ use rustc_hash::FxHashMap;
 use super::records::{Columns, attribute};
 use crate::questions::Rows;
 
-/// The features that the symbols of a chain came from.
+/// Features that the symbols of a chain came from.
 #[derive(Default)]
 pub(crate) struct RowFeatures {
     columns: Columns,
     records: Vec<Record>,
-    /// The numbers of features, by the name of the module that a query made of them, and their ids.
+    /// Feature numbers, by module name and feature id.
     known: FxHashMap<(String, String), u32>,
-    /// For each symbol of the present chain: the number of its feature, from 1; 0 for none.
+    /// Feature number of each symbol of the current chain, from 1; 0 for none.
     owners: Vec<u32>,
-    /// Who made what of each object's drawing.
+    /// Makers of the drawing of each object.
     makers: Vec<Option<Makers>>,
 }
 
 impl RowFeatures {
-    /// Begins with a chain of so many symbols, which are nobody's.
+    /// Starts with a chain of `symbols` symbols without features.
     pub(crate) fn new(symbols: usize) -> Self {
         Self { owners: vec![0; symbols], ..Self::default() }
     }
 
-    /// True if no row has been put into the chain.
+    /// Returns true if no row has been put into the chain.
     pub(crate) fn is_empty(&self) -> bool {
         self.records.is_empty()
     }
 
-    /// The feature of the symbol at a place.
+    /// Returns the feature number of a symbol, from 1; 0 for none.
     pub(crate) fn owner(&self, symbol: usize) -> u32 {
         self.owners.get(symbol).copied().unwrap_or(0)
     }
 
-    /// The features of `rows`, of which a query makes modules called `module`. Rows with an id are those of the same feature as others
-    /// with it.
+    /// Returns the feature numbers of `rows`, from which a query makes modules named `module`. Rows with the
+    /// same id belong to one feature.
     pub(crate) fn of_rows(&mut self, rows: &Rows, module: &str) -> Vec<u32> {
         let id_column = rows.id();
         let each = rows.iter().map(|row| {
@@ -72,7 +73,8 @@ impl RowFeatures {
         each.collect()
     }
 
-    /// Takes the next chain: `applied` tells for each symbol of the present one how many came of it.
+    /// Advances to the next chain: for each current symbol, `applied` has the rule and the number of its
+    /// successors.
     pub(crate) fn step(&mut self, applied: &[(u16, u32)]) {
         if self.is_empty() {
             let count = applied.iter().map(|(_, count)| *count as usize).sum();
@@ -85,17 +87,17 @@ impl RowFeatures {
         }
     }
 
-    /// Takes the owners of the symbols of the next chain.
+    /// Sets the feature numbers of the symbols of the next chain.
     pub(crate) fn replace(&mut self, owners: Vec<u32>) {
         self.owners = owners;
     }
 
-    /// Takes who made what of each object's drawing.
+    /// Sets the makers of the drawing of each object.
     pub(crate) fn set_makers(&mut self, makers: Vec<Option<Makers>>) {
         self.makers = makers;
     }
 
-    /// The features as a table.
+    /// Returns the features as a table.
     pub(crate) fn table(&self, number: usize) -> RecordTable {
         RecordTable {
             name: format!("system {number}"),
@@ -104,8 +106,8 @@ impl RowFeatures {
         }
     }
 
-    /// Divides what object number `chain` has added to `scene`, since it had so many instances, among the features that its modules
-    /// came from.
+    /// Assigns the instances that object `chain` has added to `scene` after the first `known` instances to
+    /// the features of the modules that drew them.
     pub(crate) fn divide(&self, scene: &mut Scene, known: usize, chain: usize) {
         let Some(Some(makers)) = self.makers.get(chain) else { return };
         let placements: Vec<usize> = makers.all_placements().collect();

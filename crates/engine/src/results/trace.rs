@@ -1,7 +1,7 @@
-//! Which rules made which modules: kept only for the chains that someone asks about.
+//! Lineage of modules, recorded only for the chains of a trace request.
 //!
-//! A run is determined by its script, parameters and seed, so a chain can be derived again whenever it is asked
-//! about. Nothing of this is remembered otherwise.
+//! Script, parameters and seed determine a run, so a chain can be derived again when it is traced. Other runs
+//! record no lineage.
 
 use std::sync::Arc;
 
@@ -11,87 +11,87 @@ use burgeon_kit::Makers;
 use burgeon_kit::Values;
 use burgeon_rewriting::{Chain, END, NO_RULE, Symbol, Symbols, module_brief};
 
-/// Characters of a parameter that people are shown.
+/// Maximum number of characters of a parameter's text.
 const SHOWN: usize = 2000;
 
-/// In place of a rule's number: what a module stood for took its place.
+/// Rule number for a placeholder module that was resolved.
 pub(crate) const RESOLVED: u16 = NO_RULE - 1;
 
-/// What took the place of a module that stood for others, in words.
+/// Description of the modules that replaced a placeholder module.
 pub(crate) struct PendingAnswer {
-    /// Its place in the chain.
+    /// Index of the placeholder in the chain.
     pub symbol: usize,
     pub text: String,
-    /// The line that made the module.
+    /// Line that made the placeholder.
     pub place: Option<SourcePlace>,
 }
 
-/// How the symbols of a chain became those of the next.
+/// Step from a chain to the next.
 #[derive(Default)]
 pub(crate) struct Step {
-    /// The number of the derivation step, 0 for the axiom.
+    /// Number of the derivation step; 0 for the axiom.
     pub number: usize,
-    /// The chain before the step; left empty where all chains are traced, whose modules nobody looks at.
+    /// Chain before the step; empty if all chains are traced, because then no module is inspected.
     pub chain: Chain,
-    /// For each symbol of that chain: the rule that ran, or none, and how many symbols came of it.
+    /// For each symbol of the chain before the step: the rule that ran or [`NO_RULE`], and the number of its
+    /// successors.
     pub applied: Vec<(u16, u32)>,
-    /// What took the places of modules that stood for others, in the order of the chain.
+    /// Replacements of placeholder modules, in the order of the chain.
     pub answers: Vec<PendingAnswer>,
-    /// What guards and successors have asked of data for the symbol at a place, and how many rows they got; by place.
+    /// Queries of guards and successors with their row counts, by the index of the symbol.
     pub asked: Vec<(usize, String)>,
 }
 
-/// A rule as people see it.
+/// Display name of a rule.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RuleName {
-    /// Its pattern.
+    /// Pattern of the rule.
     pub text: String,
-    /// Where it was declared.
+    /// Location of the declaration.
     pub place: Option<SourcePlace>,
 }
 
-/// A module as people see it.
+/// Display form of a module.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Module {
-    /// Its name and parameters, such as `Floor(3,6)`.
+    /// Name and parameters, such as `Floor(3,6)`.
     pub text: String,
-    /// Its symbol's name.
+    /// Name of the symbol.
     pub symbol: String,
-    /// The names and values of its parameters.
+    /// Names and values of the parameters.
     pub params: Vec<(String, String)>,
 }
 
-/// A module on the way from the axiom to the one that is asked about.
+/// Module between the axiom and the traced module.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Ancestor {
-    /// The derivation step that made it; 0 for the axiom's.
+    /// Derivation step that made it; 0 for the axiom.
     pub step: usize,
-    /// The module.
+    /// Name and parameters.
     pub module: Module,
-    /// The rule that made it, or that asked for it; `None` for the axiom's, and for a part of another module.
+    /// Rule that made or requested it; `None` for the axiom, and for a part of another module.
     pub rule: Option<RuleName>,
-    /// What it came of where it took the place of a module that stood for others, such as a query with its values and
-    /// the number of its rows, and the line that made that module.
+    /// Origin of a module that replaced a placeholder, such as a query with its values and row count, and the
+    /// line that made the placeholder.
     pub answer: Option<RuleName>,
-    /// What its rules asked of data as it was made, with values and the number of rows: first the guards, and then the
-    /// successor.
+    /// Queries of the rules that made it, with values and row counts: first the guards, then the successor.
     pub asked: Vec<String>,
-    /// Its number among the modules that came of the same application, from 0.
+    /// Index among the modules of the same application, from 0.
     pub ordinal: usize,
 }
 
-/// What a rule, an interpretation rule or the axiom has made.
+/// Symbols made by a rule, an interpretation rule or the axiom.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RuleProducts {
-    /// Its pattern, or "axiom".
+    /// Pattern of the rule, or "axiom".
     pub name: String,
-    /// The line where it begins.
+    /// First line of the declaration.
     pub line: usize,
-    /// For each symbol of the final chain, whether it came of it.
+    /// For each symbol of the final chain: true if this rule made it or one of its ancestors.
     pub made: Vec<bool>,
 }
 
-/// Derived chains with all that led to them.
+/// Derived chains with their complete lineage.
 pub struct Trace {
     pub(crate) steps: Vec<Step>,
     pub(crate) chain: Chain,
@@ -100,13 +100,13 @@ pub struct Trace {
     values: Arc<Values>,
     rules: Vec<RuleName>,
     interpretations: Vec<RuleName>,
-    /// By symbol: the number of its interpretation rule, or [`NO_RULE`].
+    /// Number of the interpretation rule by symbol, or [`NO_RULE`].
     interpreted: Vec<u16>,
     axiom: Option<SourcePlace>,
 }
 
 impl Trace {
-    /// A trace without steps, of chains with these rules and interpretations.
+    /// Creates a trace without steps, for chains with these rules and interpretation rules.
     pub(crate) fn new(
         (symbols, values): (&Arc<Symbols>, &Arc<Values>),
         rules: Vec<RuleName>,
@@ -127,27 +127,27 @@ impl Trace {
         }
     }
 
-    /// Where the axiom was set.
+    /// Returns the location where the axiom was set.
     pub fn axiom(&self) -> Option<&SourcePlace> {
         self.axiom.as_ref()
     }
 
-    /// The number of symbols in the final chain, brackets and ends included.
+    /// Returns the number of symbols in the final chain, including brackets and ends.
     pub fn len(&self) -> usize {
         self.chain.symbols.len()
     }
 
-    /// Whether there is nothing in the final chain.
+    /// Returns true if the final chain is empty.
     pub fn is_empty(&self) -> bool {
         self.chain.symbols.is_empty()
     }
 
-    /// Whether there is a module at place `index` of the final chain.
+    /// Returns true if symbol `index` of the final chain is a module.
     pub fn is_module(&self, index: usize) -> bool {
         self.chain.symbols.get(index).is_some_and(|symbol| *symbol > END)
     }
 
-    /// The module at place `index` of the final chain; `None` for a bracket and past the end.
+    /// Returns the module at `index` of the final chain; `None` for a bracket and past the end.
     pub fn module(&self, index: usize) -> Option<Module> {
         self.module_of(&self.chain, index)
     }
@@ -176,13 +176,14 @@ impl Trace {
         })
     }
 
-    /// The rule that interprets the module at place `index` of the final chain.
+    /// Returns the interpretation rule of the module at `index` of the final chain.
     pub fn interpretation(&self, index: usize) -> Option<&RuleName> {
         let symbol = *self.chain.symbols.get(index)?;
         self.interpretations.get(usize::from(self.interpreted[usize::from(symbol)]))
     }
 
-    /// The modules from the axiom to place `index` of the final chain, where a rule made something new.
+    /// Returns the ancestors of the symbol at `index` of the final chain, from the axiom on, one per applied
+    /// rule.
     pub fn path(&self, index: usize) -> Vec<Ancestor> {
         let mut path = Vec::new();
         let mut here = index;
@@ -194,7 +195,7 @@ impl Trace {
                 let before = after.symbols[begin..here].iter().filter(|symbol| **symbol > END);
                 let rule = self.rules.get(usize::from(rule)).cloned();
                 if stands_for_rows(after, here) {
-                    // What took its place is told of, and that this rule asked for it.
+                    // The query's rows are already in the path; they also name the rule that made the query.
                     path.last_mut().into_iter().for_each(|rows: &mut Ancestor| rows.rule.clone_from(&rule));
                 } else if let Some(module) = self.module_of(after, here) {
                     let answer = step.answers.iter().find(|answer| answer.symbol == parent);
@@ -218,13 +219,14 @@ impl Trace {
         path
     }
 
-    /// The text of the final chain around place `index`: up to `radius` symbols before it, itself, and as many after.
+    /// Returns the text of the final chain around `index`: up to `radius` symbols before it, the symbol, and
+    /// as many after it.
     pub fn around(&self, index: usize, radius: usize) -> [String; 3] {
         around(&self.chain, &self.symbols, &self.values, index, radius)
     }
 
-    /// What line `line` of `file` says, if it is a rule, an interpretation rule or the axiom: the last of them that
-    /// begins there or above.
+    /// Returns the rule, interpretation rule or axiom that begins at `line` of `file`, or the last one above,
+    /// with its line.
     fn line(&self, file: &str, line: usize) -> Option<(LineSubject, usize)> {
         let rules =
             (0u16..).zip(&self.rules).map(|(index, rule)| (LineSubject::Rule(index), rule.place.as_ref()));
@@ -241,8 +243,8 @@ impl Trace {
             .map(|(what, place)| (what, place.line))
     }
 
-    /// What the rule, interpretation rule or axiom at a line, or the last one above it, has made in the end. `None` if
-    /// there is none.
+    /// Returns the symbols made by the rule, interpretation rule or axiom at a line, or by the last one above
+    /// it. `None` if there is none.
     pub fn made_by(&self, file: &str, line: usize) -> Option<RuleProducts> {
         let (what, line) = self.line(file, line)?;
         let (name, made) = match what {
@@ -270,31 +272,31 @@ impl Trace {
         Some(RuleProducts { name, line, made })
     }
 
-    /// For each traced chain, where its symbols begin in the final chain.
+    /// Returns the index of the first symbol of each traced chain in the final chain.
     pub fn starts(&self) -> Vec<usize> {
         self.chain.starts(&self.symbols.arities()).iter().map(|mark| mark.module).collect()
     }
 
-    /// Who made what is drawn of each traced chain; `None` where the object does not draw with a
+    /// Returns the makers of the drawing of each traced chain; `None` if the object does not draw with a
     /// [`Drawing`](burgeon_kit::Drawing).
     pub(crate) fn makers(&self) -> &[Option<Makers>] {
         &self.makers
     }
 }
 
-/// What a line of a script says.
+/// Declaration at a line of a script.
 enum LineSubject {
     Axiom,
     Rule(u16),
     Interpretation(u16),
 }
 
-/// Whether the module at place `index` of a chain is a query.
+/// Returns true if the module at `index` of a chain is a query placeholder.
 fn stands_for_rows(chain: &Chain, index: usize) -> bool {
     chain.symbols.get(index) == Some(&QUERY)
 }
 
-/// The symbol that became the one at `index` after a step, and where the symbols that came of it begin.
+/// Returns the parent of the symbol at `index` after a step, and the index of that parent's first successor.
 fn parent(applied: &[(u16, u32)], index: usize) -> Option<(usize, usize)> {
     let mut begin = 0;
     for (parent, (_, count)) in applied.iter().enumerate() {
@@ -307,7 +309,8 @@ fn parent(applied: &[(u16, u32)], index: usize) -> Option<(usize, usize)> {
     None
 }
 
-/// The text of `chain` around place `index`: up to `radius` symbols before it, itself, and as many after it.
+/// Returns the text of `chain` around `index`: up to `radius` symbols before it, the symbol, and as many
+/// after it.
 pub(crate) fn around(
     chain: &Chain,
     symbols: &Symbols,

@@ -49,9 +49,9 @@ impl HeightFormat {
 
 /// Writes `map` to the future file `path`, in the format of its extension.
 ///
-/// Coordinates of a GeoTIFF and an ASCII grid are in the projection of the run. A `.prj` file beside the file tells the
-/// projection if the file cannot. Without a projection, coordinates are in metres of the run. Fails if the map has too few or infinite heights, if the format cannot
-/// store it, or if the disk is full.
+/// Coordinates of a GeoTIFF and an ASCII grid are in the projection of the run. If the file format cannot store the
+/// projection, a `.prj` file next to the file contains it. Without a projection, coordinates are in metres of the run.
+/// Fails if the map has too few heights or infinite heights, if the format cannot store it, or if the disk is full.
 pub fn write(map: &HeightMap, path: &Path, files: &mut Files) -> Result<()> {
     let format = HeightFormat::of(path)?;
     check(map, format).map_err(|error| error.about(&format!("cannot write {}", path.display())))?;
@@ -114,8 +114,8 @@ fn check(map: &HeightMap, format: HeightFormat) -> Result<()> {
     Ok(())
 }
 
-/// Returns true if the projection must be told in a `.prj` file: ASCII grids have none, and GeoTIFFs those with an
-/// EPSG code or around a centre.
+/// Returns true if a `.prj` file must contain the projection. ASCII grids cannot store one, and GeoTIFFs only store an
+/// EPSG code or a projection around a centre.
 fn needs_text(map: &HeightMap, format: HeightFormat) -> bool {
     let is_told = map.frame.as_ref().is_some_and(|frame| frame.epsg.is_some() || frame.middle.is_some());
     format == HeightFormat::Ascii || format == HeightFormat::GeoTiff && !is_told

@@ -1,4 +1,4 @@
-//! The names that Burgeon adds to Luau in Rust, and what they give.
+//! Names that Burgeon adds to Luau in Rust, and the types of their results.
 
 use std::sync::LazyLock;
 
@@ -7,7 +7,7 @@ use burgeon_kit::{Argument, Field};
 use super::name::{Name, Operator, field};
 use crate::form::argument;
 
-/// All of them.
+/// Returns all names of this file.
 pub(super) fn names() -> Vec<Name> {
     let shared = [
         &*PARAM, &OBJECT, &EXTEND, &LSYSTEM, &SYSTEM, &RULE, &DERIVED, &SOURCE, &LAYER, &QUERY, &FRAGMENT,
@@ -101,7 +101,7 @@ fn options(luau: &str, fields: impl Into<Vec<Field>>) -> Argument {
     Argument { fields: fields.into(), ..argument("options", luau) }
 }
 
-/// What a script's parameters are declared with.
+/// Declaration of a script parameter.
 pub static PARAM: LazyLock<Name> = LazyLock::new(|| {
     Name::global(
         "param",
@@ -137,7 +137,7 @@ pub static PARAM: LazyLock<Name> = LazyLock::new(|| {
     )
 });
 
-/// What a system is made with.
+/// Constructor of systems.
 pub static LSYSTEM: LazyLock<Name> = LazyLock::new(|| {
     Name::global("lsystem", "Makes a system of rules; what it has is told of under system.").form(
         [options(
@@ -173,7 +173,7 @@ pub static LSYSTEM: LazyLock<Name> = LazyLock::new(|| {
     )
 });
 
-/// What a type of object is declared with.
+/// Declaration of an object type.
 pub static OBJECT: LazyLock<Name> = LazyLock::new(|| {
     let functions = "{ [string]: (self: any, ...any) -> any }?";
     let hook = "((self: any) -> ())?";
@@ -214,7 +214,7 @@ pub static OBJECT: LazyLock<Name> = LazyLock::new(|| {
         .form([argument("name", "string"), declaration], "(fields: { ... }?) -> any")
 });
 
-/// What is added to a type of object.
+/// Extension of an object type.
 pub static EXTEND: LazyLock<Name> = LazyLock::new(|| {
     let functions = "{ [string]: (self: any, ...any) -> any }?";
     let fields = [
@@ -226,7 +226,7 @@ pub static EXTEND: LazyLock<Name> = LazyLock::new(|| {
         .form([argument("constructor", "(...any) -> any"), declaration], "()")
 });
 
-/// What a system has.
+/// Methods of a system.
 pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
     let pattern = || argument("pattern", "string");
     let successor = || argument("successor", "((this: T, ...any) -> ...Module) | string");
@@ -261,7 +261,7 @@ pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
         ])
 });
 
-/// What a rule may be told.
+/// Options of a rule.
 pub static RULE: LazyLock<Name> = LazyLock::new(|| {
     Name::given("rule", "{ ... }", "The options of system:rule, between its pattern and its successor.")
         .fields([
@@ -280,7 +280,7 @@ pub static RULE: LazyLock<Name> = LazyLock::new(|| {
         ])
 });
 
-/// What a derived system has.
+/// Fields of a derived system.
 pub static DERIVED: LazyLock<Name> = LazyLock::new(|| {
     Name::given("derived", "Derived", "A derived system, as system:derive gives it, which is also a model.")
         .extends("Model")
@@ -292,7 +292,7 @@ pub static DERIVED: LazyLock<Name> = LazyLock::new(|| {
         ])
 });
 
-/// What a source is chosen by.
+/// Loading of features, with the options that select them.
 pub static SOURCE: LazyLock<Name> = LazyLock::new(|| {
     Name::global("source", "The features of a data file, or of a list; what it has is told of under layer.")
         .form(
@@ -347,7 +347,7 @@ pub static SOURCE: LazyLock<Name> = LazyLock::new(|| {
         )
 });
 
-/// What a source has.
+/// Fields of a layer, which `source` returns.
 pub static LAYER: LazyLock<Name> = LazyLock::new(|| {
     Name::given("layer", "Layer", "Features, as source gives them: for index, feature in it do, and #it.")
         .items("Feature")
@@ -364,7 +364,7 @@ pub static LAYER: LazyLock<Name> = LazyLock::new(|| {
         ])
 });
 
-/// What is asked of data.
+/// SQL query.
 static QUERY: LazyLock<Name> = LazyLock::new(|| {
     let sql = || argument("sql", "string");
     let values = || argument("values", "{ [string]: any }?");
@@ -381,7 +381,7 @@ static QUERY: LazyLock<Name> = LazyLock::new(|| {
     .pure()
 });
 
-/// What takes geometries apart.
+/// Module for the parts of a geometry.
 static FRAGMENT: LazyLock<Name> = LazyLock::new(|| {
     Name::global(
         "fragment",
@@ -392,7 +392,7 @@ static FRAGMENT: LazyLock<Name> = LazyLock::new(|| {
     .pure()
 });
 
-/// What a vector has.
+/// Fields, operators and methods of a vector.
 pub static VECTOR: LazyLock<Name> = LazyLock::new(|| {
     let other = || argument("other", "Vector");
     Name::given(

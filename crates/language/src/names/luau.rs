@@ -1,8 +1,8 @@
-//! The names of Luau itself that scripts keep, and those that they do not.
+//! Names of Luau, both available to scripts and removed.
 
 use super::name::{Effect, Name, NameKind};
 
-/// Names that would make a script's meaning depend on more than itself, or would slow it down.
+/// Removed names, because they would make a script's result depend on its environment, or slow it down.
 pub const LOCKED: [&str; 14] = [
     "getfenv",
     "setfenv",
@@ -20,15 +20,15 @@ pub const LOCKED: [&str; 14] = [
     "loadfile",
 ];
 
-/// What a call leaves behind, as the tables below say it.
+/// Short names for the effects in the tables below.
 const P: Effect = Effect::Pure;
 const C: Effect = Effect::ChangesFirst;
 const O: Effect = Effect::Other;
 
-/// A function: its name, its type in Luau, what it does, and what a call leaves behind.
+/// A function: name, Luau type, description, and effect of a call.
 type Row = (&'static str, &'static str, &'static str, Effect);
 
-/// The functions that are no library's, and one value.
+/// Global functions and values outside of the libraries below.
 const FUNCTIONS: [Row; 23] = [
     ("_VERSION", "string", "The name of the language.", O),
     ("assert", "(value: any, message: string?) -> any", "Raises an error unless the value is true.", P),
@@ -85,7 +85,7 @@ const FUNCTIONS: [Row; 23] = [
     ("coroutine", "{ ... }", "Luau's library of coroutines.", O),
 ];
 
-/// The library of strings.
+/// String library.
 const STRING: [Row; 17] = [
     ("byte", "(text: string, from: number?, to: number?) -> ...number", "The numbers of its bytes.", P),
     ("char", "(...number) -> string", "The text of these bytes.", P),
@@ -136,7 +136,7 @@ const STRING: [Row; 17] = [
     ("upper", "(text: string) -> string", "The text in capital letters.", P),
 ];
 
-/// The library of lists and tables.
+/// Table library.
 const TABLE: [Row; 17] = [
     ("clear", "(list: any) -> ()", "Takes everything out of a table.", C),
     ("clone", "(list: any) -> any", "Another table with the same entries.", O),
@@ -187,7 +187,7 @@ const TABLE: [Row; 17] = [
     ("unpack", "(list: { any }, from: number?, to: number?) -> ...any", "The values of a list.", P),
 ];
 
-/// The library of mathematics.
+/// Mathematics library.
 const MATH: [Row; 36] = [
     ("abs", "(x: number) -> number", "The number without its sign.", P),
     ("acos", "(x: number) -> number", "The angle (radians) with this cosine.", P),
@@ -232,7 +232,7 @@ const MATH: [Row; 36] = [
     ("tanh", "(x: number) -> number", "The hyperbolic tangent.", P),
 ];
 
-/// The library of bits.
+/// Library of bit operations.
 const BIT32: [Row; 15] = [
     (
         "arshift",
@@ -271,7 +271,7 @@ const BIT32: [Row; 15] = [
     ("rshift", "(x: number, by: number) -> number", "The bits moved to the right.", P),
 ];
 
-/// The library of texts in UTF-8.
+/// Library for text in UTF-8.
 const UTF8: [Row; 6] = [
     ("char", "(...number) -> string", "The text of these letters, by their numbers.", O),
     ("charpattern", "string", "A pattern that one letter matches.", O),
@@ -296,7 +296,7 @@ const UTF8: [Row; 6] = [
     ),
 ];
 
-/// All of them.
+/// Returns all names of Luau that scripts can use.
 pub(super) fn names() -> Vec<Name> {
     let mut names: Vec<Name> = FUNCTIONS.into_iter().map(|row| declared(NameKind::Luau, row)).collect();
     for (name, doc, rows) in [

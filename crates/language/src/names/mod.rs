@@ -1,7 +1,7 @@
-//! The names that every script has besides types of objects: each declared once, with its type and what it does.
+//! Names that every script has in addition to object types, each declared once with its type and description.
 //!
-//! What is told of them, what scripts are refused, what is known of a call before it is made, and what editors complete
-//! follows from here. The standard library's names stand in its own file.
+//! The help, the errors for unknown names, the analysis of calls and the completion in editors are derived from these
+//! declarations. The names of the standard library are declared in its own file.
 
 mod burgeon;
 mod luau;
@@ -10,7 +10,4 @@ mod standard;
 
 pub use burgeon::{DERIVED, EXTEND, LAYER, LSYSTEM, OBJECT, PARAM, RULE, SOURCE, SYSTEM, VECTOR};
 pub use luau::LOCKED;
-pub use name::{
-    Effect, Name, NameKind, Operator, deprecated_names, is_pure_function, is_pure_method, library_effect,
-    names,
-};
+pub use name::{Effect, Name, NameKind, Operator, deprecated_names, is_pure_function, library_effect, names};

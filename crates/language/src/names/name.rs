@@ -1,86 +1,86 @@
-//! A name that scripts have, what it is and how it is called, and the list of all of them.
+//! Description of a name in scripts, and the list of all names.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-use burgeon_kit::{Argument, Deprecation, Field, GeometryObject, Registry};
+use burgeon_kit::{Argument, Deprecation, Field, Registry};
 
 use crate::form::CallForm;
 
-/// A text that stands in the program or is made from what does.
+/// Text that is static or derived from static text.
 type Text = Cow<'static, str>;
 
-/// A name that every script has, or what something of that kind gives.
+/// A name that every script has, or a type that such a name returns.
 #[derive(Debug, Clone)]
 pub struct Name {
-    /// The name, or what people call it.
+    /// The name, or the display name of a type.
     pub name: Text,
-    /// What it is.
+    /// Kind of the name.
     pub sort: NameKind,
-    /// How it is called; empty of what is no function.
+    /// Signatures; empty if the name is not a function.
     pub forms: Vec<CallForm>,
-    /// Its type in Luau where it is no function.
+    /// Luau type, if the name is not a function.
     pub luau: Text,
-    /// What may be given in its place where one is taken, as a type in Luau; empty if nothing else may.
+    /// Luau type that is accepted instead of this type; empty if none is.
     pub instead: Text,
-    /// What Luau calls the type as which it may be used, too; empty if there is none.
+    /// Luau name of the base type; empty if there is none.
     pub extends: Text,
-    /// What it does.
+    /// Description.
     pub doc: Text,
-    /// What it has, if it is a table of named fields.
+    /// Fields, if values are tables of named fields.
     pub fields: Vec<Field>,
-    /// Its methods; of a library, its functions.
+    /// Methods, or functions of a library.
     pub functions: Vec<Name>,
-    /// What stands between it and others.
+    /// Operators.
     pub operators: Vec<Operator>,
-    /// The type of what it has by numbers, as a list does; empty if it has none.
+    /// Type of the items if the value is indexed by numbers, as a list is; otherwise empty.
     pub items: Text,
-    /// What is left behind by a call.
+    /// Effect of a call.
     pub effect: Effect,
-    /// That it will go, and what is used instead.
+    /// Deprecation with the replacement, if the name is deprecated.
     pub deprecated: Option<Deprecation>,
 }
 
-/// An operator of what a name gives.
+/// An operator of a type.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Operator {
-    /// What Luau calls it, without the underscores: `add`.
+    /// Luau name without the underscores: `add`.
     pub name: &'static str,
-    /// The type of what stands behind it; empty where nothing does.
+    /// Type of the second operand; empty for unary operators.
     pub other: &'static str,
-    /// The type of what it gives.
+    /// Type of the result.
     pub returns: &'static str,
 }
 
-/// What a name is.
+/// Kind of a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NameKind {
-    /// A function or a value that a script names.
+    /// A global function or value.
     Global,
-    /// A function or a library of Luau itself.
+    /// A function or a library of Luau.
     Luau,
-    /// The constructor of modules that the standard library interprets by a method.
+    /// A constructor of modules that the standard library interprets by a method.
     Module {
-        /// The type of object.
+        /// Object type of the method.
         kind: &'static str,
-        /// Its method.
+        /// Name of the method.
         method: &'static str,
     },
-    /// What others give: scripts have it, but not by this name.
+    /// A type of values that other names return. Scripts cannot use this name.
     Given,
     /// A method, or a function of a library.
     Function,
 }
 
-/// What a call leaves behind.
+/// Effect of a call.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Effect {
-    /// Nothing but which random numbers are drawn; no function that it is given is called.
+    /// No effect except for the use of random numbers. The function calls none of its arguments.
     Pure,
-    /// A change of the table that comes first, and nothing else.
+    /// A change of the table that is the first argument, and nothing else.
     ChangesFirst,
-    /// That depends.
+    /// Other or unknown effects.
     Other,
 }
 
@@ -106,17 +106,17 @@ impl Name {
         }
     }
 
-    /// A function or a value that a script names.
+    /// Creates a global function or value.
     pub(super) fn global(name: &'static str, doc: &'static str) -> Self {
         Self::new(name, NameKind::Global, doc)
     }
 
-    /// What others give, with this type in Luau.
+    /// Creates a type of returned values, with its Luau type.
     pub(super) fn given(name: &'static str, luau: &'static str, doc: &'static str) -> Self {
         Self::new(name, NameKind::Given, doc).luau(luau)
     }
 
-    /// A method, or a function of a library.
+    /// Creates a method, or a function of a library.
     pub(super) fn function(name: &'static str, doc: &'static str) -> Self {
         Self::new(name, NameKind::Function, doc)
     }
@@ -133,12 +133,12 @@ impl Name {
         Self { extends: extends.into(), ..self }
     }
 
-    /// May be called with these arguments, and then gives a value of type `returns`.
+    /// Adds a signature with these arguments and a result of type `returns`.
     pub(super) fn form(self, arguments: impl Into<Vec<Argument>>, returns: &str) -> Self {
         self.called(CallForm::new(arguments.into(), returns))
     }
 
-    /// May be called as this type says.
+    /// Adds a signature in Luau syntax. Text that is not a function type is ignored.
     pub(super) fn read(self, luau: &str) -> Self {
         match CallForm::read(luau) {
             Some(form) => self.called(form),
@@ -146,7 +146,7 @@ impl Name {
         }
     }
 
-    /// May be called so, with the units and the defaults that its doc tells.
+    /// Adds a signature, with the units and defaults from the description.
     fn called(mut self, form: CallForm) -> Self {
         let arguments = form.arguments.into_iter().map(|argument| argument.described(&self.doc)).collect();
         self.forms.push(CallForm { arguments, ..form });
@@ -173,34 +173,34 @@ impl Name {
         Self { items: items.into(), ..self }
     }
 
-    /// Whether its type in Luau has a parameter, as `System<T>` has.
+    /// Returns true if the Luau type has a parameter, like `System<T>`.
     pub fn is_generic(&self) -> bool {
         self.luau.ends_with("<T>")
     }
 
-    /// The fields of the table that it takes.
+    /// Returns the fields of the options table of the last signature.
     pub fn options(&self) -> impl Iterator<Item = &Field> {
         self.forms.last().into_iter().flat_map(|form| &form.arguments).flat_map(|argument| &argument.fields)
     }
 
-    /// The names of the fields that it takes or has, and of its functions.
+    /// Returns the names of the options, fields and functions.
     pub fn part_names(&self) -> Vec<&str> {
         let fields = self.options().chain(&self.fields).map(|field| &*field.name);
         fields.chain(self.functions.iter().map(|function| &*function.name)).collect()
     }
 
-    /// Its method or its function called `name`.
+    /// Returns the method or function called `name`.
     pub fn find(&self, name: &str) -> Option<&Self> {
         self.functions.iter().find(|function| function.name == name)
     }
 }
 
-/// A field that may be left out, and is `default` then.
+/// Creates an optional field with a default.
 pub(super) fn field(name: &'static str, luau: &str, default: &str, doc: &'static str) -> Field {
     Field { default: default.to_owned(), ..Field::new(name, luau, doc) }
 }
 
-/// All names that every script has but those of types of objects, and what they give.
+/// Returns all names that every script has except for object types, and the types of their results.
 pub fn names() -> &'static [Name] {
     static NAMES: LazyLock<Vec<Name>> = LazyLock::new(|| {
         let own = super::burgeon::names().into_iter().chain(super::luau::names());
@@ -209,27 +209,22 @@ pub fn names() -> &'static [Name] {
     &NAMES
 }
 
-/// Which names, and constructors of the types in `registry`, will go.
+/// Returns the deprecated names, including constructors of the types in `registry`.
 pub fn deprecated_names(registry: &Registry) -> BTreeMap<String, Deprecation> {
     let own = names().iter().filter_map(|name| Some((name.name.to_string(), name.deprecated.clone()?)));
     let kinds = registry.kinds();
     own.chain(kinds.filter_map(|kind| Some((kind.name.to_string(), kind.deprecation("")?.clone())))).collect()
 }
 
-/// Whether a function that every script has is pure.
+/// Returns true if a global function is pure.
 pub fn is_pure_function(name: &str) -> bool {
     names().iter().any(|known| known.name == name && known.effect == Effect::Pure && !known.forms.is_empty())
 }
 
-/// What a function of a library leaves behind.
+/// Returns the effect of a library function.
 pub fn library_effect(library: &str, function: &str) -> Effect {
     let library = names().iter().find(|known| known.name == library && known.sort != NameKind::Given);
     library.and_then(|library| library.find(function)).map_or(Effect::Other, |function| function.effect)
-}
-
-/// Whether a method of what a feature has is pure: one of strings, or of its geometry, which never changes.
-pub fn is_pure_method(name: &str) -> bool {
-    library_effect("string", name) == Effect::Pure || GeometryObject::kind().method(name).is_some()
 }
 
 #[cfg(test)]
@@ -278,6 +273,5 @@ mod tests {
         ] {
             assert_eq!(library_effect(library, function), effect, "{library}.{function}");
         }
-        assert!(is_pure_method("lower") && !is_pure_method("gsub") && !is_pure_method("clear"));
     }
 }

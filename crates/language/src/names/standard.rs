@@ -1,14 +1,14 @@
-//! The names of the standard library, read from its own file: what stands above each in `---` is its doc.
+//! Names of the standard library, read from its source file. The `---` lines above a declaration are its description.
 
 use burgeon_kit::Argument;
 
 use super::name::{Name, NameKind};
 use crate::form::{CallForm, argument};
 
-/// The text of the standard library.
+/// Source text of the standard library.
 const TEXT: &str = include_str!("../../../../stdlib.lua");
 
-/// The names that it gives, in the order of the file.
+/// Returns the names that the library exports, in the order of the file.
 pub(super) fn names() -> Vec<Name> {
     let lines: Vec<&'static str> = TEXT.lines().collect();
     let mut names = Vec::new();
@@ -32,7 +32,7 @@ pub(super) fn names() -> Vec<Name> {
     names
 }
 
-/// The functions of a table of curves, each declared by a line of its own.
+/// Returns the functions of a table of curves, each declared in its own line.
 fn curves(lines: &[&'static str]) -> Vec<Name> {
     let within = lines.iter().take_while(|line| **line != "}");
     let names = within.filter_map(|line| line.strip_prefix("  ")?.split_once(" = curve(\""));
@@ -44,7 +44,7 @@ fn curves(lines: &[&'static str]) -> Vec<Name> {
     names.map(curve).collect()
 }
 
-/// The lines of doc that a declaration follows.
+/// Returns the lines of description before a declaration.
 fn above<'a>(before: &[&'a str]) -> Vec<&'a str> {
     let lines = before.iter().rev().map_while(|line| line.strip_prefix("---"));
     let mut lines: Vec<&str> = lines.map(str::trim).collect();
@@ -52,14 +52,14 @@ fn above<'a>(before: &[&'a str]) -> Vec<&'a str> {
     lines
 }
 
-/// The doc that a declaration follows; lines in it that are types are other forms of calling.
+/// Returns the description before a declaration. Lines with types in it are additional signatures and are skipped.
 fn doc(before: &[&str]) -> String {
     let mut lines = above(before);
     lines.retain(|line| !line.starts_with('('));
     lines.join(" ")
 }
 
-/// The name of a local function and how it is called.
+/// Parses the name and signature of a local function.
 fn function(line: &'static str) -> Option<(&'static str, CallForm)> {
     let (name, _) = line.strip_prefix("local function ")?.split_once('(')?;
     let (parameters, returns) = line.split_once('(')?.1.rsplit_once(')')?;
@@ -67,16 +67,16 @@ fn function(line: &'static str) -> Option<(&'static str, CallForm)> {
     Some((name, CallForm::read(&format!("({parameters}) -> {returns}"))?))
 }
 
-/// Whether the library gives a value of this name to scripts.
+/// Returns true if the library exports a value of this name.
 fn is_given(name: &str) -> bool {
     TEXT.lines()
         .any(|line| line.strip_prefix("names.").and_then(|rest| rest.split_once(" = ")) == Some((name, name)))
 }
 
-/// A module that a method of a type of object interprets.
+/// Parses a module that a method of an object type interprets.
 fn module(line: &'static str) -> Option<Name> {
     let mut texts = line.split('"').skip(1).step_by(2);
-    // Which type's methods these are is the first word of the helper's name.
+    // The first word of the helper's name is the object type.
     let helper = line.split_once("_module(").map(|(kind, _)| kind);
     let helper = helper.filter(|kind| kind.bytes().all(|byte| byte.is_ascii_lowercase()));
     let (name, kind, method, parameters) = if let Some(kind) = helper {
@@ -88,7 +88,7 @@ fn module(line: &'static str) -> Option<Name> {
     } else {
         return None;
     };
-    // A module with more than one parameter is declared in a line of its own.
+    // A separate line declares a module with more than one parameter.
     let declared =
         TEXT.lines().find_map(|line| line.strip_prefix(&format!("names.{name} = module(\"{name}\", ")));
     let parameters: Vec<&str> = match declared {
@@ -101,7 +101,7 @@ fn module(line: &'static str) -> Option<Name> {
     Some(Name { doc: doc.into(), ..name })
 }
 
-/// A module's parameter with its type.
+/// Creates the argument for a module parameter; a name that ends with `?` makes it optional.
 fn typed(parameter: &'static str) -> Argument {
     match parameter.strip_suffix('?') {
         Some(name) => argument(name, "any?"),

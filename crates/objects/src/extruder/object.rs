@@ -8,7 +8,8 @@ use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{Rings, Section, Segment, SweepOptions, sweep};
-use burgeon_kit::{AxisScale, Color, Drawing, Model, Path, Vector, Warn, fields, methods, object};
+use burgeon_kit::{AxisScale, Color, Drawing, Model, Vector, Warn, fields, methods, object};
+use burgeon_spatial::Path;
 use glam::{DAffine3, DVec2, DVec3};
 use smallvec::{SmallVec, smallvec};
 
@@ -61,12 +62,12 @@ const CREASE: f64 = 40.0;
     options = ExtruderOptions,
     example = include_str!("../../scripts/extruder.lua"),
     draws,
+    can(Warn),
     begins_empty,
     begin = restart,
     push = open_branch,
     pop = close_branch,
     end = finish,
-    warns
 )]
 pub struct Extruder {
     options: ExtruderOptions,

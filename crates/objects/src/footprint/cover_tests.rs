@@ -57,7 +57,8 @@ fn windows(blocks: &[BlockSketch]) -> Vec<Vec<DVec3>> {
     let make = |block: &BlockSketch| {
         let ring = block.corners().map(|at| at.extend(0.0)).to_vec();
         let height = Some(Height(block.height));
-        let options = FootprintOptions { geometry: Rings(vec![ring]), height, ..FootprintOptions::default() };
+        let options =
+            FootprintOptions { geometry: Rings(vec![ring]).into(), height, ..FootprintOptions::default() };
         Box::new(Footprint::new(options).expect("a footprint")) as Box<dyn Object>
     };
     let mut objects: Vec<Box<dyn Object>> = blocks.iter().map(make).collect();
@@ -199,7 +200,7 @@ fn walls_that_rise_above_the_height_of_a_storey_stay_blind() {
     let make = |block: BlockSketch| {
         let ring = block.corners().map(|at| at.extend(0.0)).to_vec();
         let options = FootprintOptions {
-            geometry: Rings(vec![ring]),
+            geometry: Rings(vec![ring]).into(),
             height: Some(Height(block.height)),
             ..FootprintOptions::default()
         };

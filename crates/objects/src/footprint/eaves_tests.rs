@@ -44,7 +44,8 @@ fn template(depth: f64, color: &str) -> Value {
 
 fn on(geometry: Rings, height: f64) -> Footprint {
     let height = (height > 0.0).then_some(Height(height));
-    Footprint::new(FootprintOptions { geometry, height, ..FootprintOptions::default() }).expect("a footprint")
+    Footprint::new(FootprintOptions { geometry: geometry.into(), height, ..FootprintOptions::default() })
+        .expect("a footprint")
 }
 
 fn rectangle(low: DVec2, size: DVec2, turn: DVec2) -> Rings {

@@ -220,7 +220,7 @@ impl Footprint {
     /// Returns both ends (m) of a given edge.
     pub(super) fn ends(&self, method: &str, number: u32) -> Result<[DVec2; 2]> {
         let index = self.given_edge(method, number)?;
-        let given = self.options.geometry.iter().flat_map(|ring| edges(ring)).nth(index);
+        let given = self.options.geometry.0.iter().flat_map(|ring| edges(ring)).nth(index);
         Ok(given.map_or([DVec2::ZERO; 2], |edge| edge.map(DVec3::truncate)))
     }
 
@@ -296,7 +296,7 @@ mod tests {
         // Point 2 lies on a straight line, and the ring is clockwise.
         let given = [[0.0, 0.0], [0.0, 3.0], [0.0, 6.0], [10.0, 6.0], [10.0, 0.0]];
         let footprint = Footprint::new(FootprintOptions {
-            geometry: Rings(vec![ring(&given)]),
+            geometry: Rings(vec![ring(&given)]).into(),
             edge_keywords: words(&[(1, "a"), (2, "b"), (4, "c")]),
             ..FootprintOptions::default()
         })
@@ -313,7 +313,7 @@ mod tests {
     fn edges_of_holes_count_on_and_words_for_no_edge_are_refused() {
         let hole = ring(&[[2.0, 2.0], [4.0, 2.0], [4.0, 4.0]]);
         let options = |edge| FootprintOptions {
-            geometry: Rings(vec![ring(&RECTANGLE), hole.clone()]),
+            geometry: Rings(vec![ring(&RECTANGLE), hole.clone()]).into(),
             edge_keywords: words(&[(edge, "gate")]),
             ..FootprintOptions::default()
         };
@@ -330,7 +330,7 @@ mod tests {
     fn the_street_edge_is_the_longest_or_the_one_that_faces_the_nearest_street() {
         let make = |streets: Option<LineIndex>, keywords| {
             Footprint::new(FootprintOptions {
-                geometry: Rings(vec![ring(&RECTANGLE)]),
+                geometry: Rings(vec![ring(&RECTANGLE)]).into(),
                 edge_keywords: keywords,
                 streets,
                 ..FootprintOptions::default()

@@ -457,7 +457,7 @@ mod tests {
         let point = |&[x, y]: &[f64; 2]| DVec3::new(x, y, 0.0);
         let ring = |ring: Vec<[f64; 2]>| ring.iter().map(point).collect::<Vec<_>>();
         let make = |rings: Vec<Vec<DVec3>>| {
-            let options = FootprintOptions { geometry: Rings(rings), ..FootprintOptions::default() };
+            let options = FootprintOptions { geometry: Rings(rings).into(), ..FootprintOptions::default() };
             Box::new(Footprint::new(options).unwrap()) as Box<dyn Object>
         };
         let outer = make(vec![ring(rectangle(0.0, 0.0, 20.0, 20.0)), ring(rectangle(5.0, 5.0, 10.0, 10.0))]);

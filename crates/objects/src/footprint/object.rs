@@ -11,12 +11,13 @@ use super::walls::Plain;
 use super::{EdgeKeywords, Roof, Walls, neighbors};
 use crate::{LineIndex, MaterialOptions, Terrain};
 use burgeon_base::error::{Error, Result};
-use burgeon_geometry::{Plan, Rings};
+use burgeon_geometry::Plan;
 use burgeon_kit::{
-    Color, Drawing, Expectation, GeometryObject, LevelOfDetail, Note, Parameter, Report, Table, TableOf,
-    Value, Vector, fields, methods, object,
+    Color, Drawing, Expectation, LevelOfDetail, Note, Parameter, Report, Table, TableOf, Value, Vector,
+    fields, methods, object,
 };
 use burgeon_scene::Material;
+use burgeon_spatial::{GeometryObject, PolygonArgument};
 use glam::{DVec2, DVec3};
 
 /// A height (m).
@@ -41,7 +42,7 @@ impl Parameter for Height {
 #[fields("footprint")]
 pub struct FootprintOptions {
     /// Polygon on the ground (m): a feature's geometry, or rings of points, the outer ring first and then the holes.
-    pub geometry: Rings,
+    pub geometry: PolygonArgument,
     /// Keywords for the type of building, such as "shop".
     pub keywords: Vec<String>,
     /// Keywords of single edges, by edge number: { [2] = { "entry door" } }. Edge 1 runs from the first given point to
@@ -74,14 +75,13 @@ const HIGHEST: f64 = 2000.0;
     first = "geometry",
     example = include_str!("../../scripts/footprint.lua"),
     draws,
-    has_detail,
-    reports,
+    can(LevelOfDetail, Report),
     begins_empty,
     begin = restart,
     end = finish,
     seed = take_seed,
     gathers = neighbors::gather,
-    prefetches = |layer| Arc::new(PlanPrefetch::new(layer))
+    prefetches = |features| Some(Arc::new(PlanPrefetch::new(features)?))
 )]
 pub struct Footprint {
     pub(super) options: Arc<FootprintOptions>,
@@ -229,13 +229,13 @@ impl Footprint {
     /// Creates a footprint from a plan that may be prefetched.
     fn with(mut options: FootprintOptions, ready: Option<Result<LocalPlan>>) -> Result<Self> {
         if let Some(ground) = &options.ground {
-            for point in options.geometry.0.iter_mut().flatten() {
+            for point in options.geometry.0.0.iter_mut().flatten() {
                 point.z = ground.height(Vector(*point)).map_err(Error::of_data)?;
             }
         }
         let LocalPlan { plan, origin } = match ready {
             Some(ready) => ready?,
-            None => LocalPlan::new(&options.geometry)?,
+            None => LocalPlan::new(&options.geometry.0)?,
         };
         if let Some(Height(height)) = options.height {
             check_height("footprint: height", height)?;
@@ -319,7 +319,7 @@ pub(super) fn along(from: DVec2, to: DVec2) -> DVec3 {
 impl Footprint {
     /// Returns the given rings (m).
     pub fn rings(&self) -> &burgeon_geometry::Rings {
-        &self.options.geometry
+        &self.options.geometry.0
     }
 
     fn restart(&mut self) {

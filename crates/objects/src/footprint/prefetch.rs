@@ -11,9 +11,9 @@ use glam::DVec3;
 
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
-use burgeon_data::Layer;
 use burgeon_geometry::{Plan, Rings};
-use burgeon_kit::{Prefetch, rings};
+use burgeon_kit::{Object, Prefetch};
+use burgeon_spatial::{GeometryList, rings};
 
 /// Maximum number of plans that are kept ready before the thread pauses.
 const READY: usize = 256;
@@ -43,7 +43,7 @@ impl LocalPlan {
 
 /// Plans of a layer's polygons, computed ahead.
 pub(super) struct PlanPrefetch {
-    layer: Arc<Layer>,
+    features: Arc<dyn Object>,
     state: Mutex<PrefetchState>,
     changed: Condvar,
 }
@@ -61,8 +61,10 @@ struct PrefetchState {
 }
 
 impl PlanPrefetch {
-    pub(super) fn new(layer: &Arc<Layer>) -> Self {
-        Self { layer: Arc::clone(layer), state: Mutex::default(), changed: Condvar::new() }
+    /// Prepares the plans of `features`, if they are a list of geometries.
+    pub(super) fn new(features: &Arc<dyn Object>) -> Option<Self> {
+        features.capability::<dyn GeometryList>()?;
+        Some(Self { features: Arc::clone(features), state: Mutex::default(), changed: Condvar::new() })
     }
 
     /// Takes the plan of the feature with this number, if it has been computed.
@@ -87,7 +89,7 @@ impl PlanPrefetch {
 
 impl Prefetch for PlanPrefetch {
     fn work(&self) {
-        let features = &self.layer.features;
+        let Some(features) = self.features.capability::<dyn GeometryList>() else { return };
         let mut next = 0;
         let mut state = self.state();
         loop {
@@ -97,13 +99,13 @@ impl Prefetch for PlanPrefetch {
                 state.waits = false;
             }
             next = next.max(state.asked.map_or(0, |asked| asked + 1));
-            if state.over || next >= features.len() {
+            if state.over || next >= features.count() {
                 return;
             }
             drop(state);
-            let numbers = next..features.len().min(next + BATCH);
+            let numbers = next..features.count().min(next + BATCH);
             next = numbers.end;
-            let plan = |number: usize| Some((number, LocalPlan::new(rings(&features[number].geometry)?)));
+            let plan = |number: usize| Some((number, LocalPlan::new(rings(features.geometry(number)?)?)));
             let made: Vec<_> = numbers.filter_map(plan).collect();
             state = self.state();
             state.made.extend(made);
@@ -119,7 +121,7 @@ impl Prefetch for PlanPrefetch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use burgeon_data::{Feature, Geometry};
+    use burgeon_data::{Feature, Features, Geometry, Layer};
     use burgeon_geometry::{Polygon, Rings};
 
     /// Returns squares on a line, every seventh of which has no area.
@@ -146,6 +148,11 @@ mod tests {
         })
     }
 
+    fn prefetch(layer: &Arc<Layer>) -> PlanPrefetch {
+        let features: Arc<dyn Object> = Arc::new(Features(Arc::clone(layer)));
+        PlanPrefetch::new(&features).expect("features have geometries")
+    }
+
     fn told(plan: Result<LocalPlan>) -> Result<(Polygon<DVec3>, DVec3), String> {
         plan.map(|made| (made.plan.polygon().clone(), made.origin)).map_err(|error| error.to_string())
     }
@@ -153,7 +160,7 @@ mod tests {
     #[test]
     fn what_is_made_ahead_is_what_would_be_made_in_its_place() {
         let layer = squares(1000);
-        let ahead = PlanPrefetch::new(&layer);
+        let ahead = prefetch(&layer);
         let mut ready = 0;
         std::thread::scope(|scope| {
             scope.spawn(|| ahead.work());
@@ -175,7 +182,7 @@ mod tests {
 
     #[test]
     fn nothing_is_made_that_nobody_asks_for() {
-        let ahead = PlanPrefetch::new(&squares(20));
+        let ahead = prefetch(&squares(20));
         std::thread::scope(|scope| {
             let working = scope.spawn(|| ahead.work());
             std::thread::sleep(std::time::Duration::from_millis(5));

@@ -10,6 +10,7 @@ use burgeon_kit::Parameter;
 use burgeon_kit::Show;
 use burgeon_kit::{Kind, Object, Table, TableOf, Value};
 use burgeon_scene::Part;
+use burgeon_spatial::PolygonArgument;
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
@@ -30,8 +31,9 @@ fn given<T>(entries: &[(&str, Value)]) -> Option<TableOf<T>> {
 
 /// Returns the volume (m³) of a building with walls of 3 m and this roof, after checking that it is a solid.
 fn volume(geometry: Rings, roof: &[(&str, Value)]) -> f64 {
-    let mut house = Footprint::new(FootprintOptions { geometry, ..FootprintOptions::default() })
-        .expect("a clean footprint");
+    let mut house =
+        Footprint::new(FootprintOptions { geometry: geometry.into(), ..FootprintOptions::default() })
+            .expect("a clean footprint");
     house.begin();
     house.groundwork("extruded".into(), None).expect("groundwork");
     house.walls(given(&[("height", Value::Number(3.0))])).expect("walls");
@@ -155,7 +157,11 @@ fn with_facades(detail: u8) -> Footprint {
     let template = make(facade::Template::kind(), &[("wall", window)]);
     let geometry = plan(&[&[(0., 0.), (12., 0.), (12., 5.), (5., 5.), (5., 12.), (0., 12.)]]);
     let keywords = super::EdgeKeywords([(2, vec!["blind".to_owned()])].into_iter().collect());
-    let options = FootprintOptions { geometry, edge_keywords: keywords, ..FootprintOptions::default() };
+    let options = FootprintOptions {
+        geometry: geometry.into(),
+        edge_keywords: keywords,
+        ..FootprintOptions::default()
+    };
     let mut house = Footprint::new(options).expect("a clean footprint");
     house.set_detail(detail);
     house.begin();
@@ -262,8 +268,9 @@ fn a_photo_covers_each_frontage_once() {
     let photo =
         table(&[("texture", Value::Text("front.png".into())), ("texture_size", vec![2.0, 4.0].into_value())]);
     let geometry = plan(&[&[(0., 0.), (12., 0.), (12., 5.), (0., 5.)]]);
-    let mut house = Footprint::new(FootprintOptions { geometry, ..FootprintOptions::default() })
-        .expect("a clean footprint");
+    let mut house =
+        Footprint::new(FootprintOptions { geometry: geometry.into(), ..FootprintOptions::default() })
+            .expect("a clean footprint");
     house.begin();
     let photo = Value::Table(photo);
     house.walls(given(&[("height", Value::Number(6.0)), ("photo", photo)])).expect("walls");
@@ -284,8 +291,9 @@ fn a_photo_with_bays_shows_whole_ones_on_each_frontage() {
         ("texture_size", vec![10.0, 12.0].into_value()),
     ]);
     let geometry = plan(&[&[(0., 0.), (12., 0.), (12., 0.6), (0., 0.6)]]);
-    let mut house = Footprint::new(FootprintOptions { geometry, ..FootprintOptions::default() })
-        .expect("a clean footprint");
+    let mut house =
+        Footprint::new(FootprintOptions { geometry: geometry.into(), ..FootprintOptions::default() })
+            .expect("a clean footprint");
     house.begin();
     let walls = |bay: Vec<f64>, photo: Option<Value>| {
         let bay = ("bay", bay.into_value());
@@ -320,7 +328,7 @@ fn a_ring_with_a_bad_point_is_refused_by_the_number_of_the_point() {
             "must be a list whose item 1 is a list whose item 3 is a vector",
         ),
     ] {
-        let refused = Rings::from_value(value.clone()).map(|rings| rings.0).expect_err("no number");
+        let refused = PolygonArgument::from_value(value.clone()).expect_err("no number");
         let error = refused.refuse("footprint", "geometry", &value).to_string();
         assert!(error.contains(item), "{error}");
     }

@@ -19,9 +19,9 @@ impl NetworkAreas {
     pub(super) fn new(options: &NetworkOptions) -> Self {
         let mut made = Self { areas: Vec::new(), waters: Vec::new(), warnings: Vec::new() };
         for (name, areas) in [("obstacles", &options.obstacles), ("water", &options.water)] {
-            areas.iter().for_each(|rings| made.add(name, rings));
+            areas.iter().for_each(|polygon| made.add(name, &polygon.0));
         }
-        options.limit.iter().for_each(|rings| made.add("limit", rings));
+        options.limit.iter().for_each(|polygon| made.add("limit", &polygon.0));
         made
     }
 

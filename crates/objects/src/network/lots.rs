@@ -12,6 +12,7 @@ use burgeon_geometry::Rings;
 use burgeon_geometry::planar::twice_area;
 use burgeon_kit::{Answer, Expectation, Parameter, Seed, Table, TableKey, Value, fields};
 use burgeon_rewriting::ModuleKey;
+use burgeon_spatial::PolygonArgument;
 use burgeon_streets::{FARTHEST, Lot, LotOptions, LotPattern, LotUse, PieceId, StreetBlock, StreetNetwork};
 use glam::DVec2;
 use rayon::prelude::*;
@@ -89,9 +90,9 @@ impl Parameter for BlockArea {
                 Some(Value::Number(id)) => Some(Value::Number(*id).to_string()),
                 _ => None,
             };
-            return Ok(Self { id, rings: Rings::from_value(geometry.clone())? });
+            return Ok(Self { id, rings: PolygonArgument::from_value(geometry.clone())?.0 });
         }
-        Ok(Self { id: None, rings: Rings::from_value(value)? })
+        Ok(Self { id: None, rings: PolygonArgument::from_value(value)?.0 })
     }
 
     fn into_value(self) -> Value {

@@ -19,8 +19,9 @@ use super::walk::NetworkWalk;
 use crate::Terrain;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
-use burgeon_geometry::{Polygon, Rings};
-use burgeon_kit::{Color, TableOf, Value, Vector, fields, methods, object};
+use burgeon_geometry::Polygon;
+use burgeon_kit::{Color, HasLayers, Show, TableOf, Value, Vector, Warn, fields, methods, object};
+use burgeon_spatial::PolygonArgument;
 use burgeon_streets::{
     Constraints, ExistingLoss, Fate, JunctionId, Obstacles, StreetAttributes, StreetFit, StreetGrowth,
     StreetKind, StreetNetwork, SurfaceOptions,
@@ -58,12 +59,12 @@ pub struct NetworkOptions {
     pub bridge: f64,
     /// Areas that no street crosses: polygons.
     #[default(Vec::new())]
-    pub obstacles: Vec<Rings>,
+    pub obstacles: Vec<PolygonArgument>,
     /// Areas that only bridges cross: polygons.
     #[default(Vec::new())]
-    pub water: Vec<Rings>,
+    pub water: Vec<PolygonArgument>,
     /// Area that streets stay inside. If omitted, streets are not limited.
-    pub limit: Option<Rings>,
+    pub limit: Option<PolygonArgument>,
     /// Shorten streets before an obstacle instead of refusing them.
     #[default(true)]
     pub shorten: bool,
@@ -110,15 +111,13 @@ pub struct NetworkOptions {
 /// are built remain in all later steps.
 #[object(
     "network",
+    can(Show, HasLayers, Warn),
     options = NetworkOptions,
     example = include_str!("../../scripts/network.lua"),
-    shows,
-    has_layers,
     begin = restart,
     push = open_branch,
     pop = close_branch,
     end = finish,
-    warns
 )]
 pub struct Network {
     pub(super) options: NetworkOptions,

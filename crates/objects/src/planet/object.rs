@@ -70,14 +70,12 @@ pub struct PlanetOptions {
 /// Calls during a pass take effect at the end of the pass. Until then, the planet returns its earlier values.
 #[object(
     "planet",
+    can(Show, Expand, Warn),
     options = PlanetOptions,
     example = include_str!("../../scripts/planet.lua"),
-    shows,
-    expands,
     begins_empty,
     begin = restart,
     seed = take_seed,
-    warns
 )]
 pub struct Planet {
     options: Arc<PlanetOptions>,

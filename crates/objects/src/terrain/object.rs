@@ -8,10 +8,11 @@ use crate::{Elevation, Network};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_kit::{Color, ObjectParameter, Path, Vector, fields, methods, object};
+use burgeon_kit::{Color, ObjectParameter, Vector, fields, methods, object};
 use burgeon_kit::{Expand, Rewriter, Show, Warn};
 use burgeon_rewriting::ModuleKey;
 use burgeon_scene::Scene;
+use burgeon_spatial::Path;
 use burgeon_terrain::{Cells, Channel, DEEPEST, Drainage, Dry, Edit, Edits, Ground, GroundMap, View, World};
 use glam::{DVec2, DVec3};
 
@@ -76,14 +77,12 @@ pub struct TerrainOptions {
 /// Calls during a pass take effect at the end of the pass. Until then, the terrain returns its earlier values.
 #[object(
     "terrain",
+    can(Show, Expand, Warn),
     options = TerrainOptions,
     example = include_str!("../../scripts/terrain.lua"),
-    shows,
-    expands,
     begins_empty,
     begin = restart,
     seed = take_seed,
-    warns
 )]
 pub struct Terrain {
     pub(super) options: Arc<TerrainOptions>,

@@ -1,4 +1,4 @@
-//! The database of a run, and what is asked of it.
+//! Database of a run, and its queries.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -13,28 +13,29 @@ use burgeon_base::error::{Error, ErrorKind, Limit, Result};
 use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_data::{Layer, ReferenceFrame};
-use burgeon_kit::{GeometryObject, Table, TableKey, Value};
+use burgeon_kit::{Table, TableKey, Value};
 use burgeon_query::{Cell, Database, RowTable};
 use burgeon_rewriting::Symbol;
+use burgeon_spatial::GeometryObject;
 
-/// The database with the tables that are in it.
+/// Database with its tables.
 pub(super) struct SourceDatabase {
     database: Arc<Database>,
-    /// How many of the tables that are loaded are in it.
+    /// Number of loaded sources that have been added.
     added: usize,
-    /// Whether it knows the run's projection.
+    /// Set if the database has the projection of the run.
     is_framed: bool,
-    /// The modules that it has tables of, and the state of the chains that these are of.
+    /// State of the chains for which the table of each module was made.
     modules: FxHashMap<Symbol, u64>,
 }
 
-/// Words of a question that mean a table of another name, each with that name.
+/// Words of a query that refer to a table of another name, each with that name.
 type RenamedTables<'a> = Vec<(&'a str, Cow<'a, str>)>;
 
 impl SourceTables {
-    /// The database with all that is loaded, whose coordinates are those of `frame`.
+    /// Returns the database with all loaded sources, whose coordinates have the projection `frame`.
     fn database(&mut self, frame: Option<&ReferenceFrame>, budget: &Arc<Budget>) -> Result<Arc<Database>> {
-        // The first file decides on the projection; what was made before is made anew.
+        // The first file sets the projection; a database made before that is rebuilt.
         let known = self.database.take().filter(|known| known.is_framed == frame.is_some());
         let mut known = match known {
             Some(known) => known,
@@ -78,8 +79,10 @@ impl SourceTables {
         Ok(database)
     }
 
-    /// The database with all that is loaded, and with the modules that a question may name. A source hides modules of its name.
-    /// Returns the words of the question that mean a table of another name, with that name.
+    /// Returns the database with all loaded sources and with the modules that a query may name, and the
+    /// renamed tables.
+    ///
+    /// A source hides modules of the same name.
     fn database_with<'a>(
         &mut self,
         rows: &'a ModuleRows<'_>,
@@ -99,7 +102,7 @@ impl SourceTables {
                 database.set_rows(&rows.table(*symbol), budget)?;
                 known.modules.insert(*symbol, rows.view.number());
             }
-            // The database takes a name before a point for a schema.
+            // The database interprets the part of a name before a point as a schema.
             if *word != name || word.contains('.') {
                 renamed.push((word.as_str(), name));
             }
@@ -109,8 +112,8 @@ impl SourceTables {
 }
 
 impl ModuleRows<'_> {
-    /// Returns the modules with a symbol as a table: their parameters are its columns. Lists and objects other than geometries
-    /// are NULL.
+    /// Returns the modules with a symbol as a table with one column per parameter. Lists, and objects other
+    /// than geometries, are NULL.
     fn table(&self, symbol: Symbol) -> RowTable {
         let signature = self.view.symbols().signature(symbol);
         let values = &self.session.values;
@@ -123,8 +126,8 @@ impl ModuleRows<'_> {
         RowTable { name, columns: signature.parameters.clone(), cells }
     }
 
-    /// Adds what is known of modules to the error for a table that is not there: those of several packages that have its
-    /// name, or one of a similar name.
+    /// Adds suggestions to an error about a missing table: modules of this name in several packages, or a
+    /// module with a similar name.
     fn explain(&self, error: Error, question: &Question) -> Error {
         let ErrorKind::NotFound { what: "table", name, suggestion: None } = error.kind() else {
             return error;
@@ -141,7 +144,7 @@ impl ModuleRows<'_> {
         }
     }
 
-    /// Returns the error for a query that joins modules with a table of a server.
+    /// Returns the error for a query that joins modules with a server table.
     #[cfg(feature = "postgis")]
     fn server_join_error(&self) -> Error {
         let names = self.modules.iter().map(|module| module.word.as_str());
@@ -151,7 +154,7 @@ impl ModuleRows<'_> {
         )
     }
 
-    /// Warns that a query reads the source `source` and not the modules, since both have the same name.
+    /// Warns that a query reads the source `source` and not the modules, because both have the same name.
     fn warn_hidden(&self, module: &str, source: &str) {
         let text = format!("{module} in a query is the source {source}, not the modules {module}");
         let help = format!("give one of them another name: source(file, {{ table = \"{source}_data\" }})");
@@ -159,11 +162,11 @@ impl ModuleRows<'_> {
     }
 }
 
-/// The sources of a run and the modules of its chains, as tables.
+/// Sources of a run and modules of its chains, as tables.
 pub(in crate::declare) struct ModuleRows<'a> {
     pub session: &'a Session,
     pub view: &'a ChainView,
-    /// The modules that the question may name.
+    /// Modules that the query may name.
     pub modules: &'a [NamedModule],
 }
 
@@ -209,7 +212,7 @@ impl RowSource for ModuleRows<'_> {
     }
 }
 
-/// A value of a script as the database takes it.
+/// Converts a script value to a query parameter.
 fn cell(name: &str, value: &Value) -> Result<Cell> {
     Ok(match value {
         Value::Nil => Cell::Null,
@@ -224,13 +227,13 @@ fn cell(name: &str, value: &Value) -> Result<Cell> {
     })
 }
 
-/// The error for a value that no statement takes.
+/// Returns the error for a value that cannot be a query parameter.
 fn no_value(name: &str, value: &Value) -> Error {
     Error::argument(format!("${name} of the query cannot be {}", value.describe()))
         .help("values are numbers, strings, booleans and geometries")
 }
 
-/// What the database gives as a value of a script.
+/// Converts a query result to a script value.
 fn value(cell: &Cell) -> Value {
     match cell {
         Cell::Null => Value::Nil,

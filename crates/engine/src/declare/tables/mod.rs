@@ -1,6 +1,6 @@
-//! The tables that scripts ask: the sources that they have loaded, in a database that is made once somebody asks.
+//! Tables for SQL queries: the loaded sources, in a database that the first query creates.
 //!
-//! Input: the sources of a run, as they are loaded, and questions. Output: rows. Nobody writes into a source.
+//! Input: the sources of a run as they are loaded, and queries. Output: rows. Sources are read-only.
 
 #[cfg(feature = "data")]
 mod database;

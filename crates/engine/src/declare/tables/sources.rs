@@ -1,4 +1,4 @@
-//! The sources that the scripts of a run have loaded.
+//! Sources that the scripts of a run have loaded.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -12,39 +12,39 @@ use burgeon_data::{Feature, Layer};
 #[cfg(feature = "postgis")]
 use burgeon_query::postgis::{Server, ServerAddress};
 
-/// A source as a table.
+/// Source as a table.
 #[cfg_attr(not(feature = "data"), allow(dead_code, reason = "nobody can ask"))]
 pub(in crate::declare) struct SourceTable {
-    /// What statements call it.
+    /// Name in SQL statements.
     pub name: String,
     pub content: TableContent,
 }
 
-/// What a table holds.
+/// Content of a table.
 #[cfg_attr(not(feature = "data"), allow(dead_code, reason = "nobody can ask"))]
 pub(in crate::declare) enum TableContent {
-    /// The features as they were read.
+    /// Features as they were read.
     Layer(Arc<Layer>),
-    /// A layer of a GeoPackage, as it is in the file.
+    /// Layer of a GeoPackage, read from the file.
     GeoPackage { path: PathBuf, shown: String, layer: String },
-    /// What the script made, in metres around the origin of the run.
+    /// List of the script, in metres around the origin of the run.
     List(ListTable),
-    /// A table of a server.
+    /// Table on a database server.
     #[cfg(feature = "postgis")]
     Server(Arc<Server>),
 }
 
-/// A list of features that the script made.
+/// List of features that the script made.
 #[derive(Debug, Default)]
 #[cfg_attr(not(feature = "data"), allow(dead_code, reason = "nobody can ask"))]
 pub(crate) struct ListTable {
-    /// The names of attributes.
+    /// Attribute names.
     pub names: Vec<String>,
     pub features: Vec<Feature>,
 }
 
 impl ListTable {
-    /// Its features as records.
+    /// Returns the features as records.
     pub(super) fn records(&self, name: &str) -> RecordTable {
         let record = |feature: &Feature| Record {
             id: feature.id.as_str().to_owned(),
@@ -56,24 +56,24 @@ impl ListTable {
     }
 }
 
-/// The tables of a run, in the order in which they were loaded.
+/// Tables of a run, in loading order.
 #[derive(Default)]
 pub(in crate::declare) struct SourceTables {
     pub(super) loaded: Vec<SourceTable>,
     #[cfg(feature = "data")]
     pub(super) database: Option<SourceDatabase>,
-    /// The servers that were asked.
+    /// Servers that have been queried.
     #[cfg(feature = "postgis")]
     servers: Vec<Arc<Server>>,
 }
 
 impl SourceTables {
-    /// Adds what a source is.
+    /// Adds a source.
     pub(in crate::declare) fn add(&mut self, table: SourceTable) {
         self.loaded.push(table);
     }
 
-    /// The lists that the script made.
+    /// Returns the lists of the script.
     pub(in crate::declare) fn lists(&self) -> Vec<RecordTable> {
         let list = |table: &SourceTable| match &table.content {
             TableContent::List(list) => Some(list.records(&table.name)),
@@ -82,7 +82,7 @@ impl SourceTables {
         self.loaded.iter().filter_map(list).collect()
     }
 
-    /// The server at an address; no question to it takes longer than `most`.
+    /// Returns the server at an address, with the time limit `most` for each query.
     #[cfg(feature = "postgis")]
     pub(in crate::declare) fn server(&mut self, address: &ServerAddress, most: Duration) -> Arc<Server> {
         if let Some(known) = self.servers.iter().find(|known| known.address() == address) {
@@ -93,7 +93,7 @@ impl SourceTables {
         server
     }
 
-    /// The server that has a table which a statement names.
+    /// Returns the server of a table that a statement names.
     #[cfg(feature = "postgis")]
     pub(super) fn asked_server(&self, sql: &str) -> Option<Arc<Server>> {
         self.loaded.iter().find_map(|table| match &table.content {

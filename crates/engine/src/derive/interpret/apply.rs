@@ -1,4 +1,4 @@
-//! Applies recorded method calls to the objects, brackets and ends of chains in between.
+//! Applies recorded method calls to the objects, and the brackets and chain ends between them.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -11,64 +11,65 @@ use crate::machine::{Flusher, Machine, Objects, read_column, returns_modules, re
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
 use burgeon_base::warning::Warning;
-use burgeon_kit::Values;
-use burgeon_kit::{Call, Kind, Object, Value};
+use burgeon_kit::{Call, Capability, Kind, Object, Value, Values, Warn};
 use burgeon_rewriting::{CLOSE, END, Mark, OPEN, module_brief};
 
-/// Where a piece of the chain has been applied up to.
+/// Progress of applying one piece of the chains.
 pub(crate) struct Applier {
     pass: Arc<InterpretationPass>,
     objects: Arc<Objects>,
     kind: Arc<Kind>,
+    warn: Option<Capability<dyn Warn>>,
     values: Arc<Values>,
     stop: Arc<Stop>,
     triangle_limit: usize,
     buffers: [Buffer; 3],
-    /// The next symbol to be applied.
+    /// Index of the next symbol to apply.
     position: usize,
-    /// Where its parameters begin.
+    /// Index of that symbol's first parameter.
     param: usize,
-    /// Its chain.
+    /// Index of that symbol's chain.
     chain: usize,
-    /// Whether the chain's object has begun its pass.
+    /// Set once the chain's object has begun its pass.
     begun: bool,
-    /// The triangles of the chain's object that have been counted.
+    /// Number of triangles of the chain's object that have been counted.
     counted: usize,
     entries: Vec<(usize, usize)>,
-    /// The first entry that is not wholly applied.
+    /// First entry that is not completely applied.
     next: usize,
     calls: Vec<u16>,
     numbers: Vec<f64>,
     ends: Vec<u32>,
-    /// The time that the calls of each entry took, if that is measured.
+    /// Time of the calls of each entry, if it is measured.
     times: Vec<Duration>,
-    /// How many recorded calls of the entry `next` have been applied already.
+    /// Number of recorded calls of the entry `next` that have been applied.
     applied: usize,
-    /// The entry and the number of the call that failed.
+    /// Entry and call number of the call that failed.
     failed: Option<(usize, usize)>,
-    /// The next of the calls that have been read, and the first of its arguments.
+    /// Next call among those that have been read, and its first argument.
     call_at: usize,
     number_at: usize,
-    /// The entry whose calls were applied last before it was done, and how many that were.
+    /// Last entry whose calls were applied before the entry was complete, and the number of these calls.
     flushed: (usize, usize),
-    /// What the objects have warned of during the batch.
+    /// Warnings of the objects during the batch.
     notices: Vec<ObjectNotice>,
-    /// Set while a call of the script waits for the calls before it: a run that reaches its time limit ends at that line.
+    /// Set while a call of the script waits for the recorded calls before it. A run that then reaches its
+    /// time limit reports the line of that call.
     waits: bool,
 }
 
-/// Symbols that are applied between two looks at the stop of the run.
+/// Number of symbols between two checks for cancellation.
 const STRETCH: usize = 64;
 
-/// The most calls of methods that one application may make.
+/// Maximum number of method calls of one application.
 const MOST_CALLS: usize = 1 << 24;
 
-/// Where applying has stopped.
+/// Reason why applying stopped.
 #[derive(PartialEq)]
 enum ApplyEnd {
-    /// Behind the end of a chain.
+    /// The end of a chain was applied.
     End,
-    /// Where it was to stop.
+    /// The requested position was reached.
     Last,
 }
 
@@ -85,6 +86,7 @@ impl Applier {
             triangle_limit: machine.session.options.limits.triangles,
             pass,
             objects,
+            warn: kind.capability::<dyn Warn>(),
             kind,
             buffers: [calls, numbers, counts],
             position: begin.module,
@@ -108,8 +110,8 @@ impl Applier {
         })
     }
 
-    /// Begins a batch of entries, each the place of a module and of its parameters; `buffers` are the columns
-    /// of calls, of their arguments, and of the number of calls up to each entry.
+    /// Begins a batch of entries, each with the index of a module and of its first parameter. `buffers` are
+    /// the columns of calls, of their arguments, and of the number of calls up to each entry.
     pub(crate) fn begin_entries(&mut self, entries: &[(usize, usize)], buffers: [Buffer; 3]) {
         self.buffers = buffers;
         self.entries.clear();
@@ -119,25 +121,26 @@ impl Applier {
         (self.applied, self.failed, self.flushed) = (0, None, (0, 0));
     }
 
-    /// The entry of the batch whose call failed, and the number of that call.
+    /// Returns the entry of the batch whose call failed, and the number of that call.
     pub(crate) fn failed(&self) -> Option<(usize, usize)> {
         self.failed
     }
 
-    /// The times of the entries that have been applied.
+    /// Takes the times of the applied entries.
     pub(crate) fn take_times(&mut self) -> Vec<Duration> {
         std::mem::take(&mut self.times)
     }
 
-    /// What the objects have warned of since this was asked last.
+    /// Takes the warnings of the objects since the last call.
     pub(crate) fn take_notices(&mut self) -> Vec<ObjectNotice> {
         std::mem::take(&mut self.notices)
     }
 
-    /// Takes what `object` warns of after the module at hand, in its recorded call `call` if it was one.
+    /// Takes the warnings of `object` after the current module. `call` is the recorded call that caused them,
+    /// if any.
     #[inline]
     fn listen(&mut self, object: &mut dyn Object, call: Option<(usize, usize)>) {
-        if let Some(warn) = self.kind.warn
+        if let Some(warn) = self.warn
             && let Some(object) = warn.of_mut(object)
         {
             let said = object.take_warnings();
@@ -153,12 +156,12 @@ impl Applier {
         self.notices.extend(said.into_iter().map(|warning| ObjectNotice { warning, module, call }));
     }
 
-    /// Leaves out the chain at hand, whose data is at fault; passes every other error on.
+    /// Skips the current chain if `error` is a fault of its data; otherwise returns the error.
     pub(crate) fn forgive(&mut self, error: Error) -> Result<()> {
         self.objects.failed().forgive(self.chain, error)
     }
 
-    /// Applies the rest of a batch, of whose calls `called` were recorded last, and all symbols before `until`.
+    /// Applies the rest of a batch with `called` calls since the last read, and all symbols before `until`.
     pub(crate) fn finish_entries(&mut self, called: usize, until: usize) -> Result<()> {
         let last = self.entries.len();
         self.read(last, called)?;
@@ -166,7 +169,7 @@ impl Applier {
         self.count()
     }
 
-    /// Reads the calls recorded since the last time: those of the entries before `entry`, and `called` in all.
+    /// Reads the `called` calls recorded since the last read, for the entries up to `entry`.
     fn read(&mut self, entry: usize, called: usize) -> Result<()> {
         let [calls, numbers, counts] = self.buffers.clone();
         read_column(calls, called, &mut self.calls)?;
@@ -176,13 +179,13 @@ impl Applier {
         Ok(())
     }
 
-    /// Applies the calls of the entries up to `last`, and every symbol before `until` that no rule interprets:
-    /// brackets, ends and the modules of the standard library.
+    /// Applies the calls of the entries up to `last`, and all symbols before `until` without an
+    /// interpretation rule: brackets, ends and the modules of the standard library.
     fn apply(&mut self, last: usize, until: usize) -> Result<()> {
         let objects = Arc::clone(&self.objects);
         while self.position < until || self.next < self.entries.len().min(last + 1) {
             let failed = objects.failed().contains(self.chain);
-            // One lock for all that is done to an object.
+            // One lock covers everything that is done to an object.
             match objects.write(self.chain, |object| self.apply_to(object, failed, last, until)) {
                 Ok(ApplyEnd::Last) => break,
                 Ok(ApplyEnd::End) => {
@@ -201,7 +204,8 @@ impl Applier {
         Ok(())
     }
 
-    /// As [`Applier::apply`], to the end of the chain at most; nothing is done to an object that has `failed`.
+    /// Applies as [`Applier::apply`] does, but stops at the end of the chain. Changes nothing in an object
+    /// that has `failed`.
     fn apply_to(
         &mut self,
         object: &mut dyn Object,
@@ -237,7 +241,7 @@ impl Applier {
         self.symbols(&pass, object, failed, until)
     }
 
-    /// Applies the symbols before `until`, to the end of the chain at most.
+    /// Applies the symbols before `until`, but stops at the end of the chain.
     #[inline]
     fn symbols(
         &mut self,
@@ -314,7 +318,7 @@ impl Applier {
         Ok(())
     }
 
-    /// The number of arguments that these recorded calls have together.
+    /// Returns the total number of arguments of these recorded calls.
     fn arguments_of(&self, calls: std::ops::Range<usize>) -> usize {
         let calls = self.calls.get(calls).unwrap_or_default();
         calls.iter().map(|call| self.kind.methods[usize::from(*call)].arguments.len()).sum()
@@ -355,7 +359,7 @@ impl Applier {
         }
     }
 
-    /// An error with the module where it happened, and how that is interpreted.
+    /// Adds the module and its interpretation rule to an error.
     fn blame(&self, error: Error, module: usize, param: usize) -> Error {
         let plan = &self.pass.plan;
         let symbol = self.pass.chain.symbols[module];
@@ -377,7 +381,7 @@ impl Applier {
     }
 }
 
-/// Notes that the symbol at place `position` of the chain draws what follows.
+/// Records that the symbol at `position` makes the following drawing.
 fn follow(object: &mut dyn Object, position: usize) {
     if let Some(drawing) = object.drawing_mut() {
         drawing.trace(u32::try_from(position).unwrap_or(u32::MAX));
@@ -387,7 +391,7 @@ fn follow(object: &mut dyn Object, position: usize) {
 impl Flusher for Applier {
     fn flush(&mut self, entry: usize, called: usize) -> Result<()> {
         let so_far = if self.flushed.0 == entry { self.flushed.1 } else { 0 };
-        // One that runs at once is not among those that were recorded.
+        // A call that runs immediately is not recorded, so it is counted here.
         self.flushed = (entry, so_far + called + 1);
         if self.flushed.1 > MOST_CALLS {
             let message =

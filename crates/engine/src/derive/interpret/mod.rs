@@ -1,8 +1,8 @@
-//! Interpretation: the modules of the chains, in order, change the objects.
+//! Interpretation: the modules of the chains change the objects, in order.
 //!
-//! Input: chains and objects. Output: the same chains and changed objects. Rules record their method calls
-//! in columns, and the calls are applied here, so that a module crosses between Lua and Rust only if it asks the
-//! object something.
+//! Input: chains and objects. Output: the same chains and the changed objects. Rules record their method
+//! calls in columns, which are applied here. A module therefore crosses between Lua and Rust only if it reads
+//! from the object.
 
 mod apply;
 mod notices;

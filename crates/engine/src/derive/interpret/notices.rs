@@ -1,8 +1,8 @@
-//! What objects warn of while they are interpreted.
+//! Warnings of objects during interpretation.
 //!
-//! Threads come to the modules in any order, and finding the line of a call takes running its rule once more. So of each
-//! text that modules with the same symbol give rise to, the first in the order of the chains counts, and is told with
-//! how many there were.
+//! Threads reach the modules in any order, and finding the line of a call requires running its rule again.
+//! Equal texts from modules with the same symbol are therefore merged: the first module in the order of the
+//! chains is reported, with the number of occurrences.
 
 use std::collections::BTreeMap;
 use std::sync::Mutex;
@@ -11,31 +11,31 @@ use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::Warning;
 use burgeon_rewriting::Symbol;
 
-/// A warning of an object, and what gave rise to it.
+/// Warning of an object, with its cause.
 pub(crate) struct ObjectNotice {
     pub warning: Warning,
-    /// The place of the module in the chain, and that of its parameters.
+    /// Index of the module in the chain, and index of its first parameter.
     pub module: (usize, usize),
-    /// The entry of the batch and the number of its recorded call, if it was one.
+    /// Entry of the batch and number of the recorded call, if a recorded call caused the warning.
     pub call: Option<(usize, usize)>,
 }
 
-/// The warnings of a pass, by the symbol of the module and by text.
+/// Warnings of a pass, by the symbol of the module and by text.
 #[derive(Default)]
 pub(super) struct Notices(Mutex<BTreeMap<(Symbol, String), WarningRecord>>);
 
-/// What is known of a text.
+/// Occurrences of one text.
 struct WarningRecord {
-    /// The first module that gave rise to it, and the warning with its line.
+    /// Index of the first module that caused the warning.
     first: usize,
     warning: Warning,
-    /// The modules that gave rise to it.
+    /// Number of modules that caused the warning.
     modules: usize,
 }
 
 impl Notices {
-    /// Adds what the module at place `module`, which has this symbol, gave rise to: the first time if `is_first`, or
-    /// once more. `locate` finds its line, and is asked only where no earlier module is known.
+    /// Adds a warning of `module`, which has the symbol `symbol`. `is_first` marks the first warning of the
+    /// module with this text. `locate` adds the line, and runs only if no earlier module is known.
     pub(super) fn add(
         &self,
         (symbol, module): (Symbol, usize),
@@ -57,7 +57,7 @@ impl Notices {
         if again(&mut lock()) {
             return;
         }
-        // Without the lock, for the rule runs once more.
+        // The lock is released, because `locate` runs the rule again.
         let mut new = WarningRecord { first: module, warning: locate(warning), modules };
         let mut known = lock();
         if again(&mut known) {
@@ -70,7 +70,7 @@ impl Notices {
         known.insert(key, new);
     }
 
-    /// All of them, by symbol; `of_symbol` counts the modules with a symbol.
+    /// Returns all warnings, by symbol. `of_symbol` counts the modules with a symbol.
     pub(super) fn into_list(self, of_symbol: impl Fn(Symbol) -> usize) -> impl Iterator<Item = Warning> {
         let known = self.0.into_inner().recover();
         known.into_iter().filter_map(move |((symbol, _), known)| {

@@ -1,4 +1,4 @@
-//! A pass of interpretation over the chains of a system.
+//! Interpretation pass over the chains of a system.
 
 use std::sync::Arc;
 use std::sync::Mutex;
@@ -16,28 +16,28 @@ use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::Warning;
 use burgeon_rewriting::{CLOSE, Chain, END, Mark, ModuleKey, OPEN, Symbol, module_brief};
 
-/// Entries that one call into Lua interprets.
+/// Maximum number of entries per call into Lua.
 const ENTRIES: usize = 4096;
 
-/// Pieces that many chains are dealt out in: what is drawn for one of them may take long, and no thread is to wait for
-/// the last piece of another.
+/// Number of pieces if there are many chains. Chains can differ much in cost, so small pieces keep a thread
+/// from waiting for the last piece of another thread.
 const DEALT: usize = 64;
 
-/// Where entries are gathered from next.
+/// Position from which the next entries are gathered.
 struct NextEntry {
     at: Mark,
-    /// Whether a chain begins there.
+    /// Set if a chain begins at this position.
     is_begin: bool,
 }
 
-/// What one call into Lua interprets.
+/// Entries that one call into Lua interprets.
 #[derive(Default)]
 struct EntryBatch {
-    /// Each the place of a module and of its parameters.
+    /// For each entry, the index of a module and of its first parameter.
     entries: Vec<(usize, usize)>,
-    /// The rule of each.
+    /// Rule of each entry.
     ids: Vec<u16>,
-    /// What all of them are given, in order.
+    /// Arguments of all entries, in order.
     arguments: Vec<f64>,
 }
 
@@ -56,12 +56,12 @@ impl EntryBatch {
     }
 }
 
-/// One pass over all chains, shared by the threads.
+/// Interpretation pass over all chains, shared by the threads.
 pub(crate) struct InterpretationPass {
     pub plan: Arc<DerivationPlan>,
     pub chain: Arc<Chain>,
     pub step: usize,
-    /// Where each piece of whole chains begins; one more for the end.
+    /// Start of each piece of whole chains, and the end of the last piece.
     pieces: Vec<Mark>,
     next: AtomicUsize,
     triangles: AtomicUsize,
@@ -71,8 +71,8 @@ pub(crate) struct InterpretationPass {
 }
 
 impl InterpretationPass {
-    /// Interprets `chain` as it stands after `step` steps; adds to `uses` what each rule did, and to `said` what the objects
-    /// warned of.
+    /// Interprets `chain` after `step` steps. Adds the work of each rule to `uses`, and the warnings of the
+    /// objects to `said`.
     pub(crate) fn pass(
         LeadingMachine { machine, threads }: LeadingMachine<'_>,
         plan: &Arc<DerivationPlan>,
@@ -119,7 +119,7 @@ impl InterpretationPass {
         }
     }
 
-    /// Takes a piece and interprets it; `false` when none is left.
+    /// Takes a piece and interprets it. Returns `false` if no piece is left.
     pub(crate) fn work(self: &Arc<Self>, machine: &Machine) -> bool {
         let index = self.next.fetch_add(1, Ordering::Relaxed);
         if index + 1 >= self.pieces.len() {
@@ -158,7 +158,7 @@ impl InterpretationPass {
             machine.session.stop.check()?;
             let begin = Instant::now();
             let (mut applying, mut from, mut argument) = (Vec::new(), 0, 0);
-            // Where a chain is left out, the others go on behind it.
+            // If a chain is skipped, interpretation continues after that chain.
             while let Some(done) = self.interpret(
                 machine,
                 &entries[from..],
@@ -209,10 +209,11 @@ impl InterpretationPass {
         *next = NextEntry { at: Mark { module, param, chain }, is_begin };
     }
 
-    /// Runs the interpretation rules of `entries`, and applies all up to the symbol `until`; adds to `times` the time that
-    /// the calls of each entry took, if that is measured.
+    /// Runs the interpretation rules of `entries`, and applies everything before the symbol `until`. Adds the
+    /// time of the calls of each entry to `times`, if it is measured.
     ///
-    /// Where the data of a chain is at fault it gives up, and tells how many entries are done up to the end of that chain.
+    /// If the data of a chain is at fault, the function stops and returns the number of entries up to the end
+    /// of that chain.
     fn interpret(
         &self,
         machine: &Machine,
@@ -250,7 +251,7 @@ impl InterpretationPass {
             Ok((called, _)) => called,
             Err(error) => {
                 let (at, _, called) = machine.failed_at().unwrap_or((usize::MAX, 0.0, 0));
-                // A machine that cannot even end the batch is thrown away with the run.
+                // If ending the batch fails too, the machine is dropped with the run.
                 let _ = prelude.finish.call::<()>(());
                 let error = self.blame(
                     machine,
@@ -293,9 +294,9 @@ impl InterpretationPass {
         Ok(None)
     }
 
-    /// What the random numbers of entry `id` come from: an interpretation rule, or what runs around them at `module`.
+    /// Returns the random key of the entry at `module` with rule `id`.
     ///
-    /// A chain's end has the chain's own key. Brackets have none, and take that of the module nearest within them.
+    /// The end of a chain has the chain's own key. A bracket uses the key of the nearest module inside it.
     fn key(&self, module: usize, id: u16) -> ModuleKey {
         let Chain { symbols, keys, .. } = &*self.chain;
         let end =
@@ -319,7 +320,7 @@ impl InterpretationPass {
         keys[nearest].beside(place).interpretation()
     }
 
-    /// Adds what objects have warned of in the batch that was interpreted last.
+    /// Adds the warnings of objects in the last batch.
     fn note_all(&self, machine: &Machine, notices: &[ObjectNotice]) {
         for (index, notice) in notices.iter().enumerate() {
             let mut earlier = notices[..index].iter().rev().take_while(|it| it.module == notice.module);
@@ -328,8 +329,8 @@ impl InterpretationPass {
         }
     }
 
-    /// Adds what an object has warned of in the batch that was interpreted last, for the first time of its module or
-    /// once more.
+    /// Adds one warning of an object in the last batch. `is_first` marks the first warning of its module with
+    /// this text.
     fn note(&self, machine: &Machine, notice: &ObjectNotice, is_first: bool) {
         let (module, param) = notice.module;
         let symbol = self.chain.symbols[module];
@@ -346,27 +347,29 @@ impl InterpretationPass {
         });
     }
 
-    /// An error of a recorded call with the line of the call: the rule runs once more to find it.
+    /// Adds the line of the failed recorded call to an error. Runs the rule again to find the line.
     fn find_line(&self, machine: &Machine, error: Error) -> Error {
         let failed = machine.current.flusher.borrow_mut().as_deref_mut().and_then(|it| applier(it)?.failed());
         let Some(call) = failed else { return error };
         error.rather_at(Self::line_of(machine, call))
     }
 
-    /// The line of a recorded call of the last batch, given as its entry and its number: the rule runs once more to find it.
+    /// Returns the line of a recorded call of the last batch, given its entry and number. Runs the rule again
+    /// to find it.
     fn line_of(machine: &Machine, call: (usize, usize)) -> Option<SourcePlace> {
         let prelude = machine.prelude();
         let place = match prelude.relive.call::<()>(call) {
             Err(raised) => machine.translate(raised).place().cloned(),
             Ok(()) => None,
         };
-        // A machine that cannot even end the batch is thrown away with the run.
+        // If ending the batch fails too, the machine is dropped with the run.
         let _ = prelude.finish.call::<()>(());
         place
     }
 
-    /// Adds a batch of entries with the rules `ids` to what the rules have done: it took `time`, of which `applying`
-    /// is known by entry, while what Lua took is shared out evenly.
+    /// Adds a batch of entries with the rules `ids` to the work of the rules. The batch took `time`;
+    /// `applying` is the part measured for each entry, and the remaining time, spent in Lua, is divided
+    /// evenly.
     fn count_uses(&self, ids: &[u16], time: Duration, applying: Vec<Duration>) {
         let mut uses = self.uses.lock().recover();
         if !self.plan.profiled {
@@ -381,7 +384,7 @@ impl InterpretationPass {
         }
     }
 
-    /// An error with the interpretation rule and the module where it happened.
+    /// Adds the interpretation rule and the module to an error.
     fn blame(
         &self,
         machine: &Machine,
@@ -403,7 +406,7 @@ impl InterpretationPass {
         error.module(self.module_brief(machine, module, param), self.step)
     }
 
-    /// A module of the chain with its parameters, which begin at `param`.
+    /// Returns the text of a module of the chain whose parameters begin at `param`.
     fn module_brief(&self, machine: &Machine, module: usize, param: usize) -> String {
         let (grammar, symbol) = (&self.plan.steps.grammar, self.chain.symbols[module]);
         let arity = usize::from(grammar.arities()[usize::from(symbol)]);
@@ -411,7 +414,7 @@ impl InterpretationPass {
         module_brief(grammar.symbols(), &machine.session.values, symbol, params)
     }
 
-    /// The name and the place of the interpretation rule of modules with this symbol.
+    /// Returns the name and the location of the interpretation rule for a symbol.
     fn interpretation_of(&self, symbol: Symbol) -> Option<(String, &Option<SourcePlace>)> {
         let interpretations = &self.plan.interpretations;
         let id = interpretations.by_symbol.get(usize::from(symbol))?;
@@ -419,7 +422,7 @@ impl InterpretationPass {
         Some((format!("{} (interpretation)", known.name), &known.place))
     }
 
-    /// Counts triangles against the limit.
+    /// Adds `more` triangles to the total, and fails if the total exceeds the limit.
     pub(super) fn count_triangles(&self, machine_limit: usize, more: usize) -> Result<()> {
         let total = self.triangles.fetch_add(more, Ordering::Relaxed) + more;
         if total > machine_limit {
@@ -433,13 +436,13 @@ impl InterpretationPass {
     }
 }
 
-/// The number of a chain, as rules get it.
+/// Converts the index of a chain to the number that rules receive.
 #[allow(clippy::cast_precision_loss, reason = "there are fewer than 2^53 chains")]
 fn numbered(chain: usize) -> f64 {
     chain as f64
 }
 
-/// The applier of a piece, which the machine knows as what applies its recorded calls.
+/// Returns the flusher of the machine as the applier of a piece.
 fn applier(flusher: &mut dyn Flusher) -> Option<&mut Applier> {
     let any: &mut dyn std::any::Any = flusher;
     any.downcast_mut()

@@ -1,33 +1,36 @@
-//! The modules of the parts of a geometry.
+//! Modules for the parts of a geometry.
 
 use std::rc::Rc;
-use std::sync::Arc;
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::questions::{fit, listed};
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::Values;
-use burgeon_kit::{GeometryObject, Value};
+use burgeon_kit::{ObjectContent, Value};
 use burgeon_rewriting::{Chain, ColumnValue, Mark, Symbol, Symbols, module_brief};
 
-/// Where each parameter of a module comes from, among those of another.
+/// For each parameter of a new module, the index of the parameter that it is copied from.
 type ParameterPlaces = Rc<[Option<usize>]>;
 
-/// Takes modules apart, and remembers how.
+/// Splits modules into modules of their geometry's parts, and caches the results.
 #[derive(Default)]
 pub(super) struct Fragmentation {
-    /// By the module that is taken apart, its geometry's place, and what its parts are: where their parameters come from.
+    /// Parameter sources, by symbol of the split module, index of its geometry parameter, and symbol of the
+    /// parts.
     fits: FxHashMap<(Symbol, usize, Symbol), ParameterPlaces>,
-    /// By the bits of a geometry's column: its parts, and whether it is one of its own.
+    /// Parts by the bits of a packed geometry. The flag marks a geometry without parts, which is its own only
+    /// part.
     parts: FxHashMap<u64, (Rc<[f64]>, bool)>,
-    /// The fragmentations that have met a geometry without parts.
+    /// Fragment modules that met a geometry without parts.
     whole: Vec<Mark>,
 }
 
 impl Fragmentation {
-    /// In place of each module of `group`: a module with `symbol` for each part of its geometry, with its parameters, and with
-    /// the feature among `owners` that it has. `at` is the fragmentation's place.
+    /// Replaces each module of `group` by one module with `symbol` per part of its geometry.
+    ///
+    /// The new modules copy the parameters by name, and keep the feature in `owners`. `at` is the position of
+    /// the fragment module.
     pub(super) fn apply(
         &mut self,
         (group, owners): (&Chain, &[u32]),
@@ -60,7 +63,7 @@ impl Fragmentation {
         Ok((made, made_owners))
     }
 
-    /// The place of the first geometry among `params`, and its parts.
+    /// Returns the index of the first geometry among `params`, and its parts.
     fn parts(&mut self, params: &[f64], at: Mark, values: &Values) -> Option<(usize, Rc<[f64]>)> {
         for (place, stored) in params.iter().enumerate() {
             if !matches!(ColumnValue::unpack(*stored), ColumnValue::Handle(_)) {
@@ -69,7 +72,7 @@ impl Fragmentation {
             let known = match self.parts.get(&stored.to_bits()) {
                 Some(known) => known,
                 None => {
-                    let Some(parts) = geometry_parts(&values.unpack(*stored)) else { continue };
+                    let Some(parts) = parts_of(&values.unpack(*stored)) else { continue };
                     let is_whole = parts.is_none();
                     let parts = match parts {
                         Some(parts) => parts.into_iter().map(|part| values.pack(part)).collect(),
@@ -86,7 +89,7 @@ impl Fragmentation {
         None
     }
 
-    /// Where the parameters of the parts come from.
+    /// Returns the parameter sources of the parts.
     fn fit(&mut self, key: (Symbol, usize, Symbol), symbols: &Symbols) -> Result<ParameterPlaces> {
         if let Some(known) = self.fits.get(&key) {
             return Ok(Rc::clone(known));
@@ -108,7 +111,7 @@ impl Fragmentation {
         Ok(found)
     }
 
-    /// What people should know: where, and what.
+    /// Returns the warnings, one per fragment module, each with its position.
     pub(super) fn warnings(&self) -> impl Iterator<Item = (Mark, String)> + '_ {
         let mut told = FxHashSet::default();
         let first = self.whole.iter().filter(move |at| told.insert(at.module));
@@ -116,10 +119,8 @@ impl Fragmentation {
     }
 }
 
-/// The parts of a geometry, `None` within for one that has none; `None` for anything else.
-fn geometry_parts(value: &Value) -> Option<Option<Vec<Value>>> {
+/// Returns the parts of an object with content, `None` within for one that has none; `None` for other values.
+fn parts_of(value: &Value) -> Option<Option<Vec<Value>>> {
     let Value::Object(object) = value else { return None };
-    let parts = GeometryObject::of(&**object)?.fragments();
-    let value = |part| Value::Object(Arc::new(GeometryObject::new(part)));
-    Some(parts.map(|parts| parts.into_iter().map(value).collect()))
+    Some(object.capability::<dyn ObjectContent>()?.fragments())
 }

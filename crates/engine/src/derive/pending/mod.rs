@@ -1,8 +1,8 @@
-//! Modules that stand for others: those of the rows of a query, or of the parts of what is to their left.
+//! Resolution of placeholder modules: queries, and fragments of the module to their left.
 //!
-//! A chain has such modules only until the axiom or the step that made them is done: then the modules that they stand
-//! for take their places, and rules, interpretations and people see these. All questions of all chains are gathered,
-//! asked once each by all threads, and put in together.
+//! A chain contains placeholders only until the axiom or the step that made them is complete. Then other
+//! modules replace them, and rules, interpretations and users see only these modules. The queries of all
+//! chains are collected without duplicates, run by all threads, and inserted together.
 
 mod fragment;
 mod query;

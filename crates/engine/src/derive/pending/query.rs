@@ -1,4 +1,4 @@
-//! The modules of the rows of queries.
+//! Modules for the rows of queries.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Weak};
@@ -14,10 +14,10 @@ use burgeon_kit::Values;
 use burgeon_kit::{Prefetch, Value};
 use burgeon_rewriting::{Chain, ModuleKey, Signature, Symbol};
 
-/// Questions from which asking them takes longer than starting a helper.
+/// Number of queries from which running them takes longer than starting a helper.
 const MANY: usize = 64;
 
-/// The questions of a step, each once.
+/// Queries of a step, without duplicates.
 #[derive(Default)]
 pub(super) struct QuestionSet {
     questions: Vec<Question>,
@@ -25,7 +25,7 @@ pub(super) struct QuestionSet {
 }
 
 impl QuestionSet {
-    /// Adds a question, and gives its number.
+    /// Adds a query and returns its number.
     pub(super) fn add(&mut self, question: Question) -> usize {
         *self.numbers.entry(question).or_insert_with_key(|question| {
             self.questions.push(question.clone());
@@ -33,7 +33,7 @@ impl QuestionSet {
         })
     }
 
-    /// Has all of them asked, by helpers as well; gives the answers by number.
+    /// Runs all queries, with the help of other threads, and returns the results by number.
     pub(super) fn ask(self, machine: &Machine, threads: &ThreadPool) -> Result<Vec<Result<Arc<Rows>>>> {
         let session = &machine.session;
         let batch = Arc::new(QuestionBatch {
@@ -45,12 +45,12 @@ impl QuestionSet {
         let count = batch.questions.len();
         threads.hand_out(machine, count, MANY, || ThreadJob::Prefetch(job.clone()))?;
         batch.work();
-        // What a helper is still at is waited for here.
+        // Waits for queries that a helper is still running.
         Ok(batch.questions.iter().map(|question| session.ask(question)).collect())
     }
 }
 
-/// Questions that all threads ask.
+/// Queries that all threads run together.
 struct QuestionBatch {
     session: Arc<Session>,
     questions: Vec<Question>,
@@ -62,7 +62,7 @@ impl Prefetch for QuestionBatch {
         while !self.session.stop.is_stopped()
             && let Some(question) = self.questions.get(self.next.fetch_add(1, Ordering::Relaxed))
         {
-            // The answer is kept, whatever it is.
+            // The session caches the result, also if it is an error.
             let _ = self.session.ask(question);
         }
     }
@@ -72,19 +72,19 @@ impl Prefetch for QuestionBatch {
     }
 }
 
-/// The modules of the rows of an answer, but for their random keys.
+/// Modules of the rows of a result, without their random keys.
 pub(super) struct RowModules {
     symbol: Symbol,
     params: Vec<f64>,
-    /// By row: what tells it from others, and how many rows before it have the same.
+    /// Id of each row, and the number of earlier rows with the same id.
     ids: Vec<(String, usize)>,
-    /// By row: its feature, where features are told.
+    /// Feature of each row, if features are recorded.
     pub(super) owners: Vec<u32>,
     count: usize,
 }
 
 impl RowModules {
-    /// A module with `symbol`, which `target` declares, for each of the `rows`.
+    /// Creates one module with `symbol`, which `target` declares, for each of the `rows`.
     pub(super) fn new(rows: &Rows, symbol: Symbol, target: &Signature, values: &Values) -> Result<Self> {
         let mut made =
             Self { symbol, params: Vec::new(), ids: Vec::new(), owners: Vec::new(), count: rows.len() };
@@ -131,12 +131,12 @@ impl RowModules {
         Ok(made)
     }
 
-    /// How many there are.
+    /// Returns the number of modules.
     pub(super) fn len(&self) -> usize {
         self.count
     }
 
-    /// Puts the modules behind `chain`; with keys that come of `key` if there is one.
+    /// Appends the modules to `chain`, with random keys derived from `key` if there is one.
     pub(super) fn add_to(&self, chain: &mut Chain, key: Option<ModuleKey>) {
         chain.symbols.resize(chain.symbols.len() + self.count, self.symbol);
         chain.params.extend_from_slice(&self.params);

@@ -1,4 +1,4 @@
-//! Puts the modules that others stand for in their places.
+//! Replaces the placeholder modules of a chain.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -21,22 +21,22 @@ use burgeon_kit::Value;
 use burgeon_kit::Values;
 use burgeon_rewriting::{Chain, Mark, NO_RULE, Symbol, module_brief};
 
-/// How often the time is looked at: after so many places.
+/// Number of sites between two checks for cancellation.
 const OFTEN: usize = 1024;
 
-/// What the chain became.
+/// Chain without placeholders.
 #[derive(Default)]
 pub(in crate::derive) struct Resolution {
     pub chain: Chain,
-    /// For each symbol of the chain before, how many came of it; empty if none stood for others.
+    /// For each symbol of the chain before, the number of its successors; empty unless the steps are traced.
     pub applied: Vec<(u16, u32)>,
-    /// What came of which symbol of the chain before, where that is traced.
+    /// Descriptions of the replaced placeholders, if the steps are traced.
     pub answers: Vec<PendingAnswer>,
-    /// The features of its symbols, where they are told.
+    /// Features of the symbols, if they are recorded.
     owners: Vec<u32>,
 }
 
-/// Puts in what modules of `chain` stand for, as it is after `step` steps.
+/// Replaces the placeholder modules of `chain` after `step` steps. `None` if it contains none.
 pub(in crate::derive) fn resolve(
     LeadingMachine { machine, threads }: LeadingMachine<'_>,
     plan: &DerivationPlan,
@@ -44,7 +44,7 @@ pub(in crate::derive) fn resolve(
     step: usize,
     features: Option<&RefCell<RowFeatures>>,
 ) -> Result<Option<Resolution>> {
-    // Most scripts never make one, and pay for no look at their chains.
+    // Most scripts make no placeholders, so their chains are not searched.
     let is_pending = |symbol: &Symbol| *symbol == QUERY || *symbol == FRAGMENT;
     if !machine.session.has_pending() || !chain.symbols.iter().any(is_pending) {
         return Ok(None);
@@ -62,29 +62,29 @@ pub(in crate::derive) fn resolve(
     Ok(Some(resolution))
 }
 
-/// What questions are answered with, by number.
+/// Query results by number.
 type Answers = Vec<Result<Arc<Rows>>>;
 
-/// A chain whose pending modules are being replaced.
+/// Chain whose placeholders are being replaced.
 struct Resolver<'a> {
     machine: &'a Machine,
     plan: &'a DerivationPlan,
     chain: &'a Chain,
     step: usize,
-    /// The features of the chain's symbols, where they are told.
+    /// Features of the chain's symbols, if they are recorded.
     features: Option<&'a RefCell<RowFeatures>>,
 }
 
-/// The modules that come at a site.
+/// Modules that replace a site.
 struct SiteModules {
     chain: Chain,
-    /// Their features, where they are told.
+    /// Features of the modules, if they are recorded.
     owners: Vec<u32>,
-    /// The number of rows of a query.
+    /// Number of rows of a query.
     rows: Option<usize>,
 }
 
-/// What a site has become, for whoever asks how.
+/// Summary of a replaced site, for the lineage.
 struct SiteReport {
     modules: usize,
     rows: Option<usize>,
@@ -95,7 +95,7 @@ impl Resolver<'_> {
         &self.machine.session.values
     }
 
-    /// Parameter number `index` of the module at `at`.
+    /// Returns parameter `index` of the module at `at`.
     fn value(&self, at: Mark, index: usize) -> Value {
         self.values().unpack(self.chain.params[at.param + index])
     }
@@ -107,17 +107,17 @@ impl Resolver<'_> {
         }
     }
 
-    /// Whether the chain at `at` is left out, since its data is at fault.
+    /// Returns true if the chain at `at` is skipped because its data is at fault.
     fn is_left_out(&self, at: Mark) -> bool {
         self.plan.objects.as_ref().is_some_and(|objects| objects.failed().contains(at.chain))
     }
 
-    /// An error of the module at `at`, with the line that made it.
+    /// Adds the module at `at`, and the line that made it, to an error.
     fn blame(&self, at: Mark, error: Error) -> Error {
         error.at(self.place(at)).module(self.shown(at), self.step)
     }
 
-    /// Returns the line of the script that made the pending module at `at`.
+    /// Returns the line of the script that made the placeholder at `at`.
     fn place(&self, at: Mark) -> Option<SourcePlace> {
         let symbol = self.chain.symbols[at.module];
         let arity = usize::from(self.plan.steps.grammar.arities()[usize::from(symbol)]);
@@ -126,7 +126,7 @@ impl Resolver<'_> {
         Some(SourcePlace { file: file.to_owned(), line: line.parse().ok()? })
     }
 
-    /// The module at `at` as a script writes it, with the values of its parameters.
+    /// Returns the module at `at` as a script writes it, with the values of its parameters.
     fn shown(&self, at: Mark) -> String {
         let text = |index| self.text(at, index).unwrap_or_default();
         match self.chain.symbols[at.module] {
@@ -145,7 +145,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// Passes an error of the module at `at` on, unless the data of its chain is at fault, which is left out then.
+    /// Skips the chain of the module at `at` if `error` is a fault of its data; otherwise returns the error.
     fn forgive(&self, at: Mark, error: Error) -> Result<()> {
         let error = self.blame(at, error);
         match &self.plan.objects {
@@ -166,12 +166,12 @@ impl Resolver<'_> {
         Ok(Question::new(self.text(at, 0)?, values).asked_in(scope))
     }
 
-    /// The module that the pending one at `at` names in its parameter number `index`.
+    /// Returns the symbol that the placeholder at `at` names in parameter `index`.
     fn target(&self, at: Mark, index: usize) -> Result<Symbol> {
         self.plan.steps.grammar.symbols().find(&self.text(at, index)?)
     }
 
-    /// Asks what the queries among `sites` ask; gives the answers, and by site the number of its own.
+    /// Runs the queries among `sites`. Returns the results, and for each site the number of its result.
     fn ask(&self, threads: &ThreadPool, sites: &[PendingSite]) -> Result<(Answers, Vec<Option<usize>>)> {
         let mut set = QuestionSet::default();
         let mut asked = Vec::with_capacity(sites.len());
@@ -182,7 +182,7 @@ impl Resolver<'_> {
         Ok((set.ask(self.machine, threads)?, asked))
     }
 
-    /// The chain with all that the `sites` stand for.
+    /// Returns the chain with all `sites` replaced.
     fn put_in(
         &self,
         sites: &[PendingSite],
@@ -198,7 +198,7 @@ impl Resolver<'_> {
         let mut rows: FxHashMap<(usize, Symbol), RowModules> = FxHashMap::default();
         let mut fragmentation = Fragmentation::default();
         let mut done = Mark::default();
-        // Fragmentations stand behind the sites that they belong to, and vanish.
+        // Fragment modules are located after the site that they belong to, and are removed.
         let mut gone: Vec<Mark> = sites.iter().flat_map(|site| site.fragments.iter().copied()).collect();
         gone.sort_by_key(|at| at.module);
         let mut gone = gone.into_iter().peekable();
@@ -258,13 +258,13 @@ impl Resolver<'_> {
         Ok(made)
     }
 
-    /// A warning of the module at `at`, with the line that made it.
+    /// Creates a warning about the module at `at`, with the line that made it.
     fn told(&self, at: Mark, text: String) -> Warning {
         let placed = self.blame(at, Error::internal(""));
         Warning::new(WarningKind::NoEffect, text).at(placed.place().cloned())
     }
 
-    /// Copies the symbols from `done` up to the one at `at`, and passes that over.
+    /// Copies the symbols from `done` up to the symbol at `at`, and skips that symbol.
     fn keep(&self, made: &mut Resolution, done: &mut Mark, at: Mark) {
         if let Some(features) = self.features {
             let features = features.borrow();
@@ -288,7 +288,7 @@ impl Resolver<'_> {
         };
     }
 
-    /// The modules that come at `site`, and how many rows a query gave.
+    /// Returns the modules that replace `site`, and the number of rows of its query.
     fn group(
         &self,
         site: &PendingSite,
@@ -320,7 +320,7 @@ impl Resolver<'_> {
                 owners.extend_from_slice(&modules.owners);
                 rows = Some(modules.len());
             }
-            // It belongs to a chain that is left out.
+            // The query belongs to a skipped chain.
             (None, QUERY) => {}
             (None, symbol) => {
                 let arity = usize::from(self.plan.steps.grammar.arities()[usize::from(symbol)]);
@@ -341,7 +341,7 @@ impl Resolver<'_> {
         Ok(SiteModules { chain: group, owners, rows })
     }
 
-    /// What came of `site`, in words.
+    /// Describes the replacement of `site`, for the lineage.
     fn answer(&self, site: &PendingSite, report: &SiteReport) -> PendingAnswer {
         let count = |count: usize, of: &str| format!("{count} {of}{}", if count == 1 { "" } else { "s" });
         let mut text = self.shown(site.at);

@@ -1,25 +1,26 @@
-//! Where in a chain modules stand that stand for others.
+//! Sites in a chain at which placeholder modules are replaced.
 
 use crate::placeholders::{FRAGMENT, QUERY};
 use burgeon_base::error::{Error, Result};
 use burgeon_rewriting::{CLOSE, Chain, END, Mark, OPEN};
 
-/// A place in a chain where other modules come.
+/// Site in a chain at which modules are replaced.
 #[derive(Debug)]
 pub(super) struct PendingSite {
-    /// The query, or the module whose parts come.
+    /// Position of the query, or of the module that is split into parts.
     pub at: Mark,
-    /// The fragmentations that are applied, one after the other.
+    /// Positions of the fragment modules, in the order in which they are applied.
     pub fragments: Vec<Mark>,
 }
 
-/// The places in `chain`, in its order. `arities` gives the parameters by symbol.
+/// Returns the sites of `chain`, in order. `arities` has the number of parameters by symbol.
 ///
-/// A fragmentation belongs to the module or the query to its left on its own branch; closed branches in between, and
-/// other fragmentations, are passed over. Fails with the place of one that has none, and what is wrong.
+/// A fragment module belongs to the module or query to its left on the same branch; closed branches and other
+/// fragment modules in between are ignored. Fails with the position of a fragment module without a module to
+/// its left.
 pub(super) fn sites(chain: &Chain, arities: &[u8]) -> Result<Vec<PendingSite>, (Mark, Error)> {
     let mut sites: Vec<PendingSite> = Vec::new();
-    // The last module or query on each branch that is open, and its number among the sites if it is one.
+    // For each open branch, its last module or query, and the index of its site if there is one.
     let mut branches: Vec<Option<(Mark, Option<usize>)>> = Vec::new();
     let mut last: Option<(Mark, Option<usize>)> = None;
     let mut here = Mark::default();
@@ -61,7 +62,8 @@ mod tests {
     use super::*;
     use burgeon_rewriting::FIRST_SYMBOL;
 
-    /// The sites of a chain as text: `a` to `z` modules, `?` a query, `%` a fragmentation, `;` an end.
+    /// Returns the sites of a chain as text: `a` to `z` modules, `?` a query, `%` a fragment module, `;` an
+    /// end.
     fn found(text: &str) -> Result<String, usize> {
         let symbol = |c: char| match c {
             '[' => OPEN,

@@ -1,4 +1,4 @@
-//! Makes the first chains of a system.
+//! Initial chains of a system.
 
 use std::sync::Arc;
 
@@ -9,6 +9,7 @@ use crate::machine::convert::to_value;
 use crate::machine::types::ObjectHandle;
 use crate::results::{Remark, SourceFeatures};
 use burgeon_base::error::{Error, Limit, Result};
+use burgeon_data::Features;
 use burgeon_kit::{Object, Prefetch, Value};
 use burgeon_rewriting::{CLOSE, Chain, DEEPEST, END, ModuleKey, OPEN, Symbol};
 
@@ -16,26 +17,26 @@ use super::lazy::is_feature;
 use super::source::{each_feature, layer_of, refused_of, shown};
 use super::{DeclaredAxiom, SystemDeclaration};
 
-/// The first chains of a system and what belongs to each.
+/// Initial chains of a system, with the data of each chain.
 #[derive(Default)]
 pub(crate) struct Axiom {
     pub chain: Chain,
-    /// One object for each chain, or none at all.
+    /// Object of each chain; empty if the system has no object.
     pub objects: Vec<Box<dyn Object>>,
-    /// The id of each chain's feature.
+    /// Feature id of each chain.
     pub features: Vec<Option<String>>,
-    /// What is known of the features.
+    /// Attributes of the features.
     pub known: SourceFeatures,
-    /// What the features come from; empty without any, and for a list that the script made.
+    /// Name of the features' source; empty without features, and for a list of the script.
     pub source: String,
-    /// How many features there were, those that were left out among them.
+    /// Number of input features, including skipped features.
     pub given: usize,
-    /// Features that were left out.
+    /// Skipped features.
     pub remarks: Vec<Remark>,
 }
 
 impl Axiom {
-    /// Chain number `index` alone.
+    /// Returns only chain `index`.
     pub(crate) fn only(mut self, index: usize, arities: &[u8]) -> Self {
         Self {
             chain: self.chain.only(index, arities),
@@ -48,8 +49,11 @@ impl Axiom {
 }
 
 impl SystemDeclaration {
-    /// In a machine that only helps: runs the function that makes each feature's chain, for what it changes, unless it
-    /// can be seen to change nothing but the random numbers that follow, which [`SystemDeclaration::catch_up`] sets right.
+    /// Repeats the side effects of the axiom in a helper machine: runs the function that makes each feature's
+    /// chain.
+    ///
+    /// Skips a function whose only side effect is random numbers; [`SystemDeclaration::catch_up`] then
+    /// corrects the random stream.
     pub(crate) fn replay_axiom(&self, machine: &Machine) -> Result<()> {
         let is_pure = |function: &Function| {
             let info = function.info();
@@ -63,7 +67,7 @@ impl SystemDeclaration {
         }
     }
 
-    /// In a machine that only helps, once a derivation is over: random numbers go on where the leader's do.
+    /// Sets the random stream of a helper machine to the position of the leader, after a derivation.
     pub(crate) fn catch_up(&self, machine: &Machine) {
         if let Some(DeclaredAxiom::Source(..)) = self.axiom
             && let Some(stream) = machine.session.drawn.after(machine.driver.count())
@@ -72,7 +76,7 @@ impl SystemDeclaration {
         }
     }
 
-    /// Makes the first chains: one from modules, or one for each feature. What is wrong with them is told where the
+    /// Makes the initial chains: one from modules, or one per feature. Errors have the location where the
     /// axiom was set.
     pub(crate) fn axiom(&self, machine: &Machine, key: ModuleKey, random: bool) -> Result<Axiom> {
         self.first_chains(machine, key, random).map_err(|error| error.at(self.axiom_place.clone()))
@@ -96,7 +100,7 @@ impl SystemDeclaration {
             }
             Some(DeclaredAxiom::Source(source, function)) => {
                 let made = self.features(machine, source, function, key, random, &mut axiom);
-                // The script may go on where it fails.
+                // The script can continue after a failure, so the position is recorded first.
                 machine.session.drawn.note(machine.driver.count(), &machine.current.top.borrow());
                 made?;
             }
@@ -136,7 +140,7 @@ impl SystemDeclaration {
                         | LuaValue::Integer(_)
                         | LuaValue::Boolean(_)),
                     ) => id.to_string().unwrap_or_default(),
-                    // What else it may be has no name that is the same each time.
+                    // Other values have no text that is equal in every run.
                     _ => index.to_string(),
                 },
                 (None, _) => index.to_string(),
@@ -187,7 +191,7 @@ impl SystemDeclaration {
         };
         let prefetch = prefetch.as_ref().map(|prefetch| &prefetch.0);
         each_feature(machine.lua(), source, prefetch, each, |error| machine.translate(error))?;
-        // Where nothing is left, the error tells more.
+        // If no feature remains, the error is more helpful than an empty model.
         match refused {
             Some(error) if axiom.features.is_empty() => Err(error),
             _ => Ok(()),
@@ -196,22 +200,24 @@ impl SystemDeclaration {
 }
 
 impl SystemDeclaration {
-    /// Has what the system's objects need of many features made by a thread that helps, if there is one.
+    /// Lets a helper thread, if there is one, prepare data that the system's objects need for many features.
     fn prefetch(&self, machine: &Machine, source: &AnyUserData) -> Result<Option<PrefetchGuard>> {
         let begin = self.object.as_ref().and_then(|object| object.kind().prefetch);
         let begin = begin.filter(|_| !machine.session.options.check);
         let layer = layer_of(source).filter(|layer| layer.features.len() >= MANY);
         let (Some(begin), Some(layer)) = (begin, layer) else { return Ok(None) };
-        let prefetching = PrefetchGuard(begin(&layer));
+        let features: Arc<dyn Object> = Arc::new(Features(layer));
+        let Some(prefetch) = begin(&features) else { return Ok(None) };
+        let prefetching = PrefetchGuard(prefetch);
         machine.driver.prefetch(machine, &prefetching.0)?;
         Ok(Some(prefetching))
     }
 }
 
-/// From this many features on, helpers will be needed anyway to interpret the chains, so they may as well start now.
+/// Number of features from which helpers start early, because the interpretation needs them anyway.
 const MANY: usize = 256;
 
-/// A prefetch that lasts for as long as features are gone through.
+/// Prefetch that ends when this is dropped.
 struct PrefetchGuard(Arc<dyn Prefetch>);
 
 impl Drop for PrefetchGuard {
@@ -220,16 +226,16 @@ impl Drop for PrefetchGuard {
     }
 }
 
-/// The id that a feature in a list of the script has.
+/// Returns the id of a feature in a list of the script.
 fn own_id(feature: &Table) -> mlua::Result<LuaValue> {
     match feature.metatable() {
-        // One of a file, which may not have been looked into.
+        // A feature of a file may not be a complete table yet, so the metatable finds the id.
         Some(metatable) if is_feature(&metatable) => feature.get("id"),
         _ => feature.raw_get("id"),
     }
 }
 
-/// A copy of `object` for the chain with this key.
+/// Returns a copy of `object` for the chain with this random key.
 fn prepared(machine: &Machine, object: &dyn Object, key: ModuleKey) -> Box<dyn Object> {
     let mut object = object.boxed();
     object.seed(key.0);
@@ -237,7 +243,7 @@ fn prepared(machine: &Machine, object: &dyn Object, key: ModuleKey) -> Box<dyn O
     object
 }
 
-/// Writes modules that were made outside of rules into a chain.
+/// Builder that appends modules made outside of rules to a chain.
 struct Builder<'a> {
     machine: &'a Machine,
     chain: &'a mut Chain,

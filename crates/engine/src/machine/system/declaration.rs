@@ -1,4 +1,4 @@
-//! What a script has declared of a system, and what a machine runs of it.
+//! Declaration of a system by a script, and its functions in one machine.
 
 use std::cell::{Cell, RefCell};
 use std::sync::Arc;
@@ -14,45 +14,45 @@ use burgeon_rewriting::{CLOSE, END, FIRST_SYMBOL, Grammar, OPEN, Pattern, Rule, 
 use burgeon_scene::CityClass;
 use mlua::{Function, Table, Value as LuaValue};
 
-/// What a script declared of one system.
+/// Declaration of a system by a script.
 pub(crate) struct SystemDeclaration {
-    /// The object that each chain gets a copy of.
+    /// Object that is copied for each chain.
     pub object: Option<Arc<dyn Object>>,
-    /// Whether only the last step is interpreted.
+    /// Set if only the last step is interpreted.
     pub last_only: bool,
-    /// What its chains are in a city.
+    /// Class of the chains as CityJSON objects.
     pub city: Option<CityClass>,
-    /// Its own seed, in place of the run's.
+    /// Seed of the system, if it overrides the seed of the run.
     pub seed: Option<u64>,
-    /// Its place among the systems of the script.
+    /// Index among the systems of the script.
     pub index: usize,
-    /// Where it was made.
+    /// Location where the system was created.
     pub place: Option<SourcePlace>,
-    /// The line of the script that led there.
+    /// Line of the script from which that location was called.
     pub caller: Option<SourcePlace>,
-    /// Where its axiom was set.
+    /// Location where the axiom was set.
     pub axiom_place: Option<SourcePlace>,
     pub(crate) axiom: Option<DeclaredAxiom>,
     pub(crate) rules: Vec<DeclaredRule>,
     pub(crate) interpretations: Vec<DeclaredInterpretation>,
     pub(crate) ignored: Vec<Symbol>,
     pub(crate) considered: Option<Vec<Symbol>>,
-    /// Each time that it was derived.
+    /// Record of each derivation.
     pub(crate) derivations: RefCell<Vec<DerivationRecord>>,
-    /// What was declared since it was derived last, and where.
+    /// Declarations since the last derivation, with their locations.
     pub(crate) late: RefCell<Vec<(&'static str, Option<SourcePlace>)>>,
-    /// Whether its axiom was set since it was derived last.
+    /// Set if the axiom was set since the last derivation.
     pub(crate) axiom_is_new: Cell<bool>,
-    /// Whether the script gave it to an object.
+    /// Set if the script passed the system to an object.
     pub(crate) given: Cell<bool>,
 }
 
-/// A time that a system was derived.
+/// Record of one derivation of a system.
 pub(crate) struct DerivationRecord {
     pub(crate) place: Option<SourcePlace>,
-    /// Its number among those of the script.
+    /// Number among the derivations of the script.
     pub(crate) number: usize,
-    /// Whether it began from an axiom of its own.
+    /// Set if the derivation began from a new axiom.
     pub(crate) axiom_is_new: bool,
 }
 
@@ -64,10 +64,10 @@ pub(crate) enum DeclaredAxiom {
 pub(crate) struct DeclaredRule {
     pub(crate) rule: Rule,
     pub(crate) guard: Option<Function>,
-    /// The text of the guard, as far as it is known.
+    /// Source text of the guard, if it is known.
     pub(crate) guard_text: Option<String>,
     pub(crate) successor: Function,
-    /// Whether one of them may look at `this`.
+    /// Set if the successor or the guard may use `this`.
     pub(crate) asks: bool,
 }
 
@@ -75,60 +75,62 @@ pub(crate) struct DeclaredInterpretation {
     pub(crate) pattern: Pattern,
     pub(crate) rule: Function,
     pub(crate) place: Option<SourcePlace>,
-    /// Whether it has been told already that it returns modules.
+    /// Set if a warning about returned modules has been reported.
     pub(crate) loses: bool,
 }
 
-/// A system ready to derive in one machine: the functions that the grammar's rules run.
+/// Functions of a system's rules, prepared for derivation in one machine.
 pub(crate) struct SystemFunctions {
-    /// By rule: the function that applies it to a batch.
+    /// Function that applies each rule to a batch.
     pub drivers: Vec<Function>,
-    /// By rule: the function that asks its guard about a batch.
+    /// Function that evaluates the guard of each rule for a batch.
     pub guards: Vec<Option<Function>>,
-    /// Keeps what the rules can reach frozen.
+    /// Keeps tables that the rules can reach frozen.
     _frozen: TableFreeze,
 }
 
-/// How modules are interpreted: the same in every machine.
+/// Interpretation of modules, equal in all machines.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Interpretations {
-    /// By symbol: the number of its interpretation rule, from 0, or `u16::MAX`.
+    /// Number of the interpretation rule by symbol, from 0, or `u16::MAX`.
     pub by_symbol: Vec<u16>,
-    /// By symbol: the method that the standard library gives it, or `u16::MAX`.
+    /// Method of the standard library by symbol, or `u16::MAX`.
     pub methods: Vec<u16>,
-    /// The interpretations by their numbers.
+    /// Interpretation rules by number.
     pub list: Vec<Interpretation>,
-    /// The number of what runs where a chain begins, or `u16::MAX`.
+    /// Number of the hook that runs at the start of a chain, or `u16::MAX`.
     pub begin: u16,
 }
 
-/// An interpretation rule, as it is the same in every machine.
+/// Interpretation rule, equal in all machines.
 #[derive(Debug, Clone)]
 pub(crate) struct Interpretation {
-    /// How many parameters it takes.
+    /// Number of parameters that the rule takes.
     pub bound: usize,
-    /// Its pattern.
+    /// Pattern of the rule.
     pub name: String,
-    /// Where it was declared.
+    /// Location of the declaration.
     pub place: Option<SourcePlace>,
-    /// Whether it has been told already that it returns modules.
+    /// Set if a warning about returned modules has been reported.
     pub loses: bool,
 }
 
 impl SystemDeclaration {
-    /// Whether every interpretation pass begins with empty objects, so that earlier passes leave no trace.
+    /// Returns true if every interpretation pass begins with empty objects, so that earlier passes have no
+    /// effect.
     pub(crate) fn draws_afresh(&self) -> bool {
         self.object.as_ref().is_none_or(|object| object.kind().begins_empty)
     }
 
-    /// Whether only the last pass can be seen: each begins with an empty object, and no rule asks what it drew.
+    /// Returns true if only the last pass has an effect: each pass begins with an empty object, and no rule
+    /// uses `this`.
     pub(crate) fn shows_last_only(&self) -> bool {
         let empties = |object: &Arc<dyn Object>| object.kind().begins_empty && !object.expands();
         self.last_only
             || (self.object.as_ref().is_some_and(empties) && !self.rules.iter().any(|rule| rule.asks))
     }
 
-    /// The rules as they can be shared between machines.
+    /// Returns the rules in the form that machines share.
     pub(crate) fn grammar(&self, library: &Library, random: bool) -> Grammar {
         let symbols = Arc::new(library.symbols.borrow().clone());
         let ignored = match &self.considered {
@@ -142,7 +144,7 @@ impl SystemDeclaration {
         Grammar::new(symbols, rules, &ignored, random)
     }
 
-    /// How modules are interpreted.
+    /// Returns the interpretation of modules.
     pub(crate) fn interpretations(&self, library: &Library) -> Interpretations {
         let symbols = library.symbols.borrow().arities().len();
         let (mut by_symbol, mut methods) = (vec![u16::MAX; symbols], vec![u16::MAX; symbols]);
@@ -187,7 +189,7 @@ impl SystemDeclaration {
         Interpretations { by_symbol, methods, list, begin }
     }
 
-    /// Prepares `machine` for deriving this system: drivers and frozen tables.
+    /// Prepares `machine` for deriving this system: creates the drivers and freezes reachable tables.
     pub(crate) fn prepare(&self, machine: &Machine) -> Result<SystemFunctions> {
         let mut reached = Vec::new();
         let (drivers, guards) =
@@ -196,7 +198,7 @@ impl SystemDeclaration {
         Ok(SystemFunctions { drivers, guards, _frozen: frozen })
     }
 
-    /// Has `machine` work for this system from now on: its `this` and its interpretation rules.
+    /// Switches `machine` to this system: sets `this` and the interpretation rules.
     pub(crate) fn enter(&self, machine: &Machine) -> mlua::Result<()> {
         let prelude = machine.prelude();
         let lua = machine.lua();

@@ -1,4 +1,4 @@
-//! What `axiom`, `rule` and `interpret` add to a system, and what they refuse.
+//! Declarations of `axiom`, `rule` and `interpret`, with their checks.
 
 use std::collections::BTreeSet;
 
@@ -156,26 +156,26 @@ impl SystemDeclaration {
     }
 }
 
-/// The warning for an interpretation that returns modules.
+/// Returns the warning for an interpretation that returns modules.
 pub(crate) fn returns_modules() -> Warning {
     Warning::new(WarningKind::ReturnedModules, "an interpretation returns modules, and nobody takes them")
         .help("return them from a rule, system:rule(pattern, function); an interpretation calls methods of this")
 }
 
-/// The warning for an interpretation that returns a `value`, in words, that is no module.
+/// Returns the warning for an interpretation that returns a `value`, given as text, other than a module.
 pub(crate) fn returns_value(value: &str) -> Warning {
     let text = format!("an interpretation returns {value}, and nobody takes it");
     Warning::new(WarningKind::NoEffect, text)
         .help("an interpretation calls methods of this, and returns nothing")
 }
 
-/// The file and the line on which a function of the script begins.
+/// Returns the file and the first line of a script function.
 fn begin_of(function: &Function) -> Option<(String, usize)> {
     let info = function.info();
     Some((info.source?.strip_prefix('@')?.to_owned(), info.line_defined?))
 }
 
-/// Whether a function may look at its first parameter, `this`.
+/// Returns true if a function may use its first parameter, `this`.
 fn may_ask(session: &Session, function: &Function) -> bool {
     let info = function.info();
     let takes_any = info.num_params > 0 || info.is_vararg;
@@ -210,7 +210,7 @@ fn rule_options(options: &Table) -> Result<(Option<f64>, Option<Function>)> {
     Ok((weight, guard))
 }
 
-/// Refuses a function that takes more parameters than the pattern gives.
+/// Refuses a function with more parameters than the pattern provides.
 fn check_parameters(function: &Function, pattern: &Pattern, what: &str) -> Result<()> {
     let info = function.info();
     let given = pattern.formals.len() + 1;
@@ -226,14 +226,14 @@ fn check_parameters(function: &Function, pattern: &Pattern, what: &str) -> Resul
     Ok(())
 }
 
-/// Refuses questions of a function to data whose parameters have no value.
+/// Refuses SQL queries of a function with parameters that have no value.
 fn check_queries(library: &Library, function: &Function, pattern: &Pattern) -> Result<()> {
     let Some((file, line)) = begin_of(function) else { return Ok(()) };
     let queries = library.machine()?.session.queries(&file, line);
     check_open(&queries, &file, pattern, &library.symbols.borrow())
 }
 
-/// Refuses the first parameter of `queries`, which stand in `file`, that is not among the arguments of `pattern`.
+/// Refuses the first SQL parameter of `queries`, in the file `file`, that is not an argument of `pattern`.
 fn check_open(queries: &[QueryCall], file: &str, pattern: &Pattern, symbols: &Symbols) -> Result<()> {
     let arguments = pattern.arguments(symbols);
     let mut open = queries.iter().flat_map(|query| query.open.iter().map(move |name| (query.line, name)));
@@ -247,8 +247,8 @@ fn check_open(queries: &[QueryCall], file: &str, pattern: &Pattern, symbols: &Sy
     )))
 }
 
-/// Compiles a successor given as a string of Lua, with the formal parameters, `this` and all modules in scope; tells
-/// whether it may look at `this`.
+/// Compiles a successor given as a string of Lua, with the formal parameters, `this` and all modules in
+/// scope. Also returns whether the successor may use `this`.
 fn compile_successor(
     library: &Library,
     scope: &NameScope,
@@ -277,7 +277,7 @@ fn compile_successor(
             .enumerate()
             .map(|(index, name)| format!(", \"{name}{}\"", if index < signature.required { "" } else { "?" }))
             .collect();
-        // The analysis learns the signature from this call; it declares the same module again.
+        // The analysis reads the signature from this call, which declares the same module again.
         text.push_str(&format!("local {name} = module(\"{owner}{name}\"{parameters}) "));
     }
     let formals: String = pattern.formals.iter().map(|formal| format!(", {formal}")).collect();
@@ -297,7 +297,7 @@ fn compile_successor(
     Ok((successor, !begin.is_some_and(|line| analysis.blind.contains(&line))))
 }
 
-/// Whether `name` stands in `text` as a whole word.
+/// Returns true if `text` contains `name` as a whole word.
 fn mentions(text: &str, name: &str) -> bool {
     let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
     text.match_indices(name)

@@ -1,4 +1,4 @@
-//! Systems and sources as scripts hold them.
+//! Script values for systems.
 
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
@@ -19,7 +19,7 @@ use burgeon_scene::CityClass;
 
 use super::SystemDeclaration;
 
-/// A system as a script holds it.
+/// Script value for a system.
 pub(crate) struct SystemHandle {
     library: Rc<Library>,
     index: usize,
@@ -94,7 +94,8 @@ impl SystemHandle {
         Ok(Self { library: Rc::clone(library), index })
     }
 
-    /// Runs a declaration of `what`; a mistake is kept, so that all of them can be told at once. Fails while rules run.
+    /// Runs a declaration of `what`. Errors are collected, so that all can be reported together. Fails while
+    /// rules run.
     fn declare(
         &self,
         lua: &Lua,
@@ -115,7 +116,7 @@ impl SystemHandle {
         if let Err(error) = result {
             let error = error.at(place);
             let mut problems = self.library.problems.borrow_mut();
-            // What a loop declares again and again is wrong once.
+            // A loop that repeats a faulty declaration causes one error.
             if !problems.last().is_some_and(|known| known.is_same(&error)) {
                 problems.push(error);
             }
@@ -124,13 +125,13 @@ impl SystemHandle {
     }
 }
 
-/// The error for what an axiom's function may not do while it makes the chains.
+/// Returns the error for an action that the function of an axiom may not do.
 fn in_axiom(what: &str) -> Error {
     Error::scope(format!("{what} belongs outside of the function that makes each feature's chain"))
         .help("put it before derive, and let the function use it")
 }
 
-/// The object of a system: one that was made, or a constructor to be called without fields.
+/// Returns the object of a system, given as an object or as a constructor that is called without fields.
 fn prototype(library: &Library, value: LuaValue) -> Result<Arc<dyn Object>> {
     let value = match value {
         LuaValue::Function(constructor) => {
@@ -247,7 +248,7 @@ impl UserData for SystemHandle {
 }
 
 impl SystemHandle {
-    /// Its place among the systems of the script, for an object that uses its rules.
+    /// Returns the index of the system in the script, for an object that uses its rules.
     pub(crate) fn give(&self) -> usize {
         self.library.systems.borrow()[self.index].given.set(true);
         self.index

@@ -1,8 +1,9 @@
-//! Features that become tables only where the script looks into them.
+//! Features that become complete tables only when the script reads their fields.
 //!
-//! Most attributes nobody asks for. Until then such a table is empty and frozen, with the number of its feature under a
-//! key that no script has. A script could tell the difference with the functions that look at a table as it is, such as
-//! `pairs`; where one of them is named anywhere, the tables are made at once.
+//! Scripts read few attributes. A feature's table is therefore empty and frozen at first; it contains only
+//! the number of the feature, under a key that scripts cannot use. Functions that inspect raw tables, such as
+//! `pairs`, would reveal the difference. If any script file names such a function, complete tables are
+//! created immediately.
 
 use std::ffi::c_void;
 use std::sync::Arc;
@@ -16,43 +17,45 @@ use crate::machine::library::Library;
 use crate::machine::native;
 use crate::machine::types::ObjectHandle;
 use burgeon_data::{Attribute, Layer};
-use burgeon_kit::{GeometryObject, Prefetch, Table as ValueTable, TableKey, Value};
+use burgeon_kit::{Prefetch, Table as ValueTable, TableKey, Value};
+use burgeon_spatial::GeometryObject;
 
-/// What tables of features and their metatables know of themselves, under keys that no script has: addresses, which
-/// take no text to be made of at each question.
+/// Addresses that serve as table keys for the numbers below, unknown to scripts. Unlike strings, they need no
+/// allocation for each lookup.
 static KEYS: [u8; 2] = [0; 2];
-/// The feature's number.
+/// Key of the feature's number, in the feature's table.
 const NUMBER: usize = 0;
-/// In the metatable: the layer.
+/// Key of the layer, in the metatable.
 const LAYER: usize = 1;
 
-/// A layer as Lua holds it, with its attributes by name.
+/// Layer as a Lua value, with attribute indices by name.
 struct LayerHandle {
     layer: Arc<Layer>,
-    /// What makes plans of its polygons before they are asked for, if something does.
+    /// Prefetch of the ground plans of its polygons, if there is one.
     prefetch: Option<Arc<dyn Prefetch>>,
     names: FxHashMap<String, usize>,
 }
 
 impl UserData for LayerHandle {}
 
-/// Marks a machine whose script could see the difference.
+/// Marks a machine whose script can inspect raw tables.
 pub(crate) struct EagerMark(pub Arc<crate::declare::Session>);
 
 fn key(what: usize) -> LuaValue {
     LuaValue::LightUserData(LightUserData((&raw const KEYS[what]).cast_mut().cast::<c_void>()))
 }
 
-/// The registry's name for what the prelude knows of such features.
+/// Registry name of the prelude's function for such features.
 pub(crate) const UNREAD: &str = "burgeon unread";
 
-/// What the features of a layer have in common.
+/// Shared data of the features of a layer.
 pub(super) struct LazyLayer {
-    /// Makes the feature with a number.
+    /// Returns the feature with a number.
     make: Function,
 }
 
-/// What the features of `layer` have in common; `None` where they have to be tables from the beginning.
+/// Returns the shared data of the features of `layer`; `None` if they must be complete tables from the
+/// beginning.
 pub(super) fn unread(
     lua: &Lua,
     layer: &Arc<Layer>,
@@ -77,10 +80,10 @@ pub(super) fn unread(
     Ok(Some(LazyLayer { make: unread.call((key(NUMBER), metatable))? }))
 }
 
-/// The registry's name for the functions of such metatables.
+/// Registry name of the functions of such metatables.
 const LAZY: &str = "burgeon lazy";
 
-/// Makes the functions that all such metatables share, which remember nothing that rules could see.
+/// Creates the functions that all such metatables share. They are stateless for rules.
 pub(crate) fn install(lua: &Lua, library: &Library) -> mlua::Result<()> {
     let functions = lua.create_table()?;
     let named = |name: LuaValue| match name {
@@ -105,7 +108,7 @@ pub(crate) fn install(lua: &Lua, library: &Library) -> mlua::Result<()> {
     lua.set_named_registry_value(LAZY, functions)
 }
 
-/// What a loop over a table needs, all of whose fields are made.
+/// Returns the iterator function and a table of all fields, for a loop over a feature.
 fn walk(
     lua: &Lua,
     names: &[String],
@@ -120,7 +123,7 @@ fn walk(
 }
 
 impl LazyLayer {
-    /// The feature with this number, from 0, whose table knows nothing but its geometry.
+    /// Returns the feature with this number, from 0, whose table contains only the number.
     pub(super) fn feature(&self, index: usize) -> mlua::Result<Table> {
         self.make.call(index)
     }
@@ -130,12 +133,12 @@ fn held(table: &Table) -> Option<UserDataRef<LayerHandle>> {
     table.metatable()?.raw_get(key(LAYER)).ok()
 }
 
-/// Whether this is what the features of a layer have in common.
+/// Returns true if `metatable` belongs to the features of a layer.
 pub(super) fn is_feature(metatable: &Table) -> bool {
     matches!(metatable.raw_get(key(LAYER)), Ok(LuaValue::UserData(_)))
 }
 
-/// What a table with this metatable knows of its feature, if it stands for one: its geometry and its other fields.
+/// Returns the geometry and the other fields of the feature of a lazy table; `None` for any other table.
 pub(crate) fn feature_of(
     table: &Table,
     metatable: &Table,
@@ -159,10 +162,13 @@ pub(crate) fn feature_of(
         .collect();
     fields.push((name("id"), Value::Text(feature.id.as_str().into())));
     fields.push((name("layer"), Value::Text(held.layer.name.as_str().into())));
-    Some((GeometryObject::of_feature(&held.layer, index, held.prefetch.as_ref())?, fields))
+    Some((
+        GeometryObject::of_feature(Arc::<Layer>::clone(&held.layer), index, held.prefetch.as_ref())?,
+        fields,
+    ))
 }
 
-/// A list or an object of GeoJSON; nulls are left out of objects, and are false in lists.
+/// Converts a GeoJSON value. Nulls are omitted from objects, and become false in lists.
 fn from_json(json: &serde_json::Value) -> Value {
     use serde_json::Value as Json;
     let mut entries: Vec<(TableKey, Value)> = match json {
@@ -183,7 +189,7 @@ fn from_json(json: &serde_json::Value) -> Value {
     Value::Table(Arc::new(ValueTable { class: None, entries }))
 }
 
-/// A field that has been kept, or the value that is made of it and kept.
+/// Returns a cached field, or makes and caches its value.
 fn cached(
     table: &Table,
     name: &str,
@@ -200,7 +206,7 @@ fn cached(
     done.map(|()| made)
 }
 
-/// A field of a feature.
+/// Returns a field of a feature.
 fn of_feature(lua: &Lua, table: &Table, name: &str) -> mlua::Result<LuaValue> {
     let Some(held) = held(table) else { return Ok(LuaValue::Nil) };
     let index: usize = table.raw_get(key(NUMBER))?;
@@ -225,13 +231,15 @@ fn of_feature(lua: &Lua, table: &Table, name: &str) -> mlua::Result<LuaValue> {
     }
 }
 
-/// The geometry of a feature.
+/// Returns the geometry of a feature.
 pub(super) fn geometry(
     lua: &Lua,
     layer: &Arc<Layer>,
     index: usize,
     prefetch: Option<&Arc<dyn Prefetch>>,
 ) -> mlua::Result<LuaValue> {
-    let Some(geometry) = GeometryObject::of_feature(layer, index, prefetch) else { return Ok(LuaValue::Nil) };
+    let Some(geometry) = GeometryObject::of_feature(Arc::<Layer>::clone(layer), index, prefetch) else {
+        return Ok(LuaValue::Nil);
+    };
     lua.create_userdata(ObjectHandle(Arc::new(geometry))).map(LuaValue::UserData)
 }

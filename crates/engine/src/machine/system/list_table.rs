@@ -1,13 +1,15 @@
-//! A list of features that a script made, as a table for queries.
+//! Lists of features from a script, as tables for SQL queries.
 
 use std::sync::Arc;
 
 use crate::declare::ListTable;
 use burgeon_base::error::{Error, Result};
 use burgeon_data::{Attribute, Feature};
-use burgeon_kit::{Parameter, Shape, Table, TableKey, Value};
+use burgeon_kit::{Parameter, Table, TableKey, Value};
+use burgeon_spatial::Shape;
 
-/// The table of a list: for each feature its `id` or its number, its geometry, and what else it has that a table can hold.
+/// Converts a list to a table. Each feature has its `id` or its number, its geometry, and all attributes that
+/// a table can store.
 pub(super) fn list_table(features: &Value) -> Result<ListTable> {
     let mut made = ListTable::default();
     let Value::Table(list) = features else { return Ok(made) };
@@ -35,7 +37,7 @@ pub(super) fn list_table(features: &Value) -> Result<ListTable> {
     Ok(made)
 }
 
-/// What a feature has besides, by the numbers of its `names`.
+/// Returns the other attributes of a feature, with their indices in `names`.
 fn attributes(feature: &Table, names: &mut Vec<String>) -> Arc<[(usize, Attribute)]> {
     let mut attributes = Vec::new();
     for (key, value) in &feature.entries {

@@ -1,6 +1,7 @@
-//! `lsystem`: what a script declares of a system, in each machine.
+//! `lsystem`: declaration of a system by a script, in each machine.
 //!
-//! Input: the calls of a script. Output: a grammar, an axiom and functions, ready to derive. No rule is run here.
+//! Input: the calls of a script. Output: a grammar, an axiom and functions, ready for derivation. This folder
+//! runs no rules.
 
 mod axiom;
 mod declaration;

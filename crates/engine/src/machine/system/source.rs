@@ -1,4 +1,4 @@
-//! Sources as scripts hold them: a list that the script made, or a layer of a data file.
+//! Script values for sources: a list of the script, or a layer of a data file.
 
 use std::sync::Arc;
 
@@ -8,20 +8,20 @@ use super::lazy;
 use super::list_table::list_table;
 use crate::machine::Machine;
 use burgeon_base::error::{Error, Result};
-use burgeon_data::{Attribute, GeometryKind, Layer, SourceOptions};
-use burgeon_kit::{Features, Prefetch, Table as ValueTable, Value};
+use burgeon_data::{Attribute, Features, GeometryKind, Layer, SourceOptions};
+use burgeon_kit::{Prefetch, Table as ValueTable, Value};
 use burgeon_language::{LAYER, SOURCE};
 
-/// The features of a data source as a script holds them.
+/// Script value for a source of features.
 pub(crate) enum SourceHandle {
-    /// A list of tables.
+    /// List of tables.
     List(Table),
-    /// A layer, of which tables are made when they are asked for.
+    /// Layer whose tables are created when the script reads them.
     Layer(Arc<Layer>),
 }
 
 impl SourceHandle {
-    /// What `source(what, options)` gives.
+    /// Creates the result of `source(what, options)`.
     pub(crate) fn new(machine: &Machine, what: &LuaValue, options: &LuaValue) -> Result<Self> {
         let options = crate::machine::convert::to_value(options, false)?;
         match (what, &options) {
@@ -77,7 +77,7 @@ impl SourceHandle {
         Ok(Self::Layer(layer))
     }
 
-    /// The source as constructors take it.
+    /// Returns the source as an argument for constructors.
     pub(crate) fn value(&self) -> Result<Value> {
         match self {
             Self::List(features) => {
@@ -98,7 +98,7 @@ impl SourceHandle {
             (Self::Layer(layer), "features") => {
                 let table = lua.create_table_with_capacity(layer.features.len(), 0)?;
                 let names = AttributeNames::new(lua, layer, None)?;
-                // All of it stays, so looking for what does not would be in vain.
+                // The complete table stays alive, so a collection would free nothing of it.
                 let collects = lua.gc_is_running();
                 lua.gc_stop();
                 let made = (0..layer.features.len()).map(|index| table.raw_push(names.feature(lua, index)?));
@@ -162,7 +162,7 @@ impl UserData for SourceHandle {
     }
 }
 
-/// A field of a source; what was made for it is kept.
+/// Returns a field of a source, and caches its value.
 fn field(lua: &Lua, this: &AnyUserData, name: &str) -> mlua::Result<LuaValue> {
     if let LuaValue::Table(kept) = this.user_value::<LuaValue>()?
         && let value @ (LuaValue::Table(_) | LuaValue::String(_)) = kept.raw_get::<LuaValue>(name)?
@@ -179,7 +179,7 @@ fn field(lua: &Lua, this: &AnyUserData, name: &str) -> mlua::Result<LuaValue> {
     Ok(value)
 }
 
-/// The file and layer of a source; empty for a list that the script made.
+/// Returns file and layer of a source for messages; empty for a list of the script.
 pub(super) fn shown(source: &AnyUserData) -> String {
     match source.borrow::<SourceHandle>().as_deref() {
         Ok(SourceHandle::Layer(layer)) => layer.shown.clone(),
@@ -187,7 +187,7 @@ pub(super) fn shown(source: &AnyUserData) -> String {
     }
 }
 
-/// The layer that a source is; none for a list that the script made.
+/// Returns the layer of a source; `None` for a list of the script.
 pub(super) fn layer_of(source: &AnyUserData) -> Option<Arc<Layer>> {
     match source.borrow::<SourceHandle>().as_deref() {
         Ok(SourceHandle::Layer(layer)) => Some(Arc::clone(layer)),
@@ -195,7 +195,7 @@ pub(super) fn layer_of(source: &AnyUserData) -> Option<Arc<Layer>> {
     }
 }
 
-/// The features that a source left out, and why.
+/// Returns the features that a source skipped, with the errors.
 pub(super) fn refused_of(source: &AnyUserData) -> Vec<(String, Error)> {
     match source.borrow::<SourceHandle>().as_deref() {
         Ok(SourceHandle::Layer(layer)) => layer.refused.clone(),
@@ -203,10 +203,10 @@ pub(super) fn refused_of(source: &AnyUserData) -> Vec<(String, Error)> {
     }
 }
 
-/// Calls `each` with every feature of a source, its number from 1, and its id where it has one of its own.
+/// Calls `each` with every feature of a source, its number from 1, and its id if it comes from a file.
 ///
-/// The tables of a layer's features live only as long as they are used, unless the script has asked for all of them.
-/// What they need may come from `prefetch`.
+/// The tables of a layer's features are temporary, unless the script has read the complete list. `prefetch`
+/// can prepare data that the features need.
 pub(super) fn each_feature(
     lua: &Lua,
     source: &AnyUserData,
@@ -238,14 +238,14 @@ pub(super) fn each_feature(
     Ok(())
 }
 
-/// The names of a layer's attributes, and of what every feature has, as Lua's strings.
+/// Attribute names of a layer, and names of the fixed fields, as Lua strings.
 struct AttributeNames {
     of: Arc<Layer>,
     prefetch: Option<Arc<dyn Prefetch>>,
     attributes: Vec<mlua::LuaString>,
     layer: mlua::LuaString,
     fixed: [mlua::LuaString; 3],
-    /// What makes features of tables that know only their number; none where the script could tell.
+    /// Factory of lazy features; `None` if the script could detect them.
     unread: Option<lazy::LazyLayer>,
 }
 
@@ -264,7 +264,7 @@ impl AttributeNames {
 }
 
 impl AttributeNames {
-    /// The table of the feature with this number, from 0.
+    /// Returns the table of the feature with this number, from 0.
     fn feature(&self, lua: &Lua, index: usize) -> mlua::Result<Table> {
         let feature = &self.of.features[index];
         if let Some(unread) = &self.unread {
@@ -289,7 +289,7 @@ impl AttributeNames {
     }
 }
 
-/// A list or an object of GeoJSON as a frozen table; nulls are left out of objects, and are false in lists.
+/// Converts a GeoJSON value to a frozen table. Nulls are omitted from objects, and become false in lists.
 pub(super) fn nested(lua: &Lua, value: &serde_json::Value) -> mlua::Result<LuaValue> {
     use serde_json::Value as Json;
     Ok(match value {
@@ -319,7 +319,7 @@ pub(super) fn nested(lua: &Lua, value: &serde_json::Value) -> mlua::Result<LuaVa
     })
 }
 
-/// The options of `source`, and what statements call it.
+/// Parses the options of `source`, and the name of its table in SQL statements.
 fn wanted(options: &ValueTable) -> Result<(SourceOptions, Option<String>)> {
     let (mut wanted, mut table) = (SourceOptions::default(), None);
     for (key, value) in &options.entries {
@@ -374,7 +374,7 @@ fn wanted(options: &ValueTable) -> Result<(SourceOptions, Option<String>)> {
     Ok((wanted, table))
 }
 
-/// West, south, east and north.
+/// Parses a bounding box: west, south, east, north.
 fn corners(value: &Value) -> Result<[f64; 4]> {
     let numbers = match value {
         Value::Table(table) => table.list(),

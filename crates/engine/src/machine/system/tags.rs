@@ -1,4 +1,4 @@
-//! Filters of tags as scripts write them: `{ building = true, height = "*" }`, or a list of such tables.
+//! Tag filters in scripts: `{ building = true, height = "*" }`, or a list of such tables.
 
 use std::sync::Arc;
 
@@ -6,7 +6,7 @@ use burgeon_base::error::{Error, Result};
 use burgeon_data::{TagFilter, TagTest};
 use burgeon_kit::{Table, TableKey, Value};
 
-/// What the option `tags` of `source` says.
+/// Parses the option `tags` of `source`.
 pub(super) fn filter(value: &Value) -> Result<TagFilter> {
     let Value::Table(table) = value else {
         return Err(wrong(format!("tags must be a table, not {}", value.describe())));
@@ -25,7 +25,7 @@ pub(super) fn filter(value: &Value) -> Result<TagFilter> {
     Ok(TagFilter { alternatives: alternatives.collect::<Result<_>>()? })
 }
 
-/// What the tags of each key are to be.
+/// Parses the test of each key.
 fn tests(table: &Table) -> Result<Vec<(Arc<str>, TagTest)>> {
     if table.entries.is_empty() {
         return Err(wrong("tags is empty, which chooses nothing".to_owned()));
@@ -42,7 +42,7 @@ fn tests(table: &Table) -> Result<Vec<(Arc<str>, TagTest)>> {
 fn test(key: &str, value: &Value) -> Result<TagTest> {
     let text = |value: &Value| match value {
         Value::Text(text) => Ok(Arc::clone(text)),
-        // Whole numbers are tags' values too, such as lanes = 2.
+        // Tag values can be numbers, such as lanes = 2.
         Value::Number(number) if number.is_finite() => Ok(Arc::from(number.to_string())),
         other => Err(wrong(format!("tags: {key} is {}", other.describe()))),
     };

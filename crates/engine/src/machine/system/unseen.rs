@@ -1,7 +1,7 @@
-//! Tells of what a script declares that can never be seen or never happens: rules that others forestall, modules that
-//! nothing draws, declarations that come too late.
+//! Warnings about declarations without effect: unreachable rules, modules that nothing draws, and late
+//! declarations.
 //!
-//! Each is certain, not likely: a script that means what it says is never warned of.
+//! Each warning is certain: a declaration that can have an effect causes none.
 
 use mlua::Value;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -18,7 +18,7 @@ use burgeon_rewriting::{Context, FIRST_SYMBOL, Grammar, Pattern, Rule, Symbol};
 use super::{DeclaredRule, DerivationRecord, SystemDeclaration};
 
 impl SystemDeclaration {
-    /// Notes that the system is derived from now on, with all that has been declared.
+    /// Records that the system is derived with all declarations so far.
     pub(crate) fn note_derivation(&self, machine: &Machine) {
         self.derivations.borrow_mut().push(DerivationRecord {
             place: Machine::place(machine.lua()),
@@ -28,7 +28,7 @@ impl SystemDeclaration {
         self.late.borrow_mut().clear();
     }
 
-    /// Tells of interpretations that nothing runs, and of rules that can never apply.
+    /// Warns about interpretations that never run, and rules that never apply.
     pub(crate) fn tell_forestalled(&self, machine: &Machine, grammar: &Grammar) {
         if let (None, Some(first)) = (&self.object, self.interpretations.first()) {
             let text = "the system has no object, so its interpretations are never run";
@@ -82,7 +82,7 @@ impl SystemDeclaration {
         }
     }
 
-    /// Tells of the modules among `symbols`, those of the final chains, that this system neither draws nor looks at.
+    /// Returns warnings about `symbols` of the final chains that this system neither draws nor uses.
     pub(crate) fn undrawn(&self, library: &Library, symbols: &[Symbol]) -> Vec<(Symbol, Warning)> {
         let mut open: Vec<(Symbol, Warning)> = (FIRST_SYMBOL..)
             .take(library.symbols.borrow().names().count())
@@ -101,7 +101,8 @@ impl SystemDeclaration {
         found
     }
 
-    /// What to tell of a module with this symbol in a chain of this system, if nothing draws it or looks at it.
+    /// Returns the warning about modules with this symbol in a chain of this system, if nothing draws or uses
+    /// them.
     fn warning_of(&self, library: &Library, symbol: Symbol) -> Option<Warning> {
         let of = self.object.as_ref()?.kind();
         let (kind, is_a) = (&of.name, |known: &StandardInterpretation| of.is_a(&known.kind));
@@ -130,7 +131,7 @@ impl SystemDeclaration {
             let help = format!("interpret it, {interpret}, or give it another name");
             return Some(Warning::new(WarningKind::HiddenModule, text).help(help).at(place));
         }
-        // Without interpretations only modules of the standard library are drawn, if the object knows any.
+        // Without interpretations, an object draws only modules of the standard library, if it draws any.
         let draws = !self.interpretations.is_empty() || standard.iter().any(is_a);
         let is_used = !draws
             || self.ignored.contains(&symbol)
@@ -155,28 +156,31 @@ impl SystemDeclaration {
     }
 }
 
-/// A predecessor and its contexts, without the names of parameters.
+/// Predecessor and contexts, without parameter names.
 type ContextSymbols = (Symbol, Vec<Symbol>, Vec<Option<Symbol>>);
 
-/// The number of the first rule with a guard, for all rules whose guards decide alike; `None` without a guard.
+/// Number of the first rule with an equivalent guard; `None` without a guard.
 type GuardClass = Option<usize>;
 
-/// The guards so far, by the rules that were the first to have them.
+/// Guards so far, grouped into classes of equivalent guards.
 #[derive(Default)]
 struct GuardClasses {
-    /// The numbers of rules and what their guards capture, by their predecessors and the guards' texts.
+    /// Rule numbers and captured values, by predecessor and source text of the guard.
     first: FxHashMap<(Symbol, String), Vec<CapturingGuard>>,
 }
 
-/// The number of a rule and the values that its guard captures.
+/// Number of a rule, and the values that its guard captures.
 type CapturingGuard = (usize, Vec<Value>);
 
-/// Guards of one text that are compared: loops may declare thousands, which capture different values.
+/// Maximum number of guards with equal text that are compared. A loop can declare thousands that capture
+/// different values.
 const MOST_COMPARED: usize = 64;
 
 impl GuardClasses {
-    /// The class of the guard of rule `index`. Guards decide alike if they are one function, or if their texts are the same,
-    /// they capture the same values, and their patterns give them the same arguments.
+    /// Returns the class of the guard of rule `index`.
+    ///
+    /// Guards are equivalent if they are the same function, or if their texts, captured values and arguments
+    /// are equal.
     fn class_of(&mut self, machine: &Machine, rules: &[DeclaredRule], index: usize) -> GuardClass {
         let rule = &rules[index];
         let guard = rule.guard.as_ref()?;
@@ -198,28 +202,31 @@ impl GuardClasses {
     }
 }
 
-/// How many parameters a rule binds of its predecessor and of each module of its contexts.
+/// Returns the number of parameters that a rule binds for its predecessor and for each module of its
+/// contexts.
 fn bounds(rule: &Rule) -> Vec<usize> {
     std::iter::once(&rule.pattern.predecessor).chain(rule.contexts()).map(|item| item.bound).collect()
 }
 
-/// The rules so far that are candidates wherever their contexts match and their guards hold, by what they match.
+/// Rules so far that are candidates whenever their contexts match and their guards hold, by what they match.
 #[derive(Default)]
 struct CandidateRules<'a> {
     rules: FxHashMap<(ContextSymbols, GuardClass), [Option<&'a Rule>; 3]>,
-    /// The symbols with a rule that has a weight.
+    /// Symbols that have a rule with a weight.
     weighted: FxHashSet<Symbol>,
 }
 
-// The places of a rule among those that match the same: it wins before all that follow; before those without a weight,
-// for it has none, and one that has a weight may have come first; or it has a weight itself, and keeps those from winning.
+// Slots for rules that match the same. A rule in slot BEFORE_ALL takes precedence over all later rules. A
+// rule in slot BEFORE_PLAIN has no weight, but a rule with a weight came first; it takes precedence only over
+// later rules without a weight. A rule in slot WEIGHTED has a weight, and also takes precedence over later
+// rules without a weight.
 const BEFORE_ALL: usize = 0;
 const BEFORE_PLAIN: usize = 1;
 const WEIGHTED: usize = 2;
 
 impl<'a> CandidateRules<'a> {
-    /// The rule without contexts, or with the same, that keeps `rule` from ever being chosen: without a guard, or with the
-    /// same contexts and the same `guard`.
+    /// Returns an earlier rule that always takes precedence over `rule`: without contexts or with equal
+    /// contexts, and without a guard; or with equal contexts and an equivalent `guard`.
     fn forestalls(&self, rule: &Rule, guard: GuardClass) -> Option<&'a Rule> {
         let around = around(rule);
         let anywhere = (around.0, Vec::new(), Vec::new());
@@ -251,7 +258,7 @@ fn around(rule: &Rule) -> ContextSymbols {
     (pattern.predecessor.symbol, left, plain(&pattern.right))
 }
 
-/// A right context without the names of parameters.
+/// Returns the symbols of a right context, with `None` for branch borders.
 fn plain(contexts: &[Context]) -> Vec<Option<Symbol>> {
     let mut symbols = Vec::new();
     for context in contexts {
@@ -267,13 +274,13 @@ fn plain(contexts: &[Context]) -> Vec<Option<Symbol>> {
     symbols
 }
 
-/// Whether a pattern names `symbol`.
+/// Returns true if a pattern names `symbol`.
 fn names(pattern: &Pattern, symbol: Symbol) -> bool {
     pattern.predecessor.symbol == symbol || pattern.context_items().iter().any(|item| item.symbol == symbol)
 }
 
-/// Once a script has run to its end: tells of what it has declared in vain. A script that `returns` something is one
-/// that others require.
+/// Warns about declarations without effect, after a script has run to its end. A script that `returns` a
+/// value may be required by others.
 pub(crate) fn tell_unseen(machine: &Machine, returns: bool) {
     let library = &machine.library;
     let systems = library.systems.borrow();
@@ -304,7 +311,7 @@ pub(crate) fn tell_unseen(machine: &Machine, returns: bool) {
     }
 }
 
-/// Tells of each time that a system was derived again from the same axiom, if both models are seen.
+/// Warns about repeated derivations of a system from the same axiom, if both models are visible.
 fn tell_derived_twice<'a>(
     machine: &Machine,
     system: &SystemDeclaration,
@@ -333,7 +340,7 @@ fn tell_derived_twice<'a>(
     }
 }
 
-/// In a script that is only checked: tells of modules that its rules or axioms make, and that no system draws.
+/// Warns in a check about modules that rules or axioms make and no system draws.
 fn tell_undrawn(machine: &Machine, systems: &[SystemDeclaration]) {
     let (library, done) = (&machine.library, machine.driver.derived());
     let mut made: Vec<Symbol> =
@@ -349,7 +356,7 @@ fn tell_undrawn(machine: &Machine, systems: &[SystemDeclaration]) {
     });
     for symbol in made {
         let mut of_systems = systems.iter().map(|system| system.warning_of(library, symbol));
-        // Where some system draws it or means it for something else, nobody knows whose it is.
+        // If one system draws the module or uses it otherwise, the module may belong to that system.
         if let Some(Some(first)) = of_systems.next()
             && of_systems.all(|warning| warning.is_some())
         {

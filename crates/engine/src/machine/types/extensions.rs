@@ -1,7 +1,8 @@
-//! Functions that scripts and packages add to types of objects with `extend`.
+//! Functions that scripts and packages add to object types with `extend`.
 //!
-//! What a package adds is its own: two packages may add methods of one name to a type. Each is there in full, as
-//! `castle_turret`; the plain name means that of whoever calls it, or of the packages that the caller has required.
+//! Two packages may add methods of the same name to a type. Each is available by its qualified name, such as
+//! `castle_turret`. The plain name refers to the method of the calling package, or of a package that the
+//! caller has required.
 
 use std::collections::BTreeMap;
 
@@ -16,29 +17,29 @@ use crate::machine::library::Library;
 use burgeon_base::error::{Error, Result};
 use burgeon_language::EXTEND;
 
-/// A function that was added to a type.
+/// Function that was added to a type.
 pub(crate) struct Extension {
-    /// The name of the type.
+    /// Name of the type.
     pub kind: String,
-    /// The package that adds it; empty for the script.
+    /// Package that adds the function; empty for the script.
     pub owner: String,
     pub function: ScriptFunction,
 }
 
-/// The names of methods that several have added: of each, the full names by who added it.
+/// Methods that several packages have added, by name: the full names by package.
 pub(super) type NameConflicts = BTreeMap<String, BTreeMap<String, String>>;
 
-/// The name by which the machine finds what `owner` has added as `name`, in which no script can call anything.
+/// Returns the internal name of the function that `owner` has added as `name`. Scripts cannot use such names.
 fn full_name(owner: &str, name: &str) -> String {
     format!("{owner}.{name}")
 }
 
-/// Whether a name is one of those that only the machine uses.
+/// Returns true if a name is an internal name.
 pub(super) fn is_full_name(name: &str) -> bool {
     name.contains('.')
 }
 
-/// Adds to the `functions` of a type that extends `kind` what was added to that.
+/// Adds the extensions of `kind` to the `functions` of a type that inherits from it.
 pub(super) fn inherit(
     extensions: &[Extension],
     kind: &str,
@@ -65,7 +66,8 @@ pub(super) fn inherit(
     }
 }
 
-/// Which of `owners`, who have all added a method `name` to the type `kind`, the file means that is being run.
+/// Returns which of `owners` the running file refers to with the method `name` of the type `kind`. All of
+/// `owners` have added such a method.
 pub(in crate::machine) fn claim(
     library: &Library,
     lua: &Lua,
@@ -98,7 +100,7 @@ pub(in crate::machine) fn claim(
     }
 }
 
-/// `extend(constructor, declared)`: adds functions to a type.
+/// Implements `extend(constructor, declared)`, which adds functions to a type.
 pub(in crate::machine) fn extend_type(
     machine: &Machine,
     constructor: &LuaValue,
@@ -157,7 +159,7 @@ pub(in crate::machine) fn extend_type(
     Ok(())
 }
 
-/// Whether the method `name` of `kind` is one that others than `owner` have added, and only they.
+/// Returns true if only others than `owner` have added the method `name` of `kind`.
 fn is_added_by_others(machine: &Machine, kind: &str, owner: &str, name: &str) -> bool {
     let extensions = machine.library.extensions.borrow();
     let mut same =

@@ -1,4 +1,4 @@
-//! Geometries as scripts hold them: how they are made, and what is read of them without a call.
+//! Geometries in scripts: constructors and fields.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -8,21 +8,25 @@ use mlua::{AnyUserData, Function, Lua, MultiValue, Table, Value as LuaValue};
 use super::ObjectHandle;
 use crate::machine::convert::{to_lua, to_value};
 use crate::machine::{Machine, native, write_column};
-use burgeon_data::Geometry;
-use burgeon_kit::{Constructor, GeometryObject, Value, constructors};
+use burgeon_kit::{Constructor, Kind, Value};
+use burgeon_spatial::{Geometry, GeometryObject};
 
-/// The registry's name for what the prelude makes of lists of points.
+/// Registry name of the prelude's function for lists of points.
 pub(crate) const POINTS: &str = "burgeon points";
 
-/// Gives scripts the functions that make geometries.
-pub(in crate::machine) fn install_geometries(machine: &Machine, globals: &Table) -> mlua::Result<()> {
-    for Constructor { name, make } in constructors() {
+/// Gives scripts the functions that create values of `kind`.
+pub(in crate::machine) fn install_functions(
+    machine: &Machine,
+    kind: &Kind,
+    globals: &Table,
+) -> mlua::Result<()> {
+    for Constructor { name, make } in kind.functions.iter().copied() {
         let function = machine.lua().create_function(move |lua, given: MultiValue| {
             let mut values: Vec<Value> = given
                 .iter()
                 .map(|value| to_value(value, false).map_err(mlua::Error::external))
                 .collect::<mlua::Result<_>>()?;
-            // What is nil at the end was left out.
+            // Trailing nil arguments count as omitted.
             while values.last() == Some(&Value::Nil) {
                 values.pop();
             }
@@ -33,7 +37,7 @@ pub(in crate::machine) fn install_geometries(machine: &Machine, globals: &Table)
     Ok(())
 }
 
-/// Lists of points on their way to Lua, and the same as bytes.
+/// Buffers for passing lists of points to Lua.
 struct PointColumn {
     make: Function,
     numbers: RefCell<Vec<f64>>,
@@ -48,7 +52,8 @@ impl PointColumn {
         Ok(Self { make, numbers: RefCell::default(), column })
     }
 
-    /// Lists of points, written into a column and read from there by Lua, which makes its many small tables much faster.
+    /// Returns lists of points. They pass through a buffer, because Lua creates many small tables much faster
+    /// than Rust.
     #[allow(clippy::cast_precision_loss, reason = "counts below 2^53")]
     fn lists(&self, lua: &Lua, geometry: &Geometry) -> mlua::Result<Table> {
         let lists = geometry.lists();
@@ -65,7 +70,7 @@ impl PointColumn {
     }
 }
 
-/// What is read of an object by a name that is no method's, if it is a geometry. Its tables are kept with the object.
+/// Returns the field `name` of an object that is a geometry. Tables are cached in the object.
 pub(super) fn geometry_field(lua: &Lua, this: &AnyUserData, name: &str) -> mlua::Result<Option<LuaValue>> {
     let object = Arc::clone(&this.borrow::<ObjectHandle>()?.0);
     let Some(geometry) = GeometryObject::of(&*object) else { return Ok(None) };

@@ -1,4 +1,4 @@
-//! Objects and derived systems as scripts hold them.
+//! Script values for objects and derived systems.
 
 use std::sync::{Arc, RwLock};
 
@@ -17,21 +17,22 @@ use burgeon_kit::{Kind, Object, ScriptObject, Value};
 use burgeon_language::DERIVED;
 use burgeon_rewriting::FailedChains;
 
-/// The objects of a system, one for each chain: read while rewriting, changed while interpreting.
+/// Objects of a system, one per chain: read during rewriting, changed during interpretation.
 pub(crate) struct Objects {
     list: Vec<RwLock<Box<dyn Object>>>,
-    /// Chains whose data is wrong. Nothing more is drawn with their objects.
+    /// Chains with faulty data; their objects draw nothing more.
     failed: Arc<FailedChains>,
 }
 
 impl Objects {
-    /// Creates the objects of chains. If `forgiving`, wrong data leaves a chain out and does not end the run.
+    /// Creates the objects of chains. If `forgiving` is set, faulty data skips a chain instead of ending the
+    /// run.
     pub(crate) fn new(objects: Vec<Box<dyn Object>>, forgiving: bool) -> Self {
         let failed = Arc::new(FailedChains::new(objects.len(), forgiving));
         Self { list: objects.into_iter().map(RwLock::new).collect(), failed }
     }
 
-    /// Returns the chains whose data is wrong.
+    /// Returns the chains with faulty data.
     pub(crate) fn failed(&self) -> &Arc<FailedChains> {
         &self.failed
     }
@@ -50,7 +51,7 @@ impl Objects {
         guarded(|| change(&mut **object.write().recover()))
     }
 
-    /// Returns the objects, each with the failure of its chain.
+    /// Returns the objects, each with the error of its chain.
     pub(crate) fn into_owned(self) -> Vec<(Box<dyn Object>, Option<Error>)> {
         let failed = self.failed;
         let objects = self.list.into_iter().enumerate();
@@ -60,7 +61,7 @@ impl Objects {
     }
 }
 
-/// Makes an error of a panic, which a type of object from outside of Burgeon may have: it costs its own chain.
+/// Converts a panic to an error, so that a faulty object type outside of Burgeon affects only its own chain.
 fn guarded<T>(act: impl FnOnce() -> Result<T>) -> Result<T> {
     std::panic::catch_unwind(std::panic::AssertUnwindSafe(act)).unwrap_or_else(|panic| {
         Err(Error::internal(format!("the type of object panicked: {}", panic_message(&*panic)))
@@ -73,7 +74,7 @@ fn no_object() -> Error {
     Error::script("the system has no object").help("give it one: lsystem({ object = ... })")
 }
 
-/// An object as a value of a script; read-only.
+/// Read-only script value for an object.
 pub(crate) struct ObjectHandle(pub Arc<dyn Object>);
 
 impl UserData for ObjectHandle {
@@ -113,11 +114,11 @@ impl UserData for ObjectHandle {
     }
 }
 
-/// The methods of types of objects, by where their kinds lie in memory; each with its kind, which stays there.
+/// Method tables by the address of their kind. The kind is kept alive, so its address stays unique.
 #[derive(Default)]
 struct MethodTables(FxHashMap<usize, (Arc<Kind>, Table)>);
 
-/// The methods of a type.
+/// Returns the methods of a type.
 fn method_table(lua: &Lua, kind: &Arc<Kind>) -> mlua::Result<Table> {
     let place = Arc::as_ptr(kind) as usize;
     if let Some(known) = lua.app_data_ref::<MethodTables>()
@@ -135,12 +136,12 @@ fn method_table(lua: &Lua, kind: &Arc<Kind>) -> mlua::Result<Table> {
     Ok(table)
 }
 
-/// The registry's name for the methods of a type of object.
+/// Returns the registry name of the methods of an object type.
 pub(crate) fn methods_key(kind: &str) -> String {
     format!("burgeon methods {kind}")
 }
 
-/// What `derive` returns.
+/// Script value that `derive` returns.
 pub(crate) struct DerivedHandle(pub Arc<DerivedSystem>);
 
 impl DerivedHandle {

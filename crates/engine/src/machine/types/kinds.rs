@@ -1,4 +1,4 @@
-//! Types of objects as scripts see them: a constructor and a table of methods for each.
+//! Object types in scripts: a constructor and a table of methods for each type.
 
 use std::sync::{Arc, LazyLock};
 
@@ -10,7 +10,7 @@ use crate::machine::{Machine, compile};
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::{Call, Construct, Deprecation, Kind, Loader, Table as ValueTable, TableKey, Value};
 
-/// Makes the constructor of a type of object and its table of methods.
+/// Installs the constructor and the method table of an object type.
 pub(in crate::machine) fn install_kind(
     machine: &Machine,
     globals: &Table,
@@ -32,7 +32,7 @@ pub(in crate::machine) fn install_kind(
     }
 }
 
-/// Makes the table of the methods of a type that run in Rust.
+/// Creates the table of the methods that run in Rust.
 pub(in crate::machine) fn install_methods(machine: &Machine, kind: &Arc<Kind>) -> mlua::Result<Table> {
     let lua = machine.lua();
     let methods = lua.create_table()?;
@@ -59,7 +59,7 @@ pub(in crate::machine) fn install_methods(machine: &Machine, kind: &Arc<Kind>) -
     Ok(methods)
 }
 
-/// The function that makes objects of a type, if scripts can make them.
+/// Creates the constructor of a type, if scripts can make its objects.
 pub(in crate::machine) fn constructor(machine: &Machine, kind: &Arc<Kind>) -> mlua::Result<Option<Function>> {
     let lua = machine.lua();
     let library = std::rc::Rc::clone(&machine.library);
@@ -74,7 +74,7 @@ pub(in crate::machine) fn constructor(machine: &Machine, kind: &Arc<Kind>) -> ml
                     let name = format!("{}.{}", kind.name, deprecation.name);
                     session.use_deprecated(&name, deprecation, Machine::place(lua));
                 }
-                // What one feature has in place of a number, another may have right.
+                // A faulty value of one feature may be correct in another.
                 let mut object = make(&table).map_err(|error| mlua::Error::external(error.of_data()))?;
                 for warning in object.take_warnings() {
                     library.machine().map_err(mlua::Error::external)?.warn(warning);
@@ -119,7 +119,7 @@ pub(in crate::machine) fn constructor(machine: &Machine, kind: &Arc<Kind>) -> ml
     Ok(Some(constructor))
 }
 
-/// The names of the files that a constructor takes: one, or several in a list.
+/// Returns the file names in the argument of a constructor: one, or a list of several.
 fn file_names(kind: &Kind, loader: &Loader, files: LuaValue) -> Result<Vec<String>> {
     let list = match files {
         LuaValue::String(name) => return Ok(vec![name.to_string_lossy()]),
@@ -136,7 +136,7 @@ fn file_names(kind: &Kind, loader: &Loader, files: LuaValue) -> Result<Vec<Strin
     })
 }
 
-/// A function that does what `method` does, and takes notice of where it was used.
+/// Wraps `method` in a function that also reports the use of a deprecated name.
 fn telling(
     machine: &Machine,
     name: &str,
@@ -155,7 +155,8 @@ fn telling(
     wrap.call((tell, method))
 }
 
-/// The named fields that a constructor takes: a table, before which one of them may stand by itself.
+/// Returns the named fields from the arguments of a constructor: a table, optionally preceded by the value of
+/// the first field.
 fn constructor_fields(kind: &Kind, given: MultiValue) -> Result<Arc<ValueTable>> {
     let mut given = given.into_iter();
     let one = given.next().unwrap_or(LuaValue::Nil);
@@ -181,7 +182,7 @@ fn constructor_fields(kind: &Kind, given: MultiValue) -> Result<Arc<ValueTable>>
     Ok(Arc::new(table))
 }
 
-/// The one table of named fields that a constructor takes; nothing is an empty one.
+/// Converts an argument to a table of named fields; nil is an empty table.
 pub(in crate::machine) fn named_fields(what: &str, options: LuaValue) -> Result<Arc<ValueTable>> {
     match to_field(&options)? {
         Value::Nil => Ok(Arc::default()),

@@ -1,27 +1,28 @@
-//! Which types of objects remedies name: those that the registry has, whatever it holds.
+//! Object types for examples in error messages, chosen from the registry.
 
-use burgeon_kit::{Construct, Kind, Registry};
+use burgeon_kit::{Construct, Draw, Kind, Registry};
 use burgeon_language::{NameKind, names};
 
-/// The types that draw and that scripts can make, in the order of the registry.
+/// Returns the types that draw and that scripts can make, in the order of the registry.
 fn drawing(registry: &Registry) -> impl Iterator<Item = &Kind> {
     let kinds = registry.kinds().map(|kind| &**kind);
-    kinds.filter(|kind| kind.draw.is_some() && !matches!(kind.construct, Construct::Given))
+    kinds.filter(|kind| kind.has_capability::<dyn Draw>() && !matches!(kind.construct, Construct::Given))
 }
 
-/// The constructor that a script extends, if there is one.
+/// Returns a constructor that a script can inherit from, if there is one.
 pub(in crate::machine) fn drawing_kind(registry: &Registry) -> Option<&str> {
     drawing(registry).next().map(|kind| &*kind.name)
 }
 
-/// The constructor of a type to which functions are added: rather one that is made of something that they measure.
+/// Returns the constructor of a type to which a script can add functions, preferably a type made from a
+/// measurable value.
 pub(in crate::machine) fn extended_kind(registry: &Registry) -> Option<&str> {
     let measured = drawing(registry).find(|kind| kind.first.is_some());
     measured.map(|kind| &*kind.name).or_else(|| drawing_kind(registry))
 }
 
-/// How a system is given an object, if there is a type that draws: rather the one that modules of the standard library
-/// draw with.
+/// Returns an example of the option `object` of a system, preferably with a type that draws modules of the
+/// standard library.
 pub(in crate::machine) fn object_of_system(registry: &Registry) -> Option<String> {
     let drawn_with = |kind: &&Kind| {
         let mut sorts = names().iter().map(|name| name.sort);

@@ -1,7 +1,7 @@
-//! Types of objects in the virtual machine, and the objects that scripts hold.
+//! Object types in the virtual machine, and script values for objects.
 //!
-//! Input: kinds from the registry, and what a script declares. Output: constructors and methods that scripts call. What
-//! they do is a matter of the kinds; no kind is known by its name.
+//! Input: kinds from the registry, and declarations of a script. Output: constructors and methods that
+//! scripts call. This folder refers to no kind by name.
 
 mod extensions;
 mod geometries;
@@ -13,7 +13,7 @@ mod script_types;
 pub(crate) use extensions::Extension;
 pub(super) use extensions::{claim, extend_type};
 pub(crate) use geometries::POINTS;
-pub(super) use geometries::install_geometries;
+pub(super) use geometries::install_functions;
 pub(super) use handles::{DerivedHandle, methods_key};
 pub(crate) use handles::{ObjectHandle, Objects};
 pub(super) use kinds::{install_kind, named_fields, no_table};

@@ -1,4 +1,4 @@
-//! `object` and `extend`: types of objects that a script declares, and methods that it adds to others.
+//! `object` and `extend`: object types that a script declares, and methods that it adds to other types.
 
 use std::sync::Arc;
 
@@ -17,19 +17,19 @@ use burgeon_kit::{
 };
 use burgeon_language::{CallForm, OBJECT};
 
-/// The functions that run around the interpretation of a chain, as a script names them.
+/// Script names of the functions that run around the interpretation of chains and branches.
 const HOOKS: [&str; 4] = ["begin", "finish", "push", "pop"];
 
-/// A type that the script declared, as its machine knows it.
+/// Script-declared type in one machine.
 pub(crate) struct ScriptTypeEntry {
     pub kind: Arc<Kind>,
-    /// As the prelude knows it.
+    /// Type in the form of the prelude.
     pub table: Table,
     pub functions: Vec<ScriptFunction>,
     pub contested: NameConflicts,
 }
 
-/// A function of a type.
+/// Function of a type.
 #[derive(Clone)]
 pub(crate) struct ScriptFunction {
     pub name: String,
@@ -38,7 +38,7 @@ pub(crate) struct ScriptFunction {
     pub role: Role,
 }
 
-/// What a function of a type is for.
+/// Purpose of a type's function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Role {
     Read,
@@ -47,7 +47,7 @@ pub(crate) enum Role {
 }
 
 impl ScriptTypeEntry {
-    /// Makes the type that `object(name, declared)` declares.
+    /// Creates the type that `object(name, declared)` declares.
     fn declare(machine: &Machine, name: &str, declared: &Table) -> Result<Self> {
         refuse_unknown(&format!("object {name}"), declared, &OBJECT.part_names())?;
         let mut entry = match declared.raw_get::<LuaValue>("extends").map_err(internal)? {
@@ -104,7 +104,7 @@ impl ScriptTypeEntry {
         }
         let has = |hook: &str| entry.functions.iter().any(|it| it.role == Role::Hook && it.name == hook);
         let mut branches = [has("push"), has("pop")];
-        // So do hooks of what it holds.
+        // Hooks of child objects run too.
         for script in entry.declaration.held.iter().filter_map(|(_, object)| object.kind().script.as_ref()) {
             branches = [branches[0] | script.branches[0], branches[1] | script.branches[1]];
         }
@@ -129,7 +129,7 @@ impl ScriptTypeEntry {
     }
 }
 
-/// What a type is put together of.
+/// Parts of a type.
 #[derive(Default)]
 pub(super) struct ScriptTypeParts {
     declaration: ScriptType,
@@ -138,7 +138,8 @@ pub(super) struct ScriptTypeParts {
 }
 
 impl ScriptTypeParts {
-    /// What a type has that extends the one that `constructor` makes; `None` if it is no constructor.
+    /// Returns the parts of a type that inherits from the type of `constructor`; `None` if it is not a
+    /// constructor.
     fn of(machine: &Machine, constructor: &Function) -> Option<Self> {
         let kind = machine.library.kind_of(constructor)?;
         let types = machine.library.script_types.borrow();
@@ -151,7 +152,7 @@ impl ScriptTypeParts {
             contested: known.map_or_else(NameConflicts::new, |known| known.contested.clone()),
         };
         parts.declaration.above.insert(0, (*kind.name).into());
-        // What was added to that type holds for those that extend it.
+        // Methods added to a type also apply to types that inherit from it.
         inherit(&machine.library.extensions.borrow(), &kind.name, &mut parts.functions, &mut parts.contested);
         Some(parts)
     }
@@ -185,7 +186,7 @@ impl ScriptTypeParts {
         Ok(())
     }
 
-    /// The type as the prelude knows it.
+    /// Returns the type in the form of the prelude.
     fn table(&self, machine: &Machine, kind: &Arc<Kind>) -> mlua::Result<Table> {
         let lua = machine.lua();
         let of = lua.create_table()?;
@@ -238,18 +239,18 @@ impl ScriptTypeParts {
 }
 
 impl ScriptFunction {
-    /// Whether it stands for the same method or the same hook as `other`.
+    /// Returns true if both functions declare the same method or the same hook.
     fn is_same(&self, other: &Self) -> bool {
         self.name == other.name && (self.role == Role::Hook) == (other.role == Role::Hook)
     }
 
-    /// The method as people are told of it.
+    /// Returns the method for the documentation.
     pub(super) fn method(&self, session: &Session) -> Method {
         let info = self.function.info();
         let file = info.source.as_deref().and_then(|source| source.strip_prefix('@'));
         let form = file.zip(info.line_defined).and_then(|(file, line)| session.signature(file, line));
         let form = form.filter(|form| !form.arguments.is_empty()).unwrap_or_else(|| {
-            // Where several begin in one line, it is not known which of them this is.
+            // If several functions begin at one line, the right signature is unknown.
             let names = (0..info.num_params).map(|index| format!("a{index}"));
             let names = names.chain(info.is_vararg.then(|| "...".to_owned()));
             CallForm::new(names.map(Argument::new).collect(), "any")
@@ -264,7 +265,7 @@ impl ScriptFunction {
     }
 }
 
-/// `object(name, declared)`: declares a type, and gives its constructor.
+/// Implements `object(name, declared)`: declares a type and returns its constructor.
 pub(in crate::machine) fn declare_type(
     machine: &Machine,
     name: &LuaValue,
@@ -280,7 +281,7 @@ pub(in crate::machine) fn declare_type(
     };
     let name = name.to_string_lossy();
     check_name(&name)?;
-    // What a package declares is its own, and so has its name.
+    // A type of a package gets the name of the package as prefix.
     let full = match Machine::asker(machine.lua(), &machine.session) {
         Some(package) => format!("{}.{name}", package.manifest.name),
         None => name,
@@ -296,7 +297,7 @@ pub(in crate::machine) fn declare_type(
     Ok(constructor)
 }
 
-/// Refuses what cannot be the name of a type.
+/// Checks the name of a type.
 fn check_name(name: &str) -> Result<()> {
     let is_name = name.starts_with(|c: char| c.is_ascii_lowercase())
         && name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_');
@@ -307,7 +308,7 @@ fn check_name(name: &str) -> Result<()> {
     Ok(())
 }
 
-/// Refuses keys of `table` that are not `known`.
+/// Refuses keys of `table` that are not in `known`.
 pub(super) fn refuse_unknown(what: &str, table: &Table, known: &[&'static str]) -> Result<()> {
     for pair in table.pairs::<LuaValue, LuaValue>() {
         let key = pair.map_err(internal)?.0.to_string().unwrap_or_default();
@@ -320,7 +321,7 @@ pub(super) fn refuse_unknown(what: &str, table: &Table, known: &[&'static str]) 
     Ok(())
 }
 
-/// The entries of the table `part`, in the order of their names.
+/// Returns the entries of the table `part`, sorted by name.
 fn named(declared: &Table, part: &str, what: &str) -> Result<Vec<(String, LuaValue)>> {
     let table = match declared.raw_get::<LuaValue>(part).map_err(internal)? {
         LuaValue::Nil => return Ok(Vec::new()),
@@ -349,7 +350,7 @@ fn named(declared: &Table, part: &str, what: &str) -> Result<Vec<(String, LuaVal
     Ok(entries)
 }
 
-/// The function and the doc of `{ doc = "...", function(self) ... end }`.
+/// Returns function and documentation from `{ doc = "...", function(self) ... end }`.
 fn described(what: &str, table: &Table) -> Result<(Function, String)> {
     let doc = match table.raw_get::<LuaValue>("doc").map_err(internal)? {
         LuaValue::String(doc) => doc.to_string_lossy(),
@@ -361,7 +362,7 @@ fn described(what: &str, table: &Table) -> Result<(Function, String)> {
     }
 }
 
-/// Puts `item` in the place of the one that is the same among the first `inherited`.
+/// Replaces the equal item among the first `inherited` items by `item`, or appends `item`.
 fn replace<T>(list: &mut Vec<T>, inherited: usize, item: T, same: impl Fn(&T, &T) -> bool) {
     match list[..inherited].iter_mut().find(|known| same(known, &item)) {
         Some(known) => *known = item,

@@ -3,23 +3,23 @@
 use std::sync::Arc;
 
 use burgeon_geometry::Rings;
-use burgeon_spatial::{Geometry, PreparedGeometry};
+use burgeon_kit::{Expectation, Parameter, Value, Vector, object};
 use glam::DVec3;
 
-use super::GeometryObject;
-use super::object::place;
-use crate::{Expectation, Parameter, Value, Vector, object};
+use super::object::GeometryObject;
+use super::polygon::PolygonArgument;
+use crate::{Geometry, PreparedGeometry};
 
-/// A geometry as an argument: one that a script holds, that of a feature, or a place.
+/// A geometry as an argument: a geometry object, a feature's geometry, or a position.
 pub struct Shape(Arc<GeometryObject>);
 
 impl Shape {
-    /// The geometry itself.
+    /// Returns the geometry.
     pub fn geometry(&self) -> &Geometry {
         self.0.geometry()
     }
 
-    /// The same, ready to be compared with others.
+    /// Returns the geometry prepared for comparisons.
     pub(super) fn prepared(&self) -> &PreparedGeometry {
         self.0.prepared()
     }
@@ -41,7 +41,7 @@ impl Parameter for Shape {
             return Self::from_value(geometry.clone());
         }
         let made = if let Some(rings) = table.get("rings") {
-            Geometry::Polygon(Rings::from_value(rings.clone())?)
+            Geometry::Polygon(PolygonArgument::from_value(rings.clone())?.0)
         } else if let Some(points) = table.get("points") {
             let points: Vec<DVec3> = Vec::<DVec3>::from_value(points.clone())?;
             if points.len() == 1 { Geometry::Point(points.first().copied()) } else { Geometry::Line(points) }
@@ -56,12 +56,12 @@ impl Parameter for Shape {
     }
 }
 
-/// A list of points as an argument, or the geometry that has one: a line, or a polygon, of which it is the outer ring.
+/// A list of points as an argument, or a geometry with such a list: a line, or a polygon, whose outer ring is used.
 #[derive(Debug, Clone)]
 pub struct Path {
-    /// The points.
+    /// Points (m).
     pub points: Vec<DVec3>,
-    /// The holes of a polygon.
+    /// Holes of a polygon.
     pub holes: Rings,
 }
 
@@ -94,13 +94,5 @@ impl Parameter for Path {
 
     fn into_value(self) -> Value {
         self.points.into_iter().map(Vector).collect::<Vec<_>>().into_value()
-    }
-}
-
-/// The place that a value is as a point.
-pub(crate) fn vector(value: &Value) -> Option<Vector> {
-    match value {
-        Value::Object(object) => place(GeometryObject::of(&**object)?),
-        _ => None,
     }
 }

@@ -1,24 +1,18 @@
-//! How scripts make geometries: the functions `geometry`, `point`, `line` and `polygon`.
+//! Functions with which scripts make geometries: `geometry`, `point`, `line` and `polygon`.
 
 use std::sync::Arc;
 
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::Rings;
-use burgeon_spatial::Geometry;
+use burgeon_kit::{Answer, Constructor, Expectation, Parameter, Value, Vector};
 use glam::DVec3;
 
-use super::Shape;
-use crate::{Answer, Expectation, GeometryObject, Parameter, Value, Vector};
+use super::object::GeometryObject;
+use super::polygon::PolygonArgument;
+use super::shape::Shape;
+use crate::Geometry;
 
-/// A function that scripts have, and which makes a geometry of what it is given.
-pub struct Constructor {
-    /// Its name.
-    pub name: &'static str,
-    /// The function.
-    pub make: fn(&[Value]) -> Result<Value>,
-}
-
-/// All of them.
+/// Returns the functions.
 pub fn constructors() -> [Constructor; 4] {
     [
         Constructor { name: "geometry", make: geometry },
@@ -28,7 +22,7 @@ pub fn constructors() -> [Constructor; 4] {
     ]
 }
 
-/// The geometry of a text, of a feature or of a table; one as it is.
+/// Makes a geometry from text, a feature or a table; returns a geometry unchanged.
 fn geometry(given: &[Value]) -> Result<Value> {
     let what = "a text such as \"POINT (1 2)\", a feature, or a table with rings or points";
     match given {
@@ -46,7 +40,7 @@ fn geometry(given: &[Value]) -> Result<Value> {
     }
 }
 
-/// A place of two or three numbers, or of a vector.
+/// Makes a point from two or three numbers, or from a vector.
 fn point(given: &[Value]) -> Result<Value> {
     if let [value @ (Value::Table(_) | Value::Object(_))] = given {
         let place = Vector::from_value(value.clone());
@@ -64,7 +58,7 @@ fn point(given: &[Value]) -> Result<Value> {
     sound("point", Geometry::Point(Some(place)))
 }
 
-/// A line through points, given one by one or as a list.
+/// Makes a line through points, passed one by one or as a list.
 fn line(given: &[Value]) -> Result<Value> {
     let points = points("line", given)?;
     if points.len() < 2 {
@@ -74,11 +68,13 @@ fn line(given: &[Value]) -> Result<Value> {
     sound("line", Geometry::Line(points))
 }
 
-/// A polygon of its outer ring, or of a list of rings of which the others are holes.
+/// Makes a polygon from its outer ring, or from a list of rings; the rings after the first are holes.
 fn polygon(given: &[Value]) -> Result<Value> {
     let rings = match given {
-        [value] => Rings::from_value(value.clone())
-            .map_err(|error| error.refuse("polygon", "what it is given", value))?,
+        [value] => {
+            let polygon = PolygonArgument::from_value(value.clone());
+            polygon.map_err(|error| error.refuse("polygon", "what it is given", value))?.0
+        }
         _ => Rings(vec![points("polygon", given)?]),
     };
     let few = rings.iter().position(|ring| {
@@ -98,7 +94,7 @@ fn polygon(given: &[Value]) -> Result<Value> {
     sound("polygon", made)
 }
 
-/// Points that are given one by one or as a list.
+/// Reads points that are passed one by one or as a list.
 fn points(name: &str, given: &[Value]) -> Result<Vec<DVec3>> {
     let one_by_one = |value: &Value| Vector::from_value(value.clone());
     if let [only @ Value::Table(table)] = given
@@ -126,7 +122,7 @@ fn points(name: &str, given: &[Value]) -> Result<Vec<DVec3>> {
         .collect()
 }
 
-/// The geometry as a script's value; fails if a coordinate cannot be computed with.
+/// Returns the geometry as a script value. Fails if a coordinate is outside of the range for computations.
 fn sound(name: &str, geometry: Geometry) -> Result<Value> {
     geometry.check().map_err(|error| error.about(name))?;
     Ok(Value::Object(Arc::new(GeometryObject::new(geometry))))

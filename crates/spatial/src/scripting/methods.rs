@@ -1,25 +1,24 @@
-//! What scripts ask of a geometry.
+//! Methods of geometries for scripts.
 
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::listed;
-use burgeon_macros::{fields, methods};
-use burgeon_spatial::{BufferCap, BufferJoin, BufferOptions, Geometry};
+use burgeon_kit::{ObjectContent as _, TableOf, Value, fields, methods};
 use glam::DVec3;
 
-use super::object::place;
-use super::{GeometryObject, Shape};
-use crate::{TableOf, Value};
+use super::object::GeometryObject;
+use super::shape::Shape;
+use crate::{BufferCap, BufferJoin, BufferOptions, Geometry};
 
-/// How the border of what lies within a distance runs.
+/// Shape of a buffer's boundary.
 #[fields("geometry:buffer")]
 pub struct BufferSettings {
-    /// What it does at corners: "round", "mitre" or "bevel".
+    /// Shape at corners: "round", "mitre" or "bevel".
     #[default("round".into())]
     pub join: String,
-    /// What it does at the ends of lines: "round", "flat" or "square".
+    /// Shape at the ends of lines: "round", "flat" or "square".
     #[default("round".into())]
     pub cap: String,
-    /// How many edges stand for a quarter of a circle.
+    /// Number of edges that approximate a quarter of a circle.
     #[default(8)]
     pub quadrant_segments: u32,
 }
@@ -38,7 +37,7 @@ impl BufferSettings {
     }
 }
 
-/// The one of `known` that is called `name`.
+/// Returns the entry of `known` called `name`.
 fn choose<T: Copy>(method: &str, field: &str, name: &str, known: &[(&'static str, T)]) -> Result<T> {
     let found = known.iter().find(|(known, _)| *known == name);
     found.map(|(_, value)| *value).ok_or_else(|| {
@@ -50,210 +49,214 @@ fn choose<T: Copy>(method: &str, field: &str, name: &str, known: &[(&'static str
 
 #[methods("geometry")]
 impl GeometryObject {
-    /// The outer ring of a polygon as a line that ends where it begins; nil of other kinds.
+    /// Returns the outer ring of a polygon as a closed line; nil for other types.
     pub fn exterior_ring(&self) -> Option<Geometry> {
         self.geometry().exterior_ring()
     }
 
-    /// The holes of a polygon as lines that end where they begin; an empty list of other kinds.
+    /// Returns the holes of a polygon as closed lines; an empty list for other types.
     pub fn interior_rings(&self) -> Vec<Geometry> {
         self.geometry().interior_rings().unwrap_or_default()
     }
 
-    /// How many points it has; the first point of a ring counts again at its end.
+    /// Returns the number of points; the first point of a ring counts again at its end.
     pub fn num_points(&self) -> f64 {
         self.geometry().num_points() as f64
     }
 
-    /// The point of a line with a number from 1, or from its end if that is negative; nil if there is none.
+    /// Returns the point of a line at a number from 1, or from the end if the number is negative; nil if there is none.
     pub fn point_n(&self, number: f64) -> Option<Geometry> {
         let points = self.geometry().line_points()?;
         item(points.len(), number).map(|index| Geometry::Point(Some(points[index])))
     }
 
-    /// The first point of a line; nil of other kinds, and of an empty one.
+    /// Returns the first point of a line; nil for an empty line and for other types.
     pub fn start_point(&self) -> Option<Geometry> {
         Some(Geometry::Point(Some(*self.geometry().line_points()?.first()?)))
     }
 
-    /// The last point of a line; nil of other kinds, and of an empty one.
+    /// Returns the last point of a line; nil for an empty line and for other types.
     pub fn end_point(&self) -> Option<Geometry> {
         Some(Geometry::Point(Some(*self.geometry().line_points()?.last()?)))
     }
 
-    /// Where a point is to the east (m); nil of other kinds.
+    /// Returns the x coordinate of a point, to the east (m); nil for other types.
     pub fn x(&self) -> Option<f64> {
-        place(self.geometry()).map(|place| place.0.x)
+        self.position().map(|it| it.x)
     }
 
-    /// Where a point is to the north (m); nil of other kinds.
+    /// Returns the y coordinate of a point, to the north (m); nil for other types.
     pub fn y(&self) -> Option<f64> {
-        place(self.geometry()).map(|place| place.0.y)
+        self.position().map(|it| it.y)
     }
 
-    /// The height of a point (m); nil of other kinds.
+    /// Returns the height of a point (m); nil for other types.
     pub fn z(&self) -> Option<f64> {
-        place(self.geometry()).map(|place| place.0.z)
+        self.position().map(|it| it.z)
     }
 
-    /// The place of a point as a vector (m); nil of other kinds.
+    /// Returns the position of a point as a vector (m); nil for other types.
     pub fn place(&self) -> Option<DVec3> {
-        place(self.geometry()).map(|place| place.0)
+        self.position()
     }
 
-    /// The centre of mass: of its areas, else of its lines, else of its points. Empty of an empty one.
+    /// Returns the centroid of the areas, of the lines if there are no areas, or otherwise of the points. Empty for an
+    /// empty geometry.
     pub fn centroid(&self) -> Geometry {
         self.geometry().centroid()
     }
 
-    /// A point that is well inside of its areas, or on its lines if it has none. Empty of an empty one.
+    /// Returns a point well inside the areas, or on the lines if there are no areas. Empty for an empty geometry.
     pub fn point_on_surface(&self) -> Geometry {
         self.geometry().point_on_surface()
     }
 
-    /// The point inside that two numbers from 0 to 1 choose: geometry:random_point(random(), random()) draws one of which
-    /// no place is likelier than another.
+    /// Returns the point inside that two numbers from 0 to 1 select: geometry:random_point(random(), random()) samples
+    /// the geometry uniformly.
     pub fn random_point(&self, u: f64, v: f64) -> Result<Geometry> {
         self.prepared().random_point(u, v)
     }
 
-    /// Its area as seen from above, without holes (m²); 0 of lines and points.
+    /// Returns the horizontal area without holes (m²); 0 for lines and points.
     pub fn area(&self) -> f64 {
         self.geometry().area()
     }
 
-    /// The length of its lines as seen from above (m); 0 of areas, which have a perimeter.
+    /// Returns the horizontal length of the lines (m); 0 for areas, which have a perimeter.
     pub fn length(&self) -> f64 {
         self.geometry().length()
     }
 
-    /// The length of the rings of its areas as seen from above (m).
+    /// Returns the horizontal length of the rings of the areas (m).
     pub fn perimeter(&self) -> f64 {
         self.geometry().perimeter()
     }
 
-    /// The rectangle along the axes around it; a line or a point where it has no width or no height.
+    /// Returns the axis-aligned bounding rectangle; a line or a point if the width or the height is 0.
     pub fn envelope(&self) -> Geometry {
         self.geometry().envelope()
     }
 
-    /// How far it reaches from west to east (m).
+    /// Returns the extent from west to east (m).
     pub fn envelope_width(&self) -> f64 {
         self.geometry().envelope_width()
     }
 
-    /// How far it reaches from south to north (m).
+    /// Returns the extent from south to north (m).
     pub fn envelope_height(&self) -> f64 {
         self.geometry().envelope_height()
     }
 
-    /// The smallest convex geometry around it.
+    /// Returns the convex hull.
     pub fn convex_hull(&self) -> Geometry {
         self.geometry().convex_hull()
     }
 
-    /// The smallest rectangle around it, whichever way that is turned.
+    /// Returns the smallest enclosing rectangle of any orientation.
     pub fn oriented_envelope(&self) -> Geometry {
         self.geometry().oriented_envelope()
     }
 
-    /// The area of all that lies within `distance` (m); a negative one takes as much off an area.
+    /// Returns the area of all points within `distance` (m); a negative distance shrinks areas.
     pub fn buffer(&self, distance: f64, options: Option<TableOf<BufferSettings>>) -> Result<Geometry> {
         self.geometry().buffer(distance, &BufferSettings::options(options, "buffer")?)
     }
 
-    /// The line beside it at `distance` (m), to its left, or to its right if that is negative. Of areas, the border as far
-    /// outside, or inside.
+    /// Returns the parallel line at `distance` (m), to the left, or to the right if the distance is negative. For
+    /// areas, returns the boundary moved outwards, or inwards.
     pub fn offset(&self, distance: f64, options: Option<TableOf<BufferSettings>>) -> Result<Geometry> {
         self.geometry().offset(distance, &BufferSettings::options(options, "offset")?)
     }
 
-    /// What either of the two has.
+    /// Returns the union with another geometry.
     pub fn union(&self, other: Shape) -> Geometry {
         self.geometry().union(other.geometry())
     }
 
-    /// What both have: areas, lines along which they touch, points in which they meet. Empty if they have nothing in common.
+    /// Returns the intersection with another geometry: common areas, lines and points. Empty if they have nothing in
+    /// common.
     pub fn intersection(&self, other: Shape) -> Geometry {
         self.geometry().intersection(other.geometry())
     }
 
-    /// What it has and the other one has not.
+    /// Returns the set difference: this geometry without the other.
     pub fn difference(&self, other: Shape) -> Geometry {
         self.geometry().difference(other.geometry())
     }
 
-    /// What one of the two has and the other one has not.
+    /// Returns the symmetric difference: the parts that belong to only one of the two geometries.
     pub fn sym_difference(&self, other: Shape) -> Geometry {
         self.geometry().sym_difference(other.geometry())
     }
 
-    /// The same without points that are within `tolerance` (m) of the line between others.
+    /// Returns the geometry without points that are within `tolerance` (m) of the line between other points.
     pub fn simplify(&self, tolerance: f64) -> Geometry {
         self.geometry().simplify(tolerance)
     }
 
-    /// The way from the first point of a line to its last (degrees): 0 is east, 90 is north. Nil of other kinds.
+    /// Returns the direction from the first point of a line to its last (degrees): 0 is east, 90 is north. Nil for
+    /// other types.
     pub fn direction(&self) -> Option<f64> {
         self.geometry().direction()
     }
 
-    /// How far the two are apart as seen from above (m); 0 where they meet, nil if one is empty.
+    /// Returns the horizontal distance (m); 0 if the geometries intersect, nil if either is empty.
     pub fn distance(&self, other: Shape) -> Option<f64> {
         self.geometry().distance(other.geometry())
     }
 
-    /// The point of it that is nearest to the other one; empty if one is empty.
+    /// Returns the point of this geometry that is nearest to the other; empty if either is empty.
     pub fn nearest_point(&self, other: Shape) -> Geometry {
         self.geometry().nearest_point(other.geometry())
     }
 
-    /// Whether they are the same points, in whatever order.
+    /// Returns true if both geometries consist of the same points, in any order.
     pub fn equals(&self, other: Shape) -> bool {
         self.prepared().equals(other.prepared())
     }
 
-    /// Whether they have no point in common.
+    /// Returns true if the geometries have no point in common.
     pub fn disjoint(&self, other: Shape) -> bool {
         self.geometry().disjoint(other.geometry())
     }
 
-    /// Whether they have a point in common.
+    /// Returns true if the geometries have a point in common.
     pub fn intersects(&self, other: Shape) -> bool {
         self.geometry().intersects(other.geometry())
     }
 
-    /// Whether they meet, and only with their borders or ends.
+    /// Returns true if the geometries intersect only at their boundaries or line ends.
     pub fn touches(&self, other: Shape) -> bool {
         self.prepared().touches(other.prepared())
     }
 
-    /// Whether a line leads through an area, or lines cross in points.
+    /// Returns true if a line passes through an area, or if lines cross in points.
     pub fn crosses(&self, other: Shape) -> bool {
         self.prepared().crosses(other.prepared())
     }
 
-    /// Whether it lies in the other one; what lies on its border alone does not.
+    /// Returns true if this geometry is inside the other; a geometry that is only on the other's boundary is not.
     pub fn within(&self, other: Shape) -> bool {
         self.prepared().within(other.prepared())
     }
 
-    /// Whether the other one lies in it; what lies on its border alone does not.
+    /// Returns true if the other geometry is inside this one; a geometry that is only on this one's boundary is not.
     pub fn contains(&self, other: Shape) -> bool {
         self.prepared().contains(other.prepared())
     }
 
-    /// Whether no point of the other one lies outside; borders count.
+    /// Returns true if no point of the other geometry is outside this one; the boundary belongs to the geometry.
     pub fn covers(&self, other: Shape) -> bool {
         self.prepared().covers(other.prepared())
     }
 
-    /// Whether both are areas, or both lines, that share a part and have one of their own each.
+    /// Returns true if both geometries are areas, or both lines, that share a part and each have a part of their own.
     pub fn overlaps(&self, other: Shape) -> bool {
         self.prepared().overlaps(other.prepared())
     }
 
-    /// How the two lie to each other, as nine letters; with a pattern, such as "F***1****", whether they lie so.
+    /// Returns the DE-9IM relation of the two geometries as nine characters. With a pattern, such as "F***1****",
+    /// returns true if the relation matches it.
     pub fn relate(&self, other: Shape, pattern: Option<String>) -> Result<Value> {
         let relation = self.prepared().relate(other.prepared());
         Ok(match pattern {
@@ -264,90 +267,91 @@ impl GeometryObject {
         })
     }
 
-    /// The point of a line at a `part` of its length: 0 is its first point, 1 its last.
+    /// Returns the point of a line at a fraction `part` of its length: 0 is the first point, 1 the last.
     pub fn line_interpolate(&self, part: f64) -> Result<Geometry> {
         self.geometry().line_interpolate(part)
     }
 
-    /// The piece of a line between two parts of its length, from 0 to 1.
+    /// Returns the part of a line between two fractions of its length, from 0 to 1.
     pub fn line_substring(&self, from: f64, to: f64) -> Result<Geometry> {
         self.geometry().line_substring(from, to)
     }
 
-    /// At which part of the length of a line the point is that is nearest to the other one, from 0 to 1.
+    /// Returns the fraction of a line's length, from 0 to 1, at its point nearest to the other geometry.
     pub fn line_locate(&self, other: Shape) -> Result<Option<f64>> {
         self.geometry().line_locate(other.geometry())
     }
 
-    /// The straight pieces of its lines and rings, each a line of two points.
+    /// Returns the straight segments of the lines and rings, each as a line of two points.
     pub fn segments(&self) -> Vec<Geometry> {
         self.geometry().segments()
     }
 
-    /// Its border: the rings of areas as lines, the ends of lines as points. Empty of points.
+    /// Returns the boundary: the rings of areas as lines, the ends of lines as points. Empty for points.
     pub fn boundary(&self) -> Geometry {
         self.geometry().boundary()
     }
 
-    /// Its geometries: those of a multi form or a collection, else itself alone.
+    /// Returns the members of a multi-part geometry or a collection; for other types, a list of the geometry itself.
     pub fn geometries(&self) -> Vec<Geometry> {
         self.geometry().geometries()
     }
 
-    /// How many geometries it has.
+    /// Returns the number of member geometries.
     pub fn num_geometries(&self) -> f64 {
         self.geometry().num_geometries() as f64
     }
 
-    /// The geometry of it with a number from 1, or from its end if that is negative; nil if there is none.
+    /// Returns the member geometry at a number from 1, or from the end if the number is negative; nil if there is none.
     pub fn geometry_n(&self, number: f64) -> Option<Geometry> {
         let mut all = self.geometry().geometries();
         item(all.len(), number).map(|index| all.swap_remove(index))
     }
 
-    /// Whether it has no points.
+    /// Returns true if the geometry has no points.
     pub fn is_empty(&self) -> bool {
         self.geometry().is_empty()
     }
 
-    /// Whether its rings neither cross nor overlap, holes lie inside, and lines have a length.
+    /// Returns true if rings neither cross nor overlap, holes are inside, and lines have a length.
     pub fn is_valid(&self) -> bool {
         self.geometry().is_valid()
     }
 
-    /// Why it is not valid; nil if it is.
+    /// Returns the reason why the geometry is invalid; nil if it is valid.
     pub fn validity(&self) -> Option<String> {
         self.geometry().validity_reason()
     }
 
-    /// The valid geometry that is most like it; itself if it is valid.
+    /// Returns the most similar valid geometry; the geometry itself if it is valid.
     pub fn make_valid(&self) -> Geometry {
         self.geometry().make_valid()
     }
 
-    /// The lines inside of its areas on which their borders meet as they move inwards alike: ridges and hips.
+    /// Returns the straight skeleton of the areas: the lines on which the edges meet as all move inwards at the same
+    /// speed, such as ridges and hips.
     pub fn straight_skeleton(&self) -> Result<Geometry> {
         self.geometry().straight_skeleton()
     }
 
-    /// The faces of its straight skeleton, one for each edge of its areas, whose heights are how far (m) inwards from it
-    /// they reach: a hip roof with a slope of 1.
+    /// Returns the faces of the straight skeleton, one for each edge of the areas. The height of a point is its
+    /// distance (m) inwards from the edge, as on a hip roof with a slope of 1.
     pub fn skeleton_faces(&self) -> Result<Vec<Geometry>> {
         self.geometry().skeleton_faces()
     }
 
-    /// What is left of its areas when their borders move inwards by `distance` (m), or outwards if that is negative.
+    /// Returns the areas after their boundaries have moved inwards by `distance` (m), or outwards if it is negative.
     pub fn inset(&self, distance: f64) -> Result<Geometry> {
         self.geometry().inset(distance)
     }
 
-    /// Its well-known text, which geometry(text) reads.
+    /// Returns the well-known text, which geometry(text) reads.
     pub fn wkt(&self) -> String {
         self.geometry().to_wkt()
     }
 }
 
-/// The place of the item with a number from 1, or from the end if it is negative.
+/// Returns the index of the item at a number from 1, or from the end if the number is negative.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
 fn item(count: usize, number: f64) -> Option<usize> {
     let number = if number < 0.0 { number + count as f64 + 1.0 } else { number };
