@@ -269,7 +269,7 @@ mod tests {
             .write(&folder.path().join("a.obj"), |out| {
                 for line in 0..1_000_000 {
                     if line == 10_000 {
-                        stop.stop(Error::stopped("nobody waits for it"));
+                        stop.stop(Error::cancellation("nobody waits for it"));
                     }
                     out.write_all(&[b'x'; 1000])?;
                     written = line;

@@ -24,7 +24,7 @@ pub(super) fn handle_changes(state: &ServerState, change: &Change) {
     }
     state.stop_variations("the script has changed");
     let mut inner = state.lock();
-    std::mem::take(&mut inner.aside).stop(Error::stopped("the script has changed"));
+    std::mem::take(&mut inner.aside).stop(Error::cancellation("the script has changed"));
     inner.generation += 1;
     inner.post(DueRun { cause: Cause::Save, files, at: change.at });
     state.wake.notify_all();

@@ -44,7 +44,7 @@ struct RequestGuard(Arc<Stop>);
 
 impl Drop for RequestGuard {
     fn drop(&mut self) {
-        self.0.stop(Error::stopped("nobody waits for it any more"));
+        self.0.stop(Error::cancellation("nobody waits for it any more"));
     }
 }
 

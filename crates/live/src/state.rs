@@ -326,7 +326,7 @@ impl ServerState {
     /// Cancels the variations in progress, which are no longer needed.
     pub(super) fn stop_variations(&self, why: &str) {
         if let Some(stop) = self.variations.lock().recover().take() {
-            stop.stop(Error::stopped(why));
+            stop.stop(Error::cancellation(why));
         }
     }
 
@@ -335,7 +335,7 @@ impl ServerState {
         self.stop_variations("the server ends");
         let mut inner = self.lock();
         inner.over = true;
-        inner.aside.stop(Error::stopped("the server ends"));
+        inner.aside.stop(Error::cancellation("the server ends"));
         inner.stop("the server ends");
         self.wake.notify_all();
     }
@@ -414,7 +414,7 @@ impl LiveState {
     pub(super) fn stop(&self, why: &str) -> bool {
         let Some(running) = &self.running else { return false };
         running.cancelled.store(true, Ordering::Release);
-        running.session.stop.stop(Error::stopped(why));
+        running.session.stop.stop(Error::cancellation(why));
         !running.background
     }
 

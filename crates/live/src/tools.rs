@@ -197,7 +197,7 @@ pub(super) fn variations(
     let stop = Arc::clone(&variations.stop);
     let before = state.variations.lock().recover().replace(Arc::clone(&stop));
     if let Some(before) = before {
-        before.stop(Error::stopped("others are made"));
+        before.stop(Error::cancellation("others are made"));
     }
     let state = Arc::clone(state);
     let make = move || {
@@ -210,7 +210,7 @@ pub(super) fn variations(
         };
         let of = variations.len();
         let (over, ended) = channel::<()>();
-        let gone = || stop.stop(Error::stopped("the page has gone"));
+        let gone = || stop.stop(Error::cancellation("the page has gone"));
         let (running, page, state) = (&variations, &page, &*state);
         let tell = move || {
             // The loop ends when the other end of the channel is dropped.

@@ -31,7 +31,7 @@ pub(super) fn symbols(system: &DerivedSystem) -> Vec<CountMessage> {
     }
     let found = (0u16..).zip(counts).filter(|(symbol, count)| *symbol > END && *count > 0);
     let mut found: Vec<CountMessage> = found
-        .map(|(symbol, count)| CountMessage { name: system.symbols.shown(symbol).to_owned(), count })
+        .map(|(symbol, count)| CountMessage { name: system.symbols.display_name(symbol).to_owned(), count })
         .collect();
     found.sort_by_key(|symbol| std::cmp::Reverse(symbol.count));
     found

@@ -187,7 +187,7 @@ fn register(state: &ServerState, job: Option<&RunJob>, session: &Arc<Session>) -
     let mut inner = state.lock();
     let cancelled = Arc::new(AtomicBool::new(inner.over || inner.due.is_some()));
     if cancelled.load(Ordering::Acquire) {
-        session.stop.stop(Error::stopped("there is something newer"));
+        session.stop.stop(Error::cancellation("there is something newer"));
     }
     inner.running = Some(ActiveRun {
         run: job.map_or(0, |job| job.run),
@@ -214,7 +214,7 @@ fn attempt(state: &ServerState, job: &RunJob, kept: &mut Option<Arc<Session>>) -
     let cancelled = register(state, Some(job), &session);
     let made = run_session(&session).and_then(|run| {
         if cancelled.load(Ordering::Acquire) {
-            return Err(Error::stopped("there is something newer"));
+            return Err(Error::cancellation("there is something newer"));
         }
         let (file, mut message) =
             rayon::join(|| encode(&run), || describe::describe(state, job, &session, &run));

@@ -6,7 +6,7 @@ use std::io::{self, Read, Write as _};
 use std::path::{Path, PathBuf};
 
 use burgeon_base::error::{Error, Limit, Result};
-use burgeon_base::names::{folded, has_bidi_controls, normal_form};
+use burgeon_base::names::{fold_case, has_bidi_controls, normal_form};
 
 use super::manifest::MANIFEST;
 
@@ -86,7 +86,7 @@ impl PackageCopy {
             }
             path += part;
             let is_folder = index + 1 < parts.len();
-            let known = self.names.insert(folded(&path), (path.clone(), is_folder));
+            let known = self.names.insert(fold_case(&path), (path.clone(), is_folder));
             let Some((written, was_folder)) = known else {
                 self.files += usize::from(!is_folder);
                 let most = self.most_files;

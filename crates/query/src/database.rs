@@ -193,9 +193,9 @@ impl Database {
         let mut tables = self.tables.write().recover();
         tables.remove_rows(&table.name, &self.writer.lock().recover(), budget)?;
         tables.is_there(&table.name, ROWS)?;
-        let before = budget.taken();
+        let before = budget.used_bytes();
         let info = table.write(&self.writer.lock().recover(), self.frame.as_ref(), budget)?;
-        tables.memory.insert(info.name.to_ascii_lowercase(), budget.taken().saturating_sub(before));
+        tables.memory.insert(info.name.to_ascii_lowercase(), budget.used_bytes().saturating_sub(before));
         let prefix = format!("{}.", info.name);
         self.indexes.write().recover().retain(|index, _| !index.starts_with(&prefix));
         tables.add(info, ROWS.to_owned());

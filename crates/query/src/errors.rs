@@ -162,7 +162,7 @@ pub(crate) fn statement_error(error: &rusqlite::Error, sql: &str, catalogue: &Ca
         Some(ErrorCode::DatabaseCorrupt | ErrorCode::NotADatabase | ErrorCode::SystemIoFailure) => {
             Error::data(what).help("a file is damaged or cut short; get it again")
         }
-        Some(ErrorCode::OperationInterrupted) => Error::stopped(what),
+        Some(ErrorCode::OperationInterrupted) => Error::cancellation(what),
         _ if is_syntax(error) => {
             Error::syntax(what).help("write SQL as SQLite takes it: SELECT ... FROM ... WHERE ...")
         }

@@ -10,7 +10,7 @@ use super::height_source::HeightSource;
 use super::table::RuleTable;
 use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Result};
-use burgeon_base::memory::zeroed;
+use burgeon_base::memory::allocate_zeroed;
 use burgeon_rewriting::{ModuleKey, Symbol};
 
 /// Memory (bytes) of the quadrants of a cell: symbols, heights and a parameter.
@@ -303,7 +303,7 @@ pub(super) fn smooth(cells: &Block, made: &mut Block) {
     if columns == 0 {
         return;
     }
-    made.smooth = zeroed(area.len());
+    made.smooth = allocate_zeroed(area.len());
     let above = &cells.smooth;
     let across = cells.area.columns;
     let heights = &made.heights;

@@ -157,7 +157,7 @@ impl Session {
         let packages = Packages::find(&search, &api_version());
         let warnings = Warnings::default();
         let deprecated = Deprecations::new(&options.registry);
-        let stop = Stop::under(options.stop.clone()).limited(options.limits.memory);
+        let stop = Stop::under(options.stop.clone()).with_memory_limit(options.limits.memory);
         if let Some(memory) = stop.memory().filter(|_| options.limits.whole_program) {
             memory.adopt_threads();
         }

@@ -275,7 +275,7 @@ fn the_shadow_of_what_is_cut_out_has_its_holes() {
 #[test]
 fn a_picture_that_nobody_waits_for_is_given_up() {
     let stop = Stop::default();
-    stop.stop(burgeon_base::error::Error::stopped("the page has gone"));
+    stop.stop(burgeon_base::error::Error::cancellation("the page has gone"));
     let error = render_within(&boxes(&[DVec3::ZERO]), None, &small(), &stop).unwrap_err();
     assert_eq!(error.message(), "the page has gone");
 }

@@ -24,7 +24,7 @@ impl Server {
 
     /// Lists the layers, as [`Listing::read`] lists the layers of a file.
     pub fn listing(&self, budget: &Arc<Budget>) -> Result<Listing> {
-        let before = budget.taken();
+        let before = budget.used_bytes();
         let tables = self.server_tables(budget)?.catalogue.values();
         let names: Vec<&String> = tables
             .filter(|table| !table.geometries.is_empty() && !table.is_alias)
