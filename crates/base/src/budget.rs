@@ -145,8 +145,8 @@ impl Budget {
         self.taken.load(Ordering::Relaxed)
     }
 
-    /// Reduces the memory taken by one reader to `bytes`. `before` is the result of [`used_bytes`](Self::used_bytes) before the
-    /// reader began; no other reader may run in between.
+    /// Reduces the memory taken by one reader to `bytes`. `before` is the result of [`used_bytes`](Self::used_bytes)
+    /// before the reader began; no other reader may run in between.
     pub fn settle(&self, before: usize, bytes: usize) {
         self.taken.store(before.saturating_add(bytes), Ordering::Relaxed);
         self.spent.store(false, Ordering::Relaxed);
