@@ -63,7 +63,7 @@ fn model(script: &Path, set: &[(String, String)]) -> (Result<Vec<DrawCall>>, Vec
     while over.recv_timeout(Duration::from_millis(200)) == Err(mpsc::RecvTimeoutError::Timeout) {
         eprintln!("{}", session.progress.message(begin.elapsed()));
         if begin.elapsed() > PATIENCE {
-            session.stop.stop(Error::stopped("nobody waits so long"));
+            session.stop.stop(Error::cancellation("nobody waits so long"));
         }
     }
     let run = run.join().unwrap_or_else(|_| Err(Error::internal("the run panicked")));

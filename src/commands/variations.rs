@@ -159,7 +159,7 @@ fn refuse_if_all_failed(cells: &[Variation]) -> Result<()> {
     Err(Error::several(
         errors
             .into_iter()
-            .flat_map(|(error, _)| error.problems().map(Error::alone).collect::<Vec<_>>())
+            .flat_map(|(error, _)| error.problems().map(Error::without_others).collect::<Vec<_>>())
             .collect(),
     ))
 }

@@ -28,7 +28,7 @@ pub(super) trait ScopeWalk {
 
     /// Walks the statements inside blocks, branches and loops, except for generic loops. Other statements contain no
     /// statements.
-    fn nested(&mut self, statement: &Stmt) {
+    fn walk_nested(&mut self, statement: &Stmt) {
         match statement {
             Stmt::Do(inner) => self.block(inner.block()),
             Stmt::NumericFor(numeric) => {

@@ -171,7 +171,7 @@ impl<'a> CallCheck<'a> {
                 self.block(generic.block());
                 self.scope.truncate(outside);
             }
-            other => self.nested(other),
+            other => self.walk_nested(other),
         }
     }
 
@@ -330,7 +330,7 @@ impl<'a> CallCheck<'a> {
 
     fn variable(&mut self, variable: &Var) -> Inference {
         match variable {
-            Var::Name(name) => self.named(name),
+            Var::Name(name) => self.infer_name(name),
             Var::Expression(inner) => {
                 let suffixes: Vec<&Suffix> = inner.suffixes().collect();
                 self.suffixes(inner.prefix(), &suffixes)
@@ -346,7 +346,7 @@ impl<'a> CallCheck<'a> {
 
     pub(super) fn suffixes(&mut self, prefix: &Prefix, suffixes: &[&Suffix]) -> Inference {
         let mut known = match prefix {
-            Prefix::Name(name) => self.named(name),
+            Prefix::Name(name) => self.infer_name(name),
             Prefix::Expression(expression) => self.expression(expression),
             _ => Inference::Unknown,
         };
@@ -365,7 +365,7 @@ impl<'a> CallCheck<'a> {
                     self.expression(expression);
                     Inference::Unknown
                 }
-                Suffix::Call(Call::AnonymousCall(args)) => self.called(&known, word, &path, args),
+                Suffix::Call(Call::AnonymousCall(args)) => self.infer_call(&known, word, &path, args),
                 Suffix::Call(Call::MethodCall(method)) => {
                     word = Some(method.name());
                     self.method(&known, method.name(), method.args())

@@ -163,7 +163,7 @@ impl Walk<'_> {
     }
 
     pub(super) fn call(&mut self, call: &FunctionCall) {
-        self.called(call);
+        self.record_call(call);
         self.query_called(call);
         let suffixes: Vec<&Suffix> = call.suffixes().collect();
         self.library_field(call.prefix(), suffixes.first().copied());

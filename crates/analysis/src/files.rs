@@ -56,7 +56,7 @@ impl<'a> FileChecks<'a> {
             return known.clone();
         }
         self.exports.borrow_mut().insert(&file.name, Inference::Unknown);
-        let required = |name: &str| self.required(file, name);
+        let required = |name: &str| self.infer_required(file, name);
         let mut check = CallCheck::new(&file.name, &file.ast, self.registry, Some(&required));
         check.package = file.package.as_deref();
         let found = check.file(&file.ast);
@@ -66,7 +66,7 @@ impl<'a> FileChecks<'a> {
     }
 
     /// Returns the inference for `require(name)` in the file `asker`.
-    fn required(&self, asker: &CheckedFile, name: &str) -> Inference {
+    fn infer_required(&self, asker: &CheckedFile, name: &str) -> Inference {
         let meant = asker.required.get(name).and_then(|meant| self.files.iter().find(|it| it.name == *meant));
         meant.map_or(Inference::Unknown, |file| self.exports(file))
     }

@@ -45,7 +45,7 @@ impl CallCheck<'_> {
             if of_count.iter().all(|form| wrong(form, index, value).is_some())
                 && let Some(argument) = wrong(form, index, value)
             {
-                let message = refused(name, &argument.name, &argument.luau, value);
+                let message = wrong_value(name, &argument.name, &argument.luau, value);
                 let line = written.get(index).map_or_else(|| line_of(word), |written| line_of(*written));
                 return self.problem_at(line, Error::argument(message));
             }
@@ -143,7 +143,7 @@ impl CallCheck<'_> {
                 ..Argument::new(name.clone())
             };
             if !is_nil && !self.may_be(&found, &argument, false) {
-                self.problem(key, Error::argument(refused(owner, &name, &known.luau, &found)));
+                self.problem(key, Error::argument(wrong_value(owner, &name, &known.luau, &found)));
             } else if let Expression::TableConstructor(inner) = &**value {
                 self.hold_table(&format!("{owner}.{name}"), inner, &known.luau, &known.fields);
             }
@@ -218,7 +218,7 @@ fn count(forms: &[CallForm]) -> String {
 }
 
 /// Formats the message for a wrong value.
-fn refused(owner: &str, name: &str, luau: &str, found: &Inference) -> String {
+fn wrong_value(owner: &str, name: &str, luau: &str, found: &Inference) -> String {
     let wanted = match luau.trim_end_matches('?') {
         "number" => "a number",
         "string" => "a string",
@@ -245,7 +245,7 @@ fn refused(owner: &str, name: &str, luau: &str, found: &Inference) -> String {
 mod tests {
     use super::*;
 
-    fn said(script: &str) -> Vec<String> {
+    fn messages(script: &str) -> Vec<String> {
         let ast = full_moon::parse(script).unwrap_or_else(|errors| panic!("{script}: {errors:?}"));
         let registry = burgeon_objects::registry();
         let mut check = CallCheck::new("s.lua", &ast, &registry, None);
@@ -284,14 +284,15 @@ mod tests {
                 let name = &kind.name;
                 format!("lsystem({{ object = {name} }}):interpret(\"A\", function(this) this:{call} end)")
             };
-            assert_eq!(said(&script("no_such_method()")).len(), 1, "{}", kind.name);
+            assert_eq!(messages(&script("no_such_method()")).len(), 1, "{}", kind.name);
             for method in &kind.methods {
                 let values: Vec<_> = method.arguments.iter().map(values).collect();
                 let Some(good) = values.iter().map(|(good, _)| *good).collect::<Option<Vec<_>>>() else {
                     continue;
                 };
-                let call =
-                    |arguments: &[&str]| said(&script(&format!("{}({})", method.name, arguments.join(", "))));
+                let call = |arguments: &[&str]| {
+                    messages(&script(&format!("{}({})", method.name, arguments.join(", "))))
+                };
                 assert_eq!(call(&good), [""; 0], "{}:{}", kind.name, method.name);
                 let more = [&good[..], &["1"]].concat();
                 assert_eq!(call(&more).len(), 1, "{}:{}", kind.name, method.name);
@@ -327,11 +328,11 @@ mod tests {
                 };
                 let (good, bad) = values(&argument);
                 if let Some(good) = good {
-                    assert_eq!(said(&format!("{name}({{ {} = {good} }})", field.name)), [""; 0]);
+                    assert_eq!(messages(&format!("{name}({{ {} = {good} }})", field.name)), [""; 0]);
                     right += 1;
                 }
                 if let Some(bad) = bad {
-                    let said = said(&format!("{name} {{ {} = {bad} }}", field.name));
+                    let said = messages(&format!("{name} {{ {} = {bad} }}", field.name));
                     let begin = format!("{name}: {} must be ", field.name);
                     assert!(said.len() == 1 && said[0].starts_with(&begin), "{begin}: {said:?}");
                     wrong += 1;
@@ -339,7 +340,8 @@ mod tests {
             }
             if !kind.fields.is_empty() {
                 assert_eq!(
-                    said(&format!("{name}({{ no_such_field = 1, {} = nil }})", kind.fields[0].name)).len(),
+                    messages(&format!("{name}({{ no_such_field = 1, {} = nil }})", kind.fields[0].name))
+                        .len(),
                     1
                 );
             }
@@ -362,7 +364,7 @@ mod tests {
             "footprint({ { 0, 0 } }, { height = 3 }) footprint({ geometry = {}, height = 3 }) panel({}) list({ 1 }, {})",
             "local p = { 1, 2 } lsystem({ object = turtle }):interpret(\"A\", function(this) this:jump(p) end)",
         ] {
-            let found = said(script);
+            let found = messages(script);
             assert!(
                 found.iter().all(|text| text.contains("turtle has no method or field called jump")),
                 "{script}: {found:?}"

@@ -11,8 +11,8 @@ pub fn sql_parameters(sql: &str) -> Result<Vec<&str>> {
         let (first, found) = (rest.as_bytes()[at], &rest[at..]);
         let skip = match first {
             b'-' if found.starts_with("--") => found.find('\n').unwrap_or(found.len()),
-            b'/' if found.starts_with("/*") => closed(&found[2..], "*/") + 2,
-            b'\'' | b'"' | b'`' => closed(&found[1..], &found[..1]) + 1,
+            b'/' if found.starts_with("/*") => closed_length(&found[2..], "*/") + 2,
+            b'\'' | b'"' | b'`' => closed_length(&found[1..], &found[..1]) + 1,
             b'$' => {
                 let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
                 let name = &found[1..];
@@ -21,7 +21,7 @@ pub fn sql_parameters(sql: &str) -> Result<Vec<&str>> {
                 if found[quote.len()..].starts_with('$') && !name.starts_with(|c: char| c.is_ascii_digit()) {
                     // PostgreSQL strings have the form $$ ... $$ or $word$ ... $word$.
                     let quote = &found[..quote.len() + 1];
-                    quote.len() + closed(&found[quote.len()..], quote)
+                    quote.len() + closed_length(&found[quote.len()..], quote)
                 } else if name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_') {
                     if !names.contains(&name) {
                         names.push(name);
@@ -41,7 +41,7 @@ pub fn sql_parameters(sql: &str) -> Result<Vec<&str>> {
 }
 
 /// Returns the length of `text` up to and including `end`, or the whole length if `end` is missing.
-fn closed(text: &str, end: &str) -> usize {
+fn closed_length(text: &str, end: &str) -> usize {
     text.find(end).map_or(text.len(), |at| at + end.len())
 }
 

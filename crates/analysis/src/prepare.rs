@@ -52,7 +52,7 @@ impl Walk<'_> {
             match argument {
                 Expression::Function(function) if index == last && index > 0 => {
                     if role == FunctionRole::Rule {
-                        self.prepared(argument, function.body(), role);
+                        self.prepare_function(argument, function.body(), role);
                     } else {
                         self.function(function.body(), role, false);
                     }
@@ -65,7 +65,7 @@ impl Walk<'_> {
                         match field {
                             Field::NameKey { key, value, .. } => match &**value {
                                 Expression::Function(function) if text_of(key) == "when" => {
-                                    self.prepared(value, function.body(), FunctionRole::Guard);
+                                    self.prepare_function(value, function.body(), FunctionRole::Guard);
                                 }
                                 value => self.expression(value),
                             },
@@ -91,11 +91,11 @@ impl Walk<'_> {
             _ => false,
         };
         let line = begin.line() + usize::from(left_out);
-        self.edit(begin.bytes(), begin.bytes(), format!("\"{}\"..", super::script::marked(line)));
+        self.edit(begin.bytes(), begin.bytes(), format!("\"{}\"..", super::script::line_prefix(line)));
     }
 
     /// Walks a function of a rule, and marks it in the text as prepared.
-    fn prepared(&mut self, value: &Expression, body: &FunctionBody, role: FunctionRole) {
+    fn prepare_function(&mut self, value: &Expression, body: &FunctionBody, role: FunctionRole) {
         if let (Some(begin), Some(end)) = (value.start_position(), end_of(value)) {
             self.edit(begin.bytes(), begin.bytes(), "__prepared(".to_owned());
             let shapes = self.function(body, role, false);

@@ -41,7 +41,7 @@ impl Walk<'_> {
     }
 
     /// Records a function call.
-    pub(super) fn called(&mut self, call: &FunctionCall) {
+    pub(super) fn record_call(&mut self, call: &FunctionCall) {
         let suffixes: Vec<&Suffix> = call.suffixes().collect();
         let Prefix::Name(name) = call.prefix() else { return self.impure_from(1) };
         match suffixes.as_slice() {
@@ -95,7 +95,7 @@ impl Walk<'_> {
     }
 
     /// Records the expressions of a generic loop, which may contain a function that the loop calls.
-    pub(super) fn iterated(&mut self, expressions: &Punctuated<Expression>) {
+    pub(super) fn record_iteration(&mut self, expressions: &Punctuated<Expression>) {
         let known = |expression: &Expression| match expression {
             Expression::FunctionCall(_) => true,
             Expression::Var(Var::Name(name)) => {

@@ -6,18 +6,7 @@ use full_moon::node::Node;
 
 use super::parameters::sql_parameters;
 use super::syntax::{string_of, text_of};
-use super::walk::Walk;
-
-/// A call of `query` in a function of a rule.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct QueryCall {
-    /// Line of the call.
-    pub line: usize,
-    /// SQL text, or the name of a table.
-    pub sql: String,
-    /// Parameters of the text for which the call itself passes no value.
-    pub open: Vec<String>,
-}
+use super::walk::{QueryCall, Walk};
 
 impl Walk<'_> {
     /// Records a call of `query` if the syntax shows all its arguments.

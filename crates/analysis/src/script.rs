@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use std::sync::atomic::AtomicUsize;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
-use super::queries::QueryCall;
-use super::walk::{Facts, Walk};
+use super::globals::Globals;
+use super::walk::{Facts, QueryCall, Walk};
 use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Limit, SourcePlace};
 use burgeon_kit::Deprecation;
@@ -17,30 +16,10 @@ use burgeon_rewriting::Signature;
 use full_moon::ast::Ast;
 use full_moon::node::Node;
 use full_moon::tokenizer::TokenType;
-use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Function that compiles text to bytecode. Returns `None` if Luau refuses the text; running the text then reports the
 /// error.
 pub type Compile = fn(&str) -> Option<Vec<u8>>;
-
-/// Names that a script can use without declaring them.
-#[derive(Debug, Clone, Default)]
-pub struct Globals {
-    /// Names of all values.
-    pub names: Vec<String>,
-    /// Modules among the names, with their signatures.
-    pub modules: FxHashMap<String, Signature>,
-    /// Constructors of objects among the names.
-    pub kinds: Vec<String>,
-    /// Methods of objects that never change, such as geometries.
-    pub value_methods: FxHashSet<String>,
-    /// Deprecated names.
-    pub deprecated: Arc<BTreeMap<String, Deprecation>>,
-    /// Counter for the shapes of the run's rules.
-    pub shapes: Arc<AtomicUsize>,
-    /// Set if calls are to be checked against the declarations.
-    pub checks_calls: bool,
-}
 
 /// Result of the analysis.
 #[derive(Debug, Clone, Default)]
@@ -75,12 +54,12 @@ pub struct Analysis {
 }
 
 /// Returns the prefix of a string successor, which contains the line on which the successor begins.
-pub(super) fn marked(line: usize) -> String {
+pub(super) fn line_prefix(line: usize) -> String {
     format!("@{line};")
 }
 
 /// Splits a string successor into its line, which the analysis has added, and its text. Other strings have no line.
-pub fn unmarked(text: &str) -> (Option<usize>, &str) {
+pub fn split_line(text: &str) -> (Option<usize>, &str) {
     let parts = text.strip_prefix('@').and_then(|rest| rest.split_once(';'));
     match parts.and_then(|(line, rest)| Some((line.parse().ok()?, rest))) {
         Some((line, rest)) => (Some(line), rest),

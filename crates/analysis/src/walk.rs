@@ -7,9 +7,8 @@ use full_moon::ast::{Ast, Block, Expression, FunctionBody, LastStmt, NumericFor,
 use full_moon::node::Node;
 use full_moon::tokenizer::TokenReference;
 
-use super::Globals;
 use super::blocks::ScopeWalk;
-use super::queries::QueryCall;
+use super::globals::Globals;
 use super::syntax::{declared_module, end_of, first_position, instead_of, text_of};
 use burgeon_base::error::{Error, SourcePlace};
 use burgeon_language::CallForm;
@@ -62,6 +61,17 @@ impl Function {
     pub(super) fn new(role: FunctionRole, rule: Option<String>) -> Self {
         Self { role, rule, shapes: Vec::new(), pure: true, asks: false, loses: None, queries: Vec::new() }
     }
+}
+
+/// A call of `query` in a function of a rule.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct QueryCall {
+    /// Line of the call.
+    pub line: usize,
+    /// SQL text, or the name of a table.
+    pub sql: String,
+    /// Parameters of the text for which the call itself passes no value.
+    pub open: Vec<String>,
 }
 
 pub(super) struct Variable {
@@ -213,7 +223,7 @@ impl<'a> Walk<'a> {
             Stmt::ConstAssignment(local) => self.local(local.names(), local.expressions(), statement),
             Stmt::GenericFor(generic) => {
                 self.expressions(generic.expressions());
-                self.iterated(generic.expressions());
+                self.record_iteration(generic.expressions());
                 self.check_keys(generic.expressions());
                 let outside = self.variables.len();
                 for name in generic.names() {
@@ -222,7 +232,7 @@ impl<'a> Walk<'a> {
                 self.block(generic.block());
                 self.variables.truncate(outside);
             }
-            other => self.nested(other),
+            other => self.walk_nested(other),
         }
     }
 

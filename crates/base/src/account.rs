@@ -258,7 +258,7 @@ pub struct CountingAllocator<A>(pub A);
 /// Converts a size to a signed number. The size of a layout always fits.
 #[inline]
 #[allow(clippy::cast_possible_wrap, reason = "a layout has at most isize::MAX bytes")]
-fn signed(size: usize) -> isize {
+fn signed_size(size: usize) -> isize {
     size as isize
 }
 
@@ -270,7 +270,7 @@ unsafe impl<A: GlobalAlloc> GlobalAlloc for CountingAllocator<A> {
         // SAFETY: guaranteed by the caller.
         let at = unsafe { self.0.alloc(layout) };
         if !at.is_null() {
-            count(signed(layout.size()));
+            count(signed_size(layout.size()));
         }
         at
     }
@@ -280,7 +280,7 @@ unsafe impl<A: GlobalAlloc> GlobalAlloc for CountingAllocator<A> {
         // SAFETY: guaranteed by the caller.
         let at = unsafe { self.0.alloc_zeroed(layout) };
         if !at.is_null() {
-            count(signed(layout.size()));
+            count(signed_size(layout.size()));
         }
         at
     }
@@ -289,7 +289,7 @@ unsafe impl<A: GlobalAlloc> GlobalAlloc for CountingAllocator<A> {
     unsafe fn dealloc(&self, at: *mut u8, layout: Layout) {
         // SAFETY: guaranteed by the caller.
         unsafe { self.0.dealloc(at, layout) }
-        count(-signed(layout.size()));
+        count(-signed_size(layout.size()));
     }
 
     #[inline]
@@ -297,7 +297,7 @@ unsafe impl<A: GlobalAlloc> GlobalAlloc for CountingAllocator<A> {
         // SAFETY: guaranteed by the caller.
         let new = unsafe { self.0.realloc(at, layout, size) };
         if !new.is_null() {
-            count(signed(size) - signed(layout.size()));
+            count(signed_size(size) - signed_size(layout.size()));
         }
         new
     }

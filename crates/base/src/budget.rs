@@ -141,12 +141,12 @@ impl Budget {
     }
 
     /// Returns the memory in use (bytes).
-    pub fn taken(&self) -> usize {
+    pub fn used_bytes(&self) -> usize {
         self.taken.load(Ordering::Relaxed)
     }
 
-    /// Reduces the memory taken by one reader to `bytes`. `before` is the result of [`taken`](Self::taken) before the
-    /// reader began; no other reader may run in between.
+    /// Reduces the memory taken by one reader to `bytes`. `before` is the result of [`used_bytes`](Self::used_bytes)
+    /// before the reader began; no other reader may run in between.
     pub fn settle(&self, before: usize, bytes: usize) {
         self.taken.store(before.saturating_add(bytes), Ordering::Relaxed);
         self.spent.store(false, Ordering::Relaxed);
@@ -176,7 +176,7 @@ mod tests {
         budget.take(600_000).unwrap();
         assert!(budget.take(usize::MAX).is_err() && budget.take(500_000).is_err());
         drop(budget.hold(400_000).unwrap());
-        assert_eq!(budget.taken(), 600_000);
+        assert_eq!(budget.used_bytes(), 600_000);
         insta::assert_snapshot!(budget.take(500_000).unwrap_err(), @r"
         reading takes more than 1 MB of memory
           help: read a part, or raise the limit: --memory-limit MEGABYTES

@@ -16,11 +16,13 @@ pub mod random;
 pub mod stop;
 pub mod text;
 pub mod warning;
+mod warning_kind;
 pub mod work;
 
 pub use account::{MemoryAccount, MemoryOwner};
 pub use budget::{Budget, MemoryReservation};
 pub use error::{Error, Result};
 pub use stop::Stop;
-pub use warning::{Warning, WarningKind};
+pub use warning::Warning;
+pub use warning_kind::WarningKind;
 pub use work::{WorkLimits, WorkWithin};

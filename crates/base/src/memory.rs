@@ -41,7 +41,7 @@ pub fn make_exact_room<T>(array: &mut Vec<T>, more: usize) {
 
 /// Creates an array of `count` zeros, or other default values. A large array is put on huge pages as it is first
 /// written to.
-pub fn zeroed<T: Clone + Default>(count: usize) -> Vec<T> {
+pub fn allocate_zeroed<T: Clone + Default>(count: usize) -> Vec<T> {
     let array = vec![T::default(); count];
     advise_from(LARGE_AND_EXACT, &array);
     array

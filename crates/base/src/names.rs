@@ -18,7 +18,7 @@ pub fn has_bidi_controls(name: &str) -> bool {
 }
 
 /// Returns the name with its case folded, for comparison on systems that ignore case.
-pub fn folded(name: &str) -> String {
+pub fn fold_case(name: &str) -> String {
     // Changing the case can produce text that is not in normal form, and normalization can produce other case mappings.
     let lower = normal_form(name).to_lowercase();
     normal_form(&normal_form(&lower).to_uppercase()).to_lowercase()
@@ -31,9 +31,9 @@ mod tests {
     #[test]
     fn names_that_look_alike_are_one() {
         assert_eq!(normal_form("e\u{301}"), "é");
-        assert_eq!(folded("E\u{301}COLE"), folded("\u{e9}cole"));
-        assert_eq!(folded("STRASSE"), folded("straße"));
-        assert_ne!(folded("a"), folded("á"));
+        assert_eq!(fold_case("E\u{301}COLE"), fold_case("\u{e9}cole"));
+        assert_eq!(fold_case("STRASSE"), fold_case("straße"));
+        assert_ne!(fold_case("a"), fold_case("á"));
         assert!(has_bidi_controls("a\u{202e}b") && !has_bidi_controls("日本 é"));
     }
 }

@@ -36,7 +36,7 @@ impl Stop {
 
     /// Also cancels the run when it uses more than `limit` (bytes) of memory.
     #[must_use]
-    pub fn limited(self, limit: usize) -> Self {
+    pub fn with_memory_limit(self, limit: usize) -> Self {
         Self { memory: Some(MemoryAccount::new(limit)), ..self }
     }
 
@@ -93,7 +93,7 @@ impl Stop {
             }
         }
         let reason = self.reason.lock().recover().clone();
-        Err(reason.unwrap_or_else(|| Error::stopped("stopped")))
+        Err(reason.unwrap_or_else(|| Error::cancellation("stopped")))
     }
 }
 
@@ -134,9 +134,9 @@ mod tests {
     fn a_stop_under_another_stops_with_its_reason() {
         let parent = Arc::new(Stop::default());
         let (child, other) = (Stop::under(Some(Arc::clone(&parent))), Stop::under(Some(Arc::clone(&parent))));
-        other.stop(Error::stopped("mine"));
+        other.stop(Error::cancellation("mine"));
         assert!(!child.is_stopped() && !parent.is_stopped());
-        parent.stop(Error::stopped("all"));
+        parent.stop(Error::cancellation("all"));
         assert_eq!(child.check().unwrap_err().message(), "all");
         assert_eq!(other.check().unwrap_err().message(), "mine");
     }

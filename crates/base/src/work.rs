@@ -59,7 +59,7 @@ mod tests {
     #[test]
     fn work_ends_with_the_budget_that_it_began_in_or_the_stop_of_its_run() {
         assert!(WorkLimits::current().check().is_ok());
-        let budget = Budget::new(1, || Err(Error::stopped("over")));
+        let budget = Budget::new(1, || Err(Error::cancellation("over")));
         let work = WorkWithin::begin(&budget);
         assert!(WorkLimits::current().check().is_err());
         let inner = WorkWithin::begin(&Arc::default());
@@ -68,7 +68,7 @@ mod tests {
         let stop = Arc::new(Stop::default());
         let _work = stop.at_work();
         assert!(WorkLimits::current().check().is_ok());
-        stop.stop(Error::stopped("enough"));
+        stop.stop(Error::cancellation("enough"));
         assert!(WorkLimits::current().check().is_err());
     }
 }

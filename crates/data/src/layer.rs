@@ -247,7 +247,7 @@ mod tests {
         static IS_OVER: AtomicBool = AtomicBool::new(false);
         let budget =
             burgeon_base::budget::Budget::new(usize::MAX, || match IS_OVER.load(Ordering::Relaxed) {
-                true => Err(Error::stopped("over")),
+                true => Err(Error::cancellation("over")),
                 false => Ok(()),
             });
         let ring = |x: f64, y: f64, size: f64| {

@@ -70,7 +70,7 @@ impl Listing {
     pub fn read(path: &Path, budget: &Arc<Budget>) -> Result<Self> {
         let name = path.display().to_string();
         let wanted = SourceOptions { budget: Arc::clone(budget), ..SourceOptions::default() };
-        let before = budget.taken();
+        let before = budget.used_bytes();
         let open = || Source::open_within(path, &name, &wanted).map_err(|error| missing(path, error));
         let source = open()?;
         let format = source.format();

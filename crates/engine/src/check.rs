@@ -87,9 +87,9 @@ fn checked(session: &Arc<Session>, run: impl FnOnce(&Machine) -> Result<()>) -> 
                 problems.iter().any(|known| known.place().is_some() && known.place() == problem.place());
             match problems.iter_mut().find(|known| misses_same(known, problem)) {
                 // The error of the call has more detail than the error of the static analysis.
-                Some(known) => *known = problem.alone(),
+                Some(known) => *known = problem.without_others(),
                 None if told => {}
-                None => problems.push(problem.alone()),
+                None => problems.push(problem.without_others()),
             }
         }
     }

@@ -148,7 +148,7 @@ pub fn highlight(
 /// Returns the text of chain `chain` of a derived system around symbol `index`: the chain before it, the
 /// symbol, the chain after it; and the number of symbols in the chain.
 pub fn around(system: &crate::results::DerivedSystem, chain: usize, index: usize) -> ([String; 3], usize) {
-    let only = system.chain.only(chain, &system.symbols.arities());
+    let only = system.chain.single_chain(chain, &system.symbols.arities());
     let count = only.symbols.len().saturating_sub(1);
     let texts = crate::results::around(&only, &system.symbols, &system.values, index.min(count), AROUND);
     (texts, count)

@@ -38,7 +38,7 @@ pub(super) struct PartExtent {
 pub(super) fn check(scene: &Scene) -> Result<SceneCheck<'_>> {
     let mut meshes = vec![false; scene.meshes.len()];
     for (i, instance) in scene.instances.iter().enumerate() {
-        let name = || named("instance", &instance.name, i);
+        let name = || item_label("instance", &instance.name, i);
         let Some(shown) = meshes.get_mut(instance.mesh) else {
             return Err(Error::internal(format!(
                 "{} shows mesh {}, which is not there",
@@ -82,11 +82,11 @@ fn bounds(mesh: &Mesh, measured: &[PartExtent]) -> Option<(DVec3, DVec3)> {
 
 /// Returns the triangles of `part` with three different corners. The others have no area and are not written.
 pub(super) fn triangles(part: &Part) -> impl Iterator<Item = [u32; 3]> + Clone + '_ {
-    shown(part.triangles.iter())
+    proper_triangles(part.triangles.iter())
 }
 
 /// Filters `triangles` to those with three different corners.
-pub(super) fn shown<T: Iterator<Item = [u32; 3]> + Clone>(
+pub(super) fn proper_triangles<T: Iterator<Item = [u32; 3]> + Clone>(
     triangles: T,
 ) -> impl Iterator<Item = [u32; 3]> + Clone + use<T> {
     triangles.filter(|[a, b, c]| a != b && b != c && c != a)
@@ -113,12 +113,12 @@ pub(super) fn origin(bounds: Option<(DVec3, DVec3)>) -> DVec3 {
 }
 
 /// Returns a label for an item of type `kind`: its number, and its name if it has one.
-pub(super) fn named(kind: &str, name: &str, index: usize) -> String {
+pub(super) fn item_label(kind: &str, name: &str, index: usize) -> String {
     if name.is_empty() { format!("{kind} {index}") } else { format!("{kind} {index} ({name:?})") }
 }
 
 fn unsound(mesh: &Mesh, index: usize, what: &str) -> Error {
-    let error = Error::geometry(format!("{} {what}", named("mesh", &mesh.name, index)));
+    let error = Error::geometry(format!("{} {what}", item_label("mesh", &mesh.name, index)));
     error.help("look for a division by zero or an empty shape in what built it")
 }
 

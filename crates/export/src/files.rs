@@ -69,7 +69,7 @@ impl Files {
         let done = content(&mut out).and_then(|()| out.flush());
         // A cancelled write reports the cancellation and not an error of the file.
         self.stop.check()?;
-        done.map_err(|error| written.target.refused(&error))?;
+        done.map_err(|error| written.target.write_error(&error))?;
         self.written.push(written);
         Ok(())
     }
@@ -117,7 +117,7 @@ impl Files {
         for OutputFile { target, temporary, .. } in
             self.written.iter().filter(|file| file.way == ReplaceMethod::Through)
         {
-            target.fill(temporary.path()).map_err(|error| target.refused(&error))?;
+            target.fill(temporary.path()).map_err(|error| target.write_error(&error))?;
         }
         let mut names = TemporaryNames::lock();
         let (kept, done) = replace(&self.written, &mut names);
@@ -156,7 +156,7 @@ fn replace(written: &[OutputFile], names: &mut TemporaryNames) -> (Vec<Option<Te
             for (place, (file, before)) in files.iter().zip(&kept).enumerate() {
                 restore(file, before.as_ref(), place == index, names);
             }
-            return (kept, Err(file.target.refused(&error)));
+            return (kept, Err(file.target.write_error(&error)));
         }
     }
     (kept, Ok(()))
@@ -269,7 +269,7 @@ mod tests {
             .write(&folder.path().join("a.obj"), |out| {
                 for line in 0..1_000_000 {
                     if line == 10_000 {
-                        stop.stop(Error::stopped("nobody waits for it"));
+                        stop.stop(Error::cancellation("nobody waits for it"));
                     }
                     out.write_all(&[b'x'; 1000])?;
                     written = line;

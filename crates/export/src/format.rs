@@ -60,7 +60,7 @@ impl Format {
     }
 
     /// Lists the extensions of all formats, with `word` before the last one: ".glb, .gltf and .obj".
-    pub fn listed(word: &str) -> String {
+    pub fn extension_list(word: &str) -> String {
         let [others @ .., last] = Self::ALL.map(|format| format!(".{}", format.extension()));
         format!("{} {word} {last}", others.join(", "))
     }
@@ -94,7 +94,7 @@ impl Format {
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     pub fn of(path: &Path) -> Result<Self> {
-        let known = format!("the formats are {}", Self::listed("and"));
+        let known = format!("the formats are {}", Self::extension_list("and"));
         let Some(extension) = path.extension() else {
             let message = format!("cannot write {}: its name does not end in a format", path.display());
             return Err(Error::usage(message).help(known));

@@ -235,7 +235,7 @@ mod tests {
         read
     }
 
-    fn written(scene: &Scene) -> ObjContent {
+    fn write_and_read(scene: &Scene) -> ObjContent {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a b.obj");
         super::super::write(scene, &path, &burgeon_picture::Picture::default()).unwrap();
@@ -244,8 +244,10 @@ mod tests {
 
     #[test]
     fn instances_become_objects_with_the_same_volume_and_normals_outside() {
-        for (name, scene) in [("turned", samples::boxes(5)), ("sheared and mirrored", samples::twisted())] {
-            let read = written(&scene);
+        for (name, scene) in
+            [("turned", samples::boxes(5)), ("sheared and mirrored", samples::twisted_tower())]
+        {
+            let read = write_and_read(&scene);
             assert_eq!(read.faces.len(), scene.triangles(), "{name}");
             let mut volume = 0.0;
             for face in &read.faces {
@@ -264,7 +266,7 @@ mod tests {
 
     #[test]
     fn a_far_model_is_counted_from_whole_metres_that_the_file_tells() {
-        let read = written(&samples::far());
+        let read = write_and_read(&samples::far_box());
         assert!(read.text.contains("# Counted from (531000, 0, -4556000): add this"), "{}", read.text);
         assert!(read.points.iter().all(|point| point.length() < 200.0));
     }
@@ -281,7 +283,7 @@ mod tests {
         let mut scene = samples::boxes(1);
         scene.meshes[0].parts[0].triangles.truncate(1);
         scene.instances[0].feature = Some("way/7".into());
-        let text = written(&scene).text;
+        let text = write_and_read(&scene).text;
         let lines: Vec<_> = text.lines().filter(|line| !line.starts_with("# Burgeon")).collect();
         assert_eq!(
             lines[..6],
@@ -300,7 +302,7 @@ mod tests {
     #[test]
     fn textures_are_copied_and_named() {
         let folder = tempfile::tempdir().unwrap();
-        let scene = samples::textured(folder.path());
+        let scene = samples::textured_boxes(folder.path());
         let path = folder.path().join("out.obj");
         super::super::write(&scene, &path, &burgeon_picture::Picture::default()).unwrap();
         let library = std::fs::read_to_string(folder.path().join("out.mtl")).unwrap();

@@ -76,7 +76,7 @@ pub(super) fn many(count: usize) -> Scene {
 }
 
 /// Returns a sheared, a mirrored and a sheared mirrored box, and a flattened one.
-pub(super) fn twisted() -> Scene {
+pub(super) fn twisted_tower() -> Scene {
     let mut scene = boxes(0);
     let shear = DMat3::from_cols(DVec3::X, DVec3::new(0.6, 1.0, 0.1), DVec3::new(0.0, 0.4, 2.0));
     let mirror = DMat3::from_diagonal(DVec3::new(1.0, -2.0, 1.0));
@@ -88,7 +88,7 @@ pub(super) fn twisted() -> Scene {
 }
 
 /// Returns three boxes at coordinates far from the origin.
-pub(super) fn far() -> Scene {
+pub(super) fn far_box() -> Scene {
     let mut scene = boxes(3);
     for instance in &mut scene.instances {
         instance.transform.translation += DVec3::new(530_997.0, 4_555_999.0, 80.0);
@@ -97,7 +97,7 @@ pub(super) fn far() -> Scene {
 }
 
 /// Returns boxes with two images: one used by two materials, and a second one.
-pub(super) fn textured(folder: &Path) -> Scene {
+pub(super) fn textured_boxes(folder: &Path) -> Scene {
     let brick = image::RgbImage::from_fn(64, 32, |x, y| {
         if y % 8 == 0 || (x + y / 8 * 8) % 16 == 0 {
             image::Rgb([200, 190, 90])
@@ -309,10 +309,10 @@ pub(super) fn all(folder: &Path) -> Vec<(&'static str, Scene)> {
         ("boxes", boxes(7)),
         ("doubles", doubles),
         ("many", many(500)),
-        ("twisted", twisted()),
-        ("far", far()),
+        ("twisted", twisted_tower()),
+        ("far", far_box()),
         ("far_forest", far_forest),
-        ("textured", textured(folder)),
+        ("textured", textured_boxes(folder)),
         ("materials", materials()),
         ("odd", odd()),
         ("hill", hill(40)),

@@ -45,7 +45,7 @@ impl FileTarget {
         let real = match &there {
             // The names that the system gives to open pipes are links without a target.
             Some(there) if !there.is_file() => named.to_path_buf(),
-            _ => follow(named).map_err(|error| refused(named, &error))?,
+            _ => follow(named).map_err(|error| path_error(named, &error))?,
         };
         let folder = folder(&real);
         if !folder.is_dir() {
@@ -56,7 +56,7 @@ impl FileTarget {
         // Replacing a file does not require permission to write to it, but its owner may have write-protected it on
         // purpose.
         if there.as_ref().is_some_and(Metadata::is_file) {
-            File::options().write(true).open(&real).map_err(|error| refused(named, &error))?;
+            File::options().write(true).open(&real).map_err(|error| path_error(named, &error))?;
         }
         let real = match (folder.canonicalize(), real.file_name()) {
             (Ok(folder), Some(name)) if there.as_ref().is_none_or(Metadata::is_file) => folder.join(name),
@@ -80,15 +80,15 @@ impl FileTarget {
     pub(super) fn create(&self) -> Result<(Temporary, File, ReplaceMethod)> {
         let elsewhere = |way: ReplaceMethod| {
             let name = self.real.file_name().unwrap_or_default();
-            let (temporary, file) = Temporary::beside(&std::env::temp_dir().join(name))?;
+            let (temporary, file) = Temporary::create_beside(&std::env::temp_dir().join(name))?;
             hide(&file)?;
             Ok((temporary, file, way))
         };
         let created = match &self.there {
-            None => Temporary::beside(&self.real)
+            None => Temporary::create_beside(&self.real)
                 .map(|(temporary, file)| (temporary, file, ReplaceMethod::Instead)),
             Some(there) if !there.is_file() => elsewhere(ReplaceMethod::Through),
-            Some(there) => match Temporary::beside(&self.real) {
+            Some(there) => match Temporary::create_beside(&self.real) {
                 Ok((temporary, file)) => {
                     let alike = !has_other_names(there) && liken(&file, there).is_ok();
                     Ok((temporary, file, if alike { ReplaceMethod::Instead } else { ReplaceMethod::Into }))
@@ -98,12 +98,12 @@ impl FileTarget {
                 Err(error) => Err(error),
             },
         };
-        created.map_err(|error: io::Error| self.refused(&error))
+        created.map_err(|error: io::Error| self.write_error(&error))
     }
 
     /// Returns the error for a failed write.
-    pub(super) fn refused(&self, error: &io::Error) -> Error {
-        refused(&self.named, error)
+    pub(super) fn write_error(&self, error: &io::Error) -> Error {
+        path_error(&self.named, error)
     }
 
     /// Copies the file at `path` into the existing target.
@@ -191,7 +191,7 @@ fn is_forbidden(error: &io::Error) -> bool {
 }
 
 /// Returns the error for a failed write to `path`.
-fn refused(path: &Path, error: &io::Error) -> Error {
+fn path_error(path: &Path, error: &io::Error) -> Error {
     let said = Error::file(path, format!("cannot write {}: {error}", path.display()));
     match error.kind() {
         ErrorKind::NotFound => said.help("make the folder first, or write to one that is there"),

@@ -41,7 +41,7 @@ pub fn abandon() {
 
 impl Temporary {
     /// Creates an empty file next to `target`.
-    pub(super) fn beside(target: &Path) -> io::Result<(Self, File)> {
+    pub(super) fn create_beside(target: &Path) -> io::Result<(Self, File)> {
         let mut names = TemporaryNames::lock();
         loop {
             let path = name_beside(target);

@@ -1,6 +1,6 @@
 //! Image files of a scene's materials.
 
-use super::check::{SceneCheck, named};
+use super::check::{SceneCheck, item_label};
 use super::color::linear;
 use super::files::Files;
 use super::stem;
@@ -47,7 +47,7 @@ impl Images {
             let index = match known {
                 Some(index) => index,
                 None => {
-                    images.files.push(ImageFile::read(texture, &named("material", &material.name, i))?);
+                    images.files.push(ImageFile::read(texture, &item_label("material", &material.name, i))?);
                     images.files.len() - 1
                 }
             };
@@ -167,7 +167,7 @@ mod tests {
     #[test]
     fn an_image_that_two_materials_share_is_read_once_and_its_mean_colour_is_known() {
         let folder = tempfile::tempdir().unwrap();
-        let scene = samples::textured(folder.path());
+        let scene = samples::textured_boxes(folder.path());
         let images = Images::load(&check(&scene).unwrap()).unwrap();
         assert_eq!(images.of_material, [Some(0), Some(1), Some(0)]);
         let [red, green, blue] = images.files[0].mean_color().unwrap();
@@ -179,7 +179,7 @@ mod tests {
     #[test]
     fn a_copy_never_overwrites_a_source() {
         let folder = tempfile::tempdir().unwrap();
-        let mut scene = samples::textured(folder.path());
+        let mut scene = samples::textured_boxes(folder.path());
         let own = folder.path().join("out_brick.png");
         fs::copy(folder.path().join("brick.png"), &own).unwrap();
         if let Some(texture) = &mut scene.materials[1].texture {
@@ -193,7 +193,7 @@ mod tests {
     #[test]
     fn an_image_that_is_called_by_level_column_and_row_is_copied_under_a_name_for_files() {
         let folder = tempfile::tempdir().unwrap();
-        let mut scene = samples::textured(folder.path());
+        let mut scene = samples::textured_boxes(folder.path());
         let content: Arc<[u8]> = fs::read(folder.path().join("brick.png")).unwrap().into();
         let long = "ä".repeat(300);
         for (material, name) in
@@ -216,7 +216,7 @@ mod tests {
     #[test]
     fn a_texture_that_is_missing_or_no_image_is_refused_by_name() {
         let folder = tempfile::tempdir().unwrap();
-        let scene = samples::textured(folder.path());
+        let scene = samples::textured_boxes(folder.path());
         let said = || {
             let error = Images::load(&check(&scene).unwrap()).map(|_| ()).unwrap_err().to_string();
             error.replace(&folder.path().display().to_string(), "FOLDER")

@@ -11,7 +11,7 @@ use burgeon_kit::{Argument, Construct, Expand, Field, Kind, Method, Registry, Sh
 use crate::form::{is_name, may_be_left_out};
 use crate::luau_type::LuauType;
 use crate::names::{Name, NameKind, OBJECT, Operator, names};
-use crate::notation::{capital, is_plain, key, merged, module_form, optional, with_parameters};
+use crate::notation::{capital, is_plain, key, merge, module_form, optional, with_parameters};
 use crate::script_types::{members, plain_name};
 
 /// Definitions for editors.
@@ -42,7 +42,7 @@ pub fn definitions(registry: &Registry) -> Definitions {
     }
     let mut body = String::new();
     for name in names().iter().filter(|name| name.sort == NameKind::Given) {
-        writer.given(&mut body, name);
+        writer.declare_returned(&mut body, name);
     }
     let mut families: Vec<&str> = registry.kinds().filter_map(|kind| kind.family.as_deref()).collect();
     families.sort_unstable();
@@ -123,7 +123,7 @@ impl Writer {
     }
 
     /// Declares the type of a returned value: a class if it has methods, otherwise a table or an alias.
-    fn given(&mut self, out: &mut String, name: &Name) {
+    fn declare_returned(&mut self, out: &mut String, name: &Name) {
         let own = type_name(name);
         if !name.instead.is_empty() {
             // A list with items of a type that Luau cannot infer is a list of `any`.
@@ -176,7 +176,7 @@ impl Writer {
         }
         for function in &name.functions {
             self.doc(out, &format!("globaltype/{own}.{}", function.name), &function.doc, "  ");
-            let form = merged(&function.forms);
+            let form = merge(&function.forms);
             let arguments = self.arguments(&form.arguments, true);
             let returns = self.got(&form.returns);
             let _ = writeln!(out, "  function {}({arguments}): {returns}", function.name);
@@ -197,7 +197,7 @@ impl Writer {
         let _ = writeln!(out, "export type {} = {{", name.luau);
         for function in &name.functions {
             self.doc(out, &format!("globaltype/{own}.{}", function.name), &function.doc, "  ");
-            let form = merged(&function.forms);
+            let form = merge(&function.forms);
             let mut arguments = vec![format!("self: {}", name.luau)];
             arguments.extend(form.arguments.iter().map(|argument| match &*argument.name {
                 "..." => format!("...{}", argument.luau),
@@ -275,7 +275,7 @@ impl Writer {
     fn table(&mut self, fields: &[Field]) -> String {
         let mut table = String::from("{\n");
         for field in fields {
-            let luau = self.taken(field.luau.trim_end_matches('?'), &field.fields);
+            let luau = self.argument_type(field.luau.trim_end_matches('?'), &field.fields);
             let doc = field.doc.split_whitespace().collect::<Vec<_>>().join(" ");
             let _ = writeln!(table, "  --- {doc}\n  read {}: {},", key(&field.name), optional(&luau));
         }
@@ -285,7 +285,7 @@ impl Writer {
     fn arguments(&mut self, arguments: &[Argument], of_object: bool) -> String {
         let mut list: Vec<String> = if of_object { vec!["self".to_owned()] } else { Vec::new() };
         for argument in arguments {
-            let luau = self.taken(&argument.luau, &argument.fields);
+            let luau = self.argument_type(&argument.luau, &argument.fields);
             let left_out = may_be_left_out(&argument.luau) && !may_be_left_out(&luau);
             // Keywords of Luau cannot be names.
             let more = if is_keyword(&argument.name) { "_" } else { "" };
@@ -390,7 +390,7 @@ impl Writer {
             }
             for function in &name.functions {
                 self.doc(out, &format!("global/{}.{}", name.name, function.name), &function.doc, "  ");
-                let form = merged(&function.forms);
+                let form = merge(&function.forms);
                 let arguments = self.arguments(&form.arguments, false);
                 let returns = self.got(&form.returns);
                 let field = key(&function.name);
@@ -426,11 +426,11 @@ impl Writer {
         if found == LuauType::Any {
             return if luau.contains('<') { luau.to_owned() } else { "any".to_owned() };
         }
-        self.shown(&found, false)
+        self.type_text(&found, false)
     }
 
     /// Returns the Luau type of a value that a script passes. `fields` are the fields of a table of named fields.
-    fn taken(&mut self, luau: &str, fields: &[Field]) -> String {
+    fn argument_type(&mut self, luau: &str, fields: &[Field]) -> String {
         let name = luau.trim_end_matches('?');
         if !fields.is_empty() && is_name(name) {
             if !self.aliases.contains_key(name) {
@@ -448,10 +448,10 @@ impl Writer {
             self.aliases.insert(options.clone(), table);
             return options + mark;
         }
-        self.shown(&LuauType::read(luau), true)
+        self.type_text(&LuauType::read(luau), true)
     }
 
-    fn shown(&mut self, of: &LuauType, taken: bool) -> String {
+    fn type_text(&mut self, of: &LuauType, taken: bool) -> String {
         match of {
             LuauType::Any => "any".to_owned(),
             LuauType::Nil => "nil".to_owned(),
@@ -473,7 +473,7 @@ impl Writer {
             LuauType::Union(of) => {
                 let is_optional = of.contains(&LuauType::Nil);
                 let some = of.iter().filter(|of| **of != LuauType::Nil);
-                let some: Vec<String> = some.map(|of| self.shown(of, taken)).collect();
+                let some: Vec<String> = some.map(|of| self.type_text(of, taken)).collect();
                 match (&some[..], is_optional) {
                     ([one], true) if !one.contains("->") => format!("{one}?"),
                     (_, true) => format!("({})?", some.join(" | ")),
@@ -482,13 +482,13 @@ impl Writer {
             }
             // Luau gives a list of tables its own type and accepts it as no other type.
             LuauType::List(item) if taken && !is_plain(item) => "any".to_owned(),
-            LuauType::List(item) => format!("{{ {} }}", self.shown(item, taken)),
+            LuauType::List(item) => format!("{{ {} }}", self.type_text(item, taken)),
             LuauType::Map => "any".to_owned(),
             LuauType::Table(fields) => {
                 let read = if taken { "read " } else { "" };
                 let fields: Vec<String> = fields
                     .iter()
-                    .map(|(name, of)| format!("{read}{name}: {}", self.shown(of, taken)))
+                    .map(|(name, of)| format!("{read}{name}: {}", self.type_text(of, taken)))
                     .collect();
                 format!("{{ {} }}", fields.join(", "))
             }

@@ -32,8 +32,8 @@ pub fn editor_files(registry: &Registry) -> Vec<EditorFile> {
     let file = |path, text, generated| EditorFile { path, text, generated };
     vec![
         file(".burgeon/burgeon.d.luau", definitions.luau, true),
-        file(".burgeon/burgeon.docs.json", written(&Value::Object(docs)), true),
-        file(".vscode/burgeon.code-snippets", written(&snippets()), false),
+        file(".burgeon/burgeon.docs.json", format_json(&Value::Object(docs)), true),
+        file(".vscode/burgeon.code-snippets", format_json(&snippets()), false),
     ]
 }
 
@@ -43,7 +43,7 @@ pub fn editor_files(registry: &Registry) -> Vec<EditorFile> {
 /// `there` is the content of the file, if it exists. Fails with a message if it is not valid JSON with optional
 /// comments.
 pub fn merged_settings(there: Option<&str>) -> Result<Option<String>, String> {
-    merged(there, &settings())
+    merge(there, &settings())
 }
 
 /// Adds to a `.luaurc` an alias for each of `packages`, a name and a folder, so that `require("@castle/towers")` is
@@ -57,16 +57,16 @@ pub fn merged_luaurc(there: Option<&str>, packages: &[(String, String)]) -> Resu
         let aliases = packages.iter().map(|(name, folder)| (name.clone(), Value::from(folder.as_str())));
         wanted.insert("aliases".to_owned(), aliases.collect());
     }
-    merged(there, &wanted)
+    merge(there, &wanted)
 }
 
-fn merged(there: Option<&str>, wanted: &Map<String, Value>) -> Result<Option<String>, String> {
+fn merge(there: Option<&str>, wanted: &Map<String, Value>) -> Result<Option<String>, String> {
     match there.filter(|text| !text.trim_start_matches('\u{feff}').trim().is_empty()) {
         Some(text) if is_comments(text) => {
-            Ok(Some(format!("{}\n{}", text.trim_end(), written(&Value::Object(wanted.clone())))))
+            Ok(Some(format!("{}\n{}", text.trim_end(), format_json(&Value::Object(wanted.clone())))))
         }
         Some(text) => add_missing(text, wanted),
-        None => Ok(Some(written(&Value::Object(wanted.clone())))),
+        None => Ok(Some(format_json(&Value::Object(wanted.clone())))),
     }
 }
 
@@ -121,7 +121,7 @@ fn snippets() -> Value {
 }
 
 /// Formats JSON with indentation.
-fn written(value: &Value) -> String {
+fn format_json(value: &Value) -> String {
     format!("{value:#}\n")
 }
 

@@ -81,7 +81,7 @@ pub(crate) fn add_missing(text: &str, wanted: &Map<String, Value>) -> Result<Opt
 /// Returns true if `text` contains only comments and spaces.
 pub(crate) fn is_comments(text: &str) -> bool {
     let text = text.trim_start_matches('\u{feff}');
-    skipped(text) == text.len()
+    space_length(text) == text.len()
 }
 
 /// Returns the text with another entry at the end of the object or list `of`.
@@ -119,7 +119,7 @@ fn with_entry(text: &str, of: &JsonNode, name: Option<&str>, value: &Value) -> S
         edited.replace_range(end..close, &format!("{newline}{indent}{entry}{newline}{outer}"));
         return edited;
     };
-    let after = last + skipped(&text[last..close]);
+    let after = last + space_length(&text[last..close]);
     let comma = text[after..].starts_with(',').then_some(after);
     let from = comma.map_or(last, |comma| comma + 1);
     if is_one_line {
@@ -167,7 +167,7 @@ fn read(text: &str) -> Result<JsonNode, String> {
 }
 
 /// Returns the length of the leading spaces and comments of `text`.
-fn skipped(text: &str) -> usize {
+fn space_length(text: &str) -> usize {
     let mut reader = JsoncReader { text, at: 0 };
     reader.skip();
     reader.at
@@ -291,13 +291,13 @@ mod tests {
 
     use super::*;
 
-    fn wanted(value: Value) -> Map<String, Value> {
+    fn wanted_entries(value: Value) -> Map<String, Value> {
         let Value::Object(map) = value else { panic!("no object") };
         map
     }
 
-    fn added(text: &str, more: Value) -> String {
-        add_missing(text, &wanted(more)).unwrap().unwrap_or_else(|| text.to_owned())
+    fn merge_value(text: &str, more: Value) -> String {
+        add_missing(text, &wanted_entries(more)).unwrap().unwrap_or_else(|| text.to_owned())
     }
 
     #[test]
@@ -305,23 +305,26 @@ mod tests {
         let text = "// mine\n{\n\t\"b\": 1, // one\n\t/* two */\n\t\"a\": { \"x\": \"// no comment\" }, // last\n\t\"c\": [\n\t\t1,\n\t\t2 // two\n\t],\n\t// end\n}\n";
         let more = json!({ "a": { "x": 3, "y": [true] }, "b": 9, "c": [2, 3], "d": { "z": 1 } });
         assert_eq!(
-            added(text, more),
+            merge_value(text, more),
             "// mine\n{\n\t\"b\": 1, // one\n\t/* two */\n\t\"a\": { \"x\": \"// no comment\", \"y\": [true] }, // last\n\t\"c\": [\n\t\t1,\n\t\t2, // two\n\t\t3\n\t],\n\t\"d\": {\n\t  \"z\": 1\n\t},\n\t// end\n}\n"
         );
     }
 
     #[test]
     fn empty_objects_and_single_lines_are_filled() {
-        assert_eq!(added("{}", json!({ "a": 1 })), "{\n  \"a\": 1\n}");
-        assert_eq!(added("{ // mine\n}", json!({ "a": 1 })), "{ // mine\n  \"a\": 1\n}");
-        assert_eq!(added("{ \"b\": 2 }", json!({ "a": 1 })), "{ \"b\": 2, \"a\": 1 }");
-        assert_eq!(added("{ \"b\": 2, }", json!({ "a": 1 })), "{ \"b\": 2, \"a\": 1 }");
-        assert_eq!(added("{\r\n  \"b\": 2\r\n}", json!({ "a": 1 })), "{\r\n  \"b\": 2,\r\n  \"a\": 1\r\n}");
-        assert_eq!(added("{\n  \"b\": 2 }", json!({ "a": 1 })), "{\n  \"b\": 2,\n  \"a\": 1\n }");
-        assert_eq!(add_missing("{ \"a\": 1 }", &wanted(json!({ "a": 2 }))).unwrap(), None);
+        assert_eq!(merge_value("{}", json!({ "a": 1 })), "{\n  \"a\": 1\n}");
+        assert_eq!(merge_value("{ // mine\n}", json!({ "a": 1 })), "{ // mine\n  \"a\": 1\n}");
+        assert_eq!(merge_value("{ \"b\": 2 }", json!({ "a": 1 })), "{ \"b\": 2, \"a\": 1 }");
+        assert_eq!(merge_value("{ \"b\": 2, }", json!({ "a": 1 })), "{ \"b\": 2, \"a\": 1 }");
+        assert_eq!(
+            merge_value("{\r\n  \"b\": 2\r\n}", json!({ "a": 1 })),
+            "{\r\n  \"b\": 2,\r\n  \"a\": 1\r\n}"
+        );
+        assert_eq!(merge_value("{\n  \"b\": 2 }", json!({ "a": 1 })), "{\n  \"b\": 2,\n  \"a\": 1\n }");
+        assert_eq!(add_missing("{ \"a\": 1 }", &wanted_entries(json!({ "a": 2 }))).unwrap(), None);
         for broken in ["[1]", "{ \"a\" 1 }", "{", "{ \"a\": 1 } x", "3", "{ \"a\": tru }", "{ /* \"a\": 1 }"]
         {
-            assert!(add_missing(broken, &wanted(json!({ "a": 2 }))).is_err(), "{broken}");
+            assert!(add_missing(broken, &wanted_entries(json!({ "a": 2 }))).is_err(), "{broken}");
         }
     }
 

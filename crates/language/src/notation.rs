@@ -63,7 +63,7 @@ pub(crate) fn with_parameters(luau: &str) -> String {
 ///
 /// Luau infers the parameters of a function expression only if there is one signature and the argument's type is not a
 /// union. The alternative type `string` is therefore removed from arguments that only some signatures have.
-pub(crate) fn merged(forms: &[CallForm]) -> CallForm {
+pub(crate) fn merge(forms: &[CallForm]) -> CallForm {
     let Some((first, others)) = forms.split_first() else { return CallForm::default() };
     let mut form = first.clone();
     for other in others {
@@ -112,10 +112,10 @@ mod tests {
     fn one_form_takes_what_any_of_several_takes() {
         let forms = ["(a: string, b: (...any) -> any) -> T", "(a: string, b: number, c: boolean) -> T"];
         let forms: Vec<CallForm> = forms.iter().filter_map(|form| CallForm::read(form)).collect();
-        let form = merged(&forms);
+        let form = merge(&forms);
         assert_eq!(form.to_string(), "(a: string, b: (...never) -> any | number, c: (boolean)?) -> T");
         let forms = ["(...Module) -> T", "(source: Layer, chain: any) -> T"];
         let forms: Vec<CallForm> = forms.iter().filter_map(|form| CallForm::read(form)).collect();
-        assert_eq!(merged(&forms).to_string(), "(...any) -> T");
+        assert_eq!(merge(&forms).to_string(), "(...any) -> T");
     }
 }

@@ -17,7 +17,7 @@ impl ServerState {
     /// Executes the command in `text`, a page's message. Returns the answer to that page; slow answers are sent through
     /// `page`.
     pub(super) fn ask(self: &Arc<Self>, text: &str, page: &Sender<Utf8Bytes>) -> Option<Event> {
-        let refused = |id: Option<u64>, error: &Error| Some(Event::refused(id, error));
+        let refused = |id: Option<u64>, error: &Error| Some(Event::rejection(id, error));
         match message::read(text) {
             Err(refused) => Some(*refused),
             Ok(PageCommand::Pick(pick)) => Some(trace::pick(self, &pick)),
@@ -26,7 +26,7 @@ impl ServerState {
                 Some(trace::chain(self, id, system, chain, module))
             }
             Ok(PageCommand::Variations { id, seeds, param, values }) => {
-                tools::variations(self, id, tools::over(seeds.as_deref(), param, values), page.clone())
+                tools::variations(self, id, tools::parse_axis(seeds.as_deref(), param, values), page.clone())
             }
             Ok(PageCommand::Preset { action, name, replace }) => tools::preset(self, &action, &name, replace),
             Ok(PageCommand::Open { file, line }) => {
@@ -41,10 +41,10 @@ impl ServerState {
                 }
                 if waiting && !running {
                     let run = inner.runs + 1;
-                    inner.cancelled(self, run);
+                    inner.report_cancelled(self, run);
                 }
                 let idle = !waiting && !running;
-                idle.then(|| Event::refused(None, &Error::unavailable("nothing is running")))
+                idle.then(|| Event::rejection(None, &Error::unavailable("nothing is running")))
             }
             Ok(PageCommand::Set { id, params }) => self
                 .change(id, Cause::Parameters, |inner| inner.request.set(&params, inner.params.as_deref())),
@@ -73,7 +73,7 @@ impl ServerState {
     ) -> Option<Event> {
         let mut inner = self.lock();
         if let Err(error) = change(&mut inner) {
-            return Some(Event::refused(id, &error));
+            return Some(Event::rejection(id, &error));
         }
         let same = inner.finished.as_ref() == Some(&inner.request.inputs(inner.generation));
         let idle = inner.due.is_none() && inner.running.as_ref().is_none_or(|running| running.background);

@@ -2,10 +2,10 @@
 
 use std::time::Duration;
 
+use super::job::{PROBLEMS, RunJob};
 use super::message::{Bounds, ModelMessage, SystemMessage, TimesMessage};
 use super::state::ServerState;
 use super::trace;
-use super::work::{PROBLEMS, RunJob};
 use burgeon_engine::run::Run;
 use burgeon_engine::script::Session;
 use serde_json::json;

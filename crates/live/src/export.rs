@@ -26,7 +26,7 @@ pub(super) struct Download {
 
 /// Returns the result of `make`, which runs in a separate thread pool. Runs in progress share the global pool and must
 /// not wait for a large render.
-pub(super) fn apart<T: Send>(make: impl FnOnce() -> T + Send) -> T {
+pub(super) fn run_separately<T: Send>(make: impl FnOnce() -> T + Send) -> T {
     match rayon::ThreadPoolBuilder::new().thread_name(|_| "burgeon export".to_owned()).build() {
         Ok(pool) => pool.install(make),
         Err(_) => make(),
@@ -131,7 +131,7 @@ mod tests {
         let (ended, ends) = channel();
         let (begun, ends) = (Mutex::new(begun), Mutex::new(ends));
         let export = std::thread::spawn(move || {
-            apart(|| {
+            run_separately(|| {
                 rayon::broadcast(|_| {
                     begun.lock().unwrap().send(()).unwrap();
                     // All threads of the pool are busy until the run has ended.

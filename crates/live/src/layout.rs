@@ -43,9 +43,10 @@ impl Indices<'_> {
         let mut ranges: Vec<Range> = Vec::new();
         let mut parts: BTreeMap<(usize, usize), Option<DocumentPart>> = BTreeMap::new();
         for run in sorted {
-            let written = parts.entry((run.mesh, run.part)).or_insert_with(|| self.written(run));
+            let written = parts.entry((run.mesh, run.part)).or_insert_with(|| self.document_part(run));
             let Some(written) = written else { continue };
-            let (from, end) = (written.before(run.from), written.before(run.from + run.count));
+            let (from, end) =
+                (written.triangles_before(run.from), written.triangles_before(run.from + run.count));
             if from == end {
                 continue;
             }
@@ -70,7 +71,7 @@ impl Indices<'_> {
     }
 
     /// Returns everything that these instances show.
-    pub(super) fn placed(&mut self, instances: &[usize]) -> Vec<Range> {
+    pub(super) fn instance_ranges(&mut self, instances: &[usize]) -> Vec<Range> {
         let mut nodes: BTreeMap<(usize, usize), Option<Vec<usize>>> = BTreeMap::new();
         for instance in instances {
             let Some(place) = self.layout.places.get(*instance).copied().flatten() else { continue };
@@ -91,7 +92,7 @@ impl Indices<'_> {
         ranges
     }
 
-    fn written(&self, run: &TriangleRun) -> Option<DocumentPart> {
+    fn document_part(&self, run: &TriangleRun) -> Option<DocumentPart> {
         let mesh = self.layout.meshes.get(run.mesh).copied().flatten()?;
         let primitive =
             shown_parts(self.scene.meshes.get(run.mesh)?).position(|(part, _)| part == run.part)?;
@@ -116,7 +117,7 @@ struct DocumentPart {
 
 impl DocumentPart {
     /// Returns the number of triangles of the document before triangle `index` of the part.
-    fn before(&self, index: usize) -> usize {
+    fn triangles_before(&self, index: usize) -> usize {
         let index = index.min(self.count);
         index - self.left_out.partition_point(|left_out| *left_out < index)
     }
@@ -190,7 +191,7 @@ mod tests {
             pairs(indices.ranges(&[run(1, 1, 1), TriangleRun { mesh: 0, part: 0, from: 0, count: 1 }])),
             []
         );
-        let placed = indices.placed(&[0, 1]);
+        let placed = indices.instance_ranges(&[0, 1]);
         assert_eq!((placed[0].count, placed[0].instances.clone()), (3, Some(vec![0, 1])));
     }
 }

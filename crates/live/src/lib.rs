@@ -14,10 +14,12 @@
 //! (`state`). A newer request cancels the run of an older one, unless the run is almost done.
 
 mod address;
+mod changes;
 mod commands;
 mod connections;
 mod describe;
 mod export;
+mod job;
 mod layout;
 pub mod message;
 mod open;
@@ -122,11 +124,12 @@ impl Live {
             (None, Some(keep)) => keep.token()?,
             (None, None) => Token::random()?,
         };
-        let state = Arc::new(ServerState::new(settings));
+        let presets = tools::presets(&settings.script);
+        let state = Arc::new(ServerState::new(settings, presets));
         let (seen, complained) = (Arc::clone(&state), Arc::clone(&state));
         let watch = Watch::new(
-            work::always(&state),
-            move |change| seen.changed(&change),
+            work::constant_inputs(&state),
+            move |change| changes::handle_changes(&seen, &change),
             move |why| complained.tell(&Notice::Note(why.to_owned())),
         )?;
         state.lock().post(DueRun { cause: Cause::Start, files: Vec::new(), at: Instant::now() });

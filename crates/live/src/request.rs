@@ -148,7 +148,7 @@ impl Request {
     }
 
     /// Returns the values that are set and that `params` accept.
-    pub(super) fn used(&self, params: &[Param]) -> Vec<(String, Setting)> {
+    pub(super) fn used_values(&self, params: &[Param]) -> Vec<(String, Setting)> {
         let used = params.iter().filter_map(|param| {
             let given = self.values.get(&param.name)?;
             Some((param.name.clone(), param.accept(&given.text).ok()?))
@@ -157,7 +157,7 @@ impl Request {
     }
 
     /// Returns `params` of an earlier run with the currently requested values, as far as the parameters accept them.
-    pub(super) fn requested(&mut self, params: &[Param]) -> Vec<ParamMessage> {
+    pub(super) fn requested_params(&mut self, params: &[Param]) -> Vec<ParamMessage> {
         let mut requested = params.to_vec();
         for param in &mut requested {
             let given = self.values.get(&param.name).map(|given| param.accept(&given.text));

@@ -44,7 +44,7 @@ struct RequestGuard(Arc<Stop>);
 
 impl Drop for RequestGuard {
     fn drop(&mut self) {
-        self.0.stop(Error::stopped("nobody waits for it any more"));
+        self.0.stop(Error::cancellation("nobody waits for it any more"));
     }
 }
 
@@ -59,7 +59,7 @@ impl Site {
         let waiting = RequestGuard(Arc::default());
         let stop = Arc::clone(&waiting.0);
         let made = tokio::task::spawn_blocking(move || {
-            let made = export::apart(|| make(&stop));
+            let made = export::run_separately(|| make(&stop));
             drop(turn);
             made
         });
@@ -89,8 +89,8 @@ pub(super) async fn answer(site: &Arc<Site>, request: Request, known: impl FnOnc
 async fn route(site: &Arc<Site>, request: Request, known: impl FnOnce()) -> Response {
     let headers = request.headers();
     if !admits(
-        only(headers, &header::HOST).unwrap_or(None),
-        only(headers, &header::ORIGIN).unwrap_or(Some("")),
+        single_header(headers, &header::HOST).unwrap_or(None),
+        single_header(headers, &header::ORIGIN).unwrap_or(Some("")),
     ) {
         return plain(StatusCode::FORBIDDEN, "this server answers only pages of its own");
     }
@@ -124,7 +124,7 @@ async fn route(site: &Arc<Site>, request: Request, known: impl FnOnce()) -> Resp
         Some("viewer.css") => page::STYLE.answer(headers),
         Some("socket") => open_socket(site, request).await,
         Some(inner) => match inner.split_once('/') {
-            Some(("model", name)) if name.ends_with(MEASURED) => measured(site, name).await,
+            Some(("model", name)) if name.ends_with(MEASURED) => measured_model(site, name).await,
             Some(("model", name)) => {
                 content_file(name, ".glb", "model/gltf-binary", |hash| site.state.model(hash))
             }
@@ -141,7 +141,7 @@ async fn route(site: &Arc<Site>, request: Request, known: impl FnOnce()) -> Resp
 }
 
 /// Returns the value of a header that may occur once; fails if it occurs more often or is not text.
-fn only<'a>(headers: &'a HeaderMap, name: &HeaderName) -> std::result::Result<Option<&'a str>, ()> {
+fn single_header<'a>(headers: &'a HeaderMap, name: &HeaderName) -> std::result::Result<Option<&'a str>, ()> {
     let mut values = headers.get_all(name).iter();
     match (values.next(), values.next()) {
         (None, _) => Ok(None),
@@ -155,7 +155,7 @@ async fn open_socket(site: &Arc<Site>, request: Request) -> Response {
     match WebSocketUpgrade::from_request_parts(&mut parts, &()).await {
         Ok(upgrade) => {
             let state = Arc::clone(&site.state);
-            socket::limited(upgrade).on_upgrade(move |socket| socket::talk(socket, state))
+            socket::limit_messages(upgrade).on_upgrade(move |socket| socket::talk(socket, state))
         }
         Err(refused) => refused.into_response(),
     }
@@ -177,7 +177,7 @@ fn content_file(
 }
 
 /// Encodes the present model as [`gltf::glb_with_texture_coordinates`] does. Few pages request it.
-async fn measured(site: &Arc<Site>, name: &str) -> Response {
+async fn measured_model(site: &Arc<Site>, name: &str) -> Response {
     let shown = site.state.lock().shown.clone();
     let url = name.strip_suffix(MEASURED).map(|hash| format!("model/{hash}.glb"));
     let Some(shown) = shown.filter(|shown| shown.message.url == url) else { return missing() };
@@ -195,7 +195,7 @@ async fn measured(site: &Arc<Site>, name: &str) -> Response {
 
 async fn save(site: &Arc<Site>, name: &str, query: &str) -> Response {
     let refuse = |text: String| plain_text(StatusCode::BAD_REQUEST, text);
-    let Some(name) = decoded(name) else { return missing() };
+    let Some(name) = decode_name(name) else { return missing() };
     let format = burgeon_export::Format::of(name.as_ref());
     if !format.is_ok_and(|format| burgeon_export::Format::OF_SCENES.contains(&format)) {
         return missing();
@@ -224,7 +224,7 @@ async fn save(site: &Arc<Site>, name: &str, query: &str) -> Response {
 }
 
 /// Decodes the percent-encoding of `name`. Returns `None` if the result is not text or refers to another folder.
-fn decoded(name: &str) -> Option<String> {
+fn decode_name(name: &str) -> Option<String> {
     let is_escape = |rest: &str| rest.len() >= 2 && rest.bytes().take(2).all(|it| it.is_ascii_hexdigit());
     if !name.split('%').skip(1).all(is_escape) {
         return None;
@@ -264,11 +264,11 @@ mod tests {
 
     #[test]
     fn escaped_names_are_read_and_those_that_lead_away_are_not() {
-        assert_eq!(decoded("my%20t%C3%B6wer.glb").as_deref(), Some("my t\u{f6}wer.glb"));
+        assert_eq!(decode_name("my%20t%C3%B6wer.glb").as_deref(), Some("my t\u{f6}wer.glb"));
         for wrong in
             ["%2e%2e%2fx.glb", "..%2Fx.glb", "a%5Cb.glb", "%", "%2", "%zz", "%ff.glb", "a%00.glb", "%+1.glb"]
         {
-            assert_eq!(decoded(wrong), None, "{wrong}");
+            assert_eq!(decode_name(wrong), None, "{wrong}");
         }
     }
 

@@ -29,7 +29,7 @@ const HEARTBEAT: Duration = Duration::from_secs(30);
 const SILENCE: Duration = Duration::from_secs(100);
 
 /// Limits the size of messages that a socket accepts.
-pub(super) fn limited(upgrade: WebSocketUpgrade) -> WebSocketUpgrade {
+pub(super) fn limit_messages(upgrade: WebSocketUpgrade) -> WebSocketUpgrade {
     upgrade.max_message_size(LARGEST).max_frame_size(LARGEST)
 }
 
@@ -54,7 +54,7 @@ pub(super) async fn talk(mut socket: WebSocket, state: Arc<ServerState>) {
             message = socket.recv() => { heard = Instant::now(); match message {
                 Some(Ok(Message::Text(text))) => answer(&mut socket, &state, &later, text).await,
                 Some(Ok(Message::Binary(_))) => {
-                    let refused = Event::refused(None, &Error::argument("a message is text"));
+                    let refused = Event::rejection(None, &Error::argument("a message is text"));
                     send(&mut socket, refused.to_text().into()).await
                 }
                 Some(Ok(Message::Ping(_) | Message::Pong(_))) => true,
@@ -96,7 +96,7 @@ async fn answer(
         Ok(None) => true,
         Err(_) => {
             let error = Error::internal("internal error; this is a mistake in Burgeon");
-            send(socket, Event::refused(None, &error).to_text().into()).await
+            send(socket, Event::rejection(None, &error).to_text().into()).await
         }
     }
 }

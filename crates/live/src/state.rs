@@ -22,8 +22,6 @@ use burgeon_engine::run::Run;
 use burgeon_engine::script::{Param, RunOptions, Session};
 use burgeon_export::Format;
 use burgeon_export::gltf::Layout;
-use burgeon_presets::Presets;
-use burgeon_watch::Change;
 
 /// Maximum number of messages that wait for a page. A slower page receives the present state instead.
 const QUEUE: usize = 64;
@@ -136,13 +134,13 @@ pub(super) struct PresentModel {
 }
 
 impl ServerState {
-    pub(super) fn new(mut settings: Settings) -> Self {
+    /// Creates the state of a server that knows the script's `presets`.
+    pub(super) fn new(mut settings: Settings, presets: Vec<String>) -> Self {
         let request = Request::new(&settings.options);
         // The preset's values are part of the request from now on.
         settings.options.params.preset = None;
         settings.options.inputs.cache = Some(std::sync::Arc::default());
         settings.options.inputs.derivations = Some(std::sync::Arc::default());
-        let presets = super::tools::presets(&settings.script);
         let inner = LiveState {
             request,
             due: None,
@@ -271,15 +269,15 @@ impl ServerState {
 
     /// Converts an error to JSON, with the file named as pages name it and with the surrounding lines.
     pub(super) fn error_json(&self, error: &Error) -> serde_json::Value {
-        self.placed(error.to_json(), error.place())
+        self.add_place(error.to_json(), error.place())
     }
 
     /// Converts a warning in the same way.
     pub(super) fn warning_json(&self, warning: &Warning) -> serde_json::Value {
-        self.placed(warning.to_json(), warning.place())
+        self.add_place(warning.to_json(), warning.place())
     }
 
-    fn placed(&self, mut object: serde_json::Value, place: Option<&SourcePlace>) -> serde_json::Value {
+    fn add_place(&self, mut object: serde_json::Value, place: Option<&SourcePlace>) -> serde_json::Value {
         for key in ["message", "help"] {
             if let Some(text) = object[key].as_str() {
                 object[key] = self.relative(text).into();
@@ -327,32 +325,10 @@ impl ServerState {
     }
 
     /// Cancels the variations in progress, which are no longer needed.
-    fn stop_variations(&self, why: &str) {
+    pub(super) fn stop_variations(&self, why: &str) {
         if let Some(stop) = self.variations.lock().recover().take() {
-            stop.stop(Error::stopped(why));
+            stop.stop(Error::cancellation(why));
         }
-    }
-
-    /// Handles changed files.
-    pub(super) fn changed(&self, change: &Change) {
-        let mut presets = vec![Presets::path_of(&self.script)];
-        let of_packages = self.package_presets.lock().recover();
-        presets.extend(of_packages.iter().map(|(_, path)| path.clone()));
-        drop(of_packages);
-        if change.files.iter().any(|path| presets.contains(path)) {
-            super::tools::presets_changed(self);
-        }
-        let files: Vec<String> =
-            change.files.iter().filter(|path| !presets.contains(path)).map(|path| self.name(path)).collect();
-        if files.is_empty() {
-            return;
-        }
-        self.stop_variations("the script has changed");
-        let mut inner = self.lock();
-        std::mem::take(&mut inner.aside).stop(Error::stopped("the script has changed"));
-        inner.generation += 1;
-        inner.post(DueRun { cause: Cause::Save, files, at: change.at });
-        self.wake.notify_all();
     }
 
     /// Stops the worker, and the current run.
@@ -360,7 +336,7 @@ impl ServerState {
         self.stop_variations("the server ends");
         let mut inner = self.lock();
         inner.over = true;
-        inner.aside.stop(Error::stopped("the server ends"));
+        inner.aside.stop(Error::cancellation("the server ends"));
         inner.stop("the server ends");
         self.wake.notify_all();
     }
@@ -425,7 +401,7 @@ impl LiveState {
     }
 
     /// Reports that `run` was cancelled, and records if the model is older than the request.
-    pub(super) fn cancelled(&mut self, state: &ServerState, run: u64) {
+    pub(super) fn report_cancelled(&mut self, state: &ServerState, run: u64) {
         let stale = self.due.is_none() && !self.is_present();
         let event = Event::Cancelled { run, stale };
         state.send(&event);
@@ -439,7 +415,7 @@ impl LiveState {
     pub(super) fn stop(&self, why: &str) -> bool {
         let Some(running) = &self.running else { return false };
         running.cancelled.store(true, Ordering::Release);
-        running.session.stop.stop(Error::stopped(why));
+        running.session.stop.stop(Error::cancellation(why));
         !running.background
     }
 

@@ -112,7 +112,7 @@ pub(super) fn preset(state: &ServerState, action: &str, name: &str, replace: boo
             state.send(&Event::Presets { names: known.clone(), chosen: inner.request.preset() });
             None
         }
-        Err(error) => Some(Event::refused(None, &error)),
+        Err(error) => Some(Event::rejection(None, &error)),
     }
 }
 
@@ -132,7 +132,7 @@ pub(super) fn presets_changed(state: &ServerState) {
             known.clone_from(&names);
             Event::Presets { names, chosen }
         }
-        Err(error) => Event::refused(None, &error),
+        Err(error) => Event::rejection(None, &error),
     };
     state.send(&event);
 }
@@ -148,13 +148,13 @@ fn save(state: &ServerState, name: &str, replace: bool) -> Result<Presets> {
         let Some(params) = &inner.params else {
             return Err(Error::unavailable("a preset is saved when the script runs without an error"));
         };
-        let params = inner.request.used(params);
+        let params = inner.request.used_values(params);
         Preset { name: name.to_owned(), seed: Some(inner.request.seed()), params, ..Preset::default() }
     };
     let presets = Presets::save(&state.script, preset.clone())?;
     let inner = &mut *state.lock();
     // Another page may have changed the request since.
-    let same = |params: &[Param]| inner.request.used(params) == preset.params;
+    let same = |params: &[Param]| inner.request.used_values(params) == preset.params;
     if inner.params.as_deref().is_some_and(same) && preset.seed == Some(inner.request.seed()) {
         inner.request.is_preset(preset);
     }
@@ -192,12 +192,12 @@ pub(super) fn variations(
     };
     let variations = match begin() {
         Ok(variations) => variations,
-        Err(error) => return Some(Event::refused(Some(id), &error)),
+        Err(error) => return Some(Event::rejection(Some(id), &error)),
     };
     let stop = Arc::clone(&variations.stop);
     let before = state.variations.lock().recover().replace(Arc::clone(&stop));
     if let Some(before) = before {
-        before.stop(Error::stopped("others are made"));
+        before.stop(Error::cancellation("others are made"));
     }
     let state = Arc::clone(state);
     let make = move || {
@@ -210,7 +210,7 @@ pub(super) fn variations(
         };
         let of = variations.len();
         let (over, ended) = channel::<()>();
-        let gone = || stop.stop(Error::stopped("the page has gone"));
+        let gone = || stop.stop(Error::cancellation("the page has gone"));
         let (running, page, state) = (&variations, &page, &*state);
         let tell = move || {
             // The loop ends when the other end of the channel is dropped.
@@ -237,13 +237,13 @@ pub(super) fn variations(
             && !stop.is_stopped()
         {
             // An error means that the page has disconnected.
-            let _ = page.blocking_send(state.to_text(&Event::refused(Some(id), &error)));
+            let _ = page.blocking_send(state.to_text(&Event::rejection(Some(id), &error)));
         }
     };
     match std::thread::Builder::new().name("burgeon variations".to_owned()).spawn(make) {
         Ok(_) => None,
         Err(error) => {
-            Some(Event::refused(Some(id), &Error::system(format!("cannot start a thread: {error}"))))
+            Some(Event::rejection(Some(id), &Error::system(format!("cannot start a thread: {error}"))))
         }
     }
 }
@@ -274,7 +274,7 @@ fn variation(state: &ServerState, id: u64, of: usize, cell: Variation) -> Event 
 }
 
 /// Parses the axis of the variations that a page requests: seeds, or a parameter.
-pub(super) fn over(
+pub(super) fn parse_axis(
     seeds: Option<&[String]>,
     param: Option<String>,
     values: Option<Vec<String>>,

@@ -5,13 +5,13 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use super::job;
 use super::layout::Indices;
 use super::message::{
     AroundMessage, CountMessage, Event, HighlightMessage, ModuleMessage, NamedValue, OriginMessage,
     PickCommand, PickMessage, RuleMessage, RulePlace, StepMessage,
 };
 use super::state::{PresentModel, ServerState};
-use super::work;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::locks::LockRecovery;
 use burgeon_engine::results::{DerivedSystem, RuleName};
@@ -31,7 +31,7 @@ pub(super) fn symbols(system: &DerivedSystem) -> Vec<CountMessage> {
     }
     let found = (0u16..).zip(counts).filter(|(symbol, count)| *symbol > END && *count > 0);
     let mut found: Vec<CountMessage> = found
-        .map(|(symbol, count)| CountMessage { name: system.symbols.shown(symbol).to_owned(), count })
+        .map(|(symbol, count)| CountMessage { name: system.symbols.display_name(symbol).to_owned(), count })
         .collect();
     found.sort_by_key(|symbol| std::cmp::Reverse(symbol.count));
     found
@@ -76,7 +76,7 @@ pub(super) fn pick(state: &ServerState, pick: &PickCommand) -> Event {
         };
         Ok(PickMessage { id: pick.id, found: main.is_some(), made: main, placed, instance: pick.instance })
     };
-    find().map_or_else(|error| refused(pick.id, &error), |picked| Event::Picked(Box::new(picked)))
+    find().map_or_else(|error| rejection(pick.id, &error), |picked| Event::Picked(Box::new(picked)))
 }
 
 /// Finds the modules and triangles that a line of a script made.
@@ -97,11 +97,11 @@ pub(super) fn highlight(state: &ServerState, id: u64, file: &str, line: usize) -
         let found = engine::highlight(&state.script, &options, scene, systems, &name, line)?;
         let mut indices = Indices { scene, layout: &shown.layout };
         let mut ranges = indices.ranges(&found.runs);
-        ranges.extend(indices.placed(&found.instances));
+        ranges.extend(indices.instance_ranges(&found.instances));
         let what = found.what.join(", ");
         Ok(HighlightMessage { id, file: file.to_owned(), line, what, modules: found.modules, ranges })
     };
-    find().map_or_else(|error| refused(id, &error), |found| Event::Highlighted(Box::new(found)))
+    find().map_or_else(|error| rejection(id, &error), |found| Event::Highlighted(Box::new(found)))
 }
 
 /// Returns a part of a chain.
@@ -113,7 +113,7 @@ pub(super) fn chain(state: &ServerState, id: u64, system: usize, chain: usize, m
             let ([before, at, after], of) = engine::around(derived, chain, module);
             Event::Chain { id, system, chain, module, of, text: AroundMessage { before, at, after } }
         }
-        None => refused(id, &Error::unavailable(format!("there is no chain {chain} of system {system}"))),
+        None => rejection(id, &Error::unavailable(format!("there is no chain {chain} of system {system}"))),
     }
 }
 
@@ -125,7 +125,7 @@ fn present(state: &ServerState) -> Result<(Arc<PresentModel>, RunOptions)> {
         return Err(Error::unavailable("the script has changed since this model was made")
             .help("repair the script, so that there is a new one"));
     }
-    let mut options = work::options(state, &shown.inputs);
+    let mut options = job::options(state, &shown.inputs);
     options.reports.print = None;
     options.reports.profile = false;
     options.limits.time = options.limits.time.min(PATIENCE);
@@ -180,6 +180,6 @@ fn tell_made(state: &ServerState, shown: &PresentModel, made: &engine::ModuleOri
     }
 }
 
-fn refused(id: u64, error: &Error) -> Event {
-    Event::refused(Some(id), error)
+fn rejection(id: u64, error: &Error) -> Event {
+    Event::rejection(Some(id), error)
 }

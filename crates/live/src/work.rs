@@ -9,16 +9,17 @@ use std::time::{Duration, Instant, SystemTime};
 
 use axum::body::Bytes;
 
+use super::job::{PROBLEMS, RunJob, options};
 use super::message::{Cause, Event, ModelMessage, ParamMessage};
-use super::request::{Inputs, Request};
-use super::state::{ActiveRun, DueRun, LiveState, PresentModel, ServerState};
+use super::request::Inputs;
+use super::state::{ActiveRun, LiveState, PresentModel, ServerState};
 use super::{Notice, describe};
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::panic_message;
 use burgeon_base::warning::Warning;
 use burgeon_engine::run::{Run, run_session};
-use burgeon_engine::script::{Limits, ParamValues, RunOptions, RunReports, Session, make_ready};
+use burgeon_engine::script::{Limits, Session, make_ready};
 use burgeon_export::gltf::{self, Layout};
 use burgeon_presets::Presets;
 use burgeon_watch::{Watch, unsettled};
@@ -28,9 +29,6 @@ const TICK: Duration = Duration::from_millis(100);
 
 /// Maximum size (bytes) of a model that is sent to pages. Browsers do not support larger arrays.
 const LARGEST: usize = 2_000_000_000;
-
-/// Maximum number of problems or warnings of a run that pages receive.
-pub(super) const PROBLEMS: usize = 50;
 
 /// Time for which an existing file may be missing, as during a save, before pages are informed.
 const MISSING: Duration = Duration::from_millis(150);
@@ -46,14 +44,6 @@ const IDLE_LIMITS: Limits = Limits {
     modules: 5_000_000,
     triangles: 10_000_000,
 };
-
-/// Run to execute.
-pub(super) struct RunJob {
-    pub run: u64,
-    pub due: DueRun,
-    pub request: Request,
-    pub inputs: Inputs,
-}
 
 /// Outcome of a run.
 enum RunOutcome {
@@ -91,7 +81,7 @@ pub(super) fn work(state: &ServerState, watch: &Watch) {
         // Missing files that the run looked for are watched too, because the run may succeed once they exist.
         let mut files = session.as_ref().map(|session| session.sought()).unwrap_or_default();
         // These files are watched from the start.
-        files.extend(always(state).into_iter().map(|path| (path, true)));
+        files.extend(constant_inputs(state).into_iter().map(|path| (path, true)));
         let presets = Presets::path_of(&state.script);
         let there = presets.is_file();
         files.push((presets, there));
@@ -106,7 +96,7 @@ pub(super) fn work(state: &ServerState, watch: &Watch) {
         }
         watch.follow(followed.clone(), since);
         let failed = matches!(outcome, RunOutcome::Failed(_) | RunOutcome::Missing);
-        let outcome = match failed && superseded(state, &job, &followed, watch) {
+        let outcome = match failed && is_superseded(state, &job, &followed, watch) {
             true => RunOutcome::Cancelled,
             false => outcome,
         };
@@ -124,7 +114,7 @@ pub(super) fn work(state: &ServerState, watch: &Watch) {
 
 /// Waits until `files`, with which a run has failed, have been stable for a while. Returns true if a newer run is due.
 /// The run may have read a file that was only half written.
-fn superseded(state: &ServerState, job: &RunJob, files: &[(PathBuf, bool)], watch: &Watch) -> bool {
+fn is_superseded(state: &ServerState, job: &RunJob, files: &[(PathBuf, bool)], watch: &Watch) -> bool {
     let gone = job.due.cause == Cause::Save && files.iter().any(|(path, there)| *there && !path.exists());
     let young = unsettled(files.iter().map(|(path, _)| path.as_path()));
     let wait = young.max(gone.then_some(MISSING)).unwrap_or_default();
@@ -168,7 +158,7 @@ pub(super) fn report(state: &ServerState) {
 }
 
 /// Returns the files that affect the result even if the script cannot be read.
-pub(super) fn always(state: &ServerState) -> Vec<PathBuf> {
+pub(super) fn constant_inputs(state: &ServerState) -> Vec<PathBuf> {
     std::iter::once(state.script.clone()).chain(state.options.inputs.stdlib.clone()).collect()
 }
 
@@ -197,7 +187,7 @@ fn register(state: &ServerState, job: Option<&RunJob>, session: &Arc<Session>) -
     let mut inner = state.lock();
     let cancelled = Arc::new(AtomicBool::new(inner.over || inner.due.is_some()));
     if cancelled.load(Ordering::Acquire) {
-        session.stop.stop(Error::stopped("there is something newer"));
+        session.stop.stop(Error::cancellation("there is something newer"));
     }
     inner.running = Some(ActiveRun {
         run: job.map_or(0, |job| job.run),
@@ -212,18 +202,6 @@ fn register(state: &ServerState, job: Option<&RunJob>, session: &Arc<Session>) -
     cancelled
 }
 
-/// Returns the options to run the script with these inputs.
-pub(super) fn options(state: &ServerState, inputs: &Inputs) -> RunOptions {
-    let base = state.options.clone();
-    RunOptions {
-        params: ParamValues { set: inputs.set.clone(), forgiving: true, ..base.params },
-        seed: inputs.seed,
-        steps: inputs.steps,
-        reports: RunReports { profile: true, ..base.reports },
-        ..base
-    }
-}
-
 fn attempt(state: &ServerState, job: &RunJob, kept: &mut Option<Arc<Session>>) -> RunOutcome {
     if std::fs::metadata(&state.script).is_err_and(|error| error.kind() == std::io::ErrorKind::NotFound) {
         return RunOutcome::Missing;
@@ -236,7 +214,7 @@ fn attempt(state: &ServerState, job: &RunJob, kept: &mut Option<Arc<Session>>) -
     let cancelled = register(state, Some(job), &session);
     let made = run_session(&session).and_then(|run| {
         if cancelled.load(Ordering::Acquire) {
-            return Err(Error::stopped("there is something newer"));
+            return Err(Error::cancellation("there is something newer"));
         }
         let (file, mut message) =
             rayon::join(|| encode(&run), || describe::describe(state, job, &session, &run));
@@ -301,7 +279,7 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
     let mut notices = Vec::new();
     let mut gone = None;
     match outcome {
-        RunOutcome::Cancelled => inner.cancelled(state, job.run),
+        RunOutcome::Cancelled => inner.report_cancelled(state, job.run),
         RunOutcome::Missing => {
             let text = format!("there is no script {} yet", state.script.display());
             inner.end_badly(state, job, Event::Waiting { text: text.clone() });
@@ -363,7 +341,7 @@ impl LiveState {
     /// Returns the parameters of the shown model with the requested values; empty if there is no model.
     fn requested_params(&mut self) -> Vec<ParamMessage> {
         let shown = self.shown.clone();
-        shown.map(|shown| self.request.requested(&shown.run.params)).unwrap_or_default()
+        shown.map(|shown| self.request.requested_params(&shown.run.params)).unwrap_or_default()
     }
 
     fn end_badly(&mut self, state: &ServerState, job: &RunJob, event: Event) {

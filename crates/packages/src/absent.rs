@@ -4,7 +4,7 @@ use std::path::Path;
 
 use burgeon_base::error::{Error, Result};
 
-use super::install::PackageCopy;
+use super::copy::PackageCopy;
 
 /// Fails, because zip files are not supported.
 pub(crate) fn unpack(from: &Path, _: &mut PackageCopy) -> Result<()> {

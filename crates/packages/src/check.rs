@@ -7,9 +7,9 @@ use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
 use semver::Version;
 
-use super::find::{Package, PackageOrigin, Packages};
 use super::manifest::{Dependency, Manifest};
 use super::order::DependencyCircle;
+use super::package::{Package, PackageOrigin, Packages};
 
 /// Maximum number of packages that an error names as the cause of another one's problem.
 const MOST_CAUSES: usize = 20;
@@ -18,7 +18,7 @@ const MOST_CAUSES: usize = 20;
 pub(crate) fn check(found: &mut Packages, api: &Version, circles: Vec<DependencyCircle>) {
     let own: Vec<Vec<Error>> =
         found.order().iter().map(|package| problems(found, package, api, &circles)).collect();
-    let all = inherited(found, &own);
+    let all = inherit_problems(found, &own);
     let mut chosen: BTreeSet<String> = BTreeSet::new();
     for package in found.order().iter().filter(|package| package.origin != PackageOrigin::User) {
         if !chosen.contains(&package.manifest.name) {
@@ -30,8 +30,8 @@ pub(crate) fn check(found: &mut Packages, api: &Version, circles: Vec<Dependency
         package.problems = problems;
         package.is_replacing = chosen.contains(&package.manifest.name);
     }
-    let mut warnings = contested(found);
-    warnings.extend(unfit(found));
+    let mut warnings = conflicting_replacements(found);
+    warnings.extend(unused_packages(found));
     found.warnings.extend(warnings.iter().map(|(_, warning)| warning.clone()));
     found.notices.extend(warnings);
     let everyone: Vec<&Package> = found.order().iter().collect();
@@ -67,7 +67,7 @@ impl Packages {
 }
 
 /// Combines the problems of each package with the problems of the packages that it requires.
-fn inherited(found: &Packages, own: &[Vec<Error>]) -> Vec<Vec<Error>> {
+fn inherit_problems(found: &Packages, own: &[Vec<Error>]) -> Vec<Vec<Error>> {
     // Required packages come first in the order, except for packages in cycles, which have no order.
     let mut causes: Vec<BTreeSet<usize>> = Vec::with_capacity(own.len());
     for (place, package) in found.order().iter().enumerate() {
@@ -126,8 +126,8 @@ fn problems(found: &Packages, package: &Package, api: &Version, circles: &[Depen
     }
     problems.extend(manifest.depends.iter().filter_map(|wanted| need(found, manifest, wanted)));
     for replaced in &manifest.replaces {
-        if !manifest.wanted().any(|wanted| wanted.name == replaced.target.package) {
-            problems.push(undeclared(
+        if !manifest.dependencies().any(|wanted| wanted.name == replaced.target.package) {
+            problems.push(undeclared_dependency(
                 manifest,
                 "replaces a file of",
                 &replaced.target.package,
@@ -136,8 +136,8 @@ fn problems(found: &Packages, package: &Package, api: &Version, circles: &[Depen
         }
     }
     for param in &manifest.params {
-        if !manifest.wanted().any(|wanted| wanted.name == param.package) {
-            problems.push(undeclared(manifest, "sets a parameter of", &param.package, param.line));
+        if !manifest.dependencies().any(|wanted| wanted.name == param.package) {
+            problems.push(undeclared_dependency(manifest, "sets a parameter of", &param.package, param.line));
         }
     }
     for circle in circles.iter().filter(|circle| circle.first() == Some(name)) {
@@ -183,11 +183,12 @@ fn need(found: &Packages, manifest: &Manifest, wanted: &Dependency) -> Option<Er
                 .at(place),
         });
     };
-    (!versions.matches(&other.manifest.version)).then(|| unmatched(found, manifest, wanted, other).at(place))
+    (!versions.matches(&other.manifest.version))
+        .then(|| version_mismatch(found, manifest, wanted, other).at(place))
 }
 
 /// Returns the error for a package whose version does not satisfy `manifest`.
-pub(crate) fn unmatched(
+pub(crate) fn version_mismatch(
     found: &Packages,
     manifest: &Manifest,
     wanted: &Dependency,
@@ -206,7 +207,7 @@ pub(crate) fn unmatched(
     })
 }
 
-fn undeclared(manifest: &Manifest, does: &str, other: &str, line: usize) -> Error {
+fn undeclared_dependency(manifest: &Manifest, does: &str, other: &str, line: usize) -> Error {
     Error::data(format!("the package {} {does} {other}, which it does not depend on", manifest.name))
         .help(format!("write below [depends]: {other} = \"*\""))
         .at(Some(manifest.place(line)))
@@ -214,7 +215,7 @@ fn undeclared(manifest: &Manifest, does: &str, other: &str, line: usize) -> Erro
 
 /// Returns the warnings about packages that exist but are not used: replacing packages with problems, and optional
 /// packages of another version. Each warning comes with the package whose users receive it.
-fn unfit(found: &Packages) -> Vec<(String, Warning)> {
+fn unused_packages(found: &Packages) -> Vec<(String, Warning)> {
     let mut warnings = Vec::new();
     for package in found.order() {
         let manifest = &package.manifest;
@@ -236,7 +237,7 @@ fn unfit(found: &Packages) -> Vec<(String, Warning)> {
         for wanted in &manifest.optional {
             let Some(other) = found.get(&wanted.name) else { continue };
             let why = if !wanted.versions.matches(&other.manifest.version) {
-                unmatched(found, manifest, wanted, other)
+                version_mismatch(found, manifest, wanted, other)
             } else if let Some(problem) = other.problems.first() {
                 problem.clone()
             } else {
@@ -253,7 +254,7 @@ fn unfit(found: &Packages) -> Vec<(String, Warning)> {
 
 /// Returns the warnings about files and defaults that two packages replace, each with the package that owns them. There
 /// is no warning if the effective package depends on the other one, because it then replaces on purpose.
-fn contested(found: &Packages) -> Vec<(String, Warning)> {
+fn conflicting_replacements(found: &Packages) -> Vec<(String, Warning)> {
     let mut claims: BTreeMap<(String, String), Vec<(&Package, usize)>> = BTreeMap::new();
     for package in found.order().iter().filter(|package| package.replaces()) {
         for one in &package.manifest.replaces {

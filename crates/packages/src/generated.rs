@@ -39,7 +39,7 @@ fn name(number: usize) -> String {
     format!("p{number}")
 }
 
-fn written() -> impl Strategy<Value = PackageSketch> {
+fn package_sketch() -> impl Strategy<Value = PackageSketch> {
     // 0 represents all versions.
     let others = |most: usize| prop::collection::vec((0..NAMES, 0..3_u64), 0..most);
     let state = prop_oneof![
@@ -176,7 +176,7 @@ proptest! {
 
     #[test]
     fn a_package_can_be_used_whatever_is_wrong_with_others(
-        packages in prop::collection::vec(written(), NAMES),
+        packages in prop::collection::vec(package_sketch(), NAMES),
     ) {
         let folder = write(&packages);
         let found = find(folder.path());
@@ -211,8 +211,8 @@ proptest! {
 
     #[test]
     fn what_is_wrong_elsewhere_changes_nothing(
-        packages in prop::collection::vec(written(), NAMES),
-        others in prop::collection::vec(written(), NAMES),
+        packages in prop::collection::vec(package_sketch(), NAMES),
+        others in prop::collection::vec(package_sketch(), NAMES),
         seen in 0..NAMES,
     ) {
         // All packages that the package does not depend on, not even optionally, are replaced by others.

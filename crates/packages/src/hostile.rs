@@ -11,7 +11,7 @@ use super::*;
 const MOD: &str = "name = \"castle\"\nversion = \"1.0.0\"\napi = \"1\"\n";
 
 /// Returns a zip of these files.
-fn zipped(files: &[(&str, &str)]) -> Vec<u8> {
+fn zip_of(files: &[(&str, &str)]) -> Vec<u8> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     for (name, content) in files {
         if let Some(target) = content.strip_prefix("-> ") {
@@ -44,7 +44,7 @@ fn all(folder: &Path) -> Vec<String> {
 }
 
 /// Returns the error for a zip that must not be installed, and checks that it leaves no files behind.
-fn refused(bytes: &[u8]) -> String {
+fn refusal(bytes: &[u8]) -> String {
     let folder = tempfile::tempdir().unwrap();
     let zip = folder.path().join("castle.zip");
     std::fs::write(&zip, bytes).unwrap();
@@ -62,7 +62,7 @@ fn a_zip_is_installed_whole_from_its_root_or_from_its_only_folder() {
         let file = |name: &str| format!("{inner}{name}");
         let (a, b, c, d) = (file("mod.toml"), file("a/b.lua"), file(".git/x"), file("empty/"));
         let files = [(a.as_str(), MOD), (&b, "return 1"), (&c, "x"), (&d, "")];
-        std::fs::write(&zip, zipped(&files)).unwrap();
+        std::fs::write(&zip, zip_of(&files)).unwrap();
         let mods = folder.path().join("mods");
         let made = install(&zip, &mods, false, |_| Ok(())).unwrap();
         assert_eq!((made.files, made.replaced.is_none(), made.folder), (2, true, mods.join("castle")));
@@ -71,7 +71,7 @@ fn a_zip_is_installed_whole_from_its_root_or_from_its_only_folder() {
         let said = install(&zip, &mods, false, |_| Ok(())).unwrap_err().to_string();
         assert!(said.contains("there is a package castle 1.0.0 in ") && said.contains("--replace"), "{said}");
         std::fs::write(mods.join("castle/old.lua"), "").unwrap();
-        std::fs::write(&zip, zipped(&[(&a, &MOD.replace("1.0.0", "2.0.0"))])).unwrap();
+        std::fs::write(&zip, zip_of(&[(&a, &MOD.replace("1.0.0", "2.0.0"))])).unwrap();
         let made = install(&zip, &mods, true, |_| Ok(())).unwrap();
         assert_eq!(made.replaced.unwrap().to_string(), "1.0.0");
         assert_eq!(all(&mods), ["castle", "castle/mod.toml"]);
@@ -80,7 +80,7 @@ fn a_zip_is_installed_whole_from_its_root_or_from_its_only_folder() {
 
 #[test]
 fn a_hostile_zip_is_refused_and_leaves_nothing_behind() {
-    let with = |name: &str, content: &str| refused(&zipped(&[("mod.toml", MOD), (name, content)]));
+    let with = |name: &str, content: &str| refusal(&zip_of(&[("mod.toml", MOD), (name, content)]));
     let said = [
         with("../evil.lua", "x"),
         with("a/../../evil.lua", "x"),
@@ -93,17 +93,17 @@ fn a_hostile_zip_is_refused_and_leaves_nothing_behind() {
         with("a\nb", "x"),
         with("trailing.", "x"),
         with("a\u{202e}gpj.lua", "x"),
-        refused(&zipped(&[("mod.toml", MOD), ("\u{e9}.lua", "1"), ("e\u{301}.lua", "2")])),
+        refusal(&zip_of(&[("mod.toml", MOD), ("\u{e9}.lua", "1"), ("e\u{301}.lua", "2")])),
         with("../evil/", ""),
         with("link.png", "-> /etc/passwd"),
         with("MOD.toml", "x"),
         with("mod.toml/x", "x"),
         with(&format!("{}x", "a/".repeat(40)), "x"),
-        refused(&zipped(&[("a.lua", "x")])),
-        refused(&zipped(&[("a/mod.toml", MOD), ("b/x.lua", "")])),
-        refused(&zipped(&[("mod.toml", "name = \"castle\"")])),
-        refused(&zipped(&[])),
-        refused(b"no zip at all"),
+        refusal(&zip_of(&[("a.lua", "x")])),
+        refusal(&zip_of(&[("a/mod.toml", MOD), ("b/x.lua", "")])),
+        refusal(&zip_of(&[("mod.toml", "name = \"castle\"")])),
+        refusal(&zip_of(&[])),
+        refusal(b"no zip at all"),
     ];
     insta::assert_snapshot!(said.join("\n"), @r"
     FOLDER/castle.zip has a file ../evil.lua, which leads out of the package
@@ -134,11 +134,11 @@ fn a_hostile_zip_is_refused_and_leaves_nothing_behind() {
 #[test]
 fn a_name_that_a_zip_has_twice_is_refused() {
     // The zip writer rejects duplicate names, so rename one file in the bytes of the zip.
-    let mut bytes = zipped(&[("mod.toml", MOD), ("one.lua", "1"), ("two.lua", "2")]);
+    let mut bytes = zip_of(&[("mod.toml", MOD), ("one.lua", "1"), ("two.lua", "2")]);
     let places: Vec<usize> = (0..bytes.len() - 7).filter(|at| &bytes[*at..at + 7] == b"two.lua").collect();
     assert_eq!(places.len(), 2);
     places.into_iter().for_each(|at| bytes[at..at + 7].copy_from_slice(b"one.lua"));
-    assert_eq!(refused(&bytes), "FOLDER/castle.zip has one.lua twice");
+    assert_eq!(refusal(&bytes), "FOLDER/castle.zip has one.lua twice");
 }
 
 #[test]
@@ -146,24 +146,24 @@ fn a_zip_of_too_many_files_or_bytes_is_refused() {
     let names: Vec<String> = (0..=MOST).map(|index| format!("{index}.lua")).collect();
     let mut files: Vec<(&str, &str)> = names.iter().map(|name| (name.as_str(), "")).collect();
     files.push(("mod.toml", MOD));
-    assert_eq!(refused(&zipped(&files)), "FOLDER/castle.zip has more than 10000 files and folders");
+    assert_eq!(refusal(&zip_of(&files)), "FOLDER/castle.zip has more than 10000 files and folders");
     // Folders count too, regardless of the number of files in them.
     let folder = tempfile::tempdir().unwrap();
-    let mut copy = install::PackageCopy::new(folder.path().join("new"), LARGEST, 20).unwrap();
+    let mut copy = copy::PackageCopy::new(folder.path().join("new"), LARGEST, 20).unwrap();
     copy.add(Path::new("a.zip"), &format!("{}x", "a/".repeat(15)), &mut std::io::empty()).unwrap();
     let said =
         copy.add(Path::new("a.zip"), &format!("{}x", "b/".repeat(15)), &mut std::io::empty()).unwrap_err();
     assert_eq!(said.message(), "a.zip has more than 20 files and folders");
     // The size in a header is not trusted.
     let folder = tempfile::tempdir().unwrap();
-    let mut copy = install::PackageCopy::new(folder.path().join("new"), 2_000_000, MOST).unwrap();
+    let mut copy = copy::PackageCopy::new(folder.path().join("new"), 2_000_000, MOST).unwrap();
     let said = copy.add(Path::new("bomb.zip"), "a.png", &mut std::io::repeat(0).take(u64::MAX)).unwrap_err();
     assert_eq!(said.message(), "bomb.zip has more than 2 MB");
 }
 
 #[test]
 fn every_damaged_zip_is_refused_or_sound() {
-    let bytes = zipped(&[("mod.toml", MOD), ("a/b.lua", "return 1"), ("c.lua", "return 2")]);
+    let bytes = zip_of(&[("mod.toml", MOD), ("a/b.lua", "return 1"), ("c.lua", "return 2")]);
     for at in 0..bytes.len() {
         let mut damaged = bytes.clone();
         damaged[at] ^= if at % 2 == 0 { 0x01 } else { 0xff };
@@ -174,7 +174,7 @@ fn every_damaged_zip_is_refused_or_sound() {
             assert_eq!(all(folder.path()), ["castle.zip"], "byte {at}");
         }
         if at % 5 == 0 {
-            refused(&bytes[..at]);
+            refusal(&bytes[..at]);
         }
     }
 }

@@ -25,12 +25,15 @@
 //! A package that is invalid, or conflicts with another one, only affects scripts that use it.
 
 mod check;
+mod copy;
 mod find;
 mod install;
 mod locate;
 mod lock;
 mod manifest;
+mod names;
 mod order;
+mod package;
 mod switches;
 #[cfg_attr(not(feature = "zip"), path = "absent.rs")]
 mod unzip;
@@ -42,12 +45,13 @@ mod hostile;
 #[cfg(test)]
 mod tests;
 
-pub use find::{
-    BrokenPackage, DisabledPackage, HiddenPackage, Package, PackageOrigin, PackageSearch, Packages,
-};
-pub use install::{Installation, LARGEST, MOST, install};
-pub use locate::{FileName, PackageFile};
+pub use copy::{LARGEST, MOST};
+pub use find::PackageSearch;
+pub use install::{Installation, install};
+pub use locate::PackageFile;
 pub use lock::LockedPackage;
-pub use manifest::{Dependency, MANIFEST, Manifest, ParamDefault, Replacement, is_name};
+pub use manifest::{Dependency, MANIFEST, Manifest, ParamDefault, Replacement};
+pub use names::{FileName, is_name};
+pub use package::{BrokenPackage, DisabledPackage, HiddenPackage, Package, PackageOrigin, Packages};
 pub use semver::{Version, VersionReq};
 pub use switches::{SWITCHES, switch};

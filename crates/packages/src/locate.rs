@@ -1,70 +1,15 @@
 //! Resolves names of files such as `@castle/towers.lua`.
 
-use std::fmt;
 use std::path::{Path, PathBuf};
 
 use burgeon_base::error::{Error, Result};
-use burgeon_base::names::{has_bidi_controls, normal_form};
+use burgeon_base::names::normal_form;
 
-use super::check::unmatched;
-use super::find::{Package, Packages};
-use super::install::MOST;
-use super::manifest::{MANIFEST, Replacement, is_name};
-
-/// Name of a package's file.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub struct FileName {
-    /// Name of the package.
-    pub package: String,
-    /// Path of the file relative to the package's folder, separated by `/`; empty for the package itself.
-    pub path: String,
-}
-
-impl fmt::Display for FileName {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let separator = if self.path.is_empty() { "" } else { "/" };
-        write!(f, "@{}{separator}{}", self.package, self.path)
-    }
-}
-
-impl FileName {
-    /// Returns true if a name in a script refers to a package's file.
-    pub fn is_meant(name: &str) -> bool {
-        name.starts_with('@')
-    }
-
-    /// Parses `@castle/towers.lua`. Fails if the path leaves the package, and for an invalid package name.
-    pub fn parse(name: &str) -> Result<Self> {
-        let inner = name.strip_prefix('@').unwrap_or(name);
-        let (package, path) = inner.split_once('/').unwrap_or((inner, ""));
-        if !name.starts_with('@') || !is_name(package) {
-            return Err(Error::file(name, format!("{name:?} names no file of a package"))
-                .help("write \"@castle/stone.png\" for stone.png of the package castle"));
-        }
-        let leads_out = |part: &str| part == ".." || part.contains(['\\', ':', '\0']);
-        if path.starts_with('/') || path.split('/').any(leads_out) {
-            return Err(Error::file(name, format!("{name} leads outside the package {package}"))
-                .help(format!("name a file in its folder or below it: \"@{package}/stone.png\"")));
-        }
-        if has_bidi_controls(path) {
-            return Err(Error::file(
-                name,
-                format!("{} has a character that turns text round", name.escape_unicode()),
-            )
-            .help("rename the file: such names do not read as they are written"));
-        }
-        let parts: Vec<&str> = path.split('/').filter(|part| !part.is_empty() && *part != ".").collect();
-        Ok(Self { package: package.to_owned(), path: normal_form(&parts.join("/")).into_owned() })
-    }
-
-    /// Parses `@castle/towers`, without an extension, as the name of a script: `towers.lua` of that package, or
-    /// `init.lua` if the name is only the package.
-    pub fn script(name: &str) -> Result<Self> {
-        let Self { package, path } = Self::parse(name)?;
-        let path = if path.is_empty() { "init.lua".to_owned() } else { format!("{path}.lua") };
-        Ok(Self { package, path })
-    }
-}
+use super::check::version_mismatch;
+use super::copy::MOST;
+use super::manifest::{MANIFEST, Replacement};
+use super::names::FileName;
+use super::package::{Package, Packages};
 
 /// File that a name refers to.
 #[derive(Debug, Clone)]
@@ -93,10 +38,10 @@ impl Packages {
         asker: Option<&Package>,
         seek: &mut dyn FnMut(&Path, bool),
     ) -> Result<PackageFile<'_>> {
-        let owner = self.used(&name.package, asker, seek)?;
+        let owner = self.usable_package(&name.package, asker, seek)?;
         let (mut package, mut path) = (owner, name.path.clone());
         let mut by = None;
-        while let Some((replacing, replacement)) = self.replacing(package, &path, asker) {
+        while let Some((replacing, replacement)) = self.find_replacement(package, &path, asker) {
             (package, path) = (replacing, replacement.file.clone());
             by = Some(replacement);
         }
@@ -118,12 +63,12 @@ impl Packages {
                 ),
             )
             .help("a package has only files in its own folder")),
-            Err(_) => Err(missing(what, name, package, &path, by)),
+            Err(_) => Err(missing_file(what, name, package, &path, by)),
         }
     }
 
     /// Returns the package `name`, if `asker` may use it.
-    fn used(
+    fn usable_package(
         &self,
         name: &str,
         asker: Option<&Package>,
@@ -136,11 +81,11 @@ impl Packages {
         }
         if let Some(package) = self.get(name) {
             if let Some(asker) = asker
-                && let Some(wanted) = asker.manifest.wanted().find(|wanted| wanted.name == name)
+                && let Some(wanted) = asker.manifest.dependencies().find(|wanted| wanted.name == name)
                 && !wanted.versions.matches(&package.manifest.version)
             {
                 let place = asker.manifest.place(wanted.line);
-                return Err(unmatched(self, &asker.manifest, wanted, package).at(Some(place)));
+                return Err(version_mismatch(self, &asker.manifest, wanted, package).at(Some(place)));
             }
             return match package.problems.as_slice() {
                 [] => Ok(package),
@@ -166,7 +111,7 @@ impl Packages {
     }
 
     /// Returns the package that replaces a file of another package for `asker`, and the replacement.
-    fn replacing(
+    fn find_replacement(
         &self,
         of: &Package,
         path: &str,
@@ -205,7 +150,7 @@ impl Packages {
     }
 
     /// Returns the files of `package` that others replace, each with the package of the effective replacement.
-    pub fn replaced(&self, package: &Package) -> Vec<(FileName, &str)> {
+    pub fn replaced_files(&self, package: &Package) -> Vec<(FileName, &str)> {
         let replacing = self.order().iter().filter(|other| other.replaces());
         let targets = replacing.flat_map(|other| other.manifest.replaces.iter().map(|one| &one.target));
         let mut files: Vec<FileName> =
@@ -222,7 +167,7 @@ impl Packages {
 
     /// Returns the qualified names of files called `name` in all packages, for a script that used the name without a
     /// package.
-    pub fn having(&self, name: &str) -> Vec<String> {
+    pub fn files_called(&self, name: &str) -> Vec<String> {
         let sound = FileName::parse(&format!("@own/{name}")).is_ok_and(|sound| !sound.path.is_empty());
         let having = self.order().iter().filter(|package| sound && package.folder.join(name).is_file());
         having.map(|package| format!("@{}/{name}", package.manifest.name)).collect()
@@ -269,7 +214,7 @@ impl Packages {
                 // Without the replacements of other packages.
                 let Some(owner) = self.get(&name.package) else { continue };
                 if !owner.folder.join(&name.path).is_file() {
-                    let error = missing("file", name, owner, &name.path, None);
+                    let error = missing_file("file", name, owner, &name.path, None);
                     problems.push(error.rather_at(Some(package.manifest.place(one.line))));
                 }
             }
@@ -305,7 +250,7 @@ fn spelling(folder: &Path, path: &str) -> PathBuf {
 }
 
 /// Returns the error for a missing file; `by` is the replacement that refers to it.
-fn missing(
+fn missing_file(
     what: &'static str,
     name: &FileName,
     package: &Package,

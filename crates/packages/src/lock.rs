@@ -7,8 +7,8 @@ use std::path::Path;
 use burgeon_base::error::{Error, Limit, Result};
 use semver::Version;
 
-use super::find::{Package, Packages};
-use super::install::{LARGEST, MOST};
+use super::copy::{LARGEST, MOST};
+use super::package::{Package, Packages};
 
 /// Package as it was when a run used it.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -7,16 +7,13 @@ use semver::{Version, VersionReq};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::locate::FileName;
+use super::names::{FileName, LONGEST, is_name};
 
 /// File name of the manifest.
 pub const MANIFEST: &str = "mod.toml";
 
 /// Maximum size (bytes) of a `mod.toml`.
 const LARGEST: u64 = 65_536;
-
-/// Maximum number of characters of a package's name.
-const LONGEST: usize = 40;
 
 /// Allowed keys in a `mod.toml`.
 const KEYS: [&str; 11] = [
@@ -97,16 +94,6 @@ pub struct ParamDefault {
     pub value: String,
     /// Line in the file.
     pub(crate) line: usize,
-}
-
-/// Returns true if `name` is a valid package name: a lower-case letter, followed by lower-case letters, digits, `_` and
-/// `-`.
-pub fn is_name(name: &str) -> bool {
-    let mut letters = name.chars();
-    letters.next().is_some_and(|first| first.is_ascii_lowercase())
-        && letters
-            .all(|letter| letter.is_ascii_lowercase() || letter.is_ascii_digit() || "_-".contains(letter))
-        && name.len() <= LONGEST
 }
 
 impl Manifest {
@@ -191,13 +178,13 @@ impl Manifest {
     }
 
     /// Returns the required and the optional dependencies.
-    pub fn wanted(&self) -> impl Iterator<Item = &Dependency> {
+    pub fn dependencies(&self) -> impl Iterator<Item = &Dependency> {
         self.depends.iter().chain(&self.optional)
     }
 
     /// Returns true if the package may use the files of the package `name`.
     pub fn may_use(&self, name: &str) -> bool {
-        self.name == name || self.wanted().any(|wanted| wanted.name == name)
+        self.name == name || self.dependencies().any(|wanted| wanted.name == name)
     }
 }
 

@@ -2,7 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-use super::find::Package;
+use super::manifest::Dependency;
+use super::package::Package;
 
 /// Cycle of packages that depend on each other, from one of them back to itself.
 pub(crate) type DependencyCircle = Vec<String>;
@@ -34,7 +35,7 @@ impl DependencyGraph {
     fn new(packages: &[Package]) -> Self {
         let places: BTreeMap<&str, usize> =
             packages.iter().enumerate().map(|(place, it)| (it.manifest.name.as_str(), place)).collect();
-        let of = |list: &[super::Dependency]| -> Vec<usize> {
+        let of = |list: &[Dependency]| -> Vec<usize> {
             list.iter().filter_map(|one| places.get(one.name.as_str()).copied()).collect()
         };
         let needed: Vec<Vec<usize>> = packages.iter().map(|it| of(&it.manifest.depends)).collect();
@@ -50,7 +51,7 @@ impl DependencyGraph {
     fn order(&self) -> (Vec<usize>, Vec<usize>) {
         // An optional dependency that has no order itself is ignored.
         let needed = self.needed.iter().map(|needed| needed.iter().copied().collect());
-        let (_, lost) = sorted(&needed.collect::<Vec<_>>());
+        let (_, lost) = sort_topologically(&needed.collect::<Vec<_>>());
         let lost: BTreeSet<usize> = lost.into_iter().collect();
         let group = groups(&self.wanted);
         let before = (0..self.needed.len()).map(|place| {
@@ -58,7 +59,7 @@ impl DependencyGraph {
             let optional = self.wanted[place].iter().filter(counts);
             self.needed[place].iter().chain(optional).copied().collect()
         });
-        sorted(&before.collect::<Vec<_>>())
+        sort_topologically(&before.collect::<Vec<_>>())
     }
 
     /// Returns the shortest cycle of each group of `waiting` packages that require each other.
@@ -112,7 +113,7 @@ impl DependencyGraph {
 
 /// Sorts the indices topologically, each after those `before` it and otherwise by number. Also returns the indices in
 /// cycles and those that depend on them.
-fn sorted(before: &[BTreeSet<usize>]) -> (Vec<usize>, Vec<usize>) {
+fn sort_topologically(before: &[BTreeSet<usize>]) -> (Vec<usize>, Vec<usize>) {
     let mut waits: Vec<usize> = before.iter().map(BTreeSet::len).collect();
     let mut followers: Vec<Vec<usize>> = vec![Vec::new(); before.len()];
     for (place, before) in before.iter().enumerate() {

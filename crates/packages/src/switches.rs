@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use burgeon_base::error::{Error, Result, SourcePlace};
 
-use super::find::BESIDE;
-use super::manifest::is_name;
+use super::names::is_name;
+use super::package::BESIDE;
 
 /// File name, in the packages folder next to a script.
 pub const SWITCHES: &str = "disabled.txt";

@@ -42,7 +42,7 @@ fn order(packages: &Packages) -> Vec<&str> {
 }
 
 /// Formats problems without the path of the test folder.
-fn told(folder: &tempfile::TempDir, problems: &[burgeon_base::Error]) -> String {
+fn messages(folder: &tempfile::TempDir, problems: &[burgeon_base::Error]) -> String {
     let text: Vec<String> = problems.iter().map(ToString::to_string).collect();
     text.join("\n").replace(&folder.path().display().to_string(), "FOLDER")
 }
@@ -75,7 +75,7 @@ fn packages_come_after_what_they_depend_on_and_else_by_name() {
     ]);
     let packages = find(&folder);
     assert_eq!(order(&packages), ["b", "c", "e", "d", "a"]);
-    assert!(packages.problems.is_empty(), "{}", told(&folder, &packages.problems));
+    assert!(packages.problems.is_empty(), "{}", messages(&folder, &packages.problems));
 }
 
 #[test]
@@ -216,7 +216,7 @@ fn names_of_files_are_the_same_however_their_accents_are_written() {
 fn a_package_that_nobody_uses_breaks_no_script_from_the_users_folder() {
     let folder = folder(&[("user/a", "[depends]\nb = \"1\""), ("user/c", "nonsense"), ("mods/d", "")]);
     let packages = find(&folder);
-    assert!(packages.problems.is_empty(), "{}", told(&folder, &packages.problems));
+    assert!(packages.problems.is_empty(), "{}", messages(&folder, &packages.problems));
     assert!(locate(&packages, "@a/x.lua", "").unwrap_err().contains("needs b ^1, which is not there"));
     assert!(locate(&packages, "@c/x.lua", "").unwrap_err().contains("this is not TOML"));
 }

@@ -7,7 +7,7 @@ use std::path::Path;
 use burgeon_base::error::{Error, Limit, Result};
 use zip::ZipArchive;
 
-use super::install::{LARGEST, MOST, PackageCopy, no_file};
+use super::copy::{LARGEST, MOST, PackageCopy, no_file};
 
 /// Signature of an entry in a zip's central directory, and the length of an entry without its name and the fields after
 /// it (bytes).
@@ -39,7 +39,7 @@ pub(crate) fn unpack(from: &Path, copy: &mut PackageCopy) -> Result<()> {
             .help("a package may not have more"));
     }
     let (mut file, _) = burgeon_base::files::open(from).map_err(|_| damaged())?;
-    let names = listed(&mut file, archive.central_directory_start()).ok_or_else(damaged)?;
+    let names = entry_names(&mut file, archive.central_directory_start()).ok_or_else(damaged)?;
     let mut known = BTreeSet::new();
     if let Some(twice) = names.iter().find(|name| !known.insert(*name)) {
         let name = String::from_utf8_lossy(twice);
@@ -76,7 +76,7 @@ pub(crate) fn unpack(from: &Path, copy: &mut PackageCopy) -> Result<()> {
 
 /// Returns the names in the central directory of a zip, which begins at `start`. Repeated names are kept. Stops after
 /// slightly more than [`MOST`] names.
-fn listed(file: &mut std::fs::File, start: u64) -> Option<Vec<Vec<u8>>> {
+fn entry_names(file: &mut std::fs::File, start: u64) -> Option<Vec<Vec<u8>>> {
     file.seek(SeekFrom::Start(start)).ok()?;
     let mut file = BufReader::new(file);
     let mut names = Vec::new();

@@ -6,11 +6,11 @@ use rusqlite::types::{ToSqlOutput, Value, ValueRef};
 use rusqlite::{CachedStatement, ToSql};
 
 use crate::blob;
-use crate::cell::{Cell, QueryAnswer};
+use crate::cell::{Cell, QueryAnswer, integer};
 use crate::connection::DatabaseLink;
-use crate::database::{AnswerColumn, PreparedStatement, StatementShape};
 use crate::errors;
 use crate::place;
+use crate::prepared_statement::{AnswerColumn, PreparedStatement, StatementShape};
 use crate::rewrite::SqlType;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result as BurgeonResult};
@@ -186,7 +186,7 @@ impl ToSql for Bound<'_> {
             Cell::Null => ToSqlOutput::Owned(Value::Null),
             Cell::Boolean(value) => ToSqlOutput::Owned(Value::Integer(i64::from(*value))),
             Cell::Number(number) => {
-                ToSqlOutput::Owned(whole(*number).map_or(Value::Real(*number), Value::Integer))
+                ToSqlOutput::Owned(integer(*number).map_or(Value::Real(*number), Value::Integer))
             }
             Cell::Text(text) => ToSqlOutput::Borrowed(ValueRef::Text(text.as_bytes())),
             Cell::List(_) => {
@@ -197,12 +197,6 @@ impl ToSql for Bound<'_> {
             }
         })
     }
-}
-
-/// Converts a number without a fraction to an integer, so that it can be used as a row count and in integer division.
-pub(crate) fn whole(number: f64) -> Option<i64> {
-    #[allow(clippy::cast_possible_truncation, reason = "the range is checked")]
-    (number.fract() == 0.0 && number.abs() <= 9_007_199_254_740_992.0).then_some(number as i64)
 }
 
 /// Converts a value from SQLite to a cell.
@@ -228,7 +222,9 @@ fn cell(
                     .help("bytes are taken as geometries; take hex(...) of others")
             })?;
             match (blob::foreign(bytes), frame) {
-                (Some(code), Some(frame)) => Cell::Geometry(Arc::new(place::entered(geometry, code, frame)?)),
+                (Some(code), Some(frame)) => {
+                    Cell::Geometry(Arc::new(place::enter_from(geometry, code, frame)?))
+                }
                 _ => Cell::Geometry(Arc::new(place::enter(geometry, frame))),
             }
         }

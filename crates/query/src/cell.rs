@@ -180,3 +180,9 @@ impl fmt::Display for QueryAnswer {
         Ok(())
     }
 }
+
+/// Converts a number without a fraction to an integer, so that it can be used as a row count and in integer division.
+pub(crate) fn integer(number: f64) -> Option<i64> {
+    #[allow(clippy::cast_possible_truncation, reason = "the range is checked")]
+    (number.fract() == 0.0 && number.abs() <= 9_007_199_254_740_992.0).then_some(number as i64)
+}

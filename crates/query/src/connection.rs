@@ -4,32 +4,26 @@
 //! before it runs a statement: only reading, and calling functions of a list are allowed.
 
 use std::cell::{Cell, RefCell};
-use std::collections::{BTreeMap, BTreeSet};
-use std::hash::BuildHasher as _;
-use std::panic::{AssertUnwindSafe, RefUnwindSafe, UnwindSafe};
-use std::sync::{Arc, Mutex, RwLock};
+use std::collections::BTreeSet;
+use std::panic::AssertUnwindSafe;
+use std::sync::Arc;
 
 use rusqlite::config::DbConfig;
 use rusqlite::hooks::{AuthAction, AuthContext, Authorization};
 use rusqlite::limits::Limit;
 use rusqlite::{Connection, OpenFlags, Statement};
-use rustc_hash::FxBuildHasher;
 
 use crate::errors::{self, TableError};
-use crate::functions::{self, GeometryArgument};
-use crate::index::SpatialIndex;
+use crate::functions::{self, ConnectionState, Indexes};
 use crate::rewrite::MadeTable;
+use crate::statement_text::quote_name;
 use crate::tables;
-use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 use burgeon_base::locks::LockRecovery;
 use burgeon_data::{PackageState, ReferenceFrame};
 
 /// Maximum length of a string or blob (bytes).
 const LONGEST: i32 = 200_000_000;
-
-/// Maximum length of a statement (bytes).
-pub(crate) const LONGEST_STATEMENT: usize = 200_000;
 
 /// Maximum number of files that are attached; others are copied.
 pub(crate) const MOST_FILES: usize = 8;
@@ -47,107 +41,6 @@ const STATEMENTS: usize = 64;
 
 /// Number of SQLite steps between two checks of the budget.
 const STEPS: i32 = 1000;
-
-/// The spatial indexes of all tables, by table and column.
-pub(crate) type Indexes = RwLock<BTreeMap<String, Arc<SpatialIndex>>>;
-
-/// The state that the functions of a connection share.
-pub(crate) struct ConnectionState {
-    /// Budget of the running statement.
-    budget: Mutex<Arc<Budget>>,
-    /// Indexes of the tables.
-    pub indexes: Arc<Indexes>,
-    /// Indexes of materialized subqueries.
-    pub own_indexes: Mutex<BTreeMap<String, Arc<SpatialIndex>>>,
-    /// Geometries that were read recently: an outer loop requests the same geometries repeatedly, and so do their
-    /// neighbours.
-    recent: Mutex<RecentGeometries>,
-    /// Last blob that is not a geometry.
-    unreadable: Mutex<Option<Vec<u8>>>,
-    /// Set while Burgeon runs its own statements.
-    trusted: Mutex<bool>,
-    /// Projection of the run, in whose coordinates the tables are.
-    pub frame: Option<ReferenceFrame>,
-    /// Clusters that the statement has computed so far, by row of a partition.
-    pub clusters: Mutex<Vec<Vec<Option<u32>>>>,
-}
-
-impl UnwindSafe for ConnectionState {}
-impl RefUnwindSafe for ConnectionState {}
-
-/// Number of small geometries that are cached, each at an index hashed from its bytes.
-const SMALL_GEOMETRIES: usize = 256;
-
-/// Maximum length (bytes) of a small geometry's blob.
-const LONGEST_SMALL: usize = 2048;
-
-/// A blob and the geometry read from it.
-type KeptGeometry = Option<(Vec<u8>, Arc<GeometryArgument>)>;
-
-#[derive(Default)]
-struct RecentGeometries {
-    /// Last two large geometries.
-    large: [KeptGeometry; 2],
-    next: usize,
-    small: Vec<KeptGeometry>,
-}
-
-impl RecentGeometries {
-    /// Returns the cache entry for a blob.
-    fn place(&mut self, bytes: &[u8]) -> &mut KeptGeometry {
-        if bytes.len() <= LONGEST_SMALL {
-            self.small.resize(SMALL_GEOMETRIES, None);
-            let hash = FxBuildHasher.hash_one(bytes);
-            #[allow(clippy::cast_possible_truncation, reason = "any of its bits will do")]
-            return &mut self.small[hash as usize % SMALL_GEOMETRIES];
-        }
-        let known = self.large.iter().position(|it| it.as_ref().is_some_and(|(known, _)| known == bytes));
-        let place = known.unwrap_or_else(|| {
-            self.next = (self.next + 1) % self.large.len();
-            self.next
-        });
-        &mut self.large[place]
-    }
-}
-
-impl ConnectionState {
-    /// Returns the budget of the running statement.
-    pub(crate) fn budget(&self) -> Arc<Budget> {
-        Arc::clone(&self.budget.lock().recover())
-    }
-
-    /// Sets the budget of the next statement.
-    pub(crate) fn give(&self, budget: &Arc<Budget>) {
-        *self.budget.lock().recover() = Arc::clone(budget);
-        self.clusters.lock().recover().clear();
-    }
-
-    /// Returns the geometry in a blob. Fails with the reason.
-    pub(crate) fn geometry(&self, bytes: &[u8]) -> Result<Arc<GeometryArgument>, String> {
-        let mut recent = self.recent.lock().recover();
-        let place = recent.place(bytes);
-        if let Some((_, parsed)) = place.as_ref().filter(|(known, _)| known == bytes) {
-            return Ok(Arc::clone(parsed));
-        }
-        let read = GeometryArgument::read(bytes, &self.budget());
-        let parsed = Arc::new(read.inspect_err(|_| self.keep_unreadable(bytes))?);
-        *place = Some((bytes.to_vec(), Arc::clone(&parsed)));
-        Ok(parsed)
-    }
-
-    /// Stores a blob that is not a geometry, so that an error can name its row, if there is memory for it.
-    pub(crate) fn keep_unreadable(&self, bytes: &[u8]) {
-        if self.budget().hold(bytes.len()).is_err() {
-            return;
-        }
-        *self.unreadable.lock().recover() = Some(bytes.to_vec());
-    }
-
-    /// Takes the last blob that is not a geometry.
-    pub(crate) fn take_unreadable(&self) -> Option<Vec<u8>> {
-        self.unreadable.lock().recover().take()
-    }
-}
 
 /// A connection and the state of its functions.
 pub(crate) struct DatabaseLink {
@@ -218,20 +111,11 @@ impl DatabaseLink {
             connection.execute(&format!("ATTACH ?1 AS {schema}"), [state.address()])?;
         }
         for TableView { name, schema, table } in views {
-            let (name, table) = (quoted(name), quoted(table));
+            let (name, table) = (quote_name(name), quote_name(table));
             connection
                 .execute_batch(&format!("CREATE TEMP VIEW {name} AS SELECT * FROM {schema}.{table}"))?;
         }
-        let state = Arc::new(ConnectionState {
-            budget: Mutex::default(),
-            indexes: Arc::clone(indexes),
-            own_indexes: Mutex::default(),
-            recent: Mutex::default(),
-            unreadable: Mutex::default(),
-            trusted: Mutex::new(false),
-            frame: frame.cloned(),
-            clusters: Mutex::default(),
-        });
+        let state = Arc::new(ConnectionState::new(indexes, frame));
         functions::register(&connection, &state)?;
         rusqlite::vtab::array::load_module(&connection)?;
         lock(&mut connection, &state)?;
@@ -251,13 +135,13 @@ impl DatabaseLink {
         if self.makes_indexes.get() == Some(on) {
             return Ok(());
         }
-        let done = self.trusted(|connection| connection.pragma_update(None, "automatic_index", on));
+        let done = self.run_trusted(|connection| connection.pragma_update(None, "automatic_index", on));
         self.makes_indexes.set(done.is_ok().then_some(on));
         done
     }
 
     /// Runs `work` with operations that scripts' statements may not perform.
-    fn trusted<T>(&self, work: impl FnOnce(&Connection) -> T) -> T {
+    fn run_trusted<T>(&self, work: impl FnOnce(&Connection) -> T) -> T {
         *self.state.trusted.lock().recover() = true;
         let done = work(&self.connection);
         *self.state.trusted.lock().recover() = false;
@@ -280,10 +164,10 @@ impl DatabaseLink {
             kept.iter().try_for_each(|name| self.unmake(name))?;
         }
         self.unmake(&info.name)?;
-        let columns: Vec<String> = info.columns.iter().skip(1).map(|name| quoted(name)).collect();
-        let (name, key) = (quoted(&info.name), quoted(info.key.as_deref().unwrap_or_default()));
+        let columns: Vec<String> = info.columns.iter().skip(1).map(|name| quote_name(name)).collect();
+        let (name, key) = (quote_name(&info.name), quote_name(info.key.as_deref().unwrap_or_default()));
         let columns = columns.join(", ");
-        self.trusted(|connection| -> std::result::Result<(), E> {
+        self.run_trusted(|connection| -> std::result::Result<(), E> {
             connection
                 .execute_batch(&format!("CREATE TEMP TABLE {name} ({key} INTEGER PRIMARY KEY, {columns})"))?;
             let sql = format!("INSERT INTO temp.{name} ({columns}) {}", made.sql);
@@ -320,8 +204,8 @@ impl DatabaseLink {
     fn unmake(&self, name: &str) -> rusqlite::Result<()> {
         let prefix = format!("{name}.");
         self.state.own_indexes.lock().recover().retain(|index, _| !index.starts_with(&prefix));
-        self.trusted(|connection| {
-            connection.execute_batch(&format!("DROP TABLE IF EXISTS temp.{}", quoted(name)))
+        self.run_trusted(|connection| {
+            connection.execute_batch(&format!("DROP TABLE IF EXISTS temp.{}", quote_name(name)))
         })
     }
 
@@ -330,7 +214,7 @@ impl DatabaseLink {
         if !self.files.iter().any(|file| file.state.is_locked()) {
             return Ok(());
         }
-        self.trusted(|connection| {
+        self.run_trusted(|connection| {
             connection.execute_batch("BEGIN").map_err(|error| errors::internal(&error))?;
             let pinned = self.files.iter().try_for_each(|file| file.state.pin(connection, &file.schema));
             pinned.inspect_err(|_| drop(connection.execute_batch("COMMIT")))
@@ -341,7 +225,7 @@ impl DatabaseLink {
     /// meantime.
     pub(crate) fn unpin(&self) -> Result<()> {
         if !self.connection.is_autocommit() {
-            let ended = self.trusted(|connection| connection.execute_batch("COMMIT"));
+            let ended = self.run_trusted(|connection| connection.execute_batch("COMMIT"));
             ended.map_err(|error| errors::internal(&error))?;
         }
         self.files.iter().try_for_each(|file| file.state.check())
@@ -357,7 +241,7 @@ fn lock(connection: &mut Connection, state: &Arc<ConnectionState>) -> rusqlite::
     #[allow(clippy::cast_possible_wrap, clippy::cast_possible_truncation, reason = "a constant")]
     for (limit, most) in [
         (Limit::SQLITE_LIMIT_LENGTH, LONGEST),
-        (Limit::SQLITE_LIMIT_SQL_LENGTH, 4 * LONGEST_STATEMENT as i32),
+        (Limit::SQLITE_LIMIT_SQL_LENGTH, 4 * errors::LONGEST_STATEMENT as i32),
         (Limit::SQLITE_LIMIT_LIKE_PATTERN_LENGTH, 1000),
         (Limit::SQLITE_LIMIT_EXPR_DEPTH, 200),
         (Limit::SQLITE_LIMIT_ATTACHED, 0),
@@ -397,9 +281,4 @@ fn lock(connection: &mut Connection, state: &Arc<ConnectionState>) -> rusqlite::
             _ => Authorization::Deny,
         }
     }))
-}
-
-/// Quotes a name for a statement.
-pub(crate) fn quoted(name: &str) -> String {
-    format!("\"{}\"", name.replace('"', "\"\""))
 }

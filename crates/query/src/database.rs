@@ -10,10 +10,13 @@ use rustc_hash::FxHashMap;
 
 use crate::ask;
 use crate::cell::{Cell, QueryAnswer};
-use crate::connection::{AttachedFile, DatabaseLink, Indexes, MOST_FILES, TableView, open_memory, quoted};
+use crate::connection::{AttachedFile, DatabaseLink, MOST_FILES, TableView, open_memory};
 use crate::errors;
-use crate::rewrite::{self, Catalogue, Dialect, RewrittenQuery, TableInfo};
+use crate::functions::Indexes;
+use crate::prepared_statement::PreparedStatement;
+use crate::rewrite::{self, Catalogue, Dialect, TableInfo};
 use crate::row_table::RowTable;
+use crate::statement_text::quote_name;
 use crate::tables::{self, FileLayer};
 use burgeon_base::WorkWithin;
 use burgeon_base::budget::Budget;
@@ -75,37 +78,6 @@ struct TableSet {
 
 /// Origin of tables of rows.
 const ROWS: &str = "rows";
-
-/// A statement that is prepared for running.
-pub(crate) struct PreparedStatement {
-    /// Statement as written.
-    pub original: String,
-    /// Rewritten statement, if the original could be parsed.
-    pub rewritten: Option<RewrittenQuery>,
-    /// Columns and parameters, computed when the statement first runs.
-    pub shape: OnceLock<StatementShape>,
-}
-
-/// The type of a column that SQLite stores differently.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum AnswerColumn {
-    /// Value as SQLite stores it.
-    Plain,
-    /// Boolean, stored as 1 or 0.
-    Boolean,
-    /// List, stored as JSON.
-    List,
-}
-
-/// The columns and parameters of a statement.
-pub(crate) struct StatementShape {
-    /// Names of the columns.
-    pub names: Arc<[String]>,
-    /// Types of the columns.
-    pub kinds: Vec<AnswerColumn>,
-    /// Names of the parameters, by number.
-    pub parameters: Vec<Option<String>>,
-}
 
 /// Reports whether a statement names a table.
 pub fn names_table(sql: &str, table: &str) -> bool {
@@ -221,9 +193,9 @@ impl Database {
         let mut tables = self.tables.write().recover();
         tables.remove_rows(&table.name, &self.writer.lock().recover(), budget)?;
         tables.is_there(&table.name, ROWS)?;
-        let before = budget.taken();
+        let before = budget.used_bytes();
         let info = table.write(&self.writer.lock().recover(), self.frame.as_ref(), budget)?;
-        tables.memory.insert(info.name.to_ascii_lowercase(), budget.taken().saturating_sub(before));
+        tables.memory.insert(info.name.to_ascii_lowercase(), budget.used_bytes().saturating_sub(before));
         let prefix = format!("{}.", info.name);
         self.indexes.write().recover().retain(|index, _| !index.starts_with(&prefix));
         tables.add(info, ROWS.to_owned());
@@ -240,7 +212,7 @@ impl Database {
         parameters: &[(&str, Cell)],
         budget: &Arc<Budget>,
     ) -> Result<Arc<QueryAnswer>> {
-        self.asked(sql, budget, |link, prepared| {
+        self.run_statement(sql, budget, |link, prepared| {
             ask::rows(link, prepared, parameters, self.frame.as_ref(), budget)
         })
     }
@@ -253,7 +225,7 @@ impl Database {
         parameters: &[(&str, Cell)],
         budget: &Arc<Budget>,
     ) -> Result<Arc<QueryAnswer>> {
-        self.asked(sql, budget, |link, _| {
+        self.run_statement(sql, budget, |link, _| {
             let prepared =
                 PreparedStatement { original: sql.to_owned(), rewritten: None, shape: OnceLock::new() };
             ask::rows(link, &prepared, parameters, self.frame.as_ref(), budget)
@@ -262,10 +234,10 @@ impl Database {
 
     /// Returns SQLite's query plan of the rewritten statement, one line per step.
     pub fn plan(&self, sql: &str, budget: &Arc<Budget>) -> Result<String> {
-        self.asked(sql, budget, ask::plan)
+        self.run_statement(sql, budget, ask::plan)
     }
 
-    fn asked<T>(
+    fn run_statement<T>(
         &self,
         sql: &str,
         budget: &Arc<Budget>,
@@ -275,7 +247,7 @@ impl Database {
         let link = self.link(budget.memory())?;
         link.state.give(budget);
         link.pin()?;
-        let prepared = self.prepared(sql, &link, budget)?;
+        let prepared = self.prepare(sql, &link, budget)?;
         link.state.take_unreadable();
         let within = WorkWithin::begin(budget);
         let done = work(&link, &prepared);
@@ -326,7 +298,7 @@ impl Database {
     }
 
     /// Returns the prepared statement, and builds all indexes that it needs.
-    fn prepared(
+    fn prepare(
         &self,
         sql: &str,
         link: &DatabaseLink,
@@ -411,7 +383,7 @@ impl TableSet {
         self.generation += 1;
         budget.give(self.memory.remove(&key).unwrap_or_default());
         writer
-            .execute_batch(&format!("DROP TABLE IF EXISTS {}", quoted(&known)))
+            .execute_batch(&format!("DROP TABLE IF EXISTS {}", quote_name(&known)))
             .map_err(|error| errors::internal(&error))
     }
 

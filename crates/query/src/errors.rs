@@ -3,11 +3,14 @@
 use rusqlite::ffi::ErrorCode;
 
 use crate::cell::Cell;
-use crate::connection::LONGEST_STATEMENT;
 use crate::functions;
 use crate::rewrite::{self, Catalogue};
+use crate::statement_text::describe_position;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::text::{listed, shown};
+
+/// Maximum length of a statement (bytes).
+pub(crate) const LONGEST_STATEMENT: usize = 200_000;
 
 /// Creates the error for a failure of Burgeon's own use of SQLite.
 pub(crate) fn internal(error: &rusqlite::Error) -> Error {
@@ -55,20 +58,13 @@ pub(crate) fn check_length(sql: &str) -> Result<()> {
         return Err(Error::syntax("the statement is empty").help("write query(\"SELECT ... FROM ...\")"));
     }
     match rewrite::second_statement(sql) {
-        Some(place) => {
-            Err(Error::syntax(format!("SQL, {}: there is more than one statement", at(sql, place)))
-                .help("ask one question at a time; values are handed over as parameters: $name"))
-        }
+        Some(place) => Err(Error::syntax(format!(
+            "SQL, {}: there is more than one statement",
+            describe_position(sql, place)
+        ))
+        .help("ask one question at a time; values are handed over as parameters: $name")),
         None => Ok(()),
     }
-}
-
-/// Describes a position, such as `line 1, column 8`.
-pub(crate) fn at(sql: &str, offset: usize) -> String {
-    let before = sql.get(..offset).unwrap_or(sql);
-    let line = before.matches('\n').count() + 1;
-    let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
-    format!("line {line}, column {column}")
 }
 
 /// Returns true if SQLite could not parse a statement.
@@ -93,7 +89,7 @@ pub(crate) fn statement_error(error: &rusqlite::Error, sql: &str, catalogue: &Ca
     let text = words(error);
     let code = error.sqlite_error_code();
     if code == Some(ErrorCode::AuthorizationForStatementDenied) || text.starts_with(NOT_ALLOWED) {
-        return refused(&text, sql);
+        return refusal(&text, sql);
     }
     let named = |prefix: &str| text.strip_prefix(prefix).map(|rest| rest.trim().trim_matches('"').to_owned());
     let offset = match error {
@@ -150,7 +146,7 @@ pub(crate) fn statement_error(error: &rusqlite::Error, sql: &str, catalogue: &Ca
             let offset = if at_end { Some(sql.trim_end().len()) } else { offset };
             format!(
                 "SQL{}: {text}",
-                offset.map_or_else(String::new, |offset| format!(", {}", at(sql, offset)))
+                offset.map_or_else(String::new, |offset| format!(", {}", describe_position(sql, offset)))
             )
         }
     };
@@ -166,7 +162,7 @@ pub(crate) fn statement_error(error: &rusqlite::Error, sql: &str, catalogue: &Ca
         Some(ErrorCode::DatabaseCorrupt | ErrorCode::NotADatabase | ErrorCode::SystemIoFailure) => {
             Error::data(what).help("a file is damaged or cut short; get it again")
         }
-        Some(ErrorCode::OperationInterrupted) => Error::stopped(what),
+        Some(ErrorCode::OperationInterrupted) => Error::cancellation(what),
         _ if is_syntax(error) => {
             Error::syntax(what).help("write SQL as SQLite takes it: SELECT ... FROM ... WHERE ...")
         }
@@ -181,7 +177,7 @@ const NOT_ALLOWED: &str = "not authorized to use function: ";
 /// Start of SQLite's message about a column that may not be read.
 const NOT_READ: &str = "access to ";
 
-fn refused(text: &str, sql: &str) -> Error {
+fn refusal(text: &str, sql: &str) -> Error {
     if let Some(column) = text.strip_prefix(NOT_READ).and_then(|rest| rest.strip_suffix(" is prohibited")) {
         let table = column.rsplit_once('.').map_or(column, |(table, _)| table);
         let table = table.rsplit('.').next().unwrap_or(table);
@@ -208,7 +204,7 @@ pub(crate) fn only_reading() -> Error {
 /// Describes the position of a name in a statement, if known, as the start of a message.
 fn place(sql: &str, offset: Option<usize>, name: &str) -> String {
     match offset.or_else(|| rewrite::find_word(sql, name)) {
-        Some(offset) => format!("SQL, {}: ", at(sql, offset)),
+        Some(offset) => format!("SQL, {}: ", describe_position(sql, offset)),
         None => "SQL: ".to_owned(),
     }
 }
@@ -231,7 +227,7 @@ pub(crate) fn parameter<'a>(sql: &str, name: Option<&str>, given: &'a [(&str, Ce
     }
     let offset = rewrite::find_word(sql, &format!("${own}"));
     let known: Vec<&str> = given.iter().map(|(name, _)| *name).collect();
-    let place = offset.map_or_else(String::new, |offset| format!(", {}", at(sql, offset)));
+    let place = offset.map_or_else(String::new, |offset| format!(", {}", describe_position(sql, offset)));
     let message = format!("SQL{place}: ${} has no value", shown(own));
     let help = match known.is_empty() {
         true => format!("hand one over: query(sql, {{ {} = ... }})", shown(own)),

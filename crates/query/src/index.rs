@@ -139,7 +139,7 @@ impl SpatialIndex {
 
     /// Returns the keys of rows whose boxes are within `distance` of the box of a geometry, or of the rows without a
     /// geometry if `bounds` is `None`.
-    pub(crate) fn near(&self, bounds: Option<[f64; 4]>, distance: f64) -> Vec<i64> {
+    pub(crate) fn keys_near(&self, bounds: Option<[f64; 4]>, distance: f64) -> Vec<i64> {
         let Some([low_x, low_y, high_x, high_y]) = bounds else { return self.without.clone() };
         let most = distance + 1e-12 * distance.abs() + 4.0 * self.slack;
         if most.is_nan() || most < 0.0 {
@@ -159,7 +159,7 @@ impl SpatialIndex {
     /// them. Rows without a geometry are farther than all others. If `from` is empty, all rows are at the same
     /// distance.
     pub(crate) fn nearest(&self, from: &geo::Geometry<f64>, count: usize) -> Vec<i64> {
-        let mut rows = self.measured(from, count);
+        let mut rows = self.candidates(from, count);
         rows.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
         let farthest =
             rows.get(count.saturating_sub(1)).map_or(f64::INFINITY, |row| row.1 * (1.0 + 1e-12) + self.slack);
@@ -177,7 +177,8 @@ impl SpatialIndex {
         let best = asked.and_then(|(lines, from)| {
             let first = lines.tree.nearest_neighbor(&from.middle())?;
             let mut best = (from.distance(&first.line, f64::INFINITY), self.keys[first.row as usize]);
-            for segment in lines.tree.locate_in_envelope_intersecting(&from.around(best.0 + self.slack)) {
+            for segment in lines.tree.locate_in_envelope_intersecting(&from.expanded_box(best.0 + self.slack))
+            {
                 let far = from.distance(&segment.line, best.0);
                 let key = self.keys[segment.row as usize];
                 if far < best.0 || far <= best.0 && key < best.1 {
@@ -208,7 +209,7 @@ impl SpatialIndex {
     }
 
     /// Returns the rows that may be among the `count` nearest, with their distances.
-    fn measured(&self, from: &geo::Geometry<f64>, count: usize) -> Vec<(i64, f64)> {
+    fn candidates(&self, from: &geo::Geometry<f64>, count: usize) -> Vec<(i64, f64)> {
         let (Some(lines), Some(from)) = (&self.lines, NearestFrom::new(from)) else { return Vec::new() };
         // The rows nearest to the centre give an upper bound of the distance.
         let mut found: Vec<(u32, f64)> = Vec::new();
@@ -231,7 +232,7 @@ impl SpatialIndex {
             let known = nearest.entry(row).or_insert(f64::INFINITY);
             *known = known.min(far);
         };
-        for segment in lines.tree.locate_in_envelope_intersecting(&from.around(bound)) {
+        for segment in lines.tree.locate_in_envelope_intersecting(&from.expanded_box(bound)) {
             let far = from.distance(&segment.line, bound);
             if far <= bound {
                 best(segment.row, far);
@@ -286,7 +287,7 @@ impl<'a> NearestFrom<'a> {
     }
 
     /// Returns the box of all points within `reach`.
-    fn around(&self, reach: f64) -> AABB<[f64; 2]> {
+    fn expanded_box(&self, reach: f64) -> AABB<[f64; 2]> {
         let reach = if reach.is_finite() { reach } else { f64::MAX / 4.0 };
         let ([west, south], [east, north]) = (self.bounds.lower(), self.bounds.upper());
         AABB::from_corners([west - reach, south - reach], [east + reach, north + reach])
@@ -294,7 +295,7 @@ impl<'a> NearestFrom<'a> {
 
     /// Returns the distance to a line, or any number above `most` if it is farther.
     fn distance(&self, line: &Line<f64>, most: f64) -> f64 {
-        let own = boxed(line);
+        let own = line_box(line);
         if square_box_distance(&self.bounds, &own) > most * most {
             return f64::INFINITY;
         }
@@ -302,7 +303,7 @@ impl<'a> NearestFrom<'a> {
         let mut least = most * most * (1.0 + 4.0 * f64::EPSILON);
         let mut found = f64::INFINITY;
         for each in &self.lines {
-            let apart = square_box_distance(&boxed(each), &own);
+            let apart = square_box_distance(&line_box(each), &own);
             if apart <= least {
                 if apart == 0.0 && each.intersects(line) {
                     return 0.0;
@@ -351,7 +352,7 @@ fn lines(geometry: &geo::Geometry<f64>) -> Vec<Line<f64>> {
     }
 }
 
-fn boxed(line: &Line<f64>) -> AABB<[f64; 2]> {
+fn line_box(line: &Line<f64>) -> AABB<[f64; 2]> {
     AABB::from_corners(line.start.into(), line.end.into())
 }
 

@@ -20,8 +20,10 @@ mod place;
 mod plane;
 #[cfg(feature = "postgis")]
 pub mod postgis;
+mod prepared_statement;
 mod rewrite;
 mod row_table;
+mod statement_text;
 mod tables;
 #[cfg(test)]
 mod tests;

@@ -6,16 +6,16 @@ use burgeon_spatial::Geometry;
 
 /// Converts a geometry from the projection's coordinates to the run's.
 pub(crate) fn enter(geometry: Geometry, frame: Option<&ReferenceFrame>) -> Geometry {
-    shifted(geometry, frame, -1.0)
+    shift(geometry, frame, -1.0)
 }
 
 /// Converts a geometry from the run's coordinates to the projection's.
 pub(crate) fn leave(geometry: &Geometry, frame: Option<&ReferenceFrame>) -> Geometry {
-    shifted(geometry.clone(), frame, 1.0)
+    shift(geometry.clone(), frame, 1.0)
 }
 
 /// Converts a geometry from a reference system to the run's coordinates. Fails if it has no position there.
-pub(crate) fn entered(mut geometry: Geometry, code: u32, frame: &ReferenceFrame) -> Result<Geometry> {
+pub(crate) fn enter_from(mut geometry: Geometry, code: u32, frame: &ReferenceFrame) -> Result<Geometry> {
     let crs = Crs::epsg(code)?;
     let passage = frame.passage(&crs)?;
     for point in geometry.points_mut() {
@@ -30,14 +30,14 @@ pub(crate) fn entered(mut geometry: Geometry, code: u32, frame: &ReferenceFrame)
 
 /// Transforms a geometry to another reference system. `None` is the run's projection. Fails if it has no position
 /// there.
-pub(crate) fn transformed(
+pub(crate) fn transform(
     geometry: &Geometry,
     from: Option<u32>,
     to: Option<u32>,
     frame: &ReferenceFrame,
 ) -> Result<Geometry> {
     let mut geometry = match from {
-        Some(code) => entered(geometry.clone(), code, frame)?,
+        Some(code) => enter_from(geometry.clone(), code, frame)?,
         None => enter(geometry.clone(), Some(frame)),
     };
     let Some(code) = to else { return Ok(leave(&geometry, Some(frame))) };
@@ -53,7 +53,7 @@ pub(crate) fn transformed(
         .help("check its reference system: ST_SetSRID and ST_Transform take EPSG's codes"))
 }
 
-fn shifted(mut geometry: Geometry, frame: Option<&ReferenceFrame>, sign: f64) -> Geometry {
+fn shift(mut geometry: Geometry, frame: Option<&ReferenceFrame>, sign: f64) -> Geometry {
     if let Some(frame) = frame {
         for point in geometry.points_mut() {
             point.x += sign * frame.origin[0];
@@ -70,7 +70,7 @@ pub(crate) struct Move<'a>(Option<burgeon_data::Passage<'a>>);
 #[cfg(feature = "postgis")]
 impl<'a> Move<'a> {
     /// Returns the identity transformation.
-    pub(crate) fn nowhere() -> Self {
+    pub(crate) fn identity() -> Self {
         Self(None)
     }
 
@@ -81,15 +81,15 @@ impl<'a> Move<'a> {
 
     /// Converts a value from the server's coordinates to the run's.
     pub(crate) fn bring_in(&self, cell: crate::Cell) -> crate::Cell {
-        self.moved(cell, |passage, at| passage.enter(at))
+        self.move_points(cell, |passage, at| passage.enter(at))
     }
 
     /// Converts a value from the run's coordinates to the server's.
     pub(crate) fn bring_out(&self, cell: crate::Cell) -> crate::Cell {
-        self.moved(cell, |passage, at| passage.leave(at))
+        self.move_points(cell, |passage, at| passage.leave(at))
     }
 
-    fn moved(
+    fn move_points(
         &self,
         cell: crate::Cell,
         way: impl Fn(&burgeon_data::Passage<'_>, [f64; 2]) -> [f64; 2],

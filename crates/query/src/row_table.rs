@@ -5,13 +5,12 @@ use std::sync::Arc;
 use rusqlite::Connection;
 use rusqlite::types::Value;
 
-use crate::ask::whole;
 use crate::blob;
-use crate::cell::Cell;
-use crate::connection::quoted;
+use crate::cell::{Cell, integer};
 use crate::errors;
 use crate::place;
 use crate::rewrite::{SqlType, TableInfo};
+use crate::statement_text::quote_name;
 use crate::tables::{free, write};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
@@ -43,7 +42,7 @@ impl RowTable {
         }
         let kinds: Vec<&'static str> = (0..self.columns.len()).map(|column| self.kind(column)).collect();
         let mut declared: Vec<String> =
-            names.iter().zip(&kinds).map(|(name, kind)| format!("{} {kind}", quoted(name))).collect();
+            names.iter().zip(&kinds).map(|(name, kind)| format!("{} {kind}", quote_name(name))).collect();
         if declared.is_empty() {
             // SQLite requires at least one column.
             declared.push("\"present\" BOOLEAN".to_owned());
@@ -68,7 +67,7 @@ impl RowTable {
             name: self.name.clone(),
             key: key.map(str::to_owned),
             geometries: geometries.map(|(name, _)| name.clone()).collect(),
-            kinds: kinds.iter().map(|kind| SqlType::declared(kind)).collect(),
+            kinds: kinds.iter().map(|kind| SqlType::from_declaration(kind)).collect(),
             columns: names,
             rows: count,
             ..TableInfo::default()
@@ -82,7 +81,7 @@ impl RowTable {
             let kind = match cell {
                 Cell::Null | Cell::List(_) => continue,
                 Cell::Boolean(_) => "BOOLEAN",
-                Cell::Number(number) if whole(*number).is_some() => "INTEGER",
+                Cell::Number(number) if integer(*number).is_some() => "INTEGER",
                 Cell::Number(_) => "REAL",
                 Cell::Text(_) => "TEXT",
                 Cell::Geometry(_) => GEOMETRY,
@@ -107,7 +106,7 @@ fn value(cell: &Cell, frame: Option<&ReferenceFrame>) -> Value {
     match cell {
         Cell::Null | Cell::List(_) => Value::Null,
         Cell::Boolean(value) => Value::Integer(i64::from(*value)),
-        Cell::Number(number) => whole(*number).map_or(Value::Real(*number), Value::Integer),
+        Cell::Number(number) => integer(*number).map_or(Value::Real(*number), Value::Integer),
         Cell::Text(text) => Value::Text(text.to_string()),
         Cell::Geometry(geometry) => Value::Blob(blob::write(&place::leave(geometry, frame))),
     }

@@ -8,10 +8,10 @@ use rusqlite::types::Value;
 use rusqlite::{Connection, params_from_iter};
 
 use crate::blob;
-use crate::connection::quoted;
 use crate::errors::{self, TableError};
 use crate::index::{IndexBuilder, SpatialIndex};
 use crate::rewrite::{SqlType, TableInfo};
+use crate::statement_text::quote_name;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
@@ -36,7 +36,7 @@ pub(crate) fn index(
     let Some(key) = &table.key else {
         return Err(Error::internal("a table without keys has no index").into());
     };
-    let sql = format!("SELECT {}, {} FROM {}", quoted(key), quoted(column), quoted(&table.name));
+    let sql = format!("SELECT {}, {} FROM {}", quote_name(key), quote_name(column), quote_name(&table.name));
     let mut statement = connection.prepare(&sql)?;
     let mut rows = statement.raw_query();
     let mut builder = IndexBuilder::new(nearest);
@@ -50,8 +50,12 @@ pub(crate) fn index(
 pub(crate) fn row_of(connection: &Connection, table: &TableInfo, bytes: &[u8]) -> Option<String> {
     let key = table.key.as_deref()?;
     table.geometries.iter().find_map(|column| {
-        let sql =
-            format!("SELECT {} FROM {} WHERE {} = ?1", quoted(key), quoted(&table.name), quoted(column));
+        let sql = format!(
+            "SELECT {} FROM {} WHERE {} = ?1",
+            quote_name(key),
+            quote_name(&table.name),
+            quote_name(column)
+        );
         let row: Value = connection.query_row(&sql, [bytes], |row| row.get(0)).ok()?;
         let row = match row {
             Value::Integer(number) => number.to_string(),
@@ -81,7 +85,7 @@ impl FileLayer {
         let info = TableInfo {
             name: layer.to_owned(),
             columns: shape.columns.iter().map(|(name, _)| name.clone()).collect(),
-            kinds: shape.columns.iter().map(|(_, kind)| SqlType::declared(kind)).collect(),
+            kinds: shape.columns.iter().map(|(_, kind)| SqlType::from_declaration(kind)).collect(),
             geometries: vec![shape.geometry],
             key: shape.key,
             rows: shape.rows,
@@ -126,8 +130,8 @@ impl FileLayer {
         };
         let geometry = &self.info.geometries[0];
         let key = self.info.key.clone().unwrap_or_else(|| free("fid", &self.info.columns));
-        let mut columns = vec![format!("{} INTEGER PRIMARY KEY", quoted(&key))];
-        let mut read = vec![self.info.key.as_deref().map_or_else(|| "NULL".to_owned(), quoted)];
+        let mut columns = vec![format!("{} INTEGER PRIMARY KEY", quote_name(&key))];
+        let mut read = vec![self.info.key.as_deref().map_or_else(|| "NULL".to_owned(), quote_name)];
         let mut names = vec![key.clone()];
         for (column, kind) in self.kinds.iter().filter(|(column, _)| *column != key).take(MOST_COLUMNS) {
             // A custom type name would change the affinity of the column, and so the comparisons.
@@ -140,8 +144,8 @@ impl FileLayer {
                 "DOUBLE" | "FLOAT" => "REAL",
                 _ => "BLOB",
             });
-            columns.push(format!("{} {kind}", quoted(column)));
-            read.push(quoted(column));
+            columns.push(format!("{} {kind}", quote_name(column)));
+            read.push(quote_name(column));
             names.push(column.clone());
         }
         let position = names.iter().position(|known| known == geometry);
@@ -150,8 +154,11 @@ impl FileLayer {
             let mut source = self.state.connect()?;
             let clock = Arc::clone(budget);
             source.progress_handler(1000, Some(move || clock.check().is_err()))?;
-            let mut statement =
-                source.prepare(&format!("SELECT {} FROM {}", read.join(", "), quoted(&self.info.name)))?;
+            let mut statement = source.prepare(&format!(
+                "SELECT {} FROM {}",
+                read.join(", "),
+                quote_name(&self.info.name)
+            ))?;
             let mut rows = statement.raw_query();
             write(writer, name, &columns, budget, || {
                 let Some(row) = rows.next()? else { return Ok(None) };
@@ -194,7 +201,7 @@ impl FileLayer {
 
 /// Returns the type of a column declaration, which starts with the name in quotes.
 fn kind_of(column: &str) -> SqlType {
-    SqlType::declared(column.rsplit('"').next().unwrap_or_default())
+    SqlType::from_declaration(column.rsplit('"').next().unwrap_or_default())
 }
 
 /// Returns a name that is not in `taken`, ignoring case.
@@ -226,7 +233,7 @@ pub(crate) fn write_layer(
     let key = free("fid", &taken);
     let geometry = free("geom", &taken);
     let kinds = kinds(layer);
-    let mut columns = vec![format!("{} INTEGER PRIMARY KEY", quoted(&key))];
+    let mut columns = vec![format!("{} INTEGER PRIMARY KEY", quote_name(&key))];
     let mut names = vec![key.clone()];
     if !has_id {
         columns.push("\"id\" TEXT".into());
@@ -234,11 +241,11 @@ pub(crate) fn write_layer(
     }
     for (column, kind) in attributes.iter().zip(kinds) {
         if let Some(column) = column {
-            columns.push(format!("{} {kind}", quoted(column)));
+            columns.push(format!("{} {kind}", quote_name(column)));
             names.push(column.clone());
         }
     }
-    columns.push(format!("{} BLOB", quoted(&geometry)));
+    columns.push(format!("{} BLOB", quote_name(&geometry)));
     names.push(geometry.clone());
     let declared = columns.iter().map(|column| kind_of(column)).collect();
     let [x, y] = layer.origin;
@@ -313,9 +320,9 @@ pub(crate) fn write(
 ) -> std::result::Result<usize, TableError> {
     writer.busy_timeout(PATIENCE)?;
     let transaction = writer.unchecked_transaction()?;
-    transaction.execute_batch(&format!("CREATE TABLE {} ({})", quoted(name), columns.join(", ")))?;
+    transaction.execute_batch(&format!("CREATE TABLE {} ({})", quote_name(name), columns.join(", ")))?;
     let marks = vec!["?"; columns.len()].join(", ");
-    let mut insert = transaction.prepare(&format!("INSERT INTO {} VALUES ({marks})", quoted(name)))?;
+    let mut insert = transaction.prepare(&format!("INSERT INTO {} VALUES ({marks})", quote_name(name)))?;
     let mut count = 0;
     while let Some(values) = next()? {
         budget.tick()?;

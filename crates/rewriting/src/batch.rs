@@ -7,8 +7,8 @@ use crate::key::ModuleKey;
 use crate::links::Links;
 use crate::matching::{Bindings, ContextMatcher};
 use crate::output::Output;
+use crate::plan::StepPlan;
 use crate::rules::{Applications, RuleFailure, Rules};
-use crate::step::StepPlan;
 use crate::successors::{ModuleOrder, Successors};
 use crate::text::module_brief;
 use burgeon_base::error::{Error, Result};
@@ -62,7 +62,7 @@ impl Batch<'_> {
         scratch.groups.resize_with(rules, Successors::default);
         self.choose(piece, scratch)?;
         self.apply(scratch)?;
-        let applied = if self.plan.traced { self.applied(piece, scratch) } else { Vec::new() };
+        let applied = if self.plan.traced { self.applied_rules(piece, scratch) } else { Vec::new() };
         Ok(Output { applied, ..self.splice(piece, scratch, spare) })
     }
 

@@ -75,7 +75,7 @@ impl Chain {
 
     /// Returns only the chain at `index`; empty if there is no such chain.
     #[must_use]
-    pub fn only(&self, index: usize, arities: &[u8]) -> Self {
+    pub fn single_chain(&self, index: usize, arities: &[u8]) -> Self {
         let starts = self.starts(arities);
         let [Some(begin), Some(end)] = [starts.get(index), starts.get(index + 1)] else {
             return Self::default();

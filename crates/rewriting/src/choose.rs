@@ -63,12 +63,12 @@ impl Batch<'_> {
                 }
             }
         }
-        self.chosen(&candidates, module)
+        self.choose_rule(&candidates, module)
     }
 
     /// Returns the rule to apply to `module`, or [`NO_RULE`].
     #[inline]
-    fn chosen(&self, candidates: &Candidates, module: usize) -> u16 {
+    fn choose_rule(&self, candidates: &Candidates, module: usize) -> u16 {
         candidates.choose(|| self.chain.keys[module].stream()).unwrap_or(NO_RULE)
     }
 
@@ -111,7 +111,7 @@ impl Batch<'_> {
             }
             for (index, candidates) in members.iter().zip(&candidates) {
                 let active = &mut scratch.active[*index as usize];
-                active.rule = self.chosen(candidates, active.module as usize);
+                active.rule = self.choose_rule(candidates, active.module as usize);
             }
         }
         first.map_or(Ok(()), |(_, error)| Err(error))

@@ -8,8 +8,9 @@ use crate::grammar::{Grammar, MOST_RULES, Rule};
 use crate::key::ModuleKey;
 use crate::pattern::Pattern;
 use crate::phases::{Phase, PhaseOutcome, Phases, derive};
+use crate::plan::StepPlan;
 use crate::rules::{Applications, RuleFailure, Rules};
-use crate::step::{NoHelpers, StepPlan, Stepper};
+use crate::step::{NoHelpers, Stepper};
 use crate::successors::Successors;
 use crate::symbols::{Signature, Symbols};
 use crate::text::{PlainNumbers, chain_text};
@@ -199,7 +200,7 @@ impl ClosureSystem {
         for symbol in &made.symbols {
             depth = match *symbol {
                 OPEN => depth + 1,
-                CLOSE => depth.checked_sub(1).ok_or_else(unbalanced)?,
+                CLOSE => depth.checked_sub(1).ok_or_else(unbalanced_error)?,
                 _ => depth,
             };
             if depth > DEEPEST {
@@ -209,7 +210,7 @@ impl ClosureSystem {
             params += usize::from(*arity.ok_or_else(|| Error::argument("the chain has an unknown symbol"))?);
         }
         if depth > 0 {
-            return Err(unbalanced());
+            return Err(unbalanced_error());
         }
         if params != made.params.len() {
             let found = made.params.len();
@@ -257,7 +258,7 @@ impl ClosureSystem {
 /// Number of symbols to which rules are applied at a time.
 const BATCH: usize = 4096;
 
-fn unbalanced() -> Error {
+fn unbalanced_error() -> Error {
     Error::argument("the brackets of the chain do not match").help("close each branch that was opened")
 }
 

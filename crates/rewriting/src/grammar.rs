@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::chain::{END, Symbol};
-use super::matching::{Branches, ContextElement};
+use super::context::{Branches, ContextElement};
 use super::pattern::{Item, Pattern};
 use super::symbols::Symbols;
 use burgeon_base::error::SourcePlace;

@@ -30,7 +30,7 @@ impl ModuleKey {
 
     /// Returns the key of a module after a rule was applied and kept it.
     #[must_use]
-    pub fn advanced(self) -> Self {
+    pub fn advance(self) -> Self {
         Self(mix(self.0 ^ 0x5A17))
     }
 
@@ -43,7 +43,7 @@ impl ModuleKey {
     /// Returns the key of the random numbers for another computation at the module that is not a rule, with the number
     /// `place`.
     #[must_use]
-    pub fn beside(self, place: usize) -> Self {
+    pub fn at_place(self, place: usize) -> Self {
         Self(mix(self.0 ^ 0xBE51)).child(place)
     }
 
@@ -78,10 +78,10 @@ mod tests {
             ModuleKey::seed(2),
             root.child(0),
             root.child(1),
-            root.advanced(),
+            root.advance(),
             root.interpretation(),
-            root.beside(0),
-            root.beside(1),
+            root.at_place(0),
+            root.at_place(1),
             root.feature("a"),
             root.feature("b"),
         ];

@@ -70,7 +70,7 @@ impl Links {
     }
 
     /// Returns the search results of the named branch with this number. Memory is allocated at the first call.
-    pub fn known(&self, number: u32) -> &BranchSearches {
+    pub fn branch_searches(&self, number: u32) -> &BranchSearches {
         self.known[number as usize]
             .get_or_init(|| BranchSearches((0..self.right.len()).map(|_| AtomicU32::new(UNKNOWN)).collect()))
     }

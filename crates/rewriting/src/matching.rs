@@ -1,55 +1,14 @@
 //! Matching of contexts along the tree with links that are found once per step: O(1) per context module.
 
-use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
-use super::chain::{CLOSE, Chain, END, OPEN, Symbol};
+use super::chain::{CLOSE, Chain, END, OPEN};
+use super::context::ContextElement;
 use super::grammar::Grammar;
 use super::links::{Links, NONE};
-use super::pattern::Context;
 
 /// Indices of the context modules that a pattern matched, in the order in which the pattern names them.
 pub type Bindings = SmallVec<[u32; 8]>;
-
-/// An element of a right context.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum ContextElement {
-    /// A module on the main path.
-    Module(Symbol),
-    /// A branch that begins like the named branch with this number in the grammar.
-    Branch(u32),
-}
-
-/// Branches that the contexts of a grammar name, each stored once.
-#[derive(Debug, Clone, Default)]
-pub struct Branches {
-    list: Vec<Box<[ContextElement]>>,
-    numbers: FxHashMap<Box<[ContextElement]>, u32>,
-}
-
-impl Branches {
-    /// Returns a right context with its branches replaced by their numbers.
-    pub fn number(&mut self, contexts: &[Context]) -> Box<[ContextElement]> {
-        let ahead = contexts.iter().map(|context| match context {
-            Context::Module(item) => ContextElement::Module(item.symbol),
-            Context::Branch(inner) => {
-                let inner = self.number(inner);
-                let next = u32::try_from(self.list.len()).unwrap_or(u32::MAX);
-                let number = *self.numbers.entry(inner.clone()).or_insert(next);
-                if number == next {
-                    self.list.push(inner);
-                }
-                ContextElement::Branch(number)
-            }
-        });
-        ahead.collect()
-    }
-
-    /// Returns the number of branches.
-    pub fn len(&self) -> usize {
-        self.list.len()
-    }
-}
 
 /// Matcher of a grammar's contexts around the modules of a chain.
 ///
@@ -121,7 +80,7 @@ impl ContextMatcher<'_> {
             nearest = self.links.left[nearest as usize];
         }
         let right = self.grammar.right_of(rule);
-        right.is_empty() || self.ahead(right, ContextPosition::Module(index), None)
+        right.is_empty() || self.match_right(right, ContextPosition::Module(index), None)
     }
 
     /// Fills `bindings` for a rule that matches at a module.
@@ -134,12 +93,12 @@ impl ContextMatcher<'_> {
             here = nearest as usize;
         }
         bindings.reverse();
-        self.ahead(self.grammar.right_of(rule), ContextPosition::Module(index), Some(bindings));
+        self.match_right(self.grammar.right_of(rule), ContextPosition::Module(index), Some(bindings));
     }
 
     /// Returns true if `contexts` match from a position on. Modules within branches are only traversed if `bindings`
     /// are requested.
-    fn ahead(
+    fn match_right(
         self,
         contexts: &[ContextElement],
         from: ContextPosition,
@@ -171,8 +130,8 @@ impl ContextMatcher<'_> {
                         return false;
                     }
                     if let Some(bindings) = &mut bindings {
-                        let inner = &self.grammar.branches().list[*number as usize];
-                        self.ahead(inner, ContextPosition::At(found as usize + 1), Some(bindings));
+                        let inner = self.grammar.branches().get(*number);
+                        self.match_right(inner, ContextPosition::At(found as usize + 1), Some(bindings));
                     }
                     ContextPosition::At(self.links.right[found as usize] as usize + 1)
                 }
@@ -204,7 +163,7 @@ impl ContextMatcher<'_> {
         if second == NONE {
             return NONE;
         }
-        let known = self.links.known(number);
+        let known = self.links.branch_searches(number);
         let mut here = second;
         let found = loop {
             if here == NONE {
@@ -232,10 +191,6 @@ impl ContextMatcher<'_> {
     }
 
     fn begins_so(self, number: u32, open: u32) -> bool {
-        self.ahead(
-            &self.grammar.branches().list[number as usize],
-            ContextPosition::At(open as usize + 1),
-            None,
-        )
+        self.match_right(self.grammar.branches().get(number), ContextPosition::At(open as usize + 1), None)
     }
 }

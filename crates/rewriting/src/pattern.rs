@@ -120,7 +120,7 @@ impl PatternReader<'_> {
                 Some(separator @ ('<' | '>')) => {
                     if separators.contains(&separator) || (separator == '<' && !separators.is_empty()) {
                         return Err(
-                            self.unexpected("a pattern is: left context < predecessor > right context")
+                            self.error_here("a pattern is: left context < predecessor > right context")
                         );
                     }
                     self.at += 1;
@@ -178,7 +178,7 @@ impl PatternReader<'_> {
         }
         let begin = self.at;
         if self.depth == DEEPEST {
-            return Err(self.unexpected(&format!("branches are nested at most {DEEPEST} deep")));
+            return Err(self.error_here(&format!("branches are nested at most {DEEPEST} deep")));
         }
         self.depth += 1;
         self.at += 1;
@@ -191,7 +191,7 @@ impl PatternReader<'_> {
                 }
                 None => {
                     self.at = begin;
-                    return Err(self.unexpected("this branch is not closed"));
+                    return Err(self.error_here("this branch is not closed"));
                 }
                 Some(_) => inner.push(self.context()?),
             }
@@ -199,7 +199,7 @@ impl PatternReader<'_> {
         self.depth -= 1;
         if inner.is_empty() {
             self.at = begin;
-            return Err(self.unexpected("a branch in a context names at least one module"));
+            return Err(self.error_here("a branch in a context names at least one module"));
         }
         Ok(Context::Branch(inner))
     }
@@ -219,7 +219,7 @@ impl PatternReader<'_> {
         while self.peek() != Some(')') {
             if bound > 0 {
                 if self.peek() != Some(',') {
-                    return Err(self.unexpected("a comma or a closing bracket belongs here"));
+                    return Err(self.error_here("a comma or a closing bracket belongs here"));
                 }
                 self.at += 1;
             }
@@ -228,7 +228,7 @@ impl PatternReader<'_> {
             if formal != "_" && self.formals.contains(&formal) {
                 self.at = before;
                 self.peek();
-                return Err(self.unexpected(&format!("two parameters are called {formal}; rename one")));
+                return Err(self.error_here(&format!("two parameters are called {formal}; rename one")));
             }
             self.formals.push(formal);
             bound += 1;
@@ -257,7 +257,7 @@ impl PatternReader<'_> {
             let package = package.to_owned();
             self.at += package.len() + 1;
             if self.text[self.at..].starts_with(char::is_whitespace) {
-                return Err(self.unexpected("the name of a module of the package belongs here"));
+                return Err(self.error_here("the name of a module of the package belongs here"));
             }
             return Ok(format!("{package}.{}", self.name("a module's name")?));
         }
@@ -271,7 +271,7 @@ impl PatternReader<'_> {
         };
         let length = rest.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).unwrap_or(rest.len());
         if length == 0 || rest.starts_with(|c: char| c.is_ascii_digit()) {
-            return Err(self.unexpected(&format!("{what} belongs here")));
+            return Err(self.error_here(&format!("{what} belongs here")));
         }
         self.at += length;
         Ok(rest[..length].to_owned())
@@ -285,7 +285,7 @@ impl PatternReader<'_> {
     }
 
     /// Returns an error that shows the current position.
-    fn unexpected(&self, help: &str) -> Error {
+    fn error_here(&self, help: &str) -> Error {
         let found = match self.text[self.at..].chars().next() {
             Some(c) => format!("unexpected '{c}'"),
             None => "unexpected end".to_owned(),

@@ -38,7 +38,7 @@ impl Batch<'_> {
                     let arity = usize::from(grammar.arities()[usize::from(self.chain.symbols[here])]);
                     keep(out, here..here + 1, params..params + arity);
                     if let Some(key) = out.keys.last_mut() {
-                        *key = key.advanced();
+                        *key = key.advance();
                     }
                     (module, param) = (here + 1, params + arity);
                 }
@@ -98,7 +98,7 @@ impl Batch<'_> {
     }
 
     /// Returns for each symbol of `piece` the rule that ran and the number of its successors.
-    pub(crate) fn applied(&self, piece: ChainPiece, scratch: &Scratch) -> Vec<(u16, u32)> {
+    pub(crate) fn applied_rules(&self, piece: ChainPiece, scratch: &Scratch) -> Vec<(u16, u32)> {
         let mut applied = vec![(NO_RULE, 1); piece.end - piece.begin.module];
         let mut read = vec![(0, 0, 0); scratch.groups.len()];
         for active in scratch.active.iter().filter(|active| active.rule != NO_RULE) {

@@ -5,35 +5,15 @@ use std::sync::{Arc, Condvar, Mutex};
 
 use crate::batch::{Batch, ChainPiece, Scratch};
 use crate::chain::{Chain, END, Mark};
-use crate::failed_chains::FailedChains;
-use crate::grammar::Grammar;
 use crate::links::Links;
 use crate::output::Output;
+use crate::plan::StepPlan;
 use crate::rules::Rules;
 use crate::uses::Use;
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::memory::make_exact_room;
-
-/// Settings of all steps of a derivation.
-#[derive(Debug)]
-pub struct StepPlan {
-    /// Rules.
-    pub grammar: Grammar,
-    /// Skipped chains, if chains can be skipped.
-    pub failed: Option<Arc<FailedChains>>,
-    /// Number of chains.
-    pub chains: usize,
-    /// Number of symbols that a thread processes at a time.
-    pub batch: usize,
-    /// Maximum number of symbols of a chain.
-    pub limit: usize,
-    /// Set if [`StepOutcome::applied`] is required.
-    pub traced: bool,
-    /// Set if rules receive the positions of their modules.
-    pub notes_places: bool,
-}
 
 /// Work of one step, shared by threads.
 #[derive(Debug)]

@@ -210,7 +210,7 @@ impl Symbols {
 
     /// Marks all current declarations as part of the standard library.
     pub fn end_of_standard(&mut self) {
-        self.standard = self.declared().len();
+        self.standard = self.signatures().len();
     }
 
     /// Returns true if `symbol` belongs to the standard library.
@@ -224,12 +224,12 @@ impl Symbols {
     }
 
     /// Returns the display name of `symbol`: with its package, `castle.Stone`, if several modules have the same name.
-    pub fn shown(&self, symbol: Symbol) -> &str {
+    pub fn display_name(&self, symbol: Symbol) -> &str {
         &self.shown[usize::from(symbol - FIRST_PLACEHOLDER)]
     }
 
     /// Returns the name that refers to `symbol` everywhere in the script: with its package if a package declares it.
-    pub fn qualified(&self, symbol: Symbol) -> Cow<'_, str> {
+    pub fn qualified_name(&self, symbol: Symbol) -> Cow<'_, str> {
         let name = self.signature(symbol).name.as_str();
         match self.owner(symbol) {
             Some(owner) => format!("{owner}.{name}").into(),
@@ -296,10 +296,10 @@ impl Symbols {
 
     /// Returns the declared names, in the order of declaration.
     pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.declared().iter().map(|signature| signature.name.as_str())
+        self.signatures().iter().map(|signature| signature.name.as_str())
     }
 
-    fn declared(&self) -> &[Signature] {
+    fn signatures(&self) -> &[Signature] {
         self.signatures.get(usize::from(FIRST_SYMBOL - FIRST_PLACEHOLDER)..).unwrap_or_default()
     }
 
@@ -349,11 +349,14 @@ mod tests {
         symbols.end_of_standard();
         let stone = |parameters: &[&str]| signature("Stone", parameters).unwrap();
         let castle = symbols.declare_in(stone(&["w"]), Some("castle")).unwrap();
-        assert_eq!((symbols.shown(castle), symbols.find("Stone").unwrap()), ("Stone", castle));
+        assert_eq!((symbols.display_name(castle), symbols.find("Stone").unwrap()), ("Stone", castle));
         let tower = symbols.declare_in(stone(&["w", "h"]), Some("tower")).unwrap();
         assert_eq!(symbols.declare_in(stone(&["w"]), Some("castle")).unwrap(), castle);
         assert!(symbols.declare_in(stone(&["x"]), Some("castle")).is_err());
-        assert_eq!((symbols.shown(castle), symbols.shown(tower)), ("castle.Stone", "tower.Stone"));
+        assert_eq!(
+            (symbols.display_name(castle), symbols.display_name(tower)),
+            ("castle.Stone", "tower.Stone")
+        );
         let of = |package: Option<&str>, required: &[&str]| NameScope {
             package: package.map(Into::into),
             required: required.iter().map(|&name| name.into()).collect(),
@@ -378,7 +381,7 @@ mod tests {
         let own = symbols.declare_in(signature("F", &["l", "w"]).unwrap(), Some("castle")).unwrap();
         assert_eq!(symbols.find_in("F", &of(Some("castle"), &[])).unwrap(), own);
         assert_eq!(symbols.find_in("F", &of(None, &["castle"])).unwrap(), standard);
-        assert_eq!((symbols.shown(standard), symbols.shown(own)), ("F", "castle.F"));
+        assert_eq!((symbols.display_name(standard), symbols.display_name(own)), ("F", "castle.F"));
     }
 
     #[test]

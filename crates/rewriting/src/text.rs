@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use super::chain::{CLOSE, Chain, END, OPEN, Symbol};
 use super::symbols::Symbols;
-use burgeon_base::error::shortened;
+use burgeon_base::error::shorten;
 
 /// Formatter of parameters, which can represent values that are not numbers.
 pub trait ShowParameters {
@@ -44,7 +44,7 @@ pub fn module_brief(
     symbol: Symbol,
     params: &[f64],
 ) -> String {
-    write_module(symbols, values, symbol, params, |text| shortened(&text, SHOWN).into_owned())
+    write_module(symbols, values, symbol, params, |text| shorten(&text, SHOWN).into_owned())
 }
 
 fn write_module(
@@ -65,7 +65,7 @@ fn write_module(
     while shown.len() > signature.required && shown.last().is_some_and(|last| last == "nil") {
         shown.pop();
     }
-    let name = symbols.shown(symbol);
+    let name = symbols.display_name(symbol);
     if shown.is_empty() { name.to_owned() } else { format!("{name}({})", shown.join(",")) }
 }
 

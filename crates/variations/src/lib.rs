@@ -423,7 +423,7 @@ s:derive()
         let stop = Arc::clone(&variations.stop);
         let stopper = std::thread::spawn(move || {
             std::thread::sleep(std::time::Duration::from_millis(100));
-            stop.stop(Error::stopped("enough"));
+            stop.stop(Error::cancellation("enough"));
         });
         let begin = std::time::Instant::now();
         let error = variations.make(&Picture::default(), Framing::Each, |_| panic!("a cell")).unwrap_err();

@@ -179,7 +179,7 @@ impl ModsCommand {
                 let checked = self.declared(package, &search, &mut declared);
                 match checked {
                     Ok(more) => warnings.extend(more),
-                    Err(error) => problems.extend(error.problems().map(Error::alone)),
+                    Err(error) => problems.extend(error.problems().map(Error::without_others)),
                 }
                 problems.extend(self.check_params(&packages, package, &search, &mut declared));
             }

@@ -107,7 +107,7 @@ fn replaced(packages: &Packages, package: &Package) -> String {
     for one in &package.manifest.params {
         let _ = writeln!(text, "  sets {} of {} to {}", one.name, one.package, one.value);
     }
-    for (file, by) in packages.replaced(package) {
+    for (file, by) in packages.replaced_files(package) {
         let _ = writeln!(text, "  {file} is replaced by {by}");
     }
     text
@@ -128,7 +128,8 @@ fn wanted(list: &[Dependency]) -> String {
 
 /// Returns the packages that depend on a package, required or optional.
 fn users<'a>(packages: &'a Packages, package: &Package) -> Vec<&'a str> {
-    let uses = |other: &&Package| other.manifest.wanted().any(|wanted| wanted.name == package.manifest.name);
+    let uses =
+        |other: &&Package| other.manifest.dependencies().any(|wanted| wanted.name == package.manifest.name);
     packages.order().iter().filter(uses).map(|other| other.manifest.name.as_str()).collect()
 }
 
@@ -168,8 +169,11 @@ pub(super) fn package_json(packages: &Packages, package: &Package) -> Value {
             (one.target.to_string(), with)
         })
         .collect();
-    let replaced: serde_json::Map<String, Value> =
-        packages.replaced(package).into_iter().map(|(file, by)| (file.to_string(), by.into())).collect();
+    let replaced: serde_json::Map<String, Value> = packages
+        .replaced_files(package)
+        .into_iter()
+        .map(|(file, by)| (file.to_string(), by.into()))
+        .collect();
     let origin = match package.origin {
         PackageOrigin::Beside => "beside",
         PackageOrigin::Given => "given",

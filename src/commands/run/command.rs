@@ -70,7 +70,7 @@ pub(crate) struct RunCommand {
 /// Returns the help of `--output`, with the available formats.
 fn output_help() -> &'static str {
     static HELP: LazyLock<String> = LazyLock::new(|| {
-        let formats = Format::listed("or");
+        let formats = Format::extension_list("or");
         format!("Writes the model; the extension picks the format: {formats}. May be repeated")
     });
     &HELP

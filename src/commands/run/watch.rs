@@ -32,7 +32,7 @@ impl WatchState {
     fn stop(&self, wake: &Sender<()>) {
         self.stale.store(true, Ordering::Release);
         if let Some(session) = &*self.session.lock().recover() {
-            session.stop.stop(Error::stopped("there is something newer"));
+            session.stop.stop(Error::cancellation("there is something newer"));
         }
         // An error means that the loop has ended.
         let _ = wake.send(());
@@ -70,7 +70,7 @@ pub(super) fn again_and_again(command: &RunCommand) -> Result<()> {
             Ok(session) => {
                 *now.session.lock().recover() = Some(Arc::clone(session));
                 if now.is_stale() {
-                    session.stop.stop(Error::stopped("there is something newer"));
+                    session.stop.stop(Error::cancellation("there is something newer"));
                 }
                 command.make(session, begin, &|| now.is_stale())
             }

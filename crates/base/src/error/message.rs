@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fmt;
 
-use super::{ErrorKind, Limit};
+use super::kind::{ErrorKind, Limit};
 use crate::text::{escaped_lines, without_passwords};
 
 /// Maximum length of a message or a remedy (characters). Longer text is shortened in the middle.
@@ -99,7 +99,7 @@ impl Error {
     pub fn of(kind: ErrorKind, message: impl fmt::Display) -> Self {
         Self(Box::new(ErrorParts {
             kind,
-            message: told(&message.to_string(), LONGEST),
+            message: prepare_text(&message.to_string(), LONGEST),
             place: None,
             caller: None,
             rule: None,
@@ -140,7 +140,7 @@ impl Error {
     /// Replaces the message.
     #[must_use]
     pub fn saying(mut self, message: impl fmt::Display) -> Self {
-        self.0.message = told(&message.to_string(), LONGEST);
+        self.0.message = prepare_text(&message.to_string(), LONGEST);
         self
     }
 
@@ -149,7 +149,7 @@ impl Error {
     pub fn about(mut self, what: &str) -> Self {
         let what = without_passwords(what);
         if !self.0.message.contains(&*what) {
-            self.0.message = format!("{}: {}", shortened(&what, LONGEST_NAME), self.0.message);
+            self.0.message = format!("{}: {}", shorten(&what, LONGEST_NAME), self.0.message);
         }
         self
     }
@@ -157,7 +157,7 @@ impl Error {
     /// Adds `what` in brackets to the message.
     #[must_use]
     pub fn noting(mut self, what: &str) -> Self {
-        self.0.message = format!("{} ({})", self.0.message, told(what, LONGEST_NAME));
+        self.0.message = format!("{} ({})", self.0.message, prepare_text(what, LONGEST_NAME));
         self
     }
 
@@ -194,7 +194,7 @@ impl Error {
     /// Sets the remedy, unless it is already set.
     #[must_use]
     pub fn help(mut self, help: impl fmt::Display) -> Self {
-        self.0.help.get_or_insert_with(|| told(&help.to_string(), LONGEST));
+        self.0.help.get_or_insert_with(|| prepare_text(&help.to_string(), LONGEST));
         self
     }
 
@@ -237,7 +237,7 @@ impl Error {
     /// Sets the rule, unless it is already set.
     #[must_use]
     pub fn rule(mut self, rule: impl fmt::Display) -> Self {
-        self.0.rule.get_or_insert_with(|| told(&rule.to_string(), LONGEST_NAME));
+        self.0.rule.get_or_insert_with(|| prepare_text(&rule.to_string(), LONGEST_NAME));
         self
     }
 
@@ -245,7 +245,7 @@ impl Error {
     #[must_use]
     pub fn module(mut self, module: impl fmt::Display, step: usize) -> Self {
         if self.0.module.is_none() {
-            self.0.module = Some(told(&module.to_string(), LONGEST_NAME));
+            self.0.module = Some(prepare_text(&module.to_string(), LONGEST_NAME));
             self.0.step = Some(step);
         }
         self
@@ -289,7 +289,7 @@ impl Error {
 
     /// Returns this problem without the problems reported with it.
     #[must_use]
-    pub fn alone(&self) -> Self {
+    pub fn without_others(&self) -> Self {
         let mut alone = self.clone();
         alone.0.more.clear();
         alone
@@ -373,12 +373,12 @@ impl fmt::Display for Error {
 impl std::error::Error for Error {}
 
 /// Prepares a text for users: hides passwords and shortens it to `most` characters.
-fn told(text: &str, most: usize) -> String {
-    shortened(&without_passwords(text), most).into_owned()
+fn prepare_text(text: &str, most: usize) -> String {
+    shorten(&without_passwords(text), most).into_owned()
 }
 
 /// Shortens `text` to about `most` characters by replacing its middle with a note of the full length.
-pub fn shortened(text: &str, most: usize) -> Cow<'_, str> {
+pub fn shorten(text: &str, most: usize) -> Cow<'_, str> {
     // The number of bytes is at least the number of characters.
     if text.len() <= most {
         return Cow::Borrowed(text);
@@ -468,10 +468,10 @@ mod tests {
 
     #[test]
     fn a_long_text_is_told_without_its_middle() {
-        assert_eq!(shortened("0123456789", 10), "0123456789");
-        assert_eq!(shortened("0123456789a", 10), "01234... (11 characters in all) ...6789a");
-        assert_eq!(shortened("äöüäöü", 6), "äöüäöü");
-        assert_eq!(shortened("äöüßéñø", 4), "äö... (7 characters in all) ...ñø");
+        assert_eq!(shorten("0123456789", 10), "0123456789");
+        assert_eq!(shorten("0123456789a", 10), "01234... (11 characters in all) ...6789a");
+        assert_eq!(shorten("äöüäöü", 6), "äöüäöü");
+        assert_eq!(shorten("äöüßéñø", 4), "äö... (7 characters in all) ...ñø");
         let long = "ä".repeat(20_000_000);
         let error =
             Error::argument(&long).help(&long).rule(&long).module(&long, 1).feature(&long).about(&long);

@@ -20,7 +20,7 @@ pub(super) fn fill(columns: usize, rows: usize, heights: &mut [f32], budget: &Bu
         return Ok(0);
     }
     budget.check()?;
-    let before = budget.taken();
+    let before = budget.used_bytes();
     let holes = holes::find(columns, rows, heights, budget)?;
     let known = heights.iter().copied().filter(|height| !height.is_nan());
     let (low, high) = known
@@ -137,7 +137,7 @@ mod tests {
 
     #[test]
     fn filling_ends_when_the_time_does() {
-        let budget = Budget::new(usize::MAX, || Err(burgeon_base::error::Error::stopped("over")));
+        let budget = Budget::new(usize::MAX, || Err(burgeon_base::error::Error::cancellation("over")));
         let mut heights = plane();
         heights[5] = f32::NAN;
         assert_eq!(fill(200, 120, &mut heights, &budget).unwrap_err().message(), "over");

@@ -26,7 +26,7 @@ pub(crate) fn stream(
     wanted: &SourceOptions,
     window: usize,
 ) -> Result<Option<FeatureTable>> {
-    let before = wanted.budget.taken();
+    let before = wanted.budget.used_bytes();
     let mut reader = FeatureReader::new(path, name, wanted);
     match reader.stream(TextWindow::new(file, window, &wanted.budget), is_sequence(path)) {
         Ok(()) => Ok(Some(reader.into_table())),

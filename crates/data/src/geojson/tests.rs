@@ -271,7 +271,7 @@ fn a_part_at_a_time_takes_no_more_memory_than_its_largest_feature() {
         let budget = Budget::within(std::time::Duration::from_secs(60), memory);
         let wanted = SourceOptions { budget, ..SourceOptions::default() };
         let read = stream(text.as_bytes(), Path::new("a"), "a", &wanted, 1000);
-        read.map(|table| (table.unwrap().features.len(), wanted.budget.taken()))
+        read.map(|table| (table.unwrap().features.len(), wanted.budget.used_bytes()))
     };
     let (count, taken) = with(&text, 100_000_000).unwrap();
     assert_eq!(count, 20_000);

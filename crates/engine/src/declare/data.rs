@@ -64,7 +64,7 @@ impl Data {
             return loaded.clone();
         }
         wanted.budget = known.budget(session);
-        let before = wanted.budget.taken();
+        let before = wanted.budget.used_bytes();
         let loaded = read(session, asker, text, wanted, &mut known, table);
         session.stop.check()?;
         let kept = loaded.as_ref().map_or(0, |layer| layer.size());
@@ -105,7 +105,7 @@ impl Data {
             return loaded.clone();
         }
         let budget = known.budget(session);
-        let before = budget.taken();
+        let before = budget.used_bytes();
         let mut cache = session.options.inputs.cache.clone();
         let mut file = LoadRequest {
             name: own,

@@ -70,7 +70,7 @@ impl Session {
     /// Returns true if there is a package `name` that `asker` can use. The script can use all packages.
     pub(crate) fn has_package(&self, name: &str, asker: Option<&Package>) -> bool {
         let Some(package) = self.packages().get(name) else { return false };
-        let wanted = asker.and_then(|asker| asker.manifest.wanted().find(|wanted| wanted.name == name));
+        let wanted = asker.and_then(|asker| asker.manifest.dependencies().find(|wanted| wanted.name == name));
         package.problems.is_empty()
             && wanted.is_none_or(|wanted| wanted.versions.matches(&package.manifest.version))
     }
@@ -142,7 +142,7 @@ impl Session {
 
     /// Adds to an `error` about a missing file `name` the packages that have such a file, if any.
     pub(crate) fn propose_packages(&self, name: &str, error: Error) -> Error {
-        match self.packages().having(name).as_slice() {
+        match self.packages().files_called(name).as_slice() {
             [] => error,
             names => error.help(format!("a package's file is named with it: {}", names.join(" or "))),
         }

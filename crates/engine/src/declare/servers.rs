@@ -23,7 +23,7 @@ pub(super) fn read(
     wanted.layer = wanted.layer.or(layer);
     let allowed = session.options.inputs.databases.iter().map(|address| ServerAddress::parse(address));
     let allowed = allowed.collect::<Result<Vec<ServerAddress>>>()?;
-    let server = known.tables.server(asked.allowed(&allowed)?, session.options.limits.time);
+    let server = known.tables.server(asked.find_allowed(&allowed)?, session.options.limits.time);
     let features = server.read(&wanted)?;
     let shown = features.shown.clone();
     let layer = Layer::new(features, &mut known.frame).map_err(|error| error.about(&shown))?;

@@ -159,7 +159,7 @@ impl Session {
         let packages = Packages::find(&search, &api_version());
         let warnings = Warnings::default();
         let deprecated = Deprecations::new(&options.registry);
-        let stop = Stop::under(options.stop.clone()).limited(options.limits.memory);
+        let stop = Stop::under(options.stop.clone()).with_memory_limit(options.limits.memory);
         if let Some(memory) = stop.memory().filter(|_| options.limits.whole_program) {
             memory.adopt_threads();
         }
@@ -237,7 +237,7 @@ impl Session {
         let read =
             self.files().into_iter().chain([self.script.clone()]).chain(self.options.inputs.stdlib.clone());
         files.extend(read.map(|path| (path, true)));
-        files.extend(self.packages.sought());
+        files.extend(self.packages.searched_paths());
         files.into_iter().collect()
     }
 

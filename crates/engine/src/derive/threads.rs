@@ -187,7 +187,7 @@ impl Driver for ThreadPool {
             Ending::Traced(trace) => {
                 self.trace.replace(Some(*trace));
                 // The rest of the script does not matter.
-                Err(Error::stopped("the traced system is derived"))
+                Err(Error::cancellation("the traced system is derived"))
             }
         });
         let derived = derived.map_err(|error: Error| {
@@ -262,7 +262,7 @@ fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<R
         let job = match inbox.recv() {
             Ok(Message::Work(job)) => job,
             Ok(Message::Derived(derived)) => return Ok(derived),
-            Err(_) => return Err(Error::stopped("the run has ended")),
+            Err(_) => return Err(Error::cancellation("the run has ended")),
         };
         // The leader waits for the job, so all other parts of a job are dropped before the job itself.
         match job {

@@ -62,7 +62,7 @@ impl Machine {
             let known = library.loaded.borrow().contains_key(&path);
             let shown = shown.display().to_string();
             if !known && let Err(error) = load(library, session, self, path.clone(), &shown) {
-                problems.extend(error.problems().map(Error::alone));
+                problems.extend(error.problems().map(Error::without_others));
             }
             if let Ok(source) = session.source(&path, &shown, &library.globals()) {
                 problems.extend(session.missing(package, &shown, &source.analysis.packages));

@@ -190,7 +190,7 @@ impl Machine {
         let signature = symbols.signature(symbol);
         let table = self.lua.create_table()?;
         table.raw_set("name", signature.name.as_str())?;
-        table.raw_set("qualified", symbols.qualified(symbol))?;
+        table.raw_set("qualified", symbols.qualified_name(symbol))?;
         table.raw_set("arity", signature.arity())?;
         table.raw_set("required", signature.required)?;
         table.raw_set("count", signature.count())?;

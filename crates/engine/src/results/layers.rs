@@ -118,7 +118,7 @@ impl LayerTables {
     fn module(&mut self, system: &DerivedSystem, symbol: Symbol, chain: usize, values: &[Value]) {
         let Some(place) = values.iter().position(|value| geometry_of(value).is_some()) else { return };
         let signature = system.symbols.signature(symbol);
-        let layer = self.named(system.symbols.shown(symbol));
+        let layer = self.named(system.symbols.display_name(symbol));
         let feature = system.features.get(chain).cloned().flatten();
         let own = values.iter().zip(&signature.parameters).enumerate().filter(|(number, _)| *number != place);
         let mut attributes = Vec::new();

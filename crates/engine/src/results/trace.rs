@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use crate::placeholders::QUERY;
-use burgeon_base::error::{SourcePlace, shortened};
+use burgeon_base::error::{SourcePlace, shorten};
 use burgeon_kit::Makers;
 use burgeon_kit::Values;
 use burgeon_rewriting::{Chain, END, NO_RULE, Symbol, Symbols, module_brief};
@@ -164,13 +164,13 @@ impl Trace {
         let signature = self.symbols.signature(symbol);
         Some(Module {
             text: module_brief(&self.symbols, &self.values, symbol, params),
-            symbol: self.symbols.shown(symbol).to_owned(),
+            symbol: self.symbols.display_name(symbol).to_owned(),
             params: signature
                 .parameters
                 .iter()
                 .zip(params)
                 .map(|(name, value)| {
-                    (name.clone(), shortened(&self.values.unpack(*value).to_string(), SHOWN).into_owned())
+                    (name.clone(), shorten(&self.values.unpack(*value).to_string(), SHOWN).into_owned())
                 })
                 .collect(),
         })

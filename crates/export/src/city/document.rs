@@ -6,7 +6,6 @@ use std::path::Path;
 use burgeon_base::error::Result;
 use burgeon_data::Attribute;
 use burgeon_data::output::OutputPlacement;
-use burgeon_scene::SurfaceMeaning;
 use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
@@ -15,8 +14,8 @@ use serde_json::{Map, Value as Json, json};
 use super::super::check::check;
 use super::super::files::{Files, Out};
 use super::super::stem;
-use super::faces::Face;
-use super::object::{CityObject, ObjectShape, Quantiser, STEPS, objects, placed};
+use super::boundaries::{boundaries, semantics};
+use super::object::{CityObject, ObjectShape, Quantiser, STEPS, objects, placed_transform};
 use super::templates::ShapeTemplates;
 use crate::Export;
 
@@ -116,7 +115,7 @@ impl CityWriter<'_> {
         for instance in &object.placed {
             let surfaces = object.class.has_surfaces();
             let template = self.templates.number(self.export.scene, instance, surfaces, detail);
-            let (matrix, at) = placed(instance, self.quantiser)?;
+            let (matrix, at) = placed_transform(instance, self.quantiser)?;
             let rows = [0, 1, 2].map(|row| [matrix.col(0)[row], matrix.col(1)[row], matrix.col(2)[row], 0.0]);
             let rows: Vec<f64> =
                 rows.into_iter().flatten().map(|it| it + 0.0).chain([0.0, 0.0, 0.0, 1.0]).collect();
@@ -193,34 +192,4 @@ fn attributes(object: &CityObject<'_>) -> Map<String, Json> {
         })
     };
     columns.iter().enumerate().filter_map(|(column, name)| Some((name.clone(), value(column)?))).collect()
-}
-
-/// Returns the rings of `faces` as numbers of vertices.
-pub(super) fn boundaries(faces: &[Face], number: impl Fn(u32) -> u32) -> Json {
-    let ring = |ring: &Vec<u32>| ring.iter().map(|point| number(*point)).collect::<Json>();
-    faces.iter().map(|face| face.rings.iter().map(ring).collect::<Json>()).collect()
-}
-
-/// Returns the semantic surfaces of `faces`, or `None` if no face has a meaning.
-pub(super) fn semantics(faces: &[Face], in_solid: bool) -> Option<Json> {
-    let mut meanings: Vec<SurfaceMeaning> = Vec::new();
-    let mut values = Vec::new();
-    for face in faces {
-        values.push(face.meaning.map(|meaning| {
-            meanings.iter().position(|known| *known == meaning).unwrap_or_else(|| {
-                meanings.push(meaning);
-                meanings.len() - 1
-            })
-        }));
-    }
-    let name = |meaning: &SurfaceMeaning| match meaning {
-        SurfaceMeaning::Ground => "GroundSurface",
-        SurfaceMeaning::Wall => "WallSurface",
-        SurfaceMeaning::Roof => "RoofSurface",
-        SurfaceMeaning::Window => "Window",
-        SurfaceMeaning::Door => "Door",
-    };
-    let surfaces: Vec<Json> = meanings.iter().map(|meaning| json!({ "type": name(meaning) })).collect();
-    let values = if in_solid { json!([values]) } else { json!(values) };
-    (!surfaces.is_empty()).then(|| json!({ "surfaces": surfaces, "values": values }))
 }

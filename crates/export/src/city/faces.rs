@@ -39,7 +39,7 @@ impl TriangleEdges {
     }
 
     /// Returns the triangle on the other side of the edge from `a` to `b`.
-    fn beyond(&self, (a, b): (u32, u32)) -> Option<u32> {
+    fn neighbor(&self, (a, b): (u32, u32)) -> Option<u32> {
         let there = self.0.get(&(a, b)).is_some_and(|of| *of != MANY);
         self.0.get(&(b, a)).copied().filter(|of| there && *of != MANY)
     }
@@ -67,7 +67,7 @@ pub(super) fn faces(points: &[DVec3], triangles: &[Triangle], edges: &TriangleEd
         {
             match finder.polygon(&group, plane.normal) {
                 Some(face) => faces.push(face),
-                None => faces.extend(group.iter().filter_map(|of| finder.alone(*of))),
+                None => faces.extend(group.iter().filter_map(|of| finder.separate_face(*of))),
             }
         }
     }
@@ -113,7 +113,7 @@ impl FaceFinder<'_> {
         while let Some(&of) = group.get(next) {
             next += 1;
             for side in sides(self.triangles[of].0) {
-                let Some(other) = self.edges.beyond(side).map(|other| other as usize) else { continue };
+                let Some(other) = self.edges.neighbor(side).map(|other| other as usize) else { continue };
                 if self.group_of[other].is_none()
                     && self.triangles[other].1 == self.triangles[number].1
                     && self.lies_in(other, plane)
@@ -139,7 +139,7 @@ impl FaceFinder<'_> {
         let mut starts = Vec::new();
         for number in group {
             for side in sides(self.triangles[*number].0) {
-                let inside = self.edges.beyond(side).is_some_and(|it| self.group_of[it as usize] == first);
+                let inside = self.edges.neighbor(side).is_some_and(|it| self.group_of[it as usize] == first);
                 if !inside {
                     if next.insert(side.0, side.1).is_some() {
                         return None;
@@ -179,7 +179,7 @@ impl FaceFinder<'_> {
     }
 
     /// Returns a triangle as a separate polygon.
-    fn alone(&self, number: usize) -> Option<Face> {
+    fn separate_face(&self, number: usize) -> Option<Face> {
         let (corners, meaning) = self.triangles[number];
         self.normal(number).map(|_| Face { rings: vec![corners.to_vec()], meaning })
     }
@@ -193,7 +193,7 @@ mod tests {
         flat.iter().map(|[x, y]| DVec3::new(*x, *y, 0.0)).collect()
     }
 
-    fn found(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Face> {
+    fn find_faces(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Face> {
         let triangles: Vec<Triangle> = triangles.iter().map(|corners| (*corners, None)).collect();
         faces(points, &triangles, &TriangleEdges::of(&triangles), 1e-3)
     }
@@ -216,7 +216,7 @@ mod tests {
                 [[at, to, at + 4], [to, to + 4, at + 4]]
             })
             .collect();
-        let found = found(&points, &around);
+        let found = find_faces(&points, &around);
         assert_eq!(found.len(), 1);
         assert_eq!(found[0].rings.iter().map(Vec::len).collect::<Vec<_>>(), [4, 4]);
         assert_eq!(found[0].rings[0], [0, 1, 2, 3]);
@@ -225,8 +225,8 @@ mod tests {
     #[test]
     fn what_meets_at_a_corner_alone_or_bends_is_several_polygons() {
         let mut points = points(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [2.0, 2.0], [1.0, 2.0]]);
-        assert_eq!(found(&points, &[[0, 1, 2], [0, 2, 3], [2, 4, 5]]).len(), 2);
+        assert_eq!(find_faces(&points, &[[0, 1, 2], [0, 2, 3], [2, 4, 5]]).len(), 2);
         points[3].z = 0.5;
-        assert_eq!(found(&points, &[[0, 1, 2], [0, 2, 3]]).len(), 2);
+        assert_eq!(find_faces(&points, &[[0, 1, 2], [0, 2, 3]]).len(), 2);
     }
 }

@@ -5,6 +5,7 @@
 //! surfaces; coplanar triangles are merged into one polygon. Models that the chain placed are instances of templates.
 //! Coordinates are in the projection of the data, rounded to a millimetre. Materials and textures are not written.
 
+mod boundaries;
 mod document;
 mod faces;
 mod object;

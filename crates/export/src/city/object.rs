@@ -6,7 +6,7 @@ use burgeon_scene::{CityClass, Instance, Origin, Scene, SurfaceMeaning};
 use glam::{DAffine3, DMat3, DVec3};
 use rustc_hash::FxHashMap;
 
-use super::super::check::{SceneCheck, shown};
+use super::super::check::{SceneCheck, proper_triangles};
 use super::faces::{Face, Triangle, TriangleEdges, faces, volume};
 use crate::SceneFacts;
 
@@ -44,7 +44,7 @@ const NEAR: f64 = 2e-3;
 impl Quantiser<'_> {
     /// Returns the quantised coordinates of a point (m). Fails if the point is outside the projection's domain.
     pub(super) fn place(&self, at: DVec3) -> Result<[i64; 3]> {
-        let place = self.outward.place(at).ok_or_else(|| nowhere(at))?;
+        let place = self.outward.place(at).ok_or_else(|| place_error(at))?;
         let steps = ((place - self.origin) * STEPS).round();
         #[allow(clippy::cast_possible_truncation, reason = "a scene that was checked ends before")]
         Ok(steps.to_array().map(|step| step as i64))
@@ -58,7 +58,7 @@ impl Quantiser<'_> {
     }
 }
 
-fn nowhere(at: DVec3) -> Error {
+fn place_error(at: DVec3) -> Error {
     Error::data(format!(
         "what lies at {}, {} m cannot be brought to the coordinate system of the data",
         at.x, at.y
@@ -87,7 +87,7 @@ pub(super) fn objects<'a>(checked: &SceneCheck<'a>, facts: &SceneFacts<'a>) -> V
                 (None, None) => "model".to_owned(),
             };
             objects.push(CityObject {
-                id: ids.apart(id),
+                id: ids.unique_id(id),
                 class: system.and_then(|system| system.class).unwrap_or(CityClass::GENERIC),
                 record,
                 drawn: Vec::new(),
@@ -119,7 +119,7 @@ fn is_building(scene: &Scene, instance: &Instance) -> bool {
 pub(super) struct Identifiers(FxHashMap<String, usize>);
 
 impl Identifiers {
-    pub(super) fn apart(&mut self, id: String) -> String {
+    pub(super) fn unique_id(&mut self, id: String) -> String {
         let id = if id.is_empty() { "_".to_owned() } else { id };
         let mut free = id.clone();
         while self.0.contains_key(&free) {
@@ -147,7 +147,7 @@ impl CityObject<'_> {
                 let numbers: Vec<u32> = part.positions.iter().map(place).collect::<Result<_>>()?;
                 for (range, own) in part.surfaces.stretches(part.triangles.len()) {
                     let meaning = instance.meaning.or(own).filter(|_| self.class.has_surfaces());
-                    for [a, b, c] in shown(part.triangles.range(range)) {
+                    for [a, b, c] in proper_triangles(part.triangles.range(range)) {
                         let [a, b, c] = if mirrored { [a, c, b] } else { [a, b, c] };
                         builder.triangle([a, b, c].map(|corner| numbers[corner as usize]), meaning);
                     }
@@ -202,7 +202,7 @@ impl ShapeBuilder {
 }
 
 /// Returns the transform of a placed model: its matrix, rotated with the projection, and its position.
-pub(super) fn placed(instance: &Instance, quantiser: &Quantiser<'_>) -> Result<(DMat3, [i64; 3])> {
+pub(super) fn placed_transform(instance: &Instance, quantiser: &Quantiser<'_>) -> Result<(DMat3, [i64; 3])> {
     let DAffine3 { matrix3, translation } = instance.transform;
     Ok((quantiser.turn(translation) * matrix3, quantiser.place(translation)?))
 }

@@ -4,8 +4,8 @@ use burgeon_scene::{Instance, Scene, SurfaceMeaning};
 use rustc_hash::FxHashMap;
 use serde_json::{Value as Json, json};
 
-use super::super::check::shown;
-use super::document::{boundaries, semantics};
+use super::super::check::proper_triangles;
+use super::boundaries::{boundaries, semantics};
 use super::faces::{Triangle, TriangleEdges, faces};
 
 /// Maximum distance (m) of a point of a model from a plane that contains it.
@@ -44,7 +44,7 @@ impl ShapeTemplates {
                 })
             };
             let of: Vec<u32> = part.positions.iter().map(&mut number).collect();
-            for corners in shown(part.triangles.iter()) {
+            for corners in proper_triangles(part.triangles.iter()) {
                 let corners = corners.map(|corner| of[corner as usize]);
                 let [a, b, c] = corners;
                 if a != b && b != c && c != a {

@@ -11,7 +11,7 @@ use super::super::samples;
 use crate::{Export, Files, SceneFacts, SystemFacts};
 use burgeon_picture::Picture;
 
-fn written(scene: &Scene, facts: SceneFacts<'_>) -> Json {
+fn write_and_read(scene: &Scene, facts: SceneFacts<'_>) -> Json {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a town.city.json");
     let mut files = Files::new(&std::sync::Arc::new(Stop::default()));
@@ -79,7 +79,7 @@ fn volume(shell: &Json, vertices: &[DVec3]) -> f64 {
 fn buildings_are_solids_with_walls_roofs_and_ground_and_the_attributes_of_their_features() {
     let scene = buildings(3);
     let systems = [records(3)];
-    let city = written(&scene, SceneFacts { systems: &systems, ..SceneFacts::default() });
+    let city = write_and_read(&scene, SceneFacts { systems: &systems, ..SceneFacts::default() });
     let objects = city["CityObjects"].as_object().unwrap();
     assert_eq!(
         objects.keys().map(String::as_str).collect::<HashSet<_>>(),
@@ -113,18 +113,18 @@ fn coordinates_are_those_of_the_data_or_of_a_zone_of_its_middle() {
         |code: u32, at: [f64; 2]| ReferenceFrame::around(&Crs::epsg(code).unwrap(), at, "a place").unwrap();
     let scene = buildings(2);
     let frame = of(3067, [385_423.0, 6_671_463.0]);
-    let city = written(&scene, SceneFacts { frame: Some(&frame), ..SceneFacts::default() });
+    let city = write_and_read(&scene, SceneFacts { frame: Some(&frame), ..SceneFacts::default() });
     assert_eq!(city["metadata"]["referenceSystem"], "https://www.opengis.net/def/crs/EPSG/0/3067");
     let low = vertices(&city).into_iter().reduce(DVec3::min).unwrap();
     assert!((low.x - frame.origin[0] + 0.5).abs() < 2e-3 && (low.y - frame.origin[1]).abs() < 1.0, "{low}");
     let frame = of(4326, [7.42, 43.73]);
-    let city = written(&scene, SceneFacts { frame: Some(&frame), ..SceneFacts::default() });
+    let city = write_and_read(&scene, SceneFacts { frame: Some(&frame), ..SceneFacts::default() });
     assert_eq!(city["metadata"]["referenceSystem"], "https://www.opengis.net/def/crs/EPSG/0/32632");
     let low = vertices(&city).into_iter().reduce(DVec3::min).unwrap();
     assert!((370_000.0..375_000.0).contains(&low.x) && (4_840_000.0..4_850_000.0).contains(&low.y), "{low}");
     // Feet have no EPSG code in metres. A box of 1 m keeps its volume to a hundredth.
     let frame = of(2264, [1_450_000.0, 540_000.0]);
-    let city = written(&scene, SceneFacts { frame: Some(&frame), ..SceneFacts::default() });
+    let city = write_and_read(&scene, SceneFacts { frame: Some(&frame), ..SceneFacts::default() });
     assert_eq!(city["metadata"]["referenceSystem"], "https://www.opengis.net/def/crs/EPSG/0/32617");
     let vertices = vertices(&city);
     let [low, high] = [DVec3::min, DVec3::max].map(|choose| vertices.iter().copied().reduce(choose).unwrap());
@@ -144,7 +144,7 @@ fn placed_models_are_instances_of_a_template_for_each_meaning() {
         window.transform.translation.x += placement as f64;
         scene.instances.push(window);
     }
-    let city = written(&scene, SceneFacts::default());
+    let city = write_and_read(&scene, SceneFacts::default());
     let objects = city["CityObjects"].as_object().unwrap();
     assert_eq!(objects.len(), 2);
     let fixed = &objects["a \"b\"\n installation"];
@@ -168,11 +168,11 @@ fn placed_models_are_instances_of_a_template_for_each_meaning() {
 #[test]
 fn levels_of_detail_and_classes_are_as_they_were_asked_for() {
     let scene = buildings(1);
-    let city = written(&scene, SceneFacts { detail: 0, ..SceneFacts::default() });
+    let city = write_and_read(&scene, SceneFacts { detail: 0, ..SceneFacts::default() });
     let geometry = &city["CityObjects"]["a \"b\"\n"]["geometry"][0];
     assert_eq!((&geometry["type"], &geometry["lod"]), (&json!("MultiSurface"), &json!("0")));
     let systems = [SystemFacts { class: Some(CityClass::of("Road").unwrap()), ..records(1) }];
-    let city = written(&scene, SceneFacts { systems: &systems, ..SceneFacts::default() });
+    let city = write_and_read(&scene, SceneFacts { systems: &systems, ..SceneFacts::default() });
     let road = &city["CityObjects"]["a \"b\"\n"];
     assert_eq!(road["type"], "Road");
     assert_eq!(road["geometry"][0]["type"], "MultiSurface");
@@ -185,7 +185,7 @@ fn every_sample_is_written_and_nothing_is_lost_in_rounding() {
     let folder = tempfile::tempdir().unwrap();
     let mut solids = 0;
     for (name, scene) in samples::all(folder.path()) {
-        let city = written(&scene, SceneFacts::default());
+        let city = write_and_read(&scene, SceneFacts::default());
         let vertices = vertices(&city);
         let mut sum = 0.0;
         for object in city["CityObjects"].as_object().unwrap().values() {

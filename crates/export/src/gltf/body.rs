@@ -1,12 +1,12 @@
 //! Binary part of a glTF file. It is planned first, so that its description can be written, and then written in chunks.
 
-use super::super::check::shown;
+use super::super::check::proper_triangles;
+use super::coordinates::{byte_normal, short_normal, tex_coord, y_up};
 use super::corners::FaceCorners;
 use super::weld::FlatPart;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::stop::Stop;
-use burgeon_scene::{Normal, Part};
-use glam::Vec3;
+use burgeon_scene::Part;
 use gltf_json as json;
 use json::buffer::{Stride, Target, View};
 use json::validation::Checked::Valid;
@@ -367,10 +367,10 @@ impl BodyArray<'_> {
             Self::ShortNormals(part) => put(out, part.normals[range].iter().map(|it| short_normal(*it))),
             Self::TexCoords(part, size) => put(out, part.uvs[range].iter().map(|uv| tex_coord(*uv, *size))),
             Self::Short(part, _, first) => {
-                let shown = shown(part.triangles.range(range));
+                let shown = proper_triangles(part.triangles.range(range));
                 put(out, shown.map(|corners| corners.map(|corner| corner as u16 + first)));
             }
-            Self::Long(part, _) => put(out, shown(part.triangles.range(range))),
+            Self::Long(part, _) => put(out, proper_triangles(part.triangles.range(range))),
             Self::Places(welded) => out.extend_from_slice(bytemuck::cast_slice(&welded.positions[range])),
             Self::FaceNormals(welded) => put(out, welded.normals[range].iter().map(|it| byte_normal(*it))),
             Self::ShortCorners(welded, first) => {
@@ -416,41 +416,6 @@ fn put<T: bytemuck::NoUninit>(out: &mut Vec<u8>, items: impl Iterator<Item = T>)
         end += size_of::<T>();
     }
     out.truncate(end);
-}
-
-/// Converts a vector of the scene, z up, to glTF's coordinates, y up. Adding zero turns -0 into 0.
-pub(super) fn y_up(vector: Vec3) -> Vec3 {
-    Vec3::new(vector.x, vector.z, -vector.y) + 0.0
-}
-
-/// Returns the nearest integer. `round` is a library call on the baseline processor and therefore slower.
-#[allow(clippy::cast_possible_truncation, reason = "that is what it is for")]
-fn nearest(number: f32) -> i32 {
-    (number + 0.5f32.copysign(number)) as i32
-}
-
-/// Converts a unit vector to multiples of 1/127, followed by a zero.
-#[allow(clippy::cast_possible_truncation, reason = "bounded before")]
-fn byte_normal(normal: Normal) -> [i8; 4] {
-    let [x, y, z] = y_up(normal.vector()).to_array().map(|it| nearest(it * 127.0));
-    [x as i8, y as i8, z as i8, 0]
-}
-
-/// Converts a unit vector to multiples of 1/32767, followed by a zero.
-fn short_normal(normal: Normal) -> [i16; 4] {
-    let [x, y, z] = y_up(normal.vector()).to_array().map(short);
-    [x, y, z, 0]
-}
-
-/// Converts a number from -1 to 1 to a multiple of 1/32767.
-#[allow(clippy::cast_possible_truncation, reason = "bounded before")]
-pub(super) fn short(number: f32) -> i16 {
-    nearest(number * 32767.0) as i16
-}
-
-/// Converts texture coordinates in metres, v upwards, to fractions of the image, v downwards.
-pub(super) fn tex_coord(uv: glam::Vec2, size: [f64; 2]) -> [f32; 2] {
-    [(f64::from(uv.x) / size[0]) as f32, (1.0 - f64::from(uv.y) / size[1]) as f32]
 }
 
 /// Converts `bytes` to the u32 of glTF's headers. Fails if the length exceeds it.

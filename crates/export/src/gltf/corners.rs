@@ -5,8 +5,8 @@
 //! its position, and its texture coordinates if there are any. For a city with facades this leaves a third of the
 //! vertices. The few faces of such parts whose normals differ from their planes are written separately, with normals.
 
-use super::super::check::{shown, triangles};
-use super::body::{tex_coord, y_up};
+use super::super::check::{proper_triangles, triangles};
+use super::coordinates::{tex_coord, y_up};
 use burgeon_base::locks::LockRecovery;
 use burgeon_scene::{Normal, Part};
 use bytemuck::cast;
@@ -100,7 +100,7 @@ impl<'a> PartFaces<'a> {
     /// Returns the selected triangles within a range of the part's triangles.
     pub(super) fn triangles(self, places: Range<usize>) -> impl Iterator<Item = [u32; 3]> {
         let Self { part, which, .. } = self;
-        shown(part.triangles.range(places)).filter(move |corners| match which {
+        proper_triangles(part.triangles.range(places)).filter(move |corners| match which {
             FaceChoice::All => true,
             FaceChoice::Flat => is_flat(part, *corners),
             FaceChoice::Shaded => !is_flat(part, *corners),

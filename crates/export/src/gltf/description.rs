@@ -259,6 +259,14 @@ fn is_zero(number: &u64) -> bool {
     *number == 0
 }
 
+/// Adds `extension` to the list of used extensions.
+pub(super) fn use_extension(root: &mut json::Root, extension: &str) {
+    if !root.extensions_used.iter().any(|used| used == extension) {
+        root.extensions_used.push(extension.into());
+        root.extensions_used.sort();
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use super::body::Body;
-use super::description::Description;
+use super::description::{Description, use_extension};
+use super::material::Textures;
 use super::mesh::Arrays;
 use super::metadata::Metadata;
 use super::{InstancePlace, body, material, mesh, place};
@@ -21,14 +22,6 @@ use json::extras::RawValue;
 
 /// Extension that allows integer attributes.
 const QUANTIZATION: &str = "KHR_mesh_quantization";
-
-/// Location of a document's images.
-pub(super) enum Textures {
-    /// In the body.
-    Embedded,
-    /// In files with these names next to the document.
-    Beside(Vec<String>),
-}
 
 /// Description and the data that it describes.
 struct Document<'a> {
@@ -162,7 +155,7 @@ impl<'a> Document<'a> {
         stop.check()?;
         let placed = place::write(checked, metadata, &meshes, arrays, &mut description, &mut body);
         if arrays.small {
-            material::use_extension(&mut description.root, QUANTIZATION);
+            use_extension(&mut description.root, QUANTIZATION);
             description.root.extensions_required.push(QUANTIZATION.into());
         }
         let extras = scene_extras(&placed.features, checked.scene);
@@ -194,10 +187,6 @@ impl<'a> Document<'a> {
     }
 }
 
-/// Returns a display name, or `None` if it is empty.
-pub(super) fn name(name: &str) -> Option<String> {
-    (!name.is_empty()).then(|| name.to_owned())
-}
 /// Returns the extras of the glTF scene: the feature ids of shared instances, and the up vector of the camera if it
 /// differs from glTF's.
 fn scene_extras(features: &[&str], scene: &Scene) -> Option<Box<RawValue>> {

@@ -4,13 +4,21 @@ use super::super::check::SceneCheck;
 use super::super::color::fraction;
 use super::super::texture::Images;
 use super::body::{Body, BodyArray};
-use super::document::{Textures, name};
+use super::description::use_extension;
 use crate::uri;
 use burgeon_scene::Material;
 use gltf_json as json;
 use json::material::{AlphaMode, EmissiveFactor, PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
 use json::texture::{Info, MagFilter, MinFilter, Sampler};
 use json::validation::Checked::Valid;
+
+/// Location of a document's images.
+pub(super) enum Textures {
+    /// In the body.
+    Embedded,
+    /// In files with these names next to the document.
+    Beside(Vec<String>),
+}
 
 /// Adds the shown materials. Returns the index of each material of the scene.
 pub(super) fn write<'a>(
@@ -113,12 +121,9 @@ fn describe(
     }
 }
 
-/// Adds `extension` to the list of used extensions.
-pub(super) fn use_extension(root: &mut json::Root, extension: &str) {
-    if !root.extensions_used.iter().any(|used| used == extension) {
-        root.extensions_used.push(extension.into());
-        root.extensions_used.sort();
-    }
+/// Returns a display name, or `None` if it is empty.
+fn name(name: &str) -> Option<String> {
+    (!name.is_empty()).then(|| name.to_owned())
 }
 
 /// Splits emitted light into a colour of at most 1, and a strength if it exceeds 1.

@@ -1,7 +1,8 @@
 //! Meshes and the accessors of their arrays.
 
 use super::super::check::{PartExtent, SceneCheck};
-use super::body::{ArrayKind, Body, BodyArray, y_up};
+use super::body::{ArrayKind, Body, BodyArray};
+use super::coordinates::y_up;
 use super::corners::{self, CornerRange, FaceChoice, FaceCorners, PartFaces, flat_faces};
 use super::description::{Accessor, Attributes, Description, MeshDescription, Primitive, ShadingExtras};
 use super::metadata::{FeaturePlace, Metadata};
@@ -195,7 +196,7 @@ impl Vertices {
                 if sum <= SHORT { vec![alike.as_slice()] } else { alike.chunks(1).collect() };
             for group in groups.into_iter().filter(|group| !group.is_empty()) {
                 let members: Vec<&PartView<'a>> = group.iter().map(|index| &parts[*index]).collect();
-                let mut vertices = Self::together(&members, arrays, description, body);
+                let mut vertices = Self::join(&members, arrays, description, body);
                 for index in group {
                     found[*index] = Some(vertices);
                     vertices.first += parts[*index].vertices();
@@ -256,7 +257,7 @@ impl Vertices {
     }
 
     /// Adds the vertices of `parts`, one after another.
-    fn together<'a>(
+    fn join<'a>(
         parts: &[&PartView<'a>],
         arrays: Arrays,
         description: &mut Description<'a>,

@@ -14,7 +14,7 @@ use rustc_hash::FxHashSet;
 use serde_json::{Map, Value as Json, json};
 
 use super::body::{Body, BodyArray};
-use super::material::use_extension;
+use super::description::use_extension;
 use crate::SceneFacts;
 
 const MESH_FEATURES: &str = "EXT_mesh_features";

@@ -19,7 +19,7 @@ struct Binary {
     body: Vec<u8>,
 }
 
-fn written(scene: &Scene, systems: &[SystemFacts], metadata: bool) -> Binary {
+fn write_and_read(scene: &Scene, systems: &[SystemFacts], metadata: bool) -> Binary {
     let folder = std::env::var_os("BURGEON_SAMPLES").filter(|_| metadata);
     let temporary = tempfile::tempdir().unwrap();
     let path = folder.map_or(temporary.path().to_path_buf(), Into::into).join("features.glb");
@@ -129,9 +129,9 @@ fn with_features(mut scene: Scene) -> Scene {
 fn without_being_asked_files_stay_as_they_were() {
     let scene = with_features(samples::many(40));
     let systems = [facts(0, &["height"], vec![vec![Some(Attribute::Number(1.0))]; 40])];
-    let [plain, known] = [&[][..], &systems[..]].map(|systems| written(&scene, systems, false));
+    let [plain, known] = [&[][..], &systems[..]].map(|systems| write_and_read(&scene, systems, false));
     assert!(plain.json == known.json && plain.body == known.body);
-    assert!(written(&scene, &[], true).json == plain.json);
+    assert!(write_and_read(&scene, &[], true).json == plain.json);
 }
 
 #[test]
@@ -145,7 +145,7 @@ fn each_instance_of_a_shared_mesh_and_each_vertex_of_one_of_its_own_knows_its_fe
     scene.instances.push(own);
     let scene = with_features(scene);
     let rows = (0..7).map(|row| vec![Some(Attribute::Number(f64::from(row)))]).collect();
-    let file = written(&scene, &[facts(0, &["height"], rows)], true);
+    let file = write_and_read(&scene, &[facts(0, &["height"], rows)], true);
     let used: HashSet<&str> =
         file.json["extensionsUsed"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
     for name in
@@ -213,7 +213,7 @@ proptest! {
     #[test]
     fn what_features_know_reads_back(rows in rows()) {
         let scene = with_features(samples::boxes(rows.len()));
-        let file = written(&scene, &[facts(0, &["id", "a b", "yes", "sure", "1"], rows.clone())], true);
+        let file = write_and_read(&scene, &[facts(0, &["id", "a b", "yes", "sure", "1"], rows.clone())], true);
         for (column, name) in ["id_2", "a_b", "yes", "sure", "_1"].into_iter().enumerate() {
             let texts = name == "_1" && rows.iter().any(|row| !matches!(row[column], Some(Attribute::Number(_))));
             let booleans = name == "_1" && rows.iter().all(|row| matches!(row[column], Some(Attribute::Boolean(_))));

@@ -7,8 +7,8 @@
 //! Specification: Khronos Group, "glTF 2.0 Specification", 2021.
 
 mod body;
+mod coordinates;
 mod corners;
-
 mod description;
 mod document;
 mod material;

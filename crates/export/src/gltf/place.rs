@@ -2,9 +2,9 @@
 
 use super::super::check::{PartExtent, SceneCheck};
 use super::super::decompose::{Steps, Trs, decompose, y_up};
-use super::body::{Body, BodyArray, short};
-use super::description::{Accessor, Description, FeatureExtras, Node};
-use super::material::use_extension;
+use super::body::{Body, BodyArray};
+use super::coordinates::short;
+use super::description::{Accessor, Description, FeatureExtras, Node, use_extension};
 use super::mesh::{Arrays, accessor};
 use super::metadata::{FeaturePlace, INSTANCE_FEATURES, Metadata, instance_features};
 use burgeon_scene::Instance;
@@ -128,9 +128,9 @@ pub(super) fn write<'a>(
             members[at.unwrap_or_default()].push(number);
             continue;
         }
-        let (node, shown) = alone(instance, mesh, &transform, description);
+        let (node, shown) = add_single(instance, mesh, &transform, description);
         if let Some(metadata) = metadata.filter(|metadata| metadata.is_shared(instance.mesh)) {
-            instance_alone(shown, metadata.of_instance(instance), description, body);
+            add_feature(shown, metadata.of_instance(instance), description, body);
         }
         nodes.push(node);
         places[number] = Some(InstancePlace { node: shown, shared: None });
@@ -139,7 +139,7 @@ pub(super) fn write<'a>(
         if let Some(mesh) = meshes[kind.mesh].filter(|_| !group.translations.is_empty()) {
             let reach = if arrays.small { f64::INFINITY } else { reach(checked, kind.mesh) };
             let features = metadata.is_some().then_some(kind.table).flatten();
-            let node = together(kind, group, features, (mesh, reach), description, body);
+            let node = add_group(kind, group, features, (mesh, reach), description, body);
             nodes.push(node);
             for (shared, number) in members.into_iter().enumerate() {
                 places[number] = Some(InstancePlace { node, shared: Some(shared) });
@@ -242,7 +242,7 @@ impl AttributeColumn {
 
 /// Adds the nodes for one instance. Returns the outermost node and the node with the mesh. They are the same unless the
 /// instance is sheared, or so far away that a second translation stores the rounding error of the first.
-fn alone<'a>(
+fn add_single<'a>(
     instance: &'a Instance,
     mesh: usize,
     transform: &DAffine3,
@@ -256,13 +256,13 @@ fn alone<'a>(
     };
     let (outer, inner) = match decompose(transform) {
         Steps::One(trs) => {
-            let node = description.node(placed(shown, &trs));
+            let node = description.node(with_transform(shown, &trs));
             (node, node)
         }
         Steps::Two(rest, first) => {
             let inner = description.node(Node { rotation: rotation(first), ..shown });
             let outer = Node { children: Some(vec![inner]), ..Node::default() };
-            (description.node(placed(outer, &rest)), inner)
+            (description.node(with_transform(outer, &rest)), inner)
         }
     };
     let Some(lost) = rounding(transform.translation) else { return (outer, inner) };
@@ -271,7 +271,7 @@ fn alone<'a>(
 }
 
 /// Adds one node for all instances of a group; `mesh` is the index of the mesh and its radius (m).
-fn together<'a>(
+fn add_group<'a>(
     kind: InstanceKind<'a>,
     group: InstanceGroup,
     table: Option<usize>,
@@ -323,7 +323,7 @@ fn together<'a>(
 }
 
 /// Assigns a feature to the node of a sheared instance, which cannot share a node.
-fn instance_alone(
+fn add_feature(
     node: usize,
     feature: Option<FeaturePlace>,
     description: &mut Description<'_>,
@@ -356,7 +356,7 @@ fn rounding(translation: DVec3) -> Option<DVec3> {
 }
 
 /// Sets the transform of `node`, omitting default values.
-fn placed<'a>(node: Node<'a>, trs: &Trs) -> Node<'a> {
+fn with_transform<'a>(node: Node<'a>, trs: &Trs) -> Node<'a> {
     Node {
         translation: translation(trs.translation),
         rotation: rotation(trs.rotation),

@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 const TURN: fn(DVec3) -> DVec3 = |p| DVec3::new(p.x, p.z, -p.y);
 
 /// Returns the triangles of every instance in the world, as a viewer draws them.
-fn drawn(bytes: &[u8]) -> Vec<[DVec3; 3]> {
+fn drawn_triangles(bytes: &[u8]) -> Vec<[DVec3; 3]> {
     let file = Gltf::from_slice_without_validation(bytes).unwrap();
     let blob = file.blob.clone().unwrap_or_default();
     let mut triangles = Vec::new();
@@ -97,7 +97,7 @@ fn instances(extension: &serde_json::Value, file: &Gltf, blob: &[u8]) -> Vec<DMa
 }
 
 /// Returns the triangles of every instance, directly from the scene.
-fn meant(scene: &Scene) -> Vec<[DVec3; 3]> {
+fn scene_triangles(scene: &Scene) -> Vec<[DVec3; 3]> {
     let mut triangles = Vec::new();
     for instance in &scene.instances {
         for part in &scene.meshes[instance.mesh].parts {
@@ -117,7 +117,7 @@ fn meant(scene: &Scene) -> Vec<[DVec3; 3]> {
 
 /// Returns the largest distance (m) between an expected triangle and the one that is drawn, in any order.
 fn distance(scene: &Scene) -> f64 {
-    let (mut meant, mut drawn) = (meant(scene), drawn(&glb(scene).unwrap()));
+    let (mut meant, mut drawn) = (scene_triangles(scene), drawn_triangles(&glb(scene).unwrap()));
     assert_eq!(meant.len(), drawn.len());
     let key = |it: &[DVec3; 3]| {
         let [a, b, c] = it.map(|p| [p.x, p.y, p.z].map(|it| (it * 37.7123).round() as i64));
@@ -126,11 +126,11 @@ fn distance(scene: &Scene) -> f64 {
     };
     meant.sort_by_key(key);
     drawn.sort_by_key(key);
-    apart(&meant, &drawn)
+    largest_distance(&meant, &drawn)
 }
 
 /// Returns the largest distance (m) between triangles in the same order, which may begin at different corners.
-fn apart(some: &[[DVec3; 3]], others: &[[DVec3; 3]]) -> f64 {
+fn largest_distance(some: &[[DVec3; 3]], others: &[[DVec3; 3]]) -> f64 {
     assert_eq!(some.len(), others.len());
     let apart = |(a, b): (&[DVec3; 3], &[DVec3; 3])| {
         let turned = |by: usize| (0..3).map(|i| a[i].distance(b[(i + by) % 3])).fold(0.0, f64::max);
@@ -219,7 +219,7 @@ fn models_that_features_have_placed_share_a_node_which_tells_whose_each_is() {
 
 #[test]
 fn a_far_model_has_one_whole_offset_and_loses_less_than_a_millimetre() {
-    let scene = samples::far();
+    let scene = samples::far_box();
     let file = Gltf::from_slice(&glb(&scene).unwrap()).unwrap();
     let top: Vec<_> = file.default_scene().unwrap().nodes().collect();
     assert_eq!(top.len(), 1);
@@ -247,14 +247,14 @@ fn points_beyond_a_u16_are_indexed_by_u32() {
         let file = Gltf::from_slice(&bytes).unwrap();
         let primitive = file.meshes().next().unwrap().primitives().next().unwrap();
         assert_eq!(primitive.indices().unwrap().data_type(), kind, "{n}");
-        assert_eq!(drawn(&bytes).len(), (n * n * 2) as usize);
+        assert_eq!(drawn_triangles(&bytes).len(), (n * n * 2) as usize);
     }
 }
 
 #[test]
 fn texture_coordinates_are_parts_of_the_image_from_its_top() {
     let folder = tempfile::tempdir().unwrap();
-    let mut scene = samples::textured(folder.path());
+    let mut scene = samples::textured_boxes(folder.path());
     for mesh in &mut scene.meshes {
         mesh.parts[0].uvs[0] = glam::Vec2::new(0.25, 0.5);
     }
@@ -276,7 +276,7 @@ fn texture_coordinates_are_parts_of_the_image_from_its_top() {
 fn a_gltf_file_refers_to_its_body_and_textures() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("große Stadt.gltf");
-    let scene = samples::textured(folder.path());
+    let scene = samples::textured_boxes(folder.path());
     super::super::write(&scene, &path, &burgeon_picture::Picture::default()).unwrap();
     let (file, buffers, images) = gltf::import(&path).unwrap();
     assert_eq!((file.meshes().count(), buffers.len(), images.len()), (3, 1, 2));
@@ -327,7 +327,7 @@ fn flat_faces_have_no_normals_and_share_their_corners() {
 #[test]
 fn faces_without_an_image_share_the_corners_of_those_with_one() {
     let folder = tempfile::tempdir().unwrap();
-    let mut scene = samples::textured(folder.path());
+    let mut scene = samples::textured_boxes(folder.path());
     let mesh = &mut scene.meshes[0];
     let mut plain = mesh.parts[0].clone();
     plain.material = scene.materials.len();
@@ -361,7 +361,7 @@ fn faces_that_are_shaded_otherwise_than_they_lie_are_written_with_their_normals(
     let normals = |index: usize| primitives[index].reader(|_| file.blob.as_deref()).read_normals();
     assert!(normals(0).is_none());
     for normal in normals(1).unwrap() {
-        assert!(glam::Vec3::from(normal).distance(body::y_up(tilted.vector())) < 1e-6);
+        assert!(glam::Vec3::from(normal).distance(coordinates::y_up(tilted.vector())) < 1e-6);
     }
     assert!(distance(&scene) < 1e-4);
 }
@@ -402,10 +402,10 @@ fn a_viewer_is_sent_the_same_triangles_in_fewer_bytes() {
         // Only files have rounded rotations.
         let is_rounded = file.windows(10).any(|bytes| bytes == b"\"ROTATION\"");
         let most = if is_rounded { 1e-3 } else { 0.0 };
-        let (sent, written) = (drawn(&viewer), drawn(&file));
-        assert!(apart(&sent, &written) <= most, "{name}");
-        let measured = drawn(&glb_with_texture_coordinates(&scene, &Stop::default()).unwrap());
-        assert!(apart(&measured, &sent) <= 0.0, "{name}");
+        let (sent, written) = (drawn_triangles(&viewer), drawn_triangles(&file));
+        assert!(largest_distance(&sent, &written) <= most, "{name}");
+        let measured = drawn_triangles(&glb_with_texture_coordinates(&scene, &Stop::default()).unwrap());
+        assert!(largest_distance(&measured, &sent) <= 0.0, "{name}");
         rounded += usize::from(is_rounded);
     }
     assert_eq!(rounded, 3);
@@ -447,7 +447,7 @@ fn small_normals_are_near_the_true_ones_and_nearer_where_surfaces_are_smooth() {
             for (given, corner) in pairs {
                 let normal = part.normals[given as usize].vector();
                 assert!(
-                    written(corner).distance(body::y_up(normal)) < most,
+                    written(corner).distance(coordinates::y_up(normal)) < most,
                     "{normal} is {}",
                     written(corner)
                 );
@@ -481,7 +481,7 @@ proptest! {
         scene.instances[0].transform = glam::DAffine3::from_mat3_translation(
             glam::DMat3::from_cols_array(&cols), DVec3::from(at) * 0.5,
         );
-        let (meant, drawn) = (meant(&scene), drawn(&glb(&scene).unwrap()));
+        let (meant, drawn) = (scene_triangles(&scene), drawn_triangles(&glb(&scene).unwrap()));
         for (meant, drawn) in meant.iter().zip(&drawn) {
             for (a, b) in meant.iter().zip(drawn) {
                 prop_assert!(a.distance(*b) < 1e-3, "{a} {b}");

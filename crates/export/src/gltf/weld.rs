@@ -4,7 +4,7 @@
 //! all faces. The data to transfer, and the work of a computer without a graphics card, is reduced to a third.
 
 use super::super::check::triangles;
-use super::body::y_up;
+use super::coordinates::y_up;
 use burgeon_scene::{Normal, Part};
 use bytemuck::cast;
 use glam::Vec3;

@@ -3,7 +3,7 @@
 use std::io;
 
 use super::super::Out;
-use super::HeightMap;
+use super::height_map::HeightMap;
 use burgeon_base::error::{Error, Result};
 
 /// Fails, because neither format is available.

@@ -11,5 +11,7 @@
 mod height_map;
 #[cfg_attr(not(feature = "data"), path = "absent.rs")]
 mod packed;
+mod write;
 
-pub use height_map::{HeightMap, check_name, write};
+pub use height_map::HeightMap;
+pub use write::{check_name, write};

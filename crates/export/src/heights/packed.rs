@@ -7,8 +7,7 @@ use tiff::encoder::{Compression, DeflateLevel, TiffEncoder, colortype};
 use tiff::tags::Tag;
 
 use super::super::Out;
-use super::HeightMap;
-use super::height_map::narrow;
+use super::height_map::{HeightMap, narrow};
 use burgeon_base::error::Result;
 use burgeon_data::elevation::{png_text, tiff_key};
 

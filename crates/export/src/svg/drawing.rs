@@ -104,7 +104,7 @@ fn document(
     line(format_args!("<g fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\">"));
     for sheet in sheets::stack(faces, pen, stop)? {
         stop.check()?;
-        let fill = outline::filled(faces, &sheet.faces);
+        let fill = outline::filled_outline(faces, &sheet.faces);
         let (color, opacity) = palette.fill(sheet.ink);
         let opacity =
             if opacity < 1.0 { format!(" opacity=\"{}\"", decimals(opacity)) } else { String::new() };
@@ -203,7 +203,7 @@ mod tests {
     use crate::samples;
 
     /// Returns the area (m²) and the number of corners of all filled paths.
-    fn filled(drawing: &str) -> (f64, usize) {
+    fn filled_paths(drawing: &str) -> (f64, usize) {
         let (mut area, mut corners) = (0.0, 0);
         for line in drawing.lines().filter(|line| line.starts_with("<path fill=\"#") && !line.contains('L')) {
             let data = line.split(" d=\"").nth(1).unwrap().trim_end_matches("\"/>");
@@ -229,14 +229,14 @@ mod tests {
     fn a_box_in_plan_is_one_square() {
         let drawing = svg(&samples::boxes(1)).unwrap();
         assert!(drawing.contains("<title>Plan, north up</title>"), "{drawing}");
-        assert_eq!(filled(&drawing), (1.0, 4));
+        assert_eq!(filled_paths(&drawing), (1.0, 4));
         assert!(drawing.contains(">20 cm</text>"), "{drawing}");
     }
 
     #[test]
     fn a_hill_covers_its_ground_and_its_triangles_merge() {
         let drawing = svg(&samples::hill(120)).unwrap();
-        let (area, corners) = filled(&drawing);
+        let (area, corners) = filled_paths(&drawing);
         assert!((area - 10_000.0).abs() < 1e-3, "{area}");
         assert!(corners < 120 * 120 * 2, "{corners}");
     }
@@ -244,7 +244,7 @@ mod tests {
     #[test]
     fn every_house_is_drawn_once_on_the_ground() {
         let scene = samples::town(3);
-        let (area, _) = filled(&svg(&scene).unwrap());
+        let (area, _) = filled_paths(&svg(&scene).unwrap());
         let seen: f64 = scene
             .instances
             .iter()
@@ -272,7 +272,7 @@ mod tests {
 
     #[test]
     fn a_far_model_is_counted_from_whole_metres_that_the_drawing_tells() {
-        let drawing = svg(&samples::far()).unwrap();
+        let drawing = svg(&samples::far_box()).unwrap();
         assert!(drawing.contains("counted from (531000, 4556000, 0)"), "{drawing}");
     }
 

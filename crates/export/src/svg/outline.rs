@@ -6,7 +6,7 @@ use super::faces::{PaperPoint, VisibleFaces};
 ///
 /// A side between two of the faces is traversed once in each direction, which cancels out. The remaining sides form
 /// rings with unchanged winding numbers.
-pub(super) fn filled(faces: &VisibleFaces, indices: &[u32]) -> String {
+pub(super) fn filled_outline(faces: &VisibleFaces, indices: &[u32]) -> String {
     let mut sides: Vec<(PaperPoint, PaperPoint, i32)> = Vec::with_capacity(indices.len() * 3);
     for index in indices {
         let [a, b, c] = faces.faces[*index as usize].corners;
@@ -99,7 +99,7 @@ fn path(chains: &[Vec<PaperPoint>]) -> String {
         let is_ring = first == last;
         out.push('M');
         number(first[0], &mut out);
-        spaced(-first[1], &mut out);
+        push_spaced(-first[1], &mut out);
         let mut at = *first;
         let steps = if is_ring { &chain[1..chain.len() - 1] } else { &chain[1..] };
         for (i, point) in steps.iter().enumerate() {
@@ -107,9 +107,9 @@ fn path(chains: &[Vec<PaperPoint>]) -> String {
                 out.push('l');
                 number(point[0] - at[0], &mut out);
             } else {
-                spaced(point[0] - at[0], &mut out);
+                push_spaced(point[0] - at[0], &mut out);
             }
-            spaced(at[1] - point[1], &mut out);
+            push_spaced(at[1] - point[1], &mut out);
             at = *point;
         }
         if is_ring {
@@ -120,7 +120,7 @@ fn path(chains: &[Vec<PaperPoint>]) -> String {
 }
 
 /// Appends a number after another one; a minus sign also serves as the separator.
-fn spaced(millimetres: i64, out: &mut String) {
+fn push_spaced(millimetres: i64, out: &mut String) {
     if millimetres >= 0 {
         out.push(' ');
     }

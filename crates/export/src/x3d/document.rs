@@ -10,7 +10,7 @@ use super::super::files::Files;
 use super::super::texture::Images;
 use super::super::{SceneFacts, stem, uri};
 use super::shape::{self, LookReference, Looks, numbers, title, write_feature};
-use super::xml::{identifier, listed};
+use super::xml::{escape_list_item, identifier};
 use burgeon_base::error::Result;
 use burgeon_data::ReferenceFrame;
 use burgeon_scene::{Instance, Scene, ScenePackage};
@@ -227,7 +227,7 @@ impl<'a> DocumentPlan<'a> {
                 let _ = write!(out, "<fieldValue name='{field}' value='{value}'/>");
             }
             if let Some(feature) = feature {
-                let _ = write!(out, "<fieldValue name='feature' value='{}'/>", listed(feature));
+                let _ = write!(out, "<fieldValue name='feature' value='{}'/>", escape_list_item(feature));
             }
             out.push_str("</ProtoInstance>\n");
             return;

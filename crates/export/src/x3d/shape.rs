@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::super::check::{shown_parts, triangles};
 use super::super::color::{fraction, srgb};
-use super::xml::{escaped, identifier, listed};
+use super::xml::{escape_attribute, escape_list_item, identifier};
 use burgeon_scene::{Material, Mesh, Part, Texture};
 use glam::Vec3;
 
@@ -116,7 +116,7 @@ impl Looks<'_> {
         }
         out.push_str("/>");
         if let Some(image) = &self.images[index] {
-            let _ = write!(out, "<ImageTexture url='{}'/>", listed(image));
+            let _ = write!(out, "<ImageTexture url='{}'/>", escape_list_item(image));
         }
         out.push_str("</Appearance>");
     }
@@ -124,10 +124,10 @@ impl Looks<'_> {
 
 /// Writes the feature as a node that unaware programs ignore.
 pub(super) fn write_feature(feature: &str, out: &mut String) {
-    let _ = write!(out, "<MetadataString name='feature' value='{}'/>", listed(feature));
+    let _ = write!(out, "<MetadataString name='feature' value='{}'/>", escape_list_item(feature));
 }
 
 /// Escapes `name` as a title.
 pub(super) fn title(name: &str) -> String {
-    escaped(name)
+    escape_attribute(name)
 }

@@ -220,7 +220,7 @@ fn read(path: &Path) -> (X3dContent, String) {
     (shown, text)
 }
 
-fn written(scene: &Scene) -> (X3dContent, String) {
+fn write_and_read(scene: &Scene) -> (X3dContent, String) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.x3d");
     crate::write(scene, &path, &Picture::default()).unwrap();
@@ -266,7 +266,7 @@ fn every_sample_is_valid_and_shows_all_triangles_with_normals_outside() {
 #[test]
 fn placed_models_are_instances_of_prototypes_and_other_shared_meshes_are_used() {
     let mut scene = samples::many(30);
-    let (shown, text) = written(&scene);
+    let (shown, text) = write_and_read(&scene);
     assert_eq!((shown.prototypes, shown.instances, shown.shapes), (0, 0, 30));
     // One group is unchanged and one is mirrored, and each is defined once. The material is referred to from the second
     // use on.
@@ -275,7 +275,7 @@ fn placed_models_are_instances_of_prototypes_and_other_shared_meshes_are_used() 
         instance.placement = Some(number);
         instance.feature = (number % 2 == 0).then(|| format!("way/{number}"));
     }
-    let (shown, text) = written(&scene);
+    let (shown, text) = write_and_read(&scene);
     assert_eq!((shown.prototypes, shown.instances, shown.shapes), (2, 30, 30));
     assert_eq!(text.matches("<IndexedTriangleSet").count(), 2);
     assert_eq!(shown.features.len(), 15);
@@ -288,14 +288,14 @@ fn odd_names_stay_readable_and_what_xml_cannot_hold_is_replaced() {
     scene.materials[0].name = "']]><!-- Stahl „poliert“ & more".into();
     scene.meshes[0].name = "\u{0}'\"".into();
     scene.instances[0].feature = Some("a\\\"b\"<&>\u{0}\u{b}\n\t'ü家\u{ffff}".into());
-    let (shown, text) = written(&scene);
+    let (shown, text) = write_and_read(&scene);
     assert_eq!(shown.features, ["\"a\\\\\\\"b\\\"<&>\u{fffd}\u{fffd}\n\t'ü家\u{fffd}\""]);
     assert!(text.contains("DEF='material_0_Stahl__poliert____more'"), "{text}");
 }
 
 #[test]
 fn a_far_model_is_moved_by_one_transform() {
-    let (shown, text) = written(&samples::far());
+    let (shown, text) = write_and_read(&samples::far_box());
     assert!(text.contains("<Transform translation='531000 0 -4556000'>"), "{text}");
     assert!(shown.triangles.iter().flatten().all(|(point, _)| point.x > 5e5));
 }
@@ -305,7 +305,7 @@ fn a_material_has_its_colours_its_light_and_how_much_shines_through() {
     let folder = tempfile::tempdir().unwrap();
     let all = samples::all(folder.path());
     let (_, materials) = all.iter().find(|(name, _)| *name == "materials").unwrap();
-    let (_, text) = written(materials);
+    let (_, text) = write_and_read(materials);
     assert!(
         text.contains("transparency='0.6000'") && text.contains("emissiveColor='1.0000 1.0000 0.7354'"),
         "{text}"

@@ -7,7 +7,7 @@ const LONGEST: usize = 40;
 
 /// Escapes `text` for an attribute in quotation marks. XML cannot represent most control characters, so they become
 /// U+FFFD.
-pub(super) fn escaped(text: &str) -> String {
+pub(super) fn escape_attribute(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {
         match letter {
@@ -28,8 +28,8 @@ pub(super) fn escaped(text: &str) -> String {
 }
 
 /// Escapes a list of strings with the single item `text` for an attribute.
-pub(super) fn listed(text: &str) -> String {
-    escaped(&format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\"")))
+pub(super) fn escape_list_item(text: &str) -> String {
+    escape_attribute(&format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\"")))
 }
 
 /// Returns an identifier that is unique in the file: for item number `index` of type `kind` with the display name

@@ -57,7 +57,7 @@ fn work_ends_where_its_run_is_stopped() {
     assert_eq!(unite(many.clone()).unwrap().len(), 1);
     let stop = Arc::new(Stop::default());
     let _work = stop.at_work();
-    stop.stop(Error::stopped("enough"));
+    stop.stop(Error::cancellation("enough"));
     assert_eq!(unite(many).unwrap_err().message(), "enough");
 }
 

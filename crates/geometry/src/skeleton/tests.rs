@@ -277,7 +277,7 @@ fn a_skeleton_ends_when_its_run_is_stopped() {
     let _work = stop.at_work();
     let square = polygon(&[&[(0., 0.), (2., 0.), (2., 2.), (0., 2.)]]);
     assert!(Skeleton::new(&square, &[Pace::default(); 4]).is_ok());
-    stop.stop(burgeon_base::error::Error::stopped("time is up"));
+    stop.stop(burgeon_base::error::Error::cancellation("time is up"));
     let error = Skeleton::new(&square, &[Pace::default(); 4]).expect_err("stopped");
     assert_eq!(error.message(), "time is up");
 }

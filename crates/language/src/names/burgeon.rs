@@ -53,12 +53,12 @@ pub(super) fn names() -> Vec<Name> {
             "The level of detail of the run: 0 ground plans, 1 blocks, 2 roofs, 3 everything.",
         )
         .luau("number"),
-        Name::given(
+        Name::return_value(
             "color",
             "string | { number }",
             "A colour: \"#rrggbb\", a name such as \"lightblue\", or { red, green, blue } from 0 to 1.",
         ),
-        Name::given(
+        Name::return_value(
             "feature",
             "Feature",
             "A feature of a data file: its attributes by name, and these, which win over attributes.",
@@ -236,7 +236,7 @@ pub static EXTEND: LazyLock<Name> = LazyLock::new(|| {
 pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
     let pattern = || argument("pattern", "string");
     let successor = || argument("successor", "((this: T, ...any) -> ...Module) | string");
-    Name::given("system", "System<T>", "A system of rules, as lsystem gives it; T is the type of its object.")
+    Name::return_value("system", "System<T>", "A system of rules, as lsystem gives it; T is the type of its object.")
         .functions([
             Name::function(
                 "axiom",
@@ -269,33 +269,41 @@ pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
 
 /// Options of a rule.
 pub static RULE: LazyLock<Name> = LazyLock::new(|| {
-    Name::given("rule", "{ ... }", "The options of system:rule, between its pattern and its successor.")
-        .fields([
-            field(
-                "weight",
-                "number?",
-                "nil",
-                "How often it is drawn, to the weights of the other rules that apply; never, if it is 0.",
-            ),
-            field(
-                "when",
-                "((this: T, ...any) -> boolean)?",
-                "nil",
-                "The guard: the rule applies only where this function returns true.",
-            ),
-        ])
+    Name::return_value(
+        "rule",
+        "{ ... }",
+        "The options of system:rule, between its pattern and its successor.",
+    )
+    .fields([
+        field(
+            "weight",
+            "number?",
+            "nil",
+            "How often it is drawn, to the weights of the other rules that apply; never, if it is 0.",
+        ),
+        field(
+            "when",
+            "((this: T, ...any) -> boolean)?",
+            "nil",
+            "The guard: the rule applies only where this function returns true.",
+        ),
+    ])
 });
 
 /// Fields of a derived system.
 pub static DERIVED: LazyLock<Name> = LazyLock::new(|| {
-    Name::given("derived", "Derived", "A derived system, as system:derive gives it, which is also a model.")
-        .extends("Model")
-        .fields([
-            Field::new("objects", "{ any }", "The objects that the chains have drawn with."),
-            Field::new("chains", "{ string }", "The chains as text."),
-            Field::new("steps", "number", "How many steps there were."),
-            Field::new("modules", "number", "How many modules the chains have."),
-        ])
+    Name::return_value(
+        "derived",
+        "Derived",
+        "A derived system, as system:derive gives it, which is also a model.",
+    )
+    .extends("Model")
+    .fields([
+        Field::new("objects", "{ any }", "The objects that the chains have drawn with."),
+        Field::new("chains", "{ string }", "The chains as text."),
+        Field::new("steps", "number", "How many steps there were."),
+        Field::new("modules", "number", "How many modules the chains have."),
+    ])
 });
 
 /// Loading of features, with the options that select them.
@@ -355,19 +363,19 @@ pub static SOURCE: LazyLock<Name> = LazyLock::new(|| {
 
 /// Fields of a layer, which `source` returns.
 pub static LAYER: LazyLock<Name> = LazyLock::new(|| {
-    Name::given("layer", "Layer", "Features, as source gives them: for index, feature in it do, and #it.")
-        .items("Feature")
-        .fields([
-            Field::new("features", "{ Feature }", "The features as a list."),
-            metres(
-                "bounds",
-                "{ min: { number }, max: { number } }?",
-                "The corners of the box around them (m).",
-            ),
-            Field::new("layer", "string?", "The name of the layer."),
-            Field::new("crs", "string?", "The coordinate system of the file."),
-            metres("origin", "{ number }?", "Where the run's origin is in its projection (m)."),
-        ])
+    Name::return_value(
+        "layer",
+        "Layer",
+        "Features, as source gives them: for index, feature in it do, and #it.",
+    )
+    .items("Feature")
+    .fields([
+        Field::new("features", "{ Feature }", "The features as a list."),
+        metres("bounds", "{ min: { number }, max: { number } }?", "The corners of the box around them (m)."),
+        Field::new("layer", "string?", "The name of the layer."),
+        Field::new("crs", "string?", "The coordinate system of the file."),
+        metres("origin", "{ number }?", "Where the run's origin is in its projection (m)."),
+    ])
 });
 
 /// SQL query.
@@ -401,7 +409,7 @@ static FRAGMENT: LazyLock<Name> = LazyLock::new(|| {
 /// Fields, operators and methods of a vector.
 pub static VECTOR: LazyLock<Name> = LazyLock::new(|| {
     let other = || argument("other", "Vector");
-    Name::given(
+    Name::return_value(
         "vector",
         "Vector",
         "Three numbers that never change, as vec gives them: +, - and * with vectors and lists, * and / with numbers.",

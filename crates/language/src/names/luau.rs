@@ -298,7 +298,7 @@ const UTF8: [Row; 6] = [
 
 /// Returns all names of Luau that scripts can use.
 pub(super) fn names() -> Vec<Name> {
-    let mut names: Vec<Name> = FUNCTIONS.into_iter().map(|row| declared(NameKind::Luau, row)).collect();
+    let mut names: Vec<Name> = FUNCTIONS.into_iter().map(|row| declare(NameKind::Luau, row)).collect();
     for (name, doc, rows) in [
         ("string", "Luau's library of strings.", &STRING[..]),
         ("table", "Luau's library of lists and tables.", &TABLE[..]),
@@ -310,13 +310,13 @@ pub(super) fn names() -> Vec<Name> {
         ("bit32", "Luau's library of operations on the bits of whole numbers.", &BIT32[..]),
         ("utf8", "Luau's library of texts in UTF-8.", &UTF8[..]),
     ] {
-        let functions: Vec<Name> = rows.iter().map(|row| declared(NameKind::Function, *row)).collect();
+        let functions: Vec<Name> = rows.iter().map(|row| declare(NameKind::Function, *row)).collect();
         names.push(Name::new(name, NameKind::Luau, doc).functions(functions));
     }
     names
 }
 
-fn declared(sort: NameKind, (name, luau, doc, effect): Row) -> Name {
+fn declare(sort: NameKind, (name, luau, doc, effect): Row) -> Name {
     let name = Name { effect, ..Name::new(name, sort, doc) };
     if luau.starts_with('(') { name.read(luau) } else { name.luau(luau) }
 }

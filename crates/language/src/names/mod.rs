@@ -4,10 +4,12 @@
 //! declarations. The names of the standard library are declared in its own file.
 
 mod burgeon;
+mod list;
 mod luau;
 mod name;
 mod standard;
 
 pub use burgeon::{DERIVED, EXTEND, LAYER, LSYSTEM, OBJECT, PARAM, RULE, SOURCE, SYSTEM, VECTOR};
+pub use list::{deprecated_names, is_pure_function, library_effect, names};
 pub use luau::LOCKED;
-pub use name::{Effect, Name, NameKind, Operator, deprecated_names, is_pure_function, library_effect, names};
+pub use name::{Effect, Name, NameKind, Operator};

@@ -21,7 +21,7 @@ pub(super) fn names() -> Vec<Name> {
             let doc = doc(&lines[..at]);
             let name = Name { doc: doc.into(), ..Name::global(name, "") };
             let name = name.form(form.arguments, &form.returns);
-            names.push(above(&lines[..at]).into_iter().fold(name, Name::read).pure());
+            names.push(comment_above(&lines[..at]).into_iter().fold(name, Name::read).pure());
         } else if let Some(name) = line.strip_prefix("local ").and_then(|rest| rest.strip_suffix(" = {"))
             && is_given(name)
         {
@@ -45,7 +45,7 @@ fn curves(lines: &[&'static str]) -> Vec<Name> {
 }
 
 /// Returns the lines of description before a declaration.
-fn above<'a>(before: &[&'a str]) -> Vec<&'a str> {
+fn comment_above<'a>(before: &[&'a str]) -> Vec<&'a str> {
     let lines = before.iter().rev().map_while(|line| line.strip_prefix("---"));
     let mut lines: Vec<&str> = lines.map(str::trim).collect();
     lines.reverse();
@@ -54,7 +54,7 @@ fn above<'a>(before: &[&'a str]) -> Vec<&'a str> {
 
 /// Returns the description before a declaration. Lines with types in it are additional signatures and are skipped.
 fn doc(before: &[&str]) -> String {
-    let mut lines = above(before);
+    let mut lines = comment_above(before);
     lines.retain(|line| !line.starts_with('('));
     lines.join(" ")
 }
@@ -95,14 +95,14 @@ fn module(line: &'static str) -> Option<Name> {
         Some(declared) => declared.split('"').skip(1).step_by(2).collect(),
         None => parameters.into_iter().collect(),
     };
-    let parameters: Vec<Argument> = parameters.into_iter().map(typed).collect();
+    let parameters: Vec<Argument> = parameters.into_iter().map(parameter_argument).collect();
     let doc = format!("Calls {kind}:{method} where it is interpreted.");
     let name = Name::new(name, NameKind::Module { kind, method }, "").form(parameters, "Module");
     Some(Name { doc: doc.into(), ..name })
 }
 
 /// Creates the argument for a module parameter; a name that ends with `?` makes it optional.
-fn typed(parameter: &'static str) -> Argument {
+fn parameter_argument(parameter: &'static str) -> Argument {
     match parameter.strip_suffix('?') {
         Some(name) => argument(name, "any?"),
         None => argument(parameter, "any"),

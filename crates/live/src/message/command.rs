@@ -103,7 +103,7 @@ pub struct PickCommand {
 
 /// Parses a page's message. Fails with the event to send to the page.
 pub fn read(text: &str) -> Result<PageCommand, Box<Event>> {
-    let refuse = |id: Option<u64>, error: Error| Err(Box::new(Event::refused(id, &error)));
+    let refuse = |id: Option<u64>, error: Error| Err(Box::new(Event::rejection(id, &error)));
     let value: Value = match serde_json::from_str(text) {
         Ok(value @ Value::Object(_)) => value,
         Ok(_) => return refuse(None, Error::argument("a message is a JSON object with a type")),

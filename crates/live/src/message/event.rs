@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::cause::Cause;
 use super::{AroundMessage, HighlightMessage, ModelMessage, ParamMessage, PickMessage, bounded};
 use burgeon_base::error::Error;
 use serde::Serialize;
@@ -158,27 +159,9 @@ pub struct Hello {
     pub stale: Option<f64>,
 }
 
-/// Cause of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Cause {
-    /// Start of the server.
-    Start,
-    /// Change of a file.
-    Save,
-    /// Change of a parameter.
-    Parameters,
-    /// Change of the seed.
-    Seed,
-    /// Change of the step limit.
-    Steps,
-    /// Loading of a preset.
-    Preset,
-}
-
 impl Event {
     /// Creates the rejection of a message that led to `error`.
-    pub fn refused(id: Option<u64>, error: &Error) -> Self {
+    pub fn rejection(id: Option<u64>, error: &Error) -> Self {
         Self::Refused { id, code: error.kind().code(), text: error.to_string() }
     }
 

@@ -5,13 +5,15 @@
 //! glTF, y up.
 
 mod bounded;
+mod cause;
 mod command;
 mod event;
 mod model;
 mod origin;
 
+pub use cause::Cause;
 pub use command::{PageCommand, PickCommand, read};
-pub use event::{Cause, Event, Hello};
+pub use event::{Event, Hello};
 pub use model::{
     Bounds, ControlMessage, CountMessage, ModelMessage, ParamMessage, RuleMessage, SystemMessage,
     TimesMessage, json,

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde_json::Value;
 
-use super::Cause;
+use super::cause::Cause;
 use burgeon_engine::script::{Control, Param, Setting};
 
 /// Result of a run.

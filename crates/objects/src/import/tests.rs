@@ -374,7 +374,7 @@ fn changed_descriptions_neither_panic_nor_take_more_than_they_may() {
         let begin = std::time::Instant::now();
         match read(&glb(&changed.to_string(), body, true), &mut wanted) {
             Ok(scene) => {
-                assert!(scene.triangles() <= 2000 && budget.taken() <= 20_000_000);
+                assert!(scene.triangles() <= 2000 && budget.used_bytes() <= 20_000_000);
                 good += 1;
             }
             Err(_) => bad += 1,

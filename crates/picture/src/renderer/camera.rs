@@ -69,7 +69,7 @@ impl Camera {
     }
 
     /// Returns the same camera for a model that extends nearer to it than the points that it was fitted to.
-    pub(super) fn inside(self) -> Self {
+    pub(super) fn with_nearer_plane(self) -> Self {
         Self { near: self.near * 0.02, ..self }
     }
 

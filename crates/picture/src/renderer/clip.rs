@@ -70,7 +70,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn clipped(corners: [Vec3A; 3], near: f32) -> Vec<([Vec3A; 3], [Vec3A; 3])> {
+    fn clip_triangle(corners: [Vec3A; 3], near: f32) -> Vec<([Vec3A; 3], [Vec3A; 3])> {
         let mut all = Vec::new();
         clip(corners, near, |corners, weights| all.push((corners, weights)));
         all
@@ -83,13 +83,13 @@ mod tests {
     #[test]
     fn a_triangle_in_front_of_the_camera_stays_as_it_is() {
         let corners = [Vec3A::new(-0.1, 0.0, 1.0), Vec3A::new(0.1, 0.0, 1.0), Vec3A::new(0.0, 0.2, 2.0)];
-        assert_eq!(clipped(corners, 0.01), [(corners, [Vec3A::X, Vec3A::Y, Vec3A::Z])]);
+        assert_eq!(clip_triangle(corners, 0.01), [(corners, [Vec3A::X, Vec3A::Y, Vec3A::Z])]);
     }
 
     #[test]
     fn a_triangle_behind_the_camera_disappears() {
         let corners = [Vec3A::NEG_Z, Vec3A::new(1.0, 0.0, -2.0), Vec3A::new(0.0, 1.0, -3.0)];
-        assert_eq!(clipped(corners, 0.01), []);
+        assert_eq!(clip_triangle(corners, 0.01), []);
     }
 
     proptest! {
@@ -100,7 +100,7 @@ mod tests {
         ) {
             let corners = [0, 3, 6].map(|i| Vec3A::new(numbers[i], numbers[i + 1], numbers[i + 2]));
             let near = 0.05;
-            let pieces = clipped(corners, near);
+            let pieces = clip_triangle(corners, near);
             let whole = cross(corners);
             for (piece, weights) in &pieces {
                 prop_assert!(cross(*piece).dot(whole) >= -1e-4 * whole.length());

@@ -88,7 +88,9 @@ fn tile(
             let place = sum.map(|sum| sum / count);
             let weight = count * part;
             let surface = match number {
-                Some(number) => SurfacePoint::seen(light.stage, light.textures, light.camera, *number, place),
+                Some(number) => {
+                    SurfacePoint::at_pixel(light.stage, light.textures, light.camera, *number, place)
+                }
                 None => match ground(light, place) {
                     Some(surface) => surface,
                     None => {
@@ -117,7 +119,7 @@ fn tile(
             let place =
                 [(corner[0] + pixel % size[0]) as f32 + 0.5, (corner[1] + pixel / size[0]) as f32 + 0.5];
             let fade = fade(light, fragment.surface.position);
-            shadowed(backdrop(picture, place), Vec3::ONE.lerp(light.ground(fragment), fade))
+            shade_backdrop(backdrop(picture, place), Vec3::ONE.lerp(light.ground(fragment), fade))
         } else {
             tone::compress(light.color(fragment)).extend(1.0)
         };
@@ -146,7 +148,7 @@ fn backdrop(picture: &Picture, place: [f32; 2]) -> Vec4 {
 }
 
 /// Returns `backdrop` with a ground in front of it that receives this fraction of its light.
-fn shadowed(backdrop: Vec4, part: Vec3) -> Vec4 {
+fn shade_backdrop(backdrop: Vec4, part: Vec3) -> Vec4 {
     if backdrop.w > 0.0 {
         return (backdrop.truncate() * part).extend(backdrop.w);
     }

@@ -12,6 +12,7 @@ mod develop;
 mod extent;
 mod floor;
 mod light_map;
+mod measure;
 mod points;
 mod raster;
 mod render;

@@ -57,6 +57,13 @@ pub(super) fn bounds(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
         .unwrap_or_default()
 }
 
+/// Returns the centre and the radius of the sphere around the box from `low` to `high`.
+pub(super) fn sphere(low: DVec3, high: DVec3) -> (DVec3, f64) {
+    let half = (high - low).length() / 2.0;
+    // A model without size, such as a point, is shown as if it had a radius of 1 m.
+    ((low + high) / 2.0, if half > 1e-9 { half } else { 1.0 })
+}
+
 /// Returns a few thousand points whose convex hull contains `points`: the corners of the bounding boxes of the points
 /// in each cell of a coarse grid over `bounds`.
 pub(super) fn hull(points: impl Iterator<Item = Vec3A>, bounds: (Vec3A, Vec3A)) -> Vec<Vec3A> {

@@ -42,7 +42,7 @@ pub fn render_within(
             let axes = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
             let points = axes.map(|axis| DVec3::from(look.at) + axis * look.radius);
             let points = points.map(|point| stage.shrink.transform_point3(point).as_vec3a());
-            (eye, camera::Camera::fit(points, eye, size).inside())
+            (eye, camera::Camera::fit(points, eye, size).with_nearer_plane())
         }
         (Some(extent), _) => {
             let points = extent.points(&stage.shrink);

@@ -145,7 +145,7 @@ impl Light<'_> {
         let facing = surface.normal.dot(surface.view).max(0.03);
 
         let open = fragment.openness();
-        let mut sky = self.sky.open(surface.normal) * bounced(open, diffuse);
+        let mut sky = self.sky.open(surface.normal) * bounce_light(open, diffuse);
         let mut color = surface.emissive;
         let toward = surface.normal.dot(self.sun.direction);
         if toward > 0.0 {
@@ -176,7 +176,7 @@ impl Light<'_> {
         let sky = self.sky.open(Vec3A::Z);
         let sun = SUN * self.sun.direction.z;
         let seen = self.sun_seen(fragment, Vec3A::Z);
-        let part = (sky * bounced(fragment.openness(), Vec3::splat(0.5)) + sun * seen) / (sky + sun);
+        let part = (sky * bounce_light(fragment.openness(), Vec3::splat(0.5)) + sun * seen) / (sky + sun);
         // Halve the blue tint, because the eye perceives the sky's light as white.
         part.lerp(Vec3::splat(part.element_sum() / 3.0), 0.5)
     }
@@ -216,7 +216,7 @@ fn mirror_part(glossy: Vec3, roughness: f32, facing: f32) -> Vec3 {
 /// the surface has this `albedo`.
 ///
 /// Method: Jimenez et al., "Practical realtime strategies for accurate indirect occlusion", 2016.
-fn bounced(open: Vec3, albedo: Vec3) -> Vec3 {
+fn bounce_light(open: Vec3, albedo: Vec3) -> Vec3 {
     let a = albedo * 2.0404 - 0.3324;
     let b = albedo * -4.7951 + 0.6417;
     let c = albedo * 2.7552 + 0.6903;
@@ -230,9 +230,9 @@ mod tests {
     #[test]
     fn a_crease_between_white_walls_is_lighter_than_between_black_ones() {
         let open = Vec3::splat(0.4);
-        assert!((bounced(open, Vec3::ZERO).x - 0.4).abs() < 1e-3);
-        assert!(bounced(open, Vec3::splat(0.8)).x > 0.55);
-        assert!((bounced(Vec3::ONE, Vec3::splat(0.8)).x - 1.0).abs() < 0.05);
+        assert!((bounce_light(open, Vec3::ZERO).x - 0.4).abs() < 1e-3);
+        assert!(bounce_light(open, Vec3::splat(0.8)).x > 0.55);
+        assert!((bounce_light(Vec3::ONE, Vec3::splat(0.8)).x - 1.0).abs() < 0.05);
     }
 
     #[test]

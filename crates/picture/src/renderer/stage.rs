@@ -10,7 +10,7 @@ use super::texture::SampledTexture;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::stop::Stop;
 use burgeon_scene::{Material, Part, Scene};
-use glam::{Affine3A, DAffine3, DMat3, DVec3, Mat3A, Vec3A};
+use glam::{Affine3A, DAffine3, DMat3, Mat3A, Vec3A};
 use std::ops::Range;
 
 /// Scene around the origin, in units of the radius of the sphere around its box.
@@ -86,7 +86,7 @@ impl<'a> Stage<'a> {
             outlines[instance.mesh].iter().map(move |point| transform.transform_point3(point.as_dvec3()))
         };
         let (low, high) = points::bounds(scene.instances.iter().flat_map(corners));
-        let (center, radius) = extent.map_or_else(|| sphere(low, high), |extent| extent.sphere(turn));
+        let (center, radius) = extent.map_or_else(|| points::sphere(low, high), |extent| extent.sphere(turn));
         let shrink = DAffine3::from_mat3_translation(turn * (1.0 / radius), -center / radius);
 
         let mut draws = Vec::new();
@@ -224,13 +224,6 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// Returns the centre and the radius of the sphere around the box from `low` to `high`.
-pub(super) fn sphere(low: DVec3, high: DVec3) -> (DVec3, f64) {
-    let half = (high - low).length() / 2.0;
-    // A model without size, such as a point, is shown as if it had a radius of 1 m.
-    ((low + high) / 2.0, if half > 1e-9 { half } else { 1.0 })
-}
-
 /// Converts `place` to double precision.
 fn to_double(place: &Affine3A) -> DAffine3 {
     DAffine3 { matrix3: place.matrix3.as_dmat3(), translation: place.translation.as_dvec3() }
@@ -246,7 +239,7 @@ fn to_single(place: &DAffine3) -> Affine3A {
 fn check(scene: &Scene) -> Result<()> {
     for (number, instance) in scene.instances.iter().enumerate() {
         if instance.mesh >= scene.meshes.len() {
-            return Err(broken(format!(
+            return Err(scene_error(format!(
                 "instance {number} names mesh {} of {}",
                 instance.mesh,
                 scene.meshes.len()
@@ -258,18 +251,18 @@ fn check(scene: &Scene) -> Result<()> {
             if part.material >= scene.materials.len() {
                 let message =
                     format!("mesh {number} names material {} of {}", part.material, scene.materials.len());
-                return Err(broken(message));
+                return Err(scene_error(message));
             }
             let corners = part.positions.len();
             if let Some(corner) = part.triangles.iter().flatten().find(|corner| *corner as usize >= corners) {
-                return Err(broken(format!("mesh {number} names corner {corner} of {corners}")));
+                return Err(scene_error(format!("mesh {number} names corner {corner} of {corners}")));
             }
         }
     }
     Ok(())
 }
 
-fn broken(message: String) -> Error {
+fn scene_error(message: String) -> Error {
     Error::internal(message)
         .help("count indices from 0 and add meshes, materials and corners before naming them")
 }
@@ -278,6 +271,7 @@ fn broken(message: String) -> Error {
 mod tests {
     use super::super::samples;
     use super::*;
+    use glam::DVec3;
 
     #[test]
     fn a_triangle_is_found_by_its_number() {

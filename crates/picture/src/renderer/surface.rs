@@ -56,7 +56,7 @@ impl StageTriangle {
 
 impl SurfacePoint {
     /// Returns the point of triangle `number` at pixel coordinates `place`.
-    pub(super) fn seen(
+    pub(super) fn at_pixel(
         stage: &Stage,
         textures: &[Option<SampledTexture>],
         camera: &Camera,
@@ -99,7 +99,7 @@ impl SurfacePoint {
         }
         Self {
             position,
-            rounded: rounded(position, [a, b, c], normals, weights),
+            rounded: round_position(position, [a, b, c], normals, weights),
             plane: plane * side,
             normal: bend(normal, view),
             view,
@@ -138,7 +138,7 @@ impl SurfacePoint {
 /// Moves `position` outwards to the planes through the triangle's corners that `normals` describe.
 ///
 /// Method: Hanika, "Hacking the shadow terminator", Ray Tracing Gems II, 2021.
-fn rounded(position: Vec3A, corners: [Vec3A; 3], normals: [Vec3A; 3], weights: [f32; 3]) -> Vec3A {
+fn round_position(position: Vec3A, corners: [Vec3A; 3], normals: [Vec3A; 3], weights: [f32; 3]) -> Vec3A {
     let outward: Vec3A =
         (0..3).map(|i| normals[i] * (weights[i] * (position - corners[i]).dot(normals[i]).min(0.0))).sum();
     position - outward

@@ -37,7 +37,7 @@ fn places(image: &Image) -> impl Iterator<Item = (u32, u32, [u8; 4])> {
     rows.flat_map(move |y| (0..image.width()).map(move |x| (x, y, image.pixel(x, y))))
 }
 
-fn covered(image: &Image) -> usize {
+fn count_covered(image: &Image) -> usize {
     image.pixels().iter().filter(|pixel| pixel[3] > 0).count()
 }
 
@@ -131,7 +131,7 @@ fn a_texture_repeats_at_its_size_in_metres() {
 #[test]
 fn the_back_of_a_face_is_seen_only_if_the_material_has_two_sides() {
     let from = |scene: &Scene, azimuth: f64| {
-        covered(&render(scene, &Picture { azimuth: Some(azimuth), ..small() }).unwrap())
+        count_covered(&render(scene, &Picture { azimuth: Some(azimuth), ..small() }).unwrap())
     };
     let mut scene = wall(Material::default());
     assert!(from(&scene, 180.0) > 1000);
@@ -157,9 +157,9 @@ fn half_opacity_lets_half_of_the_background_through() {
 fn the_ground_shows_a_shadow_and_fades_out() {
     let scene = boxes(&[DVec3::ZERO]);
     let picture = Picture { width: 192, elevation: Some(35.0), ..small() };
-    let without = covered(&render(&scene, &picture).unwrap());
+    let without = count_covered(&render(&scene, &picture).unwrap());
     let image = render(&scene, &Picture { ground: true, ..picture }).unwrap();
-    assert!(covered(&image) > without + 500);
+    assert!(count_covered(&image) > without + 500);
     let darkest = (150..192).map(|x| image.pixel(x, 60)[3]).max().unwrap();
     assert!((60..255).contains(&darkest), "shadow of {darkest}");
     assert!(image.pixel(1, 1)[3] < 6);
@@ -211,7 +211,7 @@ fn front() -> Picture {
 }
 
 /// Renders the wall with a texture that is repeated once over its area.
-fn papered(pixel: impl Fn(u32, u32) -> [u8; 4], base_color: [f32; 4], picture: &Picture) -> Image {
+fn render_papered(pixel: impl Fn(u32, u32) -> [u8; 4], base_color: [f32; 4], picture: &Picture) -> Image {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("leaf.png");
     image::RgbaImage::from_fn(64, 64, |x, y| image::Rgba(pixel(x, y))).save(&path).unwrap();
@@ -224,9 +224,9 @@ fn papered(pixel: impl Fn(u32, u32) -> [u8; 4], base_color: [f32; 4], picture: &
 fn what_a_texture_leaves_out_is_not_there() {
     // The left half is opaque. The invisible pixels are black, as image editors write them.
     let half = |x: u32, _| if x < 32 { [230, 230, 230, 255] } else { [0; 4] };
-    let image = papered(half, [1.0; 4], &front());
-    let whole = papered(|_, _| [230, 230, 230, 255], [1.0; 4], &front());
-    let (some, all) = (covered(&image), covered(&whole));
+    let image = render_papered(half, [1.0; 4], &front());
+    let whole = render_papered(|_, _| [230, 230, 230, 255], [1.0; 4], &front());
+    let (some, all) = (count_covered(&image), count_covered(&whole));
     assert!((some * 2).abs_diff(all) < all / 20, "{some} of {all}");
     // The edge has no dark seam.
     let row = |image: &Image| {
@@ -242,13 +242,15 @@ fn what_a_texture_leaves_out_is_not_there() {
 fn fine_holes_let_through_as_much_as_they_are() {
     let dots = |x: u32, y: u32| if (x / 2 + y / 2).is_multiple_of(4) { [90, 140, 60, 255] } else { [0; 4] };
     let picture = front();
-    let (image, whole) =
-        (papered(dots, [1.0; 4], &picture), papered(|_, _| [90, 140, 60, 255], [1.0; 4], &picture));
+    let (image, whole) = (
+        render_papered(dots, [1.0; 4], &picture),
+        render_papered(|_, _| [90, 140, 60, 255], [1.0; 4], &picture),
+    );
     let opacity = |image: &Image| image.pixels().iter().map(|pixel| f64::from(pixel[3])).sum::<f64>();
     let part = opacity(&image) / opacity(&whole);
     assert!((0.2..0.3).contains(&part), "{part}");
     // A translucent material with holes is more transparent.
-    let part = opacity(&papered(dots, [1.0, 1.0, 1.0, 0.5], &picture)) / opacity(&whole);
+    let part = opacity(&render_papered(dots, [1.0, 1.0, 1.0, 0.5], &picture)) / opacity(&whole);
     assert!((0.09..0.16).contains(&part), "{part}");
 }
 
@@ -256,8 +258,10 @@ fn fine_holes_let_through_as_much_as_they_are() {
 fn the_shadow_of_what_is_cut_out_has_its_holes() {
     let picture = Picture { ground: true, elevation: Some(30.0), ..front() };
     let bars = |x: u32, _| if (x / 8).is_multiple_of(2) { [200, 200, 200, 255] } else { [0; 4] };
-    let (barred, whole) =
-        (papered(bars, [1.0; 4], &picture), papered(|_, _| [200, 200, 200, 255], [1.0; 4], &picture));
+    let (barred, whole) = (
+        render_papered(bars, [1.0; 4], &picture),
+        render_papered(|_, _| [200, 200, 200, 255], [1.0; 4], &picture),
+    );
     // The sun is on the left, so the shadow continues to the right of the wall.
     let edge = places(&whole).filter(|(_, _, pixel)| pixel[3] == 255).map(|(x, ..)| x).max().unwrap();
     let shadow = |image: &Image| {
@@ -271,7 +275,7 @@ fn the_shadow_of_what_is_cut_out_has_its_holes() {
 #[test]
 fn a_picture_that_nobody_waits_for_is_given_up() {
     let stop = Stop::default();
-    stop.stop(burgeon_base::error::Error::stopped("the page has gone"));
+    stop.stop(burgeon_base::error::Error::cancellation("the page has gone"));
     let error = render_within(&boxes(&[DVec3::ZERO]), None, &small(), &stop).unwrap_err();
     assert_eq!(error.message(), "the page has gone");
 }
@@ -296,13 +300,13 @@ fn cap(up: DVec3) -> Scene {
 fn a_part_of_a_planet_is_seen_from_above_it_wherever_it_lies() {
     let picture = Picture { azimuth: None, elevation: None, ..small() };
     let mut ways = directions();
-    let from_the_top = covered(&render(&cap(DVec3::Z), &picture).unwrap());
+    let from_the_top = count_covered(&render(&cap(DVec3::Z), &picture).unwrap());
     for up in ways.by_ref().take(12) {
         let mut scene = cap(up);
         scene.upright = Upright::new(up, DVec3::Z);
         let image = render(&scene, &picture).unwrap();
         // The cap is square, and may be rotated relative to north.
-        let part = covered(&image) as f64 / from_the_top as f64;
+        let part = count_covered(&image) as f64 / from_the_top as f64;
         assert!((0.5..2.0).contains(&part), "up is {up}: {part}");
         // The light must also come from above.
         assert!(brightness(&image, 40..56, 40..56) > 60.0, "up is {up}");
@@ -338,8 +342,12 @@ fn a_plain_that_reaches_behind_the_camera_is_clipped_and_not_dropped() {
         let look = Some(crate::ViewBall { at: [30.0, -20.0, 4.0], radius: 40.0 });
         let picture = Picture { azimuth: Some(azimuth), elevation: Some(elevation), look, ..small() };
         let [few, many] = [1, 100].map(|cells| render(&plain(cells), &picture).unwrap());
-        assert!(covered(&many) > 4000, "{} pixels", covered(&many));
+        assert!(count_covered(&many) > 4000, "{} pixels", count_covered(&many));
         let differ = few.pixels().iter().zip(many.pixels()).filter(|(a, b)| (a[3] > 0) != (b[3] > 0)).count();
-        assert!(differ * 100 < covered(&many), "azimuth {azimuth}: {differ} of {}", covered(&many));
+        assert!(
+            differ * 100 < count_covered(&many),
+            "azimuth {azimuth}: {differ} of {}",
+            count_covered(&many)
+        );
     }
 }

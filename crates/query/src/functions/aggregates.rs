@@ -8,7 +8,7 @@ use rusqlite::functions::{Aggregate, Context, FunctionFlags};
 use rusqlite::types::{Value, ValueRef};
 
 use super::call::{FunctionResult, value};
-use crate::connection::ConnectionState;
+use super::state::ConnectionState;
 use burgeon_spatial::Geometry;
 
 /// Names of the functions.
@@ -31,7 +31,7 @@ struct GeometryGathering {
 /// The geometries so far, and the size (bytes) of their blobs.
 type GeometryGroup = AssertUnwindSafe<(Vec<Geometry>, usize)>;
 
-fn failed(message: String) -> rusqlite::Error {
+fn function_error(message: String) -> rusqlite::Error {
     rusqlite::Error::UserFunctionError(message.into())
 }
 
@@ -45,22 +45,24 @@ impl Aggregate<GeometryGroup, Value> for GeometryGathering {
             ValueRef::Null => Ok(()),
             ValueRef::Blob(bytes) => {
                 let budget = self.state.budget();
-                let taken =
-                    budget.hold(4 * bytes.len()).map_err(|error| failed(error.message().to_owned()))?;
+                let taken = budget
+                    .hold(4 * bytes.len())
+                    .map_err(|error| function_error(error.message().to_owned()))?;
                 let parsed = self.state.geometry(bytes);
-                let parsed = parsed.map_err(|why| failed(format!("a geometry of the group {why}")))?;
+                let parsed =
+                    parsed.map_err(|why| function_error(format!("a geometry of the group {why}")))?;
                 drop(taken);
                 gathered.0.0.push(parsed.geometry.clone());
                 gathered.0.1 += bytes.len();
                 if gathered.0.1 > MOST_BYTES {
-                    return Err(failed(format!(
+                    return Err(function_error(format!(
                         "a group has more than {} MB of geometries",
                         MOST_BYTES / 1_000_000
                     )));
                 }
                 Ok(())
             }
-            _ => Err(failed("ST_Collect and ST_Union gather geometries".into())),
+            _ => Err(function_error("ST_Collect and ST_Union gather geometries".into())),
         }
     }
 
@@ -70,8 +72,8 @@ impl Aggregate<GeometryGroup, Value> for GeometryGathering {
             return Ok(Value::Null);
         }
         let made = match self.gathering {
-            Gathering::Collect => super::parts::collected(geometries),
-            Gathering::Union => super::parts::united(&geometries).map_err(failed)?,
+            Gathering::Collect => super::parts::collect(geometries),
+            Gathering::Union => super::parts::unite(&geometries).map_err(function_error)?,
         };
         value(FunctionResult::Geometry(made))
     }

@@ -28,7 +28,7 @@ impl GeometryArgument {
     }
 
     /// Returns the geometry prepared for comparisons with others.
-    pub(crate) fn prepared(&self) -> &PreparedGeometry {
+    pub(crate) fn prepared_geometry(&self) -> &PreparedGeometry {
         self.prepared.get_or_init(|| PreparedGeometry::new(&self.geometry))
     }
 }

@@ -3,16 +3,13 @@
 use std::rc::Rc;
 use std::sync::Arc;
 
-use rusqlite::Connection;
-use rusqlite::functions::{Context, FunctionFlags};
+use rusqlite::functions::Context;
 use rusqlite::types::{ToSqlOutput, Value, ValueRef};
 use rusqlite::vtab::array::Array;
 
-use super::{GeometryArgument, SpatialFunction};
+use super::argument::GeometryArgument;
+use super::state::ConnectionState;
 use crate::blob;
-use crate::connection::ConnectionState;
-use crate::index::SpatialIndex;
-use burgeon_base::locks::LockRecovery;
 use burgeon_spatial::Geometry;
 
 /// The result of a function.
@@ -43,39 +40,28 @@ impl From<Option<f64>> for FunctionResult {
 
 /// The arguments of a call.
 pub(crate) struct FunctionCall<'a> {
-    function: &'static SpatialFunction,
-    context: &'a Context<'a>,
-    state: &'a ConnectionState,
+    /// Name of the function.
+    pub(super) name: &'static str,
+    /// Arguments that the function takes.
+    pub(super) takes: &'static str,
+    pub(super) context: &'a Context<'a>,
+    pub(super) state: &'a ConnectionState,
+}
+
+impl std::fmt::Debug for FunctionCall<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("FunctionCall")
+    }
 }
 
 /// Creates the error with which a statement ends.
-fn failed(message: String) -> rusqlite::Error {
+pub(super) fn function_error(message: String) -> rusqlite::Error {
     rusqlite::Error::UserFunctionError(message.into())
-}
-
-/// Runs a function. Returns null if an argument is null.
-pub(super) fn run(
-    function: &'static SpatialFunction,
-    context: &Context<'_>,
-    state: &ConnectionState,
-) -> rusqlite::Result<Value> {
-    if (0..context.len()).any(|index| matches!(context.get_raw(index), ValueRef::Null)) {
-        return Ok(Value::Null);
-    }
-    state.budget().tick().map_err(|error| failed(error.message().to_owned()))?;
-    let name = function.name;
-    let told = |why: String| failed(format!("{name}: {why}"));
-    let foreign = foreign(context).map_err(told)?;
-    let output = (function.run)(&FunctionCall { function, context, state });
-    match output.map_err(told)? {
-        FunctionResult::Geometry(geometry) => value(FunctionResult::Placed(geometry, foreign)),
-        output => value(output),
-    }
 }
 
 /// Returns the common reference system of all geometry arguments, if it is not the run's. Fails if they have different
 /// ones.
-fn foreign(context: &Context<'_>) -> Result<Option<u32>, String> {
+pub(super) fn foreign(context: &Context<'_>) -> Result<Option<u32>, String> {
     let mut found: Option<Option<u32>> = None;
     for index in 0..context.len() {
         if let ValueRef::Blob(bytes) = context.get_raw(index) {
@@ -95,8 +81,8 @@ pub(super) fn run_list(
     name: &str,
     run: impl FnOnce(&GeometryArgument, &Context<'_>) -> Result<Vec<Geometry>, String>,
 ) -> rusqlite::Result<KeyList> {
-    state.budget().tick().map_err(|error| failed(error.message().to_owned()))?;
-    let told = |why: String| failed(format!("{name}: {why}"));
+    state.budget().tick().map_err(|error| function_error(error.message().to_owned()))?;
+    let told = |why: String| function_error(format!("{name}: {why}"));
     let foreign = foreign(context).map_err(told)?;
     let parsed = match context.get_raw(0) {
         ValueRef::Null => return Ok(keys(&[])),
@@ -105,7 +91,7 @@ pub(super) fn run_list(
             let read = Geometry::from_wkt_within(&String::from_utf8_lossy(text), &state.budget());
             Arc::new(GeometryArgument::from(read.map_err(|error| told(error.message().to_owned()))?))
         }
-        other => return Err(told(super::texts::wrong(0, "a geometry", other))),
+        other => return Err(told(super::texts::wrong_argument(0, "a geometry", other))),
     };
     let made = run(&parsed, context).map_err(told)?;
     let values = made.iter().map(|geometry| Value::Blob(blob::write_in(geometry, foreign))).collect();
@@ -132,24 +118,19 @@ impl FunctionCall<'_> {
         self.context.len()
     }
 
-    fn wrong(&self, index: usize, wanted: &str) -> String {
+    fn wrong_argument(&self, index: usize, wanted: &str) -> String {
         let found = match self.context.get_raw(index) {
             ValueRef::Null => "nothing",
             ValueRef::Integer(_) | ValueRef::Real(_) => "a number",
             ValueRef::Text(_) => "a text",
             ValueRef::Blob(_) => "a geometry",
         };
-        format!(
-            "argument {} must be {wanted}, not {found}: {}{}",
-            index + 1,
-            self.function.name,
-            self.function.takes
-        )
+        format!("argument {} must be {wanted}, not {found}: {}{}", index + 1, self.name, self.takes)
     }
 
     /// Returns the message that a geometry is not of the required type.
     pub(super) fn wrong_geometry(&self, index: usize, wanted: &str) -> String {
-        let (name, takes) = (self.function.name, self.function.takes);
+        let (name, takes) = (self.name, self.takes);
         format!("argument {} must be {wanted}: {name}{takes}", index + 1)
     }
 
@@ -162,12 +143,12 @@ impl FunctionCall<'_> {
             }
             // PostGIS also accepts well-known text.
             ValueRef::Text(text) => {
-                let text = std::str::from_utf8(text).map_err(|_| self.wrong(index, "a geometry"))?;
+                let text = std::str::from_utf8(text).map_err(|_| self.wrong_argument(index, "a geometry"))?;
                 let read = Geometry::from_wkt_within(text, &self.state.budget());
                 read.map(|geometry| Arc::new(GeometryArgument::from(geometry)))
                     .map_err(|error| error.message().to_owned())
             }
-            _ => Err(self.wrong(index, "a geometry")),
+            _ => Err(self.wrong_argument(index, "a geometry")),
         }
     }
 
@@ -184,7 +165,7 @@ impl FunctionCall<'_> {
 
     /// Returns an argument as a number.
     pub(super) fn number(&self, index: usize) -> Result<f64, String> {
-        number(self.context.get_raw(index)).ok_or_else(|| self.wrong(index, "a number"))
+        number(self.context.get_raw(index)).ok_or_else(|| self.wrong_argument(index, "a number"))
     }
 
     /// Returns an argument as a number, or `other` if there is no such argument.
@@ -195,8 +176,10 @@ impl FunctionCall<'_> {
     /// Returns an argument as a string.
     pub(super) fn text(&self, index: usize) -> Result<&str, String> {
         match self.context.get_raw(index) {
-            ValueRef::Text(text) => std::str::from_utf8(text).map_err(|_| self.wrong(index, "a text")),
-            _ => Err(self.wrong(index, "a text")),
+            ValueRef::Text(text) => {
+                std::str::from_utf8(text).map_err(|_| self.wrong_argument(index, "a text"))
+            }
+            _ => Err(self.wrong_argument(index, "a text")),
         }
     }
 
@@ -204,7 +187,7 @@ impl FunctionCall<'_> {
     pub(super) fn bytes(&self, index: usize) -> Result<&[u8], String> {
         match self.context.get_raw(index) {
             ValueRef::Blob(bytes) => Ok(bytes),
-            _ => Err(self.wrong(index, "well-known binary")),
+            _ => Err(self.wrong_argument(index, "well-known binary")),
         }
     }
 
@@ -227,7 +210,7 @@ impl FunctionCall<'_> {
     }
 }
 
-fn number(value: ValueRef<'_>) -> Option<f64> {
+pub(super) fn number(value: ValueRef<'_>) -> Option<f64> {
     match value {
         #[allow(clippy::cast_precision_loss, reason = "SQLite does the same")]
         ValueRef::Integer(value) => Some(value as f64),
@@ -236,7 +219,7 @@ fn number(value: ValueRef<'_>) -> Option<f64> {
     }
 }
 
-fn bounds(parsed: &GeometryArgument) -> Option<[f64; 4]> {
+pub(super) fn bounds(parsed: &GeometryArgument) -> Option<[f64; 4]> {
     let [low, high] = parsed.geometry.bounds()?;
     Some([low.x, low.y, high.x, high.y])
 }
@@ -253,7 +236,7 @@ pub(super) fn extreme(context: &Context<'_>, greater: bool) -> rusqlite::Result<
             (a, Some(b)) => match (number(a.into()), number(b.into())) {
                 (Some(a), Some(b)) => (a > b) == greater,
                 _ => {
-                    return Err(failed(
+                    return Err(function_error(
                         "greatest and least compare numbers with numbers, and texts with texts".into(),
                     ));
                 }
@@ -264,92 +247,6 @@ pub(super) fn extreme(context: &Context<'_>, greater: bool) -> rusqlite::Result<
         }
     }
     Ok(best.unwrap_or(Value::Null))
-}
-
-/// Registers the functions that rewritten statements use to query indexes.
-pub(super) fn register_index(connection: &Connection, state: &Arc<ConnectionState>) -> rusqlite::Result<()> {
-    let flags = FunctionFlags::SQLITE_UTF8 | FunctionFlags::SQLITE_DETERMINISTIC;
-    let own = Arc::clone(state);
-    connection.create_scalar_function("burgeon_near", 3, flags, move |context| {
-        let index = index(context, &own)?;
-        let distance = number(context.get_raw(2)).unwrap_or(f64::NAN);
-        let Some(asked) = asked(context, &own)? else { return Ok(keys(&[])) };
-        Ok(keys(&index.near(asked, distance)))
-    })?;
-    let own = Arc::clone(state);
-    connection.create_scalar_function("burgeon_nearest", 3, flags, move |context| {
-        let index = index(context, &own)?;
-        #[allow(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "it saturates, and is checked"
-        )]
-        let found = match number(context.get_raw(2)).unwrap_or(-1.0) {
-            count if count >= 0.0 => match geometry(context, &own)? {
-                Some(from) if !from.geometry.is_empty() => index.nearest(from.flat(), count as usize),
-                _ => index.all(),
-            },
-            _ => index.all(),
-        };
-        Ok(keys(&found))
-    })?;
-    let own = Arc::clone(state);
-    connection.create_scalar_function("burgeon_nearest_one", 2, flags, move |context| {
-        let index = index(context, &own)?;
-        Ok(match geometry(context, &own)? {
-            Some(from) if !from.geometry.is_empty() => index.nearest_one(from.flat()),
-            _ => index.first(),
-        })
-    })
-}
-
-/// Returns the index that the first argument names.
-fn index(context: &Context<'_>, state: &ConnectionState) -> rusqlite::Result<Arc<SpatialIndex>> {
-    state.budget().tick().map_err(|error| failed(error.message().to_owned()))?;
-    // SQLite keeps the auxiliary data while the statement runs.
-    let found = context.get_or_create_aux(0, |name| -> Result<Arc<SpatialIndex>, rusqlite::Error> {
-        let name = name.as_str().map_err(|error| failed(error.to_string()))?;
-        if let Some(own) = state.own_indexes.lock().recover().get(name) {
-            return Ok(Arc::clone(own));
-        }
-        let indexes = state.indexes.read().recover();
-        indexes.get(name).cloned().ok_or_else(|| failed(format!("there is no index {name}")))
-    })?;
-    Ok(Arc::clone(&found))
-}
-
-/// Returns the geometry of the second argument.
-fn geometry(
-    context: &Context<'_>,
-    state: &ConnectionState,
-) -> rusqlite::Result<Option<Arc<GeometryArgument>>> {
-    match context.get_raw(1) {
-        ValueRef::Blob(bytes) if blob::foreign(bytes).is_some() => Err(failed(
-            "the geometries have different reference systems; bring both into one: ST_Transform(geometry, srid)"
-                .into(),
-        )),
-        ValueRef::Blob(bytes) => {
-            state.geometry(bytes).map(Some).map_err(|why| failed(format!("a geometry {why}")))
-        }
-        ValueRef::Text(text) => {
-            let text = std::str::from_utf8(text).unwrap_or_default();
-            let read = Geometry::from_wkt_within(text, &state.budget());
-            read.map(|it| Some(Arc::new(GeometryArgument::from(it))))
-                .map_err(|error| failed(error.message().to_owned()))
-        }
-        _ => Ok(None),
-    }
-}
-
-/// Returns the bounds of the second argument, where the inner `None` is an empty geometry and the outer one null.
-fn asked(context: &Context<'_>, state: &ConnectionState) -> rusqlite::Result<Option<Option<[f64; 4]>>> {
-    if let ValueRef::Blob(bytes) = context.get_raw(1)
-        && blob::foreign(bytes).is_none()
-        && let Some(bounds) = blob::told_bounds(bytes)
-    {
-        return Ok(Some(Some(bounds)));
-    }
-    Ok(geometry(context, state)?.map(|parsed| bounds(&parsed)))
 }
 
 /// Returns keys as a list for `rarray`.

@@ -5,15 +5,15 @@ use burgeon_geometry::Rings;
 use burgeon_spatial::{Geometry, wkb};
 use glam::DVec3;
 
-use super::parts::sound;
-use super::table::{ONE, function};
-use super::{FunctionCall, FunctionResult, SpatialFunction};
+use super::call::{FunctionCall, FunctionResult};
+use super::parts::check_geometry;
+use super::spatial_function::{ONE, SpatialFunction, function};
 
 /// Functions for creating and converting geometries.
 pub(super) const FORMS: &[SpatialFunction] = &[
     function("ST_MakePoint", (2, 3), "(east, north [, up])", "geometry", "A point.", point),
     function("ST_Point", (2, 3), "(east, north [, srid])", "geometry", "A point.", |call| {
-        placed(call, 2, Geometry::point(DVec3::new(call.number(0)?, call.number(1)?, 0.0)))
+        place_in_system(call, 2, Geometry::point(DVec3::new(call.number(0)?, call.number(1)?, 0.0)))
     }),
     function(
         "ST_MakeLine",
@@ -48,7 +48,7 @@ pub(super) const FORMS: &[SpatialFunction] = &[
                 [call.number(0)?, call.number(1)?, call.number(2)?, call.number(3)?];
             let ring = [[west, south], [west, north], [east, north], [east, south]]
                 .map(|[x, y]| DVec3::new(x, y, 0.0));
-            placed(call, 4, Geometry::Polygon(Rings(vec![ring.to_vec()])))
+            place_in_system(call, 4, Geometry::Polygon(Rings(vec![ring.to_vec()])))
         },
     ),
     function(
@@ -59,7 +59,7 @@ pub(super) const FORMS: &[SpatialFunction] = &[
         "The geometry of well-known text.",
         |call| {
             let read = Geometry::from_wkt_within(call.text(0)?, &call.budget());
-            placed(call, 1, read.map_err(|error| error.message().to_owned())?)
+            place_in_system(call, 1, read.map_err(|error| error.message().to_owned())?)
         },
     ),
     function(
@@ -71,7 +71,7 @@ pub(super) const FORMS: &[SpatialFunction] = &[
         |call| {
             let geometry = wkb::read(call.bytes(0)?, 0.01, &call.budget())
                 .map_err(|why| format!("well-known binary {why}"))?;
-            placed(call, 1, geometry)
+            place_in_system(call, 1, geometry)
         },
     ),
     function(
@@ -80,7 +80,7 @@ pub(super) const FORMS: &[SpatialFunction] = &[
         "(geometry, srid)",
         "geometry",
         "The same coordinates in another reference system.",
-        |call| placed(call, 1, call.geometry(0)?.geometry.clone()),
+        |call| place_in_system(call, 1, call.geometry(0)?.geometry.clone()),
     ),
     function(
         "ST_SRID",
@@ -106,7 +106,7 @@ pub(super) const FORMS: &[SpatialFunction] = &[
                 return Err("the tables have no reference system".into());
             };
             let to = code(call, 1)?;
-            let made = crate::place::transformed(&geometry.geometry, from, to, frame);
+            let made = crate::place::transform(&geometry.geometry, from, to, frame);
             made.map(|made| FunctionResult::Placed(made, to)).map_err(|error| error.message().to_owned())
         },
     ),
@@ -150,11 +150,15 @@ pub(super) const FORMS: &[SpatialFunction] = &[
 ];
 
 fn point(call: &FunctionCall<'_>) -> Result<FunctionResult, String> {
-    sound(Geometry::point(DVec3::new(call.number(0)?, call.number(1)?, call.number_or(2, 0.0)?)))
+    check_geometry(Geometry::point(DVec3::new(call.number(0)?, call.number(1)?, call.number_or(2, 0.0)?)))
 }
 
 /// Returns a geometry in the reference system of argument `index`, if there is such an argument.
-fn placed(call: &FunctionCall<'_>, index: usize, geometry: Geometry) -> Result<FunctionResult, String> {
+fn place_in_system(
+    call: &FunctionCall<'_>,
+    index: usize,
+    geometry: Geometry,
+) -> Result<FunctionResult, String> {
     geometry.check().map_err(|error| error.message().to_owned())?;
     let own = if index < call.len() { code(call, index)? } else { call.foreign(0) };
     Ok(FunctionResult::Placed(geometry, own))

@@ -12,11 +12,11 @@ use rusqlite::Connection;
 use rusqlite::functions::{Aggregate, Context, FunctionFlags, WindowAggregate};
 use rusqlite::types::{Value, ValueRef};
 
-use super::GeometryArgument;
+use super::argument::GeometryArgument;
 use super::call::{FunctionResult, value};
-use super::texts::wrong;
+use super::state::ConnectionState;
+use super::texts::wrong_argument;
 use crate::blob;
-use crate::connection::ConnectionState;
 use burgeon_base::budget::Budget;
 use burgeon_base::locks::LockRecovery;
 
@@ -27,7 +27,7 @@ pub(super) const NAMES: [&str; 7] =
 /// Name of `array_agg` in rewritten statements if it collects booleans.
 pub(crate) const BOOLEAN_LIST: &str = "burgeon_booleans";
 
-fn failed(message: impl Into<String>) -> rusqlite::Error {
+fn function_error(message: impl Into<String>) -> rusqlite::Error {
     rusqlite::Error::UserFunctionError(message.into().into())
 }
 
@@ -45,7 +45,7 @@ impl Aggregate<Option<bool>, Option<bool>> for Truth {
         let row = match context.get_raw(0) {
             ValueRef::Null => return Ok(()),
             ValueRef::Integer(number) => number != 0,
-            other => return Err(failed(wrong(0, "true or false", other))),
+            other => return Err(function_error(wrong_argument(0, "true or false", other))),
         };
         let known = truth.unwrap_or(self.all);
         *truth = Some(if self.all { known && row } else { known || row });
@@ -75,13 +75,13 @@ impl Aggregate<String, Option<String>> for List {
             ValueRef::Integer(number) => number.to_string(),
             ValueRef::Real(number) if number.is_finite() => format!("{number:?}"),
             ValueRef::Real(_) => "null".to_owned(),
-            ValueRef::Text(text) => quoted(&String::from_utf8_lossy(text)),
+            ValueRef::Text(text) => quote_json(&String::from_utf8_lossy(text)),
             ValueRef::Blob(_) => {
-                return Err(failed("array_agg: geometries are gathered by ST_Collect"));
+                return Err(function_error("array_agg: geometries are gathered by ST_Collect"));
             }
         };
         let budget = self.state.budget();
-        drop(budget.hold(list.len() + item.len()).map_err(|error| failed(error.message()))?);
+        drop(budget.hold(list.len() + item.len()).map_err(|error| function_error(error.message()))?);
         list.push(if list.is_empty() { '[' } else { ',' });
         list.push_str(&item);
         Ok(())
@@ -93,7 +93,7 @@ impl Aggregate<String, Option<String>> for List {
 }
 
 /// Quotes a string as JSON.
-fn quoted(text: &str) -> String {
+fn quote_json(text: &str) -> String {
     let mut made = String::from("\"");
     for letter in text.chars() {
         match letter {
@@ -126,12 +126,14 @@ impl Aggregate<GroupExtent, Value> for ExtentOfAll {
         let bytes = match context.get_raw(0) {
             ValueRef::Null => return Ok(()),
             ValueRef::Blob(bytes) => bytes,
-            other => return Err(failed(format!("ST_Extent: {}", wrong(0, "a geometry", other)))),
+            other => {
+                return Err(function_error(format!("ST_Extent: {}", wrong_argument(0, "a geometry", other))));
+            }
         };
         let own = match blob::told_bounds(bytes) {
             Some(bounds) => Some(bounds),
             None => {
-                let parsed = self.state.geometry(bytes).map_err(failed)?;
+                let parsed = self.state.geometry(bytes).map_err(function_error)?;
                 parsed.geometry.bounds().map(|[low, high]| [low.x, low.y, high.x, high.y])
             }
         };
@@ -179,7 +181,7 @@ impl Clusters {
             return Ok(found);
         }
         let budget = self.state.budget();
-        let found = clusters(partition, &budget).map_err(failed)?;
+        let found = clusters(partition, &budget).map_err(function_error)?;
         let mut known = self.state.clusters.lock().recover();
         known.push(found);
         let number = i64::try_from(known.len()).unwrap_or(i64::MAX);
@@ -202,11 +204,13 @@ impl Aggregate<AssertUnwindSafe<ClusterPartition>, Option<i64>> for Clusters {
             #[allow(clippy::cast_precision_loss, reason = "a number of points")]
             ValueRef::Integer(number) => Ok(number as f64),
             ValueRef::Real(number) => Ok(number),
-            other => Err(failed(format!("ST_ClusterDBSCAN: {}", wrong(index, "a number", other)))),
+            other => {
+                Err(function_error(format!("ST_ClusterDBSCAN: {}", wrong_argument(index, "a number", other))))
+            }
         };
         let (distance, least) = (number(1)?, number(2)?);
         if distance < 0.0 || least < 1.0 {
-            return Err(failed(
+            return Err(function_error(
                 "ST_ClusterDBSCAN: the distance is not negative, and the least number of points at least 1",
             ));
         }
@@ -223,10 +227,15 @@ impl Aggregate<AssertUnwindSafe<ClusterPartition>, Option<i64>> for Clusters {
             ValueRef::Null => None,
             ValueRef::Blob(bytes) => {
                 let budget = self.state.budget();
-                drop(budget.hold(4 * bytes.len()).map_err(|error| failed(error.message()))?);
-                Some(self.state.geometry(bytes).map_err(failed)?)
+                drop(budget.hold(4 * bytes.len()).map_err(|error| function_error(error.message()))?);
+                Some(self.state.geometry(bytes).map_err(function_error)?)
             }
-            other => return Err(failed(format!("ST_ClusterDBSCAN: {}", wrong(0, "a geometry", other)))),
+            other => {
+                return Err(function_error(format!(
+                    "ST_ClusterDBSCAN: {}",
+                    wrong_argument(0, "a geometry", other)
+                )));
+            }
         };
         partition.geometries.push(geometry);
         Ok(())
@@ -254,7 +263,7 @@ impl WindowAggregate<AssertUnwindSafe<ClusterPartition>, Option<i64>> for Cluste
         _: &mut Context<'_>,
         _: &mut AssertUnwindSafe<ClusterPartition>,
     ) -> rusqlite::Result<()> {
-        Err(failed("ST_ClusterDBSCAN: a window has no frame here; leave ROWS and RANGE out"))
+        Err(function_error("ST_ClusterDBSCAN: a window has no frame here; leave ROWS and RANGE out"))
     }
 }
 

@@ -12,7 +12,7 @@ use rusqlite::types::{Value, ValueRef};
 
 use super::call::{KeyList, keys, run_list};
 use super::parts::members;
-use crate::connection::ConnectionState;
+use super::state::ConnectionState;
 
 /// Functions of PostGIS, and their names in rewritten statements.
 pub(crate) const NAMES: [(&str, &str); 6] = [
@@ -58,14 +58,14 @@ fn lines(geometry: &Geometry) -> Vec<Vec<DVec3>> {
 }
 
 /// Divides a geometry into parts with at most `most` points, by halving its box as PostGIS does.
-fn subdivided(
+fn subdivide(
     geometry: &Geometry,
     most: usize,
     depth: usize,
     found: &mut Vec<Geometry>,
 ) -> Result<(), String> {
     if let Geometry::Collection(_) = geometry {
-        return members(geometry).iter().try_for_each(|member| subdivided(member, most, depth, found));
+        return members(geometry).iter().try_for_each(|member| subdivide(member, most, depth, found));
     }
     let count: usize = parts(geometry, |single, found| found.push(single.clone()))
         .iter()
@@ -104,7 +104,7 @@ fn subdivided(
             }
         });
         if !kept.is_empty() {
-            subdivided(&super::parts::collected_single(kept), most, depth + 1, found)?;
+            subdivide(&super::parts::collect_single(kept), most, depth + 1, found)?;
         }
     }
     Ok(())
@@ -115,7 +115,7 @@ fn number(context: &Context<'_>, index: usize) -> Result<f64, String> {
         #[allow(clippy::cast_precision_loss, reason = "far more than any list has")]
         ValueRef::Integer(number) => Ok(number as f64),
         ValueRef::Real(number) => Ok(number),
-        other => Err(super::texts::wrong(index, "a number", other)),
+        other => Err(super::texts::wrong_argument(index, "a number", other)),
     }
 }
 
@@ -190,7 +190,7 @@ pub(super) fn register(connection: &Connection, state: &Arc<ConnectionState>) ->
                     clippy::cast_sign_loss,
                     reason = "it is positive, and saturates"
                 )]
-                subdivided(&geometry.geometry, most as usize, 0, &mut found)?;
+                subdivide(&geometry.geometry, most as usize, 0, &mut found)?;
                 Ok(found)
             })
         })?;

@@ -5,9 +5,9 @@ use burgeon_spatial::{BufferCap, BufferJoin, BufferOptions, Geometry};
 use geo::LineLocatePoint;
 use glam::DVec3;
 
-use super::parts::{closed, collected, members, place, sound};
-use super::table::{ONE, PAIR, function};
-use super::{FunctionCall, FunctionResult, SpatialFunction};
+use super::call::{FunctionCall, FunctionResult};
+use super::parts::{check_geometry, closed_line, collect, members, place};
+use super::spatial_function::{ONE, PAIR, SpatialFunction, function};
 
 /// Calls a method of one geometry that returns a geometry.
 macro_rules! made {
@@ -100,7 +100,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         "geometry",
         "A collection of both geometries; with one argument, of a group.",
         |call| {
-            Ok(FunctionResult::Geometry(collected(vec![
+            Ok(FunctionResult::Geometry(collect(vec![
                 call.geometry(0)?.geometry.clone(),
                 call.geometry(1)?.geometry.clone(),
             ])))
@@ -143,7 +143,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
             Ok(match &call.geometry(0)?.geometry {
                 Geometry::Polygon(rings) => rings
                     .first()
-                    .map_or(FunctionResult::Nothing, |ring| FunctionResult::Geometry(closed(ring))),
+                    .map_or(FunctionResult::Nothing, |ring| FunctionResult::Geometry(closed_line(ring))),
                 _ => FunctionResult::Nothing,
             })
         },
@@ -160,7 +160,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
                 Geometry::Polygon(rings) => number
                     .filter(|number| *number > 0)
                     .and_then(|number| rings.get(number))
-                    .map_or(FunctionResult::Nothing, |ring| FunctionResult::Geometry(closed(ring))),
+                    .map_or(FunctionResult::Nothing, |ring| FunctionResult::Geometry(closed_line(ring))),
                 _ => FunctionResult::Nothing,
             })
         },
@@ -229,7 +229,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
             }
             let parsed = call.geometry(0)?;
             let Geometry::Line(points) = &parsed.geometry else { return Err("it takes a line".into()) };
-            Ok(along(points, part)
+            Ok(point_at(points, part)
                 .map_or(FunctionResult::Nothing, |at| FunctionResult::Geometry(Geometry::point(at))))
         },
     ),
@@ -280,7 +280,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         "geometry",
         "The geometry with fewer points; removed points are at most `distance` from the result.",
         |call| {
-            Ok(FunctionResult::Geometry(super::simple::simplified(
+            Ok(FunctionResult::Geometry(super::simple::simplify(
                 &call.geometry(0)?.geometry,
                 call.number(1)?,
             )))
@@ -308,7 +308,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
             let by = DVec3::new(call.number(1)?, call.number(2)?, call.number_or(3, 0.0)?);
             let mut geometry = call.geometry(0)?.geometry.clone();
             geometry.points_mut().for_each(|point| *point += by);
-            sound(geometry)
+            check_geometry(geometry)
         },
     ),
     function("ST_Force2D", (1, 1), ONE, "geometry", "The geometry without heights.", |call| {
@@ -331,11 +331,11 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
 ];
 
 fn boundary(geometry: &Geometry) -> Geometry {
-    let rings = |rings: &Rings| rings.iter().map(|ring| closed(ring)).collect::<Vec<_>>();
+    let rings = |rings: &Rings| rings.iter().map(|ring| closed_line(ring)).collect::<Vec<_>>();
     match geometry {
         Geometry::Point(_) | Geometry::MultiPoint(_) => Geometry::default(),
         Geometry::Polygon(polygon) => Geometry::gathered(rings(polygon)),
-        Geometry::MultiPolygon(polygons) => collected(polygons.iter().flat_map(rings).collect()),
+        Geometry::MultiPolygon(polygons) => collect(polygons.iter().flat_map(rings).collect()),
         Geometry::Line(line) => ends(std::slice::from_ref(line)),
         Geometry::MultiLine(lines) => ends(lines),
         Geometry::Collection(members) => Geometry::gathered(members.iter().map(boundary).collect()),
@@ -373,7 +373,7 @@ fn nth(call: &FunctionCall<'_>, index: usize) -> Result<Option<usize>, String> {
 }
 
 /// Returns the point at a fraction of a line's horizontal length.
-fn along(points: &[DVec3], part: f64) -> Option<DVec3> {
+fn point_at(points: &[DVec3], part: f64) -> Option<DVec3> {
     let steps =
         || points.windows(2).map(|pair| (pair[0], pair[1], pair[0].truncate().distance(pair[1].truncate())));
     let mut left = part * steps().map(|step| step.2).sum::<f64>();
@@ -388,7 +388,7 @@ fn along(points: &[DVec3], part: f64) -> Option<DVec3> {
 
 fn substring(points: &[DVec3], from: f64, to: f64) -> FunctionResult {
     let total: f64 = points.windows(2).map(|pair| pair[0].truncate().distance(pair[1].truncate())).sum();
-    let (Some(first), Some(last)) = (along(points, from), along(points, to)) else {
+    let (Some(first), Some(last)) = (point_at(points, from), point_at(points, to)) else {
         return FunctionResult::Nothing;
     };
     if from == to {

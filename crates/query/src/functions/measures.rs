@@ -4,9 +4,9 @@ use burgeon_geometry::Rings;
 use burgeon_spatial::Geometry;
 use glam::DVec3;
 
+use super::call::{FunctionCall, FunctionResult};
 use super::parts::{members, place};
-use super::table::{ONE, function};
-use super::{FunctionCall, FunctionResult, SpatialFunction};
+use super::spatial_function::{ONE, SpatialFunction, function};
 
 /// Returns one of the four bounds.
 macro_rules! bound {

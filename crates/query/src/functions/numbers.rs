@@ -5,7 +5,7 @@ use rusqlite::Connection;
 use rusqlite::functions::{Context, FunctionFlags};
 use rusqlite::types::{Value, ValueRef};
 
-use super::texts::wrong;
+use super::texts::wrong_argument;
 
 /// The name of a function of one number, and its implementation.
 type UnaryFunction = (&'static str, fn(f64) -> f64);
@@ -59,19 +59,20 @@ const OF_TWO: [BinaryFunction; 5] = [
 pub(super) fn register(connection: &Connection) -> rusqlite::Result<()> {
     let flags = FunctionFlags::SQLITE_UTF8 | FunctionFlags::SQLITE_DETERMINISTIC;
     for (name, run) in OF_ONE {
-        connection
-            .create_scalar_function(name, 1, flags, move |context| called(context, name, |of| run(of[0])))?;
+        connection.create_scalar_function(name, 1, flags, move |context| {
+            call_finite(context, name, |of| run(of[0]))
+        })?;
     }
     for (name, run) in OF_TWO {
         connection.create_scalar_function(name, 2, flags, move |context| {
-            called(context, name, |of| run(of[0], of[1]))
+            call_finite(context, name, |of| run(of[0], of[1]))
         })?;
     }
     connection.create_scalar_function("pi", 0, flags, |_| Ok(std::f64::consts::PI))
 }
 
 /// Returns the result of a function, or null if an argument is null. Fails if the result is not a finite number.
-fn called(context: &Context<'_>, name: &str, run: impl Fn([f64; 2]) -> f64) -> rusqlite::Result<Value> {
+fn call_finite(context: &Context<'_>, name: &str, run: impl Fn([f64; 2]) -> f64) -> rusqlite::Result<Value> {
     let failed = |why: String| rusqlite::Error::UserFunctionError(format!("{name}: {why}").into());
     let mut numbers = [0.0; 2];
     for (index, number) in numbers.iter_mut().enumerate().take(context.len()) {
@@ -80,7 +81,7 @@ fn called(context: &Context<'_>, name: &str, run: impl Fn([f64; 2]) -> f64) -> r
             #[allow(clippy::cast_precision_loss, reason = "SQLite does the same")]
             ValueRef::Integer(value) => value as f64,
             ValueRef::Real(value) => value,
-            other => return Err(failed(wrong(index, "a number", other))),
+            other => return Err(failed(wrong_argument(index, "a number", other))),
         };
     }
     let found = run(numbers);

@@ -6,7 +6,7 @@ use rusqlite::functions::{Context, FunctionFlags};
 use rusqlite::types::{Value, ValueRef};
 
 use super::decimals::{as_numeric, float_text, round_decimal};
-use super::texts::{lower, wrong};
+use super::texts::{lower, wrong_argument};
 
 /// The body of an operator, which is called with arguments that are not null.
 type OperatorBody = fn(&Context<'_>) -> Result<Value, String>;
@@ -69,7 +69,7 @@ const OPERATORS: [(&str, i32, OperatorBody); 15] = [
                     _ => return Err(format!("invalid input syntax for type boolean: {text:?}")),
                 }
             }
-            other => return Err(wrong(0, "true or false", other)),
+            other => return Err(wrong_argument(0, "true or false", other)),
         }))
     }),
     ("burgeon_text", 1, |context| {
@@ -77,7 +77,7 @@ const OPERATORS: [(&str, i32, OperatorBody); 15] = [
             ValueRef::Integer(number) => number.to_string(),
             ValueRef::Real(number) => float_text(number),
             ValueRef::Text(text) => String::from_utf8_lossy(text).into_owned(),
-            other => return Err(format!("{}; take ST_AsText(geometry)", wrong(0, "a text", other))),
+            other => return Err(format!("{}; take ST_AsText(geometry)", wrong_argument(0, "a text", other))),
         }))
     }),
     ("burgeon_truth", 1, |context| {
@@ -114,7 +114,7 @@ fn whole_or_real(context: &Context<'_>, index: usize) -> Result<OperandNumber, S
     match context.get_raw(index) {
         ValueRef::Integer(number) => Ok(OperandNumber::Whole(number)),
         ValueRef::Real(number) => Ok(OperandNumber::Real(number)),
-        other => Err(wrong(index, "a number", other)),
+        other => Err(wrong_argument(index, "a number", other)),
     }
 }
 
@@ -161,7 +161,7 @@ fn whole(context: &Context<'_>, round: fn(f64) -> f64) -> Result<Value, String> 
                 .map(Value::Integer)
                 .map_err(|_| format!("invalid input syntax for type integer: {text:?}"));
         }
-        other => return Err(wrong(0, "a number", other)),
+        other => return Err(wrong_argument(0, "a number", other)),
     };
     #[allow(clippy::cast_possible_truncation, reason = "the range is checked")]
     if number.abs() < 9.2e18 { Ok(Value::Integer(number as i64)) } else { Err("integer out of range".into()) }
@@ -221,7 +221,7 @@ fn like(context: &Context<'_>, any_case: bool) -> Result<Value, String> {
                 let text = String::from_utf8_lossy(text);
                 Ok(if any_case { text.chars().map(lower).collect() } else { text.chars().collect() })
             }
-            other => Err(wrong(index, "a text", other)),
+            other => Err(wrong_argument(index, "a text", other)),
         }
     };
     let escape = if context.len() > 2 { text(2)?.first().copied() } else { Some('\\') };

@@ -3,7 +3,7 @@
 use burgeon_spatial::{Geometry, union_all};
 use glam::DVec3;
 
-use super::{FunctionCall, FunctionResult};
+use super::call::{FunctionCall, FunctionResult};
 
 /// Returns the position of a point argument, or `None` if it is empty. Fails for other geometries.
 pub(super) fn place(call: &FunctionCall<'_>, index: usize) -> Result<Option<DVec3>, String> {
@@ -25,7 +25,7 @@ pub(super) fn members(geometry: &Geometry) -> Vec<Geometry> {
 }
 
 /// Combines geometries: single ones of one type to a multi-geometry, others to a collection.
-pub(super) fn collected(geometries: Vec<Geometry>) -> Geometry {
+pub(super) fn collect(geometries: Vec<Geometry>) -> Geometry {
     let same = geometries.windows(2).all(|pair| pair[0].kind() == pair[1].kind());
     let single = |geometry: &Geometry| {
         matches!(geometry, Geometry::Point(Some(_)) | Geometry::Line(_) | Geometry::Polygon(_))
@@ -52,25 +52,25 @@ pub(super) fn collected(geometries: Vec<Geometry>) -> Geometry {
 }
 
 /// Combines single geometries, or returns the geometry itself if there is only one.
-pub(super) fn collected_single(mut geometries: Vec<Geometry>) -> Geometry {
+pub(super) fn collect_single(mut geometries: Vec<Geometry>) -> Geometry {
     match geometries.len() {
         1 => geometries.swap_remove(0),
-        _ => collected(geometries),
+        _ => collect(geometries),
     }
 }
 
 /// Returns the union of geometries. Fails with the reason.
 #[allow(clippy::unnecessary_wraps, reason = "what is made of many may come to fail")]
-pub(super) fn united(geometries: &[Geometry]) -> Result<Geometry, String> {
+pub(super) fn unite(geometries: &[Geometry]) -> Result<Geometry, String> {
     Ok(union_all(geometries))
 }
 
 /// Returns a ring as a closed line.
-pub(super) fn closed(ring: &[DVec3]) -> Geometry {
+pub(super) fn closed_line(ring: &[DVec3]) -> Geometry {
     Geometry::Line(ring.iter().chain(ring.first()).copied().collect())
 }
 
-pub(super) fn sound(geometry: Geometry) -> Result<FunctionResult, String> {
+pub(super) fn check_geometry(geometry: Geometry) -> Result<FunctionResult, String> {
     geometry.check().map_err(|error| error.message().to_owned())?;
     Ok(FunctionResult::Geometry(geometry))
 }

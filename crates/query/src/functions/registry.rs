@@ -5,9 +5,10 @@ use std::sync::Arc;
 use rusqlite::Connection;
 use rusqlite::functions::FunctionFlags;
 
-use crate::connection::ConnectionState;
-
-use super::{FUNCTIONS, SpatialFunction, aggregates, call, groups, lists, numbers, operators, texts};
+use super::spatial_function::SpatialFunction;
+use super::state::ConnectionState;
+use super::table::FUNCTIONS;
+use super::{aggregates, call, groups, index_functions, lists, numbers, operators, spatial_function, texts};
 
 /// Functions of SQLite that statements may call: deterministic functions without access to files or settings.
 const ALLOWED: [&str; 86] = [
@@ -130,11 +131,13 @@ pub(crate) fn register(connection: &Connection, state: &Arc<ConnectionState>) ->
     for function in FUNCTIONS {
         for count in function.least..=function.most {
             let state = Arc::clone(state);
-            let run = move |context: &rusqlite::functions::Context<'_>| call::run(function, context, &state);
+            let run = move |context: &rusqlite::functions::Context<'_>| {
+                spatial_function::run(function, context, &state)
+            };
             connection.create_scalar_function(function.name, i32::from(count), flags, run)?;
         }
     }
-    call::register_index(connection, state)?;
+    index_functions::register(connection, state)?;
     aggregates::register(connection, state)?;
     groups::register(connection, state)?;
     lists::register(connection, state)?;

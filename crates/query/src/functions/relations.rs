@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use burgeon_spatial::Geometry;
 use geo::Intersects;
 
+use super::call::{FunctionCall, FunctionResult};
 use super::parts::place;
-use super::table::{PAIR, function};
-use super::{FunctionCall, FunctionResult, SpatialFunction};
+use super::spatial_function::{PAIR, SpatialFunction, function};
 
 /// Implements a predicate of two geometries that is false if their boxes do not intersect.
 macro_rules! meeting {
@@ -16,7 +16,9 @@ macro_rules! meeting {
             if !boxes_meet(call)? {
                 return Ok(FunctionResult::Boolean(false));
             }
-            Ok(FunctionResult::Boolean(call.geometry(0)?.prepared().$method(call.geometry(1)?.prepared())))
+            Ok(FunctionResult::Boolean(
+                call.geometry(0)?.prepared_geometry().$method(call.geometry(1)?.prepared_geometry()),
+            ))
         }
     };
 }
@@ -46,7 +48,7 @@ pub(super) const RELATIONS: &[SpatialFunction] = &[
         |call| {
             let most = call.number(2)?;
             if let (Some(a), Some(b)) = (call.bounds(0)?, call.bounds(1)?)
-                && apart(a, b) > most + 1e-9 * (1.0 + most.abs())
+                && box_distance(a, b) > most + 1e-9 * (1.0 + most.abs())
             {
                 return Ok(FunctionResult::Boolean(false));
             }
@@ -116,7 +118,11 @@ pub(super) const RELATIONS: &[SpatialFunction] = &[
         PAIR,
         "boolean",
         "True if the geometries are the same set of points.",
-        |call| Ok(FunctionResult::Boolean(call.geometry(0)?.prepared().equals(call.geometry(1)?.prepared()))),
+        |call| {
+            Ok(FunctionResult::Boolean(
+                call.geometry(0)?.prepared_geometry().equals(call.geometry(1)?.prepared_geometry()),
+            ))
+        },
     ),
     function(
         "ST_Relate",
@@ -125,7 +131,8 @@ pub(super) const RELATIONS: &[SpatialFunction] = &[
         "text or boolean",
         "The DE-9IM matrix of interiors, boundaries and exteriors, as nine characters; or true if it matches a pattern such as `F***1****`.",
         |call| {
-            let relation = call.geometry(0)?.prepared().relate(call.geometry(1)?.prepared());
+            let relation =
+                call.geometry(0)?.prepared_geometry().relate(call.geometry(1)?.prepared_geometry());
             if call.len() == 2 {
                 return Ok(FunctionResult::Text(relation.text().to_owned()));
             }
@@ -207,7 +214,7 @@ pub(super) const RELATIONS: &[SpatialFunction] = &[
 ];
 
 /// Returns the distance between two boxes.
-fn apart(a: [f64; 4], b: [f64; 4]) -> f64 {
+fn box_distance(a: [f64; 4], b: [f64; 4]) -> f64 {
     let axis = |axis: usize| (b[axis] - a[axis + 2]).max(a[axis] - b[axis + 2]).max(0.0);
     axis(0).hypot(axis(1))
 }

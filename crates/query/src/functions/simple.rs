@@ -7,8 +7,8 @@ use glam::DVec3;
 
 /// Simplifies a geometry: no removed point is farther than `distance` from the result. Rings with fewer than three
 /// points are removed.
-pub(super) fn simplified(geometry: &Geometry, distance: f64) -> Geometry {
-    let line = |points: &[DVec3]| planar::simplified(points, distance, aside);
+pub(super) fn simplify(geometry: &Geometry, distance: f64) -> Geometry {
+    let line = |points: &[DVec3]| planar::simplified(points, distance, line_distance);
     let rings = |rings: &Rings| {
         let kept = rings.iter().enumerate().map(|(index, ring)| {
             let closed: Vec<DVec3> = ring.iter().chain(ring.first()).copied().collect();
@@ -31,14 +31,14 @@ pub(super) fn simplified(geometry: &Geometry, distance: f64) -> Geometry {
             Geometry::MultiPolygon(polygons.iter().map(rings).filter(|rings| !rings.is_empty()).collect())
         }
         Geometry::Collection(members) => {
-            Geometry::Collection(members.iter().map(|member| simplified(member, distance)).collect())
+            Geometry::Collection(members.iter().map(|member| simplify(member, distance)).collect())
         }
         other => other.clone(),
     }
 }
 
 /// Returns the horizontal distance of a point from the line between two others.
-fn aside(point: DVec3, way: [DVec3; 2]) -> f64 {
+fn line_distance(point: DVec3, way: [DVec3; 2]) -> f64 {
     let part = foot(way, point.truncate());
     let [from, to] = way.map(DVec3::truncate);
     (point.truncate() - from).distance((to - from) * part)

@@ -50,7 +50,7 @@ fn write_text(geometry: &Geometry, form: &Form, text: &mut String) {
         return;
     }
     let line = |points: &[DVec3]| form.list(points.iter().map(|at| form.point(at)));
-    let polygon = |rings: &Rings| form.list(rings.iter().map(|ring| line(&closed(ring))));
+    let polygon = |rings: &Rings| form.list(rings.iter().map(|ring| line(&close_ring(ring))));
     text.push_str(&match geometry {
         Geometry::Point(point) => form.list(point.iter().map(|at| form.point(at))),
         Geometry::Line(points) => line(points),
@@ -73,7 +73,7 @@ fn is_void(geometry: &Geometry) -> bool {
     matches!(geometry, Geometry::Point(_) | Geometry::Line(_) | Geometry::Polygon(_)) && geometry.is_empty()
 }
 
-fn closed(ring: &[DVec3]) -> Vec<DVec3> {
+fn close_ring(ring: &[DVec3]) -> Vec<DVec3> {
     ring.iter().chain(ring.first()).copied().collect()
 }
 
@@ -102,7 +102,7 @@ fn write_json(geometry: &Geometry, form: &Form, code: u32, text: &mut String) {
     }
     let point = |at: &DVec3| form.list(std::iter::once(form.point(at)));
     let line = |points: &[DVec3]| form.list(points.iter().map(point));
-    let polygon = |rings: &Rings| form.list(rings.iter().map(|ring| line(&closed(ring))));
+    let polygon = |rings: &Rings| form.list(rings.iter().map(|ring| line(&close_ring(ring))));
     if let Geometry::Collection(members) = geometry {
         let member = |member: &Geometry| {
             let mut text = String::new();

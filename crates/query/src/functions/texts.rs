@@ -15,7 +15,7 @@ const FUNCTIONS: [(&str, i32, i32, TextFunction); 25] = [
     ("ascii", 1, 1, |call| {
         Ok(Value::Integer(call.text(0)?.chars().next().map_or(0, |letter| i64::from(u32::from(letter)))))
     }),
-    ("btrim", 1, 2, |call| trimmed(call, true, true)),
+    ("btrim", 1, 2, |call| trim(call, true, true)),
     ("char_length", 1, 1, length),
     ("character_length", 1, 1, length),
     ("chr", 1, 1, |call| {
@@ -33,13 +33,13 @@ const FUNCTIONS: [(&str, i32, i32, TextFunction); 25] = [
     }),
     ("left", 2, 2, |call| {
         let (text, most) = (call.text(0)?, call.whole(1)?);
-        let count = kept(text, most);
+        let count = kept_length(text, most);
         Ok(Value::Text(text.chars().take(count).collect()))
     }),
     ("length", 1, 1, length),
     ("lower", 1, 1, |call| Ok(Value::Text(call.text(0)?.chars().map(lower).collect()))),
-    ("lpad", 2, 3, |call| padded(call, true)),
-    ("ltrim", 1, 2, |call| trimmed(call, true, false)),
+    ("lpad", 2, 3, |call| pad(call, true)),
+    ("ltrim", 1, 2, |call| trim(call, true, false)),
     ("repeat", 2, 2, |call| {
         let (text, count) = (call.text(0)?, usize::try_from(call.whole(1)?).unwrap_or(0));
         let length = text.len().checked_mul(count).filter(|length| *length <= LONGEST);
@@ -48,12 +48,12 @@ const FUNCTIONS: [(&str, i32, i32, TextFunction); 25] = [
     ("reverse", 1, 1, |call| Ok(Value::Text(call.text(0)?.chars().rev().collect()))),
     ("right", 2, 2, |call| {
         let (text, most) = (call.text(0)?, call.whole(1)?);
-        let count = kept(text, most);
+        let count = kept_length(text, most);
         let first = text.chars().count() - count;
         Ok(Value::Text(text.chars().skip(first).collect()))
     }),
-    ("rpad", 2, 3, |call| padded(call, false)),
-    ("rtrim", 1, 2, |call| trimmed(call, false, true)),
+    ("rpad", 2, 3, |call| pad(call, false)),
+    ("rtrim", 1, 2, |call| trim(call, false, true)),
     ("split_part", 3, 3, |call| {
         let (text, at, number) = (call.text(0)?, call.text(1)?, call.whole(2)?);
         if number == 0 {
@@ -86,7 +86,7 @@ const FUNCTIONS: [(&str, i32, i32, TextFunction); 25] = [
         };
         Ok(Value::Text(call.text(0)?.chars().filter_map(changed).collect()))
     }),
-    ("trim", 1, 2, |call| trimmed(call, true, true)),
+    ("trim", 1, 2, |call| trim(call, true, true)),
     ("upper", 1, 1, |call| Ok(Value::Text(call.text(0)?.chars().map(upper).collect()))),
 ];
 
@@ -105,7 +105,7 @@ impl TextCall<'_> {
     fn text(&self, index: usize) -> Result<&str, String> {
         match self.0.get_raw(index) {
             ValueRef::Text(text) => std::str::from_utf8(text).map_err(|_| "a text is no UTF-8".into()),
-            other => Err(wrong(index, "a text", other)),
+            other => Err(wrong_argument(index, "a text", other)),
         }
     }
 
@@ -114,13 +114,13 @@ impl TextCall<'_> {
             ValueRef::Integer(number) => Ok(number),
             #[allow(clippy::cast_possible_truncation, reason = "it has no fraction, and saturates")]
             ValueRef::Real(number) if number.fract() == 0.0 => Ok(number as i64),
-            other => Err(wrong(index, "a whole number", other)),
+            other => Err(wrong_argument(index, "a whole number", other)),
         }
     }
 }
 
 /// Returns the error message for an argument of another type.
-pub(super) fn wrong(index: usize, wanted: &str, found: ValueRef<'_>) -> String {
+pub(super) fn wrong_argument(index: usize, wanted: &str, found: ValueRef<'_>) -> String {
     let found = match found {
         ValueRef::Null => "NULL",
         ValueRef::Integer(_) | ValueRef::Real(_) => "a number",
@@ -139,13 +139,13 @@ fn length(call: &TextCall<'_>) -> Result<Value, String> {
 }
 
 /// Returns the number of characters to keep: `most`, or all except the absolute value of `most` if it is negative.
-fn kept(text: &str, most: i64) -> usize {
+fn kept_length(text: &str, most: i64) -> usize {
     let count = text.chars().count();
     let least = usize::try_from(most.unsigned_abs()).unwrap_or(usize::MAX);
     if most < 0 { count.saturating_sub(least) } else { least.min(count) }
 }
 
-fn padded(call: &TextCall<'_>, before: bool) -> Result<Value, String> {
+fn pad(call: &TextCall<'_>, before: bool) -> Result<Value, String> {
     let text = call.text(0)?;
     let length = usize::try_from(call.whole(1)?).unwrap_or(0);
     let filling = if call.0.len() > 2 { call.text(2)? } else { " " };
@@ -160,7 +160,7 @@ fn padded(call: &TextCall<'_>, before: bool) -> Result<Value, String> {
     Ok(Value::Text(if before { filling + text } else { text.to_owned() + &filling }))
 }
 
-fn trimmed(call: &TextCall<'_>, begin: bool, end: bool) -> Result<Value, String> {
+fn trim(call: &TextCall<'_>, begin: bool, end: bool) -> Result<Value, String> {
     let mut text = call.text(0)?;
     let letters: Vec<char> = if call.0.len() > 1 { call.text(1)?.chars().collect() } else { vec![' '] };
     if begin {
@@ -220,7 +220,7 @@ fn upper(letter: char) -> char {
 }
 
 /// Converts a value to a string for concatenation.
-fn joined(value: ValueRef<'_>) -> Result<Option<String>, String> {
+fn concat_text(value: ValueRef<'_>) -> Result<Option<String>, String> {
     Ok(match value {
         ValueRef::Null => None,
         ValueRef::Integer(number) => Some(number.to_string()),
@@ -247,12 +247,12 @@ pub(super) fn register(connection: &Connection) -> rusqlite::Result<()> {
         }
     }
     connection.create_scalar_function("concat", -1, flags, move |context| {
-        let parts = (0..context.len()).map(|index| joined(context.get_raw(index)));
+        let parts = (0..context.len()).map(|index| concat_text(context.get_raw(index)));
         let parts: Result<Vec<Option<String>>, String> = parts.collect();
         Ok(Value::Text(parts.map_err(|why| failed("concat", why))?.into_iter().flatten().collect()))
     })?;
     connection.create_scalar_function("concat_ws", -1, flags, move |context| {
-        let parts = (0..context.len()).map(|index| joined(context.get_raw(index)));
+        let parts = (0..context.len()).map(|index| concat_text(context.get_raw(index)));
         let parts: Result<Vec<Option<String>>, String> = parts.collect();
         let mut parts = parts.map_err(|why| failed("concat_ws", why))?.into_iter();
         let Some(Some(between)) = parts.next() else { return Ok(Value::Null) };

@@ -129,7 +129,7 @@ impl ServerAddress {
         };
         let (user, host) = place.rsplit_once('@').unwrap_or(("", place));
         let (user, password) = match user.split_once(':') {
-            Some((user, password)) => (user, Some(decoded(password))),
+            Some((user, password)) => (user, Some(decode(password))),
             None => (user, None),
         };
         // An IPv6 address contains colons.
@@ -146,10 +146,10 @@ impl ServerAddress {
             return Err(wrong("names a host and a database, and nothing more"));
         }
         let mut address = Self {
-            user: decoded(user),
-            host: decoded(host),
+            user: decode(user),
+            host: decode(host),
             port,
-            database: decoded(database),
+            database: decode(database),
             encryption: EncryptionMode::default(),
             authorities: None,
             connect_timeout: CONNECT,
@@ -160,7 +160,7 @@ impl ServerAddress {
         for option in options.into_iter().flat_map(|options| options.split('&')) {
             let (name, value) =
                 option.split_once('=').ok_or_else(|| wrong("has an option without a value"))?;
-            address.set(name, &decoded(value))?;
+            address.set(name, &decode(value))?;
         }
         Ok((address, layer))
     }
@@ -218,7 +218,7 @@ impl ServerAddress {
 
     /// Returns the address among `allowed` with the same database, and the allowed user and password. Fails with a
     /// remedy if there is none.
-    pub fn allowed<'a>(&self, allowed: &'a [Self]) -> Result<&'a Self> {
+    pub fn find_allowed<'a>(&self, allowed: &'a [Self]) -> Result<&'a Self> {
         let same = |other: &&'a Self| {
             (&other.host, other.port, &other.database) == (&self.host, self.port, &self.database)
                 && (self.user.is_empty() || self.user == other.user)
@@ -236,7 +236,7 @@ impl ServerAddress {
 }
 
 /// Decodes the percent-encoding of a string, such as `%41`.
-fn decoded(text: &str) -> String {
+fn decode(text: &str) -> String {
     let bytes = text.as_bytes();
     let (mut made, mut at) = (Vec::with_capacity(bytes.len()), 0);
     while let Some(byte) = bytes.get(at) {
@@ -308,7 +308,7 @@ mod tests {
     #[test]
     fn a_script_reaches_only_what_is_allowed() {
         let allowed = [ServerAddress::parse("postgres://me:secret@host/db").unwrap()];
-        let asked = |text: &str| ServerAddress::parse(text).unwrap().allowed(&allowed).cloned();
+        let asked = |text: &str| ServerAddress::parse(text).unwrap().find_allowed(&allowed).cloned();
         assert_eq!(asked("postgres://host/db").unwrap().password(), Some("secret"));
         assert_eq!(asked("postgres://me@host:5432/db").unwrap(), allowed[0]);
         insta::assert_snapshot!(asked("postgres://root:x@host/db").unwrap_err(), @r"

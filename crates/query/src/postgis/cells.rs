@@ -6,9 +6,8 @@ use std::sync::Arc;
 use bytes::BytesMut;
 use tokio_postgres::types::{FromSql, IsNull, Kind, ToSql, Type, to_sql_checked};
 
-use crate::ask::whole;
 use crate::blob;
-use crate::cell::Cell;
+use crate::cell::{Cell, integer};
 use burgeon_base::budget::Budget;
 
 type BoxedError = Box<dyn StdError + Sync + Send>;
@@ -25,12 +24,12 @@ impl BoundCell {
             Cell::Null => true,
             Cell::Boolean(_) => *kind == Type::BOOL || is_text(kind),
             Cell::Number(value) => {
-                is_text(kind) || is_float(kind) || is_integer(kind) && whole(*value).is_some()
+                is_text(kind) || is_float(kind) || is_integer(kind) && integer(*value).is_some()
             }
             Cell::Text(text) => {
                 is_text(kind)
                     || is_float(kind) && number(text).is_some()
-                    || is_integer(kind) && number(text).and_then(whole).is_some()
+                    || is_integer(kind) && number(text).and_then(integer).is_some()
             }
             Cell::Geometry(_) => *kind == Type::BYTEA,
             Cell::List(_) => false,
@@ -63,7 +62,8 @@ impl ToSql for BoundCell {
             Cell::List(_) => return Err("a list is no parameter".into()),
             Cell::Text(text) => text.trim().parse::<f64>()?,
         };
-        let whole = || whole(number).ok_or_else(|| BoxedError::from(format!("{number} is no whole number")));
+        let whole =
+            || integer(number).ok_or_else(|| BoxedError::from(format!("{number} is no whole number")));
         match *kind {
             Type::INT2 => i16::try_from(whole()?)?.to_sql(kind, out),
             Type::INT4 => i32::try_from(whole()?)?.to_sql(kind, out),

@@ -14,8 +14,7 @@ use super::ServerAddress;
 use super::cells::{BoundCell, ServerCell};
 use super::encryption::Encryption;
 use super::errors::{late, unreachable};
-use super::numbered::{NumberedStatement, ParameterTypes, numbered};
-use super::server::{CellFault, ServerAnswer, ServerFailure};
+use super::numbered::{NumberedStatement, ParameterTypes, number_parameters};
 use crate::cell::{Cell, QueryAnswer};
 use crate::place::Move;
 use burgeon_base::budget::Budget;
@@ -40,6 +39,33 @@ pub(super) struct AskedStatement<'a> {
     pub(super) srid: u32,
     pub(super) given: &'a dyn Fn(&str) -> Result<Cell>,
     pub(super) place: &'a Move<'a>,
+}
+
+/// The rows of a result, and the cells that cannot be read, which are null in the rows.
+pub(super) struct ServerAnswer {
+    pub(super) rows: QueryAnswer,
+    pub(super) faults: Vec<CellFault>,
+}
+
+/// A geometry that cannot be read: its row and column, from 0, and the reason.
+pub(super) struct CellFault {
+    pub(super) row: usize,
+    pub(super) column: usize,
+    pub(super) why: String,
+}
+
+/// The reason for a failed query.
+pub(super) enum ServerFailure {
+    /// Error of Burgeon.
+    Told(Error),
+    /// Error of the server, and the statement that was sent.
+    Server(tokio_postgres::Error, String),
+}
+
+impl From<Error> for ServerFailure {
+    fn from(error: Error) -> Self {
+        Self::Told(error)
+    }
 }
 
 /// A connection, the runtime that drives it, and its prepared statements.
@@ -133,7 +159,7 @@ impl ServerConnection {
         asked: &AskedStatement<'_>,
         budget: &Arc<Budget>,
     ) -> std::result::Result<ServerAnswer, ServerFailure> {
-        let Some(runtime) = self.runtime.take() else { return Err(gone().into()) };
+        let Some(runtime) = self.runtime.take() else { return Err(closed_error().into()) };
         let most = self.address.answer_timeout.unwrap_or(Duration::MAX);
         let done = wait(&runtime, Some(&**budget), most, self.answer(asked, budget));
         let result = match done {
@@ -181,7 +207,7 @@ impl ServerConnection {
         let begin = "BEGIN READ ONLY; SELECT 1";
         self.client.batch_execute(begin).await.map_err(|error| failed(error, ""))?;
         let value = |name: &str| given(name).ok();
-        let inferred = numbered(sql, ParameterTypes::Inferred, srid, value);
+        let inferred = number_parameters(sql, ParameterTypes::Inferred, srid, value);
         let cells = |names: &[String]| -> Result<Vec<BoundCell>> {
             names.iter().map(|name| Ok(BoundCell(place.bring_out(given(name)?)))).collect()
         };
@@ -198,7 +224,7 @@ impl ServerConnection {
                     let again = "ROLLBACK; BEGIN READ ONLY; SELECT 1";
                     self.client.batch_execute(again).await.map_err(|error| failed(error, ""))?;
                 }
-                let explicit = numbered(sql, ParameterTypes::Told, srid, value);
+                let explicit = number_parameters(sql, ParameterTypes::Told, srid, value);
                 match (self.prepare(&explicit).await, other) {
                     (Ok(statement), _) => (statement, explicit),
                     (Err(_), Err(first)) => return Err(failed(first, &inferred.sql)),
@@ -252,6 +278,6 @@ impl ServerConnection {
     }
 }
 
-fn gone() -> Error {
+fn closed_error() -> Error {
     Error::internal("the connection to the database has ended")
 }

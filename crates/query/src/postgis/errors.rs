@@ -5,9 +5,9 @@ use std::time::Duration;
 use tokio_postgres::error::{ErrorPosition, SqlState};
 
 use super::ServerAddress;
-use crate::errors;
 use crate::functions;
 use crate::rewrite::{Catalogue, find_word};
+use crate::statement_text::describe_position;
 use burgeon_base::error::{Error, Limit};
 use burgeon_base::text::{listed, shown};
 
@@ -84,7 +84,8 @@ pub(super) fn server_error(
     };
     let place = |name: &str| {
         let found = find_word(sql, name).filter(|_| !name.is_empty());
-        found.map_or_else(|| "SQL: ".to_owned(), |offset| format!("SQL, {}: ", errors::at(sql, offset)))
+        found
+            .map_or_else(|| "SQL: ".to_owned(), |offset| format!("SQL, {}: ", describe_position(sql, offset)))
     };
     let quoted = || message.split('"').nth(1).map(str::to_owned);
     let code = told.code();

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use rustc_hash::FxHashMap;
 
 use super::Server;
-use super::server::{ServerAnswer, ServerFailure};
+use super::connection::{ServerAnswer, ServerFailure};
 use crate::cell::Cell;
 use crate::place::Move;
 use burgeon_base::budget::Budget;
@@ -24,8 +24,8 @@ impl Server {
 
     /// Lists the layers, as [`Listing::read`] lists the layers of a file.
     pub fn listing(&self, budget: &Arc<Budget>) -> Result<Listing> {
-        let before = budget.taken();
-        let tables = self.known(budget)?.catalogue.values();
+        let before = budget.used_bytes();
+        let tables = self.server_tables(budget)?.catalogue.values();
         let names: Vec<&String> = tables
             .filter(|table| !table.geometries.is_empty() && !table.is_alias)
             .map(|table| &table.name)
@@ -46,7 +46,7 @@ impl Server {
     /// Reads the selected part of a layer, which may be empty.
     fn table(&self, wanted: &SourceOptions) -> Result<FeatureTable> {
         let budget = &wanted.budget;
-        let known = self.known(budget)?;
+        let known = self.server_tables(budget)?;
         let with: Vec<&str> = known
             .catalogue
             .values()
@@ -104,7 +104,7 @@ impl Server {
         }
         crate::rewrite::check(&sql, &known.catalogue).map_err(|error| error.about(&label))?;
         let none = |_: &str| Err(Error::argument("a layer's condition has no parameters"));
-        let answer = self.asked(&sql, 0, &none, &Move::nowhere(), budget).map_err(|failure| {
+        let answer = self.run_statement(&sql, 0, &none, &Move::identity(), budget).map_err(|failure| {
             let error = match failure {
                 ServerFailure::Told(error) => error,
                 ServerFailure::Server(error, asked) => {

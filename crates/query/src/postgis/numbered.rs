@@ -21,7 +21,7 @@ pub(super) enum ParameterTypes {
 }
 
 /// Numbers the parameters of a statement. Geometries get the reference system `srid`.
-pub(super) fn numbered(
+pub(super) fn number_parameters(
     sql: &str,
     types: ParameterTypes,
     srid: u32,

@@ -8,7 +8,7 @@ use std::time::Duration;
 use tokio_postgres::Config;
 
 use super::ServerAddress;
-use super::connection::{AskedStatement, ServerConnection};
+use super::connection::{AskedStatement, CellFault, ServerAnswer, ServerConnection, ServerFailure};
 use super::encryption;
 use super::errors::{is_lost, server_error};
 use super::tables::{self, ServerTables};
@@ -38,36 +38,9 @@ pub struct Server {
     seen: Mutex<BTreeMap<String, BTreeSet<Option<String>>>>,
 }
 
-/// The rows of a result, and the cells that cannot be read, which are null in the rows.
-pub(super) struct ServerAnswer {
-    pub(super) rows: QueryAnswer,
-    pub(super) faults: Vec<CellFault>,
-}
-
-/// A geometry that cannot be read: its row and column, from 0, and the reason.
-pub(super) struct CellFault {
-    pub(super) row: usize,
-    pub(super) column: usize,
-    pub(super) why: String,
-}
-
 impl fmt::Debug for Server {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "Server({})", self.address)
-    }
-}
-
-/// The reason for a failed query.
-pub(super) enum ServerFailure {
-    /// Error of Burgeon.
-    Told(Error),
-    /// Error of the server, and the statement that was sent.
-    Server(tokio_postgres::Error, String),
-}
-
-impl From<Error> for ServerFailure {
-    fn from(error: Error) -> Self {
-        Self::Told(error)
     }
 }
 
@@ -114,7 +87,7 @@ impl Server {
 
     /// Returns the names of the tables, in alphabetical order.
     pub fn tables(&self, budget: &Arc<Budget>) -> Result<Vec<String>> {
-        let tables = self.known(budget)?.catalogue.values().filter(|table| !table.is_alias);
+        let tables = self.server_tables(budget)?.catalogue.values().filter(|table| !table.is_alias);
         Ok(tables.map(|table| table.name.clone()).collect())
     }
 
@@ -129,24 +102,24 @@ impl Server {
     ) -> Result<Arc<QueryAnswer>> {
         budget.check()?;
         errors::check_length(sql)?;
-        let known = self.known(budget)?;
+        let known = self.server_tables(budget)?;
         rewrite::check(sql, &known.catalogue)?;
         let srid = known.system(sql);
         let crs = Crs::epsg(srid);
         let place = match frame {
             // Geometries without a reference system are not transformed.
-            Some(_) if srid == 0 => Move::nowhere(),
+            Some(_) if srid == 0 => Move::identity(),
             Some(frame) => {
                 Move::between(frame, &crs.map_err(|error| error.about(&self.address.to_string()))?)?
             }
-            None => Move::nowhere(),
+            None => Move::identity(),
         };
-        let chosen = self.chosen(sql)?;
+        let chosen = self.chosen_rows(sql)?;
         let rewritten = rewrite::rewrite(sql, &known.catalogue, &chosen, Dialect::Postgis)?;
         let (asked, ordered) = rewritten.map_or((sql.to_owned(), false), |it| (it.sql, it.ordered));
         let given = |name: &str| errors::parameter(sql, Some(&format!("${name}")), parameters).cloned();
         let ServerAnswer { rows: mut answer, faults } =
-            self.asked(&asked, srid, &given, &place, budget).map_err(|failure| {
+            self.run_statement(&asked, srid, &given, &place, budget).map_err(|failure| {
                 budget.check().err().unwrap_or_else(|| match failure {
                     ServerFailure::Told(error) => error,
                     ServerFailure::Server(error, asked) => {
@@ -178,7 +151,7 @@ impl Server {
     }
 
     /// Returns the visible part of each table that a statement names. Fails if several parts of a table were read.
-    fn chosen(&self, sql: &str) -> Result<ChosenRows> {
+    fn chosen_rows(&self, sql: &str) -> Result<ChosenRows> {
         let seen = self.seen.lock().recover();
         let mut chosen = ChosenRows::new();
         for (table, parts) in seen.iter().filter(|(table, _)| find_word(sql, table).is_some()) {
@@ -194,13 +167,13 @@ impl Server {
     }
 
     /// Returns the server's tables, which are queried once.
-    pub(super) fn known(&self, budget: &Arc<Budget>) -> Result<&ServerTables> {
+    pub(super) fn server_tables(&self, budget: &Arc<Budget>) -> Result<&ServerTables> {
         if let Some(known) = self.known.get() {
             return Ok(known);
         }
         let none = |_: &str| Ok(Cell::Null);
         let read = |sql: &str| {
-            self.asked(sql, 0, &none, &Move::nowhere(), budget).map_err(|failure| match failure {
+            self.run_statement(sql, 0, &none, &Move::identity(), budget).map_err(|failure| match failure {
                 ServerFailure::Told(error) => error,
                 ServerFailure::Server(error, asked) => {
                     server_error(&self.address, &error, ("", &asked), &Catalogue::new())
@@ -222,7 +195,7 @@ impl Server {
 
     /// Runs a statement on a connection. If a reused connection is lost before there are rows, retries once on a new
     /// one.
-    pub(super) fn asked(
+    pub(super) fn run_statement(
         &self,
         sql: &str,
         srid: u32,

@@ -13,7 +13,7 @@ pub(super) const POSTGIS: &str = "SELECT n.nspname::text FROM pg_extension e JOI
 /// Returns the query for the tables that the user may read: columns, keys and estimated numbers of rows. PostGIS is in
 /// `schema`.
 pub(super) fn query(schema: &str) -> String {
-    let postgis = crate::connection::quoted(schema);
+    let postgis = crate::statement_text::quote_name(schema);
     format!(
         "SELECT c.oid::int8, n.nspname::text, c.relname::text, pg_table_is_visible(c.oid), a.attname::text, \
          coalesce(b.typname, t.typname)::text, greatest(c.reltuples, 0)::float8, \

@@ -7,9 +7,10 @@ use sqlparser::ast::{
 
 use super::Catalogue;
 use super::parse;
-use super::scope::{FromItem, quoted, relations};
+use super::scope::{FromItem, relations};
 use super::substitute::each_query;
 use super::typing::column_name;
+use crate::statement_text::quote_name;
 use burgeon_base::error::{Error, Result};
 
 /// Rewrites each `DISTINCT ON` as a query of the first rows of windows.
@@ -17,7 +18,7 @@ pub(super) fn rewrite(query: &mut Query, tables: &Catalogue) -> Result<()> {
     each_query(query, |query| {
         let is_on = matches!(&*query.body, SetExpr::Select(select) if matches!(select.distinct, Some(Distinct::On(_))));
         if is_on {
-            let made = windowed(query, tables).ok_or_else(|| {
+            let made = window_query(query, tables).ok_or_else(|| {
                 Error::argument("SQL: DISTINCT ON is not supported here beside a star of a subquery")
                     .help("name the columns in place of the star")
             })?;
@@ -27,7 +28,7 @@ pub(super) fn rewrite(query: &mut Query, tables: &Catalogue) -> Result<()> {
     })
 }
 
-fn windowed(query: &Query, tables: &Catalogue) -> Option<Query> {
+fn window_query(query: &Query, tables: &Catalogue) -> Option<Query> {
     let SetExpr::Select(select) = &*query.body else { return None };
     let Some(Distinct::On(keys)) = &select.distinct else { return None };
     let relations = relations(select, tables);
@@ -77,7 +78,7 @@ fn windowed(query: &Query, tables: &Catalogue) -> Option<Query> {
     }
     let ties = relations.iter().filter_map(|relation| {
         let (alias, key) = (relation.alias.as_ref()?, relation.table?.key.as_ref()?);
-        Some(format!("{}.{}", quoted(&alias.value), quoted(key)))
+        Some(format!("{}.{}", quote_name(&alias.value), quote_name(key)))
     });
     let ordered: Vec<String> = order.iter().map(ToString::to_string).chain(ties).collect();
     let parts: Option<Vec<String>> = keys.iter().map(|key| Some(meant(key)?.to_string())).collect();
@@ -105,7 +106,7 @@ fn windowed(query: &Query, tables: &Catalogue) -> Option<Query> {
     let outer: Vec<String> = columns
         .iter()
         .enumerate()
-        .map(|(index, (name, _))| format!("burgeon_c{} AS {}", index + 1, quoted(name)))
+        .map(|(index, (name, _))| format!("burgeon_c{} AS {}", index + 1, quote_name(name)))
         .collect();
     // The groups are sorted by their keys, as if PostgreSQL sorts them.
     let sorted: Vec<String> = match order.is_empty() {
@@ -140,7 +141,7 @@ fn all(relations: &[FromItem<'_>], owner: Option<&str>) -> Option<Vec<(String, E
             continue;
         }
         for name in &relation.table?.columns {
-            let expression = parse::expression(&format!("{}.{}", quoted(alias), quoted(name)))?;
+            let expression = parse::expression(&format!("{}.{}", quote_name(alias), quote_name(name)))?;
             columns.push((name.clone(), expression));
         }
     }

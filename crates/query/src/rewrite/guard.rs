@@ -5,12 +5,11 @@ use std::ops::ControlFlow;
 use sqlparser::ast::{Expr, FunctionArguments, ObjectName, Query, TableFactor};
 
 use super::Catalogue;
-use super::parse::{find_word, parse};
-use super::scope::declared;
-use super::statement::with_stack;
+use super::parse::{find_word, parse, with_stack};
+use super::scope::declared_names;
 use super::walk::{StatementPart, walk};
-use crate::errors::at;
 use crate::functions;
+use crate::statement_text::describe_position;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
 
@@ -59,16 +58,16 @@ const NEVER_THE_SAME: [&str; 11] = [
 pub(crate) fn check(sql: &str, catalogue: &Catalogue) -> Result<()> {
     let checked = with_stack(|| {
         let tree = parse(sql).map_err(|error| {
-            Error::syntax(unread(&error.message))
+            Error::syntax(parser_message(&error.message))
                 .help("write SQL that both SQLite and PostgreSQL take: SELECT ... FROM ... WHERE ...")
         })?;
-        checked(&tree.query, sql, catalogue)
+        check_query(&tree.query, sql, catalogue)
     });
     checked.unwrap_or_else(|| Err(Error::system("cannot start a thread")))
 }
 
 /// Reformats the parser's message, with the position first.
-fn unread(message: &str) -> String {
+fn parser_message(message: &str) -> String {
     let message = message.trim_start_matches("sql parser error: ").replacen("Expected", "expected", 1);
     let Some((what, at)) = message.rsplit_once(" at Line: ") else {
         return format!("SQL: {}", shown(&message));
@@ -79,8 +78,8 @@ fn unread(message: &str) -> String {
     }
 }
 
-fn checked(query: &Query, sql: &str, catalogue: &Catalogue) -> Result<()> {
-    let guard = Guard { sql, catalogue, own: declared(query) };
+fn check_query(query: &Query, sql: &str, catalogue: &Catalogue) -> Result<()> {
+    let guard = Guard { sql, catalogue, own: declared_names(query) };
     let mut result = Ok(());
     let _ = walk(query, |part| {
         result = guard.check(&part);
@@ -99,7 +98,10 @@ struct Guard<'a> {
 impl Guard<'_> {
     fn place(&self, name: &str) -> String {
         let found = find_word(self.sql, name);
-        found.map_or_else(|| "SQL: ".to_owned(), |offset| format!("SQL, {}: ", at(self.sql, offset)))
+        found.map_or_else(
+            || "SQL: ".to_owned(),
+            |offset| format!("SQL, {}: ", describe_position(self.sql, offset)),
+        )
     }
 
     fn never_the_same(&self, word: &str) -> Result<()> {

@@ -12,10 +12,11 @@ use sqlparser::ast::{BinaryOperator, Expr, Select, Value};
 use super::Catalogue;
 use super::operators::call;
 use super::scope::{
-    FromItem, condition, condition_mut, conjuncts, geometry_column, mentioned, quoted, relations, text,
+    FromItem, condition, condition_mut, conjuncts, geometry_column, mentioned_relations, relations,
 };
 use super::walk::{StatementPart, walk};
 use super::{TableInfo, parse};
+use crate::statement_text::{quote_name, quote_text};
 
 /// Assumed number of rows of an unknown relation.
 const UNKNOWN_ROWS: f64 = 1000.0;
@@ -53,7 +54,7 @@ impl Lookup {
     fn sql(&self) -> String {
         match self {
             Self::Near { index, other, distance } => {
-                format!("SELECT value FROM rarray(burgeon_near({}, {other}, {distance}))", text(index))
+                format!("SELECT value FROM rarray(burgeon_near({}, {other}, {distance}))", quote_text(index))
             }
             Self::Key(key) => format!("SELECT {key}"),
         }
@@ -102,7 +103,7 @@ pub(super) fn index(select: &mut Select, tables: &Catalogue) -> Vec<String> {
         added.push((
             site,
             indexes.collect::<Vec<String>>(),
-            format!("{}.{} IN ({})", quoted(&alias.value), quoted(key), keys.join(" UNION ")),
+            format!("{}.{} IN ({})", quote_name(&alias.value), quote_name(key), keys.join(" UNION ")),
         ));
     };
     // Comparisons with a constant come first, because they determine the table to start with.
@@ -169,7 +170,7 @@ fn attach(select: &mut Select, site: ConditionPlace, condition: &str) -> bool {
 
 /// Reduces the estimated number of rows for a condition on a single table.
 fn weigh(part: &Expr, relations: &[FromItem<'_>], rows: &mut [f64]) {
-    let [only] = mentioned(part, relations)[..] else { return };
+    let [only] = mentioned_relations(part, relations)[..] else { return };
     let equals =
         matches!(part, Expr::BinaryOp { op: BinaryOperator::Eq, .. } | Expr::InList { negated: false, .. });
     rows[only] *= LEFT[usize::from(!equals)];
@@ -181,7 +182,7 @@ fn spatial<'a>(
     site: ConditionPlace,
     relations: &[FromItem<'a>],
 ) -> Option<SpatialCondition<'a>> {
-    if let Some((a, b, distance)) = near(part) {
+    if let Some((a, b, distance)) = near_geometries(part) {
         let sides = [(a, b), (b, a)].into_iter();
         let sides = sides.filter_map(|(own, other)| side(own, other, distance, site, relations));
         let sides: Vec<ConditionSide<'a>> = sides.collect();
@@ -219,13 +220,13 @@ fn any<'a>(
     let mut all: Option<ConditionSide<'a>> = None;
     for part in parts {
         let found = conjuncts(part).into_iter().find_map(|part| {
-            if let Some((a, b, distance)) = near(part) {
+            if let Some((a, b, distance)) = near_geometries(part) {
                 let mut sides = [(a, b), (b, a)]
                     .into_iter()
                     .filter_map(|(own, other)| side(own, other, distance, site, relations));
                 return sides.find(|side| side.relation == relation);
             }
-            keyed(part, relation, site, relations)
+            key_lookup(part, relation, site, relations)
         })?;
         match &mut all {
             Some(all) => {
@@ -243,7 +244,7 @@ fn any<'a>(
 }
 
 /// Returns the lookup of a relation's row by an equality of its key.
-fn keyed<'a>(
+fn key_lookup<'a>(
     part: &Expr,
     relation: usize,
     site: ConditionPlace,
@@ -263,7 +264,7 @@ fn keyed<'a>(
         (false, true) => left,
         _ => return None,
     };
-    let needs = mentioned(other, relations);
+    let needs = mentioned_relations(other, relations);
     let fits = is_allowed(relation, site, relations) && !needs.contains(&relation) && is_plain(other);
     fits.then(|| ConditionSide { relation, table, lookups: vec![Lookup::Key(other.to_string())], needs })
 }
@@ -293,10 +294,10 @@ fn side<'a>(
     let (relation, table, column) = geometry_column(own, relations)?;
     table.key.as_ref()?;
     // The distance is evaluated before the row is available.
-    if distance.is_some_and(|distance| !mentioned(distance, relations).is_empty()) {
+    if distance.is_some_and(|distance| !mentioned_relations(distance, relations).is_empty()) {
         return None;
     }
-    let needs = mentioned(other, relations);
+    let needs = mentioned_relations(other, relations);
     let fits = is_allowed(relation, site, relations) && !needs.contains(&relation) && is_plain(other);
     let lookup = Lookup::Near {
         index: format!("{}.{column}", table.name),
@@ -316,16 +317,16 @@ fn is_plain(expression: &Expr) -> bool {
 }
 
 /// Returns the two geometries of a condition that implies that their boxes intersect, or are within a distance.
-fn near(part: &Expr) -> Option<(&Expr, &Expr, Option<&Expr>)> {
+fn near_geometries(part: &Expr) -> Option<(&Expr, &Expr, Option<&Expr>)> {
     use BinaryOperator as Op;
     match part {
-        Expr::Nested(inner) | Expr::IsTrue(inner) => near(inner),
+        Expr::Nested(inner) | Expr::IsTrue(inner) => near_geometries(inner),
         Expr::BinaryOp { left, op: Op::Eq, right } => {
             let (call, constant) = if is_one(right) { (left, right) } else { (right, left) };
-            if is_one(constant) { near(call) } else { None }
+            if is_one(constant) { near_geometries(call) } else { None }
         }
-        Expr::BinaryOp { left, op: Op::Lt | Op::LtEq, right } => within(left, right),
-        Expr::BinaryOp { left, op: Op::Gt | Op::GtEq, right } => within(right, left),
+        Expr::BinaryOp { left, op: Op::Lt | Op::LtEq, right } => geometries_within(left, right),
+        Expr::BinaryOp { left, op: Op::Gt | Op::GtEq, right } => geometries_within(right, left),
         other => {
             let (name, arguments) = call(other)?;
             match (name.as_str(), arguments.as_slice()) {
@@ -348,7 +349,10 @@ fn is_one(expression: &Expr) -> bool {
 }
 
 /// Returns the geometries of a comparison of their distance `measured` with a limit.
-fn within<'a>(measured: &'a Expr, distance: &'a Expr) -> Option<(&'a Expr, &'a Expr, Option<&'a Expr>)> {
+fn geometries_within<'a>(
+    measured: &'a Expr,
+    distance: &'a Expr,
+) -> Option<(&'a Expr, &'a Expr, Option<&'a Expr>)> {
     let measured = if let Expr::Nested(inner) = measured { inner } else { measured };
     let (name, arguments) = call(measured)?;
     let [a, b] = arguments.as_slice() else { return None };

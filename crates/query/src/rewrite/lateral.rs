@@ -10,10 +10,11 @@ use sqlparser::ast::{
 
 use super::Catalogue;
 use super::parse;
-use super::scope::{condition_mut, quoted, relations};
+use super::scope::{condition_mut, relations};
 use super::substitute::{Substitution, each_query, select_of, substitute};
 use super::typing::column_name;
 use super::{order, walk};
+use crate::statement_text::quote_name;
 use burgeon_base::error::{Error, Result};
 
 /// The replacement of a LATERAL subquery.
@@ -37,7 +38,7 @@ pub(super) fn flatten(query: &mut Query, tables: &Catalogue) -> Result<()> {
         for mut item in std::mem::take(&mut select.from) {
             let joins = std::mem::take(&mut item.joins);
             // A comma is equivalent to CROSS JOIN.
-            match flattened(&item.relation, tables, &known)? {
+            match flat_form(&item.relation, tables, &known)? {
                 Some(LateralForm { substitutions: more, join }) => {
                     substitutions.extend(more);
                     if let Some((relation, condition)) = join {
@@ -49,7 +50,7 @@ pub(super) fn flatten(query: &mut Query, tables: &Catalogue) -> Result<()> {
             }
             for mut join in joins {
                 let Some(LateralForm { substitutions: more, join: other }) =
-                    flattened(&join.relation, tables, &known)?
+                    flat_form(&join.relation, tables, &known)?
                 else {
                     match kept.last_mut() {
                         Some(last) => last.joins.push(join),
@@ -83,7 +84,7 @@ pub(super) fn flatten(query: &mut Query, tables: &Catalogue) -> Result<()> {
                             && !is_true(on)
                         {
                             if outer {
-                                return Err(unsupported("with a condition other than true"));
+                                return Err(unsupported_lateral("with a condition other than true"));
                             }
                             and(&mut select.selection, on.clone());
                         }
@@ -98,7 +99,7 @@ pub(super) fn flatten(query: &mut Query, tables: &Catalogue) -> Result<()> {
                 .iter()
                 .any(|item| matches!(item, SelectItem::Wildcard(_) | SelectItem::QualifiedWildcard(..)));
             if starred {
-                return Err(unsupported("beside a star"));
+                return Err(unsupported_lateral("beside a star"));
             }
             for item in &mut select.projection {
                 name(item);
@@ -109,7 +110,7 @@ pub(super) fn flatten(query: &mut Query, tables: &Catalogue) -> Result<()> {
     })
 }
 
-fn unsupported(what: &str) -> Error {
+fn unsupported_lateral(what: &str) -> Error {
     Error::argument(format!("SQL: LATERAL {what} is not supported here"))
         .help("name the columns, and write a scalar subquery in SELECT, a join, or one table behind LATERAL")
 }
@@ -137,12 +138,14 @@ fn and(place: &mut Option<Expr>, condition: Expr) {
     });
 }
 
-fn flattened(factor: &TableFactor, tables: &Catalogue, known: &[String]) -> Result<Option<LateralForm>> {
+fn flat_form(factor: &TableFactor, tables: &Catalogue, known: &[String]) -> Result<Option<LateralForm>> {
     let TableFactor::Derived { lateral: true, subquery, alias: Some(alias), .. } = factor else {
         return Ok(None);
     };
     let owner = alias.name.value.clone();
-    let SetExpr::Select(select) = &*subquery.body else { return Err(unsupported("with UNION or VALUES")) };
+    let SetExpr::Select(select) = &*subquery.body else {
+        return Err(unsupported_lateral("with UNION or VALUES"));
+    };
     let plain = subquery.with.is_none() && select.distinct.is_none() && select.having.is_none();
     let mut columns: Vec<(String, Expr)> = Vec::new();
     let mut starred = false;
@@ -183,13 +186,13 @@ fn flattened(factor: &TableFactor, tables: &Catalogue, known: &[String]) -> Resu
         }));
     }
     if !plain || grouped || order::aggregates(select) {
-        return Err(unsupported("with DISTINCT, GROUP BY or HAVING"));
+        return Err(unsupported_lateral("with DISTINCT, GROUP BY or HAVING"));
     }
-    joined(subquery, select, &owner, tables, columns, starred, substitution).map(Some)
+    join_form(subquery, select, &owner, tables, columns, starred, substitution).map(Some)
 }
 
 /// Returns the column that an ORDER BY expression refers to by its name or its number.
-fn meant<'c>(key: &Expr, columns: &'c [(String, Expr)]) -> Option<&'c (String, Expr)> {
+fn ordered_column<'c>(key: &Expr, columns: &'c [(String, Expr)]) -> Option<&'c (String, Expr)> {
     match key {
         Expr::Identifier(name) => columns.iter().find(|(known, _)| known.eq_ignore_ascii_case(&name.value)),
         Expr::Value(value) => match &value.value {
@@ -203,7 +206,7 @@ fn meant<'c>(key: &Expr, columns: &'c [(String, Expr)]) -> Option<&'c (String, E
 }
 
 /// Creates a join with the rows of one table that a subquery returns.
-fn joined(
+fn join_form(
     subquery: &Query,
     select: &Select,
     owner: &str,
@@ -213,28 +216,28 @@ fn joined(
     substitution: impl Fn(String, Expr) -> Substitution,
 ) -> Result<LateralForm> {
     let inner = relations(select, tables);
-    let [only] = inner.as_slice() else { return Err(unsupported("with several tables")) };
+    let [only] = inner.as_slice() else { return Err(unsupported_lateral("with several tables")) };
     let (Some(table), Some(alias)) = (only.table, &only.alias) else {
-        return Err(unsupported("with another subquery"));
+        return Err(unsupported_lateral("with another subquery"));
     };
-    let Some(key) = &table.key else { return Err(unsupported("with a table without a key")) };
+    let Some(key) = &table.key else { return Err(unsupported_lateral("with a table without a key")) };
     let mut keys = subquery.clone();
     if let Some(OrderByKind::Expressions(order)) = keys.order_by.as_mut().map(|order| &mut order.kind) {
         // The columns are removed, so the expressions of the order are written out.
         for key in order {
-            if let Some((_, expression)) = meant(&key.expr, &columns) {
+            if let Some((_, expression)) = ordered_column(&key.expr, &columns) {
                 key.expr = Expr::Nested(Box::new(expression.clone()));
             }
         }
     }
     if let SetExpr::Select(select) = &mut *keys.body {
-        let key = parse::expression(&format!("{}.{}", quoted(&alias.value), quoted(key)));
+        let key = parse::expression(&format!("{}.{}", quote_name(&alias.value), quote_name(key)));
         select.projection = key.into_iter().map(SelectItem::UnnamedExpr).collect();
     }
-    let condition = format!("{}.{} IN ({keys})", quoted(owner), quoted(key));
-    let relation = format!("{} AS {}", quoted(&table.name), quoted(owner));
+    let condition = format!("{}.{} IN ({keys})", quote_name(owner), quote_name(key));
+    let relation = format!("{} AS {}", quote_name(&table.name), quote_name(owner));
     let parsed = parse::expression(&condition).zip(parse::relation(&relation));
-    let Some((condition, relation)) = parsed else { return Err(unsupported("so deep")) };
+    let Some((condition, relation)) = parsed else { return Err(unsupported_lateral("so deep")) };
     // The alias in the subquery is replaced with the name of the relation.
     let renamed = |expression: &Expr| {
         let mut holder = parse::holder(expression.clone());
@@ -253,7 +256,7 @@ fn joined(
             _ => {}
         };
         walk::walk_expressions(&mut holder, &mut change);
-        parse::held(holder).unwrap_or_else(|| expression.clone())
+        parse::unwrap_holder(holder).unwrap_or_else(|| expression.clone())
     };
     let computed = columns.into_iter().filter_map(|(name, expression)| {
         let made = renamed(&expression);

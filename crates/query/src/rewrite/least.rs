@@ -9,14 +9,15 @@ use sqlparser::ast::{Expr, JoinConstraint, JoinOperator, Query, SetExpr, TableFa
 use super::Catalogue;
 use super::operators::call;
 use super::parse;
-use super::scope::{FromItem, condition, conjuncts, geometry_column, mentioned, quoted, relations};
+use super::scope::{FromItem, condition, conjuncts, geometry_column, mentioned_relations, relations};
 use super::substitute::select_of;
 use super::walk::{StatementPart, walk, walk_expressions};
+use crate::statement_text::quote_name;
 use std::ops::ControlFlow;
 
 /// Rewrites a query whose aggregates are minimum distances to one table.
 pub(super) fn rewrite(query: &mut Query, tables: &Catalogue) {
-    if let Some(made) = rewritten(query, tables) {
+    if let Some(made) = least_query(query, tables) {
         *query = made;
     }
 }
@@ -33,7 +34,7 @@ struct NearestTable {
     optional: bool,
 }
 
-fn rewritten(query: &Query, tables: &Catalogue) -> Option<Query> {
+fn least_query(query: &Query, tables: &Catalogue) -> Option<Query> {
     let SetExpr::Select(select) = &*query.body else { return None };
     if select.distinct.is_some() || query.with.is_some() {
         return None;
@@ -64,7 +65,9 @@ fn rewritten(query: &Query, tables: &Catalogue) -> Option<Query> {
     let item = &items[target];
     let rest = walk(&holder, |part| match part {
         StatementPart::Expression(expression) if is_other_aggregate(expression) => ControlFlow::Break(()),
-        StatementPart::Expression(expression) if mentioned(expression, &items).contains(&target) => {
+        StatementPart::Expression(expression)
+            if mentioned_relations(expression, &items).contains(&target) =>
+        {
             ControlFlow::Break(())
         }
         _ => ControlFlow::Continue(()),
@@ -80,7 +83,7 @@ fn rewritten(query: &Query, tables: &Catalogue) -> Option<Query> {
         false => format!(" WHERE {}", nearest.conditions.join(" AND ")),
     };
     // Conditions that do not involve the table remain.
-    let own = |expression: &&Expr| mentioned(expression, &items).contains(&target);
+    let own = |expression: &&Expr| mentioned_relations(expression, &items).contains(&target);
     let mut kept: Vec<String> = selection
         .iter()
         .flat_map(|selection| conjuncts(selection))
@@ -131,7 +134,7 @@ fn distance_to(expression: &Expr, items: &[FromItem<'_>]) -> Option<(usize, Expr
     let side = |own: &Expr, other: &Expr| {
         let (relation, table, _) = geometry_column(own, items)?;
         table.key.as_ref()?;
-        let others = mentioned(other, items);
+        let others = mentioned_relations(other, items);
         (!others.is_empty() && !others.contains(&relation)).then_some(relation)
     };
     let relation = side(a, b).into_iter().chain(side(b, a)).max()?;
@@ -159,7 +162,7 @@ fn nearest(
     let mut optional = false;
     let take = |expression: &Expr, conditions: &mut Vec<String>, all: bool| {
         for part in conjuncts(expression) {
-            if all || mentioned(part, items).contains(&target) {
+            if all || mentioned_relations(part, items).contains(&target) {
                 conditions.push(format!("({part})"));
             }
         }
@@ -195,7 +198,8 @@ fn nearest(
     for (index, other) in from.iter().enumerate() {
         for (place, joined) in other.joins.iter().enumerate() {
             if (index, place + 1) != item.place
-                && condition(&joined.join_operator).is_some_and(|on| mentioned(on, items).contains(&target))
+                && condition(&joined.join_operator)
+                    .is_some_and(|on| mentioned_relations(on, items).contains(&target))
             {
                 return None;
             }
@@ -203,7 +207,7 @@ fn nearest(
     }
     if let Some(selection) = selection {
         // A condition after WHERE also applies to the null row of an outer join.
-        if optional && mentioned(selection, items).contains(&target) {
+        if optional && mentioned_relations(selection, items).contains(&target) {
             return None;
         }
         take(selection, &mut conditions, false);
@@ -214,6 +218,6 @@ fn nearest(
     };
     let TableFactor::Table { .. } = factor else { return None };
     let alias = item.alias.as_ref()?;
-    let relation = format!("{} AS {}", quoted(&item.table?.name), quoted(&alias.value));
+    let relation = format!("{} AS {}", quote_name(&item.table?.name), quote_name(&alias.value));
     Some(NearestTable { place: item.place, relation, conditions, optional })
 }

@@ -11,12 +11,13 @@ use sqlparser::ast::{
 
 use super::operators::call;
 use super::parse;
-use super::scope::{geometry_column, quoted, relations};
+use super::scope::{geometry_column, relations};
 use super::substitute::factors;
 use super::types::{ColumnTypes, SqlType};
 use super::typing;
 use super::walk::{StatementPart, walk};
 use super::{Catalogue, TableInfo};
+use crate::statement_text::quote_name;
 
 /// Name of the key of a materialized subquery.
 const KEY: &str = "burgeon_key";
@@ -50,7 +51,7 @@ pub(crate) struct MadeTable {
 pub(super) fn inline(query: &mut Query, tables: &Catalogue) {
     let Some(with) = query.with.clone().filter(|with| !with.recursive) else { return };
     let SetExpr::Select(select) = &mut *query.body else { return };
-    let wanted = wanted(select, tables);
+    let wanted = joined_subqueries(select, tables);
     for factor in factors(select) {
         let TableFactor::Table { name, alias, args: None, .. } = factor else { continue };
         let own = name.to_string();
@@ -70,7 +71,7 @@ pub(super) fn inline(query: &mut Query, tables: &Catalogue) {
             let before = with.cte_tables[..index].to_vec();
             subquery.with = Some(With { cte_tables: before, ..with.clone() });
         }
-        let text = format!("({subquery}) AS {}", quoted(&called));
+        let text = format!("({subquery}) AS {}", quote_name(&called));
         if let Some(made) = parse::relation(&text) {
             *factor = made;
         }
@@ -80,7 +81,7 @@ pub(super) fn inline(query: &mut Query, tables: &Catalogue) {
 /// Materializes the subqueries after FROM that need an index, and adds them to `tables`.
 pub(super) fn make(select: &mut Select, tables: &mut Catalogue) -> Vec<MadeTable> {
     let mut made = Vec::new();
-    for called in wanted(select, tables) {
+    for called in joined_subqueries(select, tables) {
         let found = factors(select).find_map(|factor| match factor {
             TableFactor::Derived { lateral: false, subquery, alias: Some(alias), .. }
                 if alias.name.value.eq_ignore_ascii_case(&called) && alias.columns.is_empty() =>
@@ -94,7 +95,7 @@ pub(super) fn make(select: &mut Select, tables: &mut Catalogue) -> Vec<MadeTable
         if !expand_stars(select, tables, &called, &table.info) {
             continue;
         }
-        let text = format!("{} AS {}", quoted(&table.info.name), quoted(&called));
+        let text = format!("{} AS {}", quote_name(&table.info.name), quote_name(&called));
         for factor in factors(select) {
             let is_it = matches!(factor, TableFactor::Derived { alias: Some(alias), .. }
                 if alias.name.value.eq_ignore_ascii_case(&called));
@@ -109,7 +110,7 @@ pub(super) fn make(select: &mut Select, tables: &mut Catalogue) -> Vec<MadeTable
 }
 
 /// Returns the names of subqueries whose geometries are compared with those of other subqueries.
-fn wanted(select: &Select, tables: &Catalogue) -> Vec<String> {
+fn joined_subqueries(select: &Select, tables: &Catalogue) -> Vec<String> {
     let items = relations(select, tables);
     let unknown = |name: &Ident| {
         items
@@ -246,7 +247,7 @@ fn expand_stars(select: &mut Select, tables: &Catalogue, called: &str, info: &Ta
             None => return None,
         };
         let column = |name: &&String| {
-            let expression = parse::expression(&format!("{}.{}", quoted(owner), quoted(name)))?;
+            let expression = parse::expression(&format!("{}.{}", quote_name(owner), quote_name(name)))?;
             Some(SelectItem::UnnamedExpr(expression))
         };
         names.iter().map(column).collect()

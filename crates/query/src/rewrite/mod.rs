@@ -3,11 +3,9 @@
 //! Input: a statement and the available tables. Output: the statement that the database runs. Added conditions are
 //! implied by existing ones, or fix an unspecified order, so the rows stay the same.
 
-mod calls;
-mod casts;
+mod catalogue;
 mod chosen;
 mod distinct;
-mod expressions;
 #[cfg(feature = "postgis")]
 mod guard;
 mod joins;
@@ -21,7 +19,6 @@ mod parse;
 mod rename;
 mod rows;
 mod scope;
-mod signatures;
 mod statement;
 mod substitute;
 mod types;
@@ -29,6 +26,7 @@ mod typing;
 mod walk;
 mod windows;
 
+pub(crate) use catalogue::{Catalogue, Dialect, TableInfo};
 pub(crate) use chosen::ChosenRows;
 #[cfg(feature = "postgis")]
 pub(crate) use guard::check;
@@ -37,5 +35,5 @@ pub(crate) use made::MadeTable;
 pub(crate) use parse::placeholder_ranges;
 pub(crate) use parse::{find_word, second_statement, table_words};
 pub(crate) use rename::rename_tables;
-pub(crate) use statement::{Catalogue, Dialect, RewrittenQuery, TableInfo, rewrite};
+pub(crate) use statement::{RewrittenQuery, rewrite};
 pub(crate) use types::SqlType;

@@ -9,8 +9,9 @@ use sqlparser::ast::{
 };
 
 use super::operators::call;
-use super::scope::{geometry_column, mentioned, quoted, relations, text};
+use super::scope::{geometry_column, mentioned_relations, relations};
 use super::{Catalogue, order, parse};
+use crate::statement_text::{quote_name, quote_text};
 
 /// Numbers of nearest rows to test in turn for a condition: a multiple of the wanted rows, and an additional number. If
 /// too few rows satisfy the condition, all rows are tested.
@@ -18,7 +19,7 @@ const STEPS: [(usize, usize); 3] = [(1, 64), (8, 1024), (64, 16_384)];
 
 /// Rewrites a query to use an index, and returns the index's name. Also fixes the order of the rows.
 pub(super) fn index(query: &mut Query, tables: &Catalogue) -> Option<String> {
-    let answer = asked(query, tables)?;
+    let answer = find_search(query, tables)?;
     let SetExpr::Select(select) = &mut *query.body else { return None };
     select.selection = Some(parse::expression(&answer.condition)?);
     if answer.only {
@@ -38,12 +39,12 @@ struct NearestAnswer {
     only: bool,
 }
 
-fn asked(query: &Query, tables: &Catalogue) -> Option<NearestAnswer> {
+fn find_search(query: &Query, tables: &Catalogue) -> Option<NearestAnswer> {
     let SetExpr::Select(select) = &*query.body else { return None };
     if query.with.is_some() || query.fetch.is_some() || !is_plain(select) {
         return None;
     }
-    let keys = ordered(query.order_by.as_ref()?)?;
+    let keys = order_keys(query.order_by.as_ref()?)?;
     let first = keys.first()?;
     if !matches!(first.options.sort, None | Some(OrderBySort::Asc)) || first.options.nulls_first == Some(true)
     {
@@ -51,7 +52,7 @@ fn asked(query: &Query, tables: &Catalogue) -> Option<NearestAnswer> {
     }
     let relations = relations(select, tables);
     let [relation] = relations.as_slice() else { return None };
-    let (name, arguments) = call(meant(&first.expr, select))?;
+    let (name, arguments) = call(ordered_expression(&first.expr, select))?;
     let [a, b] = arguments.as_slice() else { return None };
     if name != "st_distance" {
         return None;
@@ -59,13 +60,13 @@ fn asked(query: &Query, tables: &Catalogue) -> Option<NearestAnswer> {
     let sides = [(a, b), (b, a)].into_iter();
     let (table, column, other) = sides.into_iter().find_map(|(own, other)| {
         let (_, table, column) = geometry_column(own, &relations)?;
-        mentioned(other, &relations).is_empty().then_some((table, column, other))
+        mentioned_relations(other, &relations).is_empty().then_some((table, column, other))
     })?;
     let (alias, key) = (&relation.alias.as_ref()?.value, table.key.as_ref()?);
     let wanted = count(query.limit_clause.as_ref()?)?;
-    let column_of_keys = format!("{}.{}", quoted(alias), quoted(key));
+    let column_of_keys = format!("{}.{}", quote_name(alias), quote_name(key));
     let name = format!("{}.{column}", table.name);
-    let index = text(&name);
+    let index = quote_text(&name);
     let (condition, only) = match &select.selection {
         None if wanted == "1" && keys.len() == 1 => {
             (format!("{column_of_keys} = burgeon_nearest_one({index}, {other})"), true)
@@ -81,8 +82,8 @@ fn asked(query: &Query, tables: &Catalogue) -> Option<NearestAnswer> {
                     "WHEN (SELECT count(*) FROM (SELECT 1 FROM {} AS {} WHERE ({condition}) AND \
                      {column_of_keys} IN (SELECT value FROM rarray(burgeon_nearest({index}, {other}, {some}))) \
                      LIMIT {wanted})) >= {wanted} THEN {some}",
-                    quoted(&table.name),
-                    quoted(alias)
+                    quote_name(&table.name),
+                    quote_name(alias)
                 )
             });
             let steps: Vec<String> = steps.collect();
@@ -98,7 +99,7 @@ fn asked(query: &Query, tables: &Catalogue) -> Option<NearestAnswer> {
 }
 
 /// Returns the expression that an order refers to by the name or the number of a column.
-fn meant<'a>(key: &'a Expr, select: &'a Select) -> &'a Expr {
+fn ordered_expression<'a>(key: &'a Expr, select: &'a Select) -> &'a Expr {
     let found = match key {
         Expr::Identifier(name) => select.projection.iter().find_map(|item| match item {
             SelectItem::ExprWithAlias { expr, alias } if alias.value.eq_ignore_ascii_case(&name.value) => {
@@ -129,7 +130,7 @@ fn is_plain(select: &Select) -> bool {
     select.distinct.is_none() && !grouped && select.having.is_none() && !order::aggregates(select)
 }
 
-fn ordered(order: &OrderBy) -> Option<&[OrderByExpr]> {
+fn order_keys(order: &OrderBy) -> Option<&[OrderByExpr]> {
     match &order.kind {
         OrderByKind::Expressions(keys) => Some(keys),
         OrderByKind::All(_) => None,

@@ -9,10 +9,11 @@ use sqlparser::ast::{
 };
 
 use super::operators::call;
-use super::scope::{quoted, relations};
+use super::scope::relations;
 use super::walk::{StatementPart, walk};
 use super::{Catalogue, Dialect, parse};
 use crate::functions::BOOLEAN_LIST;
+use crate::statement_text::quote_name;
 
 /// Maximum number of columns by which rows are ordered.
 const MOST_COLUMNS: usize = 64;
@@ -78,7 +79,7 @@ fn last_resort(query: &Query, tables: &Catalogue) -> Vec<OrderByExpr> {
         let relations = relations(select, tables);
         let keys = relations.iter().map(|relation| {
             let (alias, own) = (relation.alias.as_ref()?, relation.table?.key.as_ref()?);
-            key(&format!("{}.{}", quoted(&alias.value), quoted(own)))
+            key(&format!("{}.{}", quote_name(&alias.value), quote_name(own)))
         });
         if let Some(keys) = keys.collect::<Option<Vec<_>>>() {
             return keys;

@@ -14,6 +14,9 @@ const MOST_TOKENS: usize = 10_000;
 /// Maximum nesting depth of parentheses.
 const DEEPEST: usize = 60;
 
+/// Stack size (bytes) for the parser and for work on its trees: enough for the deepest statement of the maximum length.
+const STACK: usize = 256 << 20;
+
 /// The common grammar of both databases.
 #[derive(Debug)]
 struct SharedGrammar;
@@ -182,7 +185,7 @@ pub(super) fn holder(expression: Expr) -> Query {
 }
 
 /// Returns the expression wrapped in a query.
-pub(super) fn held(query: Query) -> Option<Expr> {
+pub(super) fn unwrap_holder(query: Query) -> Option<Expr> {
     match *query.body {
         SetExpr::Values(mut values) => values.rows.pop()?.content.pop(),
         _ => None,
@@ -263,4 +266,12 @@ fn offset(sql: &str, at: Location) -> usize {
     let begin: usize = sql.split_inclusive('\n').take(line).map(str::len).sum();
     let rest = sql.get(begin..).unwrap_or("");
     begin + rest.char_indices().nth(column).map_or(rest.len(), |(index, _)| index)
+}
+
+/// Runs `work` with the stack that a statement may need.
+pub(super) fn with_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Option<T> {
+    std::thread::scope(|scope| {
+        let thread = std::thread::Builder::new().name("sql".into()).stack_size(STACK);
+        thread.spawn_scoped(scope, work).ok()?.join().ok()
+    })
 }

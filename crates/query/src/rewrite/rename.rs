@@ -4,9 +4,8 @@ use std::borrow::Cow;
 
 use sqlparser::ast::{Ident, ObjectName, TableAlias, TableFactor};
 
-use super::parse::parse;
-use super::scope::declared;
-use super::statement::with_stack;
+use super::parse::{parse, with_stack};
+use super::scope::declared_names;
 use super::walk::{StatementPartMut, walk_mut};
 use burgeon_base::error::{Error, Result};
 
@@ -15,10 +14,10 @@ use burgeon_base::error::{Error, Result};
 pub(crate) fn rename_tables(sql: &str, names: &[(&str, Cow<'_, str>)]) -> Result<String> {
     let done = with_stack(|| {
         let mut query = parse(sql).map_err(|error| error.message)?.query;
-        let declared = declared(&query);
+        let declared = declared_names(&query);
         walk_mut(&mut query, |part| {
             if let StatementPartMut::TableFactor(TableFactor::Table { name, alias, args: None, .. }) = part
-                && let Some((own, written)) = read(name)
+                && let Some((own, written)) = name_parts(name)
                 && !declared.contains(&written.to_ascii_lowercase())
                 && let Some((_, table)) = names.iter().find(|(word, _)| *word == written)
             {
@@ -41,7 +40,7 @@ pub(crate) fn rename_tables(sql: &str, names: &[(&str, Cow<'_, str>)]) -> Result
 }
 
 /// Returns the last part of a name, and the whole name.
-fn read(name: &ObjectName) -> Option<(String, String)> {
+fn name_parts(name: &ObjectName) -> Option<(String, String)> {
     let parts = name.0.iter().map(|part| Some(part.as_ident()?.value.clone()));
     let parts: Vec<String> = parts.collect::<Option<_>>()?;
     Some((parts.last()?.clone(), parts.join(".")))

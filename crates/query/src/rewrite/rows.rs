@@ -6,11 +6,12 @@ use sqlparser::ast::{
 
 use super::Catalogue;
 use super::parse;
-use super::scope::{quoted, relations};
+use super::scope::relations;
 use super::substitute::{Substitution, each_query, factors, select_of, substitute};
 use super::typing::{column_name, error_at};
 use super::walk::walk_expressions;
 use crate::functions::ROW_FUNCTIONS;
+use crate::statement_text::quote_name;
 use burgeon_base::error::Result;
 
 /// Columns of the results of ST_Dump and similar functions, and the corresponding columns of a list.
@@ -73,11 +74,11 @@ fn in_from(select: &mut Select, tables: &Catalogue) -> Vec<Substitution> {
         let arguments: Vec<String> = arguments.iter().map(ToString::to_string).collect();
         let called = alias.as_ref().map_or_else(|| plain.to_owned(), |alias| alias.name.value.clone());
         let columns = alias.as_ref().map(|alias: &TableAlias| alias.columns.clone()).unwrap_or_default();
-        let text = format!("rarray({own}({})) AS {}", arguments.join(", "), quoted(&called));
+        let text = format!("rarray({own}({})) AS {}", arguments.join(", "), quote_name(&called));
         let Some(list) = parse::relation(&text) else { continue };
         *factor = list;
         let mut add = |column: &str, of_list: &str, alone: bool| {
-            if let Some(expression) = parse::expression(&format!("{}.{of_list}", quoted(&called))) {
+            if let Some(expression) = parse::expression(&format!("{}.{of_list}", quote_name(&called))) {
                 found.push(Substitution {
                     owner: called.clone(),
                     column: column.to_owned(),
@@ -146,7 +147,7 @@ fn in_projection(query: &mut Query, _: &Catalogue) -> Result<Vec<Substitution>> 
                     .help("put them behind FROM: SELECT ... FROM houses, ST_Dump(houses.geom) AS d")
             });
         }
-        if let Some(made) = parse::held(holder) {
+        if let Some(made) = parse::unwrap_holder(holder) {
             *expression = made;
         }
         // A column keeps its name.

@@ -20,14 +20,14 @@ pub(super) struct FromItem<'a> {
 }
 
 /// Returns the tables that a query can name: tables that it declares hide others.
-pub(super) fn visible(query: &Query, catalogue: &Catalogue) -> Catalogue {
-    let declared = declared(query);
+pub(super) fn visible_tables(query: &Query, catalogue: &Catalogue) -> Catalogue {
+    let declared = declared_names(query);
     let seen = catalogue.iter().filter(|(name, _)| !declared.contains(name));
     seen.map(|(name, table)| (name.clone(), table.clone())).collect()
 }
 
 /// Returns the lower-case names of the tables that a query declares.
-pub(super) fn declared(query: &Query) -> Vec<String> {
+pub(super) fn declared_names(query: &Query) -> Vec<String> {
     let mut names = Vec::new();
     let _ = walk(query, |part| {
         if let StatementPart::Query(query) = part {
@@ -106,7 +106,7 @@ pub(super) fn condition_mut(operator: &mut JoinOperator) -> Option<&mut Expr> {
 }
 
 /// Returns the relations that an expression refers to, or may refer to.
-pub(super) fn mentioned(expression: &Expr, relations: &[FromItem<'_>]) -> Vec<usize> {
+pub(super) fn mentioned_relations(expression: &Expr, relations: &[FromItem<'_>]) -> Vec<usize> {
     let mut found = vec![false; relations.len()];
     let _ = walk(expression, |part| {
         if let StatementPart::Expression(part) = part {
@@ -175,16 +175,6 @@ pub(super) fn geometry_column<'a>(
         }
         _ => None,
     }
-}
-
-/// Quotes a name for a statement.
-pub(super) fn quoted(name: &str) -> String {
-    format!("\"{}\"", name.replace('"', "\"\""))
-}
-
-/// Quotes a string for a statement.
-pub(super) fn text(text: &str) -> String {
-    format!("'{}'", text.replace('\'', "''"))
 }
 
 /// Returns the parts of a condition that must all hold.

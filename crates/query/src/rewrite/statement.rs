@@ -1,64 +1,14 @@
 //! The rewriting of a statement, and the description of its tables.
 
-use std::collections::BTreeMap;
-
+use super::catalogue::{Catalogue, Dialect};
 use super::chosen::{self, ChosenRows};
 use super::made::{self, MadeTable};
-use super::parse::{self, SyntaxTree, parse};
-use super::types::{ColumnTypes, SqlType};
+use super::parse::{self, SyntaxTree, parse, with_stack};
+use super::types::ColumnTypes;
 use super::walk::{StatementPartMut, walk_mut};
 use super::{distinct, joins, lateral, least, nearest, order, rows, scope, typing, windows};
 use burgeon_base::error::Result;
 use sqlparser::ast::{Expr, Query, SelectItem, SetExpr};
-
-/// Stack size (bytes) for the parser and for work on its trees: enough for the deepest statement of the maximum length.
-const STACK: usize = 256 << 20;
-
-/// The description of a table.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct TableInfo {
-    /// Name.
-    pub name: String,
-    /// Integer column that identifies the rows.
-    pub key: Option<String>,
-    /// Geometry columns.
-    pub geometries: Vec<String>,
-    /// All columns.
-    pub columns: Vec<String>,
-    /// Types of the columns, as far as known.
-    pub kinds: Vec<SqlType>,
-    /// Number of rows.
-    pub rows: usize,
-    /// Schema and name on a server.
-    pub place: Option<(String, String)>,
-    /// Set if the table is an alias of another one with a shorter name.
-    pub is_alias: bool,
-}
-
-impl TableInfo {
-    /// Returns true if the table has a column named `name`.
-    pub(super) fn has(&self, name: &str) -> bool {
-        self.columns.iter().any(|known| known.eq_ignore_ascii_case(name))
-    }
-
-    /// Returns the geometry column named `name`.
-    pub(super) fn geometry(&self, name: &str) -> Option<&str> {
-        self.geometries.iter().find(|known| known.eq_ignore_ascii_case(name)).map(String::as_str)
-    }
-}
-
-/// Tables by lower-case name.
-pub(crate) type Catalogue = BTreeMap<String, TableInfo>;
-
-/// The database that runs a statement.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Dialect {
-    /// Internal database.
-    Sqlite,
-    /// PostGIS server.
-    #[cfg(feature = "postgis")]
-    Postgis,
-}
 
 /// A statement that is ready to run.
 #[derive(Debug, Clone, Default)]
@@ -91,21 +41,13 @@ pub(crate) fn rewrite(
 ) -> Result<Option<RewrittenQuery>> {
     let done = with_stack(|| {
         let Ok(mut tree) = parse(sql) else { return Ok(None) };
-        rewritten(&mut tree, catalogue, chosen, dialect).map(Some)
+        rewrite_parsed(&mut tree, catalogue, chosen, dialect).map(Some)
     });
     done.unwrap_or(Ok(None))
 }
 
-/// Runs `work` with the stack that a statement may need.
-pub(super) fn with_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Option<T> {
-    std::thread::scope(|scope| {
-        let thread = std::thread::Builder::new().name("sql".into()).stack_size(STACK);
-        thread.spawn_scoped(scope, work).ok()?.join().ok()
-    })
-}
-
 /// Rewrites a parsed statement.
-fn rewritten(
+fn rewrite_parsed(
     parsed: &mut SyntaxTree,
     catalogue: &Catalogue,
     chosen: &ChosenRows,
@@ -113,7 +55,7 @@ fn rewritten(
 ) -> Result<RewrittenQuery> {
     let query = &mut parsed.query;
     let names = names(query);
-    let mut tables = scope::visible(query, catalogue);
+    let mut tables = scope::visible_tables(query, catalogue);
     let mut columns = None;
     let mut made = Vec::new();
     if dialect == Dialect::Sqlite {

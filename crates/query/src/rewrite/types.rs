@@ -72,7 +72,7 @@ impl SqlType {
     }
 
     /// Returns the type of a column with this declaration in a file.
-    pub(crate) fn declared(kind: &str) -> Self {
+    pub(crate) fn from_declaration(kind: &str) -> Self {
         let kind = kind.to_ascii_uppercase();
         let is = |words: &[&str]| words.iter().any(|word| kind.contains(word));
         match () {
@@ -86,7 +86,7 @@ impl SqlType {
     }
 
     /// Returns the type named by a cast or a declaration in a statement, or `None` if it is unknown here.
-    pub(super) fn named(name: &str) -> Option<Self> {
+    pub(super) fn from_name(name: &str) -> Option<Self> {
         let name = name.to_ascii_lowercase();
         let plain = name.split('(').next().unwrap_or_default().trim();
         Some(match plain {

@@ -6,10 +6,11 @@ use sqlparser::ast::{
 
 use super::Catalogue;
 use super::parse;
-use super::scope::{quoted, relations};
+use super::scope::relations;
 use super::substitute::{each_query, factors, select_of};
 use super::typing::{column_name, error_at};
 use super::walk::walk_expressions;
+use crate::statement_text::quote_name;
 use burgeon_base::error::Result;
 
 /// Rewrites `ST_ClusterDBSCAN(...) OVER (...)` as the cluster of a row among those of its partition.
@@ -20,7 +21,7 @@ pub(super) fn cluster(query: &mut Query, tables: &Catalogue) -> Result<()> {
             .iter()
             .map(|relation| {
                 let (alias, key) = (relation.alias.as_ref()?, relation.table?.key.as_ref()?);
-                Some(format!("{}.{}", quoted(&alias.value), quoted(key)))
+                Some(format!("{}.{}", quote_name(&alias.value), quote_name(key)))
             })
             .collect::<Option<_>>()
             .unwrap_or_default();
@@ -68,7 +69,7 @@ pub(super) fn cluster(query: &mut Query, tables: &Catalogue) -> Result<()> {
                     *part = made;
                 }
             });
-            if let (true, Some(made)) = (changed, parse::held(holder)) {
+            if let (true, Some(made)) = (changed, parse::unwrap_holder(holder)) {
                 let alias = match &*item {
                     SelectItem::ExprWithAlias { alias, .. } => alias.clone(),
                     _ => Ident::with_quote('"', written),
@@ -90,7 +91,7 @@ pub(super) fn rename(query: &mut Query) -> Result<()> {
                 continue;
             }
             let names: Vec<Ident> = alias.columns.iter().map(|column| column.name.clone()).collect();
-            if named(subquery, &names) {
+            if name_columns(subquery, &names) {
                 alias.columns.clear();
             }
         }
@@ -98,7 +99,7 @@ pub(super) fn rename(query: &mut Query) -> Result<()> {
     })
 }
 
-fn named(subquery: &mut Query, names: &[Ident]) -> bool {
+fn name_columns(subquery: &mut Query, names: &[Ident]) -> bool {
     match &mut *subquery.body {
         SetExpr::Select(select) => {
             let plain = select

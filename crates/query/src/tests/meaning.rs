@@ -314,7 +314,7 @@ pub(super) const STATEMENTS: [&str; 34] = [
 ];
 
 /// Returns the town in the projection of its package, and the projection.
-pub(super) fn framed(folder: &Path, houses: usize) -> (Database, burgeon_data::ReferenceFrame) {
+pub(super) fn town_in_frame(folder: &Path, houses: usize) -> (Database, burgeon_data::ReferenceFrame) {
     let crs = burgeon_data::Crs::epsg(3067).unwrap();
     let frame = burgeon_data::ReferenceFrame::around(&crs, [385_000.0, 6_672_000.0], "the town").unwrap();
     let database = Database::new(Some(frame.clone())).unwrap();
@@ -333,7 +333,7 @@ pub(super) fn statement(expression: &str) -> String {
 #[test]
 fn expressions_give_what_they_give_in_postgresql_or_are_refused() {
     let folder = tempfile::tempdir().unwrap();
-    let (database, _) = framed(folder.path(), 60);
+    let (database, _) = town_in_frame(folder.path(), 60);
     let mut told = String::new();
     let mut refused = 0;
     for expression in EXPRESSIONS {

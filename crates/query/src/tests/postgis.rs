@@ -136,7 +136,7 @@ fn a_server_gives_the_same_rows() {
         assert_eq!(here.rows.len(), there.rows.len(), "{sql}");
         for (a, b) in here.rows.iter().zip(&there.rows) {
             for (a, b) in a.iter().zip(b) {
-                assert!(same(a, b), "{sql}: {a} here, {b} there");
+                assert!(is_same(a, b), "{sql}: {a} here, {b} there");
             }
         }
         count += 1;
@@ -148,7 +148,7 @@ fn a_server_gives_the_same_rows() {
     schemas(&address);
     encryption(&address);
     safety(&server);
-    lost(&server);
+    check_lost_connection(&server);
     layers(&server);
     odd(&address);
 }
@@ -167,7 +167,7 @@ const DIFFERENT: [&str; 6] = [
 /// Checks that expressions and statements have the same meaning here and on the server, except those in [`DIFFERENT`],
 /// and that those refused by the server are refused here.
 fn meaning(folder: &Path, server: &Server) {
-    let (database, frame) = meaning::framed(folder, 400);
+    let (database, frame) = meaning::town_in_frame(folder, 400);
     let mut different = String::new();
     let expressions = meaning::EXPRESSIONS.map(|expression| (meaning::statement(expression), expression));
     let statements = meaning::STATEMENTS.map(|sql| (sql.to_owned(), sql));
@@ -178,7 +178,7 @@ fn meaning(folder: &Path, server: &Server) {
             (Ok(here), Ok(there)) => {
                 here.names == there.names
                     && here.rows.len() == there.rows.len()
-                    && here.rows.iter().flatten().zip(there.rows.iter().flatten()).all(|(a, b)| same(a, b))
+                    && here.rows.iter().flatten().zip(there.rows.iter().flatten()).all(|(a, b)| is_same(a, b))
             }
             (Err(_), Err(_)) => true,
             _ => false,
@@ -276,7 +276,7 @@ fn encryption(address: &ServerAddress) {
 }
 
 /// Reports whether two values are equal, except for rounding differences between engines.
-fn same(a: &Cell, b: &Cell) -> bool {
+fn is_same(a: &Cell, b: &Cell) -> bool {
     match (a, b) {
         (Cell::Number(a), Cell::Number(b)) => (a - b).abs() <= 1e-6 * (1.0 + a.abs().min(1e3)),
         (Cell::Geometry(a), Cell::Geometry(b)) => {
@@ -374,7 +374,7 @@ fn safety(server: &Server) {
 }
 
 /// Checks that a lost connection is reopened once, and that an unreachable server is reported.
-fn lost(server: &Server) {
+fn check_lost_connection(server: &Server) {
     server.query("SELECT fid FROM lamps", &[], None, &budget()).unwrap();
     writer()
         .batch_execute(

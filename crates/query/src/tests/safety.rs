@@ -115,9 +115,9 @@ fn rows_and_values_take_no_more_memory_than_there_is() {
     // The memory of the rows is released with them.
     let budget = budget();
     let answer = database.query("SELECT * FROM houses", &[], &budget).unwrap();
-    assert!(budget.taken() > 1000);
+    assert!(budget.used_bytes() > 1000);
     drop(answer);
-    assert_eq!(budget.taken(), 0);
+    assert_eq!(budget.used_bytes(), 0);
 }
 
 #[test]

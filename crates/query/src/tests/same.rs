@@ -3,7 +3,7 @@
 use super::*;
 
 /// Returns the rows of a statement that is not rewritten.
-fn plainly(database: &Database, sql: &str, parameters: &[(&str, Cell)]) -> Vec<Vec<Cell>> {
+fn plain_rows(database: &Database, sql: &str, parameters: &[(&str, Cell)]) -> Vec<Vec<Cell>> {
     let mut rows = database.query_plainly(sql, parameters, &budget()).unwrap().rows.clone();
     rows.sort_by(|a, b| {
         a.iter().zip(b).map(|(a, b)| a.order(b)).find(|it| it.is_ne()).unwrap_or(std::cmp::Ordering::Equal)
@@ -22,7 +22,7 @@ fn both(database: &Database, sql: &str, parameters: &[(&str, Cell)]) -> usize {
     rewritten.sort_by(|a, b| {
         a.iter().zip(b).map(|(a, b)| a.order(b)).find(|it| it.is_ne()).unwrap_or(std::cmp::Ordering::Equal)
     });
-    let mut plain = plainly(database, sql, parameters);
+    let mut plain = plain_rows(database, sql, parameters);
     for cell in plain.iter_mut().flatten() {
         if let Cell::Boolean(value) = cell {
             *cell = Cell::Number(f64::from(u8::from(*value)));
@@ -117,7 +117,7 @@ fn the_nearest_are_those_of_all_distances() {
             "SELECT a.fid, (SELECT b.fid FROM {b} b WHERE b.geom IS NOT NULL ORDER BY ST_Distance(b.geom, a.geom), b.fid LIMIT 1) AS n FROM {a} a WHERE a.geom IS NOT NULL"
         );
         let fast = database.query(&sql, &[], &budget()).unwrap();
-        assert_eq!(fast.rows, plainly(&database, &written, &[]), "{sql}");
+        assert_eq!(fast.rows, plain_rows(&database, &written, &[]), "{sql}");
     }
     assert_eq!(count, 12);
     let at = [
@@ -291,7 +291,7 @@ fn subqueries_laterals_and_least_distances_give_the_rows_of_plain_statements() {
                     .find(|it| it.is_ne())
                     .unwrap_or(std::cmp::Ordering::Equal)
             });
-            assert_eq!(rows, plainly(&database, plain, &parameters), "{written}");
+            assert_eq!(rows, plain_rows(&database, plain, &parameters), "{written}");
             total += rows.len();
         }
         count += 1;

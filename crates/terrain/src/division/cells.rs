@@ -9,7 +9,7 @@ use rustc_hash::FxHashMap;
 use super::block::{Area, Block};
 use super::world::{Begin, Divide};
 use burgeon_base::error::{Error, Result};
-use burgeon_base::memory::zeroed;
+use burgeon_base::memory::allocate_zeroed;
 use burgeon_kit::{RewriteOutcome, Rewriter, RuleSet};
 use burgeon_rewriting::{Chain, ColumnValue, END, FIRST_SYMBOL, Mark, ModuleKey, NO_RULE, module_brief};
 
@@ -121,12 +121,12 @@ impl CellSystem {
         let mut block = Block {
             level: cells.level + 1,
             area: made,
-            symbols: zeroed(count),
-            heights: zeroed(count),
-            rest: zeroed(if last { 0 } else { count * stride }),
+            symbols: allocate_zeroed(count),
+            heights: allocate_zeroed(count),
+            rest: allocate_zeroed(if last { 0 } else { count * stride }),
             stride,
-            keys: zeroed(if last || !random { 0 } else { count }),
-            forms: zeroed(if self.forms.iter().any(Option::is_some) { count } else { 0 }),
+            keys: allocate_zeroed(if last || !random { 0 } else { count }),
+            forms: allocate_zeroed(if self.forms.iter().any(Option::is_some) { count } else { 0 }),
             smooth: Vec::new(),
         };
         let rows = (STRIP / area.columns.max(1)).max(1);

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::block::{Area, Block};
-use burgeon_base::memory::zeroed;
+use burgeon_base::memory::allocate_zeroed;
 use burgeon_base::random::Stream;
 use burgeon_rewriting::{ModuleKey, Symbol};
 
@@ -75,11 +75,11 @@ impl RuleTable {
         let mut block = Block {
             level: cells.level + 1,
             area: made,
-            symbols: zeroed(count),
-            heights: zeroed(count),
-            rest: zeroed(if last { 0 } else { count }),
+            symbols: allocate_zeroed(count),
+            heights: allocate_zeroed(count),
+            rest: allocate_zeroed(if last { 0 } else { count }),
             stride: 1,
-            keys: zeroed(if last || !random { 0 } else { count }),
+            keys: allocate_zeroed(if last || !random { 0 } else { count }),
             forms: Vec::new(),
             smooth: Vec::new(),
         };

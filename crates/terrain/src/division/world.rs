@@ -10,7 +10,7 @@ use super::height_source::HeightSource;
 use super::table::RuleTable;
 use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Result};
-use burgeon_base::memory::zeroed;
+use burgeon_base::memory::allocate_zeroed;
 use burgeon_rewriting::{ModuleKey, Symbol};
 
 /// Maximum number of divisions of a world: its finest columns and rows are numbered in 31 bits.
@@ -331,7 +331,7 @@ pub(crate) fn smooth(cells: &Block, made: &mut Block) {
     if columns == 0 {
         return;
     }
-    made.smooth = zeroed(area.len());
+    made.smooth = allocate_zeroed(area.len());
     let above = &cells.smooth;
     let across = cells.area.columns;
     let heights = &made.heights;

@@ -97,7 +97,7 @@ impl SourceTables {
                 rows.warn_hidden(word, &source.name);
                 continue;
             }
-            let name = rows.view.symbols().qualified(*symbol);
+            let name = rows.view.symbols().qualified_name(*symbol);
             if known.modules.get(symbol) != Some(&rows.view.number()) {
                 database.set_rows(&rows.table(*symbol), budget)?;
                 known.modules.insert(*symbol, rows.view.number());
@@ -122,7 +122,7 @@ impl ModuleRows<'_> {
             0 => self.view.modules(symbol).map(|_| Cell::Boolean(true)).collect(),
             _ => self.view.modules(symbol).flatten().map(cell).collect(),
         };
-        let name = self.view.symbols().qualified(symbol).into_owned();
+        let name = self.view.symbols().qualified_name(symbol).into_owned();
         RowTable { name, columns: signature.parameters.clone(), cells }
     }
 

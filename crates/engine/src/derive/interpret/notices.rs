@@ -47,7 +47,7 @@ impl Notices {
         let (modules, count) = (usize::from(is_first), warning.count());
         let again = |known: &mut BTreeMap<_, WarningRecord>| match known.get_mut(&key) {
             Some(known) if known.first <= module => {
-                known.warning.again(count);
+                known.warning.add_occurrences(count);
                 known.modules += modules;
                 true
             }
@@ -64,7 +64,7 @@ impl Notices {
             return;
         }
         if let Some(later) = known.get(&key) {
-            new.warning.again(later.warning.count());
+            new.warning.add_occurrences(later.warning.count());
             new.modules += later.modules;
         }
         known.insert(key, new);

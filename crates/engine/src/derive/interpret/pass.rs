@@ -302,7 +302,7 @@ impl InterpretationPass {
         let end =
             || symbols[module..].iter().position(|symbol| *symbol == END).map_or(module, |at| module + at);
         if id == self.plan.interpretations.begin {
-            return keys[end()].beside(0).interpretation();
+            return keys[end()].at_place(0).interpretation();
         }
         let is_module = |symbol: &Symbol| *symbol != OPEN && *symbol != CLOSE;
         let (nearest, place) = match symbols[module] {
@@ -317,7 +317,7 @@ impl InterpretationPass {
             }
             _ => return keys[module].interpretation(),
         };
-        keys[nearest].beside(place).interpretation()
+        keys[nearest].at_place(place).interpretation()
     }
 
     /// Adds the warnings of objects in the last batch.

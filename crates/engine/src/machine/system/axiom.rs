@@ -42,7 +42,7 @@ impl Axiom {
     /// Returns only chain `index`.
     pub(crate) fn only(mut self, index: usize, arities: &[u8]) -> Self {
         Self {
-            chain: self.chain.only(index, arities),
+            chain: self.chain.single_chain(index, arities),
             objects: self.objects.drain(..).skip(index).take(1).collect(),
             features: self.features.drain(..).skip(index).take(1).collect(),
             known: std::mem::take(&mut self.known).only(index),

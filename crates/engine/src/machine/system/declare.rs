@@ -9,7 +9,7 @@ use crate::declare::bytecode::compile;
 use crate::machine::Machine;
 use crate::machine::convert::to_value;
 use crate::machine::library::Library;
-use burgeon_analysis::{QueryCall, analyse, unmarked};
+use burgeon_analysis::{QueryCall, analyse, split_line};
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, WarningKind};
@@ -257,7 +257,7 @@ fn compile_successor(
     place: Option<&SourcePlace>,
 ) -> Result<(Function, bool)> {
     let machine = library.machine()?;
-    let (marked, body) = unmarked(body);
+    let (marked, body) = split_line(body);
     let (file, line) = place.map_or(("rule", 1), |place| (place.file.as_str(), place.line));
     let line = marked.unwrap_or(line);
     let symbols = library.symbols.borrow();

@@ -48,7 +48,7 @@ impl SystemDeclaration {
                 |warning: Warning| machine.warn(warning.at(rule.place.clone()).rule(&rule.pattern.text));
             let earlier = sure.forestalls(rule, guard);
             if let Some(item) = rule.contexts().iter().find(|item| grammar.is_skipped(item.symbol)) {
-                let name = grammar.symbols().shown(item.symbol);
+                let name = grammar.symbols().display_name(item.symbol);
                 let (text, help) = match self.considered {
                     Some(_) if !self.ignored.contains(&item.symbol) => (
                         format!("{name} is not among the modules to consider, so this context never occurs"),
@@ -114,7 +114,7 @@ impl SystemDeclaration {
             return None;
         }
         let bare = signature.parameters.join(", ");
-        let name = symbols.shown(symbol);
+        let name = symbols.display_name(symbol);
         let pattern = if bare.is_empty() { name.to_owned() } else { format!("{name}({bare})") };
         let comma = if bare.is_empty() { "" } else { ", " };
         let interpret = format!("system:interpret(\"{pattern}\", function(this{comma}{bare}) ... end)");

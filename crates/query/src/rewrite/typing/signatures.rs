@@ -1,7 +1,7 @@
 //! The types of the arguments and results of functions.
 
-use super::types::SqlType;
 use crate::functions;
+use crate::rewrite::types::SqlType;
 
 /// The types of a function's arguments.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,7 +21,7 @@ pub(super) struct FunctionSignature {
     pub(super) gives: fn(&[SqlType]) -> SqlType,
 }
 
-fn unknown(_: &[SqlType]) -> SqlType {
+fn unknown_type(_: &[SqlType]) -> SqlType {
     SqlType::Unknown
 }
 
@@ -54,7 +54,7 @@ fn list(_: &[SqlType]) -> SqlType {
 }
 
 /// Returns the type of the first argument.
-fn same(kinds: &[SqlType]) -> SqlType {
+fn first_type(kinds: &[SqlType]) -> SqlType {
     kinds.first().copied().unwrap_or_default()
 }
 
@@ -64,7 +64,7 @@ fn any(kinds: &[SqlType]) -> SqlType {
 }
 
 /// Returns a decimal type for decimals, and otherwise a binary type.
-fn rounded(kinds: &[SqlType]) -> SqlType {
+fn round_type(kinds: &[SqlType]) -> SqlType {
     match kinds {
         [SqlType::Numeric | SqlType::Literal, ..] | [_, _] => SqlType::Numeric,
         _ => SqlType::Double,
@@ -94,7 +94,7 @@ pub(super) fn find(name: &str) -> FunctionSignature {
                     integer
                 }
                 "number" => double,
-                _ => unknown,
+                _ => unknown_type,
             },
         );
     }
@@ -102,12 +102,12 @@ pub(super) fn find(name: &str) -> FunctionSignature {
         "acos" | "acosh" | "asin" | "asinh" | "atan" | "atan2" | "atanh" | "cbrt" | "cos" | "cosh"
         | "cot" | "degrees" | "exp" | "ln" | "log" | "log10" | "log2" | "pi" | "pow" | "power"
         | "radians" | "sin" | "sinh" | "sqrt" | "tan" | "tanh" => signature(Numbers, double),
-        "ceil" | "ceiling" | "floor" | "round" | "sign" | "trunc" => signature(Numbers, rounded),
-        "abs" | "mod" | "sum" | "total" => signature(Numbers, same),
+        "ceil" | "ceiling" | "floor" | "round" | "sign" | "trunc" => signature(Numbers, round_type),
+        "abs" | "mod" | "sum" | "total" => signature(Numbers, first_type),
         "avg" => signature(Numbers, average),
         "coalesce" | "greatest" | "ifnull" | "iif" | "lag" | "last_value" | "lead" | "least"
         | "first_value" | "max" | "min" | "nth_value" => signature(Anything, any),
-        "nullif" => signature(Anything, same),
+        "nullif" => signature(Anything, first_type),
         "count" | "dense_rank" | "instr" | "json_array_length" | "ntile" | "octet_length" | "rank"
         | "row_number" | "st_clusterdbscan" | "unicode" | "array_length" | "cardinality" => {
             signature(Anything, integer)
@@ -130,6 +130,6 @@ pub(super) fn find(name: &str) -> FunctionSignature {
         "burgeon_boolean" | "burgeon_like" | "burgeon_ilike" => signature(Anything, boolean),
         "burgeon_divide" | "burgeon_modulo" => signature(Anything, any),
         "st_extent" | "st_collect" | "st_union" | "st_memunion" => signature(Anything, geometry),
-        _ => signature(Anything, unknown),
+        _ => signature(Anything, unknown_type),
     }
 }

@@ -1,35 +1,35 @@
 //! Casts with the meaning of PostgreSQL.
 
-use sqlparser::ast::{CastKind, DataType, Expr, Value};
+use sqlparser::ast::{CastKind, DataType, Expr};
 
-use super::expressions::{Expressions, made, unsupported};
-use super::types::SqlType;
-use super::typing::{TypeScope, error_at};
+use super::conversions::{as_text, error_at, parse_generated, unsupported_error};
+use super::scope::{TypeScope, Typing};
+use crate::rewrite::types::SqlType;
 use burgeon_base::error::Result;
 use burgeon_base::text::shown;
 
-impl Expressions<'_, '_> {
+impl Typing<'_> {
     /// Types a cast, and rewrites it as a function that rounds and fails like PostgreSQL.
     pub(super) fn cast(&mut self, expression: &mut Expr, scope: &TypeScope<'_>) -> Result<SqlType> {
         use SqlType as T;
         let place = expression.clone();
         let Expr::Cast { kind, expr, data_type, .. } = &mut *expression else { return Ok(T::Unknown) };
         if !matches!(kind, CastKind::Cast | CastKind::DoubleColon) {
-            return Err(unsupported(&place, "such a cast", "write value::type"));
+            return Err(unsupported_error(&place, "such a cast", "write value::type"));
         }
         let name = data_type.to_string();
         let from = self.expression(expr, scope)?;
         // The grammar may have another name for the type.
-        let Some(to) = SqlType::named(&name) else {
+        let Some(to) = SqlType::from_name(&name) else {
             return match data_type {
                 DataType::Custom(name, _) if name.to_string().eq_ignore_ascii_case("geography") => {
-                    Err(unsupported(
+                    Err(unsupported_error(
                         &place,
                         "the type geography",
                         "geometries are in metres here: leave the cast out",
                     ))
                 }
-                _ => Err(unsupported(
+                _ => Err(unsupported_error(
                     &place,
                     &format!("the type {}", shown(&name.to_ascii_lowercase())),
                     "values are text, integer, numeric, double precision, boolean or geometry; dates are texts",
@@ -55,7 +55,7 @@ impl Expressions<'_, '_> {
                 None => format!("burgeon_decimal({expr})"),
             },
             T::Double if name.eq_ignore_ascii_case("real") || name.eq_ignore_ascii_case("float4") => {
-                return Err(unsupported(&place, "the type real", "take double precision"));
+                return Err(unsupported_error(&place, "the type real", "take double precision"));
             }
             T::Double => format!("burgeon_number({expr})"),
             T::Text => {
@@ -75,36 +75,8 @@ impl Expressions<'_, '_> {
             },
             T::List | T::Literal | T::Unknown => return Ok(T::Unknown),
         };
-        *expression = made(&format!("({written})"), &place)?;
+        *expression = parse_generated(&format!("({written})"), &place)?;
         Ok(to)
-    }
-}
-
-/// Converts a value to a string.
-pub(super) fn as_text(expression: &Expr, kind: SqlType) -> Result<Expr> {
-    Ok(match kind {
-        SqlType::Text | SqlType::Literal | SqlType::List => expression.clone(),
-        SqlType::Boolean => made(&format!("burgeon_truth({expression})"), expression)?,
-        _ => made(&format!("burgeon_text({expression})"), expression)?,
-    })
-}
-
-/// Converts a quoted string to a number of the type of the other operand.
-pub(super) fn as_number(expression: &Expr, other: SqlType) -> Result<Expr> {
-    let Expr::Value(value) = expression else { return Ok(expression.clone()) };
-    let Value::SingleQuotedString(text) = &value.value else { return Ok(expression.clone()) };
-    let number = text.trim();
-    let fits = match other {
-        SqlType::Numeric | SqlType::Double => number.parse::<f64>().is_ok_and(f64::is_finite),
-        _ => number.parse::<i64>().is_ok(),
-    };
-    match fits {
-        true => made(&format!("({number})"), expression),
-        false => {
-            let kind = if other.is_number() { other.name() } else { "integer" };
-            Err(error_at(expression, &format!("invalid input syntax for type {kind}: {:?}", shown(text)))
-                .help("compare numbers with numbers, and texts with texts"))
-        }
     }
 }
 

@@ -1,72 +1,19 @@
-//! Gives a statement the meaning that it has in PostgreSQL: determines the types of its expressions, refuses
-//! comparisons and computations of wrong types, and rewrites operators, casts and functions so that SQLite does the
-//! same.
-//!
-//! If a type is unknown, such as that of a parameter, the inserted functions check the values.
+//! The types of queries: of the columns that they return, and of the expressions in their clauses.
 
 use sqlparser::ast::{
-    Expr, Fetch, GroupByExpr, Ident, LimitClause, ObjectName, OrderBy, OrderByExpr, OrderByKind, Query,
-    Select, SelectItem, SelectItemQualifiedWildcardKind, SetExpr, Spanned, TableFactor, Value,
+    Expr, Fetch, GroupByExpr, LimitClause, OrderBy, OrderByExpr, OrderByKind, Query, Select, SelectItem,
+    SelectItemQualifiedWildcardKind, SetExpr, TableFactor, Value,
 };
 
-use super::Catalogue;
-use super::expressions::Expressions;
-use super::scope::{condition_mut, table};
-use super::types::{ColumnTypes, SqlType};
-use burgeon_base::error::{Error, Result};
-
-/// A relation after FROM with its columns.
-pub(super) struct TypedRelation {
-    alias: Option<String>,
-    columns: ColumnTypes,
-}
-
-/// The relations that an expression can refer to.
-pub(super) struct TypeScope<'a> {
-    relations: Vec<TypedRelation>,
-    outer: Option<&'a TypeScope<'a>>,
-}
-
-impl TypeScope<'_> {
-    /// Returns the type of the column `name`, of the relation `owner` if given.
-    pub(super) fn column(&self, owner: Option<&str>, name: &str) -> SqlType {
-        let mut open = Some(self);
-        while let Some(scope) = open {
-            for relation in &scope.relations {
-                let meant = match (owner, &relation.alias) {
-                    (Some(owner), Some(alias)) => alias.eq_ignore_ascii_case(owner),
-                    (Some(_), None) => false,
-                    (None, _) => true,
-                };
-                match &relation.columns {
-                    Some(columns) if meant => {
-                        let found = columns.iter().find(|(known, _)| known.eq_ignore_ascii_case(name));
-                        match found {
-                            Some((_, kind)) => return *kind,
-                            None if owner.is_some() => return SqlType::Unknown,
-                            None => {}
-                        }
-                    }
-                    // The column may belong to this relation.
-                    None if meant => return SqlType::Unknown,
-                    _ => {}
-                }
-            }
-            open = scope.outer;
-        }
-        SqlType::Unknown
-    }
-}
-
-/// The typing of a statement, which rewrites expressions by their types.
-pub(super) struct Typing<'a> {
-    tables: &'a Catalogue,
-    /// Tables that the statement declares, in order.
-    declared: Vec<(String, ColumnTypes)>,
-}
+use super::column_name::column_name;
+use super::scope::{TypeScope, TypedRelation, Typing};
+use crate::rewrite::Catalogue;
+use crate::rewrite::scope::condition_mut;
+use crate::rewrite::types::{ColumnTypes, SqlType};
+use burgeon_base::error::Result;
 
 /// Types a statement, and returns the columns of its rows.
-pub(super) fn type_query(query: &mut Query, tables: &Catalogue) -> Result<ColumnTypes> {
+pub(in crate::rewrite) fn type_query(query: &mut Query, tables: &Catalogue) -> Result<ColumnTypes> {
     let nothing = TypeScope { relations: Vec::new(), outer: None };
     Typing { tables, declared: Vec::new() }.query(query, &nothing)
 }
@@ -93,7 +40,7 @@ impl Typing<'_> {
         let columns = self.body(&mut query.body, query.order_by.as_mut(), outer)?;
         if let Some(LimitClause::LimitOffset { limit, offset, .. }) = &mut query.limit_clause {
             for count in limit.iter_mut().chain(offset.as_mut().map(|offset| &mut offset.value)) {
-                Expressions::new(self).expression(count, outer)?;
+                self.expression(count, outer)?;
             }
         }
         self.declared.truncate(known);
@@ -120,7 +67,7 @@ impl Typing<'_> {
                 let mut kinds: Vec<SqlType> = Vec::new();
                 for row in &mut values.rows {
                     for (index, value) in row.content.iter_mut().enumerate() {
-                        let kind = Expressions::new(self).expression(value, outer)?;
+                        let kind = self.expression(value, outer)?;
                         match kinds.get_mut(index) {
                             Some(known) => *known = known.or(kind),
                             None => kinds.push(kind),
@@ -128,7 +75,7 @@ impl Typing<'_> {
                     }
                 }
                 let column =
-                    |(index, kind): (usize, SqlType)| (format!("column{}", index + 1), settled(kind));
+                    |(index, kind): (usize, SqlType)| (format!("column{}", index + 1), column_type(kind));
                 Ok(Some(kinds.into_iter().enumerate().map(column).collect()))
             }
             _ => Ok(None),
@@ -153,45 +100,45 @@ impl Typing<'_> {
         for item in &mut select.from {
             for join in &mut item.joins {
                 if let Some(on) = condition_mut(&mut join.join_operator) {
-                    Expressions::new(self).condition(on, &scope, "JOIN/ON")?;
+                    self.condition(on, &scope, "JOIN/ON")?;
                 }
             }
         }
         if let Some(selection) = &mut select.selection {
-            Expressions::new(self).condition(selection, &scope, "WHERE")?;
+            self.condition(selection, &scope, "WHERE")?;
         }
         let mut columns = Some(Vec::new());
         for item in &mut select.projection {
-            self.projected(item, &scope, &mut columns)?;
+            self.project(item, &scope, &mut columns)?;
         }
         if let GroupByExpr::Expressions(keys, _) = &mut select.group_by {
             for key in keys {
-                Expressions::new(self).expression(key, &scope)?;
+                self.expression(key, &scope)?;
             }
         }
         if let Some(having) = &mut select.having {
-            Expressions::new(self).condition(having, &scope, "HAVING")?;
+            self.condition(having, &scope, "HAVING")?;
         }
         for window in &mut select.named_window {
             if let sqlparser::ast::NamedWindowExpr::WindowSpec(spec) = &mut window.1 {
-                Expressions::new(self).window(spec, &scope)?;
+                self.window(spec, &scope)?;
             }
         }
         if let Some(sqlparser::ast::Distinct::On(keys)) = &mut select.distinct {
             for key in keys {
-                Expressions::new(self).expression(key, &scope)?;
+                self.expression(key, &scope)?;
             }
         }
         if let Some(OrderBy { kind: OrderByKind::Expressions(keys), .. }) = order {
             for OrderByExpr { expr, .. } in keys {
-                Expressions::new(self).expression(expr, &scope)?;
+                self.expression(expr, &scope)?;
             }
         }
         Ok(columns)
     }
 
     /// Types an item of a projection, and adds its columns.
-    fn projected(
+    fn project(
         &mut self,
         item: &mut SelectItem,
         scope: &TypeScope<'_>,
@@ -200,12 +147,12 @@ impl Typing<'_> {
         let added = match item {
             SelectItem::UnnamedExpr(expression) => {
                 let name = column_name(expression);
-                let kind = Expressions::new(self).expression(expression, scope)?;
-                Some(vec![(name, settled(kind))])
+                let kind = self.expression(expression, scope)?;
+                Some(vec![(name, column_type(kind))])
             }
             SelectItem::ExprWithAlias { expr, alias } => {
-                let kind = Expressions::new(self).expression(expr, scope)?;
-                Some(vec![(alias.value.clone(), settled(kind))])
+                let kind = self.expression(expr, scope)?;
+                Some(vec![(alias.value.clone(), column_type(kind))])
             }
             SelectItem::Wildcard(_) => all(&scope.relations, |_| true),
             SelectItem::QualifiedWildcard(SelectItemQualifiedWildcardKind::ObjectName(name), _) => {
@@ -236,7 +183,7 @@ impl Typing<'_> {
             }
             TableFactor::Table { alias, args: Some(args), .. } => {
                 for argument in &mut args.args {
-                    Expressions::new(self).argument(argument, scope)?;
+                    self.argument(argument, scope)?;
                 }
                 let alias = alias.as_ref().map(|alias| alias.name.value.clone());
                 vec![TypedRelation { alias, columns: None }]
@@ -260,32 +207,10 @@ impl Typing<'_> {
             _ => vec![TypedRelation { alias: None, columns: None }],
         })
     }
-
-    fn columns_of(&self, name: &ObjectName) -> ColumnTypes {
-        if let [part] = name.0.as_slice() {
-            let own = part.as_ident()?.value.to_ascii_lowercase();
-            if let Some((_, columns)) = self.declared.iter().rev().find(|(known, _)| *known == own) {
-                return columns.clone();
-            }
-        }
-        let known = table(name, self.tables)?;
-        let kinds = known.kinds.iter().copied().chain(std::iter::repeat(SqlType::Unknown));
-        Some(
-            known
-                .columns
-                .iter()
-                .zip(kinds)
-                .map(|(name, kind)| {
-                    let kind = if known.geometry(name).is_some() { SqlType::Geometry } else { kind };
-                    (name.clone(), kind)
-                })
-                .collect(),
-        )
-    }
 }
 
 /// Returns the type of a column; a quoted string becomes a string.
-fn settled(kind: SqlType) -> SqlType {
+fn column_type(kind: SqlType) -> SqlType {
     if kind == SqlType::Literal { SqlType::Text } else { kind }
 }
 
@@ -326,74 +251,4 @@ fn limit(query: &mut Query) {
     {
         *limit = Some(number("-1"));
     }
-}
-
-/// Returns the name that PostgreSQL gives to a column without an alias.
-pub(super) fn column_name(expression: &Expr) -> String {
-    let last = |name: &ObjectName| {
-        let part = name.0.last().and_then(|part| part.as_ident());
-        part.map_or_else(String::new, shown_name)
-    };
-    match expression {
-        Expr::Identifier(name) => shown_name(name),
-        Expr::CompoundIdentifier(names) => names.last().map_or_else(String::new, shown_name),
-        Expr::CompoundFieldAccess { access_chain, .. } => access_chain
-            .iter()
-            .rev()
-            .find_map(|access| match access {
-                sqlparser::ast::AccessExpr::Dot(Expr::Identifier(name)) => Some(shown_name(name)),
-                _ => None,
-            })
-            .unwrap_or_else(|| "?column?".into()),
-        Expr::Nested(inner) | Expr::Collate { expr: inner, .. } => column_name(inner),
-        Expr::Function(function) => last(&function.name),
-        Expr::Cast { expr, data_type, .. } => match column_name(expr).as_str() {
-            "?column?" => match SqlType::named(&data_type.to_string()) {
-                Some(SqlType::Integer) => "int4".into(),
-                Some(SqlType::Double) => "float8".into(),
-                Some(SqlType::Boolean) => "bool".into(),
-                _ => data_type.to_string().to_ascii_lowercase(),
-            },
-            name => name.to_owned(),
-        },
-        Expr::Case { else_result, .. } => match else_result.as_deref().map(column_name) {
-            Some(name) if name != "?column?" => name,
-            _ => "case".into(),
-        },
-        Expr::Exists { .. } => "exists".into(),
-        Expr::Substring { .. } => "substring".into(),
-        Expr::Position { .. } => "position".into(),
-        Expr::Trim { trim_where, .. } => match trim_where {
-            Some(sqlparser::ast::TrimWhereField::Leading) => "ltrim".into(),
-            Some(sqlparser::ast::TrimWhereField::Trailing) => "rtrim".into(),
-            _ => "btrim".into(),
-        },
-        Expr::Ceil { .. } => "ceil".into(),
-        Expr::Floor { .. } => "floor".into(),
-        Expr::Value(value) if matches!(value.value, Value::Boolean(_)) => "bool".into(),
-        Expr::Array(_) => "array".into(),
-        Expr::Subquery(query) => match &*query.body {
-            SetExpr::Select(select) => match select.projection.first() {
-                Some(SelectItem::UnnamedExpr(expression)) => column_name(expression),
-                Some(SelectItem::ExprWithAlias { alias, .. }) => shown_name(alias),
-                _ => "?column?".into(),
-            },
-            _ => "?column?".into(),
-        },
-        _ => "?column?".into(),
-    }
-}
-
-fn shown_name(name: &Ident) -> String {
-    if name.quote_style.is_some() { name.value.clone() } else { name.value.to_ascii_lowercase() }
-}
-
-/// Creates an error about an expression, with its position in the statement.
-pub(super) fn error_at(expression: &Expr, message: &str) -> Error {
-    let start = expression.span().start;
-    let place = match start.line {
-        0 => String::new(),
-        line => format!(", line {line}, column {}", start.column),
-    };
-    Error::argument(format!("SQL{place}: {message}"))
 }

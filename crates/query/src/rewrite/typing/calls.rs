@@ -5,15 +5,14 @@ use sqlparser::ast::{
     ObjectName, WindowType,
 };
 
-use super::casts::as_text;
-use super::expressions::{Expressions, made};
+use super::conversions::{as_text, error_at, parse_generated};
+use super::scope::{TypeScope, Typing};
 use super::signatures::{self, FunctionSignature};
-use super::types::SqlType;
-use super::typing::{TypeScope, error_at};
 use crate::functions::BOOLEAN_LIST;
+use crate::rewrite::types::SqlType;
 use burgeon_base::error::Result;
 
-impl Expressions<'_, '_> {
+impl Typing<'_> {
     /// Types a call of a function, and rewrites it for SQLite.
     pub(super) fn function(&mut self, expression: &mut Expr, scope: &TypeScope<'_>) -> Result<SqlType> {
         let place = expression.clone();
@@ -40,7 +39,7 @@ impl Expressions<'_, '_> {
                 }
             }
             FunctionArguments::Subquery(query) => {
-                let columns = self.typing.query(query, scope)?;
+                let columns = self.query(query, scope)?;
                 kinds.extend(columns.and_then(|columns| columns.first().map(|(_, kind)| *kind)));
             }
             FunctionArguments::None => {}
@@ -73,13 +72,13 @@ impl Expressions<'_, '_> {
         {
             function.name = ObjectName::from(vec![Ident::new(BOOLEAN_LIST)]);
         }
-        rewritten_call(expression, &name, &kinds)?;
+        rewrite_call(expression, &name, &kinds)?;
         Ok(given)
     }
 }
 
 /// Rewrites a call of a function that is different in SQLite.
-fn rewritten_call(expression: &mut Expr, name: &str, kinds: &[SqlType]) -> Result<()> {
+fn rewrite_call(expression: &mut Expr, name: &str, kinds: &[SqlType]) -> Result<()> {
     let Expr::Function(Function { args: FunctionArguments::List(list), over: None, filter: None, .. }) =
         &mut *expression
     else {
@@ -103,7 +102,7 @@ fn rewritten_call(expression: &mut Expr, name: &str, kinds: &[SqlType]) -> Resul
             for (value, kind) in values.iter_mut().zip(kinds) {
                 // PostgreSQL converts a boolean to a letter here, unlike in `||`.
                 if *kind == SqlType::Boolean {
-                    **value = made(&format!("substr(burgeon_truth({value}), 1, 1)"), value)?;
+                    **value = parse_generated(&format!("substr(burgeon_truth({value}), 1, 1)"), value)?;
                 }
             }
             return Ok(());
@@ -118,6 +117,6 @@ fn rewritten_call(expression: &mut Expr, name: &str, kinds: &[SqlType]) -> Resul
         }
         _ => return Ok(()),
     };
-    *expression = made(&written, expression)?;
+    *expression = parse_generated(&written, expression)?;
     Ok(())
 }

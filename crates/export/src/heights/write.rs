@@ -1,0 +1,256 @@
+//! Writes height maps in the format of a file name.
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use super::height_map::{HeightMap, narrow};
+use super::packed;
+use crate::{Files, Out};
+use burgeon_base::error::{Error, Result};
+use burgeon_data::ReferenceFrame;
+
+/// Marker of a missing height in an ASCII grid.
+const MISSING: &str = "-9999";
+
+/// Formats of height maps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum HeightFormat {
+    Png,
+    Ascii,
+    GeoTiff,
+    Raw32,
+    Raw64,
+}
+
+impl HeightFormat {
+    /// Returns the format that the extension of `path` names. Fails if the program was built without it.
+    fn of(path: &Path) -> Result<Self> {
+        let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        let format = match &*extension {
+            "png" => Self::Png,
+            "asc" => Self::Ascii,
+            "tif" | "tiff" => Self::GeoTiff,
+            "r32" | "f32" => Self::Raw32,
+            "r64" | "f64" => Self::Raw64,
+            _ => {
+                return Err(Error::usage(format!(
+                    "cannot write {}: its extension is no format of height maps",
+                    path.display()
+                ))
+                .help("the formats are .png, .asc, .tif, .r32 and .r64"));
+            }
+        };
+        if matches!(format, Self::Png | Self::GeoTiff) {
+            packed::check()?;
+        }
+        Ok(format)
+    }
+}
+
+/// Writes `map` to the future file `path`, in the format of its extension.
+///
+/// Coordinates of a GeoTIFF and an ASCII grid are in the projection of the run. If the file format cannot store the
+/// projection, a `.prj` file next to the file contains it. Without a projection, coordinates are in metres of the run.
+/// Fails if the map has too few heights or infinite heights, if the format cannot store it, or if the disk is full.
+pub fn write(map: &HeightMap, path: &Path, files: &mut Files) -> Result<()> {
+    let format = HeightFormat::of(path)?;
+    check(map, format).map_err(|error| error.about(&format!("cannot write {}", path.display())))?;
+    let text =
+        map.frame.as_ref().filter(|_| needs_text(map, format)).and_then(ReferenceFrame::well_known_text);
+    if let Some(text) = text {
+        files.write(&path.with_extension("prj"), |out| writeln!(out, "{text}"))?;
+    }
+    files.write(path, |out| match format {
+        HeightFormat::Png => packed::write_png(map, out),
+        HeightFormat::Ascii => write_ascii(map, out),
+        HeightFormat::GeoTiff => packed::write_tiff(map, out),
+        HeightFormat::Raw32 => {
+            map.heights.iter().try_for_each(|height| out.write_all(&narrow(*height).to_le_bytes()))
+        }
+        HeightFormat::Raw64 => map.heights.iter().try_for_each(|height| out.write_all(&height.to_le_bytes())),
+    })
+}
+
+/// Fails if the extension of a file is not a height map format.
+pub fn check_name(path: &Path) -> Result<()> {
+    HeightFormat::of(path).map(|_| ())
+}
+
+/// Checks that `map` can be written in `format`.
+fn check(map: &HeightMap, format: HeightFormat) -> Result<()> {
+    let (columns, rows) = (map.columns, map.rows);
+    let fits = columns.checked_mul(rows) == Some(map.heights.len());
+    if !fits || columns < 2 || rows < 2 {
+        let count = map.heights.len();
+        return Err(Error::argument(format!(
+            "the height map has {columns} x {rows} places for {count} heights"
+        ))
+        .help("give one height for each place, at least 2 x 2"));
+    }
+    if !(map.step.is_finite() && map.step > 0.0 && map.corner.is_finite()) {
+        return Err(Error::argument(format!(
+            "the height map has steps of {} m from {}",
+            map.step, map.corner
+        ))
+        .help("give a positive step and a finite corner"));
+    }
+    if let Some(index) = map.heights.iter().position(|height| height.is_infinite()) {
+        return Err(Error::argument(format!(
+            "the height in row {}, column {} is infinite",
+            index / columns + 1,
+            index % columns + 1
+        ))
+        .help("give finite heights"));
+    }
+    if format == HeightFormat::Png && map.heights.iter().any(|height| height.is_nan()) {
+        return Err(Error::argument("a PNG cannot leave heights out").help("write a GeoTIFF: .tif"));
+    }
+    if matches!(format, HeightFormat::Raw32 | HeightFormat::Raw64) && columns != rows {
+        return Err(Error::argument(format!(
+            "raw floats tell no width, and {columns} x {rows} is no square"
+        ))
+        .help("make it square, or write a GeoTIFF: .tif"));
+    }
+    Ok(())
+}
+
+/// Returns true if a `.prj` file must contain the projection. ASCII grids cannot store one, and GeoTIFFs only store an
+/// EPSG code or a projection around a centre.
+fn needs_text(map: &HeightMap, format: HeightFormat) -> bool {
+    let is_told = map.frame.as_ref().is_some_and(|frame| frame.epsg.is_some() || frame.middle.is_some());
+    format == HeightFormat::Ascii || format == HeightFormat::GeoTiff && !is_told
+}
+
+fn write_ascii(map: &HeightMap, out: &mut Out) -> io::Result<()> {
+    let corner = map.projected_corner();
+    writeln!(out, "ncols {}\nnrows {}", map.columns, map.rows)?;
+    writeln!(out, "xllcorner {}\nyllcorner {}\ncellsize {}", corner.x, corner.y, map.step)?;
+    writeln!(out, "NODATA_value {MISSING}")?;
+    for row in map.heights.chunks_exact(map.columns) {
+        for (column, height) in row.iter().enumerate() {
+            let space = if column > 0 { " " } else { "" };
+            if height.is_nan() {
+                write!(out, "{space}{MISSING}")?;
+            } else {
+                write!(out, "{space}{}", narrow(*height))?;
+            }
+        }
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn write_alone(map: &HeightMap, path: &Path) -> Result<()> {
+        let mut files = Files::default();
+        write(map, path, &mut files)?;
+        files.publish()
+    }
+    use burgeon_data::Crs;
+    use burgeon_data::elevation::{HeightOptions, Raster};
+    use glam::DVec2;
+
+    /// Returns hills of 12 by `rows` heights.
+    fn map(rows: usize, frame: Option<ReferenceFrame>) -> HeightMap {
+        let height =
+            |at: usize| 250.0 + 80.0 * ((at % 12) as f64 * 0.7).sin() * ((at / 12) as f64 * 0.4).cos();
+        let heights = (0..12 * rows).map(height).collect();
+        HeightMap { columns: 12, rows, step: 2.5, corner: DVec2::new(-40.0, 30.0), frame, heights }
+    }
+
+    fn frame(code: u32, at: [f64; 2]) -> Option<ReferenceFrame> {
+        Some(ReferenceFrame::around(&Crs::epsg(code).unwrap(), at, "a").unwrap())
+    }
+
+    /// Writes a map and reads it back.
+    fn write_and_read(map: &HeightMap, name: &str, wanted: &HeightOptions) -> Raster {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(name);
+        write_alone(map, &path).unwrap();
+        let has_text = path.with_extension("prj").exists();
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1 + usize::from(has_text));
+        Raster::open(&path, name, wanted, &burgeon_base::budget::Budget::default()).unwrap()
+    }
+
+    fn assert_same(raster: &Raster, map: &HeightMap, tolerance: f64) {
+        assert_eq!((raster.columns, raster.rows, raster.filled), (map.columns, map.rows, 0));
+        for (found, height) in raster.heights.iter().zip(&map.heights) {
+            assert!((f64::from(*found) - height).abs() <= tolerance, "{found} {height}");
+        }
+    }
+
+    #[test]
+    fn what_is_written_is_read_back_in_every_format() {
+        let edges = [-40.0, 30.0, -10.0, 52.5];
+        let wanted = HeightOptions { bounds: Some(edges), ..HeightOptions::default() };
+        let (hills, square) = (map(9, None), map(12, None));
+        for (name, tolerance) in [("a.asc", 2e-5), ("a.tif", 2e-5), ("a.TIFF", 2e-5)] {
+            let raster = write_and_read(&hills, name, &HeightOptions::default());
+            assert_same(&raster, &hills, tolerance);
+            assert_eq!((raster.bounds(), raster.crs), (edges, None), "{name}");
+        }
+        assert_same(&write_and_read(&hills, "a.png", &wanted), &hills, 160.0 / 65535.0);
+        for name in ["a.r32", "a.f32", "a.r64", "a.f64"] {
+            assert_same(&write_and_read(&square, name, &wanted), &square, 2e-5);
+        }
+    }
+
+    #[test]
+    fn a_geotiff_and_an_ascii_grid_tell_the_projection_of_the_run() {
+        // Feet become metres, which no EPSG code describes.
+        for (code, at, crs) in [
+            (3067, [385_423.0, 6_671_463.0], "EPSG:3067"),
+            (4326, [7.42, 43.73], "transverse Mercator around 7.4, 43.7"),
+            (2272, [2_690_000.0, 235_000.0], "NAD83 / Pennsylvania South (ftUS) in metres"),
+        ] {
+            let map = map(9, frame(code, at));
+            for name in ["a.tif", "a.asc"] {
+                let raster = write_and_read(&map, name, &HeightOptions::default());
+                assert_same(&raster, &map, 2e-5);
+                assert_eq!(raster.crs.as_ref().unwrap().name(), crs, "{name}");
+                let mut there = map.frame.clone();
+                let origin = map.frame.as_ref().unwrap().origin;
+                assert_eq!(raster.bounds()[..2], [origin[0] - 40.0, origin[1] + 30.0], "{name} {code}");
+                let relief = burgeon_data::elevation::Relief::new(raster.into(), &mut there).unwrap();
+                assert!(relief.low().truncate().distance(map.corner) < 1e-6, "{name} {code}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_plain_and_holes_are_written_too() {
+        let mut plain = map(9, None);
+        plain.heights.fill(42.0);
+        let wanted = HeightOptions { bounds: Some([0.0, 0.0, 1.0, 1.0]), ..HeightOptions::default() };
+        assert_same(&write_and_read(&plain, "a.png", &wanted), &plain, 1e-6);
+        plain.heights[17] = f64::NAN;
+        for name in ["a.asc", "a.tif"] {
+            let raster = write_and_read(&plain, name, &HeightOptions::default());
+            assert_eq!((raster.filled, raster.heights[17]), (1, 42.0));
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_written_is_refused_and_leaves_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let told = |map: &HeightMap, name: &str| {
+            let path = folder.path().join(name);
+            let error = write_alone(map, &path).unwrap_err();
+            assert!(error.remedy().is_some() && !path.exists(), "{error}");
+            error.message().replace(&folder.path().display().to_string(), "FOLDER")
+        };
+        let mut hills = map(9, None);
+        insta::assert_snapshot!(told(&hills, "a.r32"), @"cannot write FOLDER/a.r32: raw floats tell no width, and 12 x 9 is no square");
+        insta::assert_snapshot!(told(&hills, "a.obj"), @"cannot write FOLDER/a.obj: its extension is no format of height maps");
+        hills.heights[13] = f64::NAN;
+        insta::assert_snapshot!(told(&hills, "a.png"), @"cannot write FOLDER/a.png: a PNG cannot leave heights out");
+        hills.heights[13] = f64::INFINITY;
+        insta::assert_snapshot!(told(&hills, "a.tif"), @"cannot write FOLDER/a.tif: the height in row 2, column 2 is infinite");
+        hills.heights.pop();
+        insta::assert_snapshot!(told(&hills, "a.tif"), @"cannot write FOLDER/a.tif: the height map has 12 x 9 places for 107 heights");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+}

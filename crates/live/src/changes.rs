@@ -1,0 +1,31 @@
+//! Changed files: presets are read again, and other files start a run.
+
+use super::message::Cause;
+use super::state::{DueRun, ServerState};
+use super::tools;
+use burgeon_base::error::Error;
+use burgeon_base::locks::LockRecovery;
+use burgeon_presets::Presets;
+use burgeon_watch::Change;
+
+/// Handles changed files.
+pub(super) fn handle_changes(state: &ServerState, change: &Change) {
+    let mut presets = vec![Presets::path_of(&state.script)];
+    let of_packages = state.package_presets.lock().recover();
+    presets.extend(of_packages.iter().map(|(_, path)| path.clone()));
+    drop(of_packages);
+    if change.files.iter().any(|path| presets.contains(path)) {
+        tools::presets_changed(state);
+    }
+    let files: Vec<String> =
+        change.files.iter().filter(|path| !presets.contains(path)).map(|path| state.name(path)).collect();
+    if files.is_empty() {
+        return;
+    }
+    state.stop_variations("the script has changed");
+    let mut inner = state.lock();
+    std::mem::take(&mut inner.aside).stop(Error::cancellation("the script has changed"));
+    inner.generation += 1;
+    inner.post(DueRun { cause: Cause::Save, files, at: change.at });
+    state.wake.notify_all();
+}
