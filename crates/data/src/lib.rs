@@ -22,6 +22,7 @@ mod id;
 mod layer;
 mod listing;
 pub mod output;
+mod selection;
 mod source;
 mod table;
 mod tags;

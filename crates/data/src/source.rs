@@ -23,7 +23,8 @@ pub struct SourceOptions {
     pub condition: Option<String>,
     /// Filter of OpenStreetMap tags.
     pub tags: Option<TagFilter>,
-    /// West, south, east and north of a box that features must touch, in the coordinates of the file.
+    /// West, south, east and north of a box that features must touch, in the coordinates of the file. A feature on the
+    /// boundary touches the box; one around the box whose bounding box alone intersects the box does not.
     pub within: Option<[f64; 4]>,
     /// Maximum number of features to read.
     pub limit: Option<usize>,

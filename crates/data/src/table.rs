@@ -8,6 +8,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::attribute_pool::AttributePool;
 use super::derived_id::derived_id;
 use super::id::FeatureId;
+use super::selection::FeatureSelection;
 use super::taken_ids::TakenIds;
 use super::{Crs, SourceOptions};
 use burgeon_base::budget::Budget;
@@ -67,7 +68,7 @@ pub struct FeatureTable {
     pub derived: usize,
     /// For each attribute, the number of features without a geometry that have it.
     pub(super) unplaced: Vec<usize>,
-    selection: Selection,
+    selection: FeatureSelection,
     ids: TakenIds,
     /// Indices of the attribute names.
     numbers: FxHashMap<String, usize>,
@@ -78,39 +79,6 @@ pub struct FeatureTable {
     further: Vec<usize>,
     /// Limits on the resources for examining the features.
     pub(super) budget: Arc<Budget>,
-}
-
-/// Selection of the features to keep.
-#[derive(Debug)]
-struct Selection {
-    kind: Option<GeometryKind>,
-    /// West, south, east and north of a box that features must touch, in the coordinates of the file.
-    within: Option<[f64; 4]>,
-    limit: Option<usize>,
-    /// Types of geometries that occurred, by number, kept or not.
-    seen: [bool; 3],
-}
-
-impl Selection {
-    fn keeps(&mut self, geometry: &Geometry) -> bool {
-        if let Some(seen) = self.seen.get_mut(geometry.kind() as usize) {
-            *seen = true;
-        }
-        self.kind.is_none_or(|kind| kind == geometry.kind())
-            && self.within.is_none_or(|within| touches(geometry, within))
-    }
-}
-
-/// Returns true if the bounds of a geometry intersect a box.
-fn touches(geometry: &Geometry, [west, south, east, north]: [f64; 4]) -> bool {
-    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for point in geometry.points() {
-        for axis in 0..2 {
-            low[axis] = low[axis].min(point[axis]);
-            high[axis] = high[axis].max(point[axis]);
-        }
-    }
-    low[0] <= east && low[1] <= north && high[0] >= west && high[1] >= south
 }
 
 /// Returns the approximate memory (bytes) that a geometry uses in addition to the value itself.
@@ -139,7 +107,7 @@ impl FeatureTable {
             notes: Vec::new(),
             derived: 0,
             unplaced: Vec::new(),
-            selection: Selection { kind, within, limit, seen: [false; 3] },
+            selection: FeatureSelection { kind, within, limit, seen: [false; 3] },
             ids: TakenIds::new(),
             numbers: FxHashMap::default(),
             texts: FxHashSet::default(),
@@ -296,10 +264,7 @@ impl FeatureTable {
 
     /// Returns true if a feature with these bounds may touch the requested box, if any; also if the bounds are unknown.
     pub(super) fn concerns(&self, bounds: Option<[f64; 4]>) -> bool {
-        let (Some(within), Some([west, south, east, north])) = (self.selection.within, bounds) else {
-            return true;
-        };
-        west <= within[2] && south <= within[3] && east >= within[0] && north >= within[1]
+        self.selection.may_touch(bounds)
     }
 
     /// Skips a feature like [`refuse`](Self::refuse), unless its bounds are outside the requested box.

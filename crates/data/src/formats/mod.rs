@@ -4,6 +4,8 @@
 //! A program built without the feature `data` contains `absent` instead, which returns errors.
 
 mod blob;
+#[cfg(test)]
+mod box_tests;
 mod city;
 pub(crate) mod condition;
 mod corrections;
