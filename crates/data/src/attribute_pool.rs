@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use rustc_hash::FxHasher;
 
-use super::Attribute;
+use crate::attribute::Attribute;
 
 /// Attributes of a feature: the indices of their names, and their values.
 pub(super) type FeatureAttributes = Arc<[(usize, Attribute)]>;

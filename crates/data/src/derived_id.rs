@@ -1,6 +1,7 @@
 //! Ids of features that have no id in their file.
 
-use super::{Attribute, Geometry};
+use crate::attribute::Attribute;
+use burgeon_spatial::Geometry;
 
 /// Returns the id of a feature without one: a hash of its geometry and its attributes, independent of their order.
 pub(super) fn derived_id(parts: &[Geometry], attributes: &[(usize, Attribute)], names: &[String]) -> String {

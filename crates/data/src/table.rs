@@ -5,41 +5,18 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::attribute::Attribute;
 use super::attribute_pool::AttributePool;
+use super::crs::Crs;
 use super::derived_id::derived_id;
-use super::id::FeatureId;
+use super::feature::Feature;
 use super::selection::FeatureSelection;
+use super::source_options::SourceOptions;
 use super::taken_ids::TakenIds;
-use super::{Crs, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
 use burgeon_spatial::{Geometry, GeometryKind};
-
-/// Value of an attribute.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Attribute {
-    /// True or false.
-    Boolean(bool),
-    /// Finite number.
-    Number(f64),
-    /// Text.
-    Text(Arc<str>),
-    /// GeoJSON list or object.
-    Nested(Arc<serde_json::Value>),
-}
-
-/// Record with a geometry.
-#[derive(Debug, Clone)]
-pub struct Feature {
-    /// Id, unique within its layer.
-    pub id: FeatureId,
-    /// Geometry with one part.
-    pub geometry: Geometry,
-    /// Indices of the names in [`FeatureTable::names`], and the values. Features with equal attributes may share the
-    /// list.
-    pub attributes: Arc<[(usize, Attribute)]>,
-}
 
 /// Layer as stored in its file.
 #[derive(Debug)]
@@ -296,7 +273,7 @@ impl FeatureTable {
 
     /// Returns the table after applying the options: the coordinate system, the geometry type and the number of
     /// features. Fails if no features remain.
-    pub fn finished(mut self, wanted: &SourceOptions) -> Result<Self> {
+    pub fn finish(mut self, wanted: &SourceOptions) -> Result<Self> {
         if let Some(code) = wanted.crs {
             self.crs = Crs::epsg(code);
         }
@@ -309,7 +286,7 @@ impl FeatureTable {
             return Err(error.clone());
         }
         if self.features.is_empty() {
-            return Err(super::source::nothing(&self, wanted).help("check the file: burgeon sources FILE"));
+            return Err(no_features(&self, wanted).help("check the file: burgeon sources FILE"));
         }
         Ok(self)
     }
@@ -399,46 +376,29 @@ impl FeatureTable {
     }
 }
 
-impl Attribute {
-    /// Returns the approximate memory (bytes) used in addition to the entry in a list.
-    fn weight(&self) -> usize {
-        fn nested(value: &serde_json::Value) -> usize {
-            use serde_json::Value as Json;
-            match value {
-                Json::String(text) => 80 + text.len(),
-                Json::Array(items) => 80 + items.iter().map(nested).sum::<usize>(),
-                Json::Object(fields) => {
-                    80 + fields.iter().map(|(name, value)| 80 + name.len() + nested(value)).sum::<usize>()
-                }
-                _ => 80,
-            }
-        }
-        match self {
-            Self::Boolean(_) | Self::Number(_) => 0,
-            Self::Text(text) => 16 + text.len(),
-            Self::Nested(value) => nested(value),
-        }
+/// Returns the error for a table without features.
+fn no_features(table: &FeatureTable, wanted: &SourceOptions) -> Error {
+    let what = &table.shown;
+    if wanted.limit == Some(0) {
+        return Error::argument(format!("limit = 0 leaves no feature of {what}")).help("leave limit out");
     }
-
-    /// Returns the value as a feature id.
-    pub(super) fn as_id(&self) -> String {
-        match self {
-            Self::Boolean(value) => value.to_string(),
-            Self::Number(value) => value.to_string(),
-            Self::Text(text) => text.to_string(),
-            Self::Nested(value) => value.to_string(),
-        }
+    if let Some(condition) = &wanted.condition {
+        return Error::data(format!("no feature of {what} meets where {condition}"))
+            .help("burgeon sources FILE lists attributes and their values");
     }
-
-    /// Returns the type name: `boolean`, `number`, `text` or `table`.
-    pub fn kind(&self) -> &'static str {
-        match self {
-            Self::Boolean(_) => "boolean",
-            Self::Number(_) => "number",
-            Self::Text(_) => "text",
-            Self::Nested(_) => "table",
-        }
+    if let (Some([west, south, east, north]), true) = (wanted.within, table.has_seen()) {
+        let place = format!("{{ {west}, {south}, {east}, {north} }}");
+        return Error::data(format!("no feature of {what} touches within = {place}"))
+            .help("it is { west, south, east, north } in the coordinates of the file, which burgeon sources FILE lists");
     }
+    if wanted.tags.is_some() {
+        return Error::data(format!("no feature of {what} has such tags"))
+            .help("look up how mappers tag it: https://wiki.openstreetmap.org/wiki/Map_features");
+    }
+    if table.empty > 0 {
+        return Error::data(format!("{what} has no features with a geometry"));
+    }
+    Error::data(format!("{what} has no features"))
 }
 
 #[cfg(test)]

@@ -5,8 +5,8 @@ use std::hash::BuildHasher;
 use hashbrown::HashTable;
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
-use super::Feature;
 use super::id::FeatureId;
+use crate::feature::Feature;
 
 /// Ids in use.
 #[derive(Debug)]
@@ -24,7 +24,7 @@ fn hash(id: &str) -> u64 {
 }
 
 /// Returns the number in `id`, if it is in canonical decimal notation.
-fn counted(id: &str) -> Option<u64> {
+fn increasing_number(id: &str) -> Option<u64> {
     let plain = id.bytes().all(|byte| byte.is_ascii_digit()) && (id.len() == 1 || !id.starts_with('0'));
     if plain { id.parse().ok() } else { None }
 }
@@ -37,21 +37,21 @@ impl TakenIds {
 
     /// Returns the id for the next of `features`: `id` if it is free, otherwise `id` with a number appended.
     pub(super) fn fresh(&mut self, id: &str, features: &[Feature]) -> FeatureId {
-        let number = self.free.and_then(|free| counted(id).filter(|number| *number >= free));
+        let number = self.free.and_then(|free| increasing_number(id).filter(|number| *number >= free));
         if let Some(after) = number.and_then(|number| number.checked_add(1)) {
             self.free = Some(after);
             return FeatureId::from(id);
         }
         self.look_up(features);
         let last = self.last.get(id).copied();
-        let id = match last.is_some() || self.taken(id, features) {
+        let id = match last.is_some() || self.is_taken(id, features) {
             false => FeatureId::from(id),
             true => {
                 let mut count = last.unwrap_or(1);
                 let unique = loop {
                     count += 1;
                     let unique = format!("{id}.{count}");
-                    if !self.taken(&unique, features) {
+                    if !self.is_taken(&unique, features) {
                         break unique;
                     }
                 };
@@ -87,11 +87,11 @@ impl TakenIds {
     /// Counts a part with this id that is not selected, so other parts get the same ids as if it were.
     pub(super) fn skip(&mut self, id: &str, features: &[Feature]) {
         self.look_up(features);
-        let first = usize::from(self.taken(id, features));
+        let first = usize::from(self.is_taken(id, features));
         *self.last.entry(id.to_owned()).or_insert(first) += 1;
     }
 
-    fn taken(&self, id: &str, features: &[Feature]) -> bool {
+    fn is_taken(&self, id: &str, features: &[Feature]) -> bool {
         let same = |number: &u32| features.get(*number as usize).is_some_and(|feature| feature.id == *id);
         self.features.find(hash(id), same).is_some()
     }
