@@ -5,9 +5,9 @@ use std::fs::File;
 use std::path::Path;
 
 use super::content::DataFile;
+use super::features::table::FeatureTable;
 use super::layered_file::LayeredFile;
 use super::source_options::SourceOptions;
-use super::table::FeatureTable;
 use burgeon_base::error::{Error, Result};
 
 fn left_out<T>() -> Result<T> {
@@ -111,8 +111,8 @@ pub(crate) fn unpack_file(
 
 pub(crate) mod condition {
     use super::{Result, left_out};
+    use crate::features::table::FeatureTable;
     use crate::source_options::SourceOptions;
-    use crate::table::FeatureTable;
 
     pub(crate) fn find_matches(
         _table: &FeatureTable,

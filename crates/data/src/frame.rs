@@ -5,8 +5,8 @@ use rayon::prelude::*;
 
 use super::crs::projection::Projection;
 use super::crs::{Crs, REMEDY};
-use super::feature::Feature;
-use super::table::FeatureTable;
+use super::features::feature::Feature;
+use super::features::table::FeatureTable;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{number, shown};
 

@@ -2,9 +2,9 @@
 
 use rayon::prelude::*;
 
-use super::feature::Feature;
+use super::features::feature::Feature;
+use super::features::table::FeatureTable;
 use super::frame::ReferenceFrame;
-use super::table::FeatureTable;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 use burgeon_base::warning::{Warning, WarningKind};

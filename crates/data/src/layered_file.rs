@@ -1,7 +1,7 @@
 //! Data file with layers.
 
+use super::features::table::FeatureTable;
 use super::source_options::SourceOptions;
-use super::table::FeatureTable;
 use burgeon_base::error::Result;
 
 /// Data file with layers that can be read individually.

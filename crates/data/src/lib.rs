@@ -5,57 +5,47 @@
 //! modelling. Coordinates are projected once, here; all later stages use metres. The crate never panics because of a
 //! file's content, and never changes a file.
 
-mod attribute;
-mod attribute_pool;
 mod cache;
 mod codepages;
 mod companions;
 mod content;
 mod crs;
-mod derived_id;
 pub mod elevation;
-mod feature;
+mod features;
 mod foreign;
 #[cfg_attr(not(feature = "data"), path = "absent.rs")]
 mod formats;
 mod frame;
 mod geojson;
 mod heights;
-mod id;
 mod layer;
 mod layer_choice;
 mod layered_file;
 mod listing;
 pub mod output;
-mod selection;
 mod source;
 mod source_options;
-mod table;
 mod tags;
-mod taken_ids;
 mod world_place;
 
 use std::path::Path;
 
-pub use attribute::Attribute;
 pub use burgeon_spatial::{Geometry, GeometryKind};
 pub use cache::Cache;
 pub use companions::companions;
 pub use crs::Crs;
-pub use feature::Feature;
+pub use features::{Attribute, Feature, FeatureId, FeatureTable};
 pub use formats::output::{check_geopackage, write_geopackage};
 pub use formats::{FlatGeobuf, GeoPackage, OsmFile};
 #[cfg(feature = "data")]
 pub use formats::{PackageState, TableShape};
 pub use frame::{Passage, ReferenceFrame};
-pub use id::FeatureId;
 pub use layer::Layer;
 pub use layered_file::LayeredFile;
 pub use listing::nearest_file;
 pub use listing::{AttributeListing, LayerListing, Listing};
 pub use source::Source;
 pub use source_options::SourceOptions;
-pub use table::FeatureTable;
 pub use tags::{TagFilter, TagTest};
 pub use world_place::{WORLD_AXES, WorldPlace};
 

@@ -8,10 +8,10 @@ use std::sync::Arc;
 use glam::DVec3;
 use serde_json::{Value, json};
 
-use crate::attribute::Attribute;
+use crate::features::attribute::Attribute;
+use crate::features::table::FeatureTable;
 use crate::source::Source;
 use crate::source_options::SourceOptions;
-use crate::table::FeatureTable;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{escaped, number, shown};

@@ -4,12 +4,12 @@ use std::io::Read;
 use std::path::Path;
 
 use super::content::{Content, DataFile};
+use super::features::table::FeatureTable;
 use super::formats::condition;
 use super::formats::{FlatGeobuf, GeoPackage, OsmFile, open_layers, unpack_file};
 use super::layer_choice::choose_layer;
 use super::layered_file::LayeredFile;
 use super::source_options::SourceOptions;
-use super::table::FeatureTable;
 use super::{foreign, geojson};
 use burgeon_base::error::{Error, Result};
 

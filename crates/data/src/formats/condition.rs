@@ -7,10 +7,10 @@ use rusqlite::types::Value;
 use rusqlite::{Connection, params_from_iter};
 
 use super::geopackage::{guard, query_error, quote, run_watched};
-use crate::attribute::Attribute;
-use crate::feature::Feature;
+use crate::features::attribute::Attribute;
+use crate::features::feature::Feature;
+use crate::features::table::FeatureTable;
 use crate::source_options::SourceOptions;
-use crate::table::FeatureTable;
 use burgeon_base::error::{Error, Result};
 
 /// Returns the indices of the features that satisfy `condition`, in their order.

@@ -7,14 +7,14 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::attribute::Attribute;
 use crate::content::DataFile;
 use crate::crs::Crs;
+use crate::features::attribute::Attribute;
+use crate::features::table::FeatureTable;
 use crate::formats::typing::TextTypes;
 use crate::formats::xml::{Element, Xml, XmlPiece};
 use crate::layered_file::LayeredFile;
 use crate::source_options::SourceOptions;
-use crate::table::FeatureTable;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;

@@ -5,8 +5,8 @@ use rusqlite::types::Value as Cell;
 use rusqlite::{Connection, params, params_from_iter};
 
 use super::geopackage::quote;
-use crate::attribute::Attribute;
 use crate::crs::projection::definition;
+use crate::features::attribute::Attribute;
 use crate::frame::ReferenceFrame;
 use crate::output::{ColumnKind, OutputPlacement, Record, RecordTable, column_kinds};
 use burgeon_base::error::{Error, Result};

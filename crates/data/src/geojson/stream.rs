@@ -10,8 +10,8 @@ use serde_json::Deserializer;
 use serde_json::value::RawValue;
 
 use super::reader::{FeatureReader, RECORD, is_sequence};
+use crate::features::table::FeatureTable;
 use crate::source_options::SourceOptions;
-use crate::table::FeatureTable;
 use burgeon_base::budget::{Budget, MemoryReservation};
 use burgeon_base::error::{Error, Result};
 

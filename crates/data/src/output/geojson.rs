@@ -6,7 +6,7 @@ use glam::DVec3;
 use serde_json::{Map, Value as Json, json};
 
 use super::{OutputPlacement, Record, RecordTable};
-use crate::attribute::Attribute;
+use crate::features::attribute::Attribute;
 use crate::frame::ReferenceFrame;
 use burgeon_base::error::{Error, Result};
 use burgeon_spatial::Geometry;

@@ -11,13 +11,13 @@ use serde_json::value::RawValue;
 
 use super::boundaries::{CityGeometry, CityVertices, Transform, add_geometry};
 use super::model::{CityRecord, CityValue};
-use crate::attribute::Attribute;
 use crate::content::DataFile;
 use crate::crs::Crs;
+use crate::features::attribute::Attribute;
+use crate::features::table::FeatureTable;
 use crate::formats::typing::TextTypes;
 use crate::layered_file::LayeredFile;
 use crate::source_options::SourceOptions;
-use crate::table::FeatureTable;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;

@@ -9,9 +9,9 @@ use super::buffer::{BufferDamage, BufferTable};
 use super::geometry;
 use super::header::{Column, LayerHeader, columns};
 use super::index::{BoxEntry, Levels};
-use crate::attribute::Attribute;
+use crate::features::attribute::Attribute;
+use crate::features::table::FeatureTable;
 use crate::source_options::SourceOptions;
-use crate::table::FeatureTable;
 use burgeon_base::error::{Error, Result};
 use burgeon_spatial::Geometry;
 

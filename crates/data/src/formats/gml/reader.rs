@@ -7,13 +7,13 @@ use rustc_hash::FxHashMap;
 
 use super::geometry::{GeometryProblem, GeometryReader, GmlContext, is_geometry};
 use super::system::NamedSystem;
-use crate::attribute::Attribute;
 use crate::content::DataFile;
+use crate::features::attribute::Attribute;
+use crate::features::table::FeatureTable;
 use crate::formats::typing::TextTypes;
 use crate::formats::xml::{Element, Xml, XmlPiece};
 use crate::layered_file::LayeredFile;
 use crate::source_options::SourceOptions;
-use crate::table::FeatureTable;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;

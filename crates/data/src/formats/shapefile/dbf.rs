@@ -3,10 +3,10 @@
 use std::borrow::Cow;
 use std::io::{BufReader, Read};
 
-use crate::attribute::Attribute;
 use crate::codepages::{CodePage, WESTERN};
 use crate::content::ContentReader;
-use crate::table::FeatureTable;
+use crate::features::attribute::Attribute;
+use crate::features::table::FeatureTable;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 

@@ -4,8 +4,8 @@ use super::dbf::DbfReader;
 use super::shp::ShapeReader;
 use crate::content::DataFile;
 use crate::crs::prj::{NAME_IT, crs_of_text};
+use crate::features::table::FeatureTable;
 use crate::source_options::SourceOptions;
-use crate::table::FeatureTable;
 use burgeon_base::error::{Error, Result};
 
 /// Files of a layer.

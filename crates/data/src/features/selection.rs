@@ -7,20 +7,20 @@ use burgeon_spatial::{Geometry, GeometryKind};
 
 /// Selection of the features to keep.
 #[derive(Debug)]
-pub(super) struct FeatureSelection {
+pub(crate) struct FeatureSelection {
     /// Type of the geometries to keep.
-    pub(super) kind: Option<GeometryKind>,
+    pub(crate) kind: Option<GeometryKind>,
     /// West, south, east and north of a box that features must touch, in the coordinates of the file.
-    pub(super) within: Option<[f64; 4]>,
+    pub(crate) within: Option<[f64; 4]>,
     /// Maximum number of features to keep.
-    pub(super) limit: Option<usize>,
+    pub(crate) limit: Option<usize>,
     /// Types of geometries that occurred, by number, kept or not.
-    pub(super) seen: [bool; 3],
+    pub(crate) seen: [bool; 3],
 }
 
 impl FeatureSelection {
     /// Returns true if a geometry has the requested type and touches the requested box. Records its type.
-    pub(super) fn keeps(&mut self, geometry: &Geometry) -> bool {
+    pub(crate) fn keeps(&mut self, geometry: &Geometry) -> bool {
         if let Some(seen) = self.seen.get_mut(geometry.kind() as usize) {
             *seen = true;
         }
@@ -29,7 +29,7 @@ impl FeatureSelection {
     }
 
     /// Returns true if a geometry with these bounds may touch the requested box, if any; also if the bounds are unknown.
-    pub(super) fn may_touch(&self, bounds: Option<[f64; 4]>) -> bool {
+    pub(crate) fn may_touch(&self, bounds: Option<[f64; 4]>) -> bool {
         let (Some(within), Some(bounds)) = (self.within, bounds) else { return true };
         SelectionBox::new(within).meets(&SelectionBox::new(bounds))
     }

@@ -5,12 +5,12 @@ use std::hash::BuildHasher;
 use hashbrown::HashTable;
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
+use super::feature::Feature;
 use super::id::FeatureId;
-use crate::feature::Feature;
 
 /// Ids in use.
 #[derive(Debug)]
-pub(super) struct TakenIds {
+pub(crate) struct TakenIds {
     /// First free number, as long as all ids are increasing numbers; `features` is then empty.
     free: Option<u64>,
     /// Indices of features, by id.
@@ -31,12 +31,12 @@ fn increasing_number(id: &str) -> Option<u64> {
 
 impl TakenIds {
     /// Creates an empty set.
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self { free: Some(0), features: HashTable::new(), last: FxHashMap::default() }
     }
 
     /// Returns the id for the next of `features`: `id` if it is free, otherwise `id` with a number appended.
-    pub(super) fn fresh(&mut self, id: &str, features: &[Feature]) -> FeatureId {
+    pub(crate) fn fresh(&mut self, id: &str, features: &[Feature]) -> FeatureId {
         let number = self.free.and_then(|free| increasing_number(id).filter(|number| *number >= free));
         if let Some(after) = number.and_then(|number| number.checked_add(1)) {
             self.free = Some(after);
@@ -85,7 +85,7 @@ impl TakenIds {
     }
 
     /// Counts a part with this id that is not selected, so other parts get the same ids as if it were.
-    pub(super) fn skip(&mut self, id: &str, features: &[Feature]) {
+    pub(crate) fn skip(&mut self, id: &str, features: &[Feature]) {
         self.look_up(features);
         let first = usize::from(self.is_taken(id, features));
         *self.last.entry(id.to_owned()).or_insert(first) += 1;

@@ -17,7 +17,7 @@ pub enum Attribute {
 
 impl Attribute {
     /// Returns the approximate memory (bytes) used in addition to the entry in a list.
-    pub(super) fn weight(&self) -> usize {
+    pub(crate) fn weight(&self) -> usize {
         fn nested(value: &serde_json::Value) -> usize {
             use serde_json::Value as Json;
             match value {
@@ -37,7 +37,7 @@ impl Attribute {
     }
 
     /// Returns the value as a feature id.
-    pub(super) fn as_id(&self) -> String {
+    pub(crate) fn as_id(&self) -> String {
         match self {
             Self::Boolean(value) => value.to_string(),
             Self::Number(value) => value.to_string(),

@@ -7,12 +7,12 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::attribute::Attribute;
 use super::attribute_pool::AttributePool;
-use super::crs::Crs;
 use super::derived_id::derived_id;
 use super::feature::Feature;
 use super::selection::FeatureSelection;
-use super::source_options::SourceOptions;
 use super::taken_ids::TakenIds;
+use crate::crs::Crs;
+use crate::source_options::SourceOptions;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
@@ -36,7 +36,7 @@ pub struct FeatureTable {
     /// Number of skipped features without a geometry, or with one without extent.
     pub empty: usize,
     /// Number of these features that have points, but too few distinct ones.
-    pub(super) collapsed: usize,
+    pub(crate) collapsed: usize,
     /// Ids of skipped features whose geometry cannot be read, with the reasons.
     pub refused: Vec<(String, Error)>,
     /// Other messages about reading the layer.
@@ -44,7 +44,7 @@ pub struct FeatureTable {
     /// Number of features without an id, which received an id derived from their content.
     pub derived: usize,
     /// For each attribute, the number of features without a geometry that have it.
-    pub(super) unplaced: Vec<usize>,
+    pub(crate) unplaced: Vec<usize>,
     selection: FeatureSelection,
     ids: TakenIds,
     /// Indices of the attribute names.
@@ -55,7 +55,7 @@ pub struct FeatureTable {
     /// Indices of the features that are further parts of the preceding record, in order.
     further: Vec<usize>,
     /// Limits on the resources for examining the features.
-    pub(super) budget: Arc<Budget>,
+    pub(crate) budget: Arc<Budget>,
 }
 
 /// Returns the approximate memory (bytes) that a geometry uses in addition to the value itself.
@@ -69,7 +69,7 @@ const LONGEST_TEXT: usize = 40;
 
 impl FeatureTable {
     /// Creates an empty table of a layer, which keeps the features that `wanted` selects.
-    pub(super) fn new(layer: &str, shown: &str, crs: Result<Crs>, wanted: &SourceOptions) -> Self {
+    pub(crate) fn new(layer: &str, shown: &str, crs: Result<Crs>, wanted: &SourceOptions) -> Self {
         let SourceOptions { kind, within, limit, .. } = *wanted;
         Self {
             layer: layer.to_owned(),
@@ -107,7 +107,7 @@ impl FeatureTable {
     }
 
     /// Returns the index of the attribute called `name`; adds it if it is new.
-    pub(super) fn name(&mut self, name: &str) -> usize {
+    pub(crate) fn name(&mut self, name: &str) -> usize {
         match self.numbers.get(name) {
             Some(number) => *number,
             None => {
@@ -120,7 +120,7 @@ impl FeatureTable {
     }
 
     /// Returns a text as an attribute; features share frequent texts.
-    pub(super) fn text(&mut self, text: &str) -> Attribute {
+    pub(crate) fn text(&mut self, text: &str) -> Attribute {
         if text.len() > LONGEST_TEXT {
             return Attribute::Text(text.into());
         }
@@ -136,12 +136,12 @@ impl FeatureTable {
     }
 
     /// Returns true if the requested number of features has been reached.
-    pub(super) fn is_full(&self) -> bool {
+    pub(crate) fn is_full(&self) -> bool {
         self.selection.limit.is_some_and(|limit| self.features.len() >= limit)
     }
 
     /// Returns true if there was a geometry, kept or not.
-    pub(super) fn has_seen(&self) -> bool {
+    pub(crate) fn has_seen(&self) -> bool {
         self.selection.seen.contains(&true)
     }
 
@@ -194,7 +194,7 @@ impl FeatureTable {
 
     /// Adds features without an id, like [`push`](Self::push). The id is a hash of the geometry and the attributes, so
     /// it does not change when other features are added, removed or reordered. Identical features are numbered.
-    pub(super) fn push_unnamed(
+    pub(crate) fn push_unnamed(
         &mut self,
         parts: Vec<Geometry>,
         attributes: Vec<(usize, Attribute)>,
@@ -209,7 +209,7 @@ impl FeatureTable {
     /// Adds features with the value of the attribute `column` as the id; features without that attribute get a derived
     /// id.
     #[cfg(feature = "data")]
-    pub(super) fn push_identified(
+    pub(crate) fn push_identified(
         &mut self,
         column: Option<usize>,
         parts: Vec<Geometry>,
@@ -225,7 +225,7 @@ impl FeatureTable {
     /// Counts a feature without a geometry. If it has points, but too few for a geometry, they are within `bounds`.
     ///
     /// If a box was requested, features outside the box or without a position are not counted.
-    pub(super) fn add_empty(&mut self, attributes: &[(usize, Attribute)], bounds: Option<[f64; 4]>) {
+    pub(crate) fn add_empty(&mut self, attributes: &[(usize, Attribute)], bounds: Option<[f64; 4]>) {
         if self.selection.within.is_some() && !bounds.is_some_and(|bounds| self.concerns(Some(bounds))) {
             return;
         }
@@ -240,17 +240,17 @@ impl FeatureTable {
     }
 
     /// Returns true if a feature with these bounds may touch the requested box, if any; also if the bounds are unknown.
-    pub(super) fn concerns(&self, bounds: Option<[f64; 4]>) -> bool {
+    pub(crate) fn concerns(&self, bounds: Option<[f64; 4]>) -> bool {
         self.selection.may_touch(bounds)
     }
 
     /// Skips a feature like [`refuse`](Self::refuse), unless its bounds are outside the requested box.
-    pub(super) fn refuse_at(&mut self, id: String, error: Error, bounds: Option<[f64; 4]>) -> Result<()> {
+    pub(crate) fn refuse_at(&mut self, id: String, error: Error, bounds: Option<[f64; 4]>) -> Result<()> {
         if self.concerns(bounds) { self.refuse(id, error) } else { self.budget.tick() }
     }
 
     /// Keeps the features with these indices, which must be sorted, and at most `limit` of them.
-    pub(super) fn keep(&mut self, kept: &[usize], limit: Option<usize>) {
+    pub(crate) fn keep(&mut self, kept: &[usize], limit: Option<usize>) {
         let mut kept = kept.iter().take(limit.unwrap_or(usize::MAX)).copied().peekable();
         let mut further = self.further.iter().copied().peekable();
         // Index of the first feature of the record, for each kept feature.
@@ -300,7 +300,7 @@ impl FeatureTable {
     }
 
     /// Skips the features for which `why` returns an error.
-    pub(super) fn refuse_those(
+    pub(crate) fn refuse_those(
         &mut self,
         why: impl Fn(&mut Feature) -> Option<Error> + Send + Sync,
     ) -> Result<()> {
@@ -319,7 +319,7 @@ impl FeatureTable {
     }
 
     /// Skips features with coordinates that are not finite.
-    pub(super) fn refuse_endless(&mut self) -> Result<()> {
+    pub(crate) fn refuse_endless(&mut self) -> Result<()> {
         let name = self.shown.clone();
         self.refuse_those(|feature| {
             let endless = feature.geometry.points().any(|point| !point.is_finite());
@@ -332,7 +332,7 @@ impl FeatureTable {
     }
 
     /// Returns the index of the attribute `name`; if there is none, fails with a list of the attributes.
-    pub(super) fn column(&self, name: &str) -> Result<usize> {
+    pub(crate) fn column(&self, name: &str) -> Result<usize> {
         self.names.iter().position(|known| known == name).ok_or_else(|| {
             let names = || self.names.iter().map(String::as_str);
             let message = format!("{} has no attribute called {}", self.shown, shown(name));
@@ -341,7 +341,7 @@ impl FeatureTable {
     }
 
     /// Sets the features' ids from the attribute `name`, if given, for features with that attribute.
-    pub(super) fn identify(&mut self, name: Option<&str>) -> Result<()> {
+    pub(crate) fn identify(&mut self, name: Option<&str>) -> Result<()> {
         let Some(name) = name else { return Ok(()) };
         let column = self.column(name)?;
         self.ids = TakenIds::new();
@@ -358,7 +358,7 @@ impl FeatureTable {
     }
 
     /// Fails if there were geometries, but none of the requested type.
-    pub(super) fn check_kind(&self) -> Result<()> {
+    pub(crate) fn check_kind(&self) -> Result<()> {
         let Some(kind) = self.selection.kind else { return Ok(()) };
         let seen = |known: &GeometryKind| self.selection.seen.get(*known as usize) == Some(&true);
         let there: Vec<&str> =
