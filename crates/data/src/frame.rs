@@ -1,4 +1,4 @@
-//! Coordinate systems, and the common projection and origin of all sources in a run.
+//! Common projection and origin of all sources in a run.
 
 use glam::DVec3;
 use rayon::prelude::*;

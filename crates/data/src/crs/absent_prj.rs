@@ -8,7 +8,7 @@ pub(crate) const IN_METRES: &str = " in metres";
 
 /// Fails, because coordinate systems need the feature `data`.
 pub(crate) fn crs_of_text(_text: &str, label: &str, _remedy: &str) -> Result<Crs> {
-    Err(Error::left_out("coordinate systems", "data").about(label))
+    Err(Error::left_out("data formats", "data").about(label))
 }
 
 /// Returns no unit, because a text without a known coordinate system is refused.

@@ -3,7 +3,7 @@
 use burgeon_base::error::{Error, Result};
 
 fn left_out<T>() -> Result<T> {
-    Err(Error::left_out("coordinate systems", "data"))
+    Err(Error::left_out("data formats", "data"))
 }
 
 /// Projection; never constructed without the feature `data`.
