@@ -5,8 +5,9 @@ use std::fs::File;
 use std::path::Path;
 
 use super::content::DataFile;
-use super::source::Source;
-use super::{FeatureTable, SourceOptions};
+use super::features::table::FeatureTable;
+use super::layered_file::LayeredFile;
+use super::source_options::SourceOptions;
 use burgeon_base::error::{Error, Result};
 
 fn left_out<T>() -> Result<T> {
@@ -68,7 +69,7 @@ impl OsmFile {
         head.get(4..15).is_some_and(|found| found == b"\x0a\x09OSMHeader")
     }
 
-    pub(crate) fn open(file: DataFile, _wanted: &SourceOptions) -> Result<Self> {
+    pub(crate) fn open(file: DataFile, _head: &[u8], _wanted: &SourceOptions) -> Result<Self> {
         left_out().map_err(|error: Error| error.about(&file.name))
     }
 
@@ -82,11 +83,11 @@ impl OsmFile {
 }
 
 /// Fails for XML, shapefiles, CityJSON and delimited text; returns other files unchanged.
-pub(crate) fn layered(
+pub(crate) fn open_layers(
     file: DataFile,
     head: &[u8],
     _wanted: &SourceOptions,
-) -> Result<std::result::Result<Source, DataFile>> {
+) -> Result<std::result::Result<Box<dyn LayeredFile>, DataFile>> {
     let text = head.trim_ascii_start();
     let is_city = text.starts_with(b"{") && String::from_utf8_lossy(text).contains("\"CityJSON");
     let is_known = text.starts_with(b"<") || head.starts_with(&[0, 0, 0x27, 0x0a]) || is_city;
@@ -96,17 +97,12 @@ pub(crate) fn layered(
     Ok(Err(file))
 }
 
-/// Fails, because coordinate systems need the feature `data`.
-pub(crate) fn crs_of_text(_text: &str, label: &str, _remedy: &str) -> Result<super::Crs> {
-    left_out().map_err(|error: Error| error.about(label))
-}
-
 /// Fails for compressed files; returns other files unchanged.
-pub(crate) fn unpacked(
+pub(crate) fn unpack_file(
     file: DataFile,
     head: &[u8],
     _wanted: &SourceOptions,
-) -> Result<std::result::Result<Source, DataFile>> {
+) -> Result<std::result::Result<Box<dyn LayeredFile>, DataFile>> {
     if head.starts_with(b"\x1f\x8b") || head.starts_with(b"PK\x03\x04") {
         return left_out().map_err(|error: Error| error.about(&file.name));
     }
@@ -114,44 +110,16 @@ pub(crate) fn unpacked(
 }
 
 pub(crate) mod condition {
-    use super::{FeatureTable, Result, SourceOptions, left_out};
+    use super::{Result, left_out};
+    use crate::features::table::FeatureTable;
+    use crate::source_options::SourceOptions;
 
-    pub(crate) fn meeting(
+    pub(crate) fn find_matches(
         _table: &FeatureTable,
         _condition: &str,
         _wanted: &SourceOptions,
     ) -> Result<Vec<usize>> {
         left_out()
-    }
-}
-
-pub(crate) mod projection {
-    use super::{Error, Result, left_out};
-
-    /// Projection; never constructed without the feature `data`.
-    #[derive(Clone)]
-    pub(crate) enum Projection {}
-
-    impl Projection {
-        pub(crate) fn new(_definition: &str, _cannot: impl Fn(String) -> Error) -> Result<Self> {
-            left_out()
-        }
-
-        pub(crate) fn bring(&self, _into: &Self, _point: &mut (f64, f64, f64)) -> Result<(), String> {
-            match *self {}
-        }
-    }
-
-    pub(crate) fn known(_code: u32) -> Result<Option<(u16, String)>> {
-        left_out()
-    }
-
-    pub(crate) fn definition(_code: u16) -> Result<Option<String>> {
-        left_out()
-    }
-
-    pub(crate) fn unshifted_datum(_code: Option<u16>, _proj: &str) -> Option<String> {
-        None
     }
 }
 

@@ -5,8 +5,11 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
+use super::companions;
 use super::elevation::{HeightOptions, Raster};
-use super::{Layer, ReferenceFrame, SourceOptions, companions};
+use crate::frame::ReferenceFrame;
+use crate::layer::Layer;
+use crate::source_options::SourceOptions;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 use burgeon_base::files;

@@ -18,7 +18,7 @@ pub(crate) const WESTERN: u32 = 1252;
 
 impl CodePage {
     /// Returns the code page with a number.
-    pub(crate) fn numbered(number: u32) -> Option<&'static Self> {
+    pub(crate) fn of_number(number: u32) -> Option<&'static Self> {
         PAGES.iter().find(|page| page.number == number)
     }
 
@@ -59,7 +59,7 @@ pub(crate) fn guess(bytes: &[u8]) -> Option<GuessedText<'_>> {
             Ok(text) => Some(GuessedText::Utf8(text)),
             Err(_) if bytes.iter().any(is_control) => None,
             Err(_) => {
-                let page = CodePage::numbered(WESTERN)?;
+                let page = CodePage::of_number(WESTERN)?;
                 Some(GuessedText::Other(page.decode(bytes).into_owned(), "Windows-1252 (Latin-1)"))
             }
         },
@@ -112,7 +112,7 @@ mod tests {
     #[test]
     fn letters_are_those_of_the_code_page() {
         let decode =
-            |number: u32, bytes: &[u8]| CodePage::numbered(number).unwrap().decode(bytes).into_owned();
+            |number: u32, bytes: &[u8]| CodePage::of_number(number).unwrap().decode(bytes).into_owned();
         assert_eq!(decode(1252, b"Stra\xdfe \x80"), "Straße €");
         assert_eq!(decode(850, b"Stra\xe1e"), "Straße");
         assert_eq!(decode(437, b"M\x81nchen"), "München");

@@ -117,15 +117,3 @@ impl DataFile {
         }
     }
 }
-
-/// Data file with layers that can be read individually.
-pub trait LayeredFile: Send {
-    /// Returns the name of the format.
-    fn format(&self) -> &'static str;
-
-    /// Returns the names of the layers.
-    fn layers(&self) -> Vec<String>;
-
-    /// Reads the features of a layer that `wanted` selects, in file order.
-    fn read(&self, layer: &str, wanted: &crate::SourceOptions) -> Result<crate::FeatureTable>;
-}

@@ -4,6 +4,10 @@ use std::path::Path;
 
 use burgeon_base::error::{Error, Result};
 
+/// Supported formats.
+pub(crate) const FORMATS: &str = "data files are GeoJSON, GeoPackage, FlatGeobuf, Shapefile, CSV, GML, CityGML, CityJSON, KML, GPX, \
+                                  .osm and .osm.pbf";
+
 /// Conversion with GDAL.
 const OGR: &str = "convert it: ogr2ogr out.gpkg FILE";
 

@@ -1,142 +1,17 @@
-//! Coordinate systems, and the common projection and origin of all sources in a run.
+//! Common projection and origin of all sources in a run.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::formats::projection::{Projection, known, unshifted_datum};
-use super::table::{Feature, FeatureTable};
+use super::crs::projection::Projection;
+use super::crs::{Crs, REMEDY};
+use super::features::feature::Feature;
+use super::features::table::FeatureTable;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{number, shown};
 
 /// Maximum absolute coordinate (m) relative to the origin.
 pub(super) const FARTHEST: f64 = 2_000_000.0;
-
-/// Remedy for a coordinate system that cannot be used.
-const REMEDY: &str = "name the right one: source(file, { crs = 4326 }), or convert the file to EPSG:4326";
-
-/// Remedy for a datum without a known shift.
-const SHIFT_REMEDY: &str =
-    "convert the file with a program that has the shift: ogr2ogr -t_srs EPSG:4326 OUT.gpkg IN, or gdalwarp";
-
-/// Coordinate system: from the EPSG registry, or a transverse Mercator projection around a centre.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Crs {
-    /// EPSG code.
-    pub code: Option<u16>,
-    name: String,
-    definition: String,
-    is_geographic: bool,
-    /// Approximate length of one unit (m).
-    metres: f64,
-}
-
-impl Crs {
-    /// Returns the coordinate system with the EPSG code `code`.
-    pub fn epsg(code: u32) -> Result<Self> {
-        // Codes that were in use before EPSG assigned one.
-        let code = if matches!(code, 900_913 | 102_100 | 102_113) { 3857 } else { code };
-        let (code, definition) = known(code)?.ok_or_else(|| {
-            let message = format!("the coordinate system EPSG:{code} is not known");
-            Error::not_found("coordinate system", code, [], message).help(REMEDY)
-        })?;
-        Ok(Self::defined(Some(code), format!("EPSG:{code}"), definition))
-    }
-
-    fn defined(code: Option<u16>, name: String, definition: String) -> Self {
-        let value = |key: &str| definition.split_whitespace().find_map(|part| part.strip_prefix(key));
-        let is_geographic = definition.contains("+proj=longlat");
-        let factor = value("+to_meter=").and_then(|factor| factor.parse::<f64>().ok());
-        let metres = match factor.filter(|factor| *factor > 0.0) {
-            _ if is_geographic => 111_320.0,
-            Some(factor) => factor,
-            None => match value("+units=") {
-                Some("us-ft" | "ft") => 0.3048,
-                Some("km") => 1000.0,
-                _ => 1.0,
-            },
-        };
-        Self { code, name, definition, is_geographic, metres }
-    }
-
-    /// Returns a projection without an EPSG code that has a PROJ definition. Fails if the definition is unusable.
-    #[cfg(feature = "data")]
-    pub(crate) fn of_definition(name: &str, definition: &str) -> Result<Self> {
-        let crs = Self::defined(None, name.to_owned(), definition.to_owned());
-        crs.projection().map(|_| crs)
-    }
-
-    /// Returns a transverse Mercator projection around a centre, given as longitude and latitude (degrees, WGS 84); the
-    /// centre is the origin of its coordinates.
-    pub fn around([longitude, latitude]: [f64; 2]) -> Self {
-        let name = format!("transverse Mercator around {longitude:?}, {latitude:?}");
-        let definition = format!(
-            "+proj=tmerc +lat_0={latitude:?} +lon_0={longitude:?} +k=1 +x_0=0 +y_0=0 +datum=WGS84 +units=m +no_defs"
-        );
-        Self::defined(None, name, definition)
-    }
-
-    /// Returns the name, such as `EPSG:3067`.
-    pub fn name(&self) -> String {
-        self.name.clone()
-    }
-
-    /// Returns true if coordinates are longitude and latitude (degrees).
-    pub fn is_geographic(&self) -> bool {
-        self.is_geographic
-    }
-
-    /// Returns the approximate length of one unit (m).
-    pub(super) fn metres(&self) -> f64 {
-        self.metres
-    }
-
-    /// Returns the factor that converts angles to radians; 1 if coordinates are not angles.
-    fn unit(&self) -> f64 {
-        if self.is_geographic() { 1f64.to_radians() } else { 1.0 }
-    }
-
-    fn projection(&self) -> Result<Projection> {
-        let cannot = |why: String| {
-            Error::argument(format!("the coordinate system {} cannot be used: {why}", self.name()))
-                .help(REMEDY)
-        };
-        if self.definition.contains("+proj=geocent") {
-            return Err(cannot("it counts from the centre of the earth".into()));
-        }
-        Projection::new(&self.definition, cannot)
-    }
-
-    /// Returns the name of its datum if no shift from it to WGS 84 is known.
-    pub(crate) fn unshifted_datum(&self) -> Option<String> {
-        unshifted_datum(self.code, &self.definition)
-    }
-
-    /// Returns the message that positions in longitude and latitude, and in other coordinate systems, are inaccurate, if
-    /// no shift from the datum to WGS 84 is known. `shown` is the file with these coordinates.
-    pub(crate) fn shift_note(&self, shown: &str) -> Option<[String; 2]> {
-        let datum = self.unshifted_datum()?;
-        let text = format!(
-            "{shown} is in {}: no shift from {datum} to WGS 84 is known; places in longitude and latitude, and in other \
-             coordinate systems, may be off by some hundred metres",
-            self.name
-        );
-        Some([text, SHIFT_REMEDY.to_owned()])
-    }
-
-    /// Returns true if lengths in its coordinates are true lengths, except for distortions of thousandths in any
-    /// projection.
-    fn is_true(&self) -> bool {
-        !self.is_geographic() && !matches!(self.code, Some(3857 | 3785 | 3395))
-    }
-
-    /// Returns the definition with metres as the unit, and with the axes east and north.
-    fn in_metres(&self) -> String {
-        let kept = self.definition.split_whitespace().filter(|part| {
-            !["+units=", "+to_meter=", "+axis="].iter().any(|prefix| part.starts_with(prefix))
-        });
-        format!("{} +units=m", kept.collect::<Vec<_>>().join(" "))
-    }
-}
 
 /// Projection and origin of a run.
 #[derive(Clone)]
@@ -173,7 +48,7 @@ impl ReferenceFrame {
         }
         let reached = |frame: &Self| -> Result<Vec<bool>> {
             let passage = frame.passage(&crs)?;
-            let near = |at: &DVec3| within(passage.enter([at[0], at[1]]));
+            let near = |at: &DVec3| is_near(passage.enter([at[0], at[1]]));
             Ok(table.features.par_iter().map(|feature| feature.geometry.points().all(near)).collect())
         };
         if reached(&frame)?.iter().all(|near| *near) {
@@ -257,7 +132,7 @@ impl ReferenceFrame {
             let place = |point: &mut DVec3| -> Option<DVec3> {
                 let was = *point;
                 [point.x, point.y] = passage.enter([was.x, was.y]);
-                let near = within([point.x, point.y]) && was.z.abs() <= FARTHEST;
+                let near = is_near([point.x, point.y]) && was.z.abs() <= FARTHEST;
                 (!near).then_some(was)
             };
             let at = feature.geometry.points_mut().find_map(place)?;
@@ -277,7 +152,7 @@ impl ReferenceFrame {
 }
 
 /// Returns true if a position in a frame (m) is close enough for a model.
-fn within(place: [f64; 2]) -> bool {
+fn is_near(place: [f64; 2]) -> bool {
     // A comparison with NaN is false.
     place.iter().all(|value| value.abs() <= FARTHEST)
 }

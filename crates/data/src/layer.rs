@@ -2,8 +2,9 @@
 
 use rayon::prelude::*;
 
+use super::features::feature::Feature;
+use super::features::table::FeatureTable;
 use super::frame::ReferenceFrame;
-use super::table::{Feature, FeatureTable};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 use burgeon_base::warning::{Warning, WarningKind};

@@ -5,12 +5,11 @@
 //! modelling. Coordinates are projected once, here; all later stages use metres. The crate never panics because of a
 //! file's content, and never changes a file.
 
-mod attribute_pool;
 mod cache;
 mod codepages;
 mod companions;
 mod content;
-mod derived_id;
+mod crs;
 pub mod elevation;
 mod features;
 mod foreign;
@@ -19,14 +18,15 @@ mod formats;
 mod frame;
 mod geojson;
 mod heights;
-mod id;
 mod layer;
+mod layer_choice;
+mod layered_file;
 mod listing;
 pub mod output;
+mod script_features;
 mod source;
-mod table;
+mod source_options;
 mod tags;
-mod taken_ids;
 mod world_place;
 
 use std::path::Path;
@@ -34,19 +34,20 @@ use std::path::Path;
 pub use burgeon_spatial::{Geometry, GeometryKind};
 pub use cache::Cache;
 pub use companions::companions;
-pub use content::LayeredFile;
-pub use features::Features;
+pub use crs::Crs;
+pub use features::{Attribute, Feature, FeatureId, FeatureTable};
 pub use formats::output::{check_geopackage, write_geopackage};
 pub use formats::{FlatGeobuf, GeoPackage, OsmFile};
 #[cfg(feature = "data")]
 pub use formats::{PackageState, TableShape};
-pub use frame::{Crs, Passage, ReferenceFrame};
-pub use id::FeatureId;
+pub use frame::{Passage, ReferenceFrame};
 pub use layer::Layer;
+pub use layered_file::LayeredFile;
 pub use listing::nearest_file;
 pub use listing::{AttributeListing, LayerListing, Listing};
-pub use source::{Source, SourceOptions};
-pub use table::{Attribute, Feature, FeatureTable};
+pub use script_features::Features;
+pub use source::Source;
+pub use source_options::SourceOptions;
 pub use tags::{TagFilter, TagTest};
 pub use world_place::{WORLD_AXES, WorldPlace};
 

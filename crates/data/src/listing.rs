@@ -8,10 +8,14 @@ use std::sync::Arc;
 use glam::DVec3;
 use serde_json::{Value, json};
 
-use super::{Attribute, FeatureTable, GeometryKind, Source, SourceOptions};
+use crate::features::attribute::Attribute;
+use crate::features::table::FeatureTable;
+use crate::source::Source;
+use crate::source_options::SourceOptions;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{escaped, number, shown};
+use burgeon_spatial::GeometryKind;
 
 /// Number of example texts shown for an attribute.
 const EXAMPLES: usize = 3;
@@ -71,7 +75,7 @@ impl Listing {
         let name = path.display().to_string();
         let wanted = SourceOptions { budget: Arc::clone(budget), ..SourceOptions::default() };
         let before = budget.used_bytes();
-        let open = || Source::open_within(path, &name, &wanted).map_err(|error| missing(path, error));
+        let open = || Source::open_within(path, &name, &wanted).map_err(|error| missing_file(path, error));
         let source = open()?;
         let format = source.format();
         let mut layers = Vec::new();
@@ -127,7 +131,7 @@ impl Listing {
 }
 
 /// Suggests the file with the most similar name if there is none at `path`.
-fn missing(path: &Path, error: Error) -> Error {
+fn missing_file(path: &Path, error: Error) -> Error {
     let wanted = path.file_name().map(|name| name.to_string_lossy().into_owned());
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,

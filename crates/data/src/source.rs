@@ -1,60 +1,17 @@
-//! Data files of any format, and options for reading them.
+//! Data files of any format.
 
-use std::fmt;
 use std::io::Read;
 use std::path::Path;
-use std::sync::Arc;
 
-use super::content::{Content, DataFile, LayeredFile};
+use super::content::{Content, DataFile};
+use super::features::table::FeatureTable;
 use super::formats::condition;
-use super::formats::{FlatGeobuf, GeoPackage, OsmFile, layered, unpacked};
-use super::tags::TagFilter;
-use super::{FeatureTable, GeometryKind, foreign, geojson};
-use burgeon_base::budget::Budget;
+use super::formats::{FlatGeobuf, GeoPackage, OsmFile, open_layers, unpack_file};
+use super::layer_choice::choose_layer;
+use super::layered_file::LayeredFile;
+use super::source_options::SourceOptions;
+use super::{foreign, geojson};
 use burgeon_base::error::{Error, Result};
-use burgeon_base::text::{listed, shown};
-
-/// Options for reading a data file.
-#[derive(Clone, Default)]
-pub struct SourceOptions {
-    /// Name of the layer; the only layer if `None`.
-    pub layer: Option<String>,
-    /// SQL condition on features.
-    pub condition: Option<String>,
-    /// Filter of OpenStreetMap tags.
-    pub tags: Option<TagFilter>,
-    /// West, south, east and north of a box that features must touch, in the coordinates of the file.
-    pub within: Option<[f64; 4]>,
-    /// Maximum number of features to read.
-    pub limit: Option<usize>,
-    /// Name of the id attribute.
-    pub id: Option<String>,
-    /// Type of the geometries to read.
-    pub kind: Option<GeometryKind>,
-    /// EPSG code that overrides the file's coordinate system.
-    pub crs: Option<u32>,
-    /// Limits on the resources for reading.
-    pub budget: Arc<Budget>,
-}
-
-impl fmt::Debug for SourceOptions {
-    /// Writes all options that affect the content that is read.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { layer, condition, tags, within, limit, id, kind, crs, budget: _ } = self;
-        write!(f, "{layer:?} {condition:?} {tags:?} {within:?} {limit:?} {id:?} {kind:?} {crs:?}")
-    }
-}
-
-impl SourceOptions {
-    /// Returns the options for a file that does not evaluate conditions itself. The condition and the limit are then
-    /// applied after reading.
-    fn without_condition(&self) -> Self {
-        match &self.condition {
-            Some(_) => Self { condition: None, limit: None, ..self.clone() },
-            None => self.clone(),
-        }
-    }
-}
 
 /// Open data file.
 pub enum Source {
@@ -73,10 +30,6 @@ pub enum Source {
 /// Remedy for a file that is not a data file.
 const NAME_ONE: &str =
     "name a .geojson, .gpkg, .fgb, .shp, .csv, .gml, .kml, .gpx, .city.json or .osm.pbf file";
-
-/// Supported formats.
-pub(crate) const FORMATS: &str = "data files are GeoJSON, GeoPackage, FlatGeobuf, Shapefile, CSV, GML, CityGML, CityJSON, KML, GPX, \
-                                  .osm and .osm.pbf";
 
 /// Number of first bytes used to detect the format.
 const HEAD: u64 = 4096;
@@ -110,8 +63,8 @@ impl Source {
         let file = DataFile::new(file, path, name);
         let head = file.content.head(HEAD).map_err(cannot)?;
         wanted.budget.check()?;
-        match unpacked(file, &head, wanted)? {
-            Ok(source) => Ok(source),
+        match unpack_file(file, &head, wanted)? {
+            Ok(layers) => Ok(Self::Layered(layers)),
             Err(file) => {
                 let head = file.content.head(HEAD).map_err(cannot)?;
                 Self::of_content(file, &head, wanted, cannot)
@@ -139,11 +92,11 @@ impl Source {
             return Ok(Self::FlatGeobuf(Box::new(FlatGeobuf::open(file, &path, &name, wanted)?)));
         }
         if OsmFile::is_one(head) {
-            return Ok(Self::Osm(OsmFile::open(file, wanted)?));
+            return Ok(Self::Osm(OsmFile::open(file, head, wanted)?));
         }
         foreign::refuse_beginning(head, &file.name)?;
-        let file = match layered(file, head, wanted)? {
-            Ok(source) => return Ok(source),
+        let file = match open_layers(file, head, wanted)? {
+            Ok(layers) => return Ok(Self::Layered(layers)),
             Err(file) => file,
         };
         if !matches!(head.trim_ascii_start().first(), Some(b'{' | b'[' | 0x1e | 0xef)) {
@@ -218,72 +171,29 @@ impl Source {
         let mut table = match self {
             Self::Osm(file) => file.read(wanted)?,
             Self::GeoPackage(package) => {
-                let layer = choose(name, &package.layers(), wanted.layer.as_deref())?;
+                let layer = choose_layer(name, &package.layers(), wanted.layer.as_deref())?;
                 package.read(&layer, wanted)?
             }
             Self::FlatGeobuf(file) => {
-                choose(name, &file.layers(), wanted.layer.as_deref())?;
+                choose_layer(name, &file.layers(), wanted.layer.as_deref())?;
                 file.read(wanted)?
             }
             Self::Layered(file) => {
-                let layer = choose(name, &file.layers(), wanted.layer.as_deref())?;
+                let layer = choose_layer(name, &file.layers(), wanted.layer.as_deref())?;
                 file.read(&layer, wanted)?
             }
             Self::GeoJson(table) => {
-                choose(name, std::slice::from_ref(&table.layer), wanted.layer.as_deref())?;
+                choose_layer(name, std::slice::from_ref(&table.layer), wanted.layer.as_deref())?;
                 *table
             }
         };
         if !asks_itself {
             table.identify(wanted.id.as_deref())?;
             if let Some(condition) = &asked.condition {
-                let kept = condition::meeting(&table, condition, asked)?;
+                let kept = condition::find_matches(&table, condition, asked)?;
                 table.keep(&kept, asked.limit);
             }
         }
-        table.finished(asked)
-    }
-}
-
-/// Returns the error for a table without features.
-pub(super) fn nothing(table: &FeatureTable, wanted: &SourceOptions) -> Error {
-    let what = &table.shown;
-    if wanted.limit == Some(0) {
-        return Error::argument(format!("limit = 0 leaves no feature of {what}")).help("leave limit out");
-    }
-    if let Some(condition) = &wanted.condition {
-        return Error::data(format!("no feature of {what} meets where {condition}"))
-            .help("burgeon sources FILE lists attributes and their values");
-    }
-    if let (Some([west, south, east, north]), true) = (wanted.within, table.has_seen()) {
-        let place = format!("{{ {west}, {south}, {east}, {north} }}");
-        return Error::data(format!("no feature of {what} touches within = {place}"))
-            .help("it is { west, south, east, north } in the coordinates of the file, which burgeon sources FILE lists");
-    }
-    if wanted.tags.is_some() {
-        return Error::data(format!("no feature of {what} has such tags"))
-            .help("look up how mappers tag it: https://wiki.openstreetmap.org/wiki/Map_features");
-    }
-    if table.empty > 0 {
-        return Error::data(format!("{what} has no features with a geometry"));
-    }
-    Error::data(format!("{what} has no features"))
-}
-
-/// Returns the requested layer of the file `name`, or its only layer.
-pub(crate) fn choose(name: &str, layers: &[String], wanted: Option<&str>) -> Result<String> {
-    let list = listed(layers.iter().map(String::as_str));
-    match (wanted, layers) {
-        (_, []) => Err(Error::data(format!("{name} has no layers of features"))
-            .help("it holds no features table; was it written as a GeoPackage of features?")),
-        (None, [only]) => Ok(only.clone()),
-        (None, _) => Err(Error::argument(format!("{name} has several layers"))
-            .help(format!("name one behind a colon: \"{name}:{}\"; it has {list}", shown(&layers[0])))),
-        (Some(wanted), _) if layers.iter().any(|layer| layer == wanted) => Ok(wanted.to_owned()),
-        (Some(wanted), _) => {
-            let message = format!("{name} has no layer called {}", shown(wanted));
-            Err(Error::not_found("layer", wanted, layers.iter().map(String::as_str), message)
-                .help(format!("it has {list}")))
-        }
+        table.finish(asked)
     }
 }

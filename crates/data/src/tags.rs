@@ -44,13 +44,13 @@ pub struct TagFilter {
 #[cfg(feature = "data")]
 impl TagFilter {
     /// Returns the first alternative that matches the values of keys.
-    pub(crate) fn chosen<'v>(&self, value: impl Fn(&str) -> Option<&'v [u8]>) -> Option<usize> {
+    pub(crate) fn alternative<'v>(&self, value: impl Fn(&str) -> Option<&'v [u8]>) -> Option<usize> {
         let holds = |tests: &Vec<(Arc<str>, TagTest)>| tests.iter().all(|(key, test)| test.holds(value(key)));
         self.alternatives.iter().position(holds)
     }
 
     /// Returns keys of which a feature must have one; `None` if features without any tag may match.
-    pub(crate) fn needed(&self) -> Option<Vec<&str>> {
+    pub(crate) fn needed_keys(&self) -> Option<Vec<&str>> {
         let first = |tests: &Vec<(Arc<str>, TagTest)>| tests.iter().position(|(_, test)| test.needs());
         let needed = self.alternatives.iter().map(|tests| first(tests).map(|at| &*tests[at].0));
         needed.collect()
@@ -70,17 +70,17 @@ mod tests {
                 vec![("natural".into(), one(&["tree", "wood"])), ("leisure".into(), TagTest::Unset)],
             ],
         };
-        let chosen = |tags: &[(&str, &'static str)]| {
-            filter.chosen(|key| tags.iter().find(|tag| tag.0 == key).map(|tag| tag.1.as_bytes()))
+        let alternative = |tags: &[(&str, &'static str)]| {
+            filter.alternative(|key| tags.iter().find(|tag| tag.0 == key).map(|tag| tag.1.as_bytes()))
         };
-        assert_eq!(chosen(&[("building", "yes"), ("height", "no")]), Some(0));
-        assert_eq!(chosen(&[("building", "no"), ("height", "3")]), None);
-        assert_eq!(chosen(&[("building", "yes")]), None);
-        assert_eq!(chosen(&[("natural", "wood")]), Some(1));
-        assert_eq!(chosen(&[("natural", "wood"), ("leisure", "no")]), Some(1));
-        assert_eq!(chosen(&[("natural", "wood"), ("leisure", "park")]), None);
-        assert_eq!(filter.needed(), Some(vec!["building", "natural"]));
+        assert_eq!(alternative(&[("building", "yes"), ("height", "no")]), Some(0));
+        assert_eq!(alternative(&[("building", "no"), ("height", "3")]), None);
+        assert_eq!(alternative(&[("building", "yes")]), None);
+        assert_eq!(alternative(&[("natural", "wood")]), Some(1));
+        assert_eq!(alternative(&[("natural", "wood"), ("leisure", "no")]), Some(1));
+        assert_eq!(alternative(&[("natural", "wood"), ("leisure", "park")]), None);
+        assert_eq!(filter.needed_keys(), Some(vec!["building", "natural"]));
         let none = TagFilter { alternatives: vec![vec![("building".into(), TagTest::Unset)]] };
-        assert_eq!((none.needed(), none.chosen(|_| None)), (None, Some(0)));
+        assert_eq!((none.needed_keys(), none.alternative(|_| None)), (None, Some(0)));
     }
 }

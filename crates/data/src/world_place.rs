@@ -4,8 +4,10 @@ use std::fmt;
 
 use serde_json::{Value, json};
 
-use super::formats::projection::definition;
-use super::{Crs, ReferenceFrame};
+use super::crs::prj::IN_METRES;
+use super::crs::projection::definition;
+use crate::crs::Crs;
+use crate::frame::ReferenceFrame;
 
 /// Axes of a run's coordinates.
 pub const WORLD_AXES: &str = "x east, y north, z up (m)";
@@ -66,9 +68,6 @@ impl ReferenceFrame {
         if self.epsg.is_some() { Some(text) } else { in_metres(&text, self.definition()) }
     }
 }
-
-/// End of the name of a projection whose unit was changed to metres.
-pub(crate) const IN_METRES: &str = " in metres";
 
 /// Returns the well-known text of a projection with metres as its unit, and with its PROJ definition.
 fn in_metres(text: &str, proj: &str) -> Option<String> {

@@ -42,9 +42,9 @@ impl UndeclaredMarks {
     }
 
     /// Formats the values for messages.
-    pub(super) fn shown(&self) -> String {
-        let shown = |value: &f32| if value.abs() < HUGE { value.to_string() } else { format!("{value:e}") };
-        let values: Vec<String> = self.values.iter().map(shown).collect();
+    pub(super) fn text(&self) -> String {
+        let text = |value: &f32| if value.abs() < HUGE { value.to_string() } else { format!("{value:e}") };
+        let values: Vec<String> = self.values.iter().map(text).collect();
         values.join(" or ")
     }
 }

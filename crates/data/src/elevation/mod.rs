@@ -3,7 +3,7 @@
 //! Input: a file, and information that it does not contain ([`HeightOptions`]). Output: a [`Raster`] without holes in
 //! the file's coordinates, and a [`Relief`] that returns the height at each position in the metres of a run. Readers
 //! (in `heights`, and in `formats`, which may be excluded from a build) only read. Holes, invalid heights and positions
-//! are processed in one place, `raster`.
+//! are processed in one place, `opening`.
 
 mod fill;
 mod format;
@@ -13,6 +13,7 @@ mod hostile;
 mod lattice;
 pub(crate) mod missing;
 mod mosaic;
+mod opening;
 mod raster;
 mod relief;
 mod spline;

@@ -1,7 +1,7 @@
 //! Mosaic of several rasters whose samples are on one grid.
 
 use super::raster::Raster;
-use crate::Crs;
+use crate::crs::Crs;
 use crate::heights::{MOST, SampleGrid, count};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
@@ -48,7 +48,7 @@ pub(super) fn join(mut tiles: Vec<Raster>, budget: &Budget) -> Result<Raster> {
             .help("name files that lie nearer to one another, or coarser ones"));
     }
     budget.take(columns * rows * size_of::<f32>())?;
-    let (name, crs) = (shown(&tiles), first.crs.clone());
+    let (name, crs) = (file_names(&tiles), first.crs.clone());
     let mut raster = Raster::new(&name, [columns, rows], vec![f32::NAN; columns * rows], grid, crs);
     let mut covered = vec![false; columns * rows];
     for (tile, [left, top, right, bottom]) in tiles.into_iter().zip(&parts) {
@@ -79,7 +79,7 @@ pub(super) fn join(mut tiles: Vec<Raster>, budget: &Budget) -> Result<Raster> {
 }
 
 /// Returns a name for messages.
-fn shown(tiles: &[Raster]) -> String {
+fn file_names(tiles: &[Raster]) -> String {
     match tiles {
         [one] => one.name.clone(),
         [first, second] => format!("{} and {}", first.name, second.name),

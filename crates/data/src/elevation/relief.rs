@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use glam::{DMat2, DVec2, DVec3};
 
-use super::super::ReferenceFrame;
 use super::super::frame::FARTHEST;
 use super::lattice::Lattice;
 use super::raster::Raster;
+use crate::frame::ReferenceFrame;
 use crate::heights::{SampleGrid, count};
 use burgeon_base::error::{Error, Result};
 

@@ -59,7 +59,7 @@ impl SplinePatch {
         above.fill(budget)?;
         for hole in holes.iter().map(|hole| *hole as usize) {
             let (column, row) = (count(hole % self.columns), count(hole / self.columns));
-            self.heights[hole] = above.between((column - 0.5) / 2.0, (row - 0.5) / 2.0);
+            self.heights[hole] = above.interpolate((column - 0.5) / 2.0, (row - 0.5) / 2.0);
         }
         drop(above);
         if self.heights.len() <= MOST { self.bend(&holes, budget) } else { self.smooth(&holes, budget) }
@@ -80,7 +80,7 @@ impl SplinePatch {
                 let (mut sum, mut known) = (0.0, 0.0);
                 if places().any(is_known) {
                     for (x, y) in places() {
-                        let height = self.continued(x, y);
+                        let height = self.extrapolate(x, y);
                         if !height.is_nan() {
                             sum += height;
                             known += 1.0;
@@ -95,7 +95,7 @@ impl SplinePatch {
 
     /// Returns the height of a sample. If it is missing, returns the mean of the linear extrapolations of its row and
     /// its column from each side, or NaN if there is none.
-    fn continued(&self, x: usize, y: usize) -> f32 {
+    fn extrapolate(&self, x: usize, y: usize) -> f32 {
         let height = self.heights[y * self.columns + x];
         if !height.is_nan() {
             return height;
@@ -118,7 +118,7 @@ impl SplinePatch {
 
     /// Interpolates the height between the four samples around a position in columns and rows, which may be outside.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the samples")]
-    fn between(&self, x: f64, y: f64) -> f32 {
+    fn interpolate(&self, x: f64, y: f64) -> f32 {
         let (x, y) = (x.clamp(0.0, count(self.columns - 1)), y.clamp(0.0, count(self.rows - 1)));
         let (column, row) = (x as usize, y as usize);
         let (right, below) = ((column + 1).min(self.columns - 1), (row + 1).min(self.rows - 1));

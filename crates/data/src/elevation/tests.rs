@@ -199,6 +199,66 @@ fn a_prj_file_beside_heights_tells_their_coordinate_system() {
 }
 
 #[test]
+fn a_prj_file_beside_heights_tells_the_unit_of_their_heights() {
+    let folder = tempfile::tempdir().unwrap();
+    let plain = geotiff(&[], &[SCALE, TIE], None);
+    let told = geotiff(&[1, 1, 0, 1, 4099, 0, 1, 9001], &[SCALE, TIE], None);
+    // NAD83 / California zone 1 (ftUS) with NAVD88 height (ftUS): as GDAL, PROJ and ESRI write it.
+    let flat = "PROJCS[\"NAD83 / California zone 1 (ftUS)\",AUTHORITY[\"EPSG\",\"2225\"]]";
+    let foot = "UNIT[\"US survey foot\",0.304800609601219]";
+    let vertical =
+        format!("VERT_CS[\"NAVD88 height (ftUS)\",VERT_DATUM[\"NAVD88\",2005],{foot},AXIS[\"Up\",UP]]");
+    let axis = "VERTCRS[\"NAVD88 height (ftUS)\",VDATUM[\"NAVD88\"],CS[vertical,1],AXIS[\"height\",up,LENGTHUNIT[\"US survey foot\",0.304800609601219]]]";
+    let esri = format!(
+        "{flat},VERTCS[\"NAVD88_height_(ftUS)\",VDATUM[\"NAVD88\"],PARAMETER[\"Direction\",1.0],{foot}]"
+    );
+    let all = [
+        format!("COMPD_CS[\"a\",{flat},{vertical}]"),
+        format!("COMPOUNDCRS[\"a\",{flat},{axis}]"),
+        esri,
+        format!("COMPD_CS[\"a\",{flat},VERT_CS[\"a\",AUTHORITY[\"EPSG\",\"6360\"]]]"),
+    ];
+    let path = folder.path().join("a.tif");
+    let height = |bytes: &[u8], prj: &str, wanted: &HeightOptions| {
+        std::fs::write(&path, bytes).unwrap();
+        std::fs::write(path.with_extension("prj"), prj).unwrap();
+        Raster::open(&path, "a.tif", wanted, &Budget::default()).map(|raster| raster.heights[10])
+    };
+    let as_told = HeightOptions::default();
+    for prj in &all {
+        let found = height(&plain, prj, &as_told).unwrap();
+        assert!((found - 3.048_006).abs() < 1e-5, "{prj}: {found}");
+        let by_code = height(&plain, prj, &HeightOptions { crs: Some(2225), ..as_told.clone() }).unwrap();
+        assert!((by_code - 3.048_006).abs() < 1e-5, "{prj}: {by_code}");
+        // The unit in the file counts.
+        assert_eq!(height(&told, prj, &as_told).unwrap(), 10.0);
+    }
+    assert_eq!(height(&plain, flat, &as_told).unwrap(), 10.0);
+    let unclear = format!("COMPD_CS[\"a\",{flat},VERT_CS[\"Local heights\",VERT_DATUM[\"Local\",2005]]]");
+    let error = height(&plain, &unclear, &as_told).unwrap_err();
+    assert_eq!(error.message(), "a.prj does not tell the unit of its heights, \"Local heights\"");
+}
+
+#[test]
+fn a_prj_file_that_is_too_large_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.tif");
+    std::fs::write(&path, geotiff(&[], &[SCALE, TIE], None)).unwrap();
+    let prj = "PROJCS[\"a\",AUTHORITY[\"EPSG\",\"3067\"]]";
+    std::fs::write(path.with_extension("prj"), prj.to_owned() + &" ".repeat((1 << 20) - prj.len())).unwrap();
+    let open = |crs: Option<u32>| {
+        Raster::open(&path, "b/a.tif", &HeightOptions { crs, ..HeightOptions::default() }, &Budget::default())
+    };
+    assert_eq!(open(None).unwrap().crs.unwrap().code, Some(3067));
+    std::fs::write(path.with_extension("prj"), prj.to_owned() + &" ".repeat((1 << 20) + 1 - prj.len()))
+        .unwrap();
+    let error = open(None).unwrap_err();
+    assert_eq!(error.message(), "b/a.prj is larger than 1 MB");
+    assert!(error.remedy().unwrap().contains("elevation(file, { crs = 3067 })"), "{error}");
+    assert_eq!(open(Some(3067)).unwrap().crs.unwrap().code, Some(3067));
+}
+
+#[test]
 fn heights_in_feet_become_metres() {
     let feet = [1, 1, 0, 3, 1024, 0, 1, 1, 3072, 0, 1, 3067, 4099, 0, 1, 9002];
     let raster = read(&geotiff(&feet, &[SCALE, TIE], None), "a.tif").unwrap();

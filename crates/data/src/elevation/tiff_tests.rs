@@ -7,6 +7,9 @@ use tiff::encoder::{Compression, TiffEncoder, colortype};
 use tiff::tags::Tag;
 
 use super::tests::read;
+use super::{HeightOptions, Raster};
+use burgeon_base::budget::Budget;
+use burgeon_base::error::{Error, Limit};
 
 /// TestImage of integers of 16 bits, or of a mask, in one directory of a TIFF.
 #[derive(Clone, Default)]
@@ -173,6 +176,58 @@ fn heights_under_the_mask_of_a_file_are_missing() {
     let unknown = TestImage { compression: 7, ..mask };
     let error = read(&tiff(&[image, unknown]), "a.tif").unwrap_err();
     assert!(error.message().contains("has a mask"), "{error}");
+}
+
+#[test]
+fn a_hostile_mask_obeys_the_limits_of_memory_and_time() {
+    let image = TestImage { tile: Some([16, 16]), ..TestImage::of(12, 10, vec![shorts([100; 256])]) };
+    let mask = TestImage { kind: 4, bits: 8, ..TestImage::of(12, 10, Vec::new()) };
+    let with_mask = |tile: [u32; 2], parts: Vec<Vec<u8>>, compression: u32| {
+        let mask = TestImage { tile: Some(tile), parts, compression, ..mask.clone() };
+        tiff(&[image.clone(), mask])
+    };
+    let within =
+        |bytes: &[u8], budget: &Budget| Raster::read(bytes, "a.tif", &HeightOptions::default(), budget);
+    // Tiles that are much larger than the image, with and without compression.
+    // A budget that was exceeded once stays so.
+    let small = || Budget::within(std::time::Duration::from_secs(60), 20_000_000);
+    for tile in [[65_536, 65_536], [u32::MAX, 16], [16, u32::MAX], [u32::MAX, u32::MAX]] {
+        for compression in [1, 5, 8] {
+            let error = within(&with_mask(tile, vec![vec![7; 40]], compression), &small()).unwrap_err();
+            assert_eq!(error.message(), "reading takes more than 20 MB of memory", "{tile:?} {compression}");
+        }
+    }
+    // Fewer tiles than the image has, none, and tiles without extent.
+    for (tile, parts) in [([4, 4], vec![vec![1; 16]; 2]), ([16, 16], vec![]), ([16, 16], vec![vec![1; 255]])]
+    {
+        let error = within(&with_mask(tile, parts, 1), &small());
+        assert!(error.is_err_and(|error| error.message().contains("has a mask that is damaged")), "{tile:?}");
+    }
+    // Many tiles, of which the time suffices for some.
+    let tiles = with_mask([1, 1], vec![vec![1]; 120], 1);
+    assert_eq!(within(&tiles, &small()).unwrap().filled, 0);
+    let checks = std::sync::atomic::AtomicUsize::new(0);
+    let hurried =
+        Budget::new(usize::MAX, move || match checks.fetch_add(1, std::sync::atomic::Ordering::Relaxed) {
+            0..60 => Ok(()),
+            _ => Err(Error::limit(Limit::Time, "the time is over")),
+        });
+    assert_eq!(within(&tiles, &hurried).unwrap_err().message(), "the time is over");
+}
+
+#[test]
+fn directories_in_a_circle_end_the_search_for_a_mask() {
+    let image = TestImage::of(12, 10, vec![shorts([100; 120])]);
+    let overview = TestImage { kind: 1, ..TestImage::of(6, 5, vec![shorts([100; 30])]) };
+    let circle = |images: &[TestImage]| {
+        let mut bytes = tiff(images);
+        let (first, end) = (bytes[4..8].to_vec(), bytes.len());
+        bytes[end - 4..].copy_from_slice(&first);
+        read(&bytes, "a.tif")
+    };
+    assert_eq!(circle(&[image.clone()]).unwrap_err().message(), "a.tif is a damaged TIFF");
+    let raster = circle(&[image, overview]).unwrap();
+    assert_eq!((raster.filled, raster.heights.len()), (0, 120));
 }
 
 #[test]

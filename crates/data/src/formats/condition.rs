@@ -6,24 +6,30 @@ use std::sync::Arc;
 use rusqlite::types::Value;
 use rusqlite::{Connection, params_from_iter};
 
-use super::geopackage::{guard, quoted, refused, watched};
-use crate::table::{Attribute, FeatureTable};
-use crate::{Feature, SourceOptions};
+use super::geopackage::{guard, query_error, quote, run_watched};
+use crate::features::attribute::Attribute;
+use crate::features::feature::Feature;
+use crate::features::table::FeatureTable;
+use crate::source_options::SourceOptions;
 use burgeon_base::error::{Error, Result};
 
 /// Returns the indices of the features that satisfy `condition`, in their order.
 ///
 /// The columns are the attributes and `id`. Fails like a condition on a GeoPackage: if the condition is invalid, or
 /// does anything but read.
-pub(crate) fn meeting(table: &FeatureTable, condition: &str, wanted: &SourceOptions) -> Result<Vec<usize>> {
-    let fail = |error: rusqlite::Error| refused(&table.shown, wanted, &error);
+pub(crate) fn find_matches(
+    table: &FeatureTable,
+    condition: &str,
+    wanted: &SourceOptions,
+) -> Result<Vec<usize>> {
+    let fail = |error: rusqlite::Error| query_error(&table.shown, wanted, &error);
     let connection = Connection::open_in_memory().map_err(fail)?;
     let columns = columns(table, condition);
-    let names: String = columns.iter().map(|(name, _)| format!(", {}", quoted(name))).collect();
+    let names: String = columns.iter().map(|(name, _)| format!(", {}", quote(name))).collect();
     // The column for the index of a feature has a name that no attribute has.
     let key = "burgeon feature";
     connection
-        .execute_batch(&format!("CREATE TABLE features({} INTEGER PRIMARY KEY{names}); BEGIN", quoted(key)))
+        .execute_batch(&format!("CREATE TABLE features({} INTEGER PRIMARY KEY{names}); BEGIN", quote(key)))
         .map_err(fail)?;
     let places = ", ?".repeat(columns.len());
     let mut insert = connection.prepare(&format!("INSERT INTO features VALUES (?{places})")).map_err(fail)?;
@@ -37,10 +43,10 @@ pub(crate) fn meeting(table: &FeatureTable, condition: &str, wanted: &SourceOpti
     drop(insert);
     connection.execute_batch("COMMIT").map_err(fail)?;
     // The line break ends a comment in the condition.
-    let sql = format!("SELECT {0} FROM features WHERE (\n{condition}\n) ORDER BY {0}", quoted(key));
+    let sql = format!("SELECT {0} FROM features WHERE (\n{condition}\n) ORDER BY {0}", quote(key));
     let (shown, asked, budget) = (table.shown.clone(), wanted.clone(), Arc::clone(&wanted.budget));
-    watched(connection, &wanted.budget, move |mut connection| {
-        let fail = |error: rusqlite::Error| refused(&shown, &asked, &error);
+    run_watched(connection, &wanted.budget, move |mut connection| {
+        let fail = |error: rusqlite::Error| query_error(&shown, &asked, &error);
         guard(&mut connection, &budget).map_err(fail)?;
         let mut statement = connection.prepare(&sql).map_err(fail)?;
         let numbers = statement.query_map([], |row| row.get::<_, i64>(0)).map_err(fail)?;

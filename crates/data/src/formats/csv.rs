@@ -8,11 +8,15 @@
 use std::io::{BufRead, BufReader};
 
 use crate::codepages::{CodePage, WESTERN};
-use crate::content::{ContentReader, DataFile, LayeredFile};
+use crate::content::{ContentReader, DataFile};
+use crate::crs::Crs;
+use crate::features::table::FeatureTable;
 use crate::formats::typing::TextTypes;
-use crate::{Crs, FeatureTable, Geometry, SourceOptions};
+use crate::layered_file::LayeredFile;
+use crate::source_options::SourceOptions;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
+use burgeon_spatial::Geometry;
 use glam::DVec3;
 
 /// Maximum length of a record (bytes).
@@ -340,7 +344,7 @@ impl CsvRecords {
             Ok(text) => std::borrow::Cow::Borrowed(text),
             Err(_) => {
                 self.guessed = true;
-                match CodePage::numbered(WESTERN) {
+                match CodePage::of_number(WESTERN) {
                     Some(page) => page.decode(&self.bytes),
                     None => String::from_utf8_lossy(&self.bytes),
                 }

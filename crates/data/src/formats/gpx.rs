@@ -4,12 +4,16 @@
 
 use glam::DVec3;
 
-use crate::content::{DataFile, LayeredFile};
+use crate::content::DataFile;
+use crate::crs::Crs;
+use crate::features::table::FeatureTable;
 use crate::formats::typing::TextTypes;
 use crate::formats::xml::{Element, Xml, XmlPiece};
-use crate::{Crs, FeatureTable, Geometry, SourceOptions};
+use crate::layered_file::LayeredFile;
+use crate::source_options::SourceOptions;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
+use burgeon_spatial::Geometry;
 
 /// Layers, with the element names of their features.
 const LAYERS: [(&str, &str); 3] = [("waypoints", "wpt"), ("routes", "rte"), ("tracks", "trk")];

@@ -7,13 +7,18 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::content::{DataFile, LayeredFile};
+use crate::content::DataFile;
+use crate::crs::Crs;
+use crate::features::attribute::Attribute;
+use crate::features::table::FeatureTable;
 use crate::formats::typing::TextTypes;
 use crate::formats::xml::{Element, Xml, XmlPiece};
-use crate::{Attribute, Crs, FeatureTable, Geometry, SourceOptions};
+use crate::layered_file::LayeredFile;
+use crate::source_options::SourceOptions;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
+use burgeon_spatial::Geometry;
 
 /// KML file.
 pub(crate) struct KmlFile {

@@ -4,8 +4,9 @@ use glam::DVec3;
 use rusqlite::types::Value as Cell;
 use rusqlite::{Connection, params, params_from_iter};
 
-use super::projection::definition;
-use crate::Attribute;
+use super::geopackage::quote;
+use crate::crs::projection::definition;
+use crate::features::attribute::Attribute;
 use crate::frame::ReferenceFrame;
 use crate::output::{ColumnKind, OutputPlacement, Record, RecordTable, column_kinds};
 use burgeon_base::error::{Error, Result};
@@ -59,19 +60,22 @@ pub fn write_geopackage(
     stop: &Stop,
 ) -> Result<Vec<u8>> {
     let outward = OutputPlacement::native(frame)?;
-    let mut package =
-        PackageWriter { database: Connection::open_in_memory().map_err(failed)?, outward, names: Vec::new() };
-    package.database.execute_batch(SCHEMA).map_err(failed)?;
+    let mut package = PackageWriter {
+        database: Connection::open_in_memory().map_err(output_error)?,
+        outward,
+        names: Vec::new(),
+    };
+    package.database.execute_batch(SCHEMA).map_err(output_error)?;
     package.write_systems()?;
     for table in tables {
         package.write_layer(table, stop)?;
     }
-    package.database.execute_batch("VACUUM").map_err(failed)?;
-    Ok(package.database.serialize("main").map_err(failed)?.to_vec())
+    package.database.execute_batch("VACUUM").map_err(output_error)?;
+    Ok(package.database.serialize("main").map_err(output_error)?.to_vec())
 }
 
 #[allow(clippy::needless_pass_by_value, reason = "as map_err gives it")]
-fn failed(error: rusqlite::Error) -> Error {
+fn output_error(error: rusqlite::Error) -> Error {
     Error::internal(format!("cannot write the GeoPackage: {error}"))
 }
 
@@ -100,7 +104,7 @@ impl PackageWriter<'_> {
             let Some(definition) = definition(code)? else { continue };
             let name = definition.split('"').nth(1).unwrap_or_default();
             let insert = "INSERT INTO gpkg_spatial_ref_sys VALUES (?1, ?2, 'EPSG', ?2, ?3, NULL)";
-            self.database.execute(insert, params![name, code, definition]).map_err(failed)?;
+            self.database.execute(insert, params![name, code, definition]).map_err(output_error)?;
         }
         Ok(())
     }
@@ -112,7 +116,7 @@ impl PackageWriter<'_> {
             table.records.iter().filter_map(|record| record.geometry.as_ref()).any(Geometry::has_heights);
         let kind = kind_name(table);
         let mut create =
-            format!("CREATE TABLE {} (fid INTEGER PRIMARY KEY NOT NULL, {GEOMETRY} {kind}", quoted(&name));
+            format!("CREATE TABLE {} (fid INTEGER PRIMARY KEY NOT NULL, {GEOMETRY} {kind}", quote(&name));
         for (column, kind) in columns.iter().zip(std::iter::once(&ColumnKind::Text).chain(&kinds)) {
             let kind = match kind {
                 ColumnKind::Boolean => "BOOLEAN",
@@ -120,23 +124,23 @@ impl PackageWriter<'_> {
                 ColumnKind::Number => "REAL",
                 ColumnKind::Text => "TEXT",
             };
-            create.push_str(&format!(", {} {kind}", quoted(column)));
+            create.push_str(&format!(", {} {kind}", quote(column)));
         }
         create.push(')');
-        self.database.execute_batch(&format!("{create}; BEGIN")).map_err(failed)?;
+        self.database.execute_batch(&format!("{create}; BEGIN")).map_err(output_error)?;
         let bounds = self.write_records(table, &name, &kinds, high, stop)?;
         let [min_x, min_y, max_x, max_y] = bounds.map(|it| it.is_finite().then_some(it));
         let insert = "INSERT INTO gpkg_contents VALUES (?1, 'features', ?2, '', ?3, ?4, ?5, ?6, ?7, ?8)";
         let row = params![name, table.name, CHANGED, min_x, min_y, max_x, max_y, self.system()];
-        self.database.execute(insert, row).map_err(failed)?;
+        self.database.execute(insert, row).map_err(output_error)?;
         let insert = "INSERT INTO gpkg_geometry_columns VALUES (?1, ?2, ?3, ?4, ?5, 0)";
         self.database
             .execute(insert, params![name, GEOMETRY, kind, self.system(), i32::from(high)])
-            .map_err(failed)?;
+            .map_err(output_error)?;
         let insert = "INSERT INTO gpkg_extensions VALUES (?1, ?2, 'gpkg_rtree_index', \
                       'http://www.geopackage.org/spec120/#extension_rtree', 'write-only')";
-        self.database.execute(insert, params![name, GEOMETRY]).map_err(failed)?;
-        self.database.execute_batch(&format!("{} COMMIT", triggers(&name))).map_err(failed)
+        self.database.execute(insert, params![name, GEOMETRY]).map_err(output_error)?;
+        self.database.execute_batch(&format!("{} COMMIT", triggers(&name))).map_err(output_error)
     }
 
     /// Writes the records and their R-tree. Returns the bounding box of all records.
@@ -148,14 +152,16 @@ impl PackageWriter<'_> {
         high: bool,
         stop: &Stop,
     ) -> Result<LayerBox> {
-        let tree = quoted(&format!("rtree_{name}_{GEOMETRY}"));
+        let tree = quote(&format!("rtree_{name}_{GEOMETRY}"));
         let create = format!("CREATE VIRTUAL TABLE {tree} USING rtree(id, minx, maxx, miny, maxy)");
-        self.database.execute_batch(&create).map_err(failed)?;
+        self.database.execute_batch(&create).map_err(output_error)?;
         let places = vec!["?"; 3 + kinds.len()].join(", ");
-        let insert = format!("INSERT INTO {} VALUES ({places})", quoted(name));
-        let mut insert = self.database.prepare(&insert).map_err(failed)?;
-        let mut index =
-            self.database.prepare(&format!("INSERT INTO {tree} VALUES (?, ?, ?, ?, ?)")).map_err(failed)?;
+        let insert = format!("INSERT INTO {} VALUES ({places})", quote(name));
+        let mut insert = self.database.prepare(&insert).map_err(output_error)?;
+        let mut index = self
+            .database
+            .prepare(&format!("INSERT INTO {tree} VALUES (?, ?, ?, ?, ?)"))
+            .map_err(output_error)?;
         let mut all = NOWHERE;
         for (number, record) in (1_i64..).zip(&table.records) {
             stop.check()?;
@@ -164,16 +170,17 @@ impl PackageWriter<'_> {
                 let mut writer = BlobWriter { outward: &self.outward, high, bounds: NOWHERE };
                 let mut turned = geometry.clone();
                 turned.turn();
-                let blob = writer.blob(&turned, self.system()).ok_or_else(|| nowhere(record, table))?;
+                let blob =
+                    writer.blob(&turned, self.system()).ok_or_else(|| position_error(record, table))?;
                 let bounds @ [low_x, low_y, high_x, high_y] = writer.bounds;
                 if low_x <= high_x {
-                    index.execute(params![number, low_x, high_x, low_y, high_y]).map_err(failed)?;
-                    all = joined(all, bounds);
+                    index.execute(params![number, low_x, high_x, low_y, high_y]).map_err(output_error)?;
+                    all = join_boxes(all, bounds);
                 }
                 cells[1] = Cell::Blob(blob);
             }
             cells.extend(kinds.iter().enumerate().map(|(column, kind)| cell(record.value(column), *kind)));
-            insert.execute(params_from_iter(cells)).map_err(failed)?;
+            insert.execute(params_from_iter(cells)).map_err(output_error)?;
         }
         Ok(all)
     }
@@ -185,13 +192,13 @@ impl PackageWriter<'_> {
         let plain: String =
             name.chars().map(|letter| if letter.is_control() { '_' } else { letter }).collect();
         let plain = if means || plain.is_empty() { format!("layer_{plain}") } else { plain };
-        let name = apart(&plain, &self.names);
+        let name = unique_name(&plain, &self.names);
         self.names.push(name.clone());
         name
     }
 }
 
-fn nowhere(record: &Record, table: &RecordTable) -> Error {
+fn position_error(record: &Record, table: &RecordTable) -> Error {
     let id = burgeon_base::text::shown(&record.id);
     Error::data(format!(
         "{id} of the layer {} cannot be brought to the coordinate system of the data",
@@ -217,7 +224,7 @@ fn column_names(table: &RecordTable) -> Vec<String> {
     for column in &table.columns {
         let plain: String =
             column.chars().map(|letter| if letter.is_control() { '_' } else { letter }).collect();
-        names.push(apart(if plain.is_empty() { "_" } else { &plain }, &names));
+        names.push(unique_name(if plain.is_empty() { "_" } else { &plain }, &names));
     }
     names.split_off(2)
 }
@@ -239,7 +246,7 @@ fn kind_name(table: &RecordTable) -> &'static str {
 }
 
 /// Returns `name`, with a number appended if it is in `taken`; database names are case-insensitive.
-fn apart(name: &str, taken: &[String]) -> String {
+fn unique_name(name: &str, taken: &[String]) -> String {
     let is_taken = |name: &str| taken.iter().any(|known| known.to_lowercase() == name.to_lowercase());
     let mut free = name.to_owned();
     let mut count = 1;
@@ -250,20 +257,15 @@ fn apart(name: &str, taken: &[String]) -> String {
     free
 }
 
-fn joined(a: LayerBox, b: LayerBox) -> LayerBox {
+fn join_boxes(a: LayerBox, b: LayerBox) -> LayerBox {
     [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])]
-}
-
-/// Quotes a name for SQL.
-fn quoted(name: &str) -> String {
-    format!("\"{}\"", name.replace('"', "\"\""))
 }
 
 /// Returns the triggers that update the R-tree of a layer when other programs change it, as the standard requires.
 fn triggers(name: &str) -> String {
-    let (table, tree) = (quoted(name), quoted(&format!("rtree_{name}_{GEOMETRY}")));
+    let (table, tree) = (quote(name), quote(&format!("rtree_{name}_{GEOMETRY}")));
     let geometry = GEOMETRY;
-    let trigger = |kind: &str| quoted(&format!("rtree_{name}_{GEOMETRY}_{kind}"));
+    let trigger = |kind: &str| quote(&format!("rtree_{name}_{GEOMETRY}_{kind}"));
     let there = format!("(NEW.{geometry} NOTNULL AND NOT ST_IsEmpty(NEW.{geometry}))");
     let gone = format!("(NEW.{geometry} ISNULL OR ST_IsEmpty(NEW.{geometry}))");
     let add = format!(
@@ -389,7 +391,7 @@ impl BlobWriter<'_> {
 
     fn point(&mut self, point: DVec3, out: &mut Vec<u8>) -> Option<()> {
         let DVec3 { x, y, z } = self.outward.place(point)?;
-        self.bounds = joined(self.bounds, [x, y, x, y]);
+        self.bounds = join_boxes(self.bounds, [x, y, x, y]);
         out.extend(x.to_le_bytes());
         out.extend(y.to_le_bytes());
         if self.high {

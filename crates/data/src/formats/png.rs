@@ -24,7 +24,7 @@ pub(crate) fn read<'a>(
 ) -> Result<RasterHeader<'a>> {
     let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: MOST * 8 });
     decoder.set_transformations(Transformations::IDENTITY);
-    let info = decoder.read_header_info().map_err(|error| damaged(name, bytes, &error))?;
+    let info = decoder.read_header_info().map_err(|error| damage_error(name, bytes, &error))?;
     let [columns, rows] = [info.width, info.height].map(|side| side as usize);
     let form = (info.color_type, info.bit_depth);
     check_size(name, columns, rows)?;
@@ -40,7 +40,15 @@ pub(crate) fn read<'a>(
         }
         Ok(heights)
     };
-    Ok(RasterHeader { columns, rows, grid: None, crs: Ok(None), is_told: true, heights: Box::new(heights) })
+    Ok(RasterHeader {
+        columns,
+        rows,
+        grid: None,
+        crs: Ok(None),
+        is_told: true,
+        has_unit: true,
+        heights: Box::new(heights),
+    })
 }
 
 /// Layout of the samples.
@@ -60,7 +68,7 @@ impl Samples {
         count: usize,
         budget: &Budget,
     ) -> Result<(Vec<f32>, Option<[f64; 2]>)> {
-        let failed = |error| damaged(name, bytes, &error);
+        let failed = |error| damage_error(name, bytes, &error);
         let mut reader = decoder.read_info().map_err(failed)?;
         let mut heights = Vec::new();
         if reader.info().interlaced {
@@ -145,7 +153,7 @@ fn rgb(sample: &[u8]) -> f32 {
     }
 }
 
-fn damaged(name: &str, bytes: &[u8], error: &DecodingError) -> Error {
+fn damage_error(name: &str, bytes: &[u8], error: &DecodingError) -> Error {
     match error {
         DecodingError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
             let length = bytes.len();

@@ -3,7 +3,8 @@
 
 use std::sync::Arc;
 
-use crate::{Attribute, FeatureTable};
+use crate::features::attribute::Attribute;
+use crate::features::table::FeatureTable;
 use burgeon_base::error::Result;
 
 /// Types that fit all texts of an attribute so far.

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use flate2::read::MultiGzDecoder;
 
 use super::packed::{DEFLATED, can_hold};
-use crate::SourceOptions;
 use crate::content::{Content, DataFile};
+use crate::source_options::SourceOptions;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::text::{listed, shown};
@@ -23,7 +23,7 @@ const PIECE: usize = 1 << 20;
 /// Maximum number of files in a zip file.
 const MOST_FILES: usize = 100_000;
 
-fn damaged(name: &str) -> Error {
+fn damage_error(name: &str) -> Error {
     Error::data(format!("{name} cannot be unpacked")).help("the file is damaged or cut short; get it again")
 }
 
@@ -34,7 +34,8 @@ fn unpack(mut packed: impl Read, name: &str, budget: &Budget) -> Result<Arc<[u8]
         budget.check()?;
         // Memory is reserved before it is allocated; a vector may allocate twice its length.
         let held = budget.hold(2 * (bytes.len() + PIECE))?;
-        let count = (&mut packed).take(PIECE as u64).read_to_end(&mut bytes).map_err(|_| damaged(name))?;
+        let count =
+            (&mut packed).take(PIECE as u64).read_to_end(&mut bytes).map_err(|_| damage_error(name))?;
         if bytes.len() > LARGEST {
             let what = format!("{name} is larger than {} MB when it is unpacked", LARGEST / 1_000_000);
             return Err(Error::limit(Limit::Size, what).help("unpack it, and take a part of it"));
@@ -73,7 +74,7 @@ pub(crate) struct ZippedFiles {
 impl ZippedFiles {
     pub(crate) fn open(file: &DataFile, wanted: &SourceOptions) -> Result<Self> {
         let bytes = file.bytes(LARGEST_PACKED, &wanted.budget)?;
-        let archive = zip::ZipArchive::new(Cursor::new(&bytes)).map_err(|_| damaged(&file.name))?;
+        let archive = zip::ZipArchive::new(Cursor::new(&bytes)).map_err(|_| damage_error(&file.name))?;
         if archive.len() > MOST_FILES {
             return Err(Error::data(format!("{} holds {} files", file.name, archive.len()))
                 .help("unpack it, and name the file of data itself"));
@@ -98,12 +99,13 @@ impl ZippedFiles {
     /// Unpacks one of the files.
     pub(crate) fn file(&self, name: &str, budget: &Budget) -> Result<DataFile> {
         let shown = format!("{} in {}", shown(name), self.name);
-        let mut archive = zip::ZipArchive::new(Cursor::new(&self.bytes)).map_err(|_| damaged(&self.name))?;
-        let entry = archive.by_name(name).map_err(|_| damaged(&shown))?;
+        let mut archive =
+            zip::ZipArchive::new(Cursor::new(&self.bytes)).map_err(|_| damage_error(&self.name))?;
+        let entry = archive.by_name(name).map_err(|_| damage_error(&shown))?;
         let (packed, size) = (entry.compressed_size(), entry.size());
         let [packed, size] = [packed, size].map(|size| usize::try_from(size).unwrap_or(usize::MAX));
         if packed > self.bytes.len() || !can_hold(packed, DEFLATED, size) {
-            return Err(damaged(&shown));
+            return Err(damage_error(&shown));
         }
         let bytes = unpack(entry, &shown, budget)?;
         let path = self.path.with_file_name(Path::new(name).file_name().unwrap_or_default());

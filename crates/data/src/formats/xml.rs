@@ -60,7 +60,7 @@ pub(in crate::formats) struct Xml {
 impl Xml {
     /// Creates a reader at the beginning of a file's `content`.
     pub(in crate::formats) fn new(content: &Content, name: &str, budget: &Arc<Budget>) -> Result<Self> {
-        let cannot = |error: std::io::Error| broken(name, &error.to_string());
+        let cannot = |error: std::io::Error| damage_error(name, &error.to_string());
         let head = content.head(256).map_err(cannot)?;
         let file = content.reader().map_err(cannot)?;
         let unread = Rc::new(Cell::new(0));
@@ -75,6 +75,17 @@ impl Xml {
         reader.config_mut().expand_empty_elements = true;
         let (name, budget) = (name.to_owned(), Arc::clone(budget));
         Ok(Self { reader, buffer: Vec::new(), text: String::new(), depth: 0, name, budget, unread })
+    }
+
+    /// Returns the next element within the one that began at `depth`; `None` at its end.
+    pub(in crate::formats) fn next_child(&mut self, depth: usize) -> Result<Option<Element>> {
+        loop {
+            match self.next()? {
+                XmlPiece::Start(element) => return Ok(Some(element)),
+                XmlPiece::End if self.depth >= depth => {}
+                XmlPiece::End | XmlPiece::Eof => return Ok(None),
+            }
+        }
     }
 
     /// Returns the text since the last start or end of an element.
@@ -94,10 +105,10 @@ impl Xml {
                 .map_err(|error| wrong(&self.name, &error.to_string(), self.reader.buffer_position()))?;
             match event {
                 Event::Start(start) => {
-                    let element = element(&start).map_err(|why| broken(&self.name, &why))?;
+                    let element = element(&start).map_err(|why| damage_error(&self.name, &why))?;
                     self.depth += 1;
                     if self.depth > DEEPEST {
-                        return Err(broken(
+                        return Err(damage_error(
                             &self.name,
                             &format!("its elements are nested more than {DEEPEST} deep"),
                         ));
@@ -108,7 +119,9 @@ impl Xml {
                     self.depth = self.depth.saturating_sub(1);
                     return Ok(XmlPiece::End);
                 }
-                Event::Eof if self.depth > 0 => return Err(broken(&self.name, "it ends within an element")),
+                Event::Eof if self.depth > 0 => {
+                    return Err(damage_error(&self.name, "it ends within an element"));
+                }
                 Event::Eof => return Ok(XmlPiece::Eof),
                 Event::Text(text) => self.text.push_str(&text.into_inner()),
                 Event::CData(text) => self.text.push_str(&text.into_inner()),
@@ -120,12 +133,12 @@ impl Xml {
                         (None, Some(text)) => self.text.push_str(text),
                         (None, None) => {
                             let why = format!("it names the entity {}, which is not known", shown(&name));
-                            return Err(broken(&self.name, &why));
+                            return Err(damage_error(&self.name, &why));
                         }
                     }
                 }
                 Event::DocType(kind) if kind.contains("<!ENTITY") => {
-                    return Err(broken(
+                    return Err(damage_error(
                         &self.name,
                         "it declares entities of its own, which are not followed",
                     ));
@@ -133,7 +146,7 @@ impl Xml {
                 Event::DocType(_) | Event::Comment(_) | Event::PI(_) | Event::Decl(_) | Event::Empty(_) => {}
             }
             if self.text.len() > LONGEST.min(self.budget.memory() / 4) {
-                return Err(broken(&self.name, "it has a text that is too long"));
+                return Err(damage_error(&self.name, "it has a text that is too long"));
             }
         }
     }
@@ -152,7 +165,7 @@ impl Xml {
                 return Ok(all.trim().to_owned());
             }
             if all.len() > LONGEST.min(self.budget.memory() / 4) {
-                return Err(broken(&self.name, "it has a text that is too long"));
+                return Err(damage_error(&self.name, "it has a text that is too long"));
             }
         }
     }
@@ -182,13 +195,13 @@ fn element(start: &BytesStart<'_>) -> std::result::Result<Element, String> {
     Ok(Element { name, attributes })
 }
 
-fn broken(name: &str, why: &str) -> Error {
+fn damage_error(name: &str, why: &str) -> Error {
     Error::data(format!("{name} cannot be read: {why}"))
         .help("the file is damaged or cut short; get it again")
 }
 
 fn wrong(name: &str, why: &str, at: u64) -> Error {
-    broken(name, &format!("at byte {at}: {}", shown(why)))
+    damage_error(name, &format!("at byte {at}: {}", shown(why)))
 }
 
 /// Returns true if a file declares a Latin encoding with one byte per character; fails for encodings other than these
@@ -257,5 +270,43 @@ impl<R: BufRead> BufRead for BoundedReader<R> {
     fn consume(&mut self, count: usize) {
         self.unread.set(self.unread.get() + count);
         self.inner.consume(count);
+    }
+}
+
+/// Returns the local name of the root element of an XML file that begins with `head`; empty if the root begins later.
+/// Returns `None` if the file is not XML.
+pub(super) fn root_name(head: &[u8]) -> Option<String> {
+    let text = String::from_utf8_lossy(head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head));
+    let mut rest = text.trim_start();
+    if !rest.starts_with('<') {
+        return None;
+    }
+    loop {
+        let behind = |end: &str| rest.split_once(end).map_or("", |(_, behind)| behind).trim_start();
+        rest = match rest {
+            _ if rest.starts_with("<?") => behind("?>"),
+            _ if rest.starts_with("<!--") => behind("-->"),
+            _ if rest.starts_with("<!") => behind(">"),
+            _ => break,
+        };
+    }
+    let name = rest.trim_start_matches('<');
+    let end = name
+        .find(|letter: char| !(letter.is_alphanumeric() || ":_.-".contains(letter)))
+        .unwrap_or(name.len());
+    Some(name[..end].rsplit(':').next().unwrap_or_default().to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_outermost_element_is_found_behind_declarations_and_comments() {
+        let of = |text: &str| root_name(text.as_bytes());
+        assert_eq!(of("<?xml version='1.0'?>\n<!-- a <b> -->\n<kml:kml xmlns='x'>").as_deref(), Some("kml"));
+        assert_eq!(of("\u{feff}<gpx>").as_deref(), Some("gpx"));
+        assert_eq!(of("<!DOCTYPE osm><osm version='0.6'/>").as_deref(), Some("osm"));
+        assert_eq!((of("{}"), of("<!-- a").as_deref()), (None, Some("")));
     }
 }

@@ -57,5 +57,5 @@ pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str, wanted: &HeightOptions) -
             _ => Err(damaged()),
         }
     };
-    Ok(RasterHeader { columns, rows, grid, crs, is_told: false, heights: Box::new(heights) })
+    Ok(RasterHeader { columns, rows, grid, crs, is_told: false, has_unit: true, heights: Box::new(heights) })
 }

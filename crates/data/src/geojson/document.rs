@@ -6,8 +6,6 @@ use serde::de::{DeserializeSeed, Error as _, IgnoredAny, MapAccess, SeqAccess, V
 use serde_json::Value;
 use serde_json::value::RawValue;
 
-use super::reader::FeatureReader;
-
 /// Members of a document, excluding the features of its collection.
 #[derive(Default)]
 pub(super) struct DocumentHeader<'t> {
@@ -25,18 +23,22 @@ pub(super) struct DocumentHeader<'t> {
     pub geometries: Option<&'t RawValue>,
 }
 
-/// Reads the document at the start of `text`; returns its members and the rest of the text.
-pub(super) fn document<'t>(
-    reader: &mut FeatureReader<'_>,
+/// Function that takes the text of a feature; it returns false if reading must end.
+type TakeFeature<'f> = dyn FnMut(&str) -> bool + 'f;
+
+/// Reads the document at the start of `text`, and passes the features of its collection to `take`; returns its members
+/// and the rest of the text.
+pub(super) fn read_document<'t>(
+    take: &mut TakeFeature<'_>,
     text: &'t str,
 ) -> Result<(DocumentHeader<'t>, &'t str), serde_json::Error> {
     let mut parser = serde_json::Deserializer::from_str(text);
-    let head = DocumentMembers(reader).deserialize(&mut parser)?;
+    let head = DocumentMembers(take).deserialize(&mut parser)?;
     let end = parser.into_iter::<IgnoredAny>().byte_offset();
     Ok((head, text.get(end..).unwrap_or_default()))
 }
 
-struct DocumentMembers<'r, 'a>(&'r mut FeatureReader<'a>);
+struct DocumentMembers<'r, 'f>(&'r mut TakeFeature<'f>);
 
 impl<'t> DeserializeSeed<'t> for DocumentMembers<'_, '_> {
     type Value = DocumentHeader<'t>;
@@ -80,7 +82,7 @@ impl<'t> Visitor<'t> for DocumentMembers<'_, '_> {
 }
 
 /// List of a collection's features.
-struct FeatureList<'r, 'a>(&'r mut FeatureReader<'a>);
+struct FeatureList<'r, 'f>(&'r mut TakeFeature<'f>);
 
 impl<'t> DeserializeSeed<'t> for FeatureList<'_, '_> {
     type Value = ();
@@ -99,8 +101,7 @@ impl<'t> Visitor<'t> for FeatureList<'_, '_> {
 
     fn visit_seq<A: SeqAccess<'t>>(self, mut list: A) -> Result<(), A::Error> {
         while let Some(feature) = list.next_element::<&'t RawValue>()? {
-            if let Err(error) = self.0.raw_feature(feature.get()) {
-                self.0.failure = Some(error);
+            if !(self.0)(feature.get()) {
                 return Err(A::Error::custom("stopped"));
             }
         }

@@ -7,11 +7,12 @@ use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, Error as _, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde_json::value::RawValue;
 
-use super::reader::{LARGE, words};
-use crate::{Geometry, SourceOptions};
+use super::parser::{LARGE, parser_message};
+use crate::source_options::SourceOptions;
 use burgeon_base::budget::Budget;
 use burgeon_base::text::shown;
 use burgeon_spatial::DEEPEST;
+use burgeon_spatial::Geometry;
 
 #[derive(Deserialize)]
 struct RawGeometry<'a> {
@@ -81,7 +82,7 @@ pub(super) fn read(text: &RawValue, wanted: &SourceOptions) -> Result<Vec<Geomet
 #[cfg(feature = "data")]
 pub(crate) fn geometry_of(text: &str, wanted: &SourceOptions) -> Result<Vec<Geometry>, String> {
     let text: &RawValue = serde_json::from_str(text)
-        .map_err(|error| format!("has a geometry that is none: {}", words(&error)))?;
+        .map_err(|error| format!("has a geometry that is none: {}", parser_message(&error)))?;
     read(text, wanted)
 }
 
@@ -104,7 +105,7 @@ fn geometry(
     parts: &mut Vec<Geometry>,
 ) -> Result<(), String> {
     let raw: RawGeometry<'_> = serde_json::from_str(text.get())
-        .map_err(|error| format!("has a geometry that is none: {}", words(&error)))?;
+        .map_err(|error| format!("has a geometry that is none: {}", parser_message(&error)))?;
     let kind: String = raw
         .r#type
         .and_then(|kind| serde_json::from_str(kind.get()).ok())
@@ -173,7 +174,7 @@ fn is_empty(text: &str) -> bool {
 fn read_as<'t, S: DeserializeSeed<'t>>(text: &'t str, seed: S) -> Result<S::Value, String> {
     let mut parser = serde_json::Deserializer::from_str(text);
     seed.deserialize(&mut parser).map_err(|error| {
-        let why = words(&error);
+        let why = parser_message(&error);
         if why.starts_with("has ") { why } else { format!("has coordinates that cannot be read: {why}") }
     })
 }

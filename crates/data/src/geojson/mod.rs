@@ -5,6 +5,7 @@
 
 mod document;
 mod geometry;
+mod parser;
 mod reader;
 mod stream;
 #[cfg(test)]

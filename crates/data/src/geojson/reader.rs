@@ -4,10 +4,14 @@ use std::borrow::Cow;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::document::{DocumentHeader, document};
+use super::document::{DocumentHeader, read_document};
 use super::geometry;
+use super::parser::{LARGE, parser_message};
 use crate::codepages::{GuessedText, guess};
-use crate::{Attribute, Crs, FeatureTable, SourceOptions};
+use crate::crs::Crs;
+use crate::features::attribute::Attribute;
+use crate::features::table::FeatureTable;
+use crate::source_options::SourceOptions;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 use serde::Deserialize;
@@ -19,9 +23,6 @@ pub(crate) const LARGEST: u64 = 500_000_000;
 
 /// Separator before each text of a sequence.
 pub(super) const RECORD: char = '\u{1e}';
-
-/// Length (bytes) from which memory is reserved before the properties of a feature are parsed.
-pub(super) const LARGE: usize = 1 << 20;
 
 #[derive(Deserialize)]
 struct RawFeature<'a> {
@@ -52,7 +53,7 @@ pub(crate) fn read(bytes: &[u8], path: &Path, name: &str, wanted: &SourceOptions
         Some(GuessedText::Other(text, encoding)) => (Cow::Owned(text), Some(encoding)),
         _ => {
             return Err(Error::data(format!("{name} is a binary file of no format that is known"))
-                .help(format!("{}; convert it: ogr2ogr out.gpkg FILE", crate::source::FORMATS)));
+                .help(format!("{}; convert it: ogr2ogr out.gpkg FILE", crate::foreign::FORMATS)));
         }
     };
     let text = &*text;
@@ -124,7 +125,7 @@ impl<'a> FeatureReader<'a> {
             }
             match self.text(rest) {
                 // Only a single document may name the layer.
-                Ok((head, after)) if first && after.trim().is_empty() => return self.alone(head),
+                Ok((head, after)) if first && after.trim().is_empty() => return self.take_whole(head),
                 Ok((head, after)) => {
                     self.member(head)?;
                     line += lines(&rest[..rest.len() - after.len()]);
@@ -145,11 +146,18 @@ impl<'a> FeatureReader<'a> {
         &mut self,
         text: &'t str,
     ) -> Result<(DocumentHeader<'t>, &'t str), serde_json::Error> {
-        document(self, text)
+        let mut take = |feature: &str| match self.raw_feature(feature) {
+            Ok(()) => true,
+            Err(error) => {
+                self.failure = Some(error);
+                false
+            }
+        };
+        read_document(&mut take, text)
     }
 
     /// Processes a document that is the whole file.
-    pub(super) fn alone(&mut self, head: DocumentHeader<'_>) -> Result<()> {
+    pub(super) fn take_whole(&mut self, head: DocumentHeader<'_>) -> Result<()> {
         self.stop()?;
         self.table.crs = system(head.crs.as_ref());
         if let Some(title) = head.name.as_ref().and_then(Value::as_str).filter(|title| !title.is_empty()) {
@@ -221,7 +229,7 @@ impl<'a> FeatureReader<'a> {
             Ok(feature) => self.feature(&feature),
             Err(error) => {
                 let number = self.number();
-                self.refuse(number.to_string(), &format!("is no feature: {}", words(&error)))
+                self.refuse(number.to_string(), &format!("is no feature: {}", parser_message(&error)))
             }
         }
     }
@@ -239,7 +247,8 @@ impl<'a> FeatureReader<'a> {
             Ok(properties) => properties.unwrap_or_default(),
             Err(error) => {
                 let id = own.unwrap_or_else(|| number.to_string());
-                return self.refuse(id, &format!("has properties that cannot be read: {}", words(&error)));
+                return self
+                    .refuse(id, &format!("has properties that cannot be read: {}", parser_message(&error)));
             }
         };
         let id = own.or_else(|| properties.get("id").and_then(id_text));
@@ -321,7 +330,7 @@ impl<'a> FeatureReader<'a> {
     /// Refuses a text of a sequence that is not JSON, unless the reading must end.
     fn refuse_text(&mut self, line: usize, error: &serde_json::Error) -> Result<()> {
         self.stop()?;
-        self.refuse_line(line, &format!("is not JSON: {}", words(error)))
+        self.refuse_line(line, &format!("is not JSON: {}", parser_message(error)))
     }
 
     fn refuse_line(&mut self, line: usize, why: &str) -> Result<()> {
@@ -337,15 +346,6 @@ fn lines(text: &str) -> usize {
     text.bytes().filter(|byte| *byte == b'\n').count()
 }
 
-/// Returns the parser's message, without the position within a part of the text.
-pub(super) fn words(error: &serde_json::Error) -> String {
-    let text = error.to_string();
-    let why = text.rsplit_once(" at line ").map_or(text.as_str(), |(why, _)| why);
-    let why = why.replace("struct RawFeature", "a feature").replace("a map", "an object");
-    let why = why.replace("struct RawGeometry", "a geometry");
-    shown(&why).into_owned()
-}
-
 /// Returns the error for text that cannot be parsed, with line and column.
 fn not_json(name: &str, text: &str, error: &serde_json::Error) -> Error {
     let at = format!("line {}, column {}", error.line(), error.column());
@@ -354,7 +354,7 @@ fn not_json(name: &str, text: &str, error: &serde_json::Error) -> Error {
         return Error::data(format!("{name} is not GeoJSON: it ends at {at}, where more should follow"))
             .help(format!("{why}; get it again"));
     }
-    Error::data(format!("{name} is not GeoJSON: {} ({at})", words(error)))
+    Error::data(format!("{name} is not GeoJSON: {} ({at})", parser_message(error)))
         .help("GeoJSON is described in RFC 7946")
 }
 

@@ -10,7 +10,8 @@ use serde_json::Deserializer;
 use serde_json::value::RawValue;
 
 use super::reader::{FeatureReader, RECORD, is_sequence};
-use crate::{FeatureTable, SourceOptions};
+use crate::features::table::FeatureTable;
+use crate::source_options::SourceOptions;
 use burgeon_base::budget::{Budget, MemoryReservation};
 use burgeon_base::error::{Error, Result};
 
@@ -182,7 +183,7 @@ impl FeatureReader<'_> {
             }
             let (head, _) = self.text(&object).map_err(|_| Halt::Irregular)?;
             match first && next.is_none() {
-                true => return Ok(self.alone(head)?),
+                true => return Ok(self.take_whole(head)?),
                 false => self.member(head)?,
             }
             first = false;

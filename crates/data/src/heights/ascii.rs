@@ -92,7 +92,15 @@ pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<RasterHeader<'a
     };
     let (expected, length, missing) = (columns * rows, bytes.len(), header.missing);
     let heights = move |budget: &Budget| heights(lines, name, (expected, length), missing, budget);
-    Ok(RasterHeader { columns, rows, grid, crs: Ok(None), is_told: false, heights: Box::new(heights) })
+    Ok(RasterHeader {
+        columns,
+        rows,
+        grid,
+        crs: Ok(None),
+        is_told: false,
+        has_unit: false,
+        heights: Box::new(heights),
+    })
 }
 
 /// Reads the heights in `lines`, numbered from 0, of a file with `expected` heights and `length` bytes.

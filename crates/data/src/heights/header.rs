@@ -1,7 +1,7 @@
 //! Header of a file of heights.
 
 use super::MOST;
-use crate::Crs;
+use crate::crs::Crs;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 
@@ -39,6 +39,8 @@ pub(crate) struct RasterHeader<'a> {
     /// Set if the file or the options define the lowest and highest height; then no height is a marker of missing
     /// values.
     pub is_told: bool,
+    /// Set if the file declares the unit of its heights; the heights are then converted to metres.
+    pub has_unit: bool,
     /// Function that reads the heights, some of which may be missing (NaN). Called only after all other checks have
     /// succeeded.
     pub heights: ReadHeights<'a>,

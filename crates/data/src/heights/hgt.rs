@@ -1,7 +1,7 @@
 //! Reader of SRTM tiles (`.hgt`): a square degree of big-endian 16-bit heights, named after its south-west corner.
 
 use super::{HeightOptions, RasterHeader, SampleGrid, check_size, count};
-use crate::Crs;
+use crate::crs::Crs;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 
@@ -19,7 +19,7 @@ pub(crate) fn read<'a>(bytes: &'a [u8], name: &str, wanted: &HeightOptions) -> R
     let [columns, rows] = size(bytes.len(), name, wanted)?;
     let (grid, crs) = place(name, wanted, [columns, rows])?;
     let heights = move |_: &Budget| Ok(bytes.chunks_exact(2).map(height).collect());
-    Ok(RasterHeader { columns, rows, grid, crs, is_told: false, heights: Box::new(heights) })
+    Ok(RasterHeader { columns, rows, grid, crs, is_told: false, has_unit: true, heights: Box::new(heights) })
 }
 
 /// Returns the height (m) in two bytes.

@@ -33,6 +33,7 @@ pub(crate) fn read<'a, const SIZE: usize>(bytes: &'a [u8], name: &str) -> Result
         grid: None,
         crs: Ok(None),
         is_told: false,
+        has_unit: true,
         heights: Box::new(heights),
     })
 }

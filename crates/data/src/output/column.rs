@@ -1,7 +1,7 @@
 //! Types of columns, determined from their values.
 
 use super::RecordTable;
-use crate::Attribute;
+use crate::features::attribute::Attribute;
 
 /// Type of the values in a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -6,7 +6,7 @@ use glam::DVec3;
 use serde_json::{Map, Value as Json, json};
 
 use super::{OutputPlacement, Record, RecordTable};
-use crate::Attribute;
+use crate::features::attribute::Attribute;
 use crate::frame::ReferenceFrame;
 use burgeon_base::error::{Error, Result};
 use burgeon_spatial::Geometry;
@@ -122,7 +122,9 @@ impl DegreeWriter<'_> {
         let again = points.first().filter(|_| closed);
         let mut last: Option<f64> = None;
         let place = |point: &DVec3| {
-            let Some(DVec3 { x, y, z }) = self.outward.place(*point) else { return Err(self.nowhere()) };
+            let Some(DVec3 { x, y, z }) = self.outward.place(*point) else {
+                return Err(self.position_error());
+            };
             let beyond = last.map_or(0.0, |last| ((last - x) / 360.0).round() * 360.0);
             last = Some(x + beyond);
             // Rounded to 0.1 mm.
@@ -136,7 +138,7 @@ impl DegreeWriter<'_> {
         points.iter().chain(again).map(place).collect()
     }
 
-    fn nowhere(&self) -> Error {
+    fn position_error(&self) -> Error {
         let (id, name) = (burgeon_base::text::shown(&self.record.id), &self.table.name);
         Error::data(format!("{id} of the layer {name} has no longitude and latitude"))
             .help("leave it out, or write a .gpkg, whose places are metres")

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use crate::frame::{Crs, Passage, ReferenceFrame};
+use crate::crs::Crs;
+use crate::frame::{Passage, ReferenceFrame};
 use burgeon_base::error::{Error, Result};
 
 /// Transformation of a run's coordinates to a coordinate system that other programs support.

@@ -1,6 +1,6 @@
 //! Table of records.
 
-use crate::Attribute;
+use crate::features::attribute::Attribute;
 use burgeon_spatial::Geometry;
 
 /// Records with the same attributes.

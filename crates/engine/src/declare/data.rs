@@ -11,7 +11,9 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_data::output::RecordTable;
-use burgeon_data::{Cache, Layer, ReferenceFrame, Source, SourceOptions, nearest_file, split_name};
+use burgeon_data::{
+    Cache, Layer, ReferenceFrame, Source, SourceOptions, companions, nearest_file, split_name,
+};
 use burgeon_kit::{LoadRequest, LoadedObject, Loader, Resources, Table};
 use burgeon_packages::Package;
 
@@ -98,6 +100,9 @@ impl Data {
                 (files.collect::<Result<Vec<_>>>()?.concat(), asker)
             }
         };
+        for (_, path) in &files {
+            seek_companions(session, path);
+        }
         let (own, path) = &files[0];
         let mut known = self.known.lock().recover();
         let key = format!("{kind} {files:?} {:?} {fields:?}", asker.map(|asker| &asker.manifest.name));
@@ -186,9 +191,7 @@ fn read(
         );
     }
     let path = find(session, asker, "data file", name)?;
-    for beside in burgeon_data::companions(&path) {
-        session.seek(&beside, beside.exists());
-    }
+    seek_companions(session, &path);
     let cache = session.options.inputs.cache.as_deref();
     let key = match cache {
         Some(_) => Cache::key(&path, name, &wanted, known.frame.as_ref())?,
@@ -226,9 +229,15 @@ fn read(
     Ok(layer)
 }
 
-/// Returns the files named by `name`, sorted; at least one.
-///
-/// If `loader` accepts several files, `name` can be a folder or a pattern with `*` and `?`.
+/// Takes notice of the files that are read with the one at `path`, also of those that may be added later.
+fn seek_companions(session: &Session, path: &Path) {
+    for beside in companions(path) {
+        session.seek(&beside, beside.exists());
+    }
+}
+
+/// The files that a script means by `name`: one, or, where `loader` takes several, those in a folder or those whose names are as a
+/// pattern says, in their order. At least one.
 fn find_all(
     session: &Session,
     asker: Option<&Package>,

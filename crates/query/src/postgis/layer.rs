@@ -19,7 +19,7 @@ impl Server {
     ///
     /// Fails if there is no such table, or if the table has no geometries.
     pub fn read(&self, wanted: &SourceOptions) -> Result<FeatureTable> {
-        self.table(wanted)?.finished(wanted)
+        self.table(wanted)?.finish(wanted)
     }
 
     /// Lists the layers, as [`Listing::read`] lists the layers of a file.

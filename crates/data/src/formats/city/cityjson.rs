@@ -3,18 +3,21 @@
 use std::fmt;
 use std::sync::Arc;
 
-use glam::DVec3;
 use rustc_hash::FxHashMap;
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, Visitor};
 use serde_json::Value;
 use serde_json::value::RawValue;
 
+use super::boundaries::{CityGeometry, CityVertices, Transform, add_geometry};
 use super::model::{CityRecord, CityValue};
-use super::shape::{CityShape, CitySurface, SurfaceRole};
-use crate::content::{DataFile, LayeredFile};
+use crate::content::DataFile;
+use crate::crs::Crs;
+use crate::features::attribute::Attribute;
+use crate::features::table::FeatureTable;
 use crate::formats::typing::TextTypes;
-use crate::{Attribute, Crs, FeatureTable, SourceOptions};
+use crate::layered_file::LayeredFile;
+use crate::source_options::SourceOptions;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
@@ -46,12 +49,6 @@ struct CityJsonDocument<'a> {
     objects: Option<ObjectList<'a>>,
     #[serde(default)]
     vertices: Vec<Vec<f64>>,
-}
-
-#[derive(Deserialize, Clone)]
-struct Transform {
-    scale: [f64; 3],
-    translate: [f64; 3],
 }
 
 /// Objects by id, in file order.
@@ -91,56 +88,6 @@ struct RawObject<'a> {
     parents: Vec<String>,
     #[serde(default)]
     children: Vec<String>,
-}
-
-#[derive(Deserialize)]
-struct CityGeometry<'a> {
-    r#type: String,
-    #[serde(default)]
-    lod: Option<Value>,
-    #[serde(borrow, default)]
-    boundaries: Option<&'a RawValue>,
-    #[serde(default)]
-    semantics: Option<Semantics>,
-}
-
-#[derive(Deserialize)]
-struct Semantics {
-    #[serde(default)]
-    surfaces: Vec<SemanticSurface>,
-    #[serde(default)]
-    values: Value,
-}
-
-#[derive(Deserialize)]
-struct SemanticSurface {
-    #[serde(default)]
-    r#type: String,
-}
-
-/// Vertices of a document.
-struct CityVertices {
-    places: Vec<Vec<f64>>,
-    transform: Option<Transform>,
-}
-
-impl CityVertices {
-    fn ring(&self, numbers: &[usize]) -> std::result::Result<Vec<DVec3>, String> {
-        numbers.iter().map(|number| self.place(*number)).collect()
-    }
-
-    fn place(&self, number: usize) -> std::result::Result<DVec3, String> {
-        let place = self
-            .places
-            .get(number)
-            .ok_or_else(|| format!("names the vertex {number}, which the file does not have"))?;
-        let [x, y, z] = place[..] else { return Err(format!("has a vertex of {} numbers", place.len())) };
-        let place = DVec3::new(x, y, z);
-        Ok(match &self.transform {
-            Some(Transform { scale, translate }) => place * DVec3::from(*scale) + DVec3::from(*translate),
-            None => place,
-        })
-    }
 }
 
 impl CityJson {
@@ -283,7 +230,7 @@ fn read_document(
     if let Some(name) =
         metadata.as_ref().and_then(|metadata| metadata.get("referenceSystem")).and_then(Value::as_str)
     {
-        table.crs = named(name);
+        table.crs = system_named(name);
     }
     let CityJsonDocument { objects, vertices, transform, .. } = document;
     let vertices = CityVertices { places: vertices, transform };
@@ -310,7 +257,7 @@ fn read_document(
 }
 
 /// Returns the coordinate system of a reference. Its coordinates are always in the order east, north, height.
-fn named(name: &str) -> Result<Crs> {
+fn system_named(name: &str) -> Result<Crs> {
     let code = name.rsplit(['/', ':']).next().and_then(|code| code.parse().ok());
     let code: u32 = code.ok_or_else(|| {
         Error::data(format!("the coordinate system \"{}\" is not known", shown(name)))
@@ -399,104 +346,4 @@ fn single(
         }
     }
     Ok(Ok((made, raw.children)))
-}
-
-/// Rings of a surface, as vertex indices.
-type SurfaceRings = Vec<Vec<usize>>;
-
-/// Adds a geometry to a shape.
-fn add_geometry(
-    geometry: &CityGeometry<'_>,
-    vertices: &CityVertices,
-    shape: &mut CityShape,
-    budget: &Budget,
-) -> Result<std::result::Result<(), String>> {
-    let Some(text) = geometry.boundaries.map(RawValue::get) else { return Ok(Ok(())) };
-    let level = match &geometry.lod {
-        Some(Value::Number(number)) => number.as_f64(),
-        Some(Value::String(text)) => text.parse().ok(),
-        _ => None,
-    };
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is clamped")]
-    let level = (level.unwrap_or(1.0) * 10.0).round().clamp(0.0, 100.0) as u32;
-    let wrong = |error: serde_json::Error| {
-        format!("has boundaries that cannot be read: {}", shown(&error.to_string()))
-    };
-    let is_solid = geometry.r#type.ends_with("Solid");
-    let read = || -> std::result::Result<(Vec<SurfaceRings>, Vec<usize>), String> {
-        match &*geometry.r#type {
-            "MultiSurface" | "CompositeSurface" => {
-                Ok((serde_json::from_str(text).map_err(wrong)?, Vec::new()))
-            }
-            "Solid" => {
-                let shells: Vec<Vec<SurfaceRings>> = serde_json::from_str(text).map_err(wrong)?;
-                Ok((shells.into_iter().flatten().collect(), Vec::new()))
-            }
-            "MultiSolid" | "CompositeSolid" => {
-                let solids: Vec<Vec<Vec<SurfaceRings>>> = serde_json::from_str(text).map_err(wrong)?;
-                Ok((solids.into_iter().flatten().flatten().collect(), Vec::new()))
-            }
-            "MultiPoint" | "GeometryInstance" => Ok((Vec::new(), serde_json::from_str(text).map_err(wrong)?)),
-            "MultiLineString" => {
-                let lines: SurfaceRings = serde_json::from_str(text).map_err(wrong)?;
-                Ok((vec![lines], Vec::new()))
-            }
-            other => Err(format!("has a geometry of type \"{}\", which is not known", shown(other))),
-        }
-    };
-    let (surfaces, points) = match read() {
-        Ok(read) => read,
-        Err(why) => return Ok(Err(why)),
-    };
-    let mut roles = Vec::new();
-    if let Some(semantics) = &geometry.semantics {
-        collect_roles(&semantics.values, &semantics.surfaces, &mut roles, 0);
-    }
-    for (number, rings) in surfaces.into_iter().enumerate() {
-        budget.tick()?;
-        let rings: std::result::Result<Vec<Vec<DVec3>>, String> =
-            rings.iter().map(|ring| vertices.ring(ring)).collect();
-        let rings = match rings {
-            Ok(rings) => rings,
-            Err(why) => return Ok(Err(why)),
-        };
-        if geometry.r#type == "MultiLineString" {
-            shape.lines.extend(rings);
-            continue;
-        }
-        let told = roles.get(number).copied().flatten();
-        let role = match told {
-            Some(role) => role,
-            None if level < 10 && !is_solid => SurfaceRole::Footprint,
-            None => SurfaceRole::Other,
-        };
-        shape.surfaces.push(CitySurface { rings, role, level, is_solid });
-    }
-    for number in points {
-        match vertices.place(number) {
-            Ok(place) => shape.points.push(place),
-            Err(why) => return Ok(Err(why)),
-        }
-    }
-    Ok(Ok(()))
-}
-
-/// Collects the roles of surfaces, in the order of the boundaries.
-fn collect_roles(
-    values: &Value,
-    surfaces: &[SemanticSurface],
-    roles: &mut Vec<Option<SurfaceRole>>,
-    depth: usize,
-) {
-    let Value::Array(values) = values else { return };
-    for value in values {
-        match value {
-            Value::Array(_) if depth < 4 => collect_roles(value, surfaces, roles, depth + 1),
-            value => {
-                let number = value.as_u64().and_then(|number| usize::try_from(number).ok());
-                let surface = number.and_then(|number| surfaces.get(number));
-                roles.push(surface.map(|surface| SurfaceRole::named(&surface.r#type)));
-            }
-        }
-    }
 }

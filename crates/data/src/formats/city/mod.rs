@@ -5,6 +5,7 @@
 //!
 //! Source: OGC 12-019, 20-010 and 21-006r2, CityGML 2 and 3; OGC 20-072r5, CityJSON.
 
+mod boundaries;
 mod cityjson;
 mod model;
 mod shape;

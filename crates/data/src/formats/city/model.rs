@@ -1,8 +1,9 @@
 //! City objects, and their conversion to features.
 
 use super::shape::CityShape;
+use crate::features::attribute::Attribute;
+use crate::features::table::FeatureTable;
 use crate::formats::typing::{TextTypes, as_number};
-use crate::{Attribute, FeatureTable};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 

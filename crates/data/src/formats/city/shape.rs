@@ -2,9 +2,9 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::Geometry;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
+use burgeon_spatial::Geometry;
 use burgeon_spatial::union_all;
 
 /// Role of a surface.
@@ -22,7 +22,7 @@ pub(in crate::formats) enum SurfaceRole {
 
 impl SurfaceRole {
     /// Returns the role of an element or semantic object called `name`.
-    pub(in crate::formats) fn named(name: &str) -> Self {
+    pub(in crate::formats) fn of_name(name: &str) -> Self {
         match name {
             "GroundSurface" => Self::Ground,
             "RoofSurface" => Self::Roof,

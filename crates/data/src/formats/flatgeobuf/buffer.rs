@@ -15,14 +15,14 @@ pub(super) struct BufferTable<'a> {
 }
 
 /// Returns a fixed number of bytes at a position.
-fn fixed<const N: usize>(bytes: &[u8], at: usize) -> Result<[u8; N], BufferDamage> {
+fn bytes_at<const N: usize>(bytes: &[u8], at: usize) -> Result<[u8; N], BufferDamage> {
     let found = bytes.get(at..).and_then(<[u8]>::first_chunk::<N>);
     found.copied().ok_or(ENDS)
 }
 
 /// Returns the target of the offset at `at`.
 fn follow(bytes: &[u8], at: usize) -> Result<usize, BufferDamage> {
-    let offset = u32::from_le_bytes(fixed(bytes, at)?) as usize;
+    let offset = u32::from_le_bytes(bytes_at(bytes, at)?) as usize;
     at.checked_add(offset).filter(|to| *to < bytes.len()).ok_or(ENDS)
 }
 
@@ -33,23 +33,23 @@ impl<'a> BufferTable<'a> {
     }
 
     fn new(bytes: &'a [u8], at: usize) -> Result<Self, BufferDamage> {
-        let back = i32::from_le_bytes(fixed(bytes, at)?);
+        let back = i32::from_le_bytes(bytes_at(bytes, at)?);
         let list = i64::try_from(at).ok().map(|at| at - i64::from(back));
         let list = list.and_then(|list| usize::try_from(list).ok()).ok_or(ENDS)?;
-        let size = usize::from(u16::from_le_bytes(fixed(bytes, list)?));
+        let size = usize::from(u16::from_le_bytes(bytes_at(bytes, list)?));
         let fields = list.checked_add(size).and_then(|end| bytes.get(list + 4..end)).ok_or(ENDS)?;
         Ok(Self { bytes, at, fields })
     }
 
     /// Returns the position of a field, if it is present.
     fn field(&self, number: usize) -> Option<usize> {
-        let offset = u16::from_le_bytes(fixed(self.fields, number * 2).ok()?);
+        let offset = u16::from_le_bytes(bytes_at(self.fields, number * 2).ok()?);
         (offset > 0).then_some(self.at + usize::from(offset))
     }
 
     /// Returns a field with a fixed number of bytes, if it is present.
-    pub(super) fn fixed<const N: usize>(&self, number: usize) -> Result<Option<[u8; N]>, BufferDamage> {
-        self.field(number).map(|at| fixed(self.bytes, at)).transpose()
+    pub(super) fn field_bytes<const N: usize>(&self, number: usize) -> Result<Option<[u8; N]>, BufferDamage> {
+        self.field(number).map(|at| bytes_at(self.bytes, at)).transpose()
     }
 
     /// Returns the table in a field, if it is present.
@@ -61,7 +61,7 @@ impl<'a> BufferTable<'a> {
     pub(super) fn list(&self, number: usize, size: usize) -> Result<&'a [u8], BufferDamage> {
         let Some(at) = self.field(number) else { return Ok(&[]) };
         let at = follow(self.bytes, at)?;
-        let count = u32::from_le_bytes(fixed(self.bytes, at)?) as usize;
+        let count = u32::from_le_bytes(bytes_at(self.bytes, at)?) as usize;
         let begin = at + 4;
         let end = count.checked_mul(size).and_then(|length| begin.checked_add(length));
         end.and_then(|end| self.bytes.get(begin..end)).ok_or(ENDS)

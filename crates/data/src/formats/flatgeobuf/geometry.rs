@@ -4,9 +4,9 @@ use glam::DVec3;
 
 use super::buffer::{BufferDamage, BufferTable};
 use super::header::doubles;
-use crate::Geometry;
 use burgeon_base::budget::Budget;
 use burgeon_spatial::DEEPEST;
+use burgeon_spatial::Geometry;
 
 /// Adds the parts of a geometry of type `kind`; if `kind` is 0, the geometry may contain its own type. Fails with the
 /// reason.
@@ -22,7 +22,7 @@ pub(super) fn read(
         return Err(format!("is nested more than {DEEPEST} deep"));
     }
     let broken = |why: BufferDamage| format!("has a geometry that {why}");
-    let kind = match (kind, table.fixed(6).map_err(broken)?) {
+    let kind = match (kind, table.field_bytes(6).map_err(broken)?) {
         (0, Some([own])) => own,
         (kind, _) => kind,
     };

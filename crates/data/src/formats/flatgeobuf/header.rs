@@ -1,7 +1,7 @@
 //! FlatGeobuf header: columns, number of features, and coordinate system.
 
 use super::buffer::{BufferDamage, BufferTable};
-use crate::Crs;
+use crate::crs::Crs;
 use burgeon_base::error::{Error, Result as Checked};
 use burgeon_base::text::shown;
 
@@ -54,10 +54,10 @@ impl LayerHeader {
         Ok(Self {
             name: table.text(0)?.unwrap_or_default(),
             bounds,
-            kind: table.fixed(2)?.map_or(0, |[kind]| kind),
+            kind: table.field_bytes(2)?.map_or(0, |[kind]| kind),
             columns: columns(&table, 7)?,
-            count: table.fixed(8)?.map_or(0, u64::from_le_bytes),
-            fan: table.fixed(9)?.map_or(16, u16::from_le_bytes).into(),
+            count: table.field_bytes(8)?.map_or(0, u64::from_le_bytes),
+            fan: table.field_bytes(9)?.map_or(16, u16::from_le_bytes).into(),
             crs: system(table.table(10)?)?,
         })
     }
@@ -69,8 +69,8 @@ pub(super) fn columns(table: &BufferTable<'_>, number: usize) -> Result<Vec<Colu
         let table = table?;
         Ok(Column {
             name: table.text(0)?.ok_or("has a column without a name")?,
-            kind: table.fixed(1)?.map_or(0, |[kind]| kind),
-            is_key: table.fixed(9)? == Some([1]),
+            kind: table.field_bytes(1)?.map_or(0, |[kind]| kind),
+            is_key: table.field_bytes(9)? == Some([1]),
         })
     };
     table.tables(number)?.map(column).collect()
@@ -82,7 +82,7 @@ fn system(table: Option<BufferTable<'_>>) -> Result<Checked<Crs>, BufferDamage> 
     let none = Err(Error::data("the layer has no coordinate system").help(remedy));
     let Some(table) = table else { return Ok(none) };
     let organization = table.text(0)?.unwrap_or_default();
-    let code = table.fixed(1)?.map_or(0, i32::from_le_bytes);
+    let code = table.field_bytes(1)?.map_or(0, i32::from_le_bytes);
     let code = match (u32::try_from(code), table.text(5)?.and_then(|text| text.parse().ok())) {
         (Ok(0) | Err(_), other) => other.unwrap_or(0),
         (Ok(code), _) => code,

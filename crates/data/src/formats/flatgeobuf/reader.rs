@@ -9,8 +9,11 @@ use super::buffer::{BufferDamage, BufferTable};
 use super::geometry;
 use super::header::{Column, LayerHeader, columns};
 use super::index::{BoxEntry, Levels};
-use crate::{Attribute, FeatureTable, Geometry, SourceOptions};
+use crate::features::attribute::Attribute;
+use crate::features::table::FeatureTable;
+use crate::source_options::SourceOptions;
 use burgeon_base::error::{Error, Result};
+use burgeon_spatial::Geometry;
 
 /// First bytes of a file; the fourth byte is the version.
 const MAGIC: &[u8] = b"fgb\x03fgb";
@@ -41,8 +44,8 @@ impl FlatGeobuf {
     }
 
     pub(crate) fn open(mut file: File, path: &Path, name: &str, wanted: &SourceOptions) -> Result<Self> {
-        let damaged = |why: &str| damaged(name, why);
-        let cannot = |error: std::io::Error| damaged(&error.to_string());
+        let damage_error = |why: &str| damage_error(name, why);
+        let cannot = |error: std::io::Error| damage_error(&error.to_string());
         let end = file.seek(SeekFrom::End(0)).map_err(cannot)?;
         file.rewind().map_err(cannot)?;
         let mut head = [0; 12];
@@ -57,12 +60,12 @@ impl FlatGeobuf {
         let (_, size) = head.split_at(8);
         let size = u64::from(u32::from_le_bytes([size[0], size[1], size[2], size[3]]));
         if size > LARGEST_HEADER || size > end - 12 {
-            return Err(damaged(&format!("it has a header of {size} bytes")));
+            return Err(damage_error(&format!("it has a header of {size} bytes")));
         }
         let _held = wanted.budget.hold(usize::try_from(size).unwrap_or(usize::MAX) * 4)?;
         let mut bytes = vec![0; usize::try_from(size).unwrap_or_default()];
         file.read_exact(&mut bytes).map_err(cannot)?;
-        let header = LayerHeader::read(&bytes).map_err(|why| damaged(&format!("its header {why}")))?;
+        let header = LayerHeader::read(&bytes).map_err(|why| damage_error(&format!("its header {why}")))?;
         let index = 12 + size;
         let levels = Levels::new(header.count, header.fan);
         let taken = match (&levels, header.fan > 0 && header.count > 0) {
@@ -71,7 +74,7 @@ impl FlatGeobuf {
         };
         let features = taken.and_then(|taken| index.checked_add(taken)).filter(|features| *features <= end);
         let Some(features) = features else {
-            return Err(damaged(&format!("it is too short for an index of {} features", header.count)));
+            return Err(damage_error(&format!("it is too short for an index of {} features", header.count)));
         };
         let stem =
             path.file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned());
@@ -89,14 +92,14 @@ impl FlatGeobuf {
         table.names = self.header.columns.iter().map(|column| column.name.clone()).collect();
         match (&self.levels, wanted.within) {
             (Some(levels), Some(_)) => {
-                let damaged = |why: &str| damaged(&self.name, why);
+                let damage_error = |why: &str| damage_error(&self.name, why);
                 let touch = |bounds| table.concerns(Some(bounds));
                 let place = (self.index, self.header.fan);
-                let found = levels.search(&self.file, place, touch, (&wanted.budget, &damaged))?;
+                let found = levels.search(&self.file, place, touch, (&wanted.budget, &damage_error))?;
                 let mut reader = self.reader(self.features);
                 for (number, to) in found {
                     let at = self.features.checked_add(to).filter(|at| *at < self.end);
-                    let at = at.ok_or_else(|| damaged("its index leads beyond its end"))?;
+                    let at = at.ok_or_else(|| damage_error("its index leads beyond its end"))?;
                     reader.seek_relative_to(at)?;
                     self.feature(&mut reader, (number, None), &mut table, wanted)?;
                     if table.is_full() {
@@ -119,9 +122,9 @@ impl FlatGeobuf {
             let entry = match &mut leaves {
                 Some(leaves) if number < self.header.count => {
                     let entry = BoxEntry::read(&mut leaves.file);
-                    let entry = entry.map_err(|error| damaged(&self.name, &error.to_string()))?;
+                    let entry = entry.map_err(|error| damage_error(&self.name, &error.to_string()))?;
                     if self.features.checked_add(entry.to) != Some(reader.at) {
-                        return Err(damaged(&self.name, "its index leads to where no feature begins"));
+                        return Err(damage_error(&self.name, "its index leads to where no feature begins"));
                     }
                     Some(entry)
                 }
@@ -133,7 +136,7 @@ impl FlatGeobuf {
         let count = self.header.count;
         if count > 0 && number != count && !table.is_full() {
             let has = format!("it has {number} features, and says that it has {count}");
-            return Err(damaged(&self.name, &has));
+            return Err(damage_error(&self.name, &has));
         }
         Ok(())
     }
@@ -236,7 +239,7 @@ impl FlatGeobuf {
 type PropertyList = (Vec<(usize, Attribute)>, Option<String>);
 
 /// Returns the error for damaged bytes.
-fn damaged(name: &str, why: &str) -> Error {
+fn damage_error(name: &str, why: &str) -> Error {
     Error::data(format!("{name} cannot be read: {why}"))
         .help("the file is damaged or cut short; get it again")
 }
@@ -288,25 +291,25 @@ impl FgbReader<'_> {
     /// Moves to another position.
     fn seek_relative_to(&mut self, at: u64) -> Result<()> {
         let offset = at.cast_signed() - self.at.cast_signed();
-        self.file.seek_relative(offset).map_err(|error| damaged(self.name, &error.to_string()))?;
+        self.file.seek_relative(offset).map_err(|error| damage_error(self.name, &error.to_string()))?;
         self.at = at;
         Ok(())
     }
 
     /// Returns the bytes of the next feature, which must end before `end`.
     fn next(&mut self, end: u64, wanted: &SourceOptions) -> Result<&[u8]> {
-        let ends = |_| damaged(self.name, &format!("the feature at byte {} is cut short", self.at));
+        let ends = |_| damage_error(self.name, &format!("the feature at byte {} is cut short", self.at));
         let mut length = [0; 4];
         self.file.read_exact(&mut length).map_err(ends)?;
         let length = u32::from_le_bytes(length);
         let after = self.at + 4 + u64::from(length);
         if after > end {
-            return Err(damaged(self.name, &format!("the feature at byte {} is cut short", self.at)));
+            return Err(damage_error(self.name, &format!("the feature at byte {} is cut short", self.at)));
         }
         let length = length as usize;
         let _held = wanted.budget.hold(length)?;
         self.bytes.resize(length, 0);
-        self.file.read_exact(&mut self.bytes).map_err(|_| damaged(self.name, "it is cut short"))?;
+        self.file.read_exact(&mut self.bytes).map_err(|_| damage_error(self.name, "it is cut short"))?;
         self.at = after;
         Ok(&self.bytes)
     }

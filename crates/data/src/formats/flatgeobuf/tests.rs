@@ -132,6 +132,13 @@ fn only_what_touches_a_box_is_read_and_the_same_with_and_without_an_index() {
             );
         }
     }
+    // Their boxes intersect that of the options; the first line touches a corner of it, the second line misses it.
+    let lines = ["LINESTRING(0 0, 10 10)", "LINESTRING(0 1, 9 10)"];
+    for write_index in [true, false] {
+        let wanted = SourceOptions { within: Some([6.0, 0.0, 10.0, 6.0]), ..SourceOptions::default() };
+        let made = made(GeometryType::LineString, &lines, FgbWriterOptions { write_index, ..options(3067) });
+        assert_eq!(shapes(&read(&made, &wanted).unwrap()), ["LINESTRING (0 0, 10 10)"]);
+    }
     let limited = SourceOptions { limit: Some(3), ..SourceOptions::default() };
     assert_eq!(read(&made(GeometryType::Point, &texts, options(3067)), &limited).unwrap().features.len(), 3);
 }

@@ -5,14 +5,18 @@
 //!
 //! Source: OGC 12-128r18, GeoPackage Encoding Standard.
 
+mod connection;
 mod database;
+mod errors;
 mod recovery;
 #[cfg(test)]
-mod shared;
+mod shared_tests;
+mod stamp;
 mod state;
 #[cfg(test)]
 mod tests;
 
+pub(super) use connection::{guard, quote, run_watched};
 pub use database::{GeoPackage, TableShape};
-pub(super) use database::{guard, quoted, refused, watched};
+pub(super) use errors::query_error;
 pub use state::PackageState;

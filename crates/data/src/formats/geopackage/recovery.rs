@@ -6,7 +6,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rusqlite::{Connection, OpenFlags};
 
-use super::state::{COPIED, PackageStamp, StateFailure, begin, beside};
+use super::connection::begin;
+use super::stamp::{COPIED, PackageStamp, StateFailure, companion_path};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::files;
 
@@ -20,7 +21,7 @@ impl PrivateCopy {
     /// Copies the database at `path` and its companion file with `suffix` appended to the name. Fails with `Busy` while
     /// another program writes either of them.
     pub(super) fn of(path: &Path, suffix: &str, shown: &str) -> std::result::Result<Self, StateFailure> {
-        let log = beside(path, suffix);
+        let log = companion_path(path, suffix);
         let stamps = || [PackageStamp::of(path), PackageStamp::of(&log)];
         let before = stamps();
         if before.iter().any(|stamp| stamp.is_none_or(|stamp| !stamp.is_settled())) {
@@ -43,7 +44,7 @@ impl PrivateCopy {
             files::read_unlocked(from, |mut file, _| std::io::copy(&mut file, &mut fs::File::create(to)?))
         };
         let target = copy.path();
-        let copied = [write(path, &target), write(&log, &beside(&target, suffix))];
+        let copied = [write(path, &target), write(&log, &companion_path(&target, suffix))];
         for copied in copied {
             match copied {
                 Ok(Some(_)) => {}

@@ -8,35 +8,31 @@
 //! Sources: SQLite's documents "File Locking and Concurrency", "Write-Ahead Logging" and "Database File Format".
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
-use std::time::{Duration, Instant, SystemTime};
+use std::time::{Duration, Instant};
 
 use rusqlite::backup::Backup;
 use rusqlite::ffi;
 use rusqlite::serialize::Data;
 use rusqlite::{Connection, OpenFlags};
 
+use super::connection::{address, begin, connect, pin};
+use super::errors::read_error;
 use super::recovery::PrivateCopy;
+use super::stamp::{COPIED, PackageStamp, StateFailure, companion_path};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::files::{self, FileLock};
 use burgeon_base::locks::LockRecovery;
-
-/// Maximum size of a file that is copied (bytes).
-pub(super) const COPIED: u64 = 64 << 20;
 
 /// Maximum time to wait for a program that writes.
 const PATIENCE: Duration = Duration::from_secs(10);
 
 /// Pause between two attempts.
 const PAUSE: Duration = Duration::from_millis(10);
-
-/// Minimum age of a modification time that distinguishes one write from the next.
-const SETTLED: Duration = Duration::from_millis(50);
 
 /// Number of the next copy in memory; these copies are shared within the process.
 static COPIES: AtomicUsize = AtomicUsize::new(0);
@@ -63,83 +59,6 @@ enum Keeper {
     Lock { _transaction: Mutex<Connection>, observer: Mutex<Connection>, version: i64, _lock: FileLock },
     /// No lock: no program has the file open, and its time and size show if that changes.
     Stamp(PackageStamp),
-}
-
-/// Time, size and identity of a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct PackageStamp {
-    pub(super) length: u64,
-    modified: Option<SystemTime>,
-    identity: u64,
-}
-
-/// Reason why an attempt returned no state.
-pub(super) enum StateFailure {
-    /// Another program is writing.
-    Busy,
-    /// Error that waiting does not resolve.
-    Final(Error),
-}
-
-impl From<Error> for StateFailure {
-    fn from(error: Error) -> Self {
-        Self::Final(error)
-    }
-}
-
-impl PackageStamp {
-    /// Returns the stamp of the file at `path`, if it exists.
-    pub(super) fn of(path: &Path) -> Option<Self> {
-        let meta = fs::metadata(path).ok()?;
-        Some(Self { length: meta.len(), modified: meta.modified().ok(), identity: files::identity(&meta) })
-    }
-
-    /// Reports whether a write from now on gets a different time.
-    pub(super) fn is_settled(&self) -> bool {
-        // A time in the future comes from another clock.
-        self.modified.and_then(|modified| modified.elapsed().ok()).is_none_or(|age| age > SETTLED)
-    }
-}
-
-/// Returns the path of the companion file of `path` with `suffix` appended to the name.
-pub(super) fn beside(path: &Path, suffix: &str) -> PathBuf {
-    let mut name = path.as_os_str().to_owned();
-    name.push(suffix);
-    name.into()
-}
-
-/// Opens the database at `path` for reading, with URI `options`. Never waits for locks.
-pub(super) fn connect(path: &Path, options: &str) -> rusqlite::Result<Connection> {
-    let flags =
-        OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_NO_MUTEX | OpenFlags::SQLITE_OPEN_URI;
-    let connection = Connection::open_with_flags(address(path, options), flags)?;
-    connection.busy_timeout(Duration::ZERO)?;
-    Ok(connection)
-}
-
-fn address(path: &Path, options: &str) -> String {
-    let mut address = "file:".to_owned();
-    for byte in path.as_os_str().as_encoded_bytes() {
-        match byte {
-            b'/' | b'.' | b'-' | b'_' | b'0'..=b'9' | b'a'..=b'z' | b'A'..=b'Z' => {
-                address.push(char::from(*byte))
-            }
-            byte => address.push_str(&format!("%{byte:02x}")),
-        }
-    }
-    // Without the name of a file system, SQLite would also search in memory, where the main database of a connection
-    // is.
-    format!("{address}?{options}&vfs={}", if cfg!(windows) { "win32" } else { "unix" })
-}
-
-/// Begins a read transaction, which sees one state until it ends.
-pub(super) fn begin(connection: &Connection) -> rusqlite::Result<()> {
-    connection.execute_batch("BEGIN")?;
-    pin(connection, "main")
-}
-
-fn pin(connection: &Connection, schema: &str) -> rusqlite::Result<()> {
-    connection.query_row(&format!("PRAGMA {schema}.schema_version"), [], |_| Ok(()))
 }
 
 impl PackageState {
@@ -210,7 +129,7 @@ impl PackageState {
             }
             Ok(connection)
         };
-        let connection = open().map_err(|error| broken(&self.shown, &error))?;
+        let connection = open().map_err(|error| read_error(&self.shown, &error))?;
         self.pin(&connection, "main")?;
         Ok(connection)
     }
@@ -220,10 +139,10 @@ impl PackageState {
     pub fn pin(&self, connection: &Connection, schema: &str) -> Result<()> {
         if self.is_locked() {
             pin(connection, schema).map_err(|error| match failure(error) {
-                SqliteFailure::Busy => changed(&self.shown),
+                SqliteFailure::Busy => change_error(&self.shown),
                 SqliteFailure::Unrecovered(error)
                 | SqliteFailure::Unlockable(error)
-                | SqliteFailure::Other(error) => broken(&self.shown, &error),
+                | SqliteFailure::Other(error) => read_error(&self.shown, &error),
             })?;
         }
         self.check()
@@ -238,7 +157,7 @@ impl PackageState {
             }
             Keeper::Stamp(stamp) => PackageStamp::of(&self.path).as_ref() == Some(stamp),
         };
-        if same { Ok(()) } else { Err(changed(&self.shown)) }
+        if same { Ok(()) } else { Err(change_error(&self.shown)) }
     }
 }
 
@@ -247,14 +166,9 @@ fn data_version(connection: &Connection) -> rusqlite::Result<i64> {
     connection.query_row("PRAGMA data_version", [], |row| row.get(0))
 }
 
-fn changed(shown: &str) -> Error {
+fn change_error(shown: &str) -> Error {
     Error::unavailable(format!("{shown} was changed by another program while it was read"))
         .help("save and close it there, and run again")
-}
-
-pub(super) fn broken(name: &str, error: &rusqlite::Error) -> Error {
-    Error::data(format!("cannot read {name}: {}", super::database::words(error)))
-        .help("the file is damaged or cut short; get it again")
 }
 
 /// SQLite error, by its remedy.
@@ -306,18 +220,18 @@ impl Attempt<'_> {
                 .help("check the path")
                 .into());
         };
-        let logged = PackageStamp::of(&beside(self.path, "-wal"));
-        let shared = beside(self.path, "-shm").exists();
+        let logged = PackageStamp::of(&companion_path(self.path, "-wal"));
+        let shared = companion_path(self.path, "-shm").exists();
         match logged {
             // A program has the database open.
-            Some(_) if shared => self.locked(stamp, true),
+            Some(_) if shared => self.read_locked(stamp, true),
             // A program ended without closing the database, or the log was copied together with the file.
             Some(log) if log.length > 0 => match stamp.length > COPIED {
-                true => self.locked(stamp, true),
-                false => self.recovered("-wal"),
+                true => self.read_locked(stamp, true),
+                false => self.read_recovered("-wal"),
             },
-            _ if self.is_logged()? => self.unlocked(stamp),
-            _ => self.locked(stamp, false),
+            _ if self.is_logged()? => self.read_unlocked_file(stamp),
+            _ => self.read_locked(stamp, false),
         }
     }
 
@@ -331,7 +245,11 @@ impl Attempt<'_> {
     }
 
     /// Returns the state guarded by SQLite's locks.
-    fn locked(&self, stamp: PackageStamp, logged: bool) -> std::result::Result<PackageState, StateFailure> {
+    fn read_locked(
+        &self,
+        stamp: PackageStamp,
+        logged: bool,
+    ) -> std::result::Result<PackageState, StateFailure> {
         let lock = FileLock::announce(self.path)
             .map_err(|error| Error::file(self.path, format!("cannot read {}: {error}", self.shown)))?;
         let open = || -> rusqlite::Result<Option<(Connection, Connection, i64)>> {
@@ -348,13 +266,13 @@ impl Attempt<'_> {
             Err(SqliteFailure::Busy) => return Err(StateFailure::Busy),
             Err(SqliteFailure::Unlockable(_)) => {
                 drop(lock);
-                return self.unlocked(stamp);
+                return self.read_unlocked_file(stamp);
             }
             Err(SqliteFailure::Unrecovered(error)) => {
                 drop(lock);
                 let suffix = if logged { "-wal" } else { "-journal" };
-                return match PackageStamp::of(&beside(self.path, suffix)) {
-                    Some(_) if stamp.length <= COPIED => self.recovered(suffix),
+                return match PackageStamp::of(&companion_path(self.path, suffix)) {
+                    Some(_) if stamp.length <= COPIED => self.read_recovered(suffix),
                     Some(_) => Err(StateFailure::Final(
                         Error::unavailable(format!(
                             "a program that wrote {} has ended in the middle of a change",
@@ -364,10 +282,10 @@ impl Attempt<'_> {
                     )),
                     // The writer has just closed the database.
                     None if logged => Err(StateFailure::Busy),
-                    None => Err(broken(self.shown, &error).into()),
+                    None => Err(read_error(self.shown, &error).into()),
                 };
             }
-            Err(SqliteFailure::Other(error)) => return Err(broken(self.shown, &error).into()),
+            Err(SqliteFailure::Other(error)) => return Err(read_error(self.shown, &error).into()),
         };
         if stamp.length <= COPIED {
             let copied = self.copy(&mut connection);
@@ -393,7 +311,7 @@ impl Attempt<'_> {
     }
 
     /// Returns the state of a file that no program has open, or that cannot be locked.
-    fn unlocked(&self, stamp: PackageStamp) -> std::result::Result<PackageState, StateFailure> {
+    fn read_unlocked_file(&self, stamp: PackageStamp) -> std::result::Result<PackageState, StateFailure> {
         if !stamp.is_settled() {
             return Err(StateFailure::Busy);
         }
@@ -414,7 +332,7 @@ impl Attempt<'_> {
         let lock = FileLock::announce(self.path)
             .map_err(|error| Error::file(self.path, format!("cannot read {}: {error}", self.shown)))?;
         let copied = open()
-            .map_err(|error| broken(self.shown, &error))
+            .map_err(|error| read_error(self.shown, &error))
             .and_then(|mut connection| self.copy(&mut connection));
         drop(lock);
         if PackageStamp::of(self.path) != Some(stamp) {
@@ -424,17 +342,18 @@ impl Attempt<'_> {
     }
 
     /// Returns the state after applying or rolling back the file with `suffix` next to the database.
-    fn recovered(&self, suffix: &str) -> std::result::Result<PackageState, StateFailure> {
+    fn read_recovered(&self, suffix: &str) -> std::result::Result<PackageState, StateFailure> {
         let private = PrivateCopy::of(self.path, suffix, self.shown)?;
         let mut connection =
-            private.connect().map_err(|error| StateFailure::Final(broken(self.shown, &error)))?;
+            private.connect().map_err(|error| StateFailure::Final(read_error(self.shown, &error)))?;
         Ok(self.copy(&mut connection)?)
     }
 
     /// Copies the state that a connection sees in its transaction.
     fn copy(&self, connection: &mut Connection) -> Result<PackageState> {
-        let failed =
-            |error: rusqlite::Error| self.budget.check().err().unwrap_or_else(|| broken(self.shown, &error));
+        let failed = |error: rusqlite::Error| {
+            self.budget.check().err().unwrap_or_else(|| read_error(self.shown, &error))
+        };
         let Data::Owned(mut bytes) = connection.serialize("main").map_err(failed)? else {
             return Err(Error::internal("a file is no database in memory"));
         };

@@ -3,8 +3,8 @@
 use std::rc::Rc;
 use std::sync::Arc;
 
-use super::geometry::{CityPiece, GeometryProblem, GeometryReader, GmlContext, is_geometry};
-use super::reader::{FeatureBuilder, Surroundings};
+use super::geometry::{GeometryReader, GmlContext, GmlPiece, is_geometry};
+use super::reader::{FeatureBuilder, Surroundings, note_problem, text_or_link};
 use super::system::NamedSystem;
 use crate::formats::city::{CityRecord, CitySurface, SurfaceRole};
 use crate::formats::xml::{Element, Xml, XmlPiece};
@@ -77,13 +77,7 @@ impl FeatureBuilder {
         if let (false, Some(why)) = (has_shape, &wrong) {
             return refuse(self, why);
         }
-        if self.system.is_none() && has_shape {
-            self.system.clone_from(&system);
-        }
-        if let (Some(Ok(own)), Some(Ok(all))) = (system.as_deref(), self.system.as_deref())
-            && own.crs != all.crs
-        {
-            let why = format!("is in {}, and others are in {}", own.crs.name(), all.crs.name());
+        if let Some(why) = self.join_system(system.as_ref(), has_shape) {
             return refuse(self, &why);
         }
         object.add_to(&mut self.table, &mut self.types, &self.budget)
@@ -119,7 +113,7 @@ impl FeatureBuilder {
         }
         if name.ends_with("Part") && name.starts_with(|letter: char| letter.is_ascii_lowercase()) {
             let depth = xml.depth;
-            while let Some(part) = child(xml, depth)? {
+            while let Some(part) = xml.next_child(depth)? {
                 let read = self.object(xml, &part, around)?;
                 open.system = open.system.take().or(read.system);
                 open.wrong = open.wrong.take().or(read.wrong);
@@ -140,16 +134,16 @@ impl FeatureBuilder {
     /// Reads a boundary of an object: a box, or a surface with a role.
     fn boundary(&mut self, xml: &mut Xml, open: &mut OpenObject, around: &mut Surroundings) -> Result<()> {
         let depth = xml.depth;
-        while let Some(inner) = child(xml, depth)? {
+        while let Some(inner) = xml.next_child(depth)? {
             if matches!(&*inner.name, "Envelope" | "Box" | "Null" | "null") {
                 let before = around.context.clone();
                 around.context = before.within(&inner, |name| around.named(name));
                 xml.leave(xml.depth - 1)?;
                 continue;
             }
-            let role = SurfaceRole::named(&inner.name);
+            let role = SurfaceRole::of_name(&inner.name);
             let own = xml.depth;
-            while let Some(property) = child(xml, own)? {
+            while let Some(property) = xml.next_child(own)? {
                 let mut place = GeometryPlace::of_property(&property.name);
                 place.role = Some(role);
                 if !property.name.starts_with("lod") || is_beside(&property.name) {
@@ -157,7 +151,7 @@ impl FeatureBuilder {
                     continue;
                 }
                 let within = xml.depth;
-                while let Some(geometry) = child(xml, within)? {
+                while let Some(geometry) = xml.next_child(within)? {
                     self.geometry(xml, &geometry, place, open, around)?;
                 }
             }
@@ -198,10 +192,7 @@ impl FeatureBuilder {
             }
         }
         if is_simple {
-            let value = match xml.text() {
-                "" => element.attribute("href").unwrap_or_default(),
-                text => text,
-            };
+            let value = text_or_link(xml, element);
             self.budget.take(name.len() + value.len())?;
             open.object.add_text(&name, value);
         }
@@ -226,12 +217,12 @@ impl FeatureBuilder {
             None => SurfaceRole::Other,
         };
         let shape = &mut open.object.shape;
-        let mut add = |piece: CityPiece| match piece {
-            CityPiece::Surface(rings) => {
+        let mut add = |piece: GmlPiece| match piece {
+            GmlPiece::Surface(rings) => {
                 shape.surfaces.push(CitySurface { rings, role, level: place.level, is_solid });
             }
-            CityPiece::Line(line) => shape.lines.push(line),
-            CityPiece::Point(point) => shape.points.push(point),
+            GmlPiece::Line(line) => shape.lines.push(line),
+            GmlPiece::Point(point) => shape.points.push(point),
         };
         let mut named = |name: &str| around.named(name);
         let budget = Arc::clone(&self.budget);
@@ -242,14 +233,7 @@ impl FeatureBuilder {
         if open.system.is_none() {
             open.system = system;
         }
-        match read {
-            Ok(()) => {}
-            Err(GeometryProblem::Stop(error)) => return Err(error),
-            Err(GeometryProblem::Wrong(why)) => {
-                open.wrong.get_or_insert(why);
-            }
-        }
-        Ok(())
+        note_problem(read, &mut open.wrong)
     }
 }
 
@@ -266,22 +250,11 @@ impl GeometryPlace {
     }
 }
 
-/// Returns the next child element of the element that began at `depth`; `None` at its end.
-fn child(xml: &mut Xml, depth: usize) -> Result<Option<Element>> {
-    loop {
-        match xml.next()? {
-            XmlPiece::Start(element) => return Ok(Some(element)),
-            XmlPiece::End if xml.depth >= depth => {}
-            XmlPiece::End | XmlPiece::Eof => return Ok(None),
-        }
-    }
-}
-
 /// Reads a generic attribute or a set of them. The name is an attribute of the element, or a child element.
 fn generic(xml: &mut Xml, element: &Element, object: &mut CityRecord) -> Result<()> {
     let depth = xml.depth;
     let (mut name, mut value) = (element.attribute("name").map(str::to_owned), None);
-    while let Some(inner) = child(xml, depth)? {
+    while let Some(inner) = xml.next_child(depth)? {
         match &*inner.name {
             "name" => name = Some(xml.inner_text()?),
             "value" => value = Some(xml.inner_text()?),

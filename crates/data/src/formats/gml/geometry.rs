@@ -6,11 +6,11 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::system::NamedSystem;
-use crate::Geometry;
 use crate::formats::xml::{Element, Xml, XmlPiece};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result as Checked};
 use burgeon_base::text::shown;
+use burgeon_spatial::Geometry;
 use burgeon_spatial::wkb::{NEAR, add_arc};
 
 /// Reason why a geometry is not read.
@@ -56,7 +56,7 @@ impl GmlContext {
         Self { system: system.or_else(|| self.system.clone()), dimension: dimension.or(self.dimension) }
     }
 
-    fn known(&self) -> Option<&NamedSystem> {
+    fn usable_system(&self) -> Option<&NamedSystem> {
         self.system.as_ref().and_then(|system| system.as_ref().as_ref().ok())
     }
 }
@@ -99,12 +99,21 @@ fn is_curve(name: &str) -> bool {
     matches!(name, "LineString" | "LinearRing" | "Ring" | "Curve" | "CompositeCurve" | "OrientableCurve")
 }
 
-/// Piece of a geometry in space.
-pub(super) enum CityPiece {
-    /// Rings of a flat surface, without repeating the first point at the end.
+/// Part of a geometry.
+pub(super) enum GmlPiece {
+    /// Rings of a polygon, the outer one first.
     Surface(Vec<Vec<DVec3>>),
     Line(Vec<DVec3>),
     Point(DVec3),
+}
+
+/// Treatment of solids.
+#[derive(Clone, Copy, PartialEq)]
+enum Solids {
+    /// Their surfaces are read.
+    Read,
+    /// They are refused, because features lie in the plane.
+    Refused,
 }
 
 /// Reader of the geometries in a file.
@@ -124,44 +133,45 @@ impl GeometryReader<'_> {
         context: &GmlContext,
         parts: &mut Vec<Geometry>,
     ) -> GeometryResult<()> {
-        self.budget.tick()?;
-        let context = context.within(element, &mut *self.named);
-        if self.system.is_none() {
-            self.system.clone_from(&context.system);
-        }
-        match &*element.name {
-            "Point" => {
-                let places = self.places(&context)?;
-                parts.extend(places.into_iter().take(1).map(Geometry::point));
-            }
-            name if is_curve(name) => parts.extend(Geometry::line(self.curve(element, &context)?)),
-            "Polygon" | "PolygonPatch" | "Triangle" | "Rectangle" => {
-                parts.extend(Geometry::polygon(self.rings(&context)?));
-            }
-            name if SOLIDS.contains(&name) => {
-                return wrong("is a solid, of which no footprint is told");
-            }
-            _ => {
-                let depth = self.xml.depth;
-                while let Some(inner) = self.child(depth)? {
-                    if is_geometry(&inner.name) {
-                        self.geometry(&inner, &context, parts)?;
-                    } else if is_aside(&inner.name) {
-                        self.xml.leave(self.xml.depth - 1)?;
-                    }
-                }
-            }
-        }
-        Ok(())
+        self.pieces(element, context, Solids::Refused, &mut |piece| {
+            parts.extend(match piece {
+                GmlPiece::Surface(rings) => Geometry::polygon(rings),
+                GmlPiece::Line(line) => Geometry::line(line),
+                GmlPiece::Point(point) => Some(Geometry::point(point)),
+            });
+            Ok(())
+        })
     }
 
     /// Calls `each` with the rings of each polygon of the geometry that `element` begins, including nested polygons,
-    /// and with its lines and points.
+    /// and with its lines and points. Rings do not repeat their first point.
     pub(super) fn surfaces(
         &mut self,
         element: &Element,
         context: &GmlContext,
-        each: &mut dyn FnMut(CityPiece),
+        each: &mut dyn FnMut(GmlPiece),
+    ) -> GeometryResult<()> {
+        let budget = Arc::clone(&self.budget);
+        self.pieces(element, context, Solids::Read, &mut |mut piece| {
+            if let GmlPiece::Surface(rings) = &mut piece {
+                for ring in rings.iter_mut().filter(|ring| ring.len() > 1 && ring.first() == ring.last()) {
+                    ring.pop();
+                }
+                let size: usize = rings.iter().map(Vec::len).sum();
+                budget.take(size * 24)?;
+            }
+            each(piece);
+            Ok(())
+        })
+    }
+
+    /// Calls `each` with the polygons, lines and points of the geometry that `element` begins.
+    fn pieces(
+        &mut self,
+        element: &Element,
+        context: &GmlContext,
+        solids: Solids,
+        each: &mut dyn FnMut(GmlPiece) -> Checked<()>,
     ) -> GeometryResult<()> {
         self.budget.tick()?;
         let context = context.within(element, &mut *self.named);
@@ -170,25 +180,22 @@ impl GeometryReader<'_> {
         }
         match &*element.name {
             "Point" => {
-                let places = self.places(&context)?;
-                places.into_iter().take(1).for_each(|place| each(CityPiece::Point(place)));
-            }
-            name if is_curve(name) => each(CityPiece::Line(self.curve(element, &context)?)),
-            "Polygon" | "PolygonPatch" | "Triangle" | "Rectangle" => {
-                let mut rings = self.rings(&context)?;
-                // A ring ends at its first point.
-                for ring in rings.iter_mut().filter(|ring| ring.len() > 1 && ring.first() == ring.last()) {
-                    ring.pop();
+                if let Some(place) = self.places(&context)?.first() {
+                    each(GmlPiece::Point(*place))?;
                 }
-                let size: usize = rings.iter().map(Vec::len).sum();
-                self.budget.take(size * 24)?;
-                each(CityPiece::Surface(rings));
+            }
+            name if is_curve(name) => each(GmlPiece::Line(self.curve(element, &context)?))?,
+            "Polygon" | "PolygonPatch" | "Triangle" | "Rectangle" => {
+                each(GmlPiece::Surface(self.rings(&context)?))?;
+            }
+            name if solids == Solids::Refused && SOLIDS.contains(&name) => {
+                return wrong("is a solid, of which no footprint is told");
             }
             _ => {
                 let depth = self.xml.depth;
-                while let Some(inner) = self.child(depth)? {
+                while let Some(inner) = self.xml.next_child(depth)? {
                     if is_geometry(&inner.name) {
-                        self.surfaces(&inner, &context, each)?;
+                        self.pieces(&inner, &context, solids, each)?;
                     } else if is_aside(&inner.name) {
                         self.xml.leave(self.xml.depth - 1)?;
                     }
@@ -198,23 +205,12 @@ impl GeometryReader<'_> {
         Ok(())
     }
 
-    /// Returns the next descendant element of the element that began at `depth`; `None` at its end.
-    fn child(&mut self, depth: usize) -> GeometryResult<Option<Element>> {
-        loop {
-            match self.xml.next()? {
-                XmlPiece::Start(element) => return Ok(Some(element)),
-                XmlPiece::End if self.xml.depth >= depth => {}
-                XmlPiece::End | XmlPiece::Eof => return Ok(None),
-            }
-        }
-    }
-
     /// Returns the rings of a polygon, the outer one first.
     fn rings(&mut self, context: &GmlContext) -> GeometryResult<Vec<Vec<DVec3>>> {
         let depth = self.xml.depth;
         let (mut rings, mut outer) = (Vec::new(), None);
         let mut is_outer = true;
-        while let Some(inner) = self.child(depth)? {
+        while let Some(inner) = self.xml.next_child(depth)? {
             match &*inner.name {
                 "exterior" | "outerBoundaryIs" => is_outer = true,
                 "interior" | "innerBoundaryIs" => is_outer = false,
@@ -260,7 +256,7 @@ impl GeometryReader<'_> {
     fn chain(&mut self, context: &GmlContext) -> GeometryResult<Vec<DVec3>> {
         let depth = self.xml.depth;
         let mut places: Vec<DVec3> = Vec::new();
-        while let Some(inner) = self.child(depth)? {
+        while let Some(inner) = self.xml.next_child(depth)? {
             // An element with a lower-case first letter is a property of its parent.
             if !inner.name.starts_with(|letter: char| letter.is_ascii_uppercase()) {
                 if is_aside(&inner.name) {
@@ -280,7 +276,7 @@ impl GeometryReader<'_> {
         if given.len() < 3 || given.len().is_multiple_of(2) {
             return wrong(format!("has a curve that is an {} of {} places", element.name, given.len()));
         }
-        let near = NEAR / context.known().map_or(1.0, |system| system.crs.metres());
+        let near = NEAR / context.usable_system().map_or(1.0, |system| system.crs.metres());
         let room = |count: usize| self.budget.take(count * 24);
         let mut places = vec![given[0]];
         for from in (0..given.len() - 2).step_by(2) {
@@ -299,7 +295,7 @@ impl GeometryReader<'_> {
     fn places(&mut self, context: &GmlContext) -> GeometryResult<Vec<DVec3>> {
         let depth = self.xml.depth;
         let mut places = Vec::new();
-        while let Some(inner) = self.child(depth)? {
+        while let Some(inner) = self.xml.next_child(depth)? {
             let inside = context.within(&inner, &mut *self.named);
             let own = self.xml.depth;
             match &*inner.name {
@@ -322,17 +318,17 @@ impl GeometryReader<'_> {
                         ));
                     }
                     let chunks = numbers.chunks_exact(if many { dimension } else { numbers.len() });
-                    places.extend(chunks.map(|place| ordered(place, &inside)));
+                    places.extend(chunks.map(|place| east_first(place, &inside)));
                 }
                 "coordinates" => {
                     self.end(own)?;
                     let old = tuples(self.xml.text(), &inner)?;
                     self.budget.take(old.len() * 32)?;
-                    places.extend(old.iter().map(|place| ordered(&place[..], &inside)));
+                    places.extend(old.iter().map(|place| east_first(&place[..], &inside)));
                 }
                 "coord" => {
                     let mut place = Vec::new();
-                    while let Some(axis) = self.child(own)? {
+                    while let Some(axis) = self.xml.next_child(own)? {
                         let at = self.xml.depth;
                         self.end(at)?;
                         let number = self.xml.text().parse::<f64>();
@@ -343,7 +339,7 @@ impl GeometryReader<'_> {
                     if place.len() < 2 {
                         return wrong("has a place of fewer than two numbers");
                     }
-                    places.push(ordered(&place, &inside));
+                    places.push(east_first(&place, &inside));
                 }
                 name if is_aside(name) => self.xml.leave(own - 1)?,
                 // A property that contains positions.
@@ -399,16 +395,16 @@ fn dimension(numbers: &[f64], element: &Element, context: &GmlContext) -> Geomet
     Ok(match (closes(2), closes(3)) {
         (false, true) => 3,
         (true, false) => 2,
-        _ if context.known().is_some_and(|system| system.has_heights) => 3,
+        _ if context.usable_system().is_some_and(|system| system.has_heights) => 3,
         _ if numbers.len().is_multiple_of(2) => 2,
         _ => 3,
     })
 }
 
 /// Returns a position in the order east, north.
-fn ordered(place: &[f64], context: &GmlContext) -> DVec3 {
+fn east_first(place: &[f64], context: &GmlContext) -> DVec3 {
     let z = place.get(2).copied().unwrap_or_default();
-    match context.known() {
+    match context.usable_system() {
         Some(system) if system.north_first => DVec3::new(place[1], place[0], z),
         _ => DVec3::new(place[0], place[1], z),
     }

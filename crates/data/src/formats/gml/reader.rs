@@ -7,13 +7,17 @@ use rustc_hash::FxHashMap;
 
 use super::geometry::{GeometryProblem, GeometryReader, GmlContext, is_geometry};
 use super::system::NamedSystem;
-use crate::content::{DataFile, LayeredFile};
+use crate::content::DataFile;
+use crate::features::attribute::Attribute;
+use crate::features::table::FeatureTable;
 use crate::formats::typing::TextTypes;
 use crate::formats::xml::{Element, Xml, XmlPiece};
-use crate::{Attribute, FeatureTable, Geometry, SourceOptions};
+use crate::layered_file::LayeredFile;
+use crate::source_options::SourceOptions;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
+use burgeon_spatial::Geometry;
 
 /// Open GML file.
 pub(crate) struct GmlFile {
@@ -157,7 +161,7 @@ impl Surroundings {
         if let Some(known) = self.names.get(name) {
             return Rc::clone(known);
         }
-        let system = Rc::new(NamedSystem::named(name, self.forced));
+        let system = Rc::new(NamedSystem::of_name(name, self.forced));
         self.names.insert(name.to_owned(), Rc::clone(&system));
         system
     }
@@ -219,23 +223,16 @@ impl FeatureBuilder {
 
     fn add(&mut self, id: Option<String>, found: FeatureContent) -> Result<()> {
         let shown_id = id.clone().unwrap_or_else(|| self.number.to_string());
-        let refuse = |table: &mut FeatureTable, why: &str| {
-            let id = &shown_id;
-            let error = Error::data(format!("feature {} of {} {why}", shown(id), self.label))
+        let refuse = |builder: &mut Self, why: &str| {
+            let error = Error::data(format!("feature {} of {} {why}", shown(&shown_id), builder.label))
                 .help("points, curves, polygons, surfaces and collections of these are read");
-            table.refuse(id.clone(), error)
+            builder.table.refuse(shown_id.clone(), error)
         };
         if let (true, Some(why)) = (found.parts.is_empty(), &found.wrong) {
-            return refuse(&mut self.table, why);
+            return refuse(self, why);
         }
-        if self.system.is_none() && !found.parts.is_empty() {
-            self.system.clone_from(&found.system);
-        }
-        if let (Some(Ok(own)), Some(Ok(all))) = (found.system.as_deref(), self.system.as_deref())
-            && own.crs != all.crs
-        {
-            let why = format!("is in {}, and others are in {}", own.crs.name(), all.crs.name());
-            return refuse(&mut self.table, &why);
+        if let Some(why) = self.join_system(found.system.as_ref(), !found.parts.is_empty()) {
+            return refuse(self, &why);
         }
         let mut attributes: Vec<(usize, Attribute)> = Vec::with_capacity(found.values.len());
         for (name, value) in found.values {
@@ -245,6 +242,23 @@ impl FeatureBuilder {
             Some(id) => self.table.push(&id, found.parts, attributes),
             None => self.table.push_unnamed(found.parts, attributes),
         }
+    }
+
+    /// Takes the coordinate system of the first feature with a geometry for all. Returns the reason why a feature in
+    /// another system cannot be read.
+    pub(super) fn join_system(
+        &mut self,
+        own: Option<&Rc<Result<NamedSystem>>>,
+        has_geometry: bool,
+    ) -> Option<String> {
+        if self.system.is_none() && has_geometry {
+            self.system = own.cloned();
+        }
+        let (Some(Ok(own)), Some(Ok(all))) = (own.map(|system| &**system), self.system.as_deref()) else {
+            return None;
+        };
+        (own.crs != all.crs)
+            .then(|| format!("is in {}, and others are in {}", own.crs.name(), all.crs.name()))
     }
 
     /// Returns the table, with attributes converted to numbers or booleans if all of their values permit it.
@@ -298,10 +312,7 @@ impl FeatureContent {
         if !is_simple {
             return Ok(());
         }
-        let value = match xml.text() {
-            "" => element.attribute("href").unwrap_or_default(),
-            text => text,
-        };
+        let value = text_or_link(xml, element);
         if value.is_empty() {
             return Ok(());
         }
@@ -332,18 +343,35 @@ impl FeatureContent {
         let read = reader.geometry(element, context, &mut parts);
         let system = reader.system.take().or_else(|| context.system.clone());
         xml.leave(depth - 1)?;
-        match read {
-            Ok(()) => {
-                let kind = |parts: &[Geometry]| parts.iter().map(Geometry::kind).max();
-                if kind(&parts) > kind(&self.parts) {
-                    (self.parts, self.system) = (parts, system);
-                }
-            }
-            Err(GeometryProblem::Stop(error)) => return Err(error),
-            Err(GeometryProblem::Wrong(why)) => {
-                self.wrong.get_or_insert(why);
+        if read.is_ok() {
+            let kind = |parts: &[Geometry]| parts.iter().map(Geometry::kind).max();
+            if kind(&parts) > kind(&self.parts) {
+                (self.parts, self.system) = (parts, system);
             }
         }
-        Ok(())
+        note_problem(read, &mut self.wrong)
+    }
+}
+
+/// Returns the text of an element that has just ended, or its link if it has no text.
+pub(super) fn text_or_link<'a>(xml: &'a Xml, element: &'a Element) -> &'a str {
+    match xml.text() {
+        "" => element.attribute("href").unwrap_or_default(),
+        text => text,
+    }
+}
+
+/// Stores the reason why a geometry cannot be read, unless there already is one. Fails if reading must end.
+pub(super) fn note_problem(
+    read: std::result::Result<(), GeometryProblem>,
+    wrong: &mut Option<String>,
+) -> Result<()> {
+    match read {
+        Ok(()) => Ok(()),
+        Err(GeometryProblem::Stop(error)) => Err(error),
+        Err(GeometryProblem::Wrong(why)) => {
+            wrong.get_or_insert(why);
+            Ok(())
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Interpretation of `srsName`: the coordinate system and the order of coordinates.
 
 use super::axes::is_north_first;
-use crate::Crs;
+use crate::crs::Crs;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 
@@ -20,7 +20,7 @@ impl NamedSystem {
     ///
     /// A URN or an opengis.net URL implies the axis order of the registry, with latitude first. The older short forms
     /// always imply east first.
-    pub(super) fn named(name: &str, forced: Option<u32>) -> Result<Self> {
+    pub(super) fn of_name(name: &str, forced: Option<u32>) -> Result<Self> {
         let parts: Vec<&str> = name.split(',').collect();
         let is_compound = parts.len() > 2 && parts[0].ends_with(":crs");
         let part = if is_compound { parts[1] } else { name };
@@ -73,7 +73,7 @@ mod tests {
     #[test]
     fn names_of_all_forms_are_known_with_their_order() {
         let of = |name: &str| {
-            NamedSystem::named(name, None)
+            NamedSystem::of_name(name, None)
                 .map(|system| (system.crs.name(), system.north_first, system.has_heights))
                 .ok()
         };
@@ -101,6 +101,6 @@ mod tests {
         {
             assert_eq!(of(name), None, "{name}");
         }
-        assert!(NamedSystem::named("urn:ogc:def:crs:EPSG::99999", Some(4326)).unwrap().north_first);
+        assert!(NamedSystem::of_name("urn:ogc:def:crs:EPSG::99999", Some(4326)).unwrap().north_first);
     }
 }

@@ -43,7 +43,7 @@ struct Blob {
 }
 
 /// Returns true if a file that begins with `head` is an extract.
-pub(super) fn is_extract(head: &[u8]) -> bool {
+pub(super) fn is_packed_extract(head: &[u8]) -> bool {
     head.get(4..15).is_some_and(|found| found == b"\x0a\x09OSMHeader")
 }
 
@@ -70,7 +70,7 @@ impl BlobFile {
                 _ => {}
             }
         }
-        let header = header.ok_or_else(|| found.damaged("it has no header"))?;
+        let header = header.ok_or_else(|| found.damage_error("it has no header"))?;
         found.look(&header, budget, |bytes| found.check(bytes))?;
         Ok(found)
     }
@@ -96,7 +96,7 @@ impl BlobFile {
     }
 
     /// Returns the error for damaged bytes.
-    pub(super) fn damaged(&self, why: &str) -> Error {
+    pub(super) fn damage_error(&self, why: &str) -> Error {
         Error::data(format!("{} cannot be read: {why}", self.name))
             .help("the file is damaged or cut short; get it again")
     }
@@ -106,7 +106,7 @@ impl BlobFile {
     fn head(&self, at: u64, budget: &Budget) -> Result<Option<(Vec<u8>, u64, usize)>> {
         budget.tick()?;
         let mut file = self.file()?;
-        let ends = |_| self.damaged(&format!("the blob at byte {at} is cut short"));
+        let ends = |_| self.damage_error(&format!("the blob at byte {at} is cut short"));
         let end = file.seek(SeekFrom::End(0)).map_err(ends)?;
         if at == end {
             return Ok(None);
@@ -116,13 +116,13 @@ impl BlobFile {
         file.read_exact(&mut length).map_err(ends)?;
         let length = u32::from_be_bytes(length) as usize;
         if length > LARGEST_HEADER {
-            return Err(self.damaged(&format!("the blob at byte {at} has a header of {length} bytes")));
+            return Err(self.damage_error(&format!("the blob at byte {at} has a header of {length} bytes")));
         }
         let mut header = vec![0; length];
         file.read_exact(&mut header).map_err(ends)?;
         let (mut kind, mut size) = (&[][..], None);
         for field in WireFields(&header) {
-            let wrong = |why| self.damaged(&format!("the header of the blob at byte {at} {why}"));
+            let wrong = |why| self.damage_error(&format!("the header of the blob at byte {at} {why}"));
             match field.map_err(wrong)? {
                 (1, field) => kind = field.bytes().map_err(wrong)?,
                 (3, field) => size = Some(field.number().map_err(wrong)?),
@@ -132,10 +132,10 @@ impl BlobFile {
         let begin = at + 4 + length as u64;
         let size = size.and_then(|size| usize::try_from(size).ok()).filter(|size| *size <= LARGEST);
         let Some(size) = size else {
-            return Err(self.damaged(&format!("the blob at byte {at} has no size that can be")));
+            return Err(self.damage_error(&format!("the blob at byte {at} has no size that can be")));
         };
         if end - begin < size as u64 {
-            return Err(self.damaged(&format!("the blob at byte {at} is cut short")));
+            return Err(self.damage_error(&format!("the blob at byte {at} is cut short")));
         }
         Ok(Some((kind.to_vec(), begin, size)))
     }
@@ -154,7 +154,7 @@ impl BlobFile {
                 budget
                     .check()
                     .err()
-                    .unwrap_or_else(|| self.damaged(&format!("the block at byte {} {why}", blob.at)))
+                    .unwrap_or_else(|| self.damage_error(&format!("the block at byte {} {why}", blob.at)))
             })
         })
     }
@@ -169,9 +169,9 @@ impl BlobFile {
         {
             let mut file = self.file()?;
             let read = file.seek(SeekFrom::Start(blob.at)).and_then(|_| file.read_exact(&mut packed));
-            read.map_err(|error| self.damaged(&error.to_string()))?;
+            read.map_err(|error| self.damage_error(&error.to_string()))?;
         }
-        let wrong = |why: WireDamage| self.damaged(&format!("the blob at byte {} {why}", blob.at));
+        let wrong = |why: WireDamage| self.damage_error(&format!("the blob at byte {} {why}", blob.at));
         let (content, size) = self.content(&packed).map_err(wrong)?.map_err(|packing| {
             Error::data(format!("{} is packed by {packing}, which is not read", self.name))
                 .help("pack it anew: osmium cat IN.osm.pbf -o OUT.osm.pbf -f pbf,pbf_compression=zlib")
@@ -227,7 +227,7 @@ impl BlobFile {
     fn check(&self, header: &[u8]) -> Result<()> {
         for field in WireFields(header) {
             let field = field.and_then(|(number, field)| if number == 4 { field.bytes() } else { Ok(&[]) });
-            let needed = field.map_err(|why| self.damaged(&format!("its header {why}")))?;
+            let needed = field.map_err(|why| self.damage_error(&format!("its header {why}")))?;
             if needed == b"HistoricalInformation" {
                 return Err(Error::data(format!("{} holds the history of its features", self.name))
                     .help("take out the present: osmium time-filter IN.osh.pbf -o OUT.osm.pbf"));

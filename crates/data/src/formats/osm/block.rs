@@ -3,7 +3,7 @@
 use rustc_hash::FxHashMap;
 
 use super::places::Place;
-use super::wire::{Deltas, Varints, WireDamage, WireFields, signed};
+use super::wire::{Deltas, Varints, WireDamage, WireFields, to_signed};
 
 /// Indices of a key and of a value among the strings of a block.
 pub(super) type TagNumbers = (usize, usize);
@@ -84,7 +84,7 @@ impl<'a> OsmBlock<'a> {
     }
 
     /// Returns for each string its index in `words` plus 1; 0 if it is not in `words`.
-    pub(super) fn numbered(&self, words: &FxHashMap<Vec<u8>, usize>) -> Vec<usize> {
+    pub(super) fn word_numbers(&self, words: &FxHashMap<Vec<u8>, usize>) -> Vec<usize> {
         self.strings.iter().map(|text| words.get(*text).map_or(0, |number| number + 1)).collect()
     }
 
@@ -134,9 +134,9 @@ impl<'a> OsmBlock<'a> {
         let (mut id, mut place, mut lists) = (0, [0; 2], TagLists::default());
         for field in WireFields(bytes) {
             match field? {
-                (1, field) => id = signed(field.number()?),
-                (8, field) => place[1] = signed(field.number()?),
-                (9, field) => place[0] = signed(field.number()?),
+                (1, field) => id = to_signed(field.number()?),
+                (8, field) => place[1] = to_signed(field.number()?),
+                (9, field) => place[0] = to_signed(field.number()?),
                 (number, field) => lists.take(number, field)?,
             }
         }

@@ -7,9 +7,10 @@ use super::layers::{ReadyLayer, is_area};
 use super::places::Place;
 use super::shapes::{OsmRecord, OsmShape};
 use super::wire::{Deltas, Varints};
+use crate::source_options::SourceOptions;
 use crate::tags::TagFilter;
-use crate::{GeometryKind, SourceOptions};
 use burgeon_base::budget::Budget;
+use burgeon_spatial::GeometryKind;
 
 /// Selection of features in an extract.
 pub(super) struct TagChoice {
@@ -27,7 +28,7 @@ impl TagChoice {
     pub(super) fn new(layer: Option<&ReadyLayer>, wanted: &SourceOptions) -> Self {
         let filters: Vec<TagFilter> =
             layer.map(ReadyLayer::filter).into_iter().chain(wanted.tags.clone()).collect();
-        let words = filters.iter().find_map(TagFilter::needed).map(|keys| {
+        let words = filters.iter().find_map(TagFilter::needed_keys).map(|keys| {
             keys.into_iter().enumerate().map(|(number, key)| (key.as_bytes().to_vec(), number)).collect()
         });
         let kind = layer.map_or(wanted.kind, |layer| Some(layer.kind));
@@ -61,7 +62,7 @@ fn value_of<'b>(block: &OsmBlock<'b>, tags: &[TagNumbers], key: &str) -> Option<
 
 impl TagSearch<'_> {
     /// Returns the matching alternative, if the tags are selected.
-    fn chosen(&self, block: &OsmBlock<'_>, tags: &[TagNumbers]) -> VisitResult<Option<usize>> {
+    fn alternative(&self, block: &OsmBlock<'_>, tags: &[TagNumbers]) -> VisitResult<Option<usize>> {
         told_to_go_on(self.budget)?;
         if let Some(class) = &self.class
             && !tags.iter().any(|(key, _)| class.get(*key).is_some_and(|class| *class > 0))
@@ -71,7 +72,7 @@ impl TagSearch<'_> {
         let value = |key: &str| value_of(block, tags, key);
         let mut alternative = None;
         for filter in &self.choice.filters {
-            let Some(found) = filter.chosen(value) else { return Ok(None) };
+            let Some(found) = filter.alternative(value) else { return Ok(None) };
             alternative.get_or_insert(found);
         }
         Ok(alternative)
@@ -107,7 +108,7 @@ impl Visitor for TagSearch<'_> {
         if tags.is_empty() {
             return told_to_go_on(self.budget);
         }
-        match self.chosen(block, tags)? {
+        match self.alternative(block, tags)? {
             Some(alternative) => self.take(block, (id, tags, alternative), OsmShape::Point(place)),
             None => Ok(()),
         }
@@ -125,7 +126,7 @@ impl Visitor for TagSearch<'_> {
         if !(lines || areas) {
             return Ok(());
         }
-        let Some(alternative) = self.chosen(block, tags)? else { return Ok(()) };
+        let Some(alternative) = self.alternative(block, tags)? else { return Ok(()) };
         let nodes = all(nodes)?;
         let closed = nodes.len() > 3 && nodes.first() == nodes.last();
         let is_area = closed
@@ -152,7 +153,7 @@ impl Visitor for TagSearch<'_> {
         if !self.choice.wants(GeometryKind::Polygon) || !matches!(kind, Some(b"multipolygon" | b"boundary")) {
             return Ok(());
         }
-        let Some(alternative) = self.chosen(block, tags)? else { return Ok(()) };
+        let Some(alternative) = self.alternative(block, tags)? else { return Ok(()) };
         let mut ways = Vec::new();
         while let Some(member) = members.next()? {
             // Nodes and relations among the members are labels and the like.

@@ -4,8 +4,8 @@
 
 use std::sync::Arc;
 
-use crate::GeometryKind;
 use crate::tags::{TagFilter, TagTest};
+use burgeon_spatial::GeometryKind;
 
 /// Predefined layer of an extract.
 pub(super) struct ReadyLayer {
@@ -110,7 +110,7 @@ pub(super) const LAYERS: [ReadyLayer; 14] = [
 
 impl ReadyLayer {
     /// Returns the layer called `name`.
-    pub(super) fn named(name: &str) -> Option<&'static Self> {
+    pub(super) fn of_name(name: &str) -> Option<&'static Self> {
         LAYERS.iter().find(|layer| layer.name == name)
     }
 

@@ -84,7 +84,7 @@ fn first(text: &str) -> &str {
 }
 
 /// Returns the number, with a decimal point or comma, at the start of a text, and the rest.
-fn leading(text: &str) -> Option<(f64, &str)> {
+fn leading_number(text: &str) -> Option<(f64, &str)> {
     let text = text.trim_start();
     let signed = text.strip_prefix(['-', '+']).unwrap_or(text);
     let digits =
@@ -102,18 +102,18 @@ fn leading(text: &str) -> Option<(f64, &str)> {
 
 /// Parses a number such as `3`, `3.5` or `3;4`.
 fn count(text: &str) -> Option<f64> {
-    leading(first(text)).and_then(|(number, rest)| rest.is_empty().then_some(number))
+    leading_number(first(text)).and_then(|(number, rest)| rest.is_empty().then_some(number))
 }
 
 /// Parses a length (m) such as `12`, `12 m`, `12,5m`, `40'`, `5'6"`, `40 ft` or `3;4`.
 pub(super) fn length(text: &str) -> Option<f64> {
-    let (number, unit) = leading(first(text))?;
+    let (number, unit) = leading_number(first(text))?;
     // Feet and inches are written with various characters.
     let feet = ["'", "\u{2032}", "\u{2019}", "ft", "feet", "foot"];
     if let Some(rest) = feet.iter().find_map(|mark| unit.strip_prefix(mark)) {
         let inches = match rest.trim_matches(['.', ' ']) {
             "" => 0.0,
-            rest => leading(rest).filter(|(_, mark)| is_inch(mark)).map(|(inches, _)| inches)?,
+            rest => leading_number(rest).filter(|(_, mark)| is_inch(mark)).map(|(inches, _)| inches)?,
         };
         return Some(number * 0.3048 + inches * 0.0254);
     }
@@ -140,7 +140,7 @@ fn bearing(text: &str) -> Option<f64> {
         ["N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE", "S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW"];
     const WORDS: [(&str, f64); 4] = [("north", 0.0), ("east", 90.0), ("south", 180.0), ("west", 270.0)];
     let text = first(text);
-    if let Some((number, rest)) = leading(text) {
+    if let Some((number, rest)) = leading_number(text) {
         return matches!(rest, "" | "°" | "deg").then_some(number.rem_euclid(360.0));
     }
     let mut points = POINTS.iter().zip(0u8..);

@@ -23,4 +23,3 @@ mod wire;
 mod xml;
 
 pub use reader::OsmFile;
-pub(in crate::formats) use xml::is_extract as is_xml;

@@ -4,15 +4,19 @@
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::blobs::{BlobFile, is_extract};
+use super::blobs::{BlobFile, is_packed_extract};
 use super::block::{BlockContents, OsmBlock, Visitor};
 use super::choosing::{PlaceSearch, TagChoice, TagSearch, WaySearch};
 use super::layers::{LAYERS, ReadyLayer};
 use super::meaning::{TagValue, meanings};
 use super::places::Place;
 use super::shapes::{BuildResult, OsmRecord, build, known_bounds};
+use super::xml::{blocks, is_xml_extract};
 use crate::content::DataFile;
-use crate::{Attribute, Crs, FeatureTable, SourceOptions};
+use crate::crs::Crs;
+use crate::features::attribute::Attribute;
+use crate::features::table::FeatureTable;
+use crate::source_options::SourceOptions;
 use burgeon_base::MemoryOwner;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
@@ -26,26 +30,21 @@ pub struct OsmFile {
 }
 
 impl OsmFile {
-    /// Returns true if a file that begins with `head` is an extract.
+    /// Returns true if a file that begins with `head` is an extract, packed or in XML.
     pub(crate) fn is_one(head: &[u8]) -> bool {
-        is_extract(head)
+        is_packed_extract(head) || is_xml_extract(head)
     }
 
-    pub(crate) fn open(file: DataFile, wanted: &SourceOptions) -> Result<Self> {
+    /// Opens an extract.
+    pub(crate) fn open(file: DataFile, head: &[u8], wanted: &SourceOptions) -> Result<Self> {
         let stem = file.stem();
+        if is_xml_extract(head) {
+            let blobs = BlobFile::of_blocks(blocks(&file, &wanted.budget)?, &file.name);
+            return Ok(Self { blobs, name: file.name, stem });
+        }
         let stem = stem.strip_suffix(".osm").map_or_else(|| stem.clone(), str::to_owned);
         let (file, _, name) = file.on_disk("extract of OpenStreetMap")?;
         Ok(Self { blobs: BlobFile::open(file, &name, &wanted.budget)?, name, stem })
-    }
-
-    /// Opens an XML extract.
-    pub(crate) fn open_xml(file: &DataFile, wanted: &SourceOptions) -> Result<Self> {
-        let blocks = super::xml::blocks(file, &wanted.budget)?;
-        Ok(Self {
-            blobs: BlobFile::of_blocks(blocks, &file.name),
-            name: file.name.clone(),
-            stem: file.stem(),
-        })
     }
 
     pub(crate) fn layers(&self) -> Vec<String> {
@@ -54,7 +53,7 @@ impl OsmFile {
 
     pub(crate) fn read(&self, wanted: &SourceOptions) -> Result<FeatureTable> {
         let layer = match &wanted.layer {
-            Some(layer) => Some(ReadyLayer::named(layer).ok_or_else(|| {
+            Some(layer) => Some(ReadyLayer::of_name(layer).ok_or_else(|| {
                 let names = || LAYERS.iter().map(|layer| layer.name);
                 let message = format!("{} has no layer called {}", self.name, shown(layer));
                 let help = format!("it has {}; or choose by tags: {EXAMPLE}", listed(names()));
@@ -104,7 +103,7 @@ impl OsmFile {
             let _charged = owner.enter();
             self.blobs.block(index, budget, |bytes| {
                 let block = OsmBlock::open(bytes)?;
-                let class = choice.words.as_ref().map(|words| block.numbered(words));
+                let class = choice.words.as_ref().map(|words| block.word_numbers(words));
                 let mut choosing = TagSearch { choice, budget, class, records: Vec::new() };
                 block.visit(&mut choosing)?;
                 Ok(choosing.records)

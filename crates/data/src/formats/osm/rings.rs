@@ -22,7 +22,7 @@ pub(super) fn assemble<'w>(
     let graph = Graph::new(ways, budget)?;
     graph.refuse_crossing(budget)?;
     let walks = graph.walks();
-    let inside = graph.inside(&walks, budget)?;
+    let inside = graph.find_inner_sides(&walks, budget)?;
     graph.polygons(&walks, &inside, budget)
 }
 
@@ -56,7 +56,7 @@ fn tick(budget: &Budget) -> Result<(), String> {
     budget.tick().map_err(|error| error.message().to_owned())
 }
 
-fn shown(place: Place) -> String {
+fn place_text(place: Place) -> String {
     let at = place.degrees();
     format!("{}, {}", at.x, at.y)
 }
@@ -114,7 +114,7 @@ impl Graph {
             let count = rest.iter().take_while(|edge| self.from[**edge] == from).count();
             let (here, after) = rest.split_at(count);
             if !count.is_multiple_of(2) {
-                return Err(format!("has a border that ends at {}", shown(self.places[from])));
+                return Err(format!("has a border that ends at {}", place_text(self.places[from])));
             }
             // A walk leaves a position by the next half-edge to the right, so the face to its left stays the same.
             for (at, edge) in here.iter().enumerate() {
@@ -142,7 +142,7 @@ impl Graph {
                 // Collinear segments overlap if each begins before the other one ends.
                 let along = sides == [0; 4] && a.max(c) < b.min(d);
                 if crosses || along {
-                    return Err(format!("has borders that cross near {}", shown(*c)));
+                    return Err(format!("has borders that cross near {}", place_text(*c)));
                 }
             }
         }
@@ -172,7 +172,7 @@ impl Graph {
     }
 
     /// Returns for each walk whether the interior is to its left, and its component.
-    fn inside(&self, walks: &Walks, budget: &Budget) -> Result<Vec<WalkSide>, String> {
+    fn find_inner_sides(&self, walks: &Walks, budget: &Budget) -> Result<Vec<WalkSide>, String> {
         let mut sides: Vec<Option<WalkSide>> = vec![None; walks.begins.len()];
         for first in 0..walks.begins.len() {
             if sides[first].is_some() {
@@ -262,7 +262,7 @@ impl Graph {
             }
             match around {
                 Some(index) => polygons[index].push(hole),
-                None => return Err(format!("has a hole outside of it, at {}", shown(at))),
+                None => return Err(format!("has a hole outside of it, at {}", place_text(at))),
             }
         }
         if polygons.is_empty() { Err("has no area".to_owned()) } else { Ok(polygons) }

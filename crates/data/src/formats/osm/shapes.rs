@@ -4,8 +4,8 @@ use rustc_hash::FxHashMap;
 
 use super::places::Place;
 use super::rings;
-use crate::Geometry;
 use burgeon_base::budget::Budget;
+use burgeon_spatial::Geometry;
 
 /// Tags of a feature, as keys and values.
 pub(super) type TagTexts = Vec<(String, String)>;

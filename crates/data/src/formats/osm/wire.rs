@@ -91,7 +91,7 @@ fn varint(bytes: &mut &[u8]) -> Result<u64, WireDamage> {
 
 /// Decodes a zigzag-encoded number.
 #[inline]
-pub(super) fn signed(number: u64) -> i64 {
+pub(super) fn to_signed(number: u64) -> i64 {
     (number >> 1).cast_signed() ^ -(number & 1).cast_signed()
 }
 
@@ -123,7 +123,7 @@ impl<'a> Deltas<'a> {
     #[inline]
     pub(super) fn next(&mut self) -> Result<Option<i64>, WireDamage> {
         let Some(step) = self.numbers.next()? else { return Ok(None) };
-        self.last = self.last.wrapping_add(signed(step));
+        self.last = self.last.wrapping_add(to_signed(step));
         Ok(Some(self.last))
     }
 }
@@ -138,7 +138,7 @@ mod tests {
         assert_eq!((varint(&mut bytes), varint(&mut bytes), varint(&mut bytes)), (Ok(150), Ok(3), Err(ENDS)));
         assert_eq!(varint(&mut &[0xff; 9][..]), Err(ENDS));
         assert!(varint(&mut &[0xff; 11][..]).is_err());
-        assert_eq!([0, 1, 2, 3, u64::MAX].map(signed), [0, -1, 1, -2, i64::MIN]);
+        assert_eq!([0, 1, 2, 3, u64::MAX].map(to_signed), [0, -1, 1, -2, i64::MIN]);
         let mut deltas = Deltas::new(&[2, 2, 1]);
         let all: Vec<_> = std::iter::from_fn(|| deltas.next().unwrap()).collect();
         assert_eq!(all, [1, 2, 1]);

@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 use std::sync::Arc;
 
 use crate::content::DataFile;
-use crate::formats::xml::{Element, Xml, XmlPiece};
+use crate::formats::xml::{Element, Xml, XmlPiece, root_name};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
@@ -14,9 +14,9 @@ use burgeon_base::text::shown;
 /// Maximum number of nodes, ways or relations in a block.
 const OF_BLOCK: usize = 8000;
 
-/// Returns true if the root element `root` is that of an extract.
-pub(in crate::formats) fn is_extract(root: &str) -> bool {
-    root == "osm"
+/// Returns true if a file that begins with `head` is an extract in XML.
+pub(super) fn is_xml_extract(head: &[u8]) -> bool {
+    root_name(head).as_deref() == Some("osm")
 }
 
 /// Converts an extract to blocks, counted in the memory budget.
@@ -34,7 +34,7 @@ pub(super) fn blocks(file: &DataFile, budget: &Arc<Budget>) -> Result<Vec<Vec<u8
             XmlPiece::End => continue,
             XmlPiece::Eof => break,
         };
-        let Some(kind) = ThingKind::named(&element.name) else {
+        let Some(kind) = ThingKind::of_name(&element.name) else {
             xml.leave(xml.depth - 1)?;
             continue;
         };
@@ -69,7 +69,7 @@ enum ThingKind {
 }
 
 impl ThingKind {
-    fn named(name: &str) -> Option<Self> {
+    fn of_name(name: &str) -> Option<Self> {
         match name {
             "node" => Some(Self::Node),
             "way" => Some(Self::Way),
@@ -191,7 +191,7 @@ impl BlockWriter {
                             &mut members,
                             zigzag(member.wrapping_sub(std::mem::replace(&mut last, member))),
                         );
-                        let kind = inner.attribute("type").and_then(ThingKind::named);
+                        let kind = inner.attribute("type").and_then(ThingKind::of_name);
                         varint(&mut types, kind.unwrap_or_default() as u64);
                     }
                     _ => {}

@@ -5,7 +5,8 @@ use std::io::{BufReader, Read};
 
 use crate::codepages::{CodePage, WESTERN};
 use crate::content::ContentReader;
-use crate::{Attribute, FeatureTable};
+use crate::features::attribute::Attribute;
+use crate::features::table::FeatureTable;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 
@@ -46,7 +47,7 @@ pub(super) enum TextEncoding {
 impl TextEncoding {
     /// Returns the encoding named in a `.cpg` file, or otherwise by the number `mark` in the `.dbf` file. Fails with
     /// its name if it is not supported.
-    pub(super) fn named(cpg: Option<&str>, mark: u8) -> std::result::Result<Self, String> {
+    pub(super) fn of_name(cpg: Option<&str>, mark: u8) -> std::result::Result<Self, String> {
         let number = match cpg.map(str::trim).filter(|name| !name.is_empty()) {
             Some(name) => match page_of_name(name) {
                 Some(65001) => return Ok(Self::Utf8),
@@ -58,8 +59,8 @@ impl TextEncoding {
                 None => return Ok(Self::Unknown),
             },
         };
-        let named = || cpg.map_or_else(|| format!("code page {number}"), |name| name.trim().to_owned());
-        CodePage::numbered(number).map(Self::Page).ok_or_else(named)
+        let of_name = || cpg.map_or_else(|| format!("code page {number}"), |name| name.trim().to_owned());
+        CodePage::of_number(number).map(Self::Page).ok_or_else(of_name)
     }
 
     /// Decodes bytes; the flag is true if the code page was assumed.
@@ -69,7 +70,7 @@ impl TextEncoding {
             (Self::Page(page), _) => (page.decode(bytes), false),
             // A text of fixed length may end within a character.
             (Self::Utf8, Err(_)) => (String::from_utf8_lossy(bytes), false),
-            (Self::Unknown, Err(_)) => match CodePage::numbered(WESTERN) {
+            (Self::Unknown, Err(_)) => match CodePage::of_number(WESTERN) {
                 Some(page) => (page.decode(bytes), true),
                 None => (String::from_utf8_lossy(bytes), true),
             },
@@ -150,7 +151,7 @@ impl DbfReader {
         file.read_exact(&mut head).map_err(|_| damaged("its header is cut short"))?;
         let left = u32::from_le_bytes([head[4], head[5], head[6], head[7]]);
         let [header, size] = [8, 10].map(|at| usize::from(u16::from_le_bytes([head[at], head[at + 1]])));
-        let encoding = TextEncoding::named(cpg, head[29]).map_err(|named| {
+        let encoding = TextEncoding::of_name(cpg, head[29]).map_err(|named| {
             Error::data(format!("{name} has texts in {}, which is not read", shown(&named)))
                 .help("convert it: ogr2ogr -lco ENCODING=UTF-8 OUT.shp IN.shp, or to a GeoPackage: ogr2ogr out.gpkg IN.shp")
         })?;
@@ -311,9 +312,10 @@ mod tests {
                 assert_eq!(known, Some(number), "{name}")
             }
         }
-        assert_eq!(page_of_name("Big5").and_then(CodePage::numbered).map(|page| page.number), None);
+        assert_eq!(page_of_name("Big5").and_then(CodePage::of_number).map(|page| page.number), None);
         assert!(
-            TextEncoding::named(Some("Shift_JIS"), 0).is_err() && TextEncoding::named(None, 0x13).is_err()
+            TextEncoding::of_name(Some("Shift_JIS"), 0).is_err()
+                && TextEncoding::of_name(None, 0x13).is_err()
         );
     }
 }

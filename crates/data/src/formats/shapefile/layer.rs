@@ -3,7 +3,9 @@
 use super::dbf::DbfReader;
 use super::shp::ShapeReader;
 use crate::content::DataFile;
-use crate::{FeatureTable, SourceOptions};
+use crate::crs::prj::{NAME_IT, crs_of_text};
+use crate::features::table::FeatureTable;
+use crate::source_options::SourceOptions;
 use burgeon_base::error::{Error, Result};
 
 /// Files of a layer.
@@ -12,8 +14,8 @@ pub(super) struct ShapeFiles {
     pub(super) layer: String,
     pub(super) shp: DataFile,
     pub(super) dbf: Option<DataFile>,
-    /// Coordinate system in well-known text.
-    pub(super) prj: Option<String>,
+    /// Coordinate system in well-known text, or the reason why the text cannot be read.
+    pub(super) prj: Option<Result<String>>,
     /// Name of the encoding.
     pub(super) cpg: Option<String>,
 }
@@ -27,7 +29,8 @@ impl ShapeFiles {
         };
         let crs = match &self.prj {
             _ if wanted.crs.is_some() => Err(Error::data("")),
-            Some(text) => super::prj::crs(text, label, super::prj::NAME_IT),
+            Some(Ok(text)) => crs_of_text(text, label, NAME_IT),
+            Some(Err(error)) => Err(error.clone()),
             None => Err(Error::data(format!("{label} has no .prj file, which tells its coordinate system"))
                 .help("name its EPSG code: source(file, { crs = 3067 })")),
         };

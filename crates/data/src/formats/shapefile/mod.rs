@@ -6,12 +6,10 @@
 
 mod dbf;
 mod layer;
-mod prj;
 mod reader;
 mod rings;
 mod shp;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use prj::crs as crs_of_text;
 pub(crate) use reader::Shapefile;

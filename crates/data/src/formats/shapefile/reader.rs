@@ -1,14 +1,15 @@
 //! Files of a shapefile, next to each other in a folder or in a zip file.
 
-use std::io::Read;
 use std::path::Path;
 
 use super::layer::ShapeFiles;
 use super::shp::MAGIC;
-use crate::companions::{LARGEST_TEXT, OF_SHAPEFILE, companion, real_companion};
-use crate::content::{DataFile, LayeredFile};
+use crate::companions::{OF_SHAPEFILE, companion, read_text, real_companion};
+use crate::content::DataFile;
+use crate::features::table::FeatureTable;
 use crate::formats::unpack::ZippedFiles;
-use crate::{FeatureTable, SourceOptions};
+use crate::layered_file::LayeredFile;
+use crate::source_options::SourceOptions;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
@@ -34,7 +35,7 @@ impl Shapefile {
             let (file, _) = burgeon_base::files::open(&real?).ok()?;
             Some(DataFile::new(file, &path, &name))
         });
-        let [prj, cpg] = [prj, cpg].map(|file| file.and_then(|file| text(&file)));
+        let (prj, cpg) = (prj.as_ref().map(prj_text), cpg.as_ref().map(cpg_text).transpose()?);
         let (name, layer) = (shp.name.clone(), shp.stem());
         Ok(Self { name, layers: vec![ShapeFiles { layer, shp, dbf, prj, cpg }] })
     }
@@ -50,7 +51,7 @@ impl Shapefile {
                 found.map(|name| zip.file(name, budget)).transpose()
             };
             let (dbf, prj, cpg) = (beside("dbf")?, beside("prj")?, beside("cpg")?);
-            let [prj, cpg] = [prj, cpg].map(|file| file.and_then(|file| text(&file)));
+            let (prj, cpg) = (prj.as_ref().map(prj_text), cpg.as_ref().map(cpg_text).transpose()?);
             let layer = Path::new(shp).file_stem().unwrap_or_default().to_string_lossy().into_owned();
             layers.push(ShapeFiles { layer, shp: zip.file(shp, budget)?, dbf, prj, cpg });
         }
@@ -58,11 +59,21 @@ impl Shapefile {
     }
 }
 
-/// Returns the text of a small file.
-fn text(file: &DataFile) -> Option<String> {
-    let mut bytes = Vec::new();
-    file.content.reader().ok()?.take(LARGEST_TEXT).read_to_end(&mut bytes).ok()?;
-    Some(String::from_utf8_lossy(&bytes).trim_start_matches('\u{feff}').to_owned())
+/// Returns the text of a `.prj` file; an error if it cannot be read, which matters only if the text is needed.
+fn prj_text(file: &DataFile) -> Result<String> {
+    let remedy = "a .prj file is the text of one coordinate system; write it anew, or name the EPSG code: \
+                  source(file, { crs = 3067 })";
+    text(file, remedy)
+}
+
+/// Returns the name of an encoding in a `.cpg` file.
+fn cpg_text(file: &DataFile) -> Result<String> {
+    text(file, "a .cpg file holds the name of an encoding, such as UTF-8; write it anew, or remove it")
+}
+
+fn text(file: &DataFile, remedy: &str) -> Result<String> {
+    let cannot = |error| Error::file(&file.path, format!("cannot read {}: {error}", file.name));
+    read_text(file.content.reader().map_err(cannot)?, &file.name, remedy)
 }
 
 impl LayeredFile for Shapefile {

@@ -3,9 +3,9 @@
 
 use glam::DVec3;
 
-use crate::Geometry;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
+use burgeon_spatial::Geometry;
 
 /// Returns twice the signed area of a ring; positive if it is counter-clockwise.
 fn turn(ring: &[DVec3]) -> f64 {

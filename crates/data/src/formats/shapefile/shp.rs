@@ -5,10 +5,10 @@ use std::io::{BufReader, Read};
 use glam::DVec3;
 
 use super::rings::polygons;
-use crate::Geometry;
 use crate::content::ContentReader;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
+use burgeon_spatial::Geometry;
 
 /// First four bytes: the number 9994.
 pub(super) const MAGIC: [u8; 4] = [0, 0, 0x27, 0x0a];

@@ -2,7 +2,9 @@
 
 use tiff::tags::Tag;
 
-use super::geotiff::{Keys, Tiff};
+use super::keys::GeoKeys;
+use super::parts::Tiff;
+use crate::crs::vertical::unit_of_system;
 use crate::heights::marks::is_negative_mark;
 use crate::heights::names::tiff_key as keys;
 use crate::heights::narrow;
@@ -17,12 +19,14 @@ pub(super) struct Meaning {
     /// Factor of the samples, and offset added to the result (m).
     scale: f64,
     offset: f64,
+    /// Set if the file declares the unit of its heights.
+    pub(super) has_unit: bool,
 }
 
 impl Meaning {
     /// Reads the conversion from the tags of a file called `name`. Fails if the unit is unknown, or if the scale is
     /// unusable.
-    pub(super) fn read(tiff: &mut Tiff<'_>, keys: &Keys, name: &str) -> Result<Self> {
+    pub(super) fn read(tiff: &mut Tiff<'_>, keys: &GeoKeys, name: &str) -> Result<Self> {
         let missing = tiff.get_tag_ascii_string(Tag::GdalNodata).ok();
         let missing = missing.and_then(|text| text.trim_matches(['\0', ' ']).parse::<f64>().ok());
         let metadata = tiff.get_tag_ascii_string(METADATA).unwrap_or_default();
@@ -37,14 +41,15 @@ impl Meaning {
             ))
             .help("write them as metres: gdal_translate -unscale IN OUT.tif"));
         }
-        let unit = match keys.get(keys::VERTICAL_UNIT) {
+        let unit = match keys.get(keys::VERTICAL_UNIT).filter(|unit| !matches!(*unit, 0 | keys::OWN)) {
             None => match item(&metadata, "unittype").filter(|unit| !unit.is_empty()) {
-                Some(unit) => named(unit, name)?,
-                None => keys.get(keys::VERTICAL).map_or(1.0, unit_of_system),
+                Some(unit) => Some(unit_named(unit, name)?),
+                None => keys.get(keys::VERTICAL).map(unit_of_system),
             },
-            Some(unit) => coded(unit, name)?,
+            Some(unit) => Some(unit_coded(unit, name)?),
         };
-        Ok(Self { missing, scale: scale * unit, offset: offset * unit })
+        let (has_unit, unit) = (unit.is_some(), unit.unwrap_or(1.0));
+        Ok(Self { missing, scale: scale * unit, offset: offset * unit, has_unit })
     }
 
     /// Returns true if heights differ from samples.
@@ -54,7 +59,7 @@ impl Meaning {
 
     /// Returns the height (m) in strips and tiles that the file leaves out: missing, or that of the sample 0 if the file
     /// declares no marker of missing values.
-    pub(super) fn absent(&self) -> f32 {
+    pub(super) fn absent_height(&self) -> f32 {
         if self.missing.is_some() { f32::NAN } else { self.height(0.0) }
     }
 
@@ -75,7 +80,7 @@ impl Meaning {
 
 /// Returns the scale and the offset of heights from the georeferencing tags, but only if the file declares vertical
 /// coordinates, because other files contain arbitrary values there.
-fn vertical(tiff: &mut Tiff<'_>, keys: &Keys) -> (f64, f64) {
+fn vertical(tiff: &mut Tiff<'_>, keys: &GeoKeys) -> (f64, f64) {
     let plain = (1.0, 0.0);
     if keys.get(keys::VERTICAL).or_else(|| keys.get(keys::VERTICAL_UNIT)).is_none() {
         return plain;
@@ -109,41 +114,28 @@ fn attribute<'a>(tag: &'a str, name: &str) -> Option<&'a str> {
 }
 
 /// Returns the length (m) of a unit with an EPSG code.
-fn coded(unit: u16, name: &str) -> Result<f64> {
+fn unit_coded(unit: u16, name: &str) -> Result<f64> {
     match unit {
-        0 | keys::METRE | keys::OWN => Ok(1.0),
+        keys::METRE => Ok(1.0),
         9002 => Ok(0.3048),
         9003 => Ok(1200.0 / 3937.0),
-        unit => Err(unknown(&format!("EPSG:{unit}"), name)),
-    }
-}
-
-/// Returns the length (m) of the unit of a vertical coordinate system with an EPSG code. Most are in metres.
-fn unit_of_system(code: u16) -> f64 {
-    match code {
-        // NGVD29, NAVD88 and mean sea level in US survey feet.
-        5702 | 6360 | 8052 => 1200.0 / 3937.0,
-        // The Cayman Islands' three datums, mean sea level, and NAVD88 in international feet.
-        6130..=6132 | 8050 | 8228 => 0.3048,
-        // Poolbeg in British feet of 1936.
-        5754 => 0.304_800_749_1,
-        _ => 1.0,
+        unit => Err(unit_error(&format!("EPSG:{unit}"), name)),
     }
 }
 
 /// Returns the length (m) of a unit with a GDAL name.
-fn named(unit: &str, name: &str) -> Result<f64> {
+fn unit_named(unit: &str, name: &str) -> Result<f64> {
     match unit.to_ascii_lowercase().as_str() {
         "" | "m" | "metre" | "metres" | "meter" | "meters" => Ok(1.0),
         "ft" | "foot" | "feet" => Ok(0.3048),
         "us-ft" | "ftus" | "us survey foot" | "us survey feet" => Ok(1200.0 / 3937.0),
         "cm" | "centimetre" | "centimeter" => Ok(0.01),
         "mm" | "millimetre" | "millimeter" => Ok(0.001),
-        _ => Err(unknown(&format!("{unit:?}"), name)),
+        _ => Err(unit_error(&format!("{unit:?}"), name)),
     }
 }
 
-fn unknown(unit: &str, name: &str) -> Error {
+fn unit_error(unit: &str, name: &str) -> Error {
     Error::data(format!("{name} has heights in a unit that is not known ({unit})"))
         .help("convert it to metres")
 }

@@ -5,26 +5,26 @@ use std::sync::Arc;
 
 use rustc_hash::FxHasher;
 
-use super::Attribute;
+use super::attribute::Attribute;
 
 /// Attributes of a feature: the indices of their names, and their values.
-pub(super) type FeatureAttributes = Arc<[(usize, Attribute)]>;
+pub(crate) type FeatureAttributes = Arc<[(usize, Attribute)]>;
 
 /// Number of slots in the pool.
 const PLACES: usize = 4096;
 
 /// Pool of recent attribute lists, by hash.
 #[derive(Debug)]
-pub(super) struct AttributePool(Vec<Option<FeatureAttributes>>);
+pub(crate) struct AttributePool(Vec<Option<FeatureAttributes>>);
 
 impl AttributePool {
     /// Creates an empty pool.
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self(Vec::new())
     }
 
     /// Returns the stored list equal to `attributes`, or stores `attributes`. The flag is true if they were new.
-    pub(super) fn intern(&mut self, attributes: Vec<(usize, Attribute)>) -> (FeatureAttributes, bool) {
+    pub(crate) fn intern(&mut self, attributes: Vec<(usize, Attribute)>) -> (FeatureAttributes, bool) {
         let Some(place) = place(&attributes) else { return (attributes.into(), true) };
         if self.0.is_empty() {
             self.0.resize(PLACES, None);

@@ -6,10 +6,11 @@ use tiff::TiffError;
 use tiff::decoder::{ChunkType, Decoder, DecodingResult, Limits};
 use tiff::tags::{ByteOrder, Tag};
 
+use super::keys::GeoKeys;
+use super::lzw::LZW;
 use super::meaning::Meaning;
-use super::packed::{DEFLATED, can_hold, cannot_hold};
-use super::tiff_parts::{LZW, TiffParts};
-use crate::Crs;
+use super::parts::{Tiff, TiffParts};
+use crate::formats::packed::{DEFLATED, can_hold, cannot_hold};
 use crate::heights::names::tiff_key as keys;
 use crate::heights::{RasterHeader, SampleGrid, check_size, count};
 use burgeon_base::budget::Budget;
@@ -24,34 +25,32 @@ const PACKED: usize = 100_000;
 const LARGEST_PART: usize = 1_000_000_000;
 const LARGEST_TAG: usize = 64_000_000;
 
-/// TIFF in memory that is being read.
-pub(super) type Tiff<'a> = Decoder<Cursor<&'a [u8]>>;
-
 /// Reads a file called `name`.
 ///
 /// Fails if the file is damaged or truncated, has 8-bit samples or several bands instead of heights, or is rotated.
 pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<RasterHeader<'a>> {
-    let damaged = |error: TiffError| damaged(name, &error);
+    let tiff_error = |error: TiffError| tiff_error(name, &error);
     if !texts_fit(bytes) {
-        return Err(damaged(TiffError::LimitsExceeded));
+        return Err(tiff_error(TiffError::LimitsExceeded));
     }
     let mut limits = Limits::default();
     limits.decoding_buffer_size = LARGEST_PART.max(bytes.len());
     limits.intermediate_buffer_size = LARGEST_PART;
     limits.ifd_value_size = LARGEST_TAG;
-    let mut tiff = Decoder::new(Cursor::new(bytes)).map_err(damaged)?.with_limits(limits);
-    let (columns, rows) = tiff.dimensions().map_err(damaged)?;
+    let mut tiff = Decoder::new(Cursor::new(bytes)).map_err(tiff_error)?.with_limits(limits);
+    let (columns, rows) = tiff.dimensions().map_err(tiff_error)?;
     let [columns, rows] = [columns, rows].map(|side| side as usize);
     check_size(name, columns, rows)?;
-    let color = tiff.colortype().map_err(damaged)?;
+    let color = tiff.colortype().map_err(tiff_error)?;
     if color.num_samples() != 1 {
         return Err(Error::data(format!("{name} has {} bands, where heights are one", color.num_samples()))
             .help("take out the one of heights: gdal_translate -b 1 IN OUT.tif"));
     }
     check_whole(&mut tiff, bytes, name)?;
     check_parts(&mut tiff, bytes, name, usize::from(color.bit_depth()).div_ceil(8))?;
-    let keys = Keys::read(&mut tiff);
+    let keys = GeoKeys::read(&mut tiff);
     let meaning = Meaning::read(&mut tiff, &keys, name)?;
+    let has_unit = meaning.has_unit;
     let mut grid = grid(&mut tiff, name, keys.get(keys::RASTER) == Some(keys::POINT))?;
     let from_south = grid.as_ref().is_some_and(|grid| grid.step[1] < 0.0);
     if let Some(grid) = grid.as_mut().filter(|_| from_south) {
@@ -67,7 +66,15 @@ pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<RasterHeader<'a
         }
         Ok(heights)
     };
-    Ok(RasterHeader { columns, rows, grid, crs: keys.crs(name), is_told: false, heights: Box::new(heights) })
+    Ok(RasterHeader {
+        columns,
+        rows,
+        grid,
+        crs: keys.crs(name),
+        is_told: false,
+        has_unit,
+        heights: Box::new(heights),
+    })
 }
 
 /// Returns true if no text in the first directory is longer than the file; otherwise the decoder would print to the
@@ -113,7 +120,7 @@ fn check_whole(tiff: &mut Tiff<'_>, bytes: &[u8], name: &str) -> Result<()> {
 
 /// Fails if strips or tiles declare more samples than their bytes can contain.
 fn check_parts(tiff: &mut Tiff<'_>, bytes: &[u8], name: &str, sample: usize) -> Result<()> {
-    let (columns, rows) = tiff.dimensions().map_err(|error| damaged(name, &error))?;
+    let (columns, rows) = tiff.dimensions().map_err(|error| tiff_error(name, &error))?;
     let [columns, rows] = [columns, rows].map(|side| side as usize);
     let (width, height) = tiff.chunk_dimensions();
     let [width, height] = [width, height].map(|side| side as usize);
@@ -175,16 +182,16 @@ fn samples(
             let (values, stride) = match &parts {
                 Some(parts) if parts.is_absent(part) => {
                     let found = [width.min(columns - left), height.min(rows - top)];
-                    (vec![meaning.absent(); found[0] * found[1]], found[0])
+                    (vec![meaning.absent_height(); found[0] * found[1]], found[0])
                 }
                 Some(parts) if parts.compression == LZW && parts.is_supported() => {
-                    let samples = parts.samples(bytes, part, is_big).ok_or_else(|| broken(name))?;
+                    let samples = parts.samples(bytes, part, is_big).ok_or_else(|| damage_error(name))?;
                     let heights = samples.into_iter().map(|bits| meaning.height(parts.number(bits)));
                     (heights.collect(), width)
                 }
                 _ => {
                     let (found_width, _) = tiff.chunk_data_dimensions(number);
-                    let values = tiff.read_chunk(number).map_err(|error| damaged(name, &error))?;
+                    let values = tiff.read_chunk(number).map_err(|error| tiff_error(name, &error))?;
                     (numbers(values, meaning, name)?, (found_width as usize).max(1))
                 }
             };
@@ -267,69 +274,7 @@ fn grid(tiff: &mut Tiff<'_>, name: &str, is_point: bool) -> Result<Option<Sample
     Ok(Some(SampleGrid { first: [corner[0] + half * step[0], corner[1] - half * step[1]], step }))
 }
 
-/// Numeric GeoTIFF keys.
-pub(super) struct Keys {
-    short: Vec<(u16, u16)>,
-    double: Vec<(u16, f64)>,
-}
-
-impl Keys {
-    /// Reads the keys; there are none in a plain TIFF.
-    fn read(tiff: &mut Tiff<'_>) -> Self {
-        let directory = tiff.get_tag_u16_vec(Tag::GeoKeyDirectoryTag).unwrap_or_default();
-        let doubles = tiff.get_tag_f64_vec(Tag::GeoDoubleParamsTag).unwrap_or_default();
-        let mut keys = Self { short: Vec::new(), double: Vec::new() };
-        // The directory has four header numbers, then four numbers per key: key, location of the value, count, and
-        // index or value.
-        for key in directory.chunks_exact(4).skip(1) {
-            if key[1] == 0 {
-                keys.short.push((key[0], key[3]));
-            } else if key[1] == Tag::GeoDoubleParamsTag.to_u16() {
-                keys.double.extend(doubles.get(usize::from(key[3])).map(|value| (key[0], *value)));
-            }
-        }
-        keys
-    }
-
-    pub(super) fn get(&self, key: u16) -> Option<u16> {
-        self.short.iter().find(|(known, _)| *known == key).map(|(_, value)| *value)
-    }
-
-    /// Returns the coordinate system, if the file has one.
-    fn crs(&self, name: &str) -> Result<Option<Crs>> {
-        let code = self.get(keys::PROJECTED).or_else(|| self.get(keys::GEOGRAPHIC)).filter(|code| *code != 0);
-        match (code, self.middle()) {
-            (None, _) if self.get(keys::MODEL).is_none_or(|model| model == 0) => Ok(None),
-            (Some(keys::OWN), Some(middle)) => Ok(Some(Crs::around(middle))),
-            (Some(code), _) if code != keys::OWN => Crs::epsg(code.into())
-                .map(Some)
-                .map_err(|error| Error::data(format!("{name}: {}", error.message())).help(NAME_IT)),
-            _ => {
-                Err(Error::data(format!("{name} has a coordinate system that is none of EPSG's"))
-                    .help(NAME_IT))
-            }
-        }
-    }
-
-    /// Returns the centre (longitude and latitude in degrees) of a run's transverse Mercator projection, if the file
-    /// uses one.
-    fn middle(&self) -> Option<[f64; 2]> {
-        let double = |key: u16| self.double.iter().find(|(known, _)| *known == key).map(|(_, value)| *value);
-        let [longitude, latitude, x, y, scale] = keys::MIDDLE.map(double);
-        let is_ours = self.get(keys::METHOD) == Some(keys::TRANSVERSE_MERCATOR)
-            && self.get(keys::GEOGRAPHIC) == Some(keys::WGS_84)
-            && self.get(keys::LINEAR_UNIT) == Some(keys::METRE)
-            && [x, y, scale] == [Some(0.0), Some(0.0), Some(1.0)];
-        let middle = [longitude?, latitude?];
-        (is_ours && middle[0].abs() <= 180.0 && middle[1].abs() <= 90.0).then_some(middle)
-    }
-}
-
-/// Remedy for a coordinate system that cannot be used.
-const NAME_IT: &str = "name its EPSG code: elevation(file, { crs = 3067 }), or convert the file: \
-                       gdalwarp -t_srs EPSG:4326 IN OUT.tif";
-
-fn damaged(name: &str, error: &TiffError) -> Error {
+fn tiff_error(name: &str, error: &TiffError) -> Error {
     match error {
         TiffError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
             Error::data(format!("{name} is cut short")).help("get it again")
@@ -340,10 +285,10 @@ fn damaged(name: &str, error: &TiffError) -> Error {
         }
         TiffError::UnsupportedError(_) => Error::data(format!("{name} is a TIFF of a kind that is not read"))
             .help("convert it: gdal_translate -ot Float32 -co COMPRESS=DEFLATE IN OUT.tif"),
-        _ => broken(name),
+        _ => damage_error(name),
     }
 }
 
-fn broken(name: &str) -> Error {
+fn damage_error(name: &str) -> Error {
     Error::data(format!("{name} is a damaged TIFF")).help("get it again")
 }

@@ -5,12 +5,12 @@ use std::hash::BuildHasher;
 use hashbrown::HashTable;
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
-use super::Feature;
+use super::feature::Feature;
 use super::id::FeatureId;
 
 /// Ids in use.
 #[derive(Debug)]
-pub(super) struct TakenIds {
+pub(crate) struct TakenIds {
     /// First free number, as long as all ids are increasing numbers; `features` is then empty.
     free: Option<u64>,
     /// Indices of features, by id.
@@ -24,34 +24,34 @@ fn hash(id: &str) -> u64 {
 }
 
 /// Returns the number in `id`, if it is in canonical decimal notation.
-fn counted(id: &str) -> Option<u64> {
+fn increasing_number(id: &str) -> Option<u64> {
     let plain = id.bytes().all(|byte| byte.is_ascii_digit()) && (id.len() == 1 || !id.starts_with('0'));
     if plain { id.parse().ok() } else { None }
 }
 
 impl TakenIds {
     /// Creates an empty set.
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self { free: Some(0), features: HashTable::new(), last: FxHashMap::default() }
     }
 
     /// Returns the id for the next of `features`: `id` if it is free, otherwise `id` with a number appended.
-    pub(super) fn fresh(&mut self, id: &str, features: &[Feature]) -> FeatureId {
-        let number = self.free.and_then(|free| counted(id).filter(|number| *number >= free));
+    pub(crate) fn fresh(&mut self, id: &str, features: &[Feature]) -> FeatureId {
+        let number = self.free.and_then(|free| increasing_number(id).filter(|number| *number >= free));
         if let Some(after) = number.and_then(|number| number.checked_add(1)) {
             self.free = Some(after);
             return FeatureId::from(id);
         }
         self.look_up(features);
         let last = self.last.get(id).copied();
-        let id = match last.is_some() || self.taken(id, features) {
+        let id = match last.is_some() || self.is_taken(id, features) {
             false => FeatureId::from(id),
             true => {
                 let mut count = last.unwrap_or(1);
                 let unique = loop {
                     count += 1;
                     let unique = format!("{id}.{count}");
-                    if !self.taken(&unique, features) {
+                    if !self.is_taken(&unique, features) {
                         break unique;
                     }
                 };
@@ -85,13 +85,13 @@ impl TakenIds {
     }
 
     /// Counts a part with this id that is not selected, so other parts get the same ids as if it were.
-    pub(super) fn skip(&mut self, id: &str, features: &[Feature]) {
+    pub(crate) fn skip(&mut self, id: &str, features: &[Feature]) {
         self.look_up(features);
-        let first = usize::from(self.taken(id, features));
+        let first = usize::from(self.is_taken(id, features));
         *self.last.entry(id.to_owned()).or_insert(first) += 1;
     }
 
-    fn taken(&self, id: &str, features: &[Feature]) -> bool {
+    fn is_taken(&self, id: &str, features: &[Feature]) -> bool {
         let same = |number: &u32| features.get(*number as usize).is_some_and(|feature| feature.id == *id);
         self.features.find(hash(id), same).is_some()
     }

@@ -37,7 +37,7 @@ pub(super) fn entry(code: u32) -> Result<Option<EpsgEntry>> {
 }
 
 /// Calls `each` with the code and the well-known text of each coordinate system, by increasing code.
-pub(super) fn each(mut each: impl FnMut(u16, &str)) -> Result<()> {
+pub(super) fn for_each(mut each: impl FnMut(u16, &str)) -> Result<()> {
     for (_, place) in BLOCKS {
         for line in block(place)?.lines() {
             let mut parts = line.splitn(3, '\t');

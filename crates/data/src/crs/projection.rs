@@ -26,10 +26,10 @@ impl Projection {
 
 /// Returns the code and the PROJ definition of a coordinate system, if the registry contains it. Fails if the code was
 /// withdrawn because it was wrong.
-pub(crate) fn known(code: u32) -> Result<Option<(u16, String)>> {
+pub(crate) fn find_system(code: u32) -> Result<Option<(u16, String)>> {
     let Some(found) = entry(code)? else { return Ok(None) };
     corrections::refuse_withdrawn(found.code)?;
-    Ok(Some((found.code, corrections::corrected(found.code, found.proj, &found.text))))
+    Ok(Some((found.code, corrections::correct_definition(found.code, found.proj, &found.text))))
 }
 
 /// Returns the name of the datum of a coordinate system with a code and a PROJ definition, if no shift from it to WGS 84
@@ -55,7 +55,7 @@ mod tests {
     #[test]
     fn projections_are_within_a_millimetre_of_another_programs() {
         let projection = |code: u32| {
-            let (_, definition) = known(code).unwrap().unwrap();
+            let (_, definition) = find_system(code).unwrap().unwrap();
             Projection::new(&definition, Error::data).unwrap()
         };
         let degrees = projection(4326);

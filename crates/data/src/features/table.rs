@@ -5,40 +5,18 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::attribute::Attribute;
 use super::attribute_pool::AttributePool;
 use super::derived_id::derived_id;
-use super::id::FeatureId;
+use super::feature::Feature;
+use super::selection::FeatureSelection;
 use super::taken_ids::TakenIds;
-use super::{Crs, SourceOptions};
+use crate::crs::Crs;
+use crate::source_options::SourceOptions;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
 use burgeon_spatial::{Geometry, GeometryKind};
-
-/// Value of an attribute.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Attribute {
-    /// True or false.
-    Boolean(bool),
-    /// Finite number.
-    Number(f64),
-    /// Text.
-    Text(Arc<str>),
-    /// GeoJSON list or object.
-    Nested(Arc<serde_json::Value>),
-}
-
-/// Record with a geometry.
-#[derive(Debug, Clone)]
-pub struct Feature {
-    /// Id, unique within its layer.
-    pub id: FeatureId,
-    /// Geometry with one part.
-    pub geometry: Geometry,
-    /// Indices of the names in [`FeatureTable::names`], and the values. Features with equal attributes may share the
-    /// list.
-    pub attributes: Arc<[(usize, Attribute)]>,
-}
 
 /// Layer as stored in its file.
 #[derive(Debug)]
@@ -58,7 +36,7 @@ pub struct FeatureTable {
     /// Number of skipped features without a geometry, or with one without extent.
     pub empty: usize,
     /// Number of these features that have points, but too few distinct ones.
-    pub(super) collapsed: usize,
+    pub(crate) collapsed: usize,
     /// Ids of skipped features whose geometry cannot be read, with the reasons.
     pub refused: Vec<(String, Error)>,
     /// Other messages about reading the layer.
@@ -66,8 +44,8 @@ pub struct FeatureTable {
     /// Number of features without an id, which received an id derived from their content.
     pub derived: usize,
     /// For each attribute, the number of features without a geometry that have it.
-    pub(super) unplaced: Vec<usize>,
-    selection: Selection,
+    pub(crate) unplaced: Vec<usize>,
+    selection: FeatureSelection,
     ids: TakenIds,
     /// Indices of the attribute names.
     numbers: FxHashMap<String, usize>,
@@ -77,40 +55,7 @@ pub struct FeatureTable {
     /// Indices of the features that are further parts of the preceding record, in order.
     further: Vec<usize>,
     /// Limits on the resources for examining the features.
-    pub(super) budget: Arc<Budget>,
-}
-
-/// Selection of the features to keep.
-#[derive(Debug)]
-struct Selection {
-    kind: Option<GeometryKind>,
-    /// West, south, east and north of a box that features must touch, in the coordinates of the file.
-    within: Option<[f64; 4]>,
-    limit: Option<usize>,
-    /// Types of geometries that occurred, by number, kept or not.
-    seen: [bool; 3],
-}
-
-impl Selection {
-    fn keeps(&mut self, geometry: &Geometry) -> bool {
-        if let Some(seen) = self.seen.get_mut(geometry.kind() as usize) {
-            *seen = true;
-        }
-        self.kind.is_none_or(|kind| kind == geometry.kind())
-            && self.within.is_none_or(|within| touches(geometry, within))
-    }
-}
-
-/// Returns true if the bounds of a geometry intersect a box.
-fn touches(geometry: &Geometry, [west, south, east, north]: [f64; 4]) -> bool {
-    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for point in geometry.points() {
-        for axis in 0..2 {
-            low[axis] = low[axis].min(point[axis]);
-            high[axis] = high[axis].max(point[axis]);
-        }
-    }
-    low[0] <= east && low[1] <= north && high[0] >= west && high[1] >= south
+    pub(crate) budget: Arc<Budget>,
 }
 
 /// Returns the approximate memory (bytes) that a geometry uses in addition to the value itself.
@@ -124,7 +69,7 @@ const LONGEST_TEXT: usize = 40;
 
 impl FeatureTable {
     /// Creates an empty table of a layer, which keeps the features that `wanted` selects.
-    pub(super) fn new(layer: &str, shown: &str, crs: Result<Crs>, wanted: &SourceOptions) -> Self {
+    pub(crate) fn new(layer: &str, shown: &str, crs: Result<Crs>, wanted: &SourceOptions) -> Self {
         let SourceOptions { kind, within, limit, .. } = *wanted;
         Self {
             layer: layer.to_owned(),
@@ -139,7 +84,7 @@ impl FeatureTable {
             notes: Vec::new(),
             derived: 0,
             unplaced: Vec::new(),
-            selection: Selection { kind, within, limit, seen: [false; 3] },
+            selection: FeatureSelection { kind, within, limit, seen: [false; 3] },
             ids: TakenIds::new(),
             numbers: FxHashMap::default(),
             texts: FxHashSet::default(),
@@ -162,7 +107,7 @@ impl FeatureTable {
     }
 
     /// Returns the index of the attribute called `name`; adds it if it is new.
-    pub(super) fn name(&mut self, name: &str) -> usize {
+    pub(crate) fn name(&mut self, name: &str) -> usize {
         match self.numbers.get(name) {
             Some(number) => *number,
             None => {
@@ -175,7 +120,7 @@ impl FeatureTable {
     }
 
     /// Returns a text as an attribute; features share frequent texts.
-    pub(super) fn text(&mut self, text: &str) -> Attribute {
+    pub(crate) fn text(&mut self, text: &str) -> Attribute {
         if text.len() > LONGEST_TEXT {
             return Attribute::Text(text.into());
         }
@@ -191,12 +136,12 @@ impl FeatureTable {
     }
 
     /// Returns true if the requested number of features has been reached.
-    pub(super) fn is_full(&self) -> bool {
+    pub(crate) fn is_full(&self) -> bool {
         self.selection.limit.is_some_and(|limit| self.features.len() >= limit)
     }
 
     /// Returns true if there was a geometry, kept or not.
-    pub(super) fn has_seen(&self) -> bool {
+    pub(crate) fn has_seen(&self) -> bool {
         self.selection.seen.contains(&true)
     }
 
@@ -249,7 +194,7 @@ impl FeatureTable {
 
     /// Adds features without an id, like [`push`](Self::push). The id is a hash of the geometry and the attributes, so
     /// it does not change when other features are added, removed or reordered. Identical features are numbered.
-    pub(super) fn push_unnamed(
+    pub(crate) fn push_unnamed(
         &mut self,
         parts: Vec<Geometry>,
         attributes: Vec<(usize, Attribute)>,
@@ -264,7 +209,7 @@ impl FeatureTable {
     /// Adds features with the value of the attribute `column` as the id; features without that attribute get a derived
     /// id.
     #[cfg(feature = "data")]
-    pub(super) fn push_identified(
+    pub(crate) fn push_identified(
         &mut self,
         column: Option<usize>,
         parts: Vec<Geometry>,
@@ -280,7 +225,7 @@ impl FeatureTable {
     /// Counts a feature without a geometry. If it has points, but too few for a geometry, they are within `bounds`.
     ///
     /// If a box was requested, features outside the box or without a position are not counted.
-    pub(super) fn add_empty(&mut self, attributes: &[(usize, Attribute)], bounds: Option<[f64; 4]>) {
+    pub(crate) fn add_empty(&mut self, attributes: &[(usize, Attribute)], bounds: Option<[f64; 4]>) {
         if self.selection.within.is_some() && !bounds.is_some_and(|bounds| self.concerns(Some(bounds))) {
             return;
         }
@@ -295,20 +240,17 @@ impl FeatureTable {
     }
 
     /// Returns true if a feature with these bounds may touch the requested box, if any; also if the bounds are unknown.
-    pub(super) fn concerns(&self, bounds: Option<[f64; 4]>) -> bool {
-        let (Some(within), Some([west, south, east, north])) = (self.selection.within, bounds) else {
-            return true;
-        };
-        west <= within[2] && south <= within[3] && east >= within[0] && north >= within[1]
+    pub(crate) fn concerns(&self, bounds: Option<[f64; 4]>) -> bool {
+        self.selection.may_touch(bounds)
     }
 
     /// Skips a feature like [`refuse`](Self::refuse), unless its bounds are outside the requested box.
-    pub(super) fn refuse_at(&mut self, id: String, error: Error, bounds: Option<[f64; 4]>) -> Result<()> {
+    pub(crate) fn refuse_at(&mut self, id: String, error: Error, bounds: Option<[f64; 4]>) -> Result<()> {
         if self.concerns(bounds) { self.refuse(id, error) } else { self.budget.tick() }
     }
 
     /// Keeps the features with these indices, which must be sorted, and at most `limit` of them.
-    pub(super) fn keep(&mut self, kept: &[usize], limit: Option<usize>) {
+    pub(crate) fn keep(&mut self, kept: &[usize], limit: Option<usize>) {
         let mut kept = kept.iter().take(limit.unwrap_or(usize::MAX)).copied().peekable();
         let mut further = self.further.iter().copied().peekable();
         // Index of the first feature of the record, for each kept feature.
@@ -331,7 +273,7 @@ impl FeatureTable {
 
     /// Returns the table after applying the options: the coordinate system, the geometry type and the number of
     /// features. Fails if no features remain.
-    pub fn finished(mut self, wanted: &SourceOptions) -> Result<Self> {
+    pub fn finish(mut self, wanted: &SourceOptions) -> Result<Self> {
         if let Some(code) = wanted.crs {
             self.crs = Crs::epsg(code);
         }
@@ -344,7 +286,7 @@ impl FeatureTable {
             return Err(error.clone());
         }
         if self.features.is_empty() {
-            return Err(super::source::nothing(&self, wanted).help("check the file: burgeon sources FILE"));
+            return Err(no_features(&self, wanted).help("check the file: burgeon sources FILE"));
         }
         Ok(self)
     }
@@ -358,7 +300,7 @@ impl FeatureTable {
     }
 
     /// Skips the features for which `why` returns an error.
-    pub(super) fn refuse_those(
+    pub(crate) fn refuse_those(
         &mut self,
         why: impl Fn(&mut Feature) -> Option<Error> + Send + Sync,
     ) -> Result<()> {
@@ -377,7 +319,7 @@ impl FeatureTable {
     }
 
     /// Skips features with coordinates that are not finite.
-    pub(super) fn refuse_endless(&mut self) -> Result<()> {
+    pub(crate) fn refuse_endless(&mut self) -> Result<()> {
         let name = self.shown.clone();
         self.refuse_those(|feature| {
             let endless = feature.geometry.points().any(|point| !point.is_finite());
@@ -390,7 +332,7 @@ impl FeatureTable {
     }
 
     /// Returns the index of the attribute `name`; if there is none, fails with a list of the attributes.
-    pub(super) fn column(&self, name: &str) -> Result<usize> {
+    pub(crate) fn column(&self, name: &str) -> Result<usize> {
         self.names.iter().position(|known| known == name).ok_or_else(|| {
             let names = || self.names.iter().map(String::as_str);
             let message = format!("{} has no attribute called {}", self.shown, shown(name));
@@ -399,7 +341,7 @@ impl FeatureTable {
     }
 
     /// Sets the features' ids from the attribute `name`, if given, for features with that attribute.
-    pub(super) fn identify(&mut self, name: Option<&str>) -> Result<()> {
+    pub(crate) fn identify(&mut self, name: Option<&str>) -> Result<()> {
         let Some(name) = name else { return Ok(()) };
         let column = self.column(name)?;
         self.ids = TakenIds::new();
@@ -416,7 +358,7 @@ impl FeatureTable {
     }
 
     /// Fails if there were geometries, but none of the requested type.
-    pub(super) fn check_kind(&self) -> Result<()> {
+    pub(crate) fn check_kind(&self) -> Result<()> {
         let Some(kind) = self.selection.kind else { return Ok(()) };
         let seen = |known: &GeometryKind| self.selection.seen.get(*known as usize) == Some(&true);
         let there: Vec<&str> =
@@ -434,46 +376,29 @@ impl FeatureTable {
     }
 }
 
-impl Attribute {
-    /// Returns the approximate memory (bytes) used in addition to the entry in a list.
-    fn weight(&self) -> usize {
-        fn nested(value: &serde_json::Value) -> usize {
-            use serde_json::Value as Json;
-            match value {
-                Json::String(text) => 80 + text.len(),
-                Json::Array(items) => 80 + items.iter().map(nested).sum::<usize>(),
-                Json::Object(fields) => {
-                    80 + fields.iter().map(|(name, value)| 80 + name.len() + nested(value)).sum::<usize>()
-                }
-                _ => 80,
-            }
-        }
-        match self {
-            Self::Boolean(_) | Self::Number(_) => 0,
-            Self::Text(text) => 16 + text.len(),
-            Self::Nested(value) => nested(value),
-        }
+/// Returns the error for a table without features.
+fn no_features(table: &FeatureTable, wanted: &SourceOptions) -> Error {
+    let what = &table.shown;
+    if wanted.limit == Some(0) {
+        return Error::argument(format!("limit = 0 leaves no feature of {what}")).help("leave limit out");
     }
-
-    /// Returns the value as a feature id.
-    pub(super) fn as_id(&self) -> String {
-        match self {
-            Self::Boolean(value) => value.to_string(),
-            Self::Number(value) => value.to_string(),
-            Self::Text(text) => text.to_string(),
-            Self::Nested(value) => value.to_string(),
-        }
+    if let Some(condition) = &wanted.condition {
+        return Error::data(format!("no feature of {what} meets where {condition}"))
+            .help("burgeon sources FILE lists attributes and their values");
     }
-
-    /// Returns the type name: `boolean`, `number`, `text` or `table`.
-    pub fn kind(&self) -> &'static str {
-        match self {
-            Self::Boolean(_) => "boolean",
-            Self::Number(_) => "number",
-            Self::Text(_) => "text",
-            Self::Nested(_) => "table",
-        }
+    if let (Some([west, south, east, north]), true) = (wanted.within, table.has_seen()) {
+        let place = format!("{{ {west}, {south}, {east}, {north} }}");
+        return Error::data(format!("no feature of {what} touches within = {place}"))
+            .help("it is { west, south, east, north } in the coordinates of the file, which burgeon sources FILE lists");
     }
+    if wanted.tags.is_some() {
+        return Error::data(format!("no feature of {what} has such tags"))
+            .help("look up how mappers tag it: https://wiki.openstreetmap.org/wiki/Map_features");
+    }
+    if table.empty > 0 {
+        return Error::data(format!("{what} has no features with a geometry"));
+    }
+    Error::data(format!("{what} has no features"))
 }
 
 #[cfg(test)]

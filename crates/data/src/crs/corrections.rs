@@ -110,7 +110,7 @@ pub(super) fn refuse_withdrawn(code: u16) -> Result<()> {
 }
 
 /// Returns the corrected PROJ definition of the system with this code, definition and well-known text.
-pub(super) fn corrected(code: u16, definition: String, text: &str) -> String {
+pub(super) fn correct_definition(code: u16, definition: String, text: &str) -> String {
     let mut found = Cow::from(definition);
     for (_, wrong, right) in REPLACED.iter().filter(|(known, ..)| *known == code) {
         found = found.replace(wrong, right).into();

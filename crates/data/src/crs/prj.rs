@@ -3,24 +3,28 @@
 //! ESRI's texts have their own names and no codes. Therefore the parameters are compared, and if several systems have
 //! the same parameters, the name decides.
 
-use crate::Crs;
-use crate::formats::corrections::replacement;
-use crate::formats::epsg;
-use crate::world_place::IN_METRES;
+use super::corrections::replacement;
+use super::epsg;
+use super::system::Crs;
+use super::vertical;
+use super::well_known_text::TextNode;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 
-/// Maximum nesting depth of brackets.
-const DEEPEST: usize = 20;
+/// Maximum difference of two lengths (m) of one unit; the two American feet differ by 6e-7 m.
+const SAME_UNIT: f64 = 4e-7;
 
 /// Minimum likeness of the names of a datum.
 const SAME_DATUM: f64 = 0.5;
 
+/// End of the name of a projection whose unit was changed to metres.
+pub(crate) const IN_METRES: &str = " in metres";
+
 /// Remedy for a coordinate system of a data file that is not known.
-pub(super) const NAME_IT: &str = "name its EPSG code: source(file, { crs = 3067 })";
+pub(crate) const NAME_IT: &str = "name its EPSG code: source(file, { crs = 3067 })";
 
 /// Returns the coordinate system of a text; `label` and the remedy are used in messages.
-pub(crate) fn crs(text: &str, label: &str, remedy: &str) -> Result<Crs> {
+pub(crate) fn crs_of_text(text: &str, label: &str, remedy: &str) -> Result<Crs> {
     let unknown = |name: &str| {
         Error::data(format!(
             "{label} is in the coordinate system \"{}\", which is none of EPSG's that are known",
@@ -28,7 +32,7 @@ pub(crate) fn crs(text: &str, label: &str, remedy: &str) -> Result<Crs> {
         ))
         .help(remedy)
     };
-    let Some(node) = PrjNode::read(text) else {
+    let Some(node) = TextNode::read(text) else {
         return Err(unknown(text.lines().next().unwrap_or_default()));
     };
     // A compound system additionally has heights.
@@ -53,12 +57,12 @@ pub(crate) fn crs(text: &str, label: &str, remedy: &str) -> Result<Crs> {
     }
     let Some(wanted) = Parameters::of(&node) else { return Err(unknown(&name)) };
     let mut best: Option<(f64, u16)> = None;
-    epsg::each(|code, text| {
+    epsg::for_each(|code, text| {
         // Most entries are of another type, which is the first word of their text.
         if !text.starts_with(&node.word) {
             return;
         }
-        let Some(known) = PrjNode::read(text) else { return };
+        let Some(known) = TextNode::read(text) else { return };
         let Some(of_known) = Parameters::of(&known).filter(|known| known.is_same(&wanted)) else { return };
         let datums = wanted.likeness_of_datum(&of_known);
         // Many old datums share an ellipsoid, and are hundreds of metres apart.
@@ -77,75 +81,20 @@ pub(crate) fn crs(text: &str, label: &str, remedy: &str) -> Result<Crs> {
     }
 }
 
-/// Keyword of well-known text with its bracketed content.
-#[derive(Default)]
-struct PrjNode {
-    word: String,
-    texts: Vec<String>,
-    numbers: Vec<f64>,
-    nodes: Vec<PrjNode>,
-}
-
-impl PrjNode {
-    fn read(text: &str) -> Option<Self> {
-        Self::begin(&mut text.trim(), 0)
-    }
-
-    fn begin(text: &mut &str, depth: usize) -> Option<Self> {
-        if depth > DEEPEST {
-            return None;
-        }
-        let end = text.find(['[', '('])?;
-        let mut node = Self { word: text[..end].trim().to_ascii_uppercase(), ..Self::default() };
-        *text = &text[end + 1..];
-        loop {
-            *text = text.trim_start();
-            match text.chars().next()? {
-                ']' | ')' => {
-                    *text = &text[1..];
-                    return Some(node);
-                }
-                ',' => *text = &text[1..],
-                '"' => {
-                    let (inner, rest) = text[1..].split_once('"')?;
-                    node.texts.push(inner.to_owned());
-                    *text = rest;
-                }
-                _ => {
-                    let end = text.find([',', ']', ')', '[', '('])?;
-                    if matches!(text.as_bytes()[end], b'[' | b'(') {
-                        node.nodes.push(Self::begin(text, depth + 1)?);
-                        continue;
-                    }
-                    let word = text[..end].trim();
-                    match word.parse() {
-                        Ok(number) => node.numbers.push(number),
-                        Err(_) => node.texts.push(word.to_owned()),
-                    }
-                    *text = &text[end..];
-                }
-            }
-        }
-    }
-
-    fn name(&self) -> &str {
-        self.texts.first().map_or("", String::as_str)
-    }
-
-    fn child(&self, words: &[&str]) -> Option<&Self> {
-        self.nodes.iter().find(|node| words.contains(&node.word.as_str()))
-    }
-
-    /// Returns the EPSG code in the text, if any.
-    fn code(&self) -> Option<u32> {
-        let node = self.child(&["AUTHORITY", "ID"])?;
-        let is_epsg = node.name().eq_ignore_ascii_case("EPSG");
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
-        let number =
-            node.numbers.first().filter(|number| (1.0..1e6).contains(*number)).map(|number| *number as u32);
-        let code = number.or_else(|| node.texts.get(1)?.parse().ok());
-        code.filter(|_| is_epsg)
-    }
+/// Returns the length (m) of the unit of heights in the text of a compound system; `None` if the text has no vertical
+/// system. `label` and the remedy are used in messages.
+pub(crate) fn height_unit(text: &str, label: &str, remedy: &str) -> Result<Option<f64>> {
+    let nodes = TextNode::read_all(text);
+    let is_vertical = |node: &&TextNode| vertical::KEYWORDS.contains(&&*node.word);
+    let Some(found) =
+        nodes.iter().flat_map(|node| std::iter::once(node).chain(&node.nodes)).find(is_vertical)
+    else {
+        return Ok(None);
+    };
+    vertical::unit(found).map(Some).ok_or_else(|| {
+        Error::data(format!("{label} does not tell the unit of its heights, \"{}\"", shown(found.name())))
+            .help(remedy)
+    })
 }
 
 /// Returns a name reduced to lower-case letters and digits, with years as in EPSG names.
@@ -170,13 +119,14 @@ fn plain(name: &str) -> String {
     aliases.fold(plain, |plain, (long, short)| plain.replace(long, short))
 }
 
-fn datum(node: &PrjNode) -> String {
+fn datum(node: &TextNode) -> String {
     let base = node.child(&["GEOGCS"]).unwrap_or(node);
     let name = base.child(&["DATUM"]).map(|datum| plain(datum.name())).unwrap_or_default();
     name.strip_prefix('d').map(str::to_owned).unwrap_or(name)
 }
 
 /// Returns the similarity of two names, from 0 to 1: the fraction of common letter pairs.
+#[allow(clippy::cast_precision_loss, reason = "names are short")]
 fn likeness(a: &str, b: &str) -> f64 {
     let pairs = |text: &str| text.chars().zip(text.chars().skip(1)).collect::<Vec<_>>();
     let (a, mut b) = (pairs(a), pairs(b));
@@ -185,7 +135,7 @@ fn likeness(a: &str, b: &str) -> f64 {
         let found = b.iter().position(|other| other == *pair);
         found.map(|at| b.swap_remove(at)).is_some()
     });
-    2.0 * crate::heights::count(same.count()) / crate::heights::count(all)
+    2.0 * same.count() as f64 / all as f64
 }
 
 /// Parameters that determine coordinates.
@@ -201,7 +151,7 @@ struct Parameters {
 }
 
 impl Parameters {
-    fn of(node: &PrjNode) -> Option<Self> {
+    fn of(node: &TextNode) -> Option<Self> {
         let is_projected = node.word == "PROJCS";
         let base = if is_projected { node.child(&["GEOGCS"])? } else { node };
         if !is_projected && node.word != "GEOGCS" {
@@ -269,7 +219,7 @@ impl Parameters {
     fn is_same(&self, other: &Self) -> bool {
         let near = |a: f64, b: f64, least: f64| (a - b).abs() <= least;
         self.method == other.method
-            && near(self.unit, other.unit, 1e-6)
+            && near(self.unit, other.unit, SAME_UNIT)
             && near(self.ellipsoid[0], other.ellipsoid[0], 0.1)
             && near(self.ellipsoid[1], other.ellipsoid[1], 1e-3)
             && self.values.len() == other.values.len()

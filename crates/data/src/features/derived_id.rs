@@ -1,9 +1,10 @@
 //! Ids of features that have no id in their file.
 
-use super::{Attribute, Geometry};
+use super::attribute::Attribute;
+use burgeon_spatial::Geometry;
 
 /// Returns the id of a feature without one: a hash of its geometry and its attributes, independent of their order.
-pub(super) fn derived_id(parts: &[Geometry], attributes: &[(usize, Attribute)], names: &[String]) -> String {
+pub(crate) fn derived_id(parts: &[Geometry], attributes: &[(usize, Attribute)], names: &[String]) -> String {
     let mut hasher = blake3::Hasher::new();
     let mut add = |bytes: &[u8]| {
         hasher.update(bytes);
