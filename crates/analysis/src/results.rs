@@ -10,7 +10,7 @@ use super::inference::Inference;
 use super::syntax::text_of;
 use super::walk::FunctionRole;
 use burgeon_base::error::Error;
-use burgeon_kit::{Construct, Kind};
+use burgeon_kit::Construct;
 use burgeon_language::{CallForm, Literal, Name, NameKind, SYSTEM, names};
 
 impl CallCheck<'_> {

@@ -9,10 +9,8 @@ use super::globals::Globals;
 use super::walk::{Facts, QueryCall, Walk};
 use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Limit, SourcePlace};
-use burgeon_kit::Deprecation;
 use burgeon_language::CallForm;
 use burgeon_packages::FileName;
-use burgeon_rewriting::Signature;
 use full_moon::ast::Ast;
 use full_moon::node::Node;
 use full_moon::tokenizer::TokenType;
@@ -215,6 +213,7 @@ fn package_names(ast: &Ast) -> Vec<(String, usize)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use burgeon_kit::Deprecation;
 
     #[test]
     fn a_name_that_will_go_is_found_with_its_lines() {
