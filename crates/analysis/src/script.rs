@@ -213,6 +213,7 @@ fn package_names(ast: &Ast) -> Vec<(String, usize)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use burgeon_kit::Deprecation;
 
     #[test]
     fn a_name_that_will_go_is_found_with_its_lines() {

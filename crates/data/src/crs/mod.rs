@@ -9,7 +9,7 @@ mod corrections;
 mod epsg;
 #[cfg_attr(not(feature = "data"), path = "absent_prj.rs")]
 pub(crate) mod prj;
-#[cfg_attr(not(feature = "data"), path = "absent_projection.rs")]
+#[cfg_attr(not(feature = "data"), path = "absent.rs")]
 pub(crate) mod projection;
 mod system;
 #[cfg(feature = "data")]
