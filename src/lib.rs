@@ -19,7 +19,6 @@
 //! rewriting  uses ──► base
 //! scene      uses ──► base
 //! kit        uses ──► base, macros, rewriting, scene
-//! language   uses ──► kit
 //! geometry   uses ──► base, scene
 //! streets    uses ──► base, geometry
 //! spatial    uses ──► base, geometry, kit
@@ -28,15 +27,13 @@
 //! terrain    uses ──► base, geometry, kit, rewriting, scene
 //! objects    uses ──► base, data, geometry, kit, rewriting, scene, spatial, streets, terrain
 //! packages   uses ──► base
-//! analysis   uses ──► base, kit, language, packages, rewriting
-//! engine     uses ──► analysis, base, data, kit, language, packages, query, rewriting, scene, spatial
+//! language   uses ──► base, kit, packages, rewriting
+//! engine     uses ──► base, data, kit, language, packages, query, rewriting, scene, spatial
 //! picture    uses ──► base, scene
 //! export     uses ──► base, data, picture, scene
 //! watch      uses ──► base
-//! presets    uses ──► base, engine, export, watch
-//! variations uses ──► base, engine, kit, picture, scene
-//! live       uses ──► base, engine, export, picture, presets, rewriting, scene, variations, watch
-//! burgeon    uses ──► base, data, engine, export, geometry, kit, language, live, objects, packages, picture, presets, query, rewriting, scene, spatial, terrain, variations, watch
+//! live       uses ──► base, engine, export, kit, picture, rewriting, scene, watch
+//! burgeon    uses ──► base, data, engine, export, geometry, kit, language, live, objects, packages, picture, query, rewriting, scene, spatial, terrain, watch
 //! ```
 //!
 //! - [`error`], [`warning`](mod@warning) and [`text`]: errors, warnings and human-readable text. [`Stop`] cancels work;
@@ -115,18 +112,16 @@ pub use burgeon_export as export;
 pub use burgeon_geometry as geometry;
 pub use burgeon_kit as kit;
 pub use burgeon_language as language;
-#[cfg(feature = "live")]
 pub use burgeon_live as live;
+pub use burgeon_live::{presets, variations};
 pub use burgeon_objects as objects;
 pub use burgeon_packages as packages;
 pub use burgeon_picture as picture;
-pub use burgeon_presets as presets;
 pub use burgeon_query as query;
 pub use burgeon_rewriting as rewriting;
 pub use burgeon_scene as scene;
 pub use burgeon_spatial as spatial;
 pub use burgeon_terrain as terrain;
-pub use burgeon_variations as variations;
 pub use burgeon_watch as watch;
 
 /// Returns the default options to run a script, with all object types of Burgeon.

@@ -1,10 +1,11 @@
-//! The scripting API as data: the names of the language with their arguments and types, and everything derived from
-//! them.
+//! The scripting API as data, and the analysis of scripts that use it: the names of the language with their arguments and
+//! types, everything derived from them, and the checks of a script before it runs.
 //!
 //! Input: a registry of object types, and the text of the standard library. Output: names with their signatures, types
-//! to check values against, and the definition file for editors. The crate never runs a script, and does not depend on
+//! to check values against, the definition file for editors, and the [`analysis`] of a script. The crate never runs a script, and does not depend on
 //! a virtual machine.
 
+pub mod analysis;
 mod definitions;
 mod editor;
 mod examples;

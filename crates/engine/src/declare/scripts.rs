@@ -8,7 +8,7 @@ use rustc_hash::FxHashMap;
 
 use super::bytecode::compile;
 use super::session::Session;
-use burgeon_analysis::{Analysis, Globals, ScriptReader, calls_with_text};
+use burgeon_language::analysis::{Analysis, Globals, ScriptReader, calls_with_text};
 use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::locks::LockRecovery;

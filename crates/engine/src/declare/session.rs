@@ -19,7 +19,7 @@ use super::types::DeclaredTypes;
 #[cfg(feature = "data")]
 use crate::questions::RowSource;
 use crate::questions::{AskedRows, ChainView, Question, RowCache, Rows};
-use burgeon_analysis::{Analysis, CheckedFile, QueryCall, call_problems, has_metatables, inspects_tables};
+use burgeon_language::analysis::{Analysis, CheckedFile, QueryCall, call_problems, has_metatables, inspects_tables};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::stop::Stop;

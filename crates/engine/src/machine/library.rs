@@ -19,7 +19,7 @@ use super::types::{
 use super::{Machine, compile, native};
 use crate::declare::{API_VERSION, Param, Print, Session, Setting, has_name};
 use crate::placeholders::{self, FRAGMENT, QUERY};
-use burgeon_analysis::Globals;
+use burgeon_language::analysis::Globals;
 use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};

@@ -10,7 +10,7 @@ use burgeon_kit::{Table, TableKey, Value};
 use burgeon_rewriting::NameScope;
 use rustc_hash::FxBuildHasher;
 
-use burgeon_analysis::sql_parameters;
+use burgeon_language::analysis::sql_parameters;
 
 /// SQL text with the values of its parameters. Two queries are equal if text, values and scope are equal.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -9,7 +9,7 @@ use crate::declare::bytecode::compile;
 use crate::machine::Machine;
 use crate::machine::convert::to_value;
 use crate::machine::library::Library;
-use burgeon_analysis::{QueryCall, analyse, split_line};
+use burgeon_language::analysis::{QueryCall, analyse, split_line};
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, WarningKind};

@@ -48,7 +48,7 @@ impl VariationAxis {
     /// choice. The default step is 1.
     ///
     /// ```
-    /// use burgeon_variations::VariationAxis;
+    /// use burgeon_live::variations::VariationAxis;
     ///
     /// let values = |text: &str| match VariationAxis::sweep(text) {
     ///     Ok(VariationAxis::Param { values, .. }) => values.join(" "),

@@ -21,7 +21,7 @@ use burgeon_base::warning::Warning;
 use burgeon_engine::run::{Run, run_session};
 use burgeon_engine::script::{Limits, Session, make_ready};
 use burgeon_export::gltf::{self, Layout};
-use burgeon_presets::Presets;
+use crate::presets::Presets;
 use burgeon_watch::{Watch, unsettled};
 
 /// Interval of progress reports to pages.

@@ -5,7 +5,7 @@ use super::state::{DueRun, ServerState};
 use super::tools;
 use burgeon_base::error::Error;
 use burgeon_base::locks::LockRecovery;
-use burgeon_presets::Presets;
+use crate::presets::Presets;
 use burgeon_watch::Change;
 
 /// Handles changed files.

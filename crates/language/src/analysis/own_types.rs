@@ -15,7 +15,7 @@ use super::syntax::{end_of, string_of, text_of};
 use super::walk::{FunctionRole, Walk};
 use burgeon_base::error::Error;
 use burgeon_kit::{Kind, Value};
-use burgeon_language::Literal;
+use crate::Literal;
 
 /// Returns the names of the functions that a declaration adds to a type.
 fn added_names(table: &TableConstructor) -> Vec<String> {

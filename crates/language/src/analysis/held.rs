@@ -8,7 +8,7 @@ use super::inference::Inference;
 use super::syntax::{is_open, text_of};
 use burgeon_base::error::Error;
 use burgeon_kit::{Argument, Field as KindField, Kind};
-use burgeon_language::{CallForm, Literal, LuauType, NameKind, names};
+use crate::{CallForm, Literal, LuauType, NameKind, names};
 
 impl CallCheck<'_> {
     /// Checks a call against its signatures. `is_luau` marks functions of Luau, which accept a string of digits as a

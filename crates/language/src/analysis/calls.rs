@@ -21,7 +21,7 @@ use super::syntax::{string_of, text_of};
 use super::walk::FunctionRole;
 use burgeon_base::error::{Error, SourcePlace};
 use burgeon_kit::{Kind, Registry};
-use burgeon_language::Literal;
+use crate::Literal;
 
 /// Walk that checks the calls of a script.
 pub(super) struct CallCheck<'a> {

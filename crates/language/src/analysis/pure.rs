@@ -12,7 +12,7 @@ use full_moon::tokenizer::TokenReference;
 
 use super::syntax::text_of;
 use super::walk::Walk;
-use burgeon_language::{Effect, is_pure_function, library_effect};
+use crate::{Effect, is_pure_function, library_effect};
 
 /// Returns true if a script sets metatables, so that even reading a table may have side effects.
 pub fn has_metatables(text: &str) -> bool {
@@ -116,7 +116,7 @@ impl Walk<'_> {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Globals, analyse};
+    use crate::analysis::{Globals, analyse};
 
     /// Returns true if the function in the last line is pure.
     fn pure(script: &str) -> bool {

@@ -11,7 +11,7 @@ use super::syntax::text_of;
 use super::walk::FunctionRole;
 use burgeon_base::error::Error;
 use burgeon_kit::Construct;
-use burgeon_language::{CallForm, Literal, Name, NameKind, SYSTEM, names};
+use crate::{CallForm, Literal, Name, NameKind, SYSTEM, names};
 
 impl CallCheck<'_> {
     pub(super) fn infer_name(&self, name: &TokenReference) -> Inference {

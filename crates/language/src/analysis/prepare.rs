@@ -11,7 +11,7 @@ use super::blocks::ScopeWalk;
 use super::syntax::{end_of, first_position, is_open, string_of, text_of};
 use super::walk::{Fact, Function, FunctionRole, Variable, Walk};
 use burgeon_kit::Argument;
-use burgeon_language::CallForm;
+use crate::CallForm;
 use burgeon_rewriting::Successors;
 
 /// Maximum number of parameters of a prepared return.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use burgeon_kit::Kind;
-use burgeon_language::{Literal, Name};
+use crate::{Literal, Name};
 
 /// Inferred value of an expression.
 #[derive(Clone)]

@@ -57,7 +57,7 @@ fn names_of(table: &full_moon::ast::TableConstructor) -> Option<Vec<String>> {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Globals, analyse};
+    use crate::analysis::{Globals, analyse};
 
     #[test]
     fn the_open_parameters_of_questions_are_known_by_the_functions_of_rules() {

@@ -1,16 +1,6 @@
-//! Variations of a script: runs that differ in the seed or in one parameter, as thumbnails for comparison.
-//!
-//! Input: a script, and the property that changes from run to run ([`VariationAxis`]). Output: a [`Variation`] for each
-//! run, in order, with its render or its error; [`sheet`] combines the renders. The same input results in the same
-//! bytes for any number of threads. An error in one run never affects the others.
+//! Runs of the variations on all threads.
 
-mod axis;
-mod letters;
-mod sheet;
-
-pub use axis::{MOST, VariationAxis};
-pub use sheet::{SheetLayout, sheet};
-
+use super::axis::VariationAxis;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -1,8 +1,7 @@
 //! Static analysis of scripts: finds errors without running a script, and prepares its rules.
 //!
 //! Input: the text of a script, the names that it may use, and a function that compiles to bytecode. Output: an
-//! [`Analysis`] with the text to run and facts about its functions; then the problems of its calls. The crate never
-//! runs a script, and does not depend on a virtual machine.
+//! [`Analysis`] with the text to run and facts about its functions; then the problems of its calls. It never runs a script.
 //!
 //! The analysis changes the text but no line break. If the modules and brackets of a rule's `return A(x), { B(y) }`,
 //! its shape, are visible in the text, the return becomes one call with all parameters. Other returns are marked as nil

@@ -16,9 +16,9 @@ use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_engine::script::{Param, ParamValues, Preset, RunOptions, Session};
 use burgeon_picture::{Background, Picture, Quality};
-use burgeon_presets::Presets;
+use crate::presets::Presets;
 use burgeon_scene::image;
-use burgeon_variations::{Framing, Variation, VariationAxis, Variations};
+use crate::variations::{Framing, Variation, VariationAxis, Variations};
 
 /// Interval of progress reports of variations.
 const TICK: Duration = Duration::from_millis(500);

@@ -1,0 +1,39 @@
+//! Live view: a local server that shows a script's model in the browser and updates it on every save.
+//!
+//! Input: a script, and commands of its pages ([`message`]). Output: the page, the present model as glTF, and events
+//! over a socket. The server answers only this machine's user (`address`, `token`), writes only presets to the script's
+//! folder, and never lets a page wait for a run.
+//!
+//! ```text
+//! files ──► watch ──► state ──► work ──► state ──► server, socket ──► pages
+//!                       ▲ (request)  (model)              │
+//!                       └────────── commands ◄────────────┘
+//! ```
+//!
+//! One thread runs the script (`work`) with the latest request (`request`); all pages share that request and the model
+//! (`state`). A newer request cancels the run of an older one, unless the run is almost done.
+
+mod address;
+mod changes;
+mod commands;
+mod connections;
+mod describe;
+mod export;
+mod job;
+mod layout;
+mod live;
+pub mod message;
+mod open;
+mod page;
+mod request;
+mod server;
+mod socket;
+mod state;
+mod token;
+mod tools;
+mod trace;
+mod work;
+
+pub use live::{Live, Notice, PORT, Settings};
+pub use open::{Editor, browse, has_display};
+pub use token::Token;
