@@ -149,6 +149,79 @@ fn path(tokens: &[&str], at: &mut usize, before: &[String], found: &mut Vec<Vec<
     }
 }
 
+/// Name that a `use` item brings into scope.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Import {
+    /// Name in the scope; `*` for all names of a module.
+    pub(crate) name: String,
+    /// Path of the item as written.
+    pub(crate) path: Vec<String>,
+    /// Set for `pub use`, whatever its visibility.
+    pub(crate) is_public: bool,
+}
+
+/// Returns the names that the `use` items of `code` bring into scope.
+pub(crate) fn imports(code: &str) -> Vec<Import> {
+    let tokens = tokens(code);
+    let mut found = Vec::new();
+    for (at, _) in tokens.iter().enumerate().filter(|(_, token)| **token == "use") {
+        let is_public = match at.checked_sub(1).map(|before| tokens[before]) {
+            Some("pub") => true,
+            Some(")") => tokens[..at].iter().rev().take(8).any(|token| *token == "pub"),
+            _ => false,
+        };
+        import(&tokens, &mut (at + 1), &[], is_public, &mut found);
+    }
+    found
+}
+
+/// Reads the tree of a `use` item that begins at token `at`, after the names `before`.
+fn import(tokens: &[&str], at: &mut usize, before: &[String], is_public: bool, found: &mut Vec<Import>) {
+    let mut path = before.to_vec();
+    loop {
+        match tokens.get(*at).copied() {
+            Some("{") => {
+                *at += 1;
+                while tokens.get(*at).is_some_and(|token| *token != "}") {
+                    if tokens[*at] == "," {
+                        *at += 1;
+                    } else {
+                        import(tokens, at, &path, is_public, found);
+                    }
+                }
+                *at += 1;
+                return;
+            }
+            Some("*") => {
+                *at += 1;
+                found.push(Import { name: "*".to_owned(), path, is_public });
+                return;
+            }
+            Some("as") => {
+                let name = tokens.get(*at + 1).copied().unwrap_or_default().to_owned();
+                *at += 2;
+                found.push(Import { name, path, is_public });
+                return;
+            }
+            Some("::") => *at += 1,
+            Some(name) if is_name(name) => {
+                path.push(name.to_owned());
+                *at += 1;
+            }
+            _ => break,
+        }
+    }
+    *at = (*at).max(1);
+    if let Some(name) = path.last().cloned() {
+        // `a::{self}` brings `a` into scope.
+        let (name, path) = match (name.as_str(), path.len()) {
+            ("self", 2..) => (path[path.len() - 2].clone(), path[..path.len() - 1].to_vec()),
+            _ => (name, path),
+        };
+        found.push(Import { name, path, is_public });
+    }
+}
+
 fn is_name(token: &str) -> bool {
     token.starts_with(|c: char| c.is_alphabetic() || c == '_')
 }
@@ -183,4 +256,17 @@ fn tests_and_comments_are_no_code() {
     let text = "//! Uses a::b.\nuse c::d;\n#[cfg(test)]\nmod far;\nfn e() {}\n#[cfg(test)]\nmod tests {\n}\n";
     assert_eq!(test_modules(&bare(text)), ["far"]);
     assert!(!bare(text).contains("a::b"));
+}
+
+#[test]
+fn imports_have_their_names_in_the_scope() {
+    let found = imports("pub use a::{B, c::D as E, f::*};\nuse g::h;\npub(crate) use i::{self, J};");
+    let found: Vec<String> = found
+        .iter()
+        .map(|it| format!("{}{} = {}", if it.is_public { "pub " } else { "" }, it.name, it.path.join(" ")))
+        .collect();
+    assert_eq!(
+        found,
+        ["pub B = a B", "pub E = a c D", "pub * = a f", "h = g h", "pub i = i", "pub J = i J"]
+    );
 }

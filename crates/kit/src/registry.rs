@@ -44,7 +44,7 @@ impl Registry {
     /// Fails if a type called `name` exists.
     pub fn refuse_taken(&self, name: &str) -> Result<()> {
         let Some(known) = self.get(name) else { return Ok(()) };
-        let place = known.script.as_ref().and_then(|script| script.place.as_ref());
+        let place = known.script.as_ref().and_then(|script| script.place());
         let place =
             place.map_or_else(|| "which every script has".to_owned(), |place| format!("declared in {place}"));
         Err(Error::argument(format!("there is already a type of object called {name}, {place}"))

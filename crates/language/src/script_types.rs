@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use burgeon_kit::{Kind, Registry, Value};
+use burgeon_kit::{Kind, Registry, ScriptType, Value};
 
 /// Adds the types that scripts declare to `registry`, and the methods that they add to other types.
 ///
@@ -48,7 +48,7 @@ pub(crate) fn plain_name(kind: &Kind) -> &str {
 
 /// Returns the fields and state variables of a type that a script declares, with their types.
 pub(crate) fn members(kind: &Kind) -> BTreeMap<String, String> {
-    let Some(script) = &kind.script else { return BTreeMap::new() };
+    let Some(script) = ScriptType::of(kind) else { return BTreeMap::new() };
     let mut members = BTreeMap::new();
     for field in &script.fields {
         members.insert(field.name.to_string(), field.describe().luau.trim_end_matches('?').to_owned());

@@ -14,7 +14,7 @@ use super::inference::Inference;
 use super::syntax::{end_of, string_of, text_of};
 use super::walk::{FunctionRole, Walk};
 use burgeon_base::error::Error;
-use burgeon_kit::{Kind, Value};
+use burgeon_kit::{Kind, ScriptType, Value};
 use crate::Literal;
 
 /// Returns the names of the functions that a declaration adds to a type.
@@ -145,7 +145,7 @@ impl CallCheck<'_> {
 
     /// Infers the value of a field or state variable of an object.
     pub(super) fn member(&mut self, kind: &Arc<Kind>, name: &TokenReference) -> Inference {
-        let (text, Some(script)) = (text_of(name), &kind.script) else { return Inference::Unknown };
+        let (text, Some(script)) = (text_of(name), ScriptType::of(kind)) else { return Inference::Unknown };
         if let Some((_, held)) = script.held.iter().find(|(held, _)| **held == *text) {
             let kind = self.registry.get(&held.kind().name).unwrap_or(held.kind());
             return Inference::Object(Arc::clone(kind));
@@ -159,7 +159,7 @@ impl CallCheck<'_> {
         // A derived type may have members that this type lacks.
         let extends = |other: &Arc<Kind>| {
             let script =
-                other.script.as_ref().filter(|it| it.above.iter().any(|above| **above == *kind.name));
+                ScriptType::of(other).filter(|it| it.above.iter().any(|above| **above == *kind.name));
             script.is_some_and(|it| {
                 it.fields.iter().any(|field| *field.name == *text) || it.state.get(&text).is_some()
             }) || script.is_some() && other.method(&text).is_some()
@@ -175,7 +175,7 @@ impl CallCheck<'_> {
     /// The file may add the method to the type or to an unknown type, or the object may be of a derived type.
     pub(super) fn may_be_above(&self, kind: &Kind, name: &str) -> bool {
         let above = |other: &Kind| {
-            other.script.as_ref().is_some_and(|script| script.above.iter().any(|above| **above == *kind.name))
+            ScriptType::of(other).is_some_and(|script| script.above.iter().any(|above| **above == *kind.name))
         };
         let added_to = |of: &Option<String>| of.as_ref().is_none_or(|of| *of == kind.name);
         self.added.iter().any(|(of, added)| added == name && added_to(of))
@@ -192,7 +192,7 @@ impl CallCheck<'_> {
         };
         let owner = self.suffixes(inner.prefix(), before);
         let (Inference::Object(kind), text) = (&owner, text_of(name)) else { return };
-        let Some(script) = &kind.script else { return };
+        let Some(script) = ScriptType::of(kind) else { return };
         let kind_name = &kind.name;
         let error = if self.role == FunctionRole::Reading {
             Error::scope(format!("{kind_name}: a function that reads assigns {text}"))
@@ -203,7 +203,7 @@ impl CallCheck<'_> {
             Error::scope(format!("{text} is a field of {kind_name}, which is given when one is made"))
                 .help("keep what changes in its state")
         } else if self.registry.kinds().any(|other| {
-            other.script.as_ref().is_some_and(|it| {
+            ScriptType::of(other).is_some_and(|it| {
                 it.above.iter().any(|above| **above == **kind_name) && it.state.get(&text).is_some()
             })
         }) {

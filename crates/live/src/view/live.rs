@@ -2,7 +2,6 @@
 
 use std::io::ErrorKind;
 use std::net::{Ipv4Addr, TcpListener};
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -11,58 +10,15 @@ use tokio::runtime::Runtime;
 use tokio::sync::Semaphore;
 
 use burgeon_base::error::{Error, Result};
-use burgeon_base::warning::Warning;
-use burgeon_engine::script::RunOptions;
 use burgeon_watch::Watch;
 use super::message::Cause;
 use super::server::Site;
 use super::state::{DueRun, ServerState};
-use super::token::Keep;
-
-/// Port that is used if it is free and none was specified.
-pub const PORT: u16 = 4747;
+use super::settings::{Notice, PORT, Settings};
+use super::token::{Keep, Token};
 
 /// Number of ports to try after an occupied one.
 const TRIES: u16 = 100;
-
-/// Settings of a server.
-pub struct Settings {
-    /// Path of the script, which need not exist yet.
-    pub script: PathBuf,
-    /// Initial run options. Pages change the parameters, the seed and the step limit.
-    pub options: RunOptions,
-    /// Port; if `None`, [`PORT`] or one of the next ports.
-    pub port: Option<u16>,
-    /// Secret part of the address. If `None`, the token stored for the port is used, so that an open page reconnects to
-    /// the next server there; if the port may be any free one, a new token.
-    pub token: Option<Token>,
-    /// Editor that opens lines of the script.
-    pub editor: Option<Editor>,
-    /// Receiver of notices. It is called from several threads.
-    pub tell: Box<dyn Fn(&Notice) + Send + Sync>,
-}
-
-/// Notice to the process that started the server.
-#[derive(Debug, Clone)]
-pub enum Notice {
-    /// Completion of a new model.
-    Model {
-        /// Number of visible triangles.
-        triangles: usize,
-        /// Number of modules of all systems.
-        modules: usize,
-        /// Time from the cause to the model's bytes.
-        total: Duration,
-    },
-    /// Failure of the script.
-    Failed(Error),
-    /// Warning of the new model that the previous model did not have.
-    Warning(Warning),
-    /// Absence of the script file.
-    Waiting(String),
-    /// Other information.
-    Note(String),
-}
 
 /// Live view server. It runs until it is dropped.
 pub struct Live {

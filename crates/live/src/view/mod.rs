@@ -27,6 +27,7 @@ mod open;
 mod page;
 mod request;
 mod server;
+mod settings;
 mod socket;
 mod state;
 mod token;
@@ -34,6 +35,7 @@ mod tools;
 mod trace;
 mod work;
 
-pub use live::{Live, Notice, PORT, Settings};
+pub use live::Live;
 pub use open::{Editor, browse, has_display};
+pub use settings::{Notice, PORT, Settings};
 pub use token::Token;

@@ -9,7 +9,7 @@ use crate::machine::library::Library;
 use crate::machine::questions::argument_places;
 use crate::machine::types::methods_key;
 use burgeon_base::error::{Result, SourcePlace};
-use burgeon_kit::Object;
+use burgeon_kit::{Object, ScriptType};
 use burgeon_rewriting::{CLOSE, END, FIRST_SYMBOL, Grammar, OPEN, Pattern, Rule, Symbol};
 use burgeon_scene::CityClass;
 use mlua::{Function, Table, Value as LuaValue};
@@ -168,7 +168,7 @@ impl SystemDeclaration {
         }
         let mut begin = u16::MAX;
         if let Some(kind) = self.object.as_ref().map(|object| object.kind())
-            && let Some(script) = &kind.script
+            && let Some(script) = ScriptType::of(kind)
         {
             let mut add = |what: &str, bound| {
                 let number = u16::try_from(list.len()).unwrap_or(u16::MAX);
@@ -232,7 +232,7 @@ impl SystemDeclaration {
         if let Some(of) = of {
             let hooks: (Function, Function, Function, Function) = prelude.hooks.call(&of.table)?;
             let mut index = self.interpretations.len();
-            let [opens, closes] = of.kind.script.as_ref().map_or([false; 2], |script| script.branches);
+            let [opens, closes] = ScriptType::of(&of.kind).map_or([false; 2], |script| script.branches);
             for (hook, bound, runs) in
                 [(hooks.0, 1, true), (hooks.1, 1, true), (hooks.2, 0, opens), (hooks.3, 0, closes)]
             {

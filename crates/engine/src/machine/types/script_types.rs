@@ -105,7 +105,7 @@ impl ScriptTypeEntry {
         let has = |hook: &str| entry.functions.iter().any(|it| it.role == Role::Hook && it.name == hook);
         let mut branches = [has("push"), has("pop")];
         // Hooks of child objects run too.
-        for script in entry.declaration.held.iter().filter_map(|(_, object)| object.kind().script.as_ref()) {
+        for script in entry.declaration.held.iter().filter_map(|(_, object)| ScriptType::of(object.kind())) {
             branches = [branches[0] | script.branches[0], branches[1] | script.branches[1]];
         }
         entry.declaration.branches = branches;
@@ -144,7 +144,7 @@ impl ScriptTypeParts {
         let kind = machine.library.kind_of(constructor)?;
         let types = machine.library.script_types.borrow();
         let known = types.iter().find(|known| known.kind.name == kind.name);
-        let declaration = kind.script.as_deref().cloned();
+        let declaration = ScriptType::of(&kind).cloned();
         let mut parts = Self {
             declaration: declaration
                 .unwrap_or_else(|| ScriptType { base: Some(Arc::clone(&kind)), ..ScriptType::default() }),

@@ -2,8 +2,8 @@
 
 use std::any::Any;
 
-pub use super::argument::unit;
-use super::{Object, Parameter, Table, TableKey, Value};
+pub use crate::argument::unit;
+use crate::{Object, Parameter, Table, TableKey, Value};
 use burgeon_base::error::{Error, Result};
 use burgeon_rewriting::ColumnValue;
 

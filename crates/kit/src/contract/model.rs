@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 
-use super::{ObjectParameter, Show};
+use crate::{ObjectParameter, Show};
 use burgeon_base::error::Result;
 use burgeon_base::{MemoryOwner, Stop};
 use burgeon_macros::{methods, object};

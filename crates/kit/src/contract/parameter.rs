@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Field, Object, ObjectContent, Table, TableKey, Value};
+use crate::{Field, Object, ObjectContent, Table, TableKey, Value};
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
 use burgeon_rewriting::ColumnValue;

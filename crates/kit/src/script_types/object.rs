@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::declare::{as_mut, as_ref};
-use super::{Draw, Drawing, Kind, LevelOfDetail, Note, Object, Report, ScriptType, Table, Value, Warn};
+use crate::declare::{as_mut, as_ref};
+use crate::{Draw, Drawing, Kind, LevelOfDetail, Note, Object, Report, ScriptType, Table, Value, Warn};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
 use burgeon_macros::methods;
@@ -46,7 +46,7 @@ impl ScriptObject {
 
 impl ScriptObject {
     /// Creates an object with these `fields`, and `base` as its base object, before its first pass.
-    pub(super) fn new(
+    pub(crate) fn new(
         kind: Arc<Kind>,
         of: Arc<ScriptType>,
         base: Option<Box<dyn Object>>,

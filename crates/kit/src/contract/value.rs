@@ -4,7 +4,7 @@ use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
-use super::{Object, ObjectContent};
+use crate::{Object, ObjectContent};
 
 /// A number, a boolean, a string, a frozen table or an object.
 #[derive(Clone)]

@@ -1,12 +1,12 @@
 //! Capabilities of types of objects, as their kinds declare them.
 //!
 //! A capability is a trait that some types of objects implement. A new capability is a trait, and
-//! [`Kind::can`](super::Kind::can) with [`capability!`](crate::capability!) at each type that has it.
+//! [`Kind::can`](crate::Kind::can) with [`capability!`](crate::capability!) at each type that has it.
 
 use std::any::{Any, TypeId};
 use std::sync::Arc;
 
-use super::{Drawing, Note, Object, Rewriter, Value};
+use crate::{Drawing, Note, Object, Rewriter, Value};
 use burgeon_base::error::Result;
 use burgeon_base::warning::Warning;
 use burgeon_scene::Scene;
@@ -167,10 +167,4 @@ pub trait ObjectContent {
 
     /// Returns the parts that `fragment` replaces a module by; `None` if the object has no parts.
     fn fragments(&self) -> Option<Vec<Value>>;
-}
-
-/// Has fields that scripts read without a call.
-pub trait Members {
-    /// Returns the value of the field `name`, if the object has it.
-    fn member(&self, name: &str) -> Option<Value>;
 }

@@ -3,15 +3,15 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use super::capability::{Draw, Expand, HasLayers, LevelOfDetail, Report, Show, Warn};
-use super::{Drawing, Kind, Note, Rewriter, Value};
+use crate::capability::{Draw, Expand, HasLayers, LevelOfDetail, Report, Show, Warn};
+use crate::{Drawing, Kind, Note, Rewriter, Value};
 use burgeon_base::error::Result;
 use burgeon_base::warning::Warning;
 use burgeon_scene::Scene;
 
 /// An object that scripts can make and read, and that the modules of a chain can draw with.
 ///
-/// Optional abilities, such as drawing, are [`Capability`](super::Capability) values of its [`Kind`].
+/// Optional abilities, such as drawing, are [`Capability`](crate::Capability) values of its [`Kind`].
 pub trait Object: Any + Send + Sync {
     /// Returns the object's type: name, fields, methods and capabilities.
     fn kind(&self) -> &Arc<Kind>;

@@ -1,6 +1,6 @@
 //! Functions that create values of a type, besides the constructor that has its name.
 
-use super::Value;
+use crate::Value;
 use burgeon_base::error::Result;
 
 /// A function for scripts that creates a value of its arguments.

@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use super::Object;
+use crate::Object;
 
 /// Begins to prepare the features of a source; `None` if the source has nothing to prepare.
 pub type BeginPrefetch = fn(&Arc<dyn Object>) -> Option<Arc<dyn Prefetch>>;

@@ -1,19 +1,20 @@
 //! Object types as data: their scripting API and their capabilities for the engine.
 
+use std::any::Any;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::capability::{Capabilities, Capability, Draw, Gather, Show};
-use super::{Argument, BeginPrefetch, Constructor, Loader, Object, ScriptType, Table, Value};
+use crate::capability::{Capabilities, Capability, Draw, Gather, Show};
+use crate::{Argument, BeginPrefetch, Constructor, Loader, Object, Table, Value};
 use crate::capability;
-use burgeon_base::error::{Error, Result};
+use burgeon_base::error::{Error, Result, SourcePlace};
 
 /// Text that is static in a built-in type and owned in any other.
 pub(crate) type SharedText = Cow<'static, str>;
 
 /// An object type: the fields of its constructor, its methods and its capabilities.
 ///
-/// Burgeon, a host program or a script can define it. All types in a [`Registry`](super::Registry) have the same
+/// Burgeon, a host program or a script can define it. All types in a [`Registry`](crate::Registry) have the same
 /// rights, regardless of their origin.
 #[derive(Clone)]
 pub struct Kind {
@@ -44,9 +45,21 @@ pub struct Kind {
     /// Function that starts preparing a layer's features in another thread before they are used.
     pub prefetch: Option<BeginPrefetch>,
     /// Declaration by a script, if a script defined the type.
-    pub script: Option<Arc<ScriptType>>,
+    pub script: Option<Arc<dyn KindDeclaration>>,
     /// Deprecated names with their replacements.
     pub deprecated: Vec<Deprecation>,
+}
+
+/// Declaration of a type by a script.
+pub trait KindDeclaration: Any + Send + Sync {
+    /// Returns the names of the types that it extends, the nearest first.
+    fn base_names(&self) -> &[Arc<str>];
+
+    /// Returns the names of its fields and of its state.
+    fn member_names(&self) -> Vec<&str>;
+
+    /// Returns the location of the declaration.
+    fn place(&self) -> Option<&SourcePlace>;
 }
 
 /// A deprecated name, which still works and will be removed.
@@ -336,7 +349,7 @@ impl Kind {
     /// Returns true if `name` is the name of the type or of one of its base types.
     pub fn is_a(&self, name: &str) -> bool {
         self.name == name
-            || self.script.as_ref().is_some_and(|script| script.above.iter().any(|it| **it == *name))
+            || self.script.as_ref().is_some_and(|script| script.base_names().iter().any(|it| **it == *name))
     }
 
     /// Returns the method called `name`.
@@ -349,7 +362,7 @@ impl Kind {
         let is_own = |method: &&Method| matches!(method.call, Call::Script { .. });
         let (own, others): (Vec<_>, Vec<_>) = self.methods.iter().partition(is_own);
         let mut names: Vec<&str> = own.iter().map(|method| &*method.name).collect();
-        names.extend(self.script.iter().flat_map(|script| script.parts()));
+        names.extend(self.script.iter().flat_map(|script| script.member_names()));
         names.extend(others.iter().map(|method| &*method.name));
         names.dedup();
         let message = format!("{} has no method or field called {name}", self.name);

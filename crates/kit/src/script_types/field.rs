@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::{Expectation, Field, Parameter, Table, TableKey, Value};
+use crate::{Expectation, Field, Parameter, Table, TableKey, Value};
 use burgeon_base::error::{Error, Result};
 
 /// Keys of a field's declaration.

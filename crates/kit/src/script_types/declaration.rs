@@ -1,11 +1,12 @@
 //! The part of a script's object type that Rust knows; its functions stay in the virtual machine.
 
+use std::any::Any;
 use std::collections::BTreeSet;
 use std::sync::{Arc, Weak};
 
-use super::capability::{Draw, LevelOfDetail, Report, Warn};
-use super::declare::refuse_unknown;
-use super::{Argument, Call, Construct, Kind, Method, Object, ScriptField, ScriptObject, Table, Value};
+use crate::capability::{Draw, LevelOfDetail, Report, Warn};
+use crate::declare::refuse_unknown;
+use crate::{Argument, Call, KindDeclaration, Construct, Kind, Method, Object, ScriptField, ScriptObject, Table, Value};
 use crate::capability;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 
@@ -34,7 +35,27 @@ const DEEPEST_HELD: usize = 8;
 /// Maximum number of child objects of an object, counted recursively.
 const MOST_HELD: usize = 64;
 
+impl KindDeclaration for ScriptType {
+    fn base_names(&self) -> &[Arc<str>] {
+        &self.above
+    }
+
+    fn member_names(&self) -> Vec<&str> {
+        self.parts().collect()
+    }
+
+    fn place(&self) -> Option<&SourcePlace> {
+        self.place.as_ref()
+    }
+}
+
 impl ScriptType {
+    /// Returns the declaration of a type, if a script declared it.
+    pub fn of(kind: &Kind) -> Option<&Self> {
+        let declaration: &dyn Any = kind.script.as_deref()?;
+        declaration.downcast_ref()
+    }
+
     /// Returns the number of child objects, counted recursively.
     pub fn held_count(&self) -> usize {
         self.held.iter().map(|(_, object)| 1 + inner(object).map_or(0, Self::held_count)).sum()
@@ -44,8 +65,8 @@ impl ScriptType {
     pub fn parts(&self) -> impl Iterator<Item = &str> {
         let fields = self.fields.iter().map(|field| &*field.name);
         let state = self.state.entries.iter().filter_map(|(key, _)| match key {
-            super::TableKey::Name(name) => Some(&**name),
-            super::TableKey::Index(_) => None,
+            crate::TableKey::Name(name) => Some(&**name),
+            crate::TableKey::Index(_) => None,
         });
         fields.chain(state).chain(self.held.iter().map(|(name, _)| &**name))
     }
@@ -57,7 +78,7 @@ impl ScriptType {
     /// Returns the index of the direct child object that `slot` refers to. If the slot belongs to a descendant, also
     /// returns the slot within that child. Slots number the child objects recursively: the children of a child object
     /// follow it.
-    pub(super) fn held_at(&self, slot: usize) -> Option<(usize, Option<usize>)> {
+    pub(crate) fn held_at(&self, slot: usize) -> Option<(usize, Option<usize>)> {
         let mut left = slot;
         for (index, (_, object)) in self.held.iter().enumerate() {
             if left == 0 {
@@ -196,7 +217,7 @@ impl ScriptType {
         let mut given = Table { class: None, entries: table.entries.clone() };
         let mut fields = Table::default();
         for field in &self.fields {
-            let key = super::TableKey::Name(Arc::clone(&field.name));
+            let key = crate::TableKey::Name(Arc::clone(&field.name));
             let value = match table.get(&field.name).cloned() {
                 Some(value) => field.read(&kind.name, value)?,
                 None => field.default.clone().ok_or_else(|| {
@@ -222,7 +243,7 @@ impl ScriptType {
 
 /// Returns the declaration of an object's type, if a script declared the type.
 fn inner(object: &Arc<dyn Object>) -> Option<&ScriptType> {
-    object.kind().script.as_deref()
+    ScriptType::of(object.kind())
 }
 
 /// Name of the method that all types of scripts have in addition to their own.

@@ -4,9 +4,9 @@ use std::sync::{Arc, OnceLock};
 
 use glam::{DAffine3, DVec3};
 
-use super::Model;
-use super::distance::Nearest;
-use super::makers::Makers;
+use crate::Model;
+use crate::distance::Nearest;
+use crate::makers::Makers;
 use burgeon_base::error::Result;
 use burgeon_scene::{Instance, Material, Mesh, Normal, Part, Scene, SurfaceMeaning};
 

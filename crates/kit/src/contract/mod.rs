@@ -1,0 +1,34 @@
+//! The contract of objects, kinds and values, which refer to each other: an object has a kind, a kind has methods that take
+//! values, and a value may be an object.
+
+mod argument;
+mod capability;
+mod constructor;
+pub mod declare;
+mod drawing;
+mod kind;
+mod loading;
+mod model;
+mod object;
+mod parameter;
+mod prefetch;
+mod rewriter;
+mod value;
+mod values;
+
+pub use argument::Argument;
+pub use capability::{
+    Capabilities, Capability, Draw, Expand, Gather, HasLayers, LevelOfDetail, ObjectContent, Report,
+    Show, Warn,
+};
+pub use constructor::Constructor;
+pub use drawing::Drawing;
+pub use kind::{KindDeclaration, Call, Construct, Deprecation, Field, Kind, Make, Method, ReadCall, Write, WriteNumbers};
+pub use loading::{LoadRequest, LoadedObject, Loader, Resources};
+pub use model::Model;
+pub use object::Object;
+pub use parameter::{Answer, AxisScale, Expectation, ObjectParameter, Parameter, Vector, object};
+pub use prefetch::{BeginPrefetch, Prefetch};
+pub use rewriter::{RewriteOutcome, Rewriter, RuleSet, System};
+pub use value::{Table, TableKey, Value, is_keyword};
+pub use values::Values;
