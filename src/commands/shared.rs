@@ -17,34 +17,34 @@ use super::report;
 /// Flags of commands that run a script.
 #[derive(Args)]
 pub(crate) struct ScriptFlags {
-    /// The script, a Lua file
+    /// Script, a Lua file
     pub script: PathBuf,
 
     /// Sets a parameter of the script
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = setting)]
     set: Vec<(String, String)>,
 
-    /// Takes the parameters and the seed from a preset of the script; --set and --seed win over it
+    /// Loads parameters and seed from a preset; --set and --seed override it
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
 
-    /// Lets the script read data files in this folder and below it; may be repeated
+    /// Allows the script to read data files in this folder and its subfolders; may be repeated
     #[arg(long, value_name = "FOLDER")]
     data: Vec<PathBuf>,
 
-    /// Lets the script ask this database, postgres://USER:PASSWORD@HOST/NAME; may be repeated
+    /// Allows the script to query this database, postgres://USER:PASSWORD@HOST/NAME; may be repeated
     #[arg(long, value_name = "ADDRESS")]
     database: Vec<String>,
 
-    /// Uses the packages in this folder, or the one that it is, besides those in mods beside the script; may be repeated
+    /// Adds a folder of packages, or one package; may be repeated
     #[arg(long, value_name = "FOLDER")]
     mods: Vec<PathBuf>,
 
-    /// Ends with an error where there would be a warning, and at the first feature whose data cannot be built
+    /// Treats warnings as errors, and stops at the first unusable feature
     #[arg(long)]
     strict: bool,
 
-    /// The seed of all random numbers [default: 0]
+    /// Seed of all random numbers [default: 0]
     #[arg(long, value_name = "N", value_parser = whole::<u64>, allow_negative_numbers = true)]
     seed: Option<u64>,
 
@@ -52,21 +52,21 @@ pub(crate) struct ScriptFlags {
     #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true)]
     steps: Option<usize>,
 
-    /// Builds only one of N parts of the features, such as 2/4; with --reach, as in the whole run
+    /// Builds one of several parts of the features, such as 2/4
     #[arg(long, value_name = "K/N", value_parser = part)]
     part: Option<FeaturePart>,
 
-    /// Distance (m) within which features of other parts are derived too, but not shown
+    /// Distance (m) within which features of other parts are derived too, but not written
     #[arg(long, value_name = "METRES", default_value_t = 0.0, value_parser = metres, requires = "part",
           allow_negative_numbers = true)]
     reach: f64,
 
-    /// Draws less: 0 ground plans, 1 blocks, 2 roofs, 3 everything
+    /// Level of detail: 0 footprints, 1 blocks, 2 roofs, 3 full detail
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(0..=3),
           allow_negative_numbers = true)]
     lod: u8,
 
-    /// Works with N threads; the result does not depend on it [default: one for each core]
+    /// Number of threads; does not affect the result [default: number of cores]
     #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     threads: Option<u16>,
 
@@ -75,17 +75,17 @@ pub(crate) struct ScriptFlags {
           allow_negative_numbers = true, help_heading = "Limits")]
     time_limit: f64,
 
-    /// Memory that a run may use
+    /// Memory limit of a run
     #[arg(long, value_name = "MEGABYTES", default_value_t = 4096, value_parser = megabytes,
           allow_negative_numbers = true, help_heading = "Limits")]
     memory_limit: u32,
 
-    /// Modules that a system's chains may have
+    /// Maximum number of modules of a system's chains
     #[arg(long, value_name = "N", default_value_t = 50_000_000, value_parser = whole::<u32>,
           allow_negative_numbers = true, help_heading = "Limits")]
     module_limit: u32,
 
-    /// Triangles that a system may draw
+    /// Maximum number of triangles of a system
     #[arg(long, value_name = "N", default_value_t = 50_000_000, value_parser = whole::<u32>,
           allow_negative_numbers = true, help_heading = "Limits")]
     triangle_limit: u32,
@@ -94,11 +94,11 @@ pub(crate) struct ScriptFlags {
     #[arg(long, value_name = "N", default_value_t = 4096, hide = true)]
     batch: u32,
 
-    /// Reads this file in the place of the built-in standard library
+    /// Replaces the built-in standard library by this file
     #[arg(long, value_name = "FILE")]
     stdlib: Option<PathBuf>,
 
-    /// Prints one JSON document, for machines, in place of text for people
+    /// Prints machine-readable JSON instead of text
     #[arg(long)]
     pub json: bool,
 }
@@ -184,19 +184,19 @@ pub(crate) fn user_mods() -> Option<PathBuf> {
 /// Flags of a render, except its size.
 #[derive(Args)]
 pub(crate) struct PictureFlags {
-    /// Where the camera stands: 0 is north, 90 east (degrees) [default: by the model]
+    /// Azimuth of the camera: 0 is north, 90 east (degrees) [default: from the model]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, help_heading = "Pictures")]
     azimuth: Option<f64>,
 
-    /// How high the camera stands above the horizon (degrees) [default: by the model]
+    /// Elevation of the camera above the horizon (degrees) [default: from the model]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, help_heading = "Pictures")]
     elevation: Option<f64>,
 
-    /// Looks at a place (m) and at what is within a distance (m) of it [default: the whole model]
+    /// Frames the sphere with this centre and radius (m) [default: the whole model]
     #[arg(long, value_name = "X,Y,Z,M", value_parser = look, allow_hyphen_values = true, help_heading = "Pictures")]
     look: Option<ViewBall>,
 
-    /// What is behind the model
+    /// Background of the render
     #[arg(long, value_enum, default_value_t = BackgroundFlag::Light, help_heading = "Pictures")]
     background: BackgroundFlag,
 }

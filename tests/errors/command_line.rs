@@ -326,44 +326,46 @@ fn help_reads_well() {
     Usage: burgeon run [OPTIONS] <SCRIPT>
 
     Arguments:
-      <SCRIPT>  The script, a Lua file
+      <SCRIPT>  Script, a Lua file
 
     Options:
           --set <NAME=VALUE>    Sets a parameter of the script
-          --preset <NAME>       Takes the parameters and the seed from a preset of the script; --set and --seed win over it
-          --data <FOLDER>       Lets the script read data files in this folder and below it; may be repeated
-          --database <ADDRESS>  Lets the script ask this database, postgres://USER:PASSWORD@HOST/NAME; may be repeated
-          --mods <FOLDER>       Uses the packages in this folder, or the one that it is, besides those in mods beside the script; may be repeated
-          --strict              Ends with an error where there would be a warning, and at the first feature whose data cannot be built
-          --seed <N>            The seed of all random numbers [default: 0]
+          --preset <NAME>       Loads parameters and seed from a preset; --set and --seed override it
+          --data <FOLDER>       Allows the script to read data files in this folder and its subfolders; may be repeated
+          --database <ADDRESS>  Allows the script to query this database, postgres://USER:PASSWORD@HOST/NAME; may be repeated
+          --mods <FOLDER>       Adds a folder of packages, or one package; may be repeated
+          --strict              Treats warnings as errors, and stops at the first unusable feature
+          --seed <N>            Seed of all random numbers [default: 0]
           --steps <N>           Derives at most N steps
-          --lod <N>             Draws less: 0 ground plans, 1 blocks, 2 roofs, 3 everything [default: 3]
-          --threads <N>         Works with N threads; the result does not depend on it [default: one for each core]
-          --stdlib <FILE>       Reads this file in the place of the built-in standard library
-          --json                Prints one JSON document, for machines, in place of text for people
-      -o, --output <FILE>       Writes the model; the extension picks the format: .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson or .gpkg. May be repeated
-          --metadata[=<NAMES>]  Writes the ids of features into .glb and .gltf files, and their attributes: those that the script names, or =NAMES, or all with ='*'
-          --chain <FILE>        Writes the final chains as text, a line for each; - is standard output, in the JSON document if there is one
-          --heights <FILE>      Writes the heights of the terrain as a map; the extension picks the format: .png, .asc, .tif, .r32 or .r64
-          --edits <FILE>        Writes the changes of the ground of the terrain, for edits(FILE) in a script
-          --tiles <FOLDER>      Writes a .glb for each tile of the terrain into this folder
-          --report <FILE>       Writes which features were skipped or simplified, and why, as JSON; - is standard output
-          --watch               Runs and writes again whenever a file of the script changes, until interrupted
-          --save-preset <NAME>  Saves the seed and the values of --set and --preset under a name, once the run has succeeded
+          --part <K/N>          Builds one of several parts of the features, such as 2/4
+          --reach <METRES>      Distance (m) within which features of other parts are derived too, but not written [default: 0]
+          --lod <N>             Level of detail: 0 footprints, 1 blocks, 2 roofs, 3 full detail [default: 3]
+          --threads <N>         Number of threads; does not affect the result [default: number of cores]
+          --stdlib <FILE>       Replaces the built-in standard library by this file
+          --json                Prints machine-readable JSON instead of text
+      -o, --output <FILE>       Writes the model to this file; the extension selects the format: .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson or .gpkg. May be repeated
+          --metadata[=<NAMES>]  Includes ids and attributes of features in .glb and .gltf files: the attributes that the script names, or =NAMES, or all with ='*'
+          --chain <FILE>        Writes the final chains as text, one per line; - is standard output, or the JSON document with --json
+          --heights <FILE>      Writes the heights of the terrain as a height map: .png, .asc, .tif, .r32 or .r64
+          --edits <FILE>        Writes the terrain edits, for edits(FILE) in a script
+          --tiles <FOLDER>      Writes a .glb file for each tile of the terrain to this folder
+          --report <FILE>       Writes a JSON report of skipped and simplified features; - is standard output
+          --watch               Runs and writes again on every save, until interrupted
+          --save-preset <NAME>  Saves the seed and the given values as a preset, if the run succeeds
       -h, --help                Print help (see more with '--help')
 
     Limits:
           --time-limit <SECONDS>      Stops after this time [default: 300]
-          --memory-limit <MEGABYTES>  Memory that a run may use [default: 4096]
-          --module-limit <N>          Modules that a system's chains may have [default: 50000000]
-          --triangle-limit <N>        Triangles that a system may draw [default: 50000000]
+          --memory-limit <MEGABYTES>  Memory limit of a run [default: 4096]
+          --module-limit <N>          Maximum number of modules of a system's chains [default: 50000000]
+          --triangle-limit <N>        Maximum number of triangles of a system [default: 50000000]
 
     Pictures:
-          --size <WIDTHxHEIGHT>      Width and height of a picture in pixels [default: 1280x960]
-          --azimuth <DEGREES>        Where the camera stands: 0 is north, 90 east (degrees) [default: by the model]
-          --elevation <DEGREES>      How high the camera stands above the horizon (degrees) [default: by the model]
-          --look <X,Y,Z,M>           Looks at a place (m) and at what is within a distance (m) of it [default: the whole model]
-          --background <BACKGROUND>  What is behind the model [default: light] [possible values: light, dark, clear]
+          --size <WIDTHxHEIGHT>      Width and height of a render (pixels) [default: 1280x960]
+          --azimuth <DEGREES>        Azimuth of the camera: 0 is north, 90 east (degrees) [default: from the model]
+          --elevation <DEGREES>      Elevation of the camera above the horizon (degrees) [default: from the model]
+          --look <X,Y,Z,M>           Frames the sphere with this centre and radius (m) [default: the whole model]
+          --background <BACKGROUND>  Background of the render [default: light] [possible values: light, dark, clear]
     "#);
     assert_snapshot!(Folder::new().burgeon(&["check", "-h"]).done().stdout, @r"
     Checks a script and its required files as far as a run goes, and reports all problems
@@ -371,29 +373,31 @@ fn help_reads_well() {
     Usage: burgeon check [OPTIONS] <SCRIPT>
 
     Arguments:
-      <SCRIPT>  The script, a Lua file
+      <SCRIPT>  Script, a Lua file
 
     Options:
           --quick               Loads the script and compiles every rule, without deriving anything
           --set <NAME=VALUE>    Sets a parameter of the script
-          --preset <NAME>       Takes the parameters and the seed from a preset of the script; --set and --seed win over it
-          --data <FOLDER>       Lets the script read data files in this folder and below it; may be repeated
-          --database <ADDRESS>  Lets the script ask this database, postgres://USER:PASSWORD@HOST/NAME; may be repeated
-          --mods <FOLDER>       Uses the packages in this folder, or the one that it is, besides those in mods beside the script; may be repeated
-          --strict              Ends with an error where there would be a warning, and at the first feature whose data cannot be built
-          --seed <N>            The seed of all random numbers [default: 0]
+          --preset <NAME>       Loads parameters and seed from a preset; --set and --seed override it
+          --data <FOLDER>       Allows the script to read data files in this folder and its subfolders; may be repeated
+          --database <ADDRESS>  Allows the script to query this database, postgres://USER:PASSWORD@HOST/NAME; may be repeated
+          --mods <FOLDER>       Adds a folder of packages, or one package; may be repeated
+          --strict              Treats warnings as errors, and stops at the first unusable feature
+          --seed <N>            Seed of all random numbers [default: 0]
           --steps <N>           Derives at most N steps
-          --lod <N>             Draws less: 0 ground plans, 1 blocks, 2 roofs, 3 everything [default: 3]
-          --threads <N>         Works with N threads; the result does not depend on it [default: one for each core]
-          --stdlib <FILE>       Reads this file in the place of the built-in standard library
-          --json                Prints one JSON document, for machines, in place of text for people
+          --part <K/N>          Builds one of several parts of the features, such as 2/4
+          --reach <METRES>      Distance (m) within which features of other parts are derived too, but not written [default: 0]
+          --lod <N>             Level of detail: 0 footprints, 1 blocks, 2 roofs, 3 full detail [default: 3]
+          --threads <N>         Number of threads; does not affect the result [default: number of cores]
+          --stdlib <FILE>       Replaces the built-in standard library by this file
+          --json                Prints machine-readable JSON instead of text
       -h, --help                Print help
 
     Limits:
           --time-limit <SECONDS>      Stops after this time [default: 300]
-          --memory-limit <MEGABYTES>  Memory that a run may use [default: 4096]
-          --module-limit <N>          Modules that a system's chains may have [default: 50000000]
-          --triangle-limit <N>        Triangles that a system may draw [default: 50000000]
+          --memory-limit <MEGABYTES>  Memory limit of a run [default: 4096]
+          --module-limit <N>          Maximum number of modules of a system's chains [default: 50000000]
+          --triangle-limit <N>        Maximum number of triangles of a system [default: 50000000]
     ");
 }
 

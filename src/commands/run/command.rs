@@ -31,38 +31,38 @@ pub(crate) struct RunCommand {
     #[arg(default_missing_value = "")]
     pub(super) metadata: Option<Vec<String>>,
 
-    /// Writes the final chains as text, a line for each; - is standard output, in the JSON document if there is one
+    /// Writes the final chains as text, one per line; - is standard output, or the JSON document with --json
     #[arg(long, value_name = "FILE")]
     pub(super) chain: Option<PathBuf>,
 
-    /// Writes the heights of the terrain as a map; the extension picks the format: .png, .asc, .tif, .r32 or .r64
+    /// Writes the heights of the terrain as a height map: .png, .asc, .tif, .r32 or .r64
     #[arg(long, value_name = "FILE")]
     pub(super) heights: Option<PathBuf>,
 
-    /// Writes the changes of the ground of the terrain, for edits(FILE) in a script
+    /// Writes the terrain edits, for edits(FILE) in a script
     #[arg(long, value_name = "FILE")]
     pub(super) edits: Option<PathBuf>,
 
-    /// Writes a .glb for each tile of the terrain into this folder
+    /// Writes a .glb file for each tile of the terrain to this folder
     #[arg(long, value_name = "FOLDER")]
     pub(super) tiles: Option<PathBuf>,
 
-    /// Writes which features were skipped or simplified, and why, as JSON; - is standard output
+    /// Writes a JSON report of skipped and simplified features; - is standard output
     #[arg(long, value_name = "FILE")]
     pub(super) report: Option<PathBuf>,
 
-    /// Runs and writes again whenever a file of the script changes, until interrupted
+    /// Runs and writes again on every save, until interrupted
     #[arg(long)]
     watch: bool,
 
-    /// Width and height of a picture in pixels
+    /// Width and height of a render (pixels)
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size, default_value = "1280x960", help_heading = "Pictures")]
     pub(super) size: (u32, u32),
 
     #[command(flatten)]
     pub(super) picture: PictureFlags,
 
-    /// Saves the seed and the values of --set and --preset under a name, once the run has succeeded
+    /// Saves the seed and the given values as a preset, if the run succeeds
     #[arg(long, value_name = "NAME")]
     save_preset: Option<String>,
 }
@@ -71,7 +71,7 @@ pub(crate) struct RunCommand {
 fn output_help() -> &'static str {
     static HELP: LazyLock<String> = LazyLock::new(|| {
         let formats = Format::extension_list("or");
-        format!("Writes the model; the extension picks the format: {formats}. May be repeated")
+        format!("Writes the model to this file; the extension selects the format: {formats}. May be repeated")
     });
     &HELP
 }
