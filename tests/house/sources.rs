@@ -265,8 +265,5 @@ fn imports_have_their_names_in_the_scope() {
         .iter()
         .map(|it| format!("{}{} = {}", if it.is_public { "pub " } else { "" }, it.name, it.path.join(" ")))
         .collect();
-    assert_eq!(
-        found,
-        ["pub B = a B", "pub E = a c D", "pub * = a f", "h = g h", "pub i = i", "pub J = i J"]
-    );
+    assert_eq!(found, ["pub B = a B", "pub E = a c D", "pub * = a f", "h = g h", "pub i = i", "pub J = i J"]);
 }

@@ -9,8 +9,8 @@ extern crate self as burgeon_kit;
 mod buffer_bytes;
 mod color;
 mod colors;
-mod distance;
 mod contract;
+mod distance;
 mod example;
 mod fields;
 mod makers;
@@ -22,7 +22,13 @@ mod seed;
 pub use buffer_bytes::BufferBytes;
 pub use color::Color;
 pub use contract::declare;
-pub use contract::{Answer, Argument, AxisScale, BeginPrefetch, Call, Capabilities, Capability, Construct, Constructor, Deprecation, Draw, Drawing, Expand, Expectation, Field, Gather, HasLayers, Kind, KindDeclaration, LevelOfDetail, LoadRequest, LoadedObject, Loader, Make, Method, Model, Object, ObjectContent, ObjectParameter, Parameter, Prefetch, ReadCall, Report, Resources, RewriteOutcome, Rewriter, RuleSet, Show, System, Table, TableKey, Value, Values, Vector, Warn, Write, WriteNumbers, is_keyword, object};
+pub use contract::{
+    Answer, Argument, AxisScale, BeginPrefetch, Call, Capabilities, Capability, Construct, Constructor,
+    Deprecation, Draw, Drawing, Expand, Expectation, Field, Gather, HasLayers, Kind, KindDeclaration,
+    LevelOfDetail, LoadRequest, LoadedObject, Loader, Make, Method, Model, Object, ObjectContent,
+    ObjectParameter, Parameter, Prefetch, ReadCall, Report, Resources, RewriteOutcome, Rewriter, RuleSet,
+    Show, System, Table, TableKey, Value, Values, Vector, Warn, Write, WriteNumbers, is_keyword, object,
+};
 pub use example::ScriptExample;
 pub use fields::{Fields, TableOf};
 pub use makers::Makers;

@@ -224,7 +224,10 @@ impl Writer {
             let _ = writeln!(out, "  {name}: {luau}");
         }
         for method in &kind.methods {
-            let doubled = kind.script.as_ref().is_some_and(|it| it.member_names().iter().any(|part| *part == method.name));
+            let doubled = kind
+                .script
+                .as_ref()
+                .is_some_and(|it| it.member_names().iter().any(|part| *part == method.name));
             if doubled {
                 // A class cannot have a state variable and a method of the same name.
                 let _ = writeln!(out, "  {}: any", method.name);

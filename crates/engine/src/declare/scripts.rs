@@ -8,10 +8,10 @@ use rustc_hash::FxHashMap;
 
 use super::bytecode::compile;
 use super::session::Session;
-use burgeon_language::analysis::{Analysis, Globals, ScriptReader, calls_with_text};
 use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::locks::LockRecovery;
+use burgeon_language::analysis::{Analysis, Globals, ScriptReader, calls_with_text};
 use burgeon_packages::FileName;
 
 /// Maximum size (bytes) of one file of a script.

@@ -19,7 +19,6 @@ use super::types::DeclaredTypes;
 #[cfg(feature = "data")]
 use crate::questions::RowSource;
 use crate::questions::{AskedRows, ChainView, Question, RowCache, Rows};
-use burgeon_language::analysis::{Analysis, CheckedFile, QueryCall, call_problems, has_metatables, inspects_tables};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::stop::Stop;
@@ -27,6 +26,9 @@ use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, Warnings};
 use burgeon_kit::Values;
 use burgeon_language::CallForm;
+use burgeon_language::analysis::{
+    Analysis, CheckedFile, QueryCall, call_problems, has_metatables, inspects_tables,
+};
 use burgeon_packages::{PackageSearch, Packages};
 use burgeon_rewriting::Symbol;
 use rustc_hash::FxHashSet;

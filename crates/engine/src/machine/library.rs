@@ -19,12 +19,12 @@ use super::types::{
 use super::{Machine, compile, native};
 use crate::declare::{API_VERSION, Param, Print, Session, Setting, has_name};
 use crate::placeholders::{self, FRAGMENT, QUERY};
-use burgeon_language::analysis::Globals;
 use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::{Construct, Kind, ObjectContent, Registry};
 use burgeon_language::LOCKED;
+use burgeon_language::analysis::Globals;
 use burgeon_packages::{FileName, Package};
 use burgeon_rewriting::{NameScope, Signature, Symbol, Symbols};
 

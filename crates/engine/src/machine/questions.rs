@@ -11,8 +11,8 @@ use super::convert::{to_lua, to_value};
 use super::library::Library;
 use super::{Machine, WorkState};
 use crate::questions::{Question, Rows};
-use burgeon_language::analysis::sql_parameters;
 use burgeon_kit::Value;
+use burgeon_language::analysis::sql_parameters;
 use burgeon_rewriting::{Pattern, Symbols};
 
 /// Maximum number of result values that a machine keeps as tables.

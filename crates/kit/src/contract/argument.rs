@@ -1,7 +1,7 @@
 //! Arguments of functions that scripts call, with the units and defaults that their docs state.
 
+use super::kind::SharedText;
 use crate::Field;
-use crate::kind::SharedText;
 
 /// Units that docs give in round brackets.
 const UNITS: [&str; 10] = ["m", "m²", "m³", "1/m", "m/m", "%", "degrees", "s", "bytes", "light years"];

@@ -2,7 +2,7 @@
 
 use std::any::Any;
 
-pub use crate::argument::unit;
+pub use super::argument::unit;
 use crate::{Object, Parameter, Table, TableKey, Value};
 use burgeon_base::error::{Error, Result};
 use burgeon_rewriting::ColumnValue;

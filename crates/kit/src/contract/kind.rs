@@ -4,9 +4,9 @@ use std::any::Any;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use crate::capability::{Capabilities, Capability, Draw, Gather, Show};
-use crate::{Argument, BeginPrefetch, Constructor, Loader, Object, Table, Value};
+use super::capability::{Capabilities, Capability, Draw, Gather, Show};
 use crate::capability;
+use crate::{Argument, BeginPrefetch, Constructor, Loader, Object, Table, Value};
 use burgeon_base::error::{Error, Result, SourcePlace};
 
 /// Text that is static in a built-in type and owned in any other.

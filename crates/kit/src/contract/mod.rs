@@ -18,12 +18,14 @@ mod values;
 
 pub use argument::Argument;
 pub use capability::{
-    Capabilities, Capability, Draw, Expand, Gather, HasLayers, LevelOfDetail, ObjectContent, Report,
-    Show, Warn,
+    Capabilities, Capability, Draw, Expand, Gather, HasLayers, LevelOfDetail, ObjectContent, Report, Show,
+    Warn,
 };
 pub use constructor::Constructor;
 pub use drawing::Drawing;
-pub use kind::{KindDeclaration, Call, Construct, Deprecation, Field, Kind, Make, Method, ReadCall, Write, WriteNumbers};
+pub use kind::{
+    Call, Construct, Deprecation, Field, Kind, KindDeclaration, Make, Method, ReadCall, Write, WriteNumbers,
+};
 pub use loading::{LoadRequest, LoadedObject, Loader, Resources};
 pub use model::Model;
 pub use object::Object;

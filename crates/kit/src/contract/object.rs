@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use crate::capability::{Draw, Expand, HasLayers, LevelOfDetail, Report, Show, Warn};
+use super::capability::{Draw, Expand, HasLayers, LevelOfDetail, Report, Show, Warn};
 use crate::{Drawing, Kind, Note, Rewriter, Value};
 use burgeon_base::error::Result;
 use burgeon_base::warning::Warning;

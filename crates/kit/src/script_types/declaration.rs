@@ -4,10 +4,12 @@ use std::any::Any;
 use std::collections::BTreeSet;
 use std::sync::{Arc, Weak};
 
-use crate::capability::{Draw, LevelOfDetail, Report, Warn};
-use crate::declare::refuse_unknown;
-use crate::{Argument, Call, KindDeclaration, Construct, Kind, Method, Object, ScriptField, ScriptObject, Table, Value};
 use crate::capability;
+use crate::declare::refuse_unknown;
+use crate::{
+    Argument, Call, Construct, Kind, KindDeclaration, Method, Object, ScriptField, ScriptObject, Table, Value,
+};
+use crate::{Draw, LevelOfDetail, Report, Warn};
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 
 /// Declaration of an object type by a script.

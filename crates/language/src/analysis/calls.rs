@@ -19,9 +19,9 @@ use super::blocks::ScopeWalk;
 use super::inference::Inference;
 use super::syntax::{string_of, text_of};
 use super::walk::FunctionRole;
+use crate::Literal;
 use burgeon_base::error::{Error, SourcePlace};
 use burgeon_kit::{Kind, Registry};
-use crate::Literal;
 
 /// Walk that checks the calls of a script.
 pub(super) struct CallCheck<'a> {

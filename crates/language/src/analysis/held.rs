@@ -6,9 +6,9 @@ use full_moon::tokenizer::TokenReference;
 use super::calls::{CallCheck, expressions_of, line_of};
 use super::inference::Inference;
 use super::syntax::{is_open, text_of};
+use crate::{CallForm, Literal, LuauType, NameKind, names};
 use burgeon_base::error::Error;
 use burgeon_kit::{Argument, Field as KindField, Kind};
-use crate::{CallForm, Literal, LuauType, NameKind, names};
 
 impl CallCheck<'_> {
     /// Checks a call against its signatures. `is_luau` marks functions of Luau, which accept a string of digits as a

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use burgeon_kit::Kind;
 use crate::{Literal, Name};
+use burgeon_kit::Kind;
 
 /// Inferred value of an expression.
 #[derive(Clone)]

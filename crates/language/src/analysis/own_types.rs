@@ -13,9 +13,9 @@ use super::calls::{CallCheck, expressions_of};
 use super::inference::Inference;
 use super::syntax::{end_of, string_of, text_of};
 use super::walk::{FunctionRole, Walk};
+use crate::Literal;
 use burgeon_base::error::Error;
 use burgeon_kit::{Kind, ScriptType, Value};
-use crate::Literal;
 
 /// Returns the names of the functions that a declaration adds to a type.
 fn added_names(table: &TableConstructor) -> Vec<String> {

@@ -10,8 +10,8 @@ use std::sync::atomic::Ordering;
 use super::blocks::ScopeWalk;
 use super::syntax::{end_of, first_position, is_open, string_of, text_of};
 use super::walk::{Fact, Function, FunctionRole, Variable, Walk};
-use burgeon_kit::Argument;
 use crate::CallForm;
+use burgeon_kit::Argument;
 use burgeon_rewriting::Successors;
 
 /// Maximum number of parameters of a prepared return.

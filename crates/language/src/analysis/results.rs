@@ -9,9 +9,9 @@ use super::calls::{CallCheck, expressions_of, field_named};
 use super::inference::Inference;
 use super::syntax::text_of;
 use super::walk::FunctionRole;
+use crate::{CallForm, Literal, Name, NameKind, SYSTEM, names};
 use burgeon_base::error::Error;
 use burgeon_kit::Construct;
-use crate::{CallForm, Literal, Name, NameKind, SYSTEM, names};
 
 impl CallCheck<'_> {
     pub(super) fn infer_name(&self, name: &TokenReference) -> Inference {

@@ -7,9 +7,9 @@ use std::time::Duration;
 
 use super::globals::Globals;
 use super::walk::{Facts, QueryCall, Walk};
+use crate::CallForm;
 use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Limit, SourcePlace};
-use crate::CallForm;
 use burgeon_packages::FileName;
 use full_moon::ast::Ast;
 use full_moon::node::Node;

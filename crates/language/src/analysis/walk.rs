@@ -10,8 +10,8 @@ use full_moon::tokenizer::TokenReference;
 use super::blocks::ScopeWalk;
 use super::globals::Globals;
 use super::syntax::{declared_module, end_of, first_position, instead_of, text_of};
-use burgeon_base::error::{Error, SourcePlace};
 use crate::CallForm;
+use burgeon_base::error::{Error, SourcePlace};
 use burgeon_rewriting::Signature;
 
 /// Facts that the first walk collects about variables, in the order of declaration.

@@ -1,6 +1,6 @@
 //! Runs of the variations on all threads.
 
-use super::axis::VariationAxis;
+use super::axis::{self, VariationAxis};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -3,9 +3,9 @@
 use super::message::Cause;
 use super::state::{DueRun, ServerState};
 use super::tools;
+use crate::presets::Presets;
 use burgeon_base::error::Error;
 use burgeon_base::locks::LockRecovery;
-use crate::presets::Presets;
 use burgeon_watch::Change;
 
 /// Handles changed files.

@@ -4,18 +4,19 @@ use std::io::ErrorKind;
 use std::net::{Ipv4Addr, TcpListener};
 use std::sync::Arc;
 use std::thread::JoinHandle;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use tokio::runtime::Runtime;
 use tokio::sync::Semaphore;
 
-use burgeon_base::error::{Error, Result};
-use burgeon_watch::Watch;
 use super::message::Cause;
 use super::server::Site;
-use super::state::{DueRun, ServerState};
 use super::settings::{Notice, PORT, Settings};
+use super::state::{DueRun, ServerState};
 use super::token::{Keep, Token};
+use super::{changes, connections, tools, work};
+use burgeon_base::error::{Error, Result};
+use burgeon_watch::Watch;
 
 /// Number of ports to try after an occupied one.
 const TRIES: u16 = 100;

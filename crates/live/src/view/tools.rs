@@ -12,13 +12,13 @@ use tokio::sync::mpsc::Sender;
 use super::message::{Cause, Event, json};
 use super::request::seed;
 use super::state::ServerState;
+use crate::presets::Presets;
+use crate::variations::{Framing, Variation, VariationAxis, Variations};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_engine::script::{Param, ParamValues, Preset, RunOptions, Session};
 use burgeon_picture::{Background, Picture, Quality};
-use crate::presets::Presets;
 use burgeon_scene::image;
-use crate::variations::{Framing, Variation, VariationAxis, Variations};
 
 /// Interval of progress reports of variations.
 const TICK: Duration = Duration::from_millis(500);

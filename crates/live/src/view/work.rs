@@ -14,6 +14,7 @@ use super::message::{Cause, Event, ModelMessage, ParamMessage};
 use super::request::Inputs;
 use super::state::{ActiveRun, LiveState, PresentModel, ServerState};
 use super::{Notice, describe};
+use crate::presets::Presets;
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::panic_message;
@@ -21,7 +22,6 @@ use burgeon_base::warning::Warning;
 use burgeon_engine::run::{Run, run_session};
 use burgeon_engine::script::{Limits, Session, make_ready};
 use burgeon_export::gltf::{self, Layout};
-use crate::presets::Presets;
 use burgeon_watch::{Watch, unsettled};
 
 /// Interval of progress reports to pages.

@@ -9,12 +9,12 @@ use crate::declare::bytecode::compile;
 use crate::machine::Machine;
 use crate::machine::convert::to_value;
 use crate::machine::library::Library;
-use burgeon_language::analysis::{QueryCall, analyse, split_line};
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::Value;
 use burgeon_language::RULE;
+use burgeon_language::analysis::{QueryCall, analyse, split_line};
 use burgeon_rewriting::{MOST_RULES, NameScope, Pattern, Rule, Symbols};
 
 use super::{DeclaredAxiom, DeclaredInterpretation, DeclaredRule, SourceHandle, SystemDeclaration};
