@@ -294,8 +294,8 @@ local function hash(x: number, y: number, z: number, seed: number): number
   return h / 4294967296
 end
 
---- Smooth value noise from -1 to 1, with features of size 1, at `x`, `y` (0 unless given) and `z` (0 unless given); `seed`
---- (0 unless given) selects the noise field.
+--- Smooth value noise from -1 to 1, with features of size 1, at `x`, `y` (0 unless given) and `z` (0 unless given). Each
+--- `seed` (0 unless given) gives another field.
 local function noise(x: number, y: number?, z: number?, seed: number?): number
   local py, pz, s = y or 0, z or 0, seed or 0
   if type(x) ~= "number" or type(py) ~= "number" or type(pz) ~= "number" or type(s) ~= "number" then

@@ -539,7 +539,7 @@ fn an_axiom_declares_nothing_while_it_makes_chains() {
 #[test]
 fn a_script_warns_with_its_line_and_a_remedy() {
     let script = "local function look(count)\n  if count < 3 then warn(`{count} trees are few`, \"plant more\") end\nend\n\
-                  look(2)\nlook(5)\nwarn(\"a\\tb\")\nprint(1)";
+                  look(2)\nlook(5)\nwarn(\"a\\tb\")";
     let folder = Folder::new().with("s.lua", script);
     insta::assert_snapshot!(folder.warned(&["run", "s.lua"]), @"");
     let document = folder.burgeon(&["run", "s.lua", "--json"]).done().json();

@@ -49,7 +49,7 @@ const SCRIPTS: [(&str, &str); 6] = [
          s:rule('A(n, colour, at)', function(this, n, colour, at)
            return { Leaf(colour[1] .. n, at) }, A(n + 1, { colour[1], n % 3 }, point(n, n))
          end)
-         s:interpret('Leaf(colour, at)', function(this, colour, at) this:move(at:x(), at:y(), 0):extrude(#colour) end)
+         s:interpret('Leaf(colour, at)', function(this, colour, at) this:scale(1 + at:x()):extrude(#colour) end)
          s:derive(20)",
     ),
     (

@@ -1,7 +1,7 @@
 //! Contract of objects: values, object types and the interfaces that rules need from them.
 //!
 //! Input: values from scripts. Output: [`Kind`]s in a [`Registry`], [`Object`]s with their drawings, and the [`Values`]
-//! that chain modules contain. The crate does not depend on a virtual machine. Its only object type is
+//! that chain modules contain. The crate never depends on a virtual machine. Its only object type is
 //! [`Model`], the drawn result of a system.
 
 extern crate self as burgeon_kit;

@@ -52,6 +52,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "vec" shows "vec";
     "vector" shows "vector" "vector:dot" "vector:cross" "vector:length" "vector:unit" "vector:distance"
         "vector:lerp";
+    "warn" shows "warn";
 };
 
 #[cfg(test)]

@@ -25,8 +25,8 @@ pub(crate) struct RunCommand {
     #[arg(short, long, value_name = "FILE", value_parser = output, help = output_help())]
     pub(super) output: Vec<PathBuf>,
 
-    /// Writes the ids of features into .glb and .gltf files, and their attributes: those that the script names, or =NAMES,
-    /// or all with ='*'
+    /// Includes ids and attributes of features in .glb and .gltf files: the attributes that the script names, or =NAMES, or
+    /// all with ='*'
     #[arg(long, value_name = "NAMES", num_args = 0..=1, require_equals = true, value_delimiter = ',')]
     #[arg(default_missing_value = "")]
     pub(super) metadata: Option<Vec<String>>,

@@ -14,7 +14,7 @@ use burgeon_kit::{Object, Prefetch, Value};
 use burgeon_rewriting::{CLOSE, Chain, DEEPEST, END, ModuleKey, OPEN, Symbol};
 
 use super::lazy::is_feature;
-use super::selection::{FeatureRole, FeatureSelection};
+use super::selection::{FeatureRole, PartSelection};
 use super::source::{each_feature, layer_of, refused_of, shown};
 use super::{DeclaredAxiom, SystemDeclaration};
 
@@ -121,7 +121,7 @@ impl SystemDeclaration {
         let LuaValue::UserData(source) = source else { return Ok(()) };
         let prefetch = self.prefetch(machine, source)?;
         let mut refused: Option<Error> = None;
-        let selection = FeatureSelection::new(machine, source)?;
+        let selection = PartSelection::new(machine, source)?;
         // Without random numbers and side effects, the function need not run for features that are not built.
         let may_skip = !selection.is_whole() && !machine.session.draws_random() && is_pure(machine, function);
         axiom.source = shown(source);

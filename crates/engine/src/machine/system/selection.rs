@@ -21,12 +21,12 @@ pub(super) enum FeatureRole {
 }
 
 /// Roles of the features of a source.
-pub(super) struct FeatureSelection {
+pub(super) struct PartSelection {
     /// Empty if all features are shown.
     roles: Vec<FeatureRole>,
 }
 
-impl FeatureSelection {
+impl PartSelection {
     /// Selects the features of the run's part.
     pub(super) fn new(machine: &Machine, source: &AnyUserData) -> Result<Self> {
         let Some(part) = machine.session.options.part else { return Ok(Self { roles: Vec::new() }) };
