@@ -367,7 +367,7 @@ fn highways_that_do_not_arrive_are_told() {
     ");
     let lake = "obstacles = { { { -100, -900 }, { 100, -900 }, { 100, 900 }, { -100, 900 } } }";
     assert_snapshot!(with_roads(&towns(lake, "")).warned(&["run", "s.lua"]), @r"
-    warning: templates/roads/highways.lua:124: rule Arrival(junction, heading, length, goal, tries) (interpretation): network:lead: no street leads from -113.0, -28.9 to 600.0, 0.0: obstacle
+    warning: templates/roads/highways.lua:125: rule Arrival(junction, heading, length, goal, tries) (interpretation): network:lead: no street leads from -113.0, -28.9 to 600.0, 0.0: obstacle
       | this:lead(junction, this:place(goal), 0)
       called at s.lua:2
       module: Arrival(8,-42.013161642443464,90,2,9), step 11

@@ -41,19 +41,27 @@ options.STREETS = {
   { width = 11, lanes = 2, sidewalk = 2 },
 }
 
--- What streets do not cross, by the fields of a network: whether a way by places (m), x and y in turn, meets any of it, and whether
--- a place is land; nil where nothing is in the way.
+-- An area as the network takes it; nil if the network leaves it out or refuses it.
+local function area_of(given: any): any
+  local is_list = type(given) == "table" and not (given.rings or given.points or given.geometry)
+  local ok, made = pcall(if is_list then polygon else geometry, given)
+  return if ok then made else nil
+end
+
+-- The areas that streets avoid, from the fields of a network; nil if there are none. `meets` is true for a way, positions (m) as x
+-- and y in turn, that meets one of them; `is_land` is true for a position on land.
 local function barriers(fields: any): any
-  local function shape(given: any): any
-    return if type(given) == "table" then geometry(given) else given
-  end
   local shapes: { any } = {}
-  for _, list in { fields.obstacles or {}, fields.water or {} } :: { { any } } do
-    for _, each in list do
-      table.insert(shapes, shape(each))
+  for _, list in { fields.obstacles or {}, fields.water or {} } :: { any } do
+    -- The network refuses anything else.
+    for _, each in if type(list) == "table" then list else {} do
+      local area = area_of(each)
+      if area then
+        table.insert(shapes, area)
+      end
     end
   end
-  local limit: any = if fields.limit then shape(fields.limit) else nil
+  local limit: any = if fields.limit then area_of(fields.limit) else nil
   if #shapes == 0 and not limit then
     return nil
   end
