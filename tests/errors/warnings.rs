@@ -539,9 +539,15 @@ fn an_axiom_declares_nothing_while_it_makes_chains() {
 #[test]
 fn a_script_warns_with_its_line_and_a_remedy() {
     let script = "local function look(count)\n  if count < 3 then warn(`{count} trees are few`, \"plant more\") end\nend\n\
-                  look(2)\nlook(5)\nwarn(\"a\\tb\")";
+                  look(2)\nlook(5)\nwarn(\"a b\")";
     let folder = Folder::new().with("s.lua", script);
-    insta::assert_snapshot!(folder.warned(&["run", "s.lua"]), @"");
+    insta::assert_snapshot!(folder.warned(&["run", "s.lua"]), @r#"
+    warning: s.lua:2: 2 trees are few
+      | if count < 3 then warn(`{count} trees are few`, "plant more") end
+      help: plant more
+    warning: s.lua:6: a b
+      | warn("a b")
+    "#);
     let document = folder.burgeon(&["run", "s.lua", "--json"]).done().json();
     let kinds: Vec<&str> =
         document["warnings"].as_array().unwrap().iter().map(|it| it["kind"].as_str().unwrap()).collect();

@@ -12,7 +12,7 @@ fn outcome(run: &Run) -> (Vec<String>, Vec<String>, Vec<String>, Vec<u8>) {
     let chains =
         run.systems.iter().map(|system| format!("{} {}", system.steps, system.chain_text())).collect();
     let warnings = run.warnings.iter().map(ToString::to_string).collect();
-    let model = if run.scene.triangles() > 0 { gltf::glb(&run.scene).unwrap() } else { Vec::new() };
+    let model = if run.scene.triangles() > 0 { gltf::glb(&run.scene).expect("a model") } else { Vec::new() };
     (chains, warnings, run.notes.clone(), model)
 }
 
@@ -24,9 +24,9 @@ fn run(script: &Path, steps: usize, store: Option<&Arc<DerivationStore>>, seed: 
 
 fn write(name: &str, text: &str) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("burgeon-continued-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::create_dir_all(&folder).expect("a folder");
     let path = folder.join(name);
-    std::fs::write(&path, text).unwrap();
+    std::fs::write(&path, text).expect("a script");
     path
 }
 
@@ -78,7 +78,7 @@ const SCRIPTS: [(&str, &str); 6] = [
          first:axiom(A(1))
          first:rule('A(x)', function(this, x) return A(x + 1), B(x) end)
          local derived = first:derive(6)
-         local count = #derived.chain
+         local count = #derived.chains[1]
          local second = lsystem {}
          second:axiom(A(count))
          second:rule('A(x)', function(this, x) return A(x + count), B(count) end)
@@ -149,7 +149,7 @@ fn a_change_of_the_script_the_seed_or_a_parameter_starts_from_the_axiom() {
         options.params.set =
             set.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
         options.inputs.derivations = store.cloned();
-        burgeon::run(&script, options).unwrap().systems[0].chain_text()
+        burgeon::run(&script, options).expect("a run").systems[0].chain_text()
     };
     let mut chains = Vec::new();
     for (seed, set) in [(1, &[][..]), (2, &[]), (1, &[("by", "3")])] {
@@ -157,7 +157,7 @@ fn a_change_of_the_script_the_seed_or_a_parameter_starts_from_the_axiom() {
         chains.push(chain(seed, set, Some(&store)));
     }
     // A save within the resolution of the file system's clock must differ in length.
-    std::fs::write(&script, text(20)).unwrap();
+    std::fs::write(&script, text(20)).expect("a script");
     assert_eq!(chain(1, &[], Some(&store)), chain(1, &[], None));
     chains.push(chain(1, &[], Some(&store)));
     chains.sort();

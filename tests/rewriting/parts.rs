@@ -29,7 +29,7 @@ fn features(scene: &Scene) -> BTreeMap<(usize, String), Vec<String>> {
 
 fn run(script: &Path, part: Option<FeaturePart>) -> Run {
     let mut options = RunOptions { part, seed: 5, ..burgeon::options() };
-    options.inputs.data = vec![Path::new("examples/data").canonicalize().unwrap()];
+    options.inputs.data = vec![Path::new("examples/data").canonicalize().expect("the data")];
     burgeon::run(script, options).unwrap_or_else(|error| panic!("{}: {error}", script.display()))
 }
 
@@ -71,9 +71,9 @@ fn check(script: &Path, count: usize, reach: f64) -> usize {
 
 fn write(name: &str, text: &str) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("burgeon-parts-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::create_dir_all(&folder).expect("a folder");
     let path = folder.join(name);
-    std::fs::write(&path, text).unwrap();
+    std::fs::write(&path, text).expect("a script");
     path
 }
 

@@ -1,7 +1,7 @@
 //! Attributes that declare an object type and its scripting API.
 //!
 //! Input: an ordinary `impl` block or struct. Output: the same item, and the description that the contract of objects,
-//! the crate `burgeon_kit`, needs. The attributes neither read files nor keep state.
+//! the crate `burgeon_kit`, needs. The attributes never read files, and keep no state.
 
 mod attribute;
 mod doc;

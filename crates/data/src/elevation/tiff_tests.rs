@@ -225,7 +225,7 @@ fn directories_in_a_circle_end_the_search_for_a_mask() {
         bytes[end - 4..].copy_from_slice(&first);
         read(&bytes, "a.tif")
     };
-    assert_eq!(circle(&[image.clone()]).unwrap_err().message(), "a.tif is a damaged TIFF");
+    assert_eq!(circle(std::slice::from_ref(&image)).unwrap_err().message(), "a.tif is a damaged TIFF");
     let raster = circle(&[image, overview]).unwrap();
     assert_eq!((raster.filled, raster.heights.len()), (0, 120));
 }
