@@ -554,9 +554,9 @@ fn a_script_warns_with_its_line_and_a_remedy() {
     assert_eq!(kinds.iter().filter(|kind| **kind == "script").count(), 2, "{kinds:?}");
     assert!(folder.burgeon(&["run", "s.lua", "--strict"]).failed().contains("trees are few"));
     for (script, expected) in [
-        ("warn()", "warn: text must be a string, not nil"),
-        ("warn({})", "warn: text must be a string, not table"),
-        ("warn(\"a\", 3)", "warn: help must be a string, not number"),
+        ("warn()", "warn: text must be a string, not nothing"),
+        ("warn({})", "warn: text must be a string, not a table"),
+        ("warn(\"a\", 3)", "warn: help must be a string, not a number"),
     ] {
         let told = super::support::refused(script);
         assert!(told.contains(expected), "{script}: {told}");

@@ -1,7 +1,7 @@
 //! Rewriting of L-systems: parallel, parametric, context-sensitive and stochastic, without a scripting language.
 //!
 //! Input: modules and patterns as text, and the functions of rules as an implementation of [`Rules`]. Output: the next
-//! [`Chain`], the same for any number of threads. The crate does not depend on a virtual machine, objects or geometry.
+//! [`Chain`], the same for any number of threads. The crate never depends on a virtual machine, objects or geometry.
 //!
 //! - [`Symbols`] are the declared modules. A [`Pattern`] is the left side of a rule; a [`Grammar`] contains the rules
 //!   of a system.

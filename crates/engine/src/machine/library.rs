@@ -8,7 +8,7 @@ use std::sync::{Arc, LazyLock};
 use mlua::{Function, Lua, LuaString, MultiValue, Table, Value as LuaValue, Variadic};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::convert::to_lua;
+use super::convert::{to_lua, to_value};
 use super::require::require;
 use super::system::{EagerMark, SourceHandle, SystemDeclaration, SystemHandle, install_lazy};
 use super::table_classes::declare_class;
@@ -573,7 +573,8 @@ fn script_warning(text: &LuaValue, help: &LuaValue) -> Result<Warning> {
     let string = |value: &LuaValue, name: &str| match value {
         LuaValue::String(text) => Ok(any_bytes(&text.as_bytes())),
         other => {
-            let message = format!("warn: {name} must be a string, not {}", other.type_name());
+            let found = to_value(other, false).map_or("something else", |value| value.describe());
+            let message = format!("warn: {name} must be a string, not {found}");
             Err(Error::argument(message).help(usage))
         }
     };
