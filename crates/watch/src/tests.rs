@@ -201,8 +201,9 @@ fn who_catches_up_has_been_told_of_all_that_has_changed_before() {
 #[test]
 fn a_file_that_someone_still_writes_into_is_told_when_it_is_closed_but_not_waited_for_for_ever() {
     use std::io::Write;
-    let trial = Trial::new();
     for pause in [PATIENCE * 2, SAVE * 2] {
+        // A late notice of the first pause must not count for the second.
+        let trial = Trial::new();
         let mut file = fs::File::create(trial.at("sub/a.lua")).unwrap();
         let begin = Instant::now();
         writeln!(file, "half, {pause:?}").unwrap();

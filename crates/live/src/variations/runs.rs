@@ -91,8 +91,8 @@ struct VariationRun {
 impl Variations {
     /// Plans the variations of `script`, otherwise run with `options`, whose limits apply to each run.
     ///
-    /// Fails if there are none or more than [`MOST`], without the feature `pictures`, and if the script has no such
-    /// parameter or rejects one of the values. If the script itself fails, the cells report the error.
+    /// Fails if there are none or more than [`MOST`](super::MOST), without the feature `pictures`, and if the script
+    /// has no such parameter or rejects one of the values. If the script itself fails, the cells report the error.
     pub fn new(script: &Path, options: &RunOptions, over: &VariationAxis) -> Result<Self> {
         image::check()?;
         let mut options = options.clone();
