@@ -203,10 +203,14 @@ end
 
 -- The size (m²) of the part of an area for whose places a function is true, from a sample of them.
 function areas.size_of(area: Area, is_of: (x: number, y: number) -> boolean): number
-  local left, right, low, high = math.huge, -math.huge, math.huge, -math.huge
+  local left: number, right: number = math.huge, -math.huge
+  local low: number, high: number = math.huge, -math.huge
   for corner = 1, area.count do
-    left, right = math.min(left, area.x[corner]), math.max(right, area.x[corner])
-    low, high = math.min(low, area.y[corner]), math.max(high, area.y[corner])
+    local x: number, y: number = area.x[corner], area.y[corner]
+    left = math.min(left, x)
+    right = math.max(right, x)
+    low = math.min(low, y)
+    high = math.max(high, y)
   end
   local all, some = 0, 0
   for row = 0.5, SAMPLES do

@@ -267,7 +267,7 @@ function cuts.candidates(
         continue
       end
       local along = math.abs((heading - area.turned + 45) % 90 - 45)
-      table.insert(found, {
+      local candidate: Candidate = {
         fixed = cost + 0.55 * math.sqrt(dx * dx + dy * dy) / size + (off / 26) ^ 2 + (if degree == 1
           then 0
           else (turned / 30) ^ 2) + along / 60,
@@ -280,7 +280,8 @@ function cuts.candidates(
         heading = heading,
         leaves = { turned + open / 2 - LEAST, turned - open / 2 + LEAST },
         arrives = { off + 90 - LEAST, off - 90 + LEAST },
-      })
+      }
+      table.insert(found, candidate)
     end
   end
   return found

@@ -74,7 +74,12 @@ function division.rules(
 )
   -- Tells if a street that leaves an area at a corner meets water or obstacles.
   local function meets_water(area: any, corner: number, way: { number }): boolean
-    return barriers ~= nil and barriers.meets(table.move(way, 1, #way, 3, { area.x[corner], area.y[corner] }))
+    if barriers == nil then
+      return false
+    end
+    local course: { number } = { area.x[corner], area.y[corner] }
+    table.move(way, 1, #way, 3, course)
+    return barriers.meets(course)
   end
 
   -- Tells if a street may leave an area at a corner; one that stays on land crosses no water.
