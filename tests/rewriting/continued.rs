@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use burgeon::Run;
 use burgeon::export::gltf;
-use burgeon::script::{DerivationStore, RunOptions};
+use burgeon::script::{DerivationStore, Print, RunOptions};
 
 /// Returns the chains, warnings, notes and model of a run.
 fn outcome(run: &Run) -> (Vec<String>, Vec<String>, Vec<String>, Vec<u8>) {
@@ -187,4 +187,29 @@ fn rules_that_print_and_objects_that_keep_their_state_are_derived_again() {
         }
         assert!(store.is_empty(), "{name} is stored");
     }
+}
+
+#[test]
+fn a_script_that_changes_while_it_runs_does_not_give_its_chains_to_the_next_run() {
+    let text = |by: u32| {
+        format!(
+            "print('begin')
+             local A, B = module('A', 'x'), module('B', 'x')
+             local s = lsystem {{}}
+             s:axiom(A(0))
+             s:rule('A(x)', function(this, x) return B(x), A(x + {by}) end)
+             s:derive(6)"
+        )
+    };
+    let script = write("saved.lua", &text(1));
+    let store = Arc::new(DerivationStore::default());
+    let mut options = burgeon::options();
+    options.inputs.derivations = Some(Arc::clone(&store));
+    let saved = (script.clone(), text(2));
+    options.reports.print = Some(Print::new(move |_| std::fs::write(&saved.0, &saved.1).expect("a script")));
+    let first = burgeon::run(&script, options).expect("a run");
+    assert!(!store.is_empty());
+    let second = run(&script, 6, Some(&store), 0);
+    assert_eq!(outcome(&second), outcome(&run(&script, 6, None, 0)));
+    assert_ne!(first.systems[0].chain_text(), second.systems[0].chain_text());
 }

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
-use std::time::Duration;
+use std::time::{Duration, UNIX_EPOCH};
 
 use super::api::api_version;
 use super::data::Data;
@@ -127,6 +127,8 @@ pub struct Session {
     required: Mutex<BTreeMap<String, BTreeMap<String, String>>>,
     pub(super) scripts: Mutex<ScriptFiles>,
     sought: Mutex<BTreeMap<PathBuf, bool>>,
+    /// Sizes and times of the files on which the run depends, from before they were read.
+    stamps: Mutex<BTreeMap<PathBuf, String>>,
     notes: Mutex<BTreeSet<String>>,
     params: Mutex<Vec<Param>>,
     left_out: Mutex<Vec<(String, Error)>>,
@@ -165,7 +167,7 @@ impl Session {
         if let Some(memory) = stop.memory().filter(|_| options.limits.whole_program) {
             memory.adopt_threads();
         }
-        Ok(Arc::new(Self {
+        let session = Arc::new(Self {
             stop: Arc::new(stop),
             options,
             progress: RunProgress::default(),
@@ -185,6 +187,7 @@ impl Session {
             required: Mutex::default(),
             scripts: Mutex::default(),
             sought: Mutex::default(),
+            stamps: Mutex::default(),
             notes: Mutex::default(),
             params: Mutex::default(),
             left_out: Mutex::default(),
@@ -196,7 +199,10 @@ impl Session {
             kept: Mutex::default(),
             prints: AtomicUsize::new(0),
             own_params: OnceLock::new(),
-        }))
+        });
+        session.stamp(&path);
+        session.sought().iter().for_each(|(path, _)| session.stamp(path));
+        Ok(session)
     }
 
     /// Returns the path of the script as given by the caller.
@@ -243,6 +249,26 @@ impl Session {
         files.into_iter().collect()
     }
 
+    /// Records the size and the time of a file that will be read, and of the journal of a database, once.
+    fn stamp(&self, path: &Path) {
+        if self.options.inputs.derivations.is_some() {
+            let mut stamps = self.stamps.lock().recover();
+            stamps.entry(path.to_path_buf()).or_insert_with(|| stamp_of(path));
+        }
+    }
+
+    /// Describes the files on which the run depends, as they were before they were read; `None` if one of them was not
+    /// recorded.
+    pub(crate) fn stamps(&self) -> Option<String> {
+        let stamps = self.stamps.lock().recover();
+        let mut text = String::new();
+        for (path, exists) in self.sought() {
+            let stamp = stamps.get(&path)?;
+            text += &format!("{path:?} {exists} {stamp}\n");
+        }
+        Some(text)
+    }
+
     /// Adds a report entry about the run's data that is not a warning.
     pub(crate) fn add_note(&self, text: String) {
         self.notes.lock().recover().insert(text);
@@ -255,6 +281,7 @@ impl Session {
 
     /// Records a path that was looked up, and whether it exists.
     pub(crate) fn seek(&self, path: &Path, there: bool) {
+        self.stamp(path);
         self.sought.lock().recover().insert(path.to_path_buf(), there);
     }
 
@@ -522,6 +549,19 @@ impl Session {
         sources.sort_by(|a, b| a.name.cmp(&b.name));
         sources.iter().flat_map(|source| source.analysis.problems.clone()).collect()
     }
+}
+
+/// Returns the size and the time of a file and of the journal of a database.
+fn stamp_of(path: &Path) -> String {
+    let mut journal = path.as_os_str().to_owned();
+    journal.push("-wal");
+    let files = [path.to_path_buf(), PathBuf::from(journal)];
+    let stamp = |file: &PathBuf| {
+        let data = std::fs::metadata(file).ok()?;
+        let changed = data.modified().ok()?.duration_since(UNIX_EPOCH).ok()?;
+        Some(format!("{} {changed:?}", data.len()))
+    };
+    files.iter().map(|file| stamp(file).unwrap_or_default() + ";").collect()
 }
 
 /// Returns the canonical path of a data folder.

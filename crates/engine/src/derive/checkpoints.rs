@@ -2,7 +2,6 @@
 
 use std::fmt::Write as _;
 use std::sync::Arc;
-use std::time::UNIX_EPOCH;
 
 use super::plan::Derivation;
 use crate::checkpoints::{Checkpoint, DerivationStore};
@@ -53,7 +52,7 @@ impl CheckpointWriter {
         }
         Some(Self {
             store,
-            inputs: inputs(session, derivation, derived),
+            inputs: inputs(session, derivation, derived)?,
             prints: session.prints(),
             warnings: session.warnings(),
             notes: session.notes(),
@@ -102,8 +101,9 @@ impl CheckpointWriter {
     }
 }
 
-/// Describes everything that determines the chains of a derivation, except for the number of steps.
-fn inputs(session: &Session, derivation: &Derivation, derived: &[Arc<DerivedSystem>]) -> String {
+/// Describes everything that determines the chains of a derivation, except for the number of steps; `None` if not all is
+/// known.
+fn inputs(session: &Session, derivation: &Derivation, derived: &[Arc<DerivedSystem>]) -> Option<String> {
     let mut text = format!("system {}\n", derivation.plan.system);
     let options = &session.options;
     let _ = writeln!(text, "{:?} {:?}", session.script(), options.registry);
@@ -115,16 +115,6 @@ fn inputs(session: &Session, derivation: &Derivation, derived: &[Arc<DerivedSyst
     for system in derived {
         let _ = writeln!(text, "after system {} {}", system.system, system.steps);
     }
-    for (path, exists) in session.sought() {
-        let _ = writeln!(text, "{path:?} {exists}");
-        let mut journal = path.clone().into_os_string();
-        journal.push("-wal");
-        for file in [path, journal.into()] {
-            if let Ok(data) = std::fs::metadata(&file) {
-                let changed = data.modified().ok().and_then(|time| time.duration_since(UNIX_EPOCH).ok());
-                let _ = writeln!(text, "{} {changed:?}", data.len());
-            }
-        }
-    }
-    text
+    text += &session.stamps()?;
+    Some(text)
 }
