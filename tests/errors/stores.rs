@@ -142,6 +142,7 @@ const STORES: &[Store] = &[
     ),
     store("script files", "require(\"large\")"),
     store("printed strings", "print(string.rep(\"x\", 50e6))"),
+    store("warnings of scripts", "local i = 0 while true do i += 1 warn(string.rep(\"x\", 1000) .. i) end"),
     store(
         "error messages",
         "local t = {} for i = 1, 5 do t[i] = string.rep(\"x\", 3e6) .. i end while true do local ok, e = pcall(error, t[1]) t[#t + 1] = e .. #t end",

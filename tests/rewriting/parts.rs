@@ -127,6 +127,24 @@ fn a_part_without_reach_lacks_the_neighbours_of_its_edge() {
 }
 
 #[test]
+fn an_empty_part_says_so_without_a_warning() {
+    let script = write(
+        "tower.lua",
+        "local A = module('A')
+         local s = lsystem { object = extruder() }
+         s:axiom(A())
+         s:interpret('A', function(this) this:extrude(1) end)
+         s:derive()",
+    );
+    let part = |number| run(&script, Some(FeaturePart { number, count: 4, reach: 0.0 }));
+    let (first, second) = (part(1), part(2));
+    assert!(first.scene.triangles() > 0 && first.notes.is_empty());
+    assert_eq!((second.scene.triangles(), second.warnings.len()), (0, 0));
+    assert!(second.notes[0].starts_with("part 2 of 4 is empty"), "{:?}", second.notes);
+    assert!(second.emptiness().is_none());
+}
+
+#[test]
 fn there_may_be_more_parts_than_features() {
     let script = write(
         "few.lua",

@@ -7,11 +7,14 @@ use rustc_hash::FxHashMap;
 
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::Warning;
-use burgeon_kit::{ObjectContent, Value, Values};
-use burgeon_rewriting::{Chain, ColumnValue, Use};
+use burgeon_kit::{ObjectContent, TableKey, Value, Values};
+use burgeon_rewriting::{Chain, ColumnValue, ModuleKey, Symbol, Use};
 
 /// Memory limit (bytes) of a store.
 const LIMIT: usize = 256 << 20;
+
+/// Maximum number of derivations in a store.
+const MOST: usize = 64;
 
 /// Chains of earlier derivations, by the inputs and the step after which they were stored.
 ///
@@ -20,13 +23,27 @@ const LIMIT: usize = 256 << 20;
 /// server.
 #[derive(Default)]
 pub struct DerivationStore {
-    stored: Mutex<Vec<StoredDerivation>>,
+    content: Mutex<StoreContent>,
+}
+
+/// Derivations of a store; the derivation that was stored last comes last.
+#[derive(Default)]
+struct StoreContent {
+    derivations: Vec<StoredDerivation>,
+    /// Memory of all derivations (bytes).
+    size: usize,
 }
 
 /// Chains of a system's derivation.
 struct StoredDerivation {
     inputs: String,
     checkpoints: BTreeMap<usize, Arc<Checkpoint>>,
+}
+
+impl StoredDerivation {
+    fn size(&self) -> usize {
+        self.inputs.len() + self.checkpoints.values().map(|checkpoint| checkpoint.size).sum::<usize>()
+    }
 }
 
 /// State of a derivation after a step, before the interpretation of its chain.
@@ -52,39 +69,44 @@ impl std::fmt::Debug for DerivationStore {
 impl DerivationStore {
     /// Returns the last checkpoint of a derivation with these inputs after at most `limit` steps, and its step.
     pub(crate) fn find(&self, inputs: &str, limit: usize) -> Option<(usize, Arc<Checkpoint>)> {
-        let stored = self.stored.lock().recover();
-        let derivation = stored.iter().find(|derivation| derivation.inputs == inputs)?;
+        let content = self.content.lock().recover();
+        let derivation = content.derivations.iter().find(|derivation| derivation.inputs == inputs)?;
         let (step, checkpoint) = derivation.checkpoints.range(..=limit).next_back()?;
         Some((*step, Arc::clone(checkpoint)))
     }
 
-    /// Stores a checkpoint, and drops the checkpoints of the oldest derivations while the store is too large.
+    /// Stores a checkpoint, and drops the oldest derivations while there are too many or the store is too large.
     pub(crate) fn insert(&self, inputs: &str, step: usize, checkpoint: Checkpoint) {
-        let mut stored = self.stored.lock().recover();
-        let index = stored.iter().position(|derivation| derivation.inputs == inputs);
-        // The derivation that was stored last comes last.
-        let mut derivation = match index {
-            Some(index) => stored.remove(index),
-            None => StoredDerivation { inputs: inputs.to_owned(), checkpoints: BTreeMap::new() },
+        let mut content = self.content.lock().recover();
+        let StoreContent { derivations, size } = &mut *content;
+        let mut derivation = match derivations.iter().position(|derivation| derivation.inputs == inputs) {
+            Some(index) => derivations.remove(index),
+            None => {
+                *size += inputs.len();
+                StoredDerivation { inputs: inputs.to_owned(), checkpoints: BTreeMap::new() }
+            }
         };
-        derivation.checkpoints.insert(step, Arc::new(checkpoint));
-        stored.push(derivation);
-        let size = |stored: &[StoredDerivation]| {
-            let checkpoints = stored.iter().flat_map(|derivation| derivation.checkpoints.values());
-            checkpoints.map(|checkpoint| checkpoint.size).sum::<usize>()
-        };
-        while size(&stored) > LIMIT {
-            if stored.len() > 1 {
-                stored.remove(0);
-            } else if stored[0].checkpoints.pop_first().is_none() {
-                return;
+        *size += checkpoint.size;
+        if let Some(earlier) = derivation.checkpoints.insert(step, Arc::new(checkpoint)) {
+            *size -= earlier.size;
+        }
+        derivations.push(derivation);
+        while derivations.len() > 1 && (*size > LIMIT || derivations.len() > MOST) {
+            *size -= derivations.remove(0).size();
+        }
+        if let Some(derivation) = derivations.first_mut() {
+            while *size > LIMIT
+                && let Some((_, earliest)) = derivation.checkpoints.pop_first()
+            {
+                *size -= earliest.size;
             }
         }
     }
 
     /// Returns the number of stored checkpoints.
     pub fn len(&self) -> usize {
-        self.stored.lock().recover().iter().map(|derivation| derivation.checkpoints.len()).sum()
+        let content = self.content.lock().recover();
+        content.derivations.iter().map(|derivation| derivation.checkpoints.len()).sum()
     }
 
     /// Returns true if nothing is stored.
@@ -103,10 +125,15 @@ impl Checkpoint {
         (warnings, notes): (Vec<Warning>, Vec<String>),
     ) -> Option<Self> {
         let values = values_of(chain, values)?;
-        let size = chain.symbols.len() * (size_of::<u16>() + size_of::<u64>()) + chain.params.len() * 8;
+        let columns = chain.symbols.len() * size_of::<Symbol>()
+            + chain.keys.len() * size_of::<ModuleKey>()
+            + chain.params.len() * size_of::<f64>();
+        let texts = warnings.iter().map(|warning| warning.message().len()).sum::<usize>()
+            + notes.iter().map(String::len).sum::<usize>();
+        let uses = (rules.len() + interpretations.len()) * size_of::<Use>();
         Some(Self {
             chain: Arc::clone(chain),
-            size: size + values.len() * 64,
+            size: columns + texts + uses + values.values().map(memory_of).sum::<usize>(),
             values,
             rules: rules.to_vec(),
             interpretations: interpretations.to_vec(),
@@ -156,5 +183,58 @@ fn has_content(value: &Value) -> bool {
         Value::Object(object) => object.kind().has_capability::<dyn ObjectContent>(),
         Value::Table(table) => table.entries.iter().all(|(_, value)| has_content(value)),
         _ => true,
+    }
+}
+
+/// Returns the approximate memory of a value (bytes).
+fn memory_of(value: &Value) -> usize {
+    let content = match value {
+        Value::Text(text) => text.len(),
+        Value::Table(table) => {
+            table.entries.iter().map(|(_, value)| size_of::<TableKey>() + memory_of(value)).sum()
+        }
+        Value::Object(object) => {
+            object.capability::<dyn ObjectContent>().map_or(0, |content| content.memory())
+        }
+        _ => 0,
+    };
+    size_of::<Value>() + content
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn checkpoint(text: usize) -> Checkpoint {
+        let values = Values::default();
+        let chain = Chain {
+            symbols: vec![3, burgeon_rewriting::END],
+            params: vec![values.pack(Value::Text("x".repeat(text).into()))],
+            ..Chain::default()
+        };
+        let created = Checkpoint::new(&Arc::new(chain), &values, (&[], &[]), (Vec::new(), Vec::new()));
+        created.expect("texts mean the same in every run")
+    }
+
+    #[test]
+    fn long_texts_count_and_the_oldest_derivations_are_dropped() {
+        let store = DerivationStore::default();
+        for number in 0..3 * MOST {
+            store.insert(&format!("inputs {number}"), 1, checkpoint(10));
+        }
+        assert_eq!(store.len(), MOST);
+        assert!(
+            store.find("inputs 0", 9).is_none()
+                && store.find(&format!("inputs {}", 3 * MOST - 1), 9).is_some()
+        );
+        // Each checkpoint takes a quarter of the limit.
+        for step in 1..10 {
+            store.insert("long", step, checkpoint(LIMIT / 4));
+        }
+        assert_eq!(store.len(), 3);
+        assert_eq!(store.find("long", 20).map(|(step, _)| step), Some(9));
+        assert!(store.find("long", 6).is_none());
+        let content = store.content.lock().recover();
+        assert_eq!(content.size, content.derivations.iter().map(StoredDerivation::size).sum::<usize>());
     }
 }

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::declare::{Param, RunOptions, Session};
+use crate::declare::{FeaturePart, Param, RunOptions, Session};
 use crate::derive::ThreadPool;
 use crate::machine::{Machine, Watchdog};
 use crate::results::{
@@ -30,6 +30,8 @@ pub struct Run {
     pub warnings: Vec<Warning>,
     /// Report entries about the data that are not warnings, such as features without ids of their own.
     pub notes: Vec<String>,
+    /// Part of the features that the run built; all features if `None`.
+    pub part: Option<FeaturePart>,
     /// Time spent on the run.
     pub times: RunTimes,
 }
@@ -56,9 +58,9 @@ impl Run {
 
     /// Returns the warning that explains an empty model, even if the options limit steps or detail.
     ///
-    /// `None` if the model has triangles, or if the reason is unknown.
+    /// `None` if the model has triangles, if the run built a part of the features, or if the reason is unknown.
     pub fn emptiness(&self) -> Option<Warning> {
-        if self.scene.triangles() > 0 {
+        if self.scene.triangles() > 0 || self.part.is_some() {
             return None;
         }
         let reason = self.warnings.iter().find(|warning| tells_of_emptiness(warning)).cloned();
@@ -138,6 +140,9 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     systems.iter().filter_map(|system| left_out(system)).for_each(|warning| session.warn(warning));
     find_textures(&mut scene, session)?;
     times.scene = begin.elapsed();
+    if let Some(part) = session.options.part.filter(|_| scene.triangles() == 0) {
+        session.add_note(part.empty_note());
+    }
     if scene.triangles() == 0 && is_whole(session) {
         emptiness(&session.warnings(), &systems).into_iter().for_each(|warning| session.warn(warning));
     }
@@ -147,7 +152,16 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     if session.options.strict && !warnings.is_empty() {
         return Err(Error::several(warnings.into_iter().map(Warning::into_error).collect()));
     }
-    Ok(Run { scene, systems, params, frame: session.data.frame(), warnings, notes: session.notes(), times })
+    Ok(Run {
+        scene,
+        systems,
+        params,
+        frame: session.data.frame(),
+        warnings,
+        notes: session.notes(),
+        part: session.options.part,
+        times,
+    })
 }
 
 /// Maximum number of lines that the note on systems without placement lists.

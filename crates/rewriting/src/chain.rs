@@ -91,7 +91,7 @@ impl Chain {
 
     /// Returns the chains except for those at the indices `left_out`, which are ascending.
     #[must_use]
-    pub fn without(&self, left_out: &[usize], arities: &[u8]) -> Self {
+    pub fn without_chains(&self, left_out: &[usize], arities: &[u8]) -> Self {
         let starts = self.starts(arities);
         let mut kept = Self::default();
         for (index, pair) in starts.windows(2).enumerate() {

@@ -1,36 +1,41 @@
 //! Geometries near a selection of others.
 
+use burgeon_base::Stop;
+use burgeon_base::error::Result;
 use glam::DVec2;
-use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::primitives::Rectangle;
 use rstar::{AABB, RTree};
+
+/// Number of geometries between two checks of the stop of the run.
+const STRETCH: usize = 4096;
 
 /// Minimum and maximum coordinates (m) of a geometry, horizontally.
 pub type BoundingBox = [DVec2; 2];
 
 /// Returns for each bounding box whether it lies within `reach` (m) of the box of a selected geometry, horizontally and
-/// along each axis. A geometry without a box is near nothing.
+/// along each axis. A geometry without a box is near nothing. Fails if the current work is stopped.
 pub fn near_selection(
-    bounds: &[Option<[DVec2; 2]>],
+    bounds: &[Option<BoundingBox>],
     selected: impl Fn(usize) -> bool,
     reach: f64,
-) -> Vec<bool> {
-    let envelope = |[low, high]: BoundingBox, margin: f64| {
-        AABB::from_corners((low - margin).to_array(), (high + margin).to_array())
-    };
-    let boxes = bounds.iter().enumerate();
-    let boxes = boxes.filter_map(|(index, bounds)| {
-        let corners = envelope((*bounds)?, 0.0);
-        Some(GeomWithData::new(Rectangle::from_aabb(corners), index))
+) -> Result<Vec<bool>> {
+    let boxes = bounds.iter().enumerate().filter(|(index, _)| selected(*index));
+    let boxes = boxes.filter_map(|(_, bounds)| {
+        let [low, high] = (*bounds)?;
+        Some(Rectangle::from_corners((low - reach).to_array(), (high + reach).to_array()))
     });
     let tree = RTree::bulk_load(boxes.collect());
-    let mut near = vec![false; bounds.len()];
-    for (_, bounds) in bounds.iter().enumerate().filter(|(index, _)| selected(*index)) {
-        if let Some(bounds) = bounds {
-            let found = tree.locate_in_envelope_intersecting(&envelope(*bounds, reach));
-            found.for_each(|other| near[other.data] = true);
+    let mut near = Vec::with_capacity(bounds.len());
+    for (index, bounds) in bounds.iter().enumerate() {
+        if index.is_multiple_of(STRETCH) {
+            Stop::check_current()?;
         }
+        near.push(bounds.is_some_and(|[low, high]| {
+            let envelope = AABB::from_corners(low.to_array(), high.to_array());
+            tree.locate_in_envelope_intersecting(&envelope).next().is_some()
+        }));
     }
-    near
+    Ok(near)
 }
 
 #[cfg(test)]
@@ -50,7 +55,7 @@ mod tests {
             .collect();
         for reach in [0.0, 5.0, 60.0] {
             let selected = |index: usize| (100..140).contains(&index);
-            let near = near_selection(&bounds, selected, reach);
+            let near = near_selection(&bounds, selected, reach).expect("not stopped");
             for (index, own) in bounds.iter().enumerate() {
                 let is_near = own.is_some_and(|[low, high]| {
                     (100..140)

@@ -24,7 +24,7 @@ export type Sizes = {
 -- A street that may divide an area, from a corner to a place on the piece of the outline behind another one, with the heading
 -- (degrees) of the way there.
 export type Candidate = {
-  -- What it costs apart from its share of the area, and in all.
+  -- The cost without the share of the area, and the whole cost.
   fixed: number,
   cost: number,
   share: number,

@@ -165,7 +165,7 @@ impl RunCommand {
         else {
             return Ok(());
         };
-        if run.scene.triangles() > 0 || session.options.steps.is_some() {
+        if run.scene.triangles() > 0 || session.options.steps.is_some() || session.options.part.is_some() {
             return Ok(());
         }
         let text = "the model is empty, for no system has an object that draws";

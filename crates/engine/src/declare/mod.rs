@@ -17,6 +17,7 @@ mod preset;
 mod scripts;
 mod servers;
 mod session;
+mod stamps;
 mod tables;
 mod types;
 

@@ -25,6 +25,15 @@ impl FeaturePart {
         let at = |part: usize| features * part / self.count.max(1);
         at(self.number.saturating_sub(1))..at(self.number)
     }
+
+    /// Returns the report entry about a part that draws nothing.
+    pub fn empty_note(&self) -> String {
+        format!(
+            "part {} of {} is empty: its features draw nothing, or it has none; systems without features, such as a \
+             terrain, are in part 1",
+            self.number, self.count
+        )
+    }
 }
 
 impl FromStr for FeaturePart {

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
-use std::time::{Duration, UNIX_EPOCH};
+use std::time::Duration;
 
 use super::api::api_version;
 use super::data::Data;
@@ -128,7 +128,7 @@ pub struct Session {
     pub(super) scripts: Mutex<ScriptFiles>,
     sought: Mutex<BTreeMap<PathBuf, bool>>,
     /// Sizes and times of the files on which the run depends, from before they were read.
-    stamps: Mutex<BTreeMap<PathBuf, String>>,
+    pub(super) stamps: Mutex<BTreeMap<PathBuf, String>>,
     notes: Mutex<BTreeSet<String>>,
     params: Mutex<Vec<Param>>,
     left_out: Mutex<Vec<(String, Error)>>,
@@ -247,26 +247,6 @@ impl Session {
         files.extend(read.map(|path| (path, true)));
         files.extend(self.packages.searched_paths());
         files.into_iter().collect()
-    }
-
-    /// Records the size and the time of a file that will be read, and of the journal of a database, once.
-    fn stamp(&self, path: &Path) {
-        if self.options.inputs.derivations.is_some() {
-            let mut stamps = self.stamps.lock().recover();
-            stamps.entry(path.to_path_buf()).or_insert_with(|| stamp_of(path));
-        }
-    }
-
-    /// Describes the files on which the run depends, as they were before they were read; `None` if one of them was not
-    /// recorded.
-    pub(crate) fn stamps(&self) -> Option<String> {
-        let stamps = self.stamps.lock().recover();
-        let mut text = String::new();
-        for (path, exists) in self.sought() {
-            let stamp = stamps.get(&path)?;
-            text += &format!("{path:?} {exists} {stamp}\n");
-        }
-        Some(text)
     }
 
     /// Adds a report entry about the run's data that is not a warning.
@@ -549,19 +529,6 @@ impl Session {
         sources.sort_by(|a, b| a.name.cmp(&b.name));
         sources.iter().flat_map(|source| source.analysis.problems.clone()).collect()
     }
-}
-
-/// Returns the size and the time of a file and of the journal of a database.
-fn stamp_of(path: &Path) -> String {
-    let mut journal = path.as_os_str().to_owned();
-    journal.push("-wal");
-    let files = [path.to_path_buf(), PathBuf::from(journal)];
-    let stamp = |file: &PathBuf| {
-        let data = std::fs::metadata(file).ok()?;
-        let changed = data.modified().ok()?.duration_since(UNIX_EPOCH).ok()?;
-        Some(format!("{} {changed:?}", data.len()))
-    };
-    files.iter().map(|file| stamp(file).unwrap_or_default() + ";").collect()
 }
 
 /// Returns the canonical path of a data folder.

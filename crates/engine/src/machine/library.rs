@@ -5,10 +5,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock};
 
-use mlua::{Function, Lua, LuaString, MultiValue, Table, Value as LuaValue, Variadic};
+use mlua::{Function, Lua, MultiValue, Table, Value as LuaValue, Variadic};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::convert::{to_lua, to_value};
+use super::convert::to_lua;
+use super::messages::{print, script_warning};
 use super::require::require;
 use super::system::{EagerMark, SourceHandle, SystemDeclaration, SystemHandle, install_lazy};
 use super::table_classes::declare_class;
@@ -17,9 +18,8 @@ use super::types::{
     no_table,
 };
 use super::{Machine, compile, native};
-use crate::declare::{API_VERSION, Param, Print, Session, Setting, has_name};
+use crate::declare::{API_VERSION, Param, Session, Setting, has_name};
 use crate::placeholders::{self, FRAGMENT, QUERY};
-use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::{Construct, Kind, ObjectContent, Registry};
@@ -566,48 +566,3 @@ fn declare(
     library.constructors.borrow_mut().insert(symbol, constructor.clone());
     Ok((symbol, constructor))
 }
-
-/// Returns the warning that a script gives with `warn`.
-fn script_warning(text: &LuaValue, help: &LuaValue) -> Result<Warning> {
-    let usage = "write warn(\"the town has no streets\", \"try another seed\")";
-    let string = |value: &LuaValue, name: &str| match value {
-        LuaValue::String(text) => Ok(any_bytes(&text.as_bytes())),
-        other => {
-            let found = to_value(other, false).map_or("something else", |value| value.describe());
-            let message = format!("warn: {name} must be a string, not {found}");
-            Err(Error::argument(message).help(usage))
-        }
-    };
-    let warning = Warning::new(WarningKind::Script, string(text, "text")?);
-    if help.is_nil() { Ok(warning) } else { Ok(warning.help(string(help, "help")?)) }
-}
-
-fn print(lua: &Lua, values: &MultiValue, hook: &Print) -> mlua::Result<()> {
-    if lua.app_data_ref::<PrintSwitch>().is_some_and(|quiet| quiet.0.call::<u8>(()).unwrap_or(0) == 0) {
-        return Ok(());
-    }
-    let tostring: Function = lua.globals().get("tostring")?;
-    let mut texts = Vec::new();
-    for value in values {
-        let text = tostring.call::<LuaString>(value)?;
-        // The receiver copies the text again.
-        MemoryOwner::ensure_room(3 * text.as_bytes().len()).map_err(mlua::Error::external)?;
-        texts.push(any_bytes(&text.as_bytes()));
-    }
-    hook.take(&texts.join("\t"));
-    Ok(())
-}
-
-/// Returns bytes as text; invalid UTF-8 is escaped, such as `\xff`.
-fn any_bytes(bytes: &[u8]) -> String {
-    let mut text = String::with_capacity(bytes.len());
-    for chunk in bytes.utf8_chunks() {
-        text.push_str(chunk.valid());
-        chunk.invalid().iter().for_each(|byte| text.push_str(&format!("\\x{byte:02x}")));
-    }
-    text
-}
-
-/// Marks a machine that runs the same script as another machine, so its top level must not print. Contains
-/// the function that returns the current phase.
-pub(crate) struct PrintSwitch(pub Function);

@@ -12,6 +12,7 @@ mod driver;
 mod freeze;
 mod host;
 mod library;
+mod messages;
 mod native;
 mod prelude;
 mod protected;

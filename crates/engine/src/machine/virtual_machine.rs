@@ -6,7 +6,8 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use super::blank::BlankMachine;
-use super::library::{Library, PrintSwitch};
+use super::library::Library;
+use super::messages::PrintSwitch;
 use super::native::as_bytecode;
 use super::prelude::Prelude;
 use super::system::tell_unseen;

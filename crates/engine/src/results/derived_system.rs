@@ -113,7 +113,7 @@ impl DerivedSystem {
         if chains.is_empty() {
             return;
         }
-        let kept = self.chain.without(chains, &self.symbols.arities());
+        let kept = self.chain.without_chains(chains, &self.symbols.arities());
         self.context = Some((std::mem::replace(&mut self.chain, Arc::new(kept)), Arc::clone(&self.left_out)));
         let place = |chain: &usize| chain - chains.partition_point(|dropped| dropped < chain);
         let left_out = self.left_out.iter().filter(|chain| chains.binary_search(chain).is_err());

@@ -50,9 +50,11 @@ pub(crate) fn idleness(session: &Session, scene: &Scene, system: &DerivedSystem)
     Some(warning.at(system.place.clone()).called_at(system.caller.clone()).help(NO_EXTENT))
 }
 
-/// Returns true if the options neither limit the steps nor reduce the level of detail.
+/// Returns true if the options neither limit the steps or the features nor reduce the level of detail.
 pub(crate) fn is_whole(session: &Session) -> bool {
-    session.options.steps.is_none() && session.options.lod == RunOptions::default().lod
+    session.options.steps.is_none()
+        && session.options.part.is_none()
+        && session.options.lod == RunOptions::default().lod
 }
 
 /// Returns true if interpretation rules of the system ran.

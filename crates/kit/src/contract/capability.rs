@@ -162,6 +162,9 @@ pub trait ObjectContent {
     /// Returns a short text of the content for messages and traces.
     fn text(&self) -> String;
 
+    /// Returns the approximate memory of the content (bytes).
+    fn memory(&self) -> usize;
+
     /// Returns the object as a position (m), if it is one point.
     fn position(&self) -> Option<glam::DVec3>;
 

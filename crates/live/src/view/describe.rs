@@ -79,7 +79,9 @@ fn nothing(run: &Run, limit: Option<usize>) -> String {
     let steps = run.systems.iter().map(|system| system.steps).max().unwrap_or(0);
     let at_limit = limit.is_some_and(|limit| steps >= limit);
     let after = if steps == 1 { "1 step".to_owned() } else { format!("{steps} steps") };
-    if run.systems.is_empty() {
+    if let Some(part) = run.part {
+        part.empty_note()
+    } else if run.systems.is_empty() {
         "the script derives no system: end it with system:derive()".to_owned()
     } else if at_limit {
         format!("nothing is drawn after {after}: look at a later one")

@@ -125,6 +125,10 @@ impl ObjectContent for GeometryObject {
         self.geometry().to_short_wkt(SHORT)
     }
 
+    fn memory(&self) -> usize {
+        self.geometry().points().count() * size_of::<DVec3>()
+    }
+
     fn position(&self) -> Option<DVec3> {
         match self.geometry() {
             Geometry::Point(position) => *position,

@@ -33,7 +33,7 @@ impl PartSelection {
         let bounds = bounds(machine, source)?;
         let shown = part.range(bounds.len());
         let near = if part.reach > 0.0 {
-            near_selection(&bounds, |index| shown.contains(&index), part.reach)
+            near_selection(&bounds, |index| shown.contains(&index), part.reach)?
         } else {
             vec![false; bounds.len()]
         };
