@@ -137,6 +137,23 @@ proptest! {
     }
 
     #[test]
+    fn tiny_geometries_beside_ordinary_ones_never_panic(
+        a in polygon(), b in geometry(), exponent in -175..-90i32,
+    ) {
+        let mut tiny = b.clone();
+        tiny.points_mut().for_each(|point| *point *= 10f64.powi(exponent));
+        for (one, other) in [(&a, &tiny), (&tiny, &a), (&tiny, &tiny)] {
+            for found in
+                [one.intersection(other), one.union(other), one.difference(other), one.sym_difference(other)]
+            {
+                prop_assert!(found.is_sound() && found.area().is_finite());
+            }
+            let _ = (one.relate(other), one.make_valid());
+        }
+        prop_assert!((a.union(&tiny).area() - a.make_valid().area()).abs() < 1e-6);
+    }
+
+    #[test]
     fn areas_add_up(a in polygon(), b in polygon()) {
         let (both, either) = (a.intersection(&b), a.union(&b));
         let near = |one: f64, two: f64| (one - two).abs() < 1e-6;
@@ -350,6 +367,20 @@ proptest! {
             a.boundary().buffer(0.2, &options)?,
         ] {
             prop_assert_eq!(made.validity_reason(), None, "{} {}", a, b);
+        }
+    }
+}
+
+#[test]
+fn polygons_of_every_tiny_size_are_divided() {
+    let points = [(3.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 6.967664743235536)];
+    let (empty, ordinary) =
+        (Geometry::Point(None), Geometry::from_wkt("POLYGON ((0 0, 2 0, 2 2, 0 0))").expect("a polygon"));
+    for exponent in -330..0 {
+        let ring = points.map(|(x, y)| DVec3::new(x, y, 0.0) * 10f64.powi(exponent));
+        let tiny = Geometry::polygon(vec![ring.to_vec()]).unwrap_or(Geometry::empty(2));
+        for other in [&empty, &ordinary, &tiny] {
+            assert!(tiny.union(other).is_sound() && other.difference(&tiny).is_sound(), "{exponent}");
         }
     }
 }

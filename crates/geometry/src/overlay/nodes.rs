@@ -10,6 +10,14 @@ const END: u32 = u32::MAX;
 /// one cell.
 const CELL: f64 = 64.0;
 
+/// Coordinates nearer to 0 count as 0. Products of smaller differences underflow, so that predicates are not exact.
+const SMALLEST: f64 = 1e-100;
+
+/// Returns 0 for -0 and for coordinates that are too small.
+fn flush(coordinate: f64) -> f64 {
+    if coordinate.abs() < SMALLEST { 0.0 } else { coordinate }
+}
+
 /// Points, indexed by the cells of a grid.
 #[derive(Debug)]
 pub(super) struct Nodes {
@@ -38,8 +46,7 @@ impl Nodes {
     /// If no such node exists, the point becomes a new node.
     #[allow(clippy::cast_possible_truncation, reason = "fewer nodes than 2^32 fit into memory")]
     pub(super) fn find(&mut self, place: DVec2, may_be: impl Fn(u32) -> bool) -> u32 {
-        // Adding 0 turns -0 into 0.
-        let place = place + DVec2::ZERO;
+        let place = DVec2::from_array(place.to_array().map(flush));
         let (low, high) = (self.cell(place - self.tolerance), self.cell(place + self.tolerance));
         let mut best: Option<(f64, u32)> = None;
         for x in low[0]..=high[0] {

@@ -110,6 +110,11 @@ pub(super) struct Noding {
     is_tangled: bool,
 }
 
+/// Returns true if a coordinate lies strictly between two others.
+fn is_between(coordinate: f64, one: f64, other: f64) -> bool {
+    coordinate > one.min(other) && coordinate < one.max(other)
+}
+
 impl Noding {
     /// Divides the edges of ways; fails if the work of this thread is cancelled.
     pub(super) fn new(ways: &[LayerWay]) -> Result<Self> {
@@ -269,14 +274,18 @@ impl Noding {
     fn is_on(&self, edge: u32, node: u32) -> bool {
         let NodedEdge { ends, load, .. } = self.edges[edge as usize];
         let ([a, b], place) = (self.ends(ends), self.nodes.places[node as usize]);
+        let aside = side(a, b, place);
+        if aside == 0.0 {
+            // Distances are rounded, and the order of coordinates is exact.
+            return if a.x == b.x { is_between(place.y, a.y, b.y) } else { is_between(place.x, a.x, b.x) };
+        }
         let way = b - a;
         let (along, squared) = ((place - a).dot(way), way.length_squared());
         if along <= 0.0 || along >= squared {
             return false;
         }
-        let aside = side(a, b, place);
         let is_own = self.keeps_ways && self.owners[node as usize] == Some(load.source);
-        aside == 0.0 || aside * aside <= self.near * self.near * squared && (!is_own || load.source == SHARED)
+        aside.abs() <= self.near * squared.sqrt() && (!is_own || load.source == SHARED)
     }
 
     /// Records the nodes at which two candidates must be divided.
