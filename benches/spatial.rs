@@ -7,7 +7,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use burgeon::sources::{Layer, Source, SourceOptions};
+use burgeon::data::{Layer, Source, SourceOptions};
 use burgeon::spatial::{BufferOptions, Geometry, union_all};
 use rstar::primitives::{GeomWithData, Line, Rectangle};
 use rstar::{AABB, RTree};

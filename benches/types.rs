@@ -89,7 +89,7 @@ fn time(folder: &Path, rounds: usize, script: &str) -> f64 {
     let path = folder.join("bench.lua");
     std::fs::write(&path, script).expect("the temporary folder can be written to");
     let once = || {
-        let mut registry = burgeon::objects::registry();
+        let mut registry = burgeon::registry();
         registry.add(Arc::clone(Pearls::kind())).expect("the name is free");
         let options = RunOptions { threads: Some(1), registry, ..burgeon::options() };
         let begin = ProcessTime::now();

@@ -45,7 +45,7 @@ impl Beads {
 
 /// Returns the object types of Burgeon, and beads.
 fn registry() -> Result<Registry> {
-    let mut registry = burgeon::objects::registry();
+    let mut registry = burgeon::registry();
     registry.add(Arc::clone(Beads::kind()))?;
     Ok(registry)
 }
@@ -72,6 +72,6 @@ mod tests {
         let made = run(registry().expect("the name is free")).expect("the script runs");
         let (low, high) = made.scene.bounds().expect("there are beads");
         assert!(low.z.abs() < 1e-6 && (high.z - 12.0 * 0.6).abs() < 1e-5, "{low} {high}");
-        assert!(run(burgeon::objects::registry()).is_err(), "beads are unknown without the registration");
+        assert!(run(burgeon::registry()).is_err(), "beads are unknown without the registration");
     }
 }

@@ -23,17 +23,17 @@
 //! streets    uses ──► base, geometry
 //! spatial    uses ──► base, geometry, kit
 //! data       uses ──► base, kit, spatial
-//! query      uses ──► base, data, geometry, spatial
+//! sources    uses ──► base, data, geometry, kit, spatial
 //! terrain    uses ──► base, geometry, kit, rewriting, scene
 //! objects    uses ──► base, data, geometry, kit, rewriting, scene, spatial, streets, terrain
 //! packages   uses ──► base
 //! language   uses ──► base, kit, packages, rewriting
-//! engine     uses ──► base, data, kit, language, packages, query, rewriting, scene, spatial
+//! engine     uses ──► base, kit, language, packages, rewriting, scene, spatial
 //! picture    uses ──► base, scene
 //! export     uses ──► base, data, picture, scene
 //! watch      uses ──► base
 //! live       uses ──► base, engine, export, kit, picture, rewriting, scene, watch
-//! burgeon    uses ──► base, data, engine, export, geometry, kit, language, live, objects, packages, picture, query, rewriting, scene, spatial, terrain, watch
+//! burgeon    uses ──► base, data, engine, export, geometry, kit, language, live, objects, packages, picture, rewriting, scene, sources, spatial, terrain, watch
 //! ```
 //!
 //! - [`error`], [`warning`](mod@warning) and [`text`]: errors, warnings and human-readable text. [`Stop`] cancels work;
@@ -42,10 +42,10 @@
 //! - [`geometry`]: lines, rings and polygons, frames, cross-sections, sweeps, straight skeletons and roofs, independent
 //!   of rules and scripts.
 //! - [`spatial`]: a [`Geometry`](spatial::Geometry) as a value, with the operations of OGC Simple Features.
-//! - [`sources`]: data files, read into a [`Layer`](sources::Layer) of features in metres, or into a
-//!   [`Relief`](sources::elevation::Relief) of measured heights.
-//! - [`query`]: SQL over layers, in an embedded database: a [`Database`](query::Database) returns a
-//!   [`QueryAnswer`](query::QueryAnswer).
+//! - [`data`]: data files, read into a [`Layer`](data::Layer) of features in metres, or into a
+//!   [`Relief`](data::elevation::Relief) of measured heights.
+//! - [`sources`]: sources of scripts, and SQL over them: a [`Database`](sources::sql::Database) returns a
+//!   [`QueryAnswer`](sources::sql::QueryAnswer).
 //! - [`rewriting`]: L-systems without Lua. A [`Grammar`](rewriting::Grammar) of [`Pattern`](rewriting::Pattern)s matches along a
 //!   [`Chain`](rewriting::Chain), and a [`Stepper`](rewriting::Stepper) makes the next one.
 //! - [`kit`]: the interface of objects. A [`Kind`](kit::Kind) in a [`Registry`](kit::Registry) describes the fields and
@@ -104,7 +104,8 @@
 pub use burgeon_base::{
     Budget, Error, MemoryReservation, Result, Stop, Warning, WarningKind, error, locks, random, text, warning,
 };
-pub use burgeon_data as sources;
+pub use burgeon_data as data;
+pub use burgeon_engine::each_part;
 pub use burgeon_engine::run::{Run, RunTimes, run, run_session};
 pub use burgeon_engine::{ScriptCheck, check, check_package, declared_types, declared_types_of_package};
 pub use burgeon_engine::{results, script, trace};
@@ -117,14 +118,21 @@ pub use burgeon_live::{presets, variations};
 pub use burgeon_objects as objects;
 pub use burgeon_packages as packages;
 pub use burgeon_picture as picture;
-pub use burgeon_query as query;
 pub use burgeon_rewriting as rewriting;
 pub use burgeon_scene as scene;
+pub use burgeon_sources as sources;
 pub use burgeon_spatial as spatial;
 pub use burgeon_terrain as terrain;
 pub use burgeon_watch as watch;
 
-/// Returns the default options to run a script, with all object types of Burgeon.
+/// Returns all object types and sources of Burgeon.
+pub fn registry() -> kit::Registry {
+    let mut registry = objects::registry();
+    registry.set_sources(std::sync::Arc::new(sources::DataSources::default()));
+    registry
+}
+
+/// Returns the default options to run a script, with all object types and sources of Burgeon.
 pub fn options() -> script::RunOptions {
-    script::RunOptions { registry: objects::registry(), ..script::RunOptions::default() }
+    script::RunOptions { registry: registry(), ..script::RunOptions::default() }
 }

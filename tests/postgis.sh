@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs a command with BURGEON_POSTGIS naming an empty PostGIS server on loopback, which is installed where it is missing,
-# and BURGEON_POSTGIS_CA its certificate, and ends with the command: tests/postgis.sh cargo test -p burgeon-query
+# and BURGEON_POSTGIS_CA its certificate, and ends with the command: tests/postgis.sh cargo test -p burgeon-sources
 set -euo pipefail
 
 programs=/usr/lib/postgresql/15/bin

@@ -5,11 +5,11 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use burgeon::data::{Layer, Source, SourceOptions};
 use burgeon::geometry::skeleton::{Pace, Skeleton};
 use burgeon::geometry::{Plan, Rings, solid};
 use burgeon::kit::{Call, Object, Parameter, Table, TableKey, Value};
 use burgeon::objects::Footprint;
-use burgeon::sources::{Layer, Source, SourceOptions};
 use burgeon::spatial::{PolygonArgument, rings};
 use glam::DVec3;
 

@@ -7,9 +7,9 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use burgeon::data::{Layer, ReferenceFrame, Source, SourceOptions};
 use burgeon::picture::Picture;
 use burgeon::script::{RunInputs, RunOptions};
-use burgeon::sources::{Layer, ReferenceFrame, Source, SourceOptions};
 use burgeon::{Run, export};
 
 const README: &str = include_str!("../README.md");
@@ -296,7 +296,7 @@ fn what_the_readme_says_of_a_context_is_what_comes_out() {
 fn the_guide_names_every_object_its_fields_and_its_methods() {
     let guide = guide();
     let words: BTreeSet<&str> = guide.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').collect();
-    for kind in burgeon::objects::registry().kinds() {
+    for kind in burgeon::registry().kinds() {
         let fields = kind.fields.iter().map(|field| &*field.name);
         for name in fields.chain(kind.methods.iter().map(|method| &*method.name)).chain([&*kind.name]) {
             assert!(words.contains(name), "{}: {name} is not in the guide", kind.name);

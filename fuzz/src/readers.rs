@@ -6,15 +6,15 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, SystemTime};
 
+use burgeon::data::elevation::{HeightOptions as WantedHeights, Raster, Relief};
+use burgeon::data::{Layer, Listing, Source, SourceOptions};
 use burgeon::kit::{Construct, LoadRequest, Resources, Table};
 use burgeon::packages::{Manifest, install, is_name};
 use burgeon::presets::Presets;
-use burgeon::query::postgis::ServerAddress;
-use burgeon::query::{Cell, Database};
 use burgeon::rewriting::{Pattern, Signature, Symbols};
 use burgeon::script::{Limits, Print, RunOptions, RunReports};
-use burgeon::sources::elevation::{HeightOptions as WantedHeights, Raster, Relief};
-use burgeon::sources::{Layer, Listing, Source, SourceOptions};
+use burgeon::sources::sql::postgis::ServerAddress;
+use burgeon::sources::sql::{Cell, Database};
 use burgeon::spatial::{BufferOptions, Geometry};
 use burgeon::terrain::{Edits, World};
 use burgeon::{Budget, Error, Result};
@@ -223,12 +223,20 @@ impl Resources for Alone {
     fn find(&self, _: &'static str, name: &str) -> Result<PathBuf> {
         Err(Error::argument(format!("there is no {name}")))
     }
+
+    fn seek(&self, _: &Path, _: bool) {}
+
+    fn warn(&self, _: burgeon::Warning) {}
+
+    fn check(&self) -> Result<(), Error> {
+        Ok(())
+    }
 }
 
 pub(crate) fn model(bytes: &[u8], folder: &Path) -> bool {
     let path = folder.join("a.glb");
     let _ = fs::write(&path, bytes);
-    let registry = burgeon::objects::registry();
+    let registry = burgeon::registry();
     let Some(Construct::File(loader)) = registry.get("model").map(|kind| &kind.construct) else {
         return false;
     };
@@ -239,7 +247,7 @@ pub(crate) fn model(bytes: &[u8], folder: &Path) -> bool {
         files: &files,
         budget: &budget(),
         triangles: 100_000,
-        services: &mut [],
+        services: &mut (),
         resources: &Alone,
     };
     let Ok(loaded) = (loader.load)(&mut loading, &Table::default()) else { return false };

@@ -8,9 +8,9 @@ use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
+use burgeon::data::elevation::{HeightOptions, Raster};
 use burgeon::export;
 use burgeon::locks::LockRecovery;
-use burgeon::sources::elevation::{HeightOptions, Raster};
 use burgeon::terrain::fit::{FitResult, Search, Target};
 use burgeon::text::grouped;
 use burgeon::{Budget, Error, Result};

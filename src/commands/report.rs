@@ -6,8 +6,8 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use burgeon::data::{ReferenceFrame, WORLD_AXES};
 use burgeon::script::{Param, Setting};
-use burgeon::sources::WORLD_AXES;
 use burgeon::text::escaped_lines;
 use burgeon::text::grouped;
 use burgeon::{Error, Result, Run, Warning};
@@ -85,7 +85,7 @@ pub(crate) fn summary(run: &Run, writing: Duration, total: Duration, listed: Opt
         time(times.scene),
         time(writing)
     );
-    if let Some(frame) = &run.frame {
+    if let Some(frame) = run.service::<ReferenceFrame>() {
         let _ = writeln!(text, "origin at {}; {WORLD_AXES}", frame.world_place());
     }
     if let Some(memory) = peak_memory() {
@@ -118,7 +118,7 @@ pub(crate) fn summary_json(run: &Run, writing: Duration, total: Duration) -> ser
         "instances": run.scene.instances.len(),
         "materials": run.scene.materials.len(),
         "features": run.report().counts_json(),
-        "place": run.frame.as_ref().map(|frame| {
+        "place": run.service::<ReferenceFrame>().map(|frame| {
             let mut place = frame.world_place().to_json();
             place["axes"] = WORLD_AXES.into();
             place

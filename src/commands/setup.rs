@@ -56,7 +56,7 @@ impl SetupCommand {
                 })?,
             ));
         }
-        let registry = with_types(&burgeon::objects::registry(), self.types(&packages));
+        let registry = with_types(&burgeon::registry(), self.types(&packages));
         let (mut written, mut kept) = (Vec::new(), Vec::new());
         for file in editor_files(&registry) {
             let known = read(&self.folder.join(file.path))?;

@@ -15,7 +15,7 @@ use clap::{Args, ValueEnum};
 use super::report;
 
 /// Flags of commands that run a script.
-#[derive(Args)]
+#[derive(Args, Clone)]
 pub(crate) struct ScriptFlags {
     /// Script, a Lua file
     pub script: PathBuf,
@@ -53,11 +53,11 @@ pub(crate) struct ScriptFlags {
     steps: Option<usize>,
 
     /// Builds one of several parts of the features, such as 2/4
-    #[arg(long, value_name = "K/N", value_parser = part)]
+    #[arg(long, value_name = "K/N", value_parser = part, group = "division")]
     part: Option<FeaturePart>,
 
     /// Distance (m) within which features of other parts are derived too, but not written
-    #[arg(long, value_name = "METRES", default_value_t = 0.0, value_parser = metres, requires = "part",
+    #[arg(long, value_name = "METRES", default_value_t = 0.0, value_parser = metres, requires = "division",
           allow_negative_numbers = true)]
     reach: f64,
 
@@ -128,6 +128,11 @@ impl ScriptFlags {
         Ok((located.shown, meant.path))
     }
 
+    /// Returns the distance (m) within which features of other parts are derived too.
+    pub(crate) fn reach(&self) -> f64 {
+        self.reach
+    }
+
     /// Returns the run options. Fails if the preset does not exist.
     pub(crate) fn options(&self) -> Result<RunOptions> {
         let preset = match &self.preset {
@@ -182,7 +187,7 @@ pub(crate) fn user_mods() -> Option<PathBuf> {
 }
 
 /// Flags of a render, except its size.
-#[derive(Args)]
+#[derive(Args, Clone)]
 pub(crate) struct PictureFlags {
     /// Azimuth of the camera: 0 is north, 90 east (degrees) [default: from the model]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, help_heading = "Pictures")]

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use burgeon::sources::Listing;
+use burgeon::data::Listing;
 use burgeon::{Budget, Error, Result};
 use clap::Args;
 use serde_json::json;
@@ -77,7 +77,7 @@ fn listing(file: &Path, budget: &Arc<Budget>) -> Result<Listing> {
 
 #[cfg(feature = "postgis")]
 fn database(address: &str, budget: &Arc<Budget>) -> Result<Listing> {
-    use burgeon::query::postgis::{Server, ServerAddress};
+    use burgeon::sources::sql::postgis::{Server, ServerAddress};
     Server::new(&ServerAddress::parse(address)?, None).listing(budget)
 }
 

@@ -215,7 +215,7 @@ fn a_member_names_the_crates_that_it_uses_and_no_others() {
 
 #[test]
 fn the_engine_knows_no_type_of_object_by_name() {
-    let registry = burgeon::objects::registry();
+    let registry = burgeon::registry();
     let kinds: BTreeSet<&str> = registry
         .kinds()
         .filter(|kind| !matches!(kind.construct, Construct::Given))

@@ -21,7 +21,7 @@ use orchard::{EXPANSIONS, LOOKED_FOR, Orchard};
 
 /// Returns all types of Burgeon, and one external type.
 fn registry() -> Registry {
-    let mut registry = burgeon::objects::registry();
+    let mut registry = burgeon::registry();
     registry.add(Arc::clone(Orchard::kind())).unwrap();
     registry.add(Arc::clone(Fuse::kind())).unwrap();
     assert!(registry.add(Arc::clone(Orchard::kind())).is_err(), "the name is taken");
@@ -180,7 +180,7 @@ fn a_script_that_uses_it_can_be_checked_without_expanding_it() {
 fn a_name_that_will_go_warns_once_with_its_line_and_what_is_used_instead() {
     let (_folder, script) = folder();
     let warned = |threads: usize| {
-        let mut registry = burgeon::objects::registry();
+        let mut registry = burgeon::registry();
         let kind = Kind::clone(Orchard::kind());
         let kind = kind.deprecates("trees", "1.4", "orchard:count").deprecates("spacing", "1.5", "distance");
         registry

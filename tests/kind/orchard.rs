@@ -5,13 +5,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use burgeon::Result;
+use burgeon::data::{Features, Geometry, Layer};
 use burgeon::geometry::sphere;
 use burgeon::kit::{
     Drawing, Expand, Expectation, Object, Parameter, Prefetch, Rewriter, Table, Value, Vector, methods,
     object,
 };
 use burgeon::scene::Material;
-use burgeon::sources::{Features, Geometry, Layer};
 use burgeon::spatial::GeometryObject;
 use glam::{DVec2, DVec3};
 

@@ -3,8 +3,9 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use burgeon::kit::QueryRows;
 use burgeon::kit::Value;
-use burgeon::script::{Question, RowSource, Rows, RunOptions};
+use burgeon::script::{Question, RowSource, RunOptions};
 
 use super::scripts::{all_chains, divided, lines, run_with, try_run};
 
@@ -16,7 +17,7 @@ struct Items {
 }
 
 impl RowSource for Items {
-    fn rows(&self, question: &Question, _: usize) -> burgeon::Result<Rows> {
+    fn rows(&self, question: &Question, _: usize) -> burgeon::Result<QueryRows> {
         self.asked.fetch_add(1, Ordering::Relaxed);
         let n = question.values()?.into_iter().find(|(name, _)| *name == "n").map(|(_, value)| value);
         let limit = match n {
@@ -47,7 +48,7 @@ impl RowSource for Items {
         };
         let values = kept.flat_map(row).collect();
         let name = |field: &&str| Arc::from(field.rsplit(" as ").next().unwrap_or_default());
-        Ok(Rows { names: fields.iter().map(name).collect(), values })
+        Ok(QueryRows { names: fields.iter().map(name).collect(), values })
     }
 }
 

@@ -31,11 +31,12 @@ mod world_place;
 
 use std::path::Path;
 
+pub use burgeon_kit::Attribute;
 pub use burgeon_spatial::{Geometry, GeometryKind};
 pub use cache::Cache;
 pub use companions::companions;
 pub use crs::Crs;
-pub use features::{Attribute, Feature, FeatureId, FeatureTable};
+pub use features::{Feature, FeatureId, FeatureTable};
 pub use formats::output::{check_geopackage, write_geopackage};
 pub use formats::{FlatGeobuf, GeoPackage, OsmFile};
 #[cfg(feature = "data")]

@@ -8,13 +8,13 @@ use std::sync::Arc;
 use glam::DVec3;
 use serde_json::{Value, json};
 
-use crate::features::attribute::Attribute;
 use crate::features::table::FeatureTable;
 use crate::source::Source;
 use crate::source_options::SourceOptions;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{escaped, number, shown};
+use burgeon_kit::Attribute;
 use burgeon_spatial::GeometryKind;
 
 /// Number of example texts shown for an attribute.

@@ -8,6 +8,7 @@ mod checkpoints;
 mod declare;
 mod derive;
 mod machine;
+mod parts;
 mod placeholders;
 mod questions;
 pub mod results;
@@ -22,8 +23,9 @@ pub mod script {
         RunProgress, RunReports, Session, Setting, TraceRequest, api_version,
     };
     pub use crate::machine::{Machine, Watchdog, make_ready};
-    pub use crate::questions::{Question, RowSource, Rows};
+    pub use crate::questions::{Question, RowSource};
 }
 
 pub use check::{ScriptCheck, check, check_package, declared_types, declared_types_of_package};
+pub use parts::each_part;
 pub use run::{Run, RunTimes, run_session};

@@ -1,5 +1,6 @@
 //! One run of a script, from the file to the scene.
 
+use std::any::Any;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -13,7 +14,6 @@ use crate::results::{
 };
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
-use burgeon_data::ReferenceFrame;
 use burgeon_scene::{Scene, ScenePackage};
 
 /// Result of running a script.
@@ -24,8 +24,8 @@ pub struct Run {
     pub systems: Vec<Arc<DerivedSystem>>,
     /// Parameters that the script declares.
     pub params: Vec<Param>,
-    /// Projection and origin of the data, if there is any.
-    pub frame: Option<ReferenceFrame>,
+    /// Values of the sources that exports need, by type.
+    services: Vec<Box<dyn Any + Send + Sync>>,
     /// Warnings, in the order of files and lines.
     pub warnings: Vec<Warning>,
     /// Report entries about the data that are not warnings, such as features without ids of their own.
@@ -44,6 +44,11 @@ impl Run {
             report.add(system.given, &system.remarks);
         }
         report
+    }
+
+    /// Returns the value of type `T` of the sources, such as the projection and origin of the data.
+    pub fn service<T: Any>(&self) -> Option<&T> {
+        self.services.iter().find_map(|service| service.downcast_ref())
     }
 
     /// Records the packages of the run in its scene, with versions and content hashes. Reads all package
@@ -156,7 +161,7 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
         scene,
         systems,
         params,
-        frame: session.data.frame(),
+        services: session.data.results(),
         warnings,
         notes: session.notes(),
         part: session.options.part,

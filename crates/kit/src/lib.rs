@@ -18,6 +18,7 @@ mod note;
 mod registry;
 mod script_types;
 mod seed;
+mod sources;
 
 pub use buffer_bytes::BufferBytes;
 pub use color::Color;
@@ -25,9 +26,10 @@ pub use contract::declare;
 pub use contract::{
     Answer, Argument, AxisScale, BeginPrefetch, Call, Capabilities, Capability, Construct, Constructor,
     Deprecation, Draw, Drawing, Expand, Expectation, Field, Gather, HasLayers, Kind, KindDeclaration,
-    LevelOfDetail, LoadRequest, LoadedObject, Loader, Make, Method, Model, Object, ObjectContent,
-    ObjectParameter, Parameter, Prefetch, ReadCall, Report, Resources, RewriteOutcome, Rewriter, RuleSet,
-    Show, System, Table, TableKey, Value, Values, Vector, Warn, Write, WriteNumbers, is_keyword, object,
+    LevelOfDetail, LoadRequest, LoadServices, LoadedObject, Loader, Make, Method, Model, Object,
+    ObjectContent, ObjectParameter, Parameter, Prefetch, ReadCall, Report, Resources, RewriteOutcome,
+    Rewriter, RuleSet, Show, System, Table, TableKey, Value, Values, Vector, Warn, Write, WriteNumbers,
+    is_keyword, object,
 };
 pub use example::ScriptExample;
 pub use fields::{Fields, TableOf};
@@ -36,6 +38,9 @@ pub use note::Note;
 pub use registry::Registry;
 pub use script_types::{ScriptField, ScriptObject, ScriptType};
 pub use seed::Seed;
+pub use sources::{
+    Attribute, FeatureSource, ModuleTable, QueryRows, SourceProvider, SourceQuery, SourceRequest, SourceStore,
+};
 
 #[doc(hidden)]
 pub use burgeon_base::Result;

@@ -1,14 +1,15 @@
-//! Object types that the scripts of a run can use.
+//! Object types and sources that the scripts of a run can use.
 
 use std::sync::Arc;
 
-use super::Kind;
+use super::{Kind, SourceProvider};
 use burgeon_base::error::{Error, Result};
 
-/// Object types by name, in the order of insertion.
+/// Object types by name, in the order of insertion, and sources.
 #[derive(Debug, Clone, Default)]
 pub struct Registry {
     kinds: Vec<Arc<Kind>>,
+    sources: Option<Arc<dyn SourceProvider>>,
     /// Error for the first type that was skipped when the registry was collected from an iterator.
     problem: Option<Error>,
 }
@@ -54,6 +55,16 @@ impl Registry {
     /// Fails if the registry was collected from types of which two have the same name.
     pub fn check(&self) -> Result<()> {
         self.problem.clone().map_or(Ok(()), Err)
+    }
+
+    /// Sets the sources that scripts can load and query.
+    pub fn set_sources(&mut self, sources: Arc<dyn SourceProvider>) {
+        self.sources = Some(sources);
+    }
+
+    /// Returns the sources that scripts can load and query, if there are any.
+    pub fn sources(&self) -> Option<&Arc<dyn SourceProvider>> {
+        self.sources.as_ref()
     }
 
     /// Returns the type called `name`.

@@ -26,6 +26,7 @@ mod plane;
 #[cfg(test)]
 mod properties;
 mod reach;
+mod records;
 mod relation;
 mod scripting;
 mod skeleton;
@@ -41,6 +42,7 @@ pub use geometry::{FARTHEST, Geometry};
 pub use kind::GeometryKind;
 pub use overlay::union_all;
 pub use reach::{BoundingBox, near_selection};
+pub use records::{Record, RecordTable};
 pub use relation::Relation;
 pub use scripting::{GeometryList, GeometryObject, Lines, Path, PolygonArgument, Shape, constructors, rings};
 pub use topology::PreparedGeometry;

@@ -1,4 +1,4 @@
-//! Tests hundreds of cases of each family; `cargo bench -p burgeon-query --bench overlay` tests a hundred
+//! Tests hundreds of cases of each family; `cargo bench -p burgeon-sources --bench overlay` tests a hundred
 //! thousand.
 
 mod families;

@@ -53,10 +53,10 @@ impl ApiCommand {
     pub(crate) fn run(&self) -> Result<()> {
         if self.luau {
             let own = self.script.as_deref().map(|script| self.declared(script)).transpose()?;
-            let registry = with_types(&burgeon::objects::registry(), own.unwrap_or_default());
+            let registry = with_types(&burgeon::registry(), own.unwrap_or_default());
             return report::print(&definitions(&registry).luau);
         }
-        let registry = burgeon::objects::registry();
+        let registry = burgeon::registry();
         let own = self.script.as_deref().map(|script| self.declared(script)).transpose()?;
         let with_own = |own: &[Arc<Kind>]| -> Registry {
             let others = registry.kinds().filter(|kind| !own.iter().any(|it| it.name == kind.name));
@@ -218,7 +218,7 @@ mod tests {
 
     #[test]
     fn every_name_that_is_told_of_has_a_doc() {
-        let entries = entries(&burgeon::objects::registry());
+        let entries = entries(&burgeon::registry());
         assert!(entries.len() > 80, "{}", entries.len());
         let mut members = 0;
         for entry in &entries {

@@ -183,7 +183,7 @@ fn without_unit(entries: &[Entry]) -> BTreeSet<String> {
 
 #[test]
 fn every_number_has_a_unit_or_a_reason_to_have_none() {
-    let found = without_unit(&super::command::entries(&burgeon::objects::registry()));
+    let found = without_unit(&super::command::entries(&burgeon::registry()));
     let listed: Vec<&str> = [&COUNTS[..], &FACTORS, &NUMBERS, &ANY].concat();
     // Numbers of many tables are listed by their own name only.
     let matches = |name: &str, known: &str| name == known || known.starts_with('.') && name.ends_with(known);

@@ -4,19 +4,19 @@ use std::path::PathBuf;
 use std::sync::{Arc, LazyLock};
 use std::time::Instant;
 
-use super::watch;
+use super::{parts, watch};
 use crate::commands::progress::ProgressDisplay;
 use crate::commands::report;
 use crate::commands::shared::{PictureFlags, ScriptFlags, end_on_interrupt, size};
 use burgeon::export::Format;
 use burgeon::presets::Presets;
 use burgeon::results::layers;
-use burgeon::script::{Param, Preset, Session};
+use burgeon::script::{Param, Preset, RunOptions, Session};
 use burgeon::{Result, Warning, WarningKind};
 use clap::Args;
 
 /// Runs a script and writes what it makes
-#[derive(Args)]
+#[derive(Args, Clone)]
 pub(crate) struct RunCommand {
     #[command(flatten)]
     pub(super) script: ScriptFlags,
@@ -50,6 +50,11 @@ pub(crate) struct RunCommand {
     /// Writes a JSON report of skipped and simplified features; - is standard output
     #[arg(long, value_name = "FILE")]
     pub(super) report: Option<PathBuf>,
+
+    /// Writes the model in N parts, one after another: FILE-1 to FILE-N. Memory is that of one part
+    #[arg(long, value_name = "N", value_parser = parts::count, group = "division")]
+    #[arg(conflicts_with_all = ["watch", "save_preset"])]
+    pub(super) parts: Option<u32>,
 
     /// Runs and writes again on every save, until interrupted
     #[arg(long)]
@@ -90,6 +95,9 @@ impl RunCommand {
         if self.watch {
             return watch::again_and_again(self);
         }
+        if let Some(count) = self.parts {
+            return self.run_parts(count);
+        }
         end_on_interrupt()?;
         let begin = Instant::now();
         let session = self.session()?;
@@ -101,11 +109,16 @@ impl RunCommand {
 
     /// Creates the session of the script, with its options.
     pub(super) fn session(&self) -> Result<Arc<Session>> {
+        Session::new(&self.script.script, self.options()?)
+    }
+
+    /// Returns the options of the run.
+    pub(super) fn options(&self) -> Result<RunOptions> {
         let records = self.metadata.is_some() || self.writes(|format| format == Format::CityJson);
         let mut options = self.script.options()?;
         options.reports.records = records;
         options.limits.whole_program = true;
-        Session::new(&self.script.script, options)
+        Ok(options)
     }
 
     /// Runs `session`, writes all outputs and reports the result, unless the run is `stale` before anything is written.

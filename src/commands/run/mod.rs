@@ -4,6 +4,7 @@
 
 mod command;
 mod outputs;
+mod parts;
 mod watch;
 
 pub(crate) use command::RunCommand;

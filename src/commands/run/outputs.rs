@@ -94,7 +94,7 @@ impl RunCommand {
         let mut files = Files::new(&session.stop);
         if let Some(path) = &self.heights {
             let GroundMap { columns, rows, corner, step, heights } = terrain(run)?.map()?;
-            let map = HeightMap { columns, rows, corner, step, heights, frame: run.frame.clone() };
+            let map = HeightMap { columns, rows, corner, step, heights, frame: run.service().cloned() };
             export::heights::write(&map, path, &mut files)?;
         }
         if let Some(path) = &self.edits {
@@ -109,7 +109,7 @@ impl RunCommand {
         let metadata =
             self.metadata.as_ref().map(|names| attributes(session, names, &systems)).transpose()?;
         let facts = SceneFacts {
-            frame: run.frame.as_ref(),
+            frame: run.service(),
             detail: session.options.lod,
             systems: &systems,
             layers: &layers,

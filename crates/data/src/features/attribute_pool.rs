@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use rustc_hash::FxHasher;
 
-use super::attribute::Attribute;
+use burgeon_kit::Attribute;
 
 /// Attributes of a feature: the indices of their names, and their values.
 pub(crate) type FeatureAttributes = Arc<[(usize, Attribute)]>;

@@ -1,6 +1,6 @@
 //! Ids of features that have no id in their file.
 
-use super::attribute::Attribute;
+use burgeon_kit::Attribute;
 use burgeon_spatial::Geometry;
 
 /// Returns the id of a feature without one: a hash of its geometry and its attributes, independent of their order.
@@ -23,7 +23,7 @@ pub(crate) fn derived_id(parts: &[Geometry], attributes: &[(usize, Attribute)], 
         attributes.iter().filter_map(|(number, value)| Some((names.get(*number)?.as_str(), value))).collect();
     known.sort_by_key(|(name, _)| *name);
     for (name, value) in known {
-        let text = value.as_id();
+        let text = value.text();
         for part in [name, value.kind(), &text] {
             add(&part.len().to_le_bytes());
             add(part.as_bytes());

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::attribute::Attribute;
 use super::id::FeatureId;
+use burgeon_kit::Attribute;
 use burgeon_spatial::Geometry;
 
 /// Record with a geometry.

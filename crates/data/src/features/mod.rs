@@ -3,7 +3,6 @@
 //! Input: geometries, attributes and ids that a reader finds. Output: a [`FeatureTable`] with a unique id for each
 //! feature, of which equal attributes and texts are stored once. Coordinates are those of the file.
 
-pub(crate) mod attribute;
 mod attribute_pool;
 mod derived_id;
 pub(crate) mod feature;
@@ -12,7 +11,6 @@ mod selection;
 pub(crate) mod table;
 mod taken_ids;
 
-pub use attribute::Attribute;
 pub use feature::Feature;
 pub use id::FeatureId;
 pub use table::FeatureTable;

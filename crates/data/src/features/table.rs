@@ -5,7 +5,6 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::attribute::Attribute;
 use super::attribute_pool::AttributePool;
 use super::derived_id::derived_id;
 use super::feature::Feature;
@@ -16,6 +15,7 @@ use crate::source_options::SourceOptions;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
+use burgeon_kit::Attribute;
 use burgeon_spatial::{Geometry, GeometryKind};
 
 /// Layer as stored in its file.
@@ -216,7 +216,7 @@ impl FeatureTable {
         attributes: Vec<(usize, Attribute)>,
     ) -> Result<()> {
         let own = attributes.iter().find(|(number, _)| Some(*number) == column);
-        match own.map(|(_, value)| value.as_id()).filter(|id| !id.is_empty()) {
+        match own.map(|(_, value)| value.text()).filter(|id| !id.is_empty()) {
             Some(id) => self.push(&id, parts, attributes),
             None => self.push_unnamed(parts, attributes),
         }
@@ -349,7 +349,7 @@ impl FeatureTable {
         for mut feature in std::mem::take(&mut self.features) {
             let known = feature.attributes.iter().find(|(index, _)| *index == column);
             without += usize::from(known.is_none());
-            let id = known.map_or_else(|| feature.id.to_string(), |(_, value)| value.as_id());
+            let id = known.map_or_else(|| feature.id.to_string(), |(_, value)| value.text());
             feature.id = self.ids.fresh(&id, &self.features);
             self.features.push(feature);
         }

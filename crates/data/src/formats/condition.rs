@@ -7,11 +7,11 @@ use rusqlite::types::Value;
 use rusqlite::{Connection, params_from_iter};
 
 use super::geopackage::{guard, query_error, quote, run_watched};
-use crate::features::attribute::Attribute;
 use crate::features::feature::Feature;
 use crate::features::table::FeatureTable;
 use crate::source_options::SourceOptions;
 use burgeon_base::error::{Error, Result};
+use burgeon_kit::Attribute;
 
 /// Returns the indices of the features that satisfy `condition`, in their order.
 ///

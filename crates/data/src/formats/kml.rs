@@ -9,7 +9,6 @@ use glam::DVec3;
 
 use crate::content::DataFile;
 use crate::crs::Crs;
-use crate::features::attribute::Attribute;
 use crate::features::table::FeatureTable;
 use crate::formats::typing::TextTypes;
 use crate::formats::xml::{Element, Xml, XmlPiece};
@@ -18,6 +17,7 @@ use crate::source_options::SourceOptions;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
+use burgeon_kit::Attribute;
 use burgeon_spatial::Geometry;
 
 /// KML file.

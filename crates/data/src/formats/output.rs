@@ -6,11 +6,11 @@ use rusqlite::{Connection, params, params_from_iter};
 
 use super::geopackage::quote;
 use crate::crs::projection::definition;
-use crate::features::attribute::Attribute;
 use crate::frame::ReferenceFrame;
 use crate::output::{ColumnKind, OutputPlacement, Record, RecordTable, column_kinds};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::stop::Stop;
+use burgeon_kit::Attribute;
 use burgeon_spatial::Geometry;
 
 /// Tables of every GeoPackage. The time of change is constant, so the same layers yield the same bytes.

@@ -3,9 +3,9 @@
 
 use std::sync::Arc;
 
-use crate::features::attribute::Attribute;
 use crate::features::table::FeatureTable;
 use burgeon_base::error::Result;
+use burgeon_kit::Attribute;
 
 /// Types that fit all texts of an attribute so far.
 #[derive(Clone, Copy)]

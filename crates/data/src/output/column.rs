@@ -1,7 +1,7 @@
 //! Types of columns, determined from their values.
 
 use super::RecordTable;
-use crate::features::attribute::Attribute;
+use burgeon_kit::Attribute;
 
 /// Type of the values in a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,16 +46,4 @@ pub fn column_kinds(table: &RecordTable) -> Vec<ColumnKind> {
         }
     }
     kinds.into_iter().map(|kind| kind.unwrap_or(ColumnKind::Text)).collect()
-}
-
-impl Attribute {
-    /// Returns the value as text; lists and tables as JSON.
-    pub fn text(&self) -> String {
-        match self {
-            Self::Boolean(value) => value.to_string(),
-            Self::Number(value) => value.to_string(),
-            Self::Text(text) => text.to_string(),
-            Self::Nested(value) => value.to_string(),
-        }
-    }
 }

@@ -6,9 +6,9 @@ use glam::DVec3;
 use serde_json::{Map, Value as Json, json};
 
 use super::{OutputPlacement, Record, RecordTable};
-use crate::features::attribute::Attribute;
 use crate::frame::ReferenceFrame;
 use burgeon_base::error::{Error, Result};
+use burgeon_kit::Attribute;
 use burgeon_spatial::Geometry;
 
 /// Writes `tables` as one feature collection. If there are several tables, the property `layer` of each feature

@@ -6,11 +6,10 @@
 mod column;
 mod geojson;
 mod place;
-mod table;
 #[cfg(test)]
 mod tests;
 
+pub use burgeon_spatial::{Record, RecordTable};
 pub use column::{ColumnKind, column_kinds};
 pub use geojson::write_geojson;
 pub use place::OutputPlacement;
-pub use table::{Record, RecordTable};

@@ -9,7 +9,6 @@ use super::{FeaturePart, Preset};
 use crate::checkpoints::DerivationStore;
 use crate::questions::RowSource;
 use burgeon_base::stop::Stop;
-use burgeon_data::Cache;
 use burgeon_kit::Registry;
 
 /// Limits of a run.
@@ -101,8 +100,6 @@ pub struct RunInputs {
     pub databases: Vec<String>,
     /// Source that runs the SQL queries of scripts, instead of the loaded sources.
     pub rows: Option<Arc<dyn RowSource>>,
-    /// Cache of layers that earlier runs have read.
-    pub cache: Option<Arc<Cache>>,
     /// Chains of earlier runs, from which the run continues if only the number of steps differs.
     pub derivations: Option<Arc<DerivationStore>>,
     /// Package folders, or single packages, in addition to `mods` next to the script.
@@ -139,7 +136,7 @@ pub struct RunOptions {
     pub part: Option<FeaturePart>,
     /// Level of detail: 0 footprints, 1 blocks, 2 roofs, 3 full detail. Scripts read it as `lod`.
     pub lod: u8,
-    /// Object types that scripts can use.
+    /// Object types and sources that scripts can use.
     pub registry: Registry,
     /// Files and databases that the script may read.
     pub inputs: RunInputs,

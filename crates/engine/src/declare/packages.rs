@@ -7,7 +7,6 @@ use super::param::Param;
 use super::session::Session;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::locks::LockRecovery;
-use burgeon_data::split_name;
 use burgeon_packages::{FileName, LockedPackage, Package, PackageFile};
 
 /// File name of the presets of a package.
@@ -129,7 +128,7 @@ impl Session {
     /// Returns the errors for strings in a file of `package` that name missing files of packages.
     pub(crate) fn missing(&self, package: &Package, file: &str, texts: &[(String, usize)]) -> Vec<Error> {
         let missing = texts.iter().filter_map(|(text, line)| {
-            let name = FileName::parse(split_name(text).0).ok().filter(|name| !name.path.is_empty())?;
+            let name = FileName::parse(self.file_name(text)).ok().filter(|name| !name.path.is_empty())?;
             self.packages().get(&name.package)?;
             let script = FileName { path: format!("{}.lua", name.path), ..name.clone() };
             let error = self.locate("file", &name, Some(package)).err()?;
@@ -138,6 +137,11 @@ impl Session {
             (!found).then(|| error.rather_at(Some(SourcePlace { file: file.to_owned(), line: *line })))
         });
         missing.collect()
+    }
+
+    /// Returns the part of an argument of `source` that names a file.
+    fn file_name<'a>(&self, text: &'a str) -> &'a str {
+        self.options.registry.sources().map_or(text, |sources| sources.file_name(text))
     }
 
     /// Adds to an `error` about a missing file `name` the packages that have such a file, if any.

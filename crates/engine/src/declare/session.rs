@@ -7,24 +7,21 @@ use std::sync::{Arc, Mutex, OnceLock};
 use std::time::Duration;
 
 use super::api::api_version;
-use super::data::Data;
+use super::data::{Data, ModuleRows};
 use super::deprecations::Deprecations;
 use super::options::RunOptions;
 use super::param::Param;
 use super::positions::RandomPositions;
 use super::scripts::{ScriptFiles, SourceFile, own_params, read_stdlib, unreadable};
-#[cfg(feature = "data")]
-use super::tables::ModuleRows;
 use super::types::DeclaredTypes;
-#[cfg(feature = "data")]
 use crate::questions::RowSource;
-use crate::questions::{AskedRows, ChainView, Question, RowCache, Rows};
+use crate::questions::{AskedRows, ChainView, Question, RowCache};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::stop::Stop;
 use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, Warnings};
-use burgeon_kit::Values;
+use burgeon_kit::{QueryRows, Values};
 use burgeon_language::CallForm;
 use burgeon_language::analysis::{
     Analysis, CheckedFile, QueryCall, call_problems, has_metatables, inspects_tables,
@@ -167,6 +164,7 @@ impl Session {
         if let Some(memory) = stop.memory().filter(|_| options.limits.whole_program) {
             memory.adopt_threads();
         }
+        let data = Data::new(&options.registry);
         let session = Arc::new(Self {
             stop: Arc::new(stop),
             options,
@@ -177,7 +175,7 @@ impl Session {
             data_roots,
             packages,
             used: Mutex::default(),
-            data: Data::default(),
+            data,
             rows: RowCache::default(),
             chains: Mutex::default(),
             asked: Mutex::default(),
@@ -442,16 +440,20 @@ impl Session {
     }
 
     /// Returns the rows of a query of a rule or an interpretation; equal while they are cached.
-    pub(crate) fn ask(&self, question: &Question) -> Result<Arc<Rows>> {
+    pub(crate) fn ask(&self, question: &Question) -> Result<Arc<QueryRows>> {
         let view = Arc::clone(&self.chains.lock().recover());
         self.ask_about(question, &view, false)
     }
 
     /// Returns the rows of a query about a state of the chains. The rows are cached, until the end of the run
     /// if `stays` is set.
-    #[cfg(feature = "data")]
-    pub(crate) fn ask_about(&self, question: &Question, view: &ChainView, stays: bool) -> Result<Arc<Rows>> {
-        let words = self.rows.words(&question.statement(), burgeon_query::table_words);
+    pub(crate) fn ask_about(
+        &self,
+        question: &Question,
+        view: &ChainView,
+        stays: bool,
+    ) -> Result<Arc<QueryRows>> {
+        let words = self.rows.words(&question.statement(), |sql| self.table_words(sql));
         let modules = view.find_modules(&words, question.scope());
         if !modules.is_empty() {
             self.asked.lock().recover().extend(modules.iter().map(|module| module.symbol));
@@ -477,29 +479,21 @@ impl Session {
     /// Returns the words that may name tables in the queries of all rules, as far as static analysis finds
     /// the SQL texts.
     pub(crate) fn queried_words(&self) -> BTreeSet<String> {
-        #[cfg(feature = "data")]
-        {
-            let scripts = self.script_files();
-            let queries = scripts.read.values().flat_map(|source| source.analysis.queries.values().flatten());
-            let words = queries.flat_map(|query| burgeon_query::table_words(&query.sql));
-            // The last part of a qualified name is the module.
-            words.filter_map(|word| Some(word.rsplit('.').next()?.to_owned())).collect()
-        }
-        #[cfg(not(feature = "data"))]
-        BTreeSet::new()
+        let scripts = self.script_files();
+        let queries = scripts.read.values().flat_map(|source| source.analysis.queries.values().flatten());
+        let words = queries.flat_map(|query| self.table_words(&query.sql));
+        // The last part of a qualified name is the module.
+        words.filter_map(|word| Some(word.rsplit('.').next()?.to_owned())).collect()
     }
 
-    /// Returns the rows of a query. The rows are cached, until the end of the run if `stays` is set.
-    #[cfg(not(feature = "data"))]
-    pub(crate) fn ask_about(&self, question: &Question, _: &ChainView, stays: bool) -> Result<Arc<Rows>> {
-        let Some(source) = self.options.inputs.rows.as_deref() else {
-            return Err(Error::unavailable("this program was built without databases")
-                .help("build it with the feature data"));
-        };
-        let asked = AskedRows { source, most: self.options.limits.modules, view: 0, stays };
-        let rows = self.rows.ask(question, &asked);
-        self.stop.check()?;
-        rows
+    /// Returns the words of an SQL text that may name tables.
+    fn table_words(&self, sql: &str) -> Vec<String> {
+        self.options.registry.sources().map(|sources| sources.table_words(sql)).unwrap_or_default()
+    }
+
+    /// Returns the data file in `folder` whose name is most similar to `wanted`.
+    pub(super) fn nearest_file(&self, folder: &Path, wanted: &str) -> Option<String> {
+        self.options.registry.sources()?.nearest_file(folder, wanted)
     }
 
     /// Keeps the values that `params` refers to until the end of the run.

@@ -65,7 +65,7 @@ fn convert(value: &LuaValue, manner: CopyMode, depth: usize) -> Result<Value> {
             }
             let metatable = table.metatable();
             if let Some((geometry, mut entries)) = metatable.as_ref().and_then(|it| feature_of(table, it)) {
-                entries.push((TableKey::Name("geometry".into()), Value::Object(Arc::new(geometry))));
+                entries.push((TableKey::Name("geometry".into()), Value::Object(geometry)));
                 entries.sort_by(|a, b| a.0.cmp(&b.0));
                 return Ok(Value::Table(Arc::new(Table { class: None, entries })));
             }

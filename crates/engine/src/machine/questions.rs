@@ -10,8 +10,8 @@ use rustc_hash::FxHashMap;
 use super::convert::{to_lua, to_value};
 use super::library::Library;
 use super::{Machine, WorkState};
-use crate::questions::{Question, Rows};
-use burgeon_kit::Value;
+use crate::questions::Question;
+use burgeon_kit::{QueryRows, Value};
 use burgeon_language::analysis::sql_parameters;
 use burgeon_rewriting::{Pattern, Symbols};
 
@@ -21,7 +21,7 @@ const MOST: usize = 200_000;
 /// Query results as tables, by the address of the rows.
 #[derive(Default)]
 struct RowTables {
-    known: FxHashMap<usize, (Arc<Rows>, Table)>,
+    known: FxHashMap<usize, (Arc<QueryRows>, Table)>,
     values: usize,
 }
 
@@ -91,7 +91,7 @@ pub(super) fn add_questions(
 }
 
 /// Returns a frozen list of frozen tables, one per row, without NULL values.
-fn row_tables(lua: &Lua, rows: &Rows) -> mlua::Result<Table> {
+fn row_tables(lua: &Lua, rows: &QueryRows) -> mlua::Result<Table> {
     let names: Vec<LuaString> =
         rows.names.iter().map(|name| lua.create_string(name.as_bytes())).collect::<mlua::Result<_>>()?;
     let list = lua.create_table_with_capacity(rows.len(), 0)?;

@@ -5,19 +5,19 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use rustc_hash::FxHashMap;
 
-use super::{Question, RowSource, Rows};
+use super::{Question, RowSource};
 use burgeon_base::error::Result;
 use burgeon_base::locks::LockRecovery;
+use burgeon_kit::QueryRows;
 
 /// Maximum number of values that are cached from step to step.
 const MOST: usize = 2_000_000;
 
 /// Maximum number of SQL texts whose words are cached.
-#[cfg(feature = "data")]
 const MOST_TEXTS: usize = 10_000;
 
 /// Result of a query. Other threads wait while one thread computes it.
-type Slot = Arc<OnceLock<Result<Arc<Rows>>>>;
+type Slot = Arc<OnceLock<Result<Arc<QueryRows>>>>;
 
 /// Query results of a run. Results for the top level of the script are kept until the end of the run, because
 /// every virtual machine must see the same rows.
@@ -25,7 +25,6 @@ type Slot = Arc<OnceLock<Result<Arc<Rows>>>>;
 pub(crate) struct RowCache {
     known: Mutex<FxHashMap<(Question, u64), CacheEntry>>,
     /// Words of SQL texts that may name modules.
-    #[cfg(feature = "data")]
     words: Mutex<FxHashMap<Arc<str>, Arc<[String]>>>,
     /// Set once a query has named modules of the chains.
     views: AtomicBool,
@@ -53,7 +52,7 @@ pub(crate) struct AskedRows<'a> {
 
 impl RowCache {
     /// Returns the result of `question`.
-    pub(crate) fn ask(&self, question: &Question, asked: &AskedRows<'_>) -> Result<Arc<Rows>> {
+    pub(crate) fn ask(&self, question: &Question, asked: &AskedRows<'_>) -> Result<Arc<QueryRows>> {
         let slot = {
             let mut known = self.known.lock().recover();
             let kept = known
@@ -93,7 +92,6 @@ impl RowCache {
     }
 
     /// Returns the words of an SQL text that may name modules. Calls `find` once per text.
-    #[cfg(feature = "data")]
     pub(crate) fn words(&self, sql: &str, find: impl FnOnce(&str) -> Vec<String>) -> Arc<[String]> {
         let mut words = self.words.lock().recover();
         if let Some(known) = words.get(sql) {
@@ -132,11 +130,11 @@ mod tests {
     struct CountedSource(AtomicUsize);
 
     impl RowSource for CountedSource {
-        fn rows(&self, question: &Question, _: usize) -> Result<Rows> {
+        fn rows(&self, question: &Question, _: usize) -> Result<QueryRows> {
             self.0.fetch_add(1, Ordering::Relaxed);
             match question.sql() {
                 "wrong" => Err(Error::argument("it is wrong")),
-                _ => Ok(Rows::default()),
+                _ => Ok(QueryRows::default()),
             }
         }
     }

@@ -6,7 +6,7 @@ use std::hash::{BuildHasher as _, Hash, Hasher};
 use std::sync::Arc;
 
 use burgeon_base::error::Result;
-use burgeon_kit::{Table, TableKey, Value};
+use burgeon_kit::{QueryRows, Table, TableKey, Value};
 use burgeon_rewriting::NameScope;
 use rustc_hash::FxBuildHasher;
 
@@ -43,7 +43,6 @@ impl Question {
     }
 
     /// Returns the scope in which names of modules are resolved.
-    #[cfg(feature = "data")]
     pub(crate) fn scope(&self) -> Option<&NameScope> {
         self.scope.as_deref()
     }
@@ -95,53 +94,10 @@ impl fmt::Display for Question {
     }
 }
 
-/// Result of a query: ordered rows, each with one value per column.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Rows {
-    /// Column names.
-    pub names: Vec<Arc<str>>,
-    /// Values, row by row; [`Value::Nil`] for NULL.
-    pub values: Vec<Value>,
-}
-
-impl Rows {
-    /// Returns the number of rows.
-    pub fn len(&self) -> usize {
-        self.values.len() / self.names.len().max(1)
-    }
-
-    /// Returns true if there are no rows.
-    pub fn is_empty(&self) -> bool {
-        self.values.is_empty()
-    }
-
-    /// Returns an iterator over the rows.
-    pub fn iter(&self) -> impl Iterator<Item = &[Value]> {
-        self.values.chunks_exact(self.names.len().max(1))
-    }
-
-    /// Returns the index of the id column, if there is one.
-    pub fn id(&self) -> Option<usize> {
-        const IDS: [&str; 3] = ["fid", "id", "ogc_fid"];
-        IDS.iter().find_map(|id| self.names.iter().position(|name| name.eq_ignore_ascii_case(id)))
-    }
-
-    /// Returns for each column whether it contains geometries.
-    pub fn geometries(&self) -> Vec<bool> {
-        let of = |column: usize| self.iter().map(move |row| &row[column]);
-        let is_of_geometries = |column| {
-            of(column)
-                .find(|value| !matches!(value, Value::Nil))
-                .is_some_and(|value| matches!(value, Value::Object(_)))
-        };
-        (0..self.names.len()).map(is_of_geometries).collect()
-    }
-}
-
 /// Source of query results, such as a database.
 pub trait RowSource: Send + Sync {
     /// Returns the rows of `question`, at most `most`, always in the same order.
-    fn rows(&self, question: &Question, most: usize) -> Result<Rows>;
+    fn rows(&self, question: &Question, most: usize) -> Result<QueryRows>;
 }
 
 impl fmt::Debug for dyn RowSource {

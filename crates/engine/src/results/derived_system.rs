@@ -10,11 +10,11 @@ use super::row_features::RowFeatures;
 use super::trace::RuleName;
 use burgeon_base::error::{Result, SourcePlace};
 use burgeon_base::warning::Warning;
-use burgeon_data::output::RecordTable;
 use burgeon_kit::Values;
 use burgeon_kit::{Model, Object};
 use burgeon_rewriting::{Chain, Symbol, Symbols, Use, chain_text, write_chains};
 use burgeon_scene::{CityClass, Origin, Scene};
+use burgeon_spatial::RecordTable;
 
 /// Time spent on a derivation.
 #[derive(Debug, Clone, Copy, Default)]

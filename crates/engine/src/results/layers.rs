@@ -2,11 +2,9 @@
 
 use std::sync::Arc;
 
-use burgeon_data::Attribute;
-use burgeon_data::output::{Record, RecordTable};
-use burgeon_kit::{Object, Value};
+use burgeon_kit::{Attribute, FeatureSource, Object, Value};
 use burgeon_rewriting::{END, FIRST_SYMBOL, Symbol};
-use burgeon_spatial::{Geometry, GeometryObject};
+use burgeon_spatial::{Geometry, GeometryObject, Record, RecordTable};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::DerivedSystem;
@@ -21,8 +19,8 @@ use crate::declare::Session;
 /// stored as well-known text. The id is the id of the chain's feature. A repeated id gets a number as suffix.
 pub fn layers(session: &Session, systems: &[Arc<DerivedSystem>]) -> Vec<RecordTable> {
     let mut layers = LayerTables::default();
-    for list in session.data.lists() {
-        layers.list(list);
+    for (name, list) in session.data.lists() {
+        layers.list(&name, &list);
     }
     let lists: FxHashSet<String> = layers.by_name.keys().cloned().collect();
     for system in systems {
@@ -68,12 +66,16 @@ impl LayerTables {
     }
 
     /// Adds a list that the script made into a table.
-    fn list(&mut self, list: RecordTable) {
-        let layer = self.named(&list.name);
-        let numbers: Vec<usize> = list.columns.iter().map(|name| layer.columns.number(name)).collect();
-        for Record { id, geometry, values } in list.records {
-            let values = values.into_iter().map(|(column, value)| (numbers[column], value));
-            layer.add(id, geometry, values.collect());
+    fn list(&mut self, name: &str, list: &Arc<dyn FeatureSource>) {
+        let layer = self.named(name);
+        let numbers: Vec<usize> =
+            list.attribute_names().iter().map(|name| layer.columns.number(name)).collect();
+        for feature in 0..list.count() {
+            let geometry = Arc::clone(list).geometry(feature, None);
+            let geometry = geometry.and_then(|object| GeometryObject::of(&*object).cloned());
+            let values = list.attributes(feature).iter();
+            let values = values.map(|(column, value)| (numbers[*column], value.clone()));
+            layer.add(list.id(feature).to_owned(), geometry, values.collect());
         }
     }
 

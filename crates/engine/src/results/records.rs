@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
-use burgeon_data::output::{Record, RecordTable};
-use burgeon_data::{Attribute, Layer};
-use burgeon_kit::{Table, TableKey, Value};
+use burgeon_kit::{Attribute, FeatureSource, Table, TableKey, Value};
+use burgeon_spatial::{Record, RecordTable};
 
 /// Features of the chains of a system, one per chain.
 #[derive(Default)]
@@ -13,14 +12,19 @@ pub(crate) enum SourceFeatures {
     #[default]
     None,
     /// Layer, and the row numbers of its features.
-    Layer(Arc<Layer>, Vec<usize>),
+    Layer(Arc<dyn FeatureSource>, Vec<usize>),
     /// Features from a list of the script.
     List(Vec<Value>),
 }
 
 impl SourceFeatures {
     /// Adds the feature of the next chain: row `index` of a layer, or a value of the script.
-    pub(crate) fn push(&mut self, layer: Option<&Arc<Layer>>, index: usize, value: Option<Value>) {
+    pub(crate) fn push(
+        &mut self,
+        layer: Option<&Arc<dyn FeatureSource>>,
+        index: usize,
+        value: Option<Value>,
+    ) {
         match (&mut *self, layer, value) {
             (Self::Layer(_, rows), Some(_), _) => rows.push(index),
             (Self::List(list), None, Some(value)) => list.push(value),
@@ -57,10 +61,14 @@ impl SourceFeatures {
                 let record = |(chain, row): (usize, &usize)| Record {
                     id: id(chain),
                     geometry: None,
-                    values: layer.features.get(*row).map(|it| it.attributes.to_vec()).unwrap_or_default(),
+                    values: layer.attributes(*row).to_vec(),
                 };
                 let records = rows.iter().enumerate().map(record).collect();
-                Some(RecordTable { name: layer.name.clone(), columns: layer.names.clone(), records })
+                Some(RecordTable {
+                    name: layer.name().to_owned(),
+                    columns: layer.attribute_names().to_vec(),
+                    records,
+                })
             }
             Self::List(list) => {
                 let mut columns = Columns::default();

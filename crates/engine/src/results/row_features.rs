@@ -5,13 +5,12 @@
 //! that feature. These records are kept only if [`RunReports::records`](crate::script::RunReports::records)
 //! is set.
 
-use burgeon_data::output::{Record, RecordTable};
-use burgeon_kit::{Makers, Value};
+use burgeon_kit::{Makers, QueryRows, Value};
 use burgeon_scene::{Origin, Scene};
+use burgeon_spatial::{Record, RecordTable};
 use rustc_hash::FxHashMap;
 
 use super::records::{Columns, attribute, drop_indices};
-use crate::questions::Rows;
 
 /// Features that the symbols of a chain came from.
 #[derive(Default)]
@@ -44,7 +43,7 @@ impl RowFeatures {
 
     /// Returns the feature numbers of `rows`, from which a query makes modules named `module`. Rows with the
     /// same id belong to one feature.
-    pub(crate) fn of_rows(&mut self, rows: &Rows, module: &str) -> Vec<u32> {
+    pub(crate) fn of_rows(&mut self, rows: &QueryRows, module: &str) -> Vec<u32> {
         let id_column = rows.id();
         let each = rows.iter().map(|row| {
             let number = u32::try_from(self.records.len() + 1).unwrap_or(u32::MAX);

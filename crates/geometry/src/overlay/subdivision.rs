@@ -141,7 +141,8 @@ impl Subdivision {
                 right != node && side(self.places[left as usize], self.places[right as usize], place) > 0.0
             };
             let first = status.partition_point(is_below);
-            let end = first + endings[node as usize] as usize;
+            // Edges that are divided completely end next to each other. The minimum prevents a panic for all others.
+            let end = (first + endings[node as usize] as usize).min(status.len());
             let mut under = first.checked_sub(1).map(|index| status[index]);
             let mut below = under.map_or([0; 2], |edge| self.edges[edge as usize].above);
             let begun = self.edges.len() as u32;

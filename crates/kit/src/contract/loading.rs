@@ -1,6 +1,6 @@
 //! Loading of objects from files.
 
-use std::any::Any;
+use std::any::{Any, TypeId};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -48,16 +48,38 @@ pub struct LoadRequest<'a> {
     /// Maximum number of triangles.
     pub triangles: usize,
     /// Values of the run that some loaders need, found by their type with [`LoadRequest::service`].
-    pub services: &'a mut [&'a mut dyn Any],
+    pub services: &'a mut dyn LoadServices,
     /// Files of the run.
     pub resources: &'a dyn Resources,
 }
 
-/// Resources of a run for loaders.
+/// Values of a run that loaders share, such as the projection of its data.
+pub trait LoadServices {
+    /// Returns the value of a type, if the run has one.
+    fn service(&mut self, of: TypeId) -> Option<&mut dyn Any>;
+}
+
+/// A run without shared values.
+impl LoadServices for () {
+    fn service(&mut self, _: TypeId) -> Option<&mut dyn Any> {
+        None
+    }
+}
+
+/// Resources of a run for loaders and sources.
 pub trait Resources {
     /// Returns the path of the file that a script calls `name`; `what` describes the file in messages. Fails if the
     /// script may not read the file.
     fn find(&self, what: &'static str, name: &str) -> Result<PathBuf>;
+
+    /// Records that the run depends on a path, and whether the path exists.
+    fn seek(&self, path: &Path, exists: bool);
+
+    /// Reports a warning.
+    fn warn(&self, warning: Warning);
+
+    /// Fails if the run is cancelled.
+    fn check(&self) -> Result<()>;
 }
 
 /// Maximum size (bytes) of a file that is read at once.
@@ -66,7 +88,7 @@ const LARGEST: u64 = 1_000_000_000;
 impl LoadRequest<'_> {
     /// Returns the service of type `T`, if the run provides it, such as the projection that all its data share.
     pub fn service<T: Any>(&mut self) -> Option<&mut T> {
-        self.services.iter_mut().find_map(|service| service.downcast_mut())
+        self.services.service(TypeId::of::<T>())?.downcast_mut()
     }
 
     /// Reads the file. `remedy` is the suggested fix if reading fails.

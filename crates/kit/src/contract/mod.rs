@@ -26,7 +26,7 @@ pub use drawing::Drawing;
 pub use kind::{
     Call, Construct, Deprecation, Field, Kind, KindDeclaration, Make, Method, ReadCall, Write, WriteNumbers,
 };
-pub use loading::{LoadRequest, LoadedObject, Loader, Resources};
+pub use loading::{LoadRequest, LoadServices, LoadedObject, Loader, Resources};
 pub use model::Model;
 pub use object::Object;
 pub use parameter::{Answer, AxisScale, Expectation, ObjectParameter, Parameter, Vector, object};

@@ -139,7 +139,9 @@ impl ServerState {
         let request = Request::new(&settings.options);
         // The preset's values are part of the request from now on.
         settings.options.params.preset = None;
-        settings.options.inputs.cache = Some(std::sync::Arc::default());
+        if let Some(sources) = settings.options.registry.sources().map(|sources| sources.with_cache()) {
+            settings.options.registry.set_sources(sources);
+        }
         settings.options.inputs.derivations = Some(std::sync::Arc::default());
         let inner = LiveState {
             request,

@@ -1,11 +1,11 @@
 //! City objects, and their conversion to features.
 
 use super::shape::CityShape;
-use crate::features::attribute::Attribute;
 use crate::features::table::FeatureTable;
 use crate::formats::typing::{TextTypes, as_number};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
+use burgeon_kit::Attribute;
 
 /// Value of an object.
 #[derive(Debug, Clone)]

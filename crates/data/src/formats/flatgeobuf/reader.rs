@@ -9,10 +9,10 @@ use super::buffer::{BufferDamage, BufferTable};
 use super::geometry;
 use super::header::{Column, LayerHeader, columns};
 use super::index::{BoxEntry, Levels};
-use crate::features::attribute::Attribute;
 use crate::features::table::FeatureTable;
 use crate::source_options::SourceOptions;
 use burgeon_base::error::{Error, Result};
+use burgeon_kit::Attribute;
 use burgeon_spatial::Geometry;
 
 /// First bytes of a file; the fourth byte is the version.
@@ -226,7 +226,7 @@ impl FlatGeobuf {
             let column = known.get(number).ok_or("has a value of a column that there is not")?;
             let Some(value) = values.value(column, table)? else { continue };
             if column.is_key || (key.is_none() && column.name.eq_ignore_ascii_case("id")) {
-                key = Some(value.as_id()).filter(|key| !key.is_empty());
+                key = Some(value.text()).filter(|key| !key.is_empty());
             }
             let number = if own.is_empty() { number } else { table.name(&column.name) };
             attributes.push((number, value));

@@ -8,7 +8,6 @@ use rustc_hash::FxHashMap;
 use super::geometry::{GeometryProblem, GeometryReader, GmlContext, is_geometry};
 use super::system::NamedSystem;
 use crate::content::DataFile;
-use crate::features::attribute::Attribute;
 use crate::features::table::FeatureTable;
 use crate::formats::typing::TextTypes;
 use crate::formats::xml::{Element, Xml, XmlPiece};
@@ -17,6 +16,7 @@ use crate::source_options::SourceOptions;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
+use burgeon_kit::Attribute;
 use burgeon_spatial::Geometry;
 
 /// Open GML file.

@@ -14,13 +14,13 @@ use super::shapes::{BuildResult, OsmRecord, build, known_bounds};
 use super::xml::{blocks, is_xml_extract};
 use crate::content::DataFile;
 use crate::crs::Crs;
-use crate::features::attribute::Attribute;
 use crate::features::table::FeatureTable;
 use crate::source_options::SourceOptions;
 use burgeon_base::MemoryOwner;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
+use burgeon_kit::Attribute;
 
 /// Open OpenStreetMap extract.
 pub struct OsmFile {

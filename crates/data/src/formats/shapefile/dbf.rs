@@ -5,10 +5,10 @@ use std::io::{BufReader, Read};
 
 use crate::codepages::{CodePage, WESTERN};
 use crate::content::ContentReader;
-use crate::features::attribute::Attribute;
 use crate::features::table::FeatureTable;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
+use burgeon_kit::Attribute;
 
 /// Column.
 struct DbfColumn {

@@ -8,10 +8,10 @@ use rustc_hash::FxHashMap;
 use crate::declare::Session;
 use crate::derive::threads::{ThreadJob, ThreadPool};
 use crate::machine::Machine;
-use crate::questions::{Question, Rows, fit, listed};
+use crate::questions::{Question, fit, listed};
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::Values;
 use burgeon_kit::{Prefetch, Value};
+use burgeon_kit::{QueryRows, Values};
 use burgeon_rewriting::{Chain, ModuleKey, Signature, Symbol};
 
 /// Number of queries from which running them takes longer than starting a helper.
@@ -34,7 +34,7 @@ impl QuestionSet {
     }
 
     /// Runs all queries, with the help of other threads, and returns the results by number.
-    pub(super) fn ask(self, machine: &Machine, threads: &ThreadPool) -> Result<Vec<Result<Arc<Rows>>>> {
+    pub(super) fn ask(self, machine: &Machine, threads: &ThreadPool) -> Result<Vec<Result<Arc<QueryRows>>>> {
         let session = &machine.session;
         let batch = Arc::new(QuestionBatch {
             session: Arc::clone(session),
@@ -85,7 +85,7 @@ pub(super) struct RowModules {
 
 impl RowModules {
     /// Creates one module with `symbol`, which `target` declares, for each of the `rows`.
-    pub(super) fn new(rows: &Rows, symbol: Symbol, target: &Signature, values: &Values) -> Result<Self> {
+    pub(super) fn new(rows: &QueryRows, symbol: Symbol, target: &Signature, values: &Values) -> Result<Self> {
         let mut made =
             Self { symbol, params: Vec::new(), ids: Vec::new(), owners: Vec::new(), count: rows.len() };
         if rows.is_empty() {

@@ -12,13 +12,13 @@ use crate::derive::plan::DerivationPlan;
 use crate::derive::threads::{LeadingMachine, ThreadPool};
 use crate::machine::Machine;
 use crate::placeholders::{FRAGMENT, QUERY};
-use crate::questions::{Question, Rows};
+use crate::questions::Question;
 use crate::results::{PendingAnswer, RESOLVED, RowFeatures};
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_kit::Value;
 use burgeon_kit::Values;
+use burgeon_kit::{QueryRows, Value};
 use burgeon_rewriting::{Chain, Mark, NO_RULE, Symbol, module_brief};
 
 /// Number of sites between two checks for cancellation.
@@ -63,7 +63,7 @@ pub(in crate::derive) fn resolve(
 }
 
 /// Query results by number.
-type Answers = Vec<Result<Arc<Rows>>>;
+type Answers = Vec<Result<Arc<QueryRows>>>;
 
 /// Chain whose placeholders are being replaced.
 struct Resolver<'a> {
@@ -186,7 +186,7 @@ impl Resolver<'_> {
     fn put_in(
         &self,
         sites: &[PendingSite],
-        answers: &[Result<Arc<Rows>>],
+        answers: &[Result<Arc<QueryRows>>],
         asked: &[Option<usize>],
     ) -> Result<Resolution> {
         let (arities, session) = (self.plan.steps.grammar.arities(), &self.machine.session);
@@ -292,7 +292,7 @@ impl Resolver<'_> {
     fn group(
         &self,
         site: &PendingSite,
-        asked: Option<(usize, &Result<Arc<Rows>>)>,
+        asked: Option<(usize, &Result<Arc<QueryRows>>)>,
         known: &mut FxHashMap<(usize, Symbol), RowModules>,
         fragmentation: &mut Fragmentation,
     ) -> Result<SiteModules, (Mark, Error)> {

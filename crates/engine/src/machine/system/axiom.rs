@@ -9,7 +9,6 @@ use crate::machine::convert::to_value;
 use crate::machine::types::ObjectHandle;
 use crate::results::{Remark, SourceFeatures};
 use burgeon_base::error::{Error, Limit, Result};
-use burgeon_data::Features;
 use burgeon_kit::{Object, Prefetch, Value};
 use burgeon_rewriting::{CLOSE, Chain, DEEPEST, END, ModuleKey, OPEN, Symbol};
 
@@ -217,9 +216,9 @@ impl SystemDeclaration {
     fn prefetch(&self, machine: &Machine, source: &AnyUserData) -> Result<Option<PrefetchGuard>> {
         let begin = self.object.as_ref().and_then(|object| object.kind().prefetch);
         let begin = begin.filter(|_| !machine.session.options.check);
-        let layer = layer_of(source).filter(|layer| layer.features.len() >= MANY);
+        let layer = layer_of(source).filter(|layer| layer.count() >= MANY);
         let (Some(begin), Some(layer)) = (begin, layer) else { return Ok(None) };
-        let features: Arc<dyn Object> = Arc::new(Features(layer));
+        let features = layer.object();
         let Some(prefetch) = begin(&features) else { return Ok(None) };
         let prefetching = PrefetchGuard(prefetch);
         machine.driver.prefetch(machine, &prefetching.0)?;

@@ -16,9 +16,7 @@ use super::source::nested;
 use crate::machine::library::Library;
 use crate::machine::native;
 use crate::machine::types::ObjectHandle;
-use burgeon_data::{Attribute, Layer};
-use burgeon_kit::{Prefetch, Table as ValueTable, TableKey, Value};
-use burgeon_spatial::GeometryObject;
+use burgeon_kit::{Attribute, FeatureSource, Object, Prefetch, Table as ValueTable, TableKey, Value};
 
 /// Addresses that serve as table keys for the numbers below, unknown to scripts. Unlike strings, they need no
 /// allocation for each lookup.
@@ -30,7 +28,7 @@ const LAYER: usize = 1;
 
 /// Layer as a Lua value, with attribute indices by name.
 struct LayerHandle {
-    layer: Arc<Layer>,
+    layer: Arc<dyn FeatureSource>,
     /// Prefetch of the ground plans of its polygons, if there is one.
     prefetch: Option<Arc<dyn Prefetch>>,
     names: FxHashMap<String, usize>,
@@ -58,13 +56,13 @@ pub(super) struct LazyLayer {
 /// beginning.
 pub(super) fn unread(
     lua: &Lua,
-    layer: &Arc<Layer>,
+    layer: &Arc<dyn FeatureSource>,
     prefetch: Option<&Arc<dyn Prefetch>>,
 ) -> mlua::Result<Option<LazyLayer>> {
     if lua.app_data_ref::<EagerMark>().is_none_or(|eager| eager.0.inspects_tables()) {
         return Ok(None);
     }
-    let names = (0..).zip(&layer.names).map(|(index, name)| (name.clone(), index)).collect();
+    let names = (0..).zip(layer.attribute_names()).map(|(index, name)| (name.clone(), index)).collect();
     let held =
         lua.create_userdata(LayerHandle { layer: Arc::clone(layer), prefetch: prefetch.cloned(), names })?;
     let functions: Table = lua.named_registry_value(LAZY)?;
@@ -97,7 +95,7 @@ pub(crate) fn install(lua: &Lua, library: &Library) -> mlua::Result<()> {
     let iterate = lua.create_function(|lua, table: Table| {
         let mut names = ["id", "layer", "geometry"].map(str::to_owned).to_vec();
         if let Some(held) = held(&table) {
-            names.extend(held.layer.names.iter().cloned());
+            names.extend(held.layer.attribute_names().iter().cloned());
         }
         walk(lua, &names, |name| of_feature(lua, &table, name))
     })?;
@@ -142,12 +140,13 @@ pub(super) fn is_feature(metatable: &Table) -> bool {
 pub(crate) fn feature_of(
     table: &Table,
     metatable: &Table,
-) -> Option<(GeometryObject, Vec<(TableKey, Value)>)> {
+) -> Option<(Arc<dyn Object>, Vec<(TableKey, Value)>)> {
     let held: UserDataRef<LayerHandle> = metatable.raw_get(key(LAYER)).ok()?;
     let index: usize = table.raw_get(key(NUMBER)).ok()?;
-    let feature = held.layer.features.get(index)?;
+    let names = held.layer.attribute_names();
+    let geometry = Arc::clone(&held.layer).geometry(index, held.prefetch.as_ref())?;
     let name = |name: &str| TableKey::Name(name.into());
-    let own = feature.attributes.iter().map(|(index, value)| (&held.layer.names[*index], value));
+    let own = held.layer.attributes(index).iter().map(|(index, value)| (&names[*index], value));
     let own = own.filter(|(name, _)| !matches!(name.as_str(), "id" | "layer" | "geometry"));
     let mut fields: Vec<(TableKey, Value)> = own
         .map(|(key, value)| {
@@ -160,12 +159,9 @@ pub(crate) fn feature_of(
             (name(key), value)
         })
         .collect();
-    fields.push((name("id"), Value::Text(feature.id.as_str().into())));
-    fields.push((name("layer"), Value::Text(held.layer.name.as_str().into())));
-    Some((
-        GeometryObject::of_feature(Arc::<Layer>::clone(&held.layer), index, held.prefetch.as_ref())?,
-        fields,
-    ))
+    fields.push((name("id"), Value::Text(held.layer.id(index).into())));
+    fields.push((name("layer"), Value::Text(held.layer.name().into())));
+    Some((geometry, fields))
 }
 
 /// Converts a GeoJSON value. Nulls are omitted from objects, and become false in lists.
@@ -210,18 +206,21 @@ fn cached(
 fn of_feature(lua: &Lua, table: &Table, name: &str) -> mlua::Result<LuaValue> {
     let Some(held) = held(table) else { return Ok(LuaValue::Nil) };
     let index: usize = table.raw_get(key(NUMBER))?;
-    let Some(feature) = held.layer.features.get(index) else { return Ok(LuaValue::Nil) };
+    if index >= held.layer.count() {
+        return Ok(LuaValue::Nil);
+    }
     let text = |text: &str| lua.create_string(text).map(LuaValue::String);
     match name {
-        "id" => return text(&feature.id),
-        "layer" => return text(&held.layer.name),
+        "id" => return text(held.layer.id(index)),
+        "layer" => return text(held.layer.name()),
         "geometry" => {
             return cached(table, name, || geometry(lua, &held.layer, index, held.prefetch.as_ref()));
         }
         _ => {}
     }
     let column = held.names.get(name);
-    let found = column.and_then(|column| feature.attributes.iter().find(|(index, _)| index == column));
+    let found =
+        column.and_then(|column| held.layer.attributes(index).iter().find(|(index, _)| index == column));
     match found.map(|(_, value)| value) {
         None => Ok(LuaValue::Nil),
         Some(Attribute::Boolean(value)) => Ok(LuaValue::Boolean(*value)),
@@ -234,12 +233,10 @@ fn of_feature(lua: &Lua, table: &Table, name: &str) -> mlua::Result<LuaValue> {
 /// Returns the geometry of a feature.
 pub(super) fn geometry(
     lua: &Lua,
-    layer: &Arc<Layer>,
+    layer: &Arc<dyn FeatureSource>,
     index: usize,
     prefetch: Option<&Arc<dyn Prefetch>>,
 ) -> mlua::Result<LuaValue> {
-    let Some(geometry) = GeometryObject::of_feature(Arc::<Layer>::clone(layer), index, prefetch) else {
-        return Ok(LuaValue::Nil);
-    };
-    lua.create_userdata(ObjectHandle(Arc::new(geometry))).map(LuaValue::UserData)
+    let Some(geometry) = Arc::clone(layer).geometry(index, prefetch) else { return Ok(LuaValue::Nil) };
+    lua.create_userdata(ObjectHandle(geometry)).map(LuaValue::UserData)
 }

@@ -8,10 +8,8 @@ mod declaration;
 mod declare;
 mod handle;
 mod lazy;
-mod list_table;
 mod selection;
 mod source;
-mod tags;
 mod unseen;
 
 pub(crate) use axiom::Axiom;

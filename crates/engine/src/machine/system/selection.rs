@@ -1,5 +1,7 @@
 //! Features of a source that a run over a part builds and shows.
 
+use std::sync::Arc;
+
 use mlua::{AnyUserData, Value as LuaValue};
 
 use super::source::{each_feature, layer_of};
@@ -7,7 +9,7 @@ use crate::machine::Machine;
 use crate::machine::convert::to_value;
 use burgeon_base::error::Result;
 use burgeon_kit::{Parameter, Value};
-use burgeon_spatial::{BoundingBox, Shape, near_selection};
+use burgeon_spatial::{BoundingBox, GeometryObject, Shape, near_selection};
 
 /// Role of a feature in a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,7 +61,11 @@ impl PartSelection {
 /// Returns the bounding boxes (m) of a source's features.
 fn bounds(machine: &Machine, source: &AnyUserData) -> Result<Vec<Option<BoundingBox>>> {
     if let Some(layer) = layer_of(source) {
-        return Ok(layer.features.iter().map(|feature| feature.geometry.bounds()).collect());
+        let bounds = |feature| {
+            let geometry = Arc::clone(&layer).geometry(feature, None)?;
+            GeometryObject::of(&*geometry)?.bounds()
+        };
+        return Ok((0..layer.count()).map(bounds).collect());
     }
     let mut bounds = Vec::new();
     let each = |_: usize, feature: LuaValue, _: Option<&str>| {

@@ -5,19 +5,17 @@ use std::sync::Arc;
 use mlua::{AnyUserData, Function, Lua, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
 
 use super::lazy;
-use super::list_table::list_table;
 use crate::machine::Machine;
 use burgeon_base::error::{Error, Result};
-use burgeon_data::{Attribute, Features, GeometryKind, Layer, SourceOptions};
-use burgeon_kit::{Prefetch, Table as ValueTable, Value};
-use burgeon_language::{LAYER, SOURCE};
+use burgeon_kit::{Attribute, FeatureSource, Prefetch, Table as ValueTable, Value};
+use burgeon_language::LAYER;
 
 /// Script value for a source of features.
 pub(crate) enum SourceHandle {
     /// List of tables.
     List(Table),
     /// Layer whose tables are created when the script reads them.
-    Layer(Arc<Layer>),
+    Layer(Arc<dyn FeatureSource>),
 }
 
 impl SourceHandle {
@@ -27,38 +25,16 @@ impl SourceHandle {
         match (what, &options) {
             (LuaValue::Table(features), Value::Nil) => Ok(Self::List(features.clone())),
             (LuaValue::Table(features), options) => {
-                let table = match options {
-                    Value::Table(options) => wanted(options)?,
-                    _ => Default::default(),
-                };
-                let (
-                    SourceOptions {
-                        layer: None,
-                        condition: None,
-                        limit: None,
-                        id: None,
-                        kind: None,
-                        crs: None,
-                        ..
-                    },
-                    Some(table),
-                ) = table
-                else {
-                    return Err(Error::argument("a list of features takes no option but table")
-                        .help("choose among them in Lua: where, limit and the like are for files"));
-                };
-                if machine.driver.leads() {
-                    let list = crate::machine::convert::to_value(what, false)?;
-                    machine.session.data.add_list(&table, list_table(&list)?);
-                }
+                let none = ValueTable::default();
+                let options = if let Value::Table(options) = options { options } else { &none };
+                let (leads, data) = (machine.driver.leads(), &machine.session.data);
+                let list = if leads { crate::machine::convert::to_value(what, false)? } else { Value::Nil };
+                data.list(&list, options, leads)?;
                 Ok(Self::List(features.clone()))
             }
-            (LuaValue::String(text), Value::Nil) => {
-                Self::load(machine, &text.to_string_lossy(), SourceOptions::default(), None)
-            }
+            (LuaValue::String(text), Value::Nil) => Self::load(machine, &text.to_string_lossy(), None),
             (LuaValue::String(text), Value::Table(options)) => {
-                let (wanted, table) = wanted(options)?;
-                Self::load(machine, &text.to_string_lossy(), wanted, table.as_deref())
+                Self::load(machine, &text.to_string_lossy(), Some(options))
             }
             (LuaValue::String(_), other) => {
                 Err(Error::argument(format!("source takes a table of options, not {}", other.describe()))
@@ -69,11 +45,11 @@ impl SourceHandle {
         }
     }
 
-    fn load(machine: &Machine, text: &str, wanted: SourceOptions, table: Option<&str>) -> Result<Self> {
+    fn load(machine: &Machine, text: &str, options: Option<&ValueTable>) -> Result<Self> {
         let asker = Machine::asker(machine.lua(), &machine.session);
-        let layer = machine.session.data.load(&machine.session, asker, text, wanted, table)?;
+        let layer = machine.session.data.load(&machine.session, asker, text, options)?;
         layer.warnings().into_iter().for_each(|warning| machine.warn(warning));
-        layer.derived_note().into_iter().for_each(|note| machine.session.add_note(note));
+        layer.note().into_iter().for_each(|note| machine.session.add_note(note));
         Ok(Self::Layer(layer))
     }
 
@@ -83,7 +59,7 @@ impl SourceHandle {
             Self::List(features) => {
                 crate::machine::convert::to_value(&LuaValue::Table(features.clone()), false)
             }
-            Self::Layer(layer) => Ok(Value::Object(Arc::new(Features(Arc::clone(layer))))),
+            Self::Layer(layer) => Ok(Value::Object(Arc::clone(layer).object())),
         }
     }
 
@@ -96,12 +72,12 @@ impl SourceHandle {
             (Self::List(features), "features") => Ok(LuaValue::Table(features.clone())),
             (Self::List(_), name) if LAYER.part_names().contains(&name) => Ok(LuaValue::Nil),
             (Self::Layer(layer), "features") => {
-                let table = lua.create_table_with_capacity(layer.features.len(), 0)?;
+                let table = lua.create_table_with_capacity(layer.count(), 0)?;
                 let names = AttributeNames::new(lua, layer, None)?;
                 // The complete table stays alive, so a collection would free nothing of it.
                 let collects = lua.gc_is_running();
                 lua.gc_stop();
-                let made = (0..layer.features.len()).map(|index| table.raw_push(names.feature(lua, index)?));
+                let made = (0..layer.count()).map(|index| table.raw_push(names.feature(lua, index)?));
                 let made: mlua::Result<()> = made.collect();
                 if collects {
                     lua.gc_restart();
@@ -111,14 +87,14 @@ impl SourceHandle {
             }
             (Self::Layer(layer), "bounds") => {
                 let table = lua.create_table()?;
-                for (name, corner) in ["min", "max"].into_iter().zip(layer.bounds) {
+                for (name, corner) in ["min", "max"].into_iter().zip(layer.bounds()) {
                     table.raw_set(name, frozen(lua.create_sequence_from(corner)?)?)?;
                 }
                 frozen(table)
             }
-            (Self::Layer(layer), "layer") => Ok(LuaValue::String(lua.create_string(&layer.name)?)),
-            (Self::Layer(layer), "crs") => Ok(LuaValue::String(lua.create_string(&layer.crs)?)),
-            (Self::Layer(layer), "origin") => frozen(lua.create_sequence_from(layer.origin)?),
+            (Self::Layer(layer), "layer") => Ok(LuaValue::String(lua.create_string(layer.name())?)),
+            (Self::Layer(layer), "crs") => Ok(LuaValue::String(lua.create_string(layer.crs())?)),
+            (Self::Layer(layer), "origin") => frozen(lua.create_sequence_from(layer.origin())?),
             _ => {
                 let message = format!("a source has no field called {name}");
                 let known = LAYER.part_names();
@@ -137,7 +113,7 @@ impl UserData for SourceHandle {
         methods.add_meta_function(MetaMethod::Len, |_, this: AnyUserData| {
             Ok(match &*this.borrow::<Self>()? {
                 Self::List(features) => features.raw_len(),
-                Self::Layer(layer) => layer.features.len(),
+                Self::Layer(layer) => layer.count(),
             })
         });
         methods.add_meta_function(MetaMethod::Iter, |lua, this: AnyUserData| {
@@ -147,7 +123,7 @@ impl UserData for SourceHandle {
         methods.add_meta_method(MetaMethod::ToString, |_, this, ()| {
             Ok(match this {
                 Self::List(features) => format!("a source of {} features", features.raw_len()),
-                Self::Layer(layer) => format!("a source of {} features", layer.features.len()),
+                Self::Layer(layer) => format!("a source of {} features", layer.count()),
             })
         });
         methods.add_meta_function(
@@ -182,13 +158,13 @@ fn field(lua: &Lua, this: &AnyUserData, name: &str) -> mlua::Result<LuaValue> {
 /// Returns file and layer of a source for messages; empty for a list of the script.
 pub(super) fn shown(source: &AnyUserData) -> String {
     match source.borrow::<SourceHandle>().as_deref() {
-        Ok(SourceHandle::Layer(layer)) => layer.shown.clone(),
+        Ok(SourceHandle::Layer(layer)) => layer.label().to_owned(),
         _ => String::new(),
     }
 }
 
 /// Returns the layer of a source; `None` for a list of the script.
-pub(super) fn layer_of(source: &AnyUserData) -> Option<Arc<Layer>> {
+pub(super) fn layer_of(source: &AnyUserData) -> Option<Arc<dyn FeatureSource>> {
     match source.borrow::<SourceHandle>().as_deref() {
         Ok(SourceHandle::Layer(layer)) => Some(Arc::clone(layer)),
         _ => None,
@@ -198,7 +174,7 @@ pub(super) fn layer_of(source: &AnyUserData) -> Option<Arc<Layer>> {
 /// Returns the features that a source skipped, with the errors.
 pub(super) fn refused_of(source: &AnyUserData) -> Vec<(String, Error)> {
     match source.borrow::<SourceHandle>().as_deref() {
-        Ok(SourceHandle::Layer(layer)) => layer.refused.clone(),
+        Ok(SourceHandle::Layer(layer)) => layer.refused().to_vec(),
         _ => Vec::new(),
     }
 }
@@ -228,19 +204,19 @@ pub(super) fn each_feature(
         SourceHandle::Layer(layer) => Arc::clone(layer),
     };
     let names = AttributeNames::new(lua, &layer, prefetch).map_err(&failed)?;
-    for (index, feature) in layer.features.iter().enumerate() {
+    for index in 0..layer.count() {
         let made = match &kept {
             LuaValue::Table(kept) => kept.raw_get(index + 1),
             _ => names.feature(lua, index).map(LuaValue::Table),
         };
-        each(index + 1, made.map_err(&failed)?, Some(&feature.id))?;
+        each(index + 1, made.map_err(&failed)?, Some(layer.id(index)))?;
     }
     Ok(())
 }
 
 /// Attribute names of a layer, and names of the fixed fields, as Lua strings.
 struct AttributeNames {
-    of: Arc<Layer>,
+    of: Arc<dyn FeatureSource>,
     prefetch: Option<Arc<dyn Prefetch>>,
     attributes: Vec<mlua::LuaString>,
     layer: mlua::LuaString,
@@ -250,13 +226,17 @@ struct AttributeNames {
 }
 
 impl AttributeNames {
-    fn new(lua: &Lua, layer: &Arc<Layer>, prefetch: Option<&Arc<dyn Prefetch>>) -> mlua::Result<Self> {
+    fn new(
+        lua: &Lua,
+        layer: &Arc<dyn FeatureSource>,
+        prefetch: Option<&Arc<dyn Prefetch>>,
+    ) -> mlua::Result<Self> {
         let text = |text: &str| lua.create_string(text);
         Ok(Self {
             of: Arc::clone(layer),
             prefetch: prefetch.cloned(),
-            attributes: layer.names.iter().map(|name| text(name)).collect::<mlua::Result<_>>()?,
-            layer: text(&layer.name)?,
+            attributes: layer.attribute_names().iter().map(|name| text(name)).collect::<mlua::Result<_>>()?,
+            layer: text(layer.name())?,
             fixed: [text("id")?, text("geometry")?, text("layer")?],
             unread: lazy::unread(lua, layer, prefetch)?,
         })
@@ -266,12 +246,12 @@ impl AttributeNames {
 impl AttributeNames {
     /// Returns the table of the feature with this number, from 0.
     fn feature(&self, lua: &Lua, index: usize) -> mlua::Result<Table> {
-        let feature = &self.of.features[index];
         if let Some(unread) = &self.unread {
             return unread.feature(index);
         }
-        let table = lua.create_table_with_capacity(0, feature.attributes.len() + 3)?;
-        for (column, value) in feature.attributes.iter() {
+        let attributes = self.of.attributes(index);
+        let table = lua.create_table_with_capacity(0, attributes.len() + 3)?;
+        for (column, value) in attributes {
             let name = &self.attributes[*column];
             match value {
                 Attribute::Boolean(value) => table.raw_set(name, *value)?,
@@ -281,7 +261,7 @@ impl AttributeNames {
             }
         }
         let [id, geometry, layer] = &self.fixed;
-        table.raw_set(id, feature.id.as_str())?;
+        table.raw_set(id, self.of.id(index))?;
         table.raw_set(geometry, lazy::geometry(lua, &self.of, index, self.prefetch.as_ref())?)?;
         table.raw_set(layer, &self.layer)?;
         table.set_readonly(true);
@@ -316,78 +296,5 @@ pub(super) fn nested(lua: &Lua, value: &serde_json::Value) -> mlua::Result<LuaVa
             table.set_readonly(true);
             LuaValue::Table(table)
         }
-    })
-}
-
-/// Parses the options of `source`, and the name of its table in SQL statements.
-fn wanted(options: &ValueTable) -> Result<(SourceOptions, Option<String>)> {
-    let (mut wanted, mut table) = (SourceOptions::default(), None);
-    for (key, value) in &options.entries {
-        let name = match key {
-            burgeon_kit::TableKey::Name(name) => name,
-            burgeon_kit::TableKey::Index(_) => {
-                return Err(Error::argument("source takes named options").help("write { limit = 100 }"));
-            }
-        };
-        let text = |example: &str| match value {
-            Value::Text(text) => Ok(Some(text.to_string())),
-            other => Err(Error::argument(format!("source: {name} must be a text, not {}", other.describe()))
-                .help(format!("write {{ {name} = {example} }}"))),
-        };
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
-        let whole = |example: &str| match value {
-            Value::Number(number) if number.fract() == 0.0 && (0.0..=4e9).contains(number) => {
-                Ok(*number as u32)
-            }
-            other => {
-                Err(Error::argument(format!("source: {name} must be a whole number from 0, not {other}"))
-                    .help(format!("write {{ {name} = {example} }}")))
-            }
-        };
-        match &**name {
-            "where" => wanted.condition = text("\"height > 10\"")?,
-            "limit" => wanted.limit = Some(whole("100")? as usize),
-            "id" => wanted.id = text("\"name\"")?,
-            "table" => table = text("\"houses\"")?,
-            "layer" => wanted.layer = text("\"buildings\"")?,
-            "crs" => wanted.crs = Some(whole("3067")?),
-            "tags" => wanted.tags = Some(super::tags::filter(value)?),
-            "within" => wanted.within = Some(corners(value)?),
-            "kind" => {
-                let kind = text("\"polygon\"")?.unwrap_or_default();
-                let known = GeometryKind::SINGLE.into_iter().find(|known| known.name() == kind);
-                wanted.kind = Some(known.ok_or_else(|| {
-                    let names = GeometryKind::SINGLE.map(GeometryKind::name);
-                    let message = format!("source: there is no kind {kind:?} of geometry");
-                    Error::not_found("kind", &kind, names, message)
-                        .help(format!("it is one of {}", names.join(", ")))
-                })?);
-            }
-            other => {
-                let message = format!("source has no option called {other}");
-                let known = SOURCE.part_names();
-                return Err(Error::not_found("option", other, known.iter().copied(), message)
-                    .help(format!("it has {}", known.join(", "))));
-            }
-        }
-    }
-    Ok((wanted, table))
-}
-
-/// Parses a bounding box: west, south, east, north.
-fn corners(value: &Value) -> Result<[f64; 4]> {
-    let numbers = match value {
-        Value::Table(table) => table.list(),
-        _ => Vec::new(),
-    };
-    let corners = match numbers[..] {
-        [Value::Number(west), Value::Number(south), Value::Number(east), Value::Number(north)] => {
-            Some([west, south, east, north])
-        }
-        _ => None,
-    };
-    corners.filter(|[west, south, east, north]| west <= east && south <= north).ok_or_else(|| {
-        Error::argument("source: within must be { west, south, east, north }, the lesser number first")
-            .help("write { within = { 24.94, 60.16, 24.95, 60.17 } }, in the coordinates of the file")
     })
 }

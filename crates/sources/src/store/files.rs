@@ -1,0 +1,71 @@
+//! Layers of data files.
+
+use std::sync::Arc;
+
+use super::data_store::LoadedSources;
+use super::servers;
+use super::tables::{SourceTable, TableContent};
+use burgeon_base::error::{Error, Result};
+use burgeon_data::{Cache, Layer, Source, SourceOptions, companions, split_name};
+use burgeon_kit::SourceRequest;
+
+/// Reads the layer that `source(text, wanted)` names, and adds it as the table `table`, or as a table of its own name.
+pub(super) fn read(
+    request: &SourceRequest<'_>,
+    text: &str,
+    mut wanted: SourceOptions,
+    known: &mut LoadedSources,
+    table: Option<&str>,
+) -> Result<Arc<Layer>> {
+    if text.starts_with("postgres://") || text.starts_with("postgresql://") {
+        return servers::read(request, text, wanted, known, table);
+    }
+    let (name, layer) = split_name(text);
+    let SourceOptions { condition, tags, within, limit, id, kind, crs, layer: _, budget: _ } = &wanted;
+    let is_whole = (condition, within, limit, id, kind, crs) == (&None, &None, &None, &None, &None, &None)
+        && tags.is_none();
+    wanted.layer = wanted.layer.or_else(|| layer.map(str::to_owned));
+    if name.is_empty() {
+        return Err(
+            Error::argument("source needs the name of a file").help("write source(\"village.geojson\")")
+        );
+    }
+    let path = request.resources.find("data file", name)?;
+    for beside in companions(&path) {
+        request.resources.seek(&beside, beside.exists());
+    }
+    let cache = known.cache.as_deref();
+    let key = match cache {
+        Some(_) => Cache::key(&path, name, &wanted, known.frame.as_ref())?,
+        None => None,
+    };
+    let kept = cache.zip(key.as_deref()).and_then(|(cache, key)| cache.get(key));
+    let layer = match kept {
+        Some((layer, frame)) => {
+            known.frame = Some(frame);
+            layer
+        }
+        None => {
+            let table = Source::open_within(&path, name, &wanted)?.read(name, &wanted)?;
+            let label = table.shown.clone();
+            let layer = Layer::new(table, &mut known.frame).map_err(|error| error.about(&label))?;
+            let layer = Arc::new(layer);
+            if let (Some(cache), Some(key), Some(frame)) = (&known.cache, key, &known.frame) {
+                cache.keep(key, &layer, frame);
+            }
+            layer
+        }
+    };
+    if let (true, Some((_, error))) = (request.is_strict, layer.refused.first()) {
+        return Err(error.clone());
+    }
+    let is_package = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gpkg"));
+    known.tables.add(SourceTable {
+        name: table.unwrap_or(&layer.name).to_owned(),
+        content: match is_whole && is_package {
+            true => TableContent::GeoPackage { path, shown: name.to_owned(), layer: layer.name.clone() },
+            false => TableContent::Layer(Arc::clone(&layer)),
+        },
+    });
+    Ok(layer)
+}
