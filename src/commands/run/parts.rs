@@ -31,17 +31,14 @@ impl RunCommand {
 
     /// Returns the command with the files of part `number` of `count`.
     fn of_part(&self, number: u32, count: u32) -> Self {
-        let file = |path: &PathBuf| part_file(path, number, count);
-        Self {
-            output: self.output.iter().map(file).collect(),
-            chain: self.chain.as_ref().map(file),
-            heights: self.heights.as_ref().map(file),
-            edits: self.edits.as_ref().map(file),
-            tiles: self.tiles.as_ref().map(file),
-            report: self.report.as_ref().map(file),
-            parts: None,
-            ..self.clone()
+        let mut part = self.clone();
+        part.parts = None;
+        let texts = [&mut part.chain, &mut part.heights, &mut part.edits, &mut part.tiles, &mut part.report];
+        let texts = texts.into_iter().filter_map(Option::as_mut);
+        for path in part.output.iter_mut().chain(texts) {
+            *path = part_file(path, number, count);
         }
+        part
     }
 }
 
@@ -50,10 +47,8 @@ fn part_file(path: &Path, number: u32, count: u32) -> PathBuf {
     let (Some(name), false) = (path.file_name(), path == Path::new("-")) else { return path.to_owned() };
     let (name, digits) = (name.to_string_lossy(), count.to_string().len());
     // Extensions can have two parts, such as .city.json.
-    let (stem, extensions) = match name[1..].find('.') {
-        Some(at) => name.split_at(at + 1),
-        None => (&*name, ""),
-    };
+    let dot = name.char_indices().skip(1).find(|(_, letter)| *letter == '.');
+    let (stem, extensions) = name.split_at(dot.map_or(name.len(), |(at, _)| at));
     path.with_file_name(format!("{stem}-{number:0digits$}{extensions}"))
 }
 
@@ -68,6 +63,7 @@ mod tests {
         assert_eq!(named("town.city.json", 1, 4), "town-1.city.json");
         assert_eq!((named("-", 1, 4), named("tiles", 2, 4)), ("-".to_owned(), "tiles-2".to_owned()));
         assert_eq!(named(".hidden.glb", 2, 4), ".hidden-2.glb");
+        assert_eq!(named("\u{e9}.glb", 2, 4), "\u{e9}-2.glb");
     }
 
     #[test]
