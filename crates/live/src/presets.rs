@@ -96,13 +96,15 @@ impl Presets {
     /// use burgeon_engine::script::{Preset, Setting};
     /// use burgeon_live::presets::Presets;
     ///
-    /// let folder = tempfile::tempdir()?;
-    /// let script = folder.path().join("tower.lua");
+    /// # let folder = std::env::temp_dir().join(format!("burgeon-presets-{}", std::process::id()));
+    /// # std::fs::create_dir_all(&folder)?;
+    /// let script = folder.join("tower.lua");
     /// let params = vec![("floors".to_owned(), Setting::Number(60.0))];
     /// Presets::save(&script, Preset { name: "tall".into(), seed: Some(7), params, ..Preset::default() })?;
-    /// assert!(folder.path().join("tower.presets.json").exists());
+    /// assert!(folder.join("tower.presets.json").exists());
     /// assert_eq!(Presets::read(&script)?.get("tall")?.seed, Some(7));
     /// assert!(Presets::read(&script)?.get("small").is_err());
+    /// # std::fs::remove_dir_all(&folder)?;
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn save(script: &Path, preset: Preset) -> Result<Self> {
