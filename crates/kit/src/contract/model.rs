@@ -81,9 +81,8 @@ impl Model {
     /// use burgeon_scene::{Instance, Mesh, Scene};
     /// use glam::{DAffine3, DVec3};
     ///
-    /// let instance =
-    ///     Instance { mesh: 0, transform: DAffine3::IDENTITY, name: "lamp".into(), feature: None, origin: None,
-    ///         placement: None, meaning: None };
+    /// # let (transform, name, feature) = (DAffine3::IDENTITY, String::from("lamp"), None);
+    /// # let instance = Instance { mesh: 0, transform, name, feature, origin: None, placement: None, meaning: None };
     /// let lamp = Model::new(Scene { meshes: vec![Mesh::default()], instances: vec![instance], ..Scene::default() });
     /// let mut street = Scene::default();
     /// let frames = [0.0, 20.0, 40.0].map(|x| DAffine3::from_translation(DVec3::new(x, 0.0, 0.0)));

@@ -22,24 +22,22 @@ use glam::DVec3;
 /// completes the building.
 ///
 /// ```
-/// use burgeon_kit::{Object, Parameter, Table, TableKey, Value};
+/// use burgeon_kit::{Object, Parameter, Table, TableKey, Value, object};
 /// use burgeon_objects::Footprint;
 /// use glam::DVec3;
+/// use std::sync::Arc;
 ///
 /// let ring = [(0.0, 0.0), (10.0, 0.0), (10.0, 6.0), (0.0, 6.0)].map(|(x, y)| DVec3::new(x, y, 0.0));
-/// let rings = vec![ring.to_vec()].into_value();
-/// let options = [("geometry", rings), ("height", Value::Number(5.0))];
+/// let options = [("geometry", vec![ring.to_vec()].into_value()), ("height", Value::Number(5.0))];
 /// let entries = options.map(|(name, value)| (TableKey::Name(name.into()), value)).to_vec();
-/// let mut house = Footprint::kind().make(&Table { class: None, entries })?;
-/// let call = |name: &str| Footprint::kind().method(name).cloned().expect("a method");
-/// let burgeon_kit::Call::Read(area) = call("area").call else { unreachable!() };
-/// assert_eq!(area(&*house, &[])?, Value::Number(60.0));
-/// for name in ["walls", "roof"] {
-///     let burgeon_kit::Call::Write { values, .. } = call(name).call else { unreachable!() };
-///     values(&mut *house, &[])?;
-/// }
+/// let house = Value::Object(Footprint::kind().make(&Table { class: None, entries })?.into());
+/// let mut house = Arc::unwrap_or_clone(object::<Footprint>(house, "a footprint").expect("a footprint"));
+/// assert_eq!((house.area(), house.edges()), (60.0, 4));
+/// house.walls(None)?;
+/// house.roof(None)?;
 /// house.end()?;
-/// assert!(house.triangles() > 8);
+/// let drawn: &dyn Object = &house;
+/// assert!(drawn.triangles() > 8);
 /// # Ok::<(), burgeon_base::Error>(())
 /// ```
 #[object(
