@@ -86,6 +86,46 @@
 //! # }
 //! ```
 //!
+//! A script can have parameters, and a [`Session`](script::Session) can be cancelled from another thread:
+//!
+//! ```
+//! # let folder = tempfile::tempdir().map_err(burgeon::Error::other)?;
+//! # let path = folder.path().join("fence.lua");
+//! let fence = r#"
+//!     local posts = param("posts", { default = 3 })
+//!     local Post = module("Post", "left")
+//!     local fence = lsystem({ object = extruder({ sides = 4 }) })
+//!     fence:axiom(Post(posts))
+//!     fence:rule("Post(left)", function(this, left)
+//!         if left > 0 then return Post(0), Post(left - 1) end
+//!     end)
+//!     fence:interpret("Post", function(this) this:scale(0.1):extrude(1.2):shift(2, 0) end)
+//!     fence:derive(posts)
+//! "#;
+//! # std::fs::write(&path, fence).map_err(burgeon::Error::other)?;
+//! let params = vec![("posts".to_owned(), "5".to_owned())].into();
+//! let session = burgeon::script::Session::new(&path, burgeon::script::RunOptions { params, ..burgeon::options() })?;
+//! let run = burgeon::run_session(&session)?;
+//! assert_eq!(run.params[0].value, burgeon::script::Setting::Number(5.0));
+//!
+//! session.stop.stop(burgeon::Error::cancellation("the window was closed"));
+//! assert!(burgeon::run_session(&session).is_err());
+//! # Ok::<(), burgeon::Error>(())
+//! ```
+//!
+//! [`check`] reports the problems of a script without a derivation:
+//!
+//! ```
+//! # let folder = tempfile::tempdir().map_err(burgeon::Error::other)?;
+//! # let path = folder.path().join("fence.lua");
+//! let script = "local fence = lsystem({ object = extrudr({}) })";
+//! # std::fs::write(&path, script).map_err(burgeon::Error::other)?;
+//! let error = burgeon::check(&path, burgeon::options()).expect_err("a misspelt name");
+//! assert_eq!(error.remedy(), Some("did you mean extruder?"));
+//! assert_eq!(error.place().map(|place| place.line), Some(1));
+//! # Ok::<(), burgeon::Error>(())
+//! ```
+//!
 //! # Differences from ABOP
 //!
 //! Scripts have the semantics of *The Algorithmic Beauty of Plants* (ABOP). Two points differ, because that is faster
@@ -133,6 +173,18 @@ pub fn registry() -> kit::Registry {
 }
 
 /// Returns the default options to run a script, with all object types and sources of Burgeon.
+///
+/// ```
+/// use burgeon::kit::Kind;
+///
+/// let mut options = burgeon::options();
+/// options.seed = 7;
+/// assert!(options.registry.get("extruder").is_some());
+/// // A program can add types of its own.
+/// options.registry.add(Kind::new("lamp", "A street lamp."))?;
+/// assert!(options.registry.add(Kind::new("turtle", "Another turtle.")).is_err());
+/// # Ok::<(), burgeon::Error>(())
+/// ```
 pub fn options() -> script::RunOptions {
     script::RunOptions { registry: registry(), ..script::RunOptions::default() }
 }

@@ -119,6 +119,18 @@ impl Budget {
     }
 
     /// Takes memory (bytes) until the result is dropped. Fails if too little is left.
+    ///
+    /// ```
+    /// use burgeon_base::Budget;
+    ///
+    /// let budget = Budget::new(1000, || Ok(()));
+    /// let buffer = budget.hold(600)?;
+    /// assert_eq!(budget.used_bytes(), 600);
+    /// assert!(budget.hold(600).is_err());
+    /// drop(buffer);
+    /// assert_eq!(budget.used_bytes(), 0);
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn hold(&self, bytes: usize) -> Result<MemoryReservation<'_>> {
         self.take(bytes)?;
         Ok(MemoryReservation { budget: self, bytes })

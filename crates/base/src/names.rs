@@ -18,6 +18,13 @@ pub fn has_bidi_controls(name: &str) -> bool {
 }
 
 /// Returns the name with its case folded, for comparison on systems that ignore case.
+///
+/// ```
+/// use burgeon_base::names::fold_case;
+///
+/// assert_eq!(fold_case("STRASSE"), fold_case("straße"));
+/// assert_ne!(fold_case("a"), fold_case("á"));
+/// ```
 pub fn fold_case(name: &str) -> String {
     // Changing the case can produce text that is not in normal form, and normalization can produce other case mappings.
     let lower = normal_form(name).to_lowercase();

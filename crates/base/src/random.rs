@@ -4,6 +4,16 @@ use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 /// A stream of random numbers.
+///
+/// ```
+/// use burgeon_base::random::Stream;
+///
+/// let (mut one, mut same, mut other) = (Stream::new(7), Stream::new(7), Stream::new(8));
+/// let numbers: Vec<f64> = (0..4).map(|_| one.uniform()).collect();
+/// assert!(numbers.iter().all(|number| (0.0..1.0).contains(number)));
+/// assert_eq!(numbers, (0..4).map(|_| same.uniform()).collect::<Vec<_>>());
+/// assert_ne!(numbers[0], other.uniform());
+/// ```
 #[derive(Debug, Clone)]
 pub struct Stream(Xoshiro256PlusPlus);
 

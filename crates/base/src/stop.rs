@@ -14,6 +14,17 @@ thread_local! {
 }
 
 /// Cancellation of all work on a run or on its results, with the reason.
+///
+/// ```
+/// use burgeon_base::{Error, Stop};
+/// use std::sync::Arc;
+///
+/// let run = Arc::new(Stop::new());
+/// let part = Stop::under(Some(Arc::clone(&run)));
+/// assert!(part.check().is_ok());
+/// run.stop(Error::cancellation("the window was closed"));
+/// assert_eq!(part.check().map_err(|error| error.message().to_owned()), Err("the window was closed".into()));
+/// ```
 #[derive(Debug, Default)]
 pub struct Stop {
     parent: Option<Arc<Stop>>,
@@ -52,6 +63,18 @@ impl Stop {
     }
 
     /// Fails if the run that this thread works on is cancelled. For loops that receive no stop.
+    ///
+    /// ```
+    /// use burgeon_base::{Error, Stop};
+    /// use std::sync::Arc;
+    ///
+    /// let stop = Arc::new(Stop::new());
+    /// stop.stop(Error::cancellation("the run was cancelled"));
+    /// let work = stop.at_work();
+    /// assert!(Stop::check_current().is_err());
+    /// drop(work);
+    /// assert!(Stop::check_current().is_ok());
+    /// ```
     pub fn check_current() -> Result<()> {
         AT_WORK.with_borrow(|all| all.last().map_or(Ok(()), |stop| stop.check()))
     }

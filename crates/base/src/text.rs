@@ -7,6 +7,13 @@ use std::fmt::Write as _;
 const LONGEST: usize = 80;
 
 /// Escapes `text` to one line, including all characters that control a terminal or change adjacent text.
+///
+/// ```
+/// use burgeon_base::text::escaped;
+///
+/// assert_eq!(escaped("two\nlines\u{1b}[2J"), "two\\nlines\\u{1b}[2J");
+/// assert_eq!(escaped("Größe 日本"), "Größe 日本");
+/// ```
 pub fn escaped(text: &str) -> Cow<'_, str> {
     escape(text, |_| false)
 }
@@ -37,6 +44,13 @@ pub fn listed<'a>(names: impl ExactSizeIterator<Item = &'a str>) -> String {
 }
 
 /// Replaces each password in an address such as `postgres://user:password@host/database` by `***`.
+///
+/// ```
+/// use burgeon_base::text::without_passwords;
+///
+/// assert_eq!(without_passwords("read postgres://me:secret@host/db"), "read postgres://me:***@host/db");
+/// assert_eq!(without_passwords("mail me@host"), "mail me@host");
+/// ```
 pub fn without_passwords(text: &str) -> Cow<'_, str> {
     let mut made = String::new();
     let mut rest = text;
@@ -90,6 +104,12 @@ fn is_obeyed(letter: char) -> bool {
 }
 
 /// Formats an integer with commas between thousands.
+///
+/// ```
+/// use burgeon_base::text::grouped;
+///
+/// assert_eq!([999, 1000, 1234567].map(grouped), ["999", "1,000", "1,234,567"]);
+/// ```
 pub fn grouped(number: usize) -> String {
     let digits = number.to_string();
     let mut text = String::new();

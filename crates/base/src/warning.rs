@@ -43,6 +43,16 @@ pub fn take_deferred() -> Vec<Warning> {
 }
 
 /// A warning of a successful run, with its location and a remedy.
+///
+/// ```
+/// use burgeon_base::error::SourcePlace;
+/// use burgeon_base::{Warning, WarningKind};
+///
+/// let place = SourcePlace { file: "plant.lua".into(), line: 3 };
+/// let warning = Warning::new(WarningKind::EmptyModel, "the model is empty").at(Some(place)).help("draw something");
+/// assert_eq!(warning.to_string(), "plant.lua:3: the model is empty\n  help: draw something");
+/// assert_eq!(warning.to_json()["line"], 3);
+/// ```
 #[derive(Debug, Clone)]
 pub struct Warning {
     kind: WarningKind,
@@ -190,6 +200,17 @@ impl fmt::Display for Warning {
 type WarningOrder = (bool, Option<SourcePlace>, String);
 
 /// Warnings of a run.
+///
+/// ```
+/// use burgeon_base::warning::Warnings;
+/// use burgeon_base::{Warning, WarningKind};
+///
+/// let warnings = Warnings::default();
+/// for _ in 0..3 {
+///     warnings.add(Warning::new(WarningKind::EmptyModel, "the model is empty"));
+/// }
+/// assert_eq!(warnings.list().iter().map(Warning::count).collect::<Vec<_>>(), [3]);
+/// ```
 #[derive(Debug, Default)]
 pub struct Warnings(Mutex<BTreeMap<WarningOrder, Warning>>);
 

@@ -33,6 +33,16 @@ impl WorkLimits {
 }
 
 /// Guard for the work of a thread within a budget.
+///
+/// ```
+/// use burgeon_base::{Budget, Error, WorkLimits, WorkWithin};
+///
+/// let budget = Budget::new(1_000_000, || Err(Error::cancellation("enough")));
+/// let work = WorkWithin::begin(&budget);
+/// assert!(WorkLimits::current().check().is_err());
+/// drop(work);
+/// assert!(WorkLimits::current().check().is_ok());
+/// ```
 #[derive(Debug)]
 pub struct WorkWithin(());
 

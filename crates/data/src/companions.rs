@@ -47,6 +47,15 @@ const LARGEST_TEXT: u64 = 1 << 20;
 /// Returns the paths of the companion files that are read with the file at `path`: for a shapefile, its `.dbf`, `.prj`
 /// and `.cpg` files; for an ASCII grid and a GeoTIFF, the `.prj` file. Each extension is in lower case, then in upper
 /// case. Missing files are included, because they may be added later.
+///
+/// ```
+/// use burgeon_data::companions;
+/// use std::path::{Path, PathBuf};
+///
+/// let files = companions(Path::new("roads.shp"));
+/// assert!(files.contains(&PathBuf::from("roads.dbf")) && files.contains(&PathBuf::from("roads.PRJ")));
+/// assert!(companions(Path::new("roads.gpkg")).is_empty());
+/// ```
 pub fn companions(path: &Path) -> Vec<PathBuf> {
     let spellings = |extension: &&str| [path.with_extension(extension), upper(path, extension)];
     CompanionKind::of(path).extensions().iter().flat_map(spellings).collect()

@@ -86,6 +86,22 @@ impl Layer {
     }
 
     /// Transforms `table` into `frame`; creates the frame if there is none.
+    ///
+    /// ```
+    /// use burgeon_data::{Geometry, Layer, Source, SourceOptions};
+    ///
+    /// let folder = tempfile::tempdir()?;
+    /// let path = folder.path().join("trees.csv");
+    /// std::fs::write(&path, "longitude,latitude\n27.0,60.0\n27.001,60.0\n")?;
+    /// let table = Source::open(&path, "trees.csv")?.read("trees.csv", &SourceOptions::default())?;
+    /// let mut frame = None;
+    /// let layer = Layer::new(table, &mut frame)?;
+    /// assert!(frame.is_some());
+    /// // 0.001 degrees of longitude are 56 m here.
+    /// let [[west, ..], [east, ..]] = layer.bounds;
+    /// assert!((55.0..57.0).contains(&(east - west)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn new(mut table: FeatureTable, frame: &mut Option<ReferenceFrame>) -> Result<Self> {
         table.refuse_endless()?;
         let left = |table: &FeatureTable| match table.refused.first() {

@@ -83,6 +83,13 @@ pub const EXTENSIONS: [&str; 23] = [
 const SEQUENCES: [&str; 5] = ["geojsons", "geojsonl", "geojsonseq", "ndjson", "jsonl"];
 
 /// Splits `FILE:LAYER`; the layer begins after the first colon that follows a data file's extension.
+///
+/// ```
+/// use burgeon_data::split_name;
+///
+/// assert_eq!(split_name("town.gpkg:houses"), ("town.gpkg", Some("houses")));
+/// assert_eq!(split_name("folder/town.osm.pbf"), ("folder/town.osm.pbf", None));
+/// ```
 pub fn split_name(text: &str) -> (&str, Option<&str>) {
     let lower = text.to_ascii_lowercase();
     let colons = text.match_indices(':').map(|(colon, _)| colon);

@@ -71,6 +71,20 @@ pub struct AttributeListing {
 
 impl Listing {
     /// Reads all layers of the file at `path`, within a budget.
+    ///
+    /// ```
+    /// use burgeon_data::{GeometryKind, Listing};
+    /// use std::sync::Arc;
+    ///
+    /// let folder = tempfile::tempdir()?;
+    /// let path = folder.path().join("trees.csv");
+    /// std::fs::write(&path, "kind,longitude,latitude\noak,24.9,60.2\nelm,24.9,60.3\n")?;
+    /// let listing = Listing::read(&path, &Arc::default())?;
+    /// let layer = &listing.layers[0];
+    /// assert_eq!((layer.records, layer.kinds[&GeometryKind::Point]), (2, 2));
+    /// assert_eq!(layer.attributes[0].examples, ["oak", "elm"]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn read(path: &Path, budget: &Arc<Budget>) -> Result<Self> {
         let name = path.display().to_string();
         let wanted = SourceOptions { budget: Arc::clone(budget), ..SourceOptions::default() };
@@ -147,6 +161,17 @@ fn missing_file(path: &Path, error: Error) -> Error {
 }
 
 /// Returns the data file in `folder` whose name is most similar to `wanted`.
+///
+/// ```
+/// use burgeon_data::nearest_file;
+///
+/// let folder = tempfile::tempdir()?;
+/// for name in ["houses.gpkg", "house.lua"] {
+///     std::fs::write(folder.path().join(name), "")?;
+/// }
+/// assert_eq!(nearest_file(folder.path(), "huoses.gpkg").as_deref(), Some("houses.gpkg"));
+/// # Ok::<(), std::io::Error>(())
+/// ```
 pub fn nearest_file(folder: &Path, wanted: &str) -> Option<String> {
     let entries = std::fs::read_dir(folder).ok()?;
     let mut names: Vec<String> =

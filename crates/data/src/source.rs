@@ -38,6 +38,19 @@ impl Source {
     /// Opens the file at `path`, called `name` in messages. The format is detected from the content.
     ///
     /// Fails if the file cannot be read, or has an unknown format.
+    ///
+    /// ```
+    /// use burgeon_data::{Source, SourceOptions};
+    ///
+    /// let folder = tempfile::tempdir()?;
+    /// let path = folder.path().join("lake.geojson");
+    /// let lake = r#"{ "type": "Polygon", "coordinates": [[[27, 60], [27.1, 60], [27, 60.1], [27, 60]]] }"#;
+    /// std::fs::write(&path, lake)?;
+    /// let table = Source::open(&path, "lake.geojson")?.read("lake.geojson", &SourceOptions::default())?;
+    /// assert_eq!((table.features.len(), table.crs?.name()), (1, "EPSG:4326".to_owned()));
+    /// assert!(Source::open(&folder.path().join("sea.geojson"), "sea.geojson").is_err());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn open(path: &Path, name: &str) -> Result<Self> {
         Self::open_within(path, name, &SourceOptions::default())
     }
@@ -160,6 +173,20 @@ impl Source {
     }
 
     /// Reads the features that `wanted` selects, in file order.
+    ///
+    /// ```
+    /// use burgeon_data::{Source, SourceOptions};
+    ///
+    /// let folder = tempfile::tempdir()?;
+    /// let path = folder.path().join("trees.csv");
+    /// std::fs::write(&path, "id,kind,longitude,latitude\n7,oak,24.9,60.2\n8,elm,24.9,60.3\n")?;
+    /// let (condition, id) = (Some("kind = 'elm'".to_owned()), Some("id".to_owned()));
+    /// let source = Source::open(&path, "trees.csv")?;
+    /// assert_eq!((source.format(), source.layers()), ("CSV", vec!["trees".to_owned()]));
+    /// let elms = source.read("trees.csv", &SourceOptions { condition, id, ..SourceOptions::default() })?;
+    /// assert_eq!((elms.features.len(), elms.features[0].id.as_str()), (1, "8"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn read(self, name: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
         if wanted.tags.is_some() && !matches!(self, Self::Osm(_)) {
             return Err(Error::argument(format!("{name} is {}, which takes no tags", self.format()))

@@ -88,6 +88,15 @@ fn in_metres(text: &str, proj: &str) -> Option<String> {
 
 impl WorldPlace {
     /// Returns the position as JSON: `crs`, `origin`, `longitude`, `latitude`.
+    ///
+    /// ```
+    /// use burgeon_data::{Crs, ReferenceFrame};
+    ///
+    /// let frame = ReferenceFrame::around(&Crs::epsg(3067)?, [385_420.0, 6_671_480.0], "the town")?;
+    /// let place = frame.world_place().to_json();
+    /// assert_eq!((&place["crs"], &place["origin"][0]), (&"EPSG:3067".into(), &385_400.0.into()));
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn to_json(&self) -> Value {
         let mut place = json!({ "crs": self.crs, "origin": self.origin });
         if let Some([longitude, latitude]) = self.degrees {

@@ -16,6 +16,21 @@ use burgeon_base::stop::Stop;
 /// A symbolic link is kept, and its target is replaced by a file of the same mode and owner. A file that has other hard
 /// links, or an owner that this process cannot set, is overwritten in place. A target that is not a regular file, such
 /// as a pipe, receives its content after the other files have been written.
+///
+/// ```
+/// use burgeon_export::Files;
+/// use std::io::Write;
+///
+/// let folder = tempfile::tempdir()?;
+/// let (model, material) = (folder.path().join("town.obj"), folder.path().join("town.mtl"));
+/// let mut files = Files::default();
+/// files.write(&model, |out| out.write_all(b"mtllib town.mtl\n"))?;
+/// files.write(&material, |out| out.write_all(b"newmtl stone\n"))?;
+/// assert!(!model.exists() && !material.exists());
+/// files.publish()?;
+/// assert!(model.exists() && material.exists());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Default)]
 pub struct Files {
     stop: Arc<Stop>,

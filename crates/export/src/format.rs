@@ -60,6 +60,12 @@ impl Format {
     }
 
     /// Lists the extensions of all formats, with `word` before the last one: ".glb, .gltf and .obj".
+    ///
+    /// ```
+    /// use burgeon_export::Format;
+    ///
+    /// assert!(Format::extension_list("or").ends_with(".geojson or .gpkg"));
+    /// ```
     pub fn extension_list(word: &str) -> String {
         let [others @ .., last] = Self::ALL.map(|format| format!(".{}", format.extension()));
         format!("{} {word} {last}", others.join(", "))

@@ -51,6 +51,27 @@ use std::path::Path;
 ///
 /// `.gltf`, `.obj` and `.x3d` write additional files next to `path` whose names begin with its stem. On failure all
 /// files are as before. Fails as [`Files::scene`] does.
+///
+/// ```
+/// use burgeon_picture::Picture;
+/// use burgeon_scene::{Instance, Mesh, Scene};
+/// use glam::{DAffine3, Vec3};
+///
+/// # let (transform, name, feature) = (DAffine3::IDENTITY, String::from("tile"), None);
+/// # let instance = Instance { mesh: 0, transform, name, feature, origin: None, placement: None, meaning: None };
+/// let mut scene = Scene { instances: vec![instance], meshes: vec![Mesh::default()], ..Scene::default() };
+/// let material = scene.material(&Default::default());
+/// let part = scene.meshes[0].part(material);
+/// part.positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
+/// # (part.normals, part.uvs) = (vec![burgeon_scene::Normal::Z; 3], vec![glam::Vec2::ZERO; 3]);
+/// part.triangles.push([0, 1, 2]);
+/// let folder = tempfile::tempdir()?;
+/// burgeon_export::write(&scene, &folder.path().join("tile.obj"), &Picture::default())?;
+/// let text = std::fs::read_to_string(folder.path().join("tile.obj"))?;
+/// assert_eq!(text.lines().filter(|line| line.starts_with("v ")).count(), 3);
+/// assert!(folder.path().join("tile.mtl").exists());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write(scene: &Scene, path: &Path, picture: &Picture) -> Result<()> {
     let mut files = Files::default();
     files.scene(scene, path, picture)?;
@@ -103,6 +124,19 @@ impl Files {
 
 /// Writes one file completely or not at all. A target that is not a regular file, such as a pipe, receives the whole
 /// content at once.
+///
+/// ```
+/// use std::io::Write;
+///
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("report.txt");
+/// burgeon_export::write_file(&path, |out| out.write_all(b"done"))?;
+/// assert_eq!(std::fs::read_to_string(&path)?, "done");
+/// // A failure leaves the file as it was.
+/// burgeon_export::write_file(&path, |_| Err(std::io::Error::other("no data"))).expect_err("the content fails");
+/// assert_eq!(std::fs::read_to_string(&path)?, "done");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write_file(path: &Path, content: impl FnOnce(&mut Out) -> io::Result<()>) -> Result<()> {
     let mut files = Files::default();
     files.write(path, content)?;
@@ -113,6 +147,17 @@ pub fn write_file(path: &Path, content: impl FnOnce(&mut Out) -> io::Result<()>)
 /// behind.
 ///
 /// Fails if two paths are the same file, if a folder does not exist or is not writable, or if a path is a folder.
+///
+/// ```
+/// use burgeon_export::check_files;
+///
+/// let folder = tempfile::tempdir()?;
+/// let (model, picture) = (folder.path().join("town.glb"), folder.path().join("town.png"));
+/// assert!(check_files([&*model, &*picture]).is_ok() && !model.exists());
+/// assert!(check_files([&*model, &*model]).is_err());
+/// assert!(check_files([&*folder.path().join("missing/town.glb")]).is_err());
+/// # Ok::<(), std::io::Error>(())
+/// ```
 pub fn check_files<'a>(paths: impl IntoIterator<Item = &'a Path>) -> Result<()> {
     let mut files = Files::default();
     paths.into_iter().try_for_each(|path| files.write(path, |_| Ok(())))
@@ -136,6 +181,17 @@ fn uri(name: &str) -> String {
 }
 
 /// Renders `scene` as a PNG file. Fails as [`burgeon_picture::render`] does.
+///
+/// ```
+/// use burgeon_base::Stop;
+/// use burgeon_picture::{Picture, Quality};
+/// use burgeon_scene::{Scene, image};
+///
+/// let picture = Picture { width: 8, height: 6, quality: Quality::Draft, ..Picture::default() };
+/// let png = burgeon_export::png(&Scene::default(), &picture, &Stop::default())?;
+/// assert_eq!(image::decode(&png)?.height(), 6);
+/// # Ok::<(), burgeon_base::Error>(())
+/// ```
 pub fn png(scene: &Scene, picture: &Picture, stop: &Stop) -> Result<Vec<u8>> {
     burgeon_scene::image::encode(&render_within(scene, None, picture, stop)?)
 }

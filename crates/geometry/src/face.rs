@@ -12,6 +12,18 @@ use burgeon_scene::Part;
 /// Corners that are not coplanar keep their positions; the polygon is triangulated in the plane of its mean
 /// normal (Newell's method). Texture coordinates are metres within that plane. A polygon without area adds
 /// nothing. Fails if a corner is not finite or fewer than three corners are distinct.
+///
+/// ```
+/// use burgeon_geometry::{face, solid};
+/// use burgeon_scene::Part;
+/// use glam::{DVec3, Vec3};
+///
+/// let mut part = Part::default();
+/// face(&mut part, &[(0.0, 0.0), (3.0, 0.0), (3.0, 2.0), (0.0, 2.0)].map(|(x, y)| DVec3::new(x, y, 1.0)))?;
+/// assert_eq!((part.triangles.len(), solid::area([&part])), (2, 6.0));
+/// assert!(part.normals[0].vector().abs_diff_eq(Vec3::Z, 1e-4));
+/// # Ok::<(), burgeon_base::error::Error>(())
+/// ```
 pub fn face(part: &mut Part, corners: &[DVec3]) -> Result<()> {
     shaded_face(part, corners, CornerShading::default())
 }
@@ -88,6 +100,19 @@ pub fn shaded_face(part: &mut Part, corners: &[DVec3], shading: CornerShading<'_
 }
 
 /// Adds a closed sphere with `radius` (m) and `sides` faces around its axis, at least 3.
+///
+/// ```
+/// use burgeon_geometry::{solid, sphere};
+/// use burgeon_scene::Part;
+/// use glam::DVec3;
+///
+/// let mut ball = Part::default();
+/// sphere(&mut ball, DVec3::ZERO, 1.0, 32)?;
+/// assert!(solid::check([&ball]).is_solid());
+/// // Slightly less than 4π/3, because the faces are inside the sphere.
+/// assert!((4.0..4.19).contains(&solid::volume([&ball])));
+/// # Ok::<(), burgeon_base::error::Error>(())
+/// ```
 pub fn sphere(part: &mut Part, center: DVec3, radius: f64, sides: u32) -> Result<()> {
     if !radius.is_finite() || radius < 0.0 {
         return Err(Error::geometry(format!("the radius of a ball must be 0 or more, and is {radius}")));

@@ -7,6 +7,20 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 /// The axes are orthonormal and right-handed: `heading` x `left` = `up`, in the terms of *The Algorithmic
 /// Beauty of Plants*. Angles are in radians. As with `+`, `&` and `\` in that book, a positive turn goes to
 /// the left, a positive pitch goes down, and a positive roll lowers the left side.
+///
+/// ```
+/// use burgeon_geometry::Frame;
+/// use glam::DVec3;
+/// use std::f64::consts::FRAC_PI_2;
+///
+/// let mut frame = Frame::default();
+/// frame.forward(2.0);
+/// frame.turn(FRAC_PI_2);
+/// frame.forward(3.0);
+/// // A turn to the left of a frame that points upwards leads along -x.
+/// assert!(frame.position.abs_diff_eq(DVec3::new(-3.0, 0.0, 2.0), 1e-12));
+/// assert!(frame.heading.cross(frame.left).abs_diff_eq(frame.up, 1e-12));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
     /// Position (m).
@@ -114,6 +128,15 @@ impl Frame {
     /// opposite to `up`, z is along the heading.
     ///
     /// For the default frame it is the identity.
+    ///
+    /// ```
+    /// use burgeon_geometry::Frame;
+    /// use glam::{DAffine3, DVec3};
+    ///
+    /// assert_eq!(Frame::default().transform(), DAffine3::IDENTITY);
+    /// let moved = Frame { position: DVec3::new(4.0, 5.0, 6.0), ..Frame::default() };
+    /// assert_eq!(moved.transform().transform_point3(DVec3::X), DVec3::new(5.0, 5.0, 6.0));
+    /// ```
     pub fn transform(&self) -> DAffine3 {
         DAffine3::from_mat3_translation(DMat3::from_cols(-self.left, -self.up, self.heading), self.position)
     }

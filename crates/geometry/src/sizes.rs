@@ -17,6 +17,17 @@ const MOST_SUMS: usize = 1 << 22;
 ///
 /// A row of 1 m windows can be 1, 2 or 3 m wide but nothing in between, so a minimum and a maximum are not
 /// sufficient.
+///
+/// ```
+/// use burgeon_geometry::Sizes;
+///
+/// let windows = Sizes::between(1.0, 1.25).times(1..=3)?;
+/// assert!(windows.contains(2.5) && !windows.contains(1.5));
+/// assert_eq!((windows.low(), windows.high(), windows.nearest(1.5)), (1.0, 3.75, 1.25));
+/// let with_door = windows.plus(&Sizes::between(2.0, 2.0))?;
+/// assert_eq!(with_door.low(), 3.0);
+/// # Ok::<(), burgeon_base::error::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sizes(SmallVec<[[f64; 2]; 2]>);
 
@@ -174,6 +185,18 @@ impl Split {
     ///
     /// Each part begins with its preferred length or its minimum length. The difference to `whole` is
     /// distributed evenly, lower orders first, as far as the sizes allow.
+    ///
+    /// ```
+    /// use burgeon_geometry::{Share, Sizes, Split};
+    ///
+    /// let door = Share { sizes: Sizes::between(1.0, 1.0), target: None, order: 0 };
+    /// let wall = Share { sizes: Sizes::between(0.5, 10.0), target: Some(2.0), order: 0 };
+    /// let split = Split::new(vec![wall.clone(), door, wall])?;
+    /// assert_eq!(split.divide(7.0).as_deref(), Some(&[3.0, 1.0, 3.0][..]));
+    /// // The walls are at least half a metre long.
+    /// assert_eq!(split.divide(1.5), None);
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn divide(&self, whole: f64) -> Option<SmallVec<[f64; 8]>> {
         if !self.sizes().contains(whole) {
             return None;

@@ -35,6 +35,21 @@ impl SolidCheck {
 ///
 /// Corners are welded if their positions are equal to the last bit; -0 equals 0. An edge that several sheets
 /// share is valid if the same number of triangles runs along it in both directions.
+///
+/// ```
+/// use burgeon_geometry::{SweepOptions, Section, Segment, solid, sweep};
+/// use burgeon_scene::Part;
+///
+/// let mut path = Vec::new();
+/// Segment::default().stations(Default::default(), &mut path)?;
+/// let mut cup = Part::default();
+/// let options = SweepOptions { end_cap: false, ..SweepOptions::default() };
+/// sweep(&mut cup, &Section::rectangle(1.0, 1.0)?, &path, &options)?;
+/// let report = solid::check([&cup]);
+/// assert!(!report.is_closed());
+/// assert_eq!(report.open.len(), 4);
+/// # Ok::<(), burgeon_base::error::Error>(())
+/// ```
 pub fn check<'a>(parts: impl IntoIterator<Item = &'a Part>) -> SolidCheck {
     let mut found = SolidCheck::default();
     let mut points: Vec<Vec3> = Vec::new();
@@ -112,6 +127,19 @@ impl Clashes {
 /// Finds self-intersections of more than `slack` (m) of the surface that `parts` form together.
 ///
 /// Compares all triangles with intersecting bounding boxes in a sweep along x; not for large meshes.
+///
+/// ```
+/// use burgeon_geometry::{solid, tube};
+/// use burgeon_scene::Part;
+/// use glam::DVec3;
+///
+/// let mut cross = Part::default();
+/// tube(&mut cross, 4, (DVec3::NEG_X, 0.1), (DVec3::X, 0.1))?;
+/// assert!(solid::clashes([&cross], 1e-4).is_empty());
+/// tube(&mut cross, 4, (DVec3::NEG_Y, 0.1), (DVec3::Y, 0.1))?;
+/// assert!(!solid::clashes([&cross], 1e-4).through.is_empty());
+/// # Ok::<(), burgeon_base::error::Error>(())
+/// ```
 pub fn clashes<'a>(parts: impl IntoIterator<Item = &'a Part>, slack: f64) -> Clashes {
     let all: Vec<[DVec3; 3]> = parts.into_iter().flat_map(triangles).collect();
     let mut found = Clashes::default();

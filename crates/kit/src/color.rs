@@ -3,6 +3,15 @@
 use super::{Expectation, Parameter, Value, colors};
 
 /// A linear colour with opacity; scripts give it as sRGB.
+///
+/// ```
+/// use burgeon_kit::{Color, Parameter, Value};
+///
+/// let named = Color::from_value(Value::Text("orange".into())).map_err(|_| "a colour").expect("a colour");
+/// assert_eq!(named.into_value(), Value::Text("#ffa500".into()));
+/// assert_eq!(named, Color::of_bytes([255, 165, 0, 255]));
+/// assert!(Color::from_value(Value::Text("#ff".into())).is_err());
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Color(pub [f32; 4]);
 

@@ -6,6 +6,16 @@ use burgeon_rewriting::ModuleKey;
 /// Seed of random numbers: 64 bits, as a number or a string.
 ///
 /// A string of 16 hexadecimal digits, as other objects return it, is used as these bits. Any other string is hashed.
+///
+/// ```
+/// use burgeon_kit::{Parameter, Seed, Value};
+///
+/// let read = |value| Seed::from_value(value).ok();
+/// assert_eq!(read(Value::Number(12.0)), Some(Seed(12)));
+/// assert_eq!(read(Value::Text("00000000000000ff".into())), Some(Seed(255)));
+/// assert_ne!(read(Value::Text("oak".into())), read(Value::Text("elm".into())));
+/// assert_eq!(read(Value::Number(0.5)), None);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Seed(pub u64);
 

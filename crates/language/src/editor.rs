@@ -42,6 +42,16 @@ pub fn editor_files(registry: &Registry) -> Vec<EditorFile> {
 ///
 /// `there` is the content of the file, if it exists. Fails with a message if it is not valid JSON with optional
 /// comments.
+///
+/// ```
+/// use burgeon_language::merged_settings;
+///
+/// let old = "{\n  // Two spaces.\n  \"editor.tabSize\": 2\n}\n";
+/// let merged = merged_settings(Some(old))?.expect("the file associations are missing");
+/// assert!(merged.contains("// Two spaces.") && merged.contains("luau-lsp"));
+/// assert_eq!(merged_settings(Some(&merged))?, None);
+/// # Ok::<(), String>(())
+/// ```
 pub fn merged_settings(there: Option<&str>) -> Result<Option<String>, String> {
     merge(there, &settings())
 }

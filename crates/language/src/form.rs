@@ -24,6 +24,15 @@ impl CallForm {
 
     /// Parses a function type in Luau syntax: `(a: number, b: number?) -> number`. `None` if the text is not a function
     /// type.
+    ///
+    /// ```
+    /// use burgeon_language::CallForm;
+    ///
+    /// let form = CallForm::read("(text: string, width: number?) -> string").expect("a function type");
+    /// assert_eq!((form.least(), form.most(), &*form.returns), (1, Some(2), "string"));
+    /// assert_eq!(form.argument(1).map(|argument| &*argument.name), Some("width"));
+    /// assert!(CallForm::read("number").is_none());
+    /// ```
     pub fn read(text: &str) -> Option<Self> {
         let inner = text.trim().strip_prefix('(')?;
         let end = closing(inner)?;

@@ -52,6 +52,15 @@ impl LuauType {
 
     /// Returns true if `literal` can be a value of this type. `known` resolves a named type: an object type resolves to
     /// itself. An unknown name resolves to `None` and accepts any value.
+    ///
+    /// ```
+    /// use burgeon_language::{Literal, LuauType};
+    ///
+    /// let side = LuauType::read("number | \"left\" | \"right\"");
+    /// let accepts = |literal| side.accepts(&literal, &|_| None);
+    /// assert!(accepts(Literal::Number) && accepts(Literal::Text("left".into())));
+    /// assert!(!accepts(Literal::Text("top".into())) && !accepts(Literal::Nil));
+    /// ```
     pub fn accepts(&self, literal: &Literal, known: &dyn Fn(&str) -> Option<Self>) -> bool {
         match self {
             Self::Any => true,
@@ -75,6 +84,14 @@ impl LuauType {
     }
 
     /// Returns the type of the items, if the type is a list or a union with a list.
+    ///
+    /// ```
+    /// use burgeon_language::LuauType;
+    ///
+    /// let places = LuauType::read("{ { x: number, y: number } }?");
+    /// let fields = places.item().and_then(LuauType::fields).expect("a list of tables");
+    /// assert_eq!(fields[1], ("y".into(), LuauType::Named("number".into())));
+    /// ```
     pub fn item(&self) -> Option<&Self> {
         match self {
             Self::List(item) => Some(item),

@@ -91,6 +91,22 @@ impl Presets {
     ///
     /// The file is written completely or not at all. Fails as [`read`](Self::read) does, if the name is invalid, or if
     /// the file cannot be written.
+    ///
+    /// ```
+    /// use burgeon_engine::script::{Preset, Setting};
+    /// use burgeon_live::presets::Presets;
+    ///
+    /// # let folder = std::env::temp_dir().join(format!("burgeon-presets-{}", std::process::id()));
+    /// # std::fs::create_dir_all(&folder)?;
+    /// let script = folder.join("tower.lua");
+    /// let params = vec![("floors".to_owned(), Setting::Number(60.0))];
+    /// Presets::save(&script, Preset { name: "tall".into(), seed: Some(7), params, ..Preset::default() })?;
+    /// assert!(folder.join("tower.presets.json").exists());
+    /// assert_eq!(Presets::read(&script)?.get("tall")?.seed, Some(7));
+    /// assert!(Presets::read(&script)?.get("small").is_err());
+    /// # std::fs::remove_dir_all(&folder)?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn save(script: &Path, preset: Preset) -> Result<Self> {
         check_name(&preset.name)?;
         let mut presets = Self::read(script)?;
@@ -178,6 +194,13 @@ fn value(setting: &Setting) -> Value {
 
 /// Fails unless a name has 1 to 80 characters, no spaces at its ends, and no control or bidirectional control
 /// characters.
+///
+/// ```
+/// use burgeon_live::presets::check_name;
+///
+/// assert!(check_name("tall & thin").is_ok());
+/// assert!(check_name("").is_err() && check_name(" tall").is_err() && check_name("two\nlines").is_err());
+/// ```
 pub fn check_name(name: &str) -> Result<()> {
     let fits = name.trim() == name && !name.is_empty() && name.chars().count() <= LONGEST;
     if fits && !name.chars().any(char::is_control) && !has_bidi_controls(name) {

@@ -94,6 +94,20 @@ impl Elevation {
     }
 
     /// Returns the ground height (m) at `place` (m), or `None` outside the file's bounds.
+    ///
+    /// ```
+    /// use burgeon_data::elevation::{Raster, Relief, SampleGrid};
+    /// use burgeon_objects::Elevation;
+    /// use glam::DVec2;
+    /// use std::sync::Arc;
+    ///
+    /// let grid = SampleGrid { first: [0.0, 10.0], step: [10.0, 10.0] };
+    /// let raster = Raster::new("slope", [2, 2], vec![1.0, 3.0, 1.0, 3.0], grid, None);
+    /// let elevation = Elevation::new(Arc::new(Relief::new(Arc::new(raster), &mut None)?));
+    /// assert_eq!(elevation.height_at(DVec2::new(10.0, 0.0)), Some(3.0));
+    /// assert_eq!(elevation.height_at(DVec2::new(500.0, 0.0)), None);
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn height_at(&self, place: DVec2) -> Option<f64> {
         self.relief.height(place)
     }

@@ -39,6 +39,19 @@ use burgeon_kit::Registry;
 use burgeon_spatial::GeometryObject;
 
 /// Returns the registry of the object types that Burgeon provides.
+///
+/// ```
+/// use burgeon_kit::{Table, TableKey, Value};
+///
+/// let registry = burgeon_objects::registry();
+/// let extruder = registry.get("extruder").expect("a type of Burgeon");
+/// let sides = Table { class: None, entries: vec![(TableKey::Name("sides".into()), Value::Number(6.0))] };
+/// assert_eq!(extruder.make(&sides)?.kind().name, "extruder");
+/// let misspelt = Table { class: None, entries: vec![(TableKey::Name("sidse".into()), Value::Number(6.0))] };
+/// let error = extruder.make(&misspelt).err().expect("an unknown field");
+/// assert_eq!(error.remedy(), Some("did you mean sides?"));
+/// # Ok::<(), burgeon_base::Error>(())
+/// ```
 pub fn registry() -> Registry {
     let model = Arc::new(import::kind());
     let own = [

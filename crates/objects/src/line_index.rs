@@ -75,6 +75,19 @@ impl LineIndex {
     }
 
     /// Creates the index of `lines` (m).
+    ///
+    /// ```
+    /// use burgeon_geometry::Line;
+    /// use burgeon_kit::Vector;
+    /// use burgeon_objects::LineIndex;
+    /// use glam::DVec3;
+    ///
+    /// let street = Line::new(vec![DVec3::ZERO, DVec3::new(100.0, 0.0, 0.0)])?;
+    /// let streets = LineIndex::of_lines(&[street]);
+    /// assert_eq!(streets.distance(Vector(DVec3::new(40.0, 7.0, 0.0))), 7.0);
+    /// assert_eq!(LineIndex::of_lines(&[]).distance(Vector(DVec3::ZERO)), f64::INFINITY);
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn of_lines(lines: &[Line<DVec3>]) -> Self {
         let pieces = lines.iter().flat_map(Line::edges).filter_map(|edge| {
             let [from, to] = edge.map(DVec3::truncate);

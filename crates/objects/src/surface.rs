@@ -61,6 +61,16 @@ impl Parameter for MaterialOptions {
 
 impl MaterialOptions {
     /// Creates the material for the scene. Fails if a factor is out of range or the texture size is invalid.
+    ///
+    /// ```
+    /// use burgeon_kit::Color;
+    /// use burgeon_objects::MaterialOptions;
+    ///
+    /// let brick = MaterialOptions { color: Some(Color::of_bytes([255, 0, 0, 255])), ..MaterialOptions::default() };
+    /// assert_eq!(brick.material()?.base_color, [1.0, 0.0, 0.0, 1.0]);
+    /// assert!(MaterialOptions { roughness: 2.0, ..brick }.material().is_err());
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn material(&self) -> Result<Material> {
         for (name, factor) in [("metallic", self.metallic), ("roughness", self.roughness)] {
             if !(0.0..=1.0).contains(&factor) {

@@ -53,6 +53,22 @@ pub struct TurtleOptions {
 }
 
 /// A turtle as in The Algorithmic Beauty of Plants, which draws round branches in three dimensions.
+///
+/// ```
+/// use burgeon_kit::Object;
+/// use burgeon_objects::Turtle;
+/// use glam::DVec3;
+///
+/// let mut turtle = Turtle::new(Default::default())?;
+/// turtle.forward(Some(2.0))?;
+/// turtle.push();
+/// turtle.turn(Some(90.0));
+/// turtle.forward(None)?;
+/// assert!(turtle.position().abs_diff_eq(DVec3::new(-1.0, 0.0, 2.0), 1e-9));
+/// turtle.pop()?;
+/// assert_eq!(turtle.position(), DVec3::new(0.0, 0.0, 2.0));
+/// # Ok::<(), burgeon_base::Error>(())
+/// ```
 #[object(
     "turtle",
     options = TurtleOptions,

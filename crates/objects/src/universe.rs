@@ -19,6 +19,19 @@ pub struct UniverseOptions {
 }
 
 /// Galaxies, stars and planets, generated on demand from the seed. The same position always gives the same result.
+///
+/// ```
+/// use burgeon_kit::{Parameter, Value};
+/// use burgeon_objects::Universe;
+///
+/// let universe = Universe::new(&Default::default());
+/// let galaxy = universe.galaxy(0.0, 0.0, 0.0)?;
+/// assert_eq!(galaxy, universe.galaxy(0.0, 0.0, 0.0)?);
+/// assert_ne!(galaxy, universe.galaxy(1.0, 0.0, 0.0)?);
+/// let Value::Table(galaxy) = galaxy else { unreachable!("a galaxy is a table") };
+/// assert!(galaxy.get("stars").is_some_and(|stars| matches!(stars, Value::Number(count) if *count > 1e6)));
+/// # Ok::<(), burgeon_base::Error>(())
+/// ```
 #[object(
     "universe",
     options = UniverseOptions,

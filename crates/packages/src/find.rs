@@ -32,6 +32,20 @@ impl Packages {
     /// Finds the packages in the folders of `search`, for scripts with version `api` of the script API.
     ///
     /// Only each `mod.toml` is read. Errors in a package are stored with it until a script uses it.
+    ///
+    /// ```
+    /// use burgeon_packages::{PackageSearch, Packages, Version};
+    ///
+    /// let folder = tempfile::tempdir()?;
+    /// let castle = folder.path().join("mods/castle");
+    /// std::fs::create_dir_all(&castle)?;
+    /// std::fs::write(castle.join("mod.toml"), "name = \"castle\"\nversion = \"1.2.0\"\napi = \"1.0\"\n")?;
+    /// let search = PackageSearch { script: Some(folder.path().into()), ..PackageSearch::default() };
+    /// let packages = Packages::find(&search, &Version::new(1, 0, 0));
+    /// assert_eq!(packages.get("castle").map(|package| package.manifest.version.clone()), Some(Version::new(1, 2, 0)));
+    /// assert!(packages.get("masonry").is_none());
+    /// # Ok::<(), std::io::Error>(())
+    /// ```
     pub fn find(search: &PackageSearch, api: &Version) -> Self {
         let mut found = Self::default();
         if let Some(script) = &search.script {

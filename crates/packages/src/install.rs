@@ -37,6 +37,19 @@ pub struct Installation {
 ///
 /// `check` receives the manifest before the package is moved to its final folder, and may reject it. A folder that is
 /// not a package of this name is never replaced, nor is a link or a checkout.
+///
+/// ```
+/// use burgeon_packages::install;
+///
+/// let folder = tempfile::tempdir()?;
+/// let (from, into) = (folder.path().join("download"), folder.path().join("mods"));
+/// std::fs::create_dir(&from)?;
+/// std::fs::write(from.join("mod.toml"), "name = \"castle\"\nversion = \"1.2.0\"\napi = \"1.0\"\n")?;
+/// let installation = install(&from, &into, false, |_| Ok(()))?;
+/// assert_eq!((installation.files, installation.folder.ends_with("mods/castle")), (1, true));
+/// assert!(install(&from, &into, false, |_| Ok(())).is_err(), "it is already installed");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn install(
     from: &Path,
     into: &Path,

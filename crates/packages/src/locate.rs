@@ -31,6 +31,22 @@ impl Packages {
     /// If other packages replace the file, the replacement of the last package in order is returned. A package that
     /// replaces a file can still refer by name to the file that it replaces. `seek` is called for each path that
     /// affects the result, with a flag that is set if the file exists.
+    ///
+    /// ```
+    /// use burgeon_packages::{FileName, PackageSearch, Packages, Version};
+    ///
+    /// let folder = tempfile::tempdir()?;
+    /// let castle = folder.path().join("mods/castle");
+    /// std::fs::create_dir_all(&castle)?;
+    /// std::fs::write(castle.join("mod.toml"), "name = \"castle\"\nversion = \"1.2.0\"\napi = \"1.0\"\n")?;
+    /// std::fs::write(castle.join("towers.lua"), "return {}")?;
+    /// let search = PackageSearch { script: Some(folder.path().into()), ..PackageSearch::default() };
+    /// let packages = Packages::find(&search, &Version::new(1, 0, 0));
+    /// let mut locate = |name| packages.locate("script", &FileName::script(name)?, None, &mut |_, _| {});
+    /// assert!(locate("@castle/towers")?.path.ends_with("mods/castle/towers.lua"));
+    /// assert!(locate("@castle/walls").is_err());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn locate(
         &self,
         what: &'static str,

@@ -119,6 +119,18 @@ impl Manifest {
     }
 
     /// Parses `text`, the content of the file with the displayed path `file`.
+    ///
+    /// ```
+    /// use burgeon_packages::Manifest;
+    ///
+    /// let text = "name = \"castle\"\nversion = \"1.2.0\"\napi = \"1.0\"\n[depends]\nmasonry = \"1.1\"\n";
+    /// let castle = Manifest::parse(text, "castle/mod.toml")?;
+    /// assert_eq!((castle.version.minor, &*castle.depends[0].name), (2, "masonry"));
+    /// assert!(castle.may_use("masonry") && !castle.may_use("ruins"));
+    /// let error = Manifest::parse("name = \"castle\"\nversoin = \"1.0.0\"", "mod.toml").expect_err("a wrong field");
+    /// assert_eq!((error.remedy(), error.place().map(|place| place.line)), (Some("did you mean version?"), Some(2)));
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn parse(text: &str, file: &str) -> Result<Self> {
         let file = ManifestFile { text, name: file };
         let table = DeTable::parse(text).map_err(|error| {

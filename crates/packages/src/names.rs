@@ -10,6 +10,12 @@ pub(super) const LONGEST: usize = 40;
 
 /// Returns true if `name` is a valid package name: a lower-case letter, followed by lower-case letters, digits, `_` and
 /// `-`.
+///
+/// ```
+/// use burgeon_packages::is_name;
+///
+/// assert!(is_name("old-castle_2") && !is_name("Castle") && !is_name("2castles"));
+/// ```
 pub fn is_name(name: &str) -> bool {
     let mut letters = name.chars();
     letters.next().is_some_and(|first| first.is_ascii_lowercase())
@@ -66,6 +72,15 @@ impl FileName {
 
     /// Parses `@castle/towers`, without an extension, as the name of a script: `towers.lua` of that package, or
     /// `init.lua` if the name is only the package.
+    ///
+    /// ```
+    /// use burgeon_packages::FileName;
+    ///
+    /// assert_eq!(FileName::script("@castle/towers")?.to_string(), "@castle/towers.lua");
+    /// assert_eq!(FileName::script("@castle")?.path, "init.lua");
+    /// assert!(FileName::script("@castle/../secret").is_err());
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn script(name: &str) -> Result<Self> {
         let Self { package, path } = Self::parse(name)?;
         let path = if path.is_empty() { "init.lua".to_owned() } else { format!("{path}.lua") };

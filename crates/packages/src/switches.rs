@@ -20,6 +20,18 @@ const LARGEST: u64 = 1_000_000;
 ///
 /// Other lines of the file are unchanged. The file is deleted together with its last name. Fails if the file cannot be
 /// read or written.
+///
+/// ```
+/// use burgeon_packages::switch;
+///
+/// let folder = tempfile::tempdir()?;
+/// let (file, changed) = switch(folder.path(), "castle", false)?;
+/// assert_eq!((changed, std::fs::read_to_string(&file)?), (true, "castle\n".to_owned()));
+/// assert!(!switch(folder.path(), "castle", false)?.1);
+/// switch(folder.path(), "castle", true)?;
+/// assert!(!file.exists());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn switch(script: &Path, name: &str, on: bool) -> Result<(PathBuf, bool)> {
     let folder = script.join(BESIDE);
     let file = folder.join(SWITCHES);

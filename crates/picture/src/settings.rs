@@ -4,6 +4,16 @@ use burgeon_base::error::{Error, Result};
 use serde::Deserialize;
 
 /// Settings of a render.
+///
+/// ```
+/// use burgeon_picture::{Background, Picture};
+///
+/// let json = r#"{ "width": 640, "azimuth": 45, "background": "clear", "quality": "draft" }"#;
+/// let picture: Picture = serde_json::from_str(json)?;
+/// assert_eq!((picture.width, picture.height, picture.background), (640, 960, Background::Clear));
+/// assert!(serde_json::from_str::<Picture>(r#"{ "widht": 640 }"#).is_err());
+/// # Ok::<(), serde_json::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Picture {
@@ -83,6 +93,14 @@ impl Picture {
     pub const LARGEST: u32 = 16384;
 
     /// Fails if the size or an angle is invalid.
+    ///
+    /// ```
+    /// use burgeon_picture::Picture;
+    ///
+    /// assert!(Picture::default().check().is_ok());
+    /// assert!(Picture { width: 0, ..Picture::default() }.check().is_err());
+    /// assert!(Picture { elevation: Some(100.0), ..Picture::default() }.check().is_err());
+    /// ```
     pub fn check(&self) -> Result<()> {
         let fits = |size: u32| (1..=Self::LARGEST).contains(&size);
         if !fits(self.width) || !fits(self.height) {

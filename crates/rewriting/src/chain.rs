@@ -15,6 +15,18 @@ pub const END: Symbol = 2;
 pub const DEEPEST: usize = 200;
 
 /// Chains of a system, in columns. Each chain ends with [`END`]; brackets balance within it.
+///
+/// ```
+/// use burgeon_rewriting::{Chain, END, FIRST_SYMBOL};
+///
+/// // Two chains of modules without parameters.
+/// let (a, b) = (FIRST_SYMBOL, FIRST_SYMBOL + 1);
+/// let chain = Chain { symbols: vec![a, b, END, b, END], ..Chain::default() };
+/// let arities = vec![0; usize::from(b) + 1];
+/// assert_eq!((chain.modules(), chain.starts(&arities).len()), (3, 3));
+/// assert_eq!(chain.single_chain(1, &arities).symbols, [b, END]);
+/// assert_eq!(chain.without_chains(&[1], &arities).symbols, [a, b, END]);
+/// ```
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Chain {
     /// Symbols of all modules, brackets and ends.

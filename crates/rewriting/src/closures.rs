@@ -180,11 +180,37 @@ impl ClosureSystem {
     }
 
     /// Makes contexts skip modules with these symbols.
+    ///
+    /// ```
+    /// use burgeon_rewriting::ClosureSystem;
+    ///
+    /// let mut system = ClosureSystem::new(0);
+    /// let (a, b, c) = (system.module("A", &[])?, system.module("B", &[])?, system.module("C", &[])?);
+    /// system.rule("A < B", move |_, out| out.push(a, &[]))?;
+    /// let chain = || system.chain(|out| [a, c, b].into_iter().for_each(|symbol| out.push(symbol, &[])));
+    /// assert_eq!(system.text(&system.derive(chain()?, 1)?), "A C B\n");
+    /// let chain = chain()?;
+    /// system.ignore(&[c]);
+    /// assert_eq!(system.text(&system.derive(chain, 1)?), "A C A\n");
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn ignore(&mut self, symbols: &[Symbol]) {
         self.ignored.extend_from_slice(symbols);
     }
 
     /// Sets the maximum number of modules and brackets of a chain; 100 million by default.
+    ///
+    /// ```
+    /// use burgeon_rewriting::ClosureSystem;
+    ///
+    /// let mut system = ClosureSystem::new(0);
+    /// let a = system.module("A", &[])?;
+    /// system.rule("A", move |_, out| (0..2).for_each(|_| out.push(a, &[])))?;
+    /// system.limit(1000);
+    /// let error = system.derive(system.chain(|out| out.push(a, &[]))?, 50).expect_err("2^50 modules");
+    /// assert_eq!(error.kind().code(), "limit.modules");
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn limit(&mut self, modules: usize) {
         self.limit = modules;
     }

@@ -4,6 +4,16 @@
 ///
 /// The upper 16 bits of such a NaN are `0xFFFC`, which no arithmetic produces; the next 16 bits are the type, the lower
 /// 32 the value.
+///
+/// ```
+/// use burgeon_rewriting::ColumnValue;
+///
+/// assert_eq!(ColumnValue::Number(2.5).pack(), 2.5);
+/// for value in [ColumnValue::Nil, ColumnValue::Boolean(true), ColumnValue::Handle(7)] {
+///     assert!(value.pack().is_nan());
+///     assert_eq!(ColumnValue::unpack(value.pack()), value);
+/// }
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ColumnValue {
     /// A number.

@@ -6,6 +6,17 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use burgeon_base::error::{Error, Result};
 
 /// Failures of the chains of a system. A failed chain is not processed further.
+///
+/// ```
+/// use burgeon_base::Error;
+/// use burgeon_rewriting::FailedChains;
+///
+/// let failed = FailedChains::new(3, true);
+/// failed.forgive(1, Error::geometry("the outline has no area").of_data())?;
+/// assert_eq!((failed.list(), failed.contains(0)), (vec![1], false));
+/// assert!(failed.forgive(2, Error::script("a rule is wrong")).is_err());
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Debug, Default)]
 pub struct FailedChains {
     failures: Vec<OnceLock<Error>>,

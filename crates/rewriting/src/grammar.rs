@@ -145,6 +145,20 @@ impl Grammar {
     }
 
     /// Returns the method of choosing the rule for a module with this symbol.
+    ///
+    /// ```
+    /// use burgeon_rewriting::{Choice, Grammar, Pattern, Rule, Signature, Symbols};
+    /// use std::sync::Arc;
+    ///
+    /// let mut symbols = Symbols::default();
+    /// let a = symbols.declare(Signature::new("A", &[])?)?;
+    /// let b = symbols.declare(Signature::new("B", &[])?)?;
+    /// let patterns = [Pattern::parse("A", &symbols)?, Pattern::parse("A < B", &symbols)?];
+    /// let rules = patterns.map(|pattern| Rule::new(pattern, None, false, None)).to_vec();
+    /// let grammar = Grammar::new(Arc::new(symbols), rules, &[], false);
+    /// assert_eq!((grammar.choice(a), grammar.choice(b)), (Choice::Sole(0), Choice::Contexts));
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     #[inline]
     pub fn choice(&self, symbol: Symbol) -> Choice {
         self.choices[usize::from(symbol)]

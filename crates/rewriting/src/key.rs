@@ -6,6 +6,16 @@ use burgeon_base::random::Stream;
 ///
 /// A child's key depends on its parent's key and its index among the successors. A module therefore keeps its random
 /// numbers when other parts of the chain change.
+///
+/// ```
+/// use burgeon_rewriting::ModuleKey;
+///
+/// let house = ModuleKey::seed(1).feature("house 12");
+/// // The random numbers of a house do not depend on the other houses.
+/// assert_eq!(house, ModuleKey::seed(1).feature("house 12"));
+/// assert_ne!(house, ModuleKey::seed(2).feature("house 12"));
+/// assert_ne!(house.child(0).stream().uniform(), house.child(1).stream().uniform());
+/// ```
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
 pub struct ModuleKey(pub u64);
 

@@ -69,6 +69,17 @@ impl Pattern {
 
     /// Returns the names of the arguments of a rule's functions, without `this`, each with its index. These are the
     /// formal parameters, and the declared parameters of the predecessor whose names no formal parameter has.
+    ///
+    /// ```
+    /// use burgeon_rewriting::{Pattern, Signature, Symbols};
+    ///
+    /// let mut symbols = Symbols::default();
+    /// symbols.declare(Signature::new("Stem", &["length".into(), "age".into()])?)?;
+    /// let pattern = Pattern::parse("Stem(l, a) > Stem(next, old)", &symbols)?;
+    /// let names: Vec<_> = pattern.arguments(&symbols).into_iter().map(|(_, name)| name).collect();
+    /// assert_eq!(names, ["l", "a", "next", "old", "length", "age"]);
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn arguments<'a>(&'a self, symbols: &'a Symbols) -> Vec<(usize, &'a str)> {
         let formals = self.formals.iter().map(String::as_str);
         let own: usize = self.left.iter().map(|item| item.bound).sum();

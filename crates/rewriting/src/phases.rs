@@ -49,6 +49,27 @@ pub struct DerivedChain {
 
 /// Runs the phases of a derivation, from a chain after `begin` steps up to `end` steps, or until a phase of a step has
 /// settled.
+///
+/// ```
+/// use burgeon_base::Result;
+/// use burgeon_rewriting::{Chain, Phase, PhaseOutcome, Phases, derive};
+/// use std::sync::Arc;
+///
+/// /// Counts steps, and settles in the third.
+/// struct Count;
+/// impl Phase<usize> for Count {
+///     fn run(&self, count: &mut usize, chain: Arc<Chain>, step: usize) -> Result<PhaseOutcome> {
+///         *count += 1;
+///         Ok(PhaseOutcome { chain, settled: step == 3 })
+///     }
+/// }
+///
+/// let phases = Phases { first: vec![], each: vec![Box::new(Count)], last: vec![Box::new(Count)] };
+/// let mut count = 0;
+/// let derived = derive(&phases, &mut count, Arc::default(), 0, 10)?;
+/// assert_eq!((derived.steps, count), (2, 4));
+/// # Ok::<(), burgeon_base::Error>(())
+/// ```
 pub fn derive<S>(
     phases: &Phases<'_, S>,
     state: &mut S,

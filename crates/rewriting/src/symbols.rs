@@ -45,6 +45,15 @@ pub struct Signature {
 impl Signature {
     /// Creates a signature. A parameter whose name ends with `?` is optional, and so are all parameters after it. Fails
     /// if a name is invalid or repeated, or if there are too many parameters.
+    ///
+    /// ```
+    /// use burgeon_rewriting::Signature;
+    ///
+    /// let floor = Signature::new("Floor", &["width".into(), "color?".into()])?;
+    /// assert_eq!((floor.arity(), floor.required), (2, 1));
+    /// assert!(Signature::new("Floor", &["width".into(), "width".into()]).is_err());
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn new(name: &str, parameters: &[String]) -> Result<Self> {
         if !is_name(name) {
             return Err(Error::argument(format!("{name:?} cannot be a module's name"))
@@ -130,6 +139,17 @@ pub struct NameScope {
 ///
 /// Declarations of packages are separate: modules of two packages, or of a package and the script, can have the same
 /// name.
+///
+/// ```
+/// use burgeon_rewriting::{Signature, Symbols};
+///
+/// let mut symbols = Symbols::default();
+/// let own = symbols.declare(Signature::new("Stone", &[])?)?;
+/// let castle = symbols.declare_in(Signature::new("Stone", &["size".into()])?, Some("castle"))?;
+/// assert_eq!((symbols.display_name(own), symbols.display_name(castle)), ("Stone", "castle.Stone"));
+/// assert_eq!((symbols.find("Stone")?, symbols.find("castle.Stone")?), (own, castle));
+/// # Ok::<(), burgeon_base::Error>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Symbols {
     /// Signatures of placeholders, then of declared modules.

@@ -28,6 +28,26 @@ use rayon::prelude::*;
 /// Result of a run, in an order that depends only on the scripts, inputs and seed.
 ///
 /// Coordinates are in metres, z up, right-handed.
+///
+/// ```
+/// use burgeon_scene::{Instance, Mesh, Scene};
+/// use glam::{DAffine3, DVec3, Vec3};
+///
+/// let mut scene = Scene::default();
+/// let mut mesh = Mesh::default();
+/// let part = mesh.part(scene.material(&Default::default()));
+/// part.positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
+/// part.triangles.push([0, 1, 2]);
+/// scene.meshes.push(mesh);
+/// for x in [0.0, 10.0] {
+///     let transform = DAffine3::from_translation(DVec3::new(x, 0.0, 0.0));
+///     let (name, feature, origin) = (String::from("tile"), None, None);
+///     let instance = Instance { mesh: 0, transform, name, feature, origin, placement: None, meaning: None };
+///     scene.instances.push(instance);
+/// }
+/// assert_eq!(scene.triangles(), 2);
+/// assert_eq!(scene.bounds(), Some((DVec3::ZERO, DVec3::new(11.0, 1.0, 0.0))));
+/// ```
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Scene {
     /// Materials without duplicates, in the order of their first use.
@@ -88,6 +108,16 @@ pub struct Origin {
 
 impl Scene {
     /// Returns the index of `material`, adding it if it is new.
+    ///
+    /// ```
+    /// use burgeon_scene::{Material, Scene};
+    ///
+    /// let mut scene = Scene::default();
+    /// let plaster = Material::default();
+    /// let glass = Material { roughness: 0.1, ..Material::default() };
+    /// assert_eq!([&plaster, &glass, &plaster].map(|material| scene.material(material)), [0, 1, 0]);
+    /// assert_eq!(scene.materials.len(), 2);
+    /// ```
     pub fn material(&mut self, material: &Material) -> usize {
         // Comparing the colour first distinguishes most materials quickly.
         let same = |known: &Material| known.base_color == material.base_color && known == material;

@@ -60,6 +60,18 @@ impl Part {
 
 impl Part {
     /// Returns a part with the triangles in these consecutive ranges and the vertices that they use.
+    ///
+    /// ```
+    /// use burgeon_scene::{Normal, Part};
+    /// use glam::{Vec2, Vec3};
+    ///
+    /// let mut part = Part { positions: [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::NEG_Y].to_vec(), ..Part::default() };
+    /// (part.normals, part.uvs) = (vec![Normal::Z; 4], vec![Vec2::ZERO; 4]);
+    /// part.triangles.push([0, 1, 2]);
+    /// part.triangles.push([0, 3, 1]);
+    /// let piece = part.piece([1..2]);
+    /// assert_eq!(piece.positions, [Vec3::ZERO, Vec3::NEG_Y, Vec3::X]);
+    /// ```
     #[must_use]
     pub fn piece(&self, ranges: impl IntoIterator<Item = std::ops::Range<usize>>) -> Self {
         let mut piece = Self { material: self.material, ..Self::default() };
@@ -92,6 +104,17 @@ impl Mesh {
     }
 
     /// Returns the minimum and maximum corner (m) of the bounding box of all points; `None` if there are no points.
+    ///
+    /// ```
+    /// use burgeon_scene::Mesh;
+    /// use glam::{DVec3, Vec3};
+    ///
+    /// let mut mesh = Mesh::default();
+    /// assert_eq!(mesh.bounds(), None);
+    /// mesh.part(0).positions.push(Vec3::new(2.0, 0.0, 1.0));
+    /// mesh.part(1).positions.push(Vec3::new(0.0, 3.0, 1.0));
+    /// assert_eq!(mesh.bounds(), Some((DVec3::new(0.0, 0.0, 1.0), DVec3::new(2.0, 3.0, 1.0))));
+    /// ```
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         let mut points = self.parts.iter().flat_map(|part| &part.positions);
         let first = *points.next()?;

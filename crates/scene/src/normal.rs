@@ -15,6 +15,16 @@ const ROUNDING: f32 = 12_582_912.0;
 /// Directions are projected onto an octahedron, whose lower half is folded outwards into a square around the upper
 /// half, as in Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", 2014. Directions
 /// along the axes are exact.
+///
+/// ```
+/// use burgeon_scene::Normal;
+/// use glam::{DVec3, Vec3};
+///
+/// assert_eq!(Normal::from(DVec3::X).vector(), Vec3::X);
+/// let slope = DVec3::new(1.0, 2.0, 3.0).normalize();
+/// let angle = Normal::from(slope).vector().angle_between(slope.as_vec3());
+/// assert!(angle <= 1e-3 && std::mem::size_of::<Normal>() == 4);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Normal([i16; 2]);

@@ -18,6 +18,16 @@ impl PartialEq for SharedMeshes {
 
 impl Scene {
     /// Returns the index of mesh `mesh` of `other` in this scene, adding it the first time.
+    ///
+    /// ```
+    /// use burgeon_scene::{Mesh, Scene};
+    /// use std::sync::Arc;
+    ///
+    /// let model = Arc::new(Scene { meshes: vec![Mesh::default()], ..Scene::default() });
+    /// let mut park = Scene::default();
+    /// assert_eq!((park.share(&model, 0), park.share(&model, 0)), (0, 0));
+    /// assert_eq!(park.meshes.len(), 1);
+    /// ```
     pub fn share(&mut self, other: &Arc<Self>, mesh: usize) -> usize {
         let known = self.shared.0.iter().position(|(known, _)| Arc::ptr_eq(known, other));
         let known = known.unwrap_or_else(|| {

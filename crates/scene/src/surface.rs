@@ -20,6 +20,16 @@ pub enum SurfaceMeaning {
 /// Meanings of the triangles of a part, run-length encoded; unknown before the first entry.
 ///
 /// It is empty unless an object specifies meanings, and has one entry for each change instead of each triangle.
+///
+/// ```
+/// use burgeon_scene::{SurfaceMeaning, SurfaceRuns};
+///
+/// let mut runs = SurfaceRuns::default();
+/// runs.mark(2, Some(SurfaceMeaning::Wall));
+/// runs.mark(6, Some(SurfaceMeaning::Roof));
+/// assert_eq!((runs.of(1), runs.of(2)), (None, Some(SurfaceMeaning::Wall)));
+/// assert_eq!(runs.stretches(8).map(|(range, _)| range).collect::<Vec<_>>(), [0..2, 2..6, 6..8]);
+/// ```
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct SurfaceRuns(Vec<(usize, Option<SurfaceMeaning>)>);
 

@@ -75,6 +75,15 @@ impl Triangles {
     /// Adds the triangles between two rings that begin at the corners `from` and `to`. The band has `sides` faces and
     /// each ring has one corner more. The halves with two corners on the first ring come first, then those with two
     /// corners on the second.
+    ///
+    /// ```
+    /// use burgeon_scene::Triangles;
+    ///
+    /// // The side of a tube: rings of 4 corners and one more at the seam.
+    /// let mut triangles = Triangles::default();
+    /// triangles.band(0, 5, 4);
+    /// assert_eq!((triangles.len(), triangles.get(0)), (8, Some([0, 1, 6])));
+    /// ```
     #[inline]
     pub fn band(&mut self, from: u32, to: u32, sides: u16) {
         if sides > 0 {

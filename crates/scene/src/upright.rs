@@ -3,6 +3,16 @@
 use glam::{DMat3, DVec3};
 
 /// Orientation of the default camera if z is not up, as on a planet. It does not move the scene.
+///
+/// ```
+/// use burgeon_scene::Upright;
+/// use glam::DVec3;
+///
+/// // On the equator of a planet, at longitude 0.
+/// let upright = Upright::new(DVec3::X, DVec3::Z).expect("the direction is not zero");
+/// assert!((upright.rotation() * DVec3::X).abs_diff_eq(DVec3::Z, 1e-12));
+/// assert!((upright.rotation() * DVec3::Z).abs_diff_eq(DVec3::Y, 1e-12));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Upright {
     up: DVec3,

@@ -58,6 +58,16 @@ impl Geometry {
     /// than three points.
     ///
     /// Holes with fewer than three points are omitted.
+    ///
+    /// ```
+    /// use burgeon_spatial::Geometry;
+    /// use glam::DVec3;
+    ///
+    /// let corners = [(0.0, 0.0), (4.0, 0.0), (0.0, 3.0)].map(|(x, y)| DVec3::new(x, y, 0.0)).to_vec();
+    /// let triangle = Geometry::polygon(vec![corners.clone()]).expect("three points");
+    /// assert_eq!((triangle.area(), triangle.perimeter()), (6.0, 12.0));
+    /// assert_eq!(Geometry::polygon(vec![corners[..2].to_vec()]), None);
+    /// ```
     pub fn polygon(rings: impl Into<Rings>) -> Option<Self> {
         opened(rings.into()).map(Self::Polygon)
     }
@@ -73,6 +83,14 @@ impl Geometry {
 
     /// Returns the simplest geometry with all `parts` that are not empty: a single part unchanged, several
     /// parts of one type as a multi-geometry, other parts as a collection.
+    ///
+    /// ```
+    /// use burgeon_spatial::Geometry;
+    /// use glam::DVec3;
+    ///
+    /// let points = vec![Geometry::point(DVec3::ZERO), Geometry::empty(1), Geometry::point(DVec3::X)];
+    /// assert_eq!(Geometry::gathered(points).to_wkt(), "MULTIPOINT ((0 0), (1 0))");
+    /// ```
     pub fn gathered(parts: Vec<Self>) -> Self {
         let mut parts: Vec<Self> = parts.into_iter().flat_map(Self::into_parts).collect();
         if parts.len() == 1
@@ -210,6 +228,15 @@ impl Geometry {
     }
 
     /// Converts the geometry into its points, lines and polygons, without empty ones.
+    ///
+    /// ```
+    /// use burgeon_spatial::{Geometry, GeometryKind};
+    ///
+    /// let nested = "GEOMETRYCOLLECTION (MULTIPOINT ((0 0), (1 0)), LINESTRING (0 0, 2 0), POLYGON EMPTY)";
+    /// let kinds: Vec<_> = Geometry::from_wkt(nested)?.into_parts().iter().map(Geometry::kind).collect();
+    /// assert_eq!(kinds, [GeometryKind::Point, GeometryKind::Point, GeometryKind::Line]);
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn into_parts(self) -> Vec<Self> {
         let mut parts = Vec::new();
         self.collect_parts(&mut parts);

@@ -87,6 +87,14 @@ impl Geometry {
 
     /// Returns the fraction (0 to 1) of a line's length at the point nearest to another geometry. `None` if
     /// either is empty; fails for other types.
+    ///
+    /// ```
+    /// use burgeon_spatial::Geometry;
+    ///
+    /// let road = Geometry::from_wkt("LINESTRING (0 0, 30 0, 30 10)")?;
+    /// assert_eq!(road.line_locate(&Geometry::from_wkt("POINT (10 5)")?)?, Some(0.25));
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn line_locate(&self, other: &Self) -> Result<Option<f64>> {
         let line = self.as_line("line_locate")?;
         let Some([place, _]) = self.nearest_points(other) else { return Ok(None) };
@@ -120,6 +128,14 @@ impl Geometry {
     ///
     /// Method: D. Douglas and T. Peucker, "Algorithms for the reduction of the number of points required to represent
     /// a digitized line or its caricature", 1973.
+    ///
+    /// ```
+    /// use burgeon_spatial::Geometry;
+    ///
+    /// let path = Geometry::from_wkt("LINESTRING (0 0, 5 0.1, 10 0, 10 8)")?;
+    /// assert_eq!(path.simplify(0.5).to_wkt(), "LINESTRING (0 0, 10 0, 10 8)");
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn simplify(&self, tolerance: f64) -> Self {
         if !self.is_sound() || tolerance.is_nan() {
             return self.clone();

@@ -143,6 +143,15 @@ impl Geometry {
     ///
     /// Method: one side of the rectangle lies along a side of the hull (H. Freeman and R. Shapira,
     /// "Determining the minimum-area encasing rectangle for an arbitrary closed curve", 1975), through `geo`.
+    ///
+    /// ```
+    /// use burgeon_spatial::Geometry;
+    ///
+    /// let diamond = Geometry::from_wkt("POLYGON ((5 0, 10 5, 5 10, 0 5, 5 0))")?;
+    /// assert_eq!(diamond.envelope().area(), 100.0);
+    /// assert!((diamond.oriented_envelope().area() - 50.0).abs() < 1e-9);
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn oriented_envelope(&self) -> Self {
         let plane = Plane::of(&[self]);
         let hull = self.hull_around(plane);

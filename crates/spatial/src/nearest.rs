@@ -31,6 +31,16 @@ impl Geometry {
     }
 
     /// Returns the horizontally nearest points of both geometries; `None` if either is empty.
+    ///
+    /// ```
+    /// use burgeon_spatial::Geometry;
+    /// use glam::DVec3;
+    ///
+    /// let street = Geometry::from_wkt("LINESTRING (0 0, 10 0)")?;
+    /// let house = Geometry::from_wkt("POLYGON ((4 3, 8 5, 4 7, 4 3))")?;
+    /// assert_eq!(house.nearest_points(&street), Some([DVec3::new(4.0, 3.0, 0.0), DVec3::new(4.0, 0.0, 0.0)]));
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn nearest_points(&self, other: &Self) -> Option<[DVec3; 2]> {
         if !self.is_sound() || !other.is_sound() {
             return None;

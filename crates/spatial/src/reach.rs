@@ -14,6 +14,15 @@ pub type BoundingBox = [DVec2; 2];
 
 /// Returns for each bounding box whether it lies within `reach` (m) of the box of a selected geometry, horizontally and
 /// along each axis. A geometry without a box is near nothing. Fails if the current work is stopped.
+///
+/// ```
+/// use burgeon_spatial::{Geometry, near_selection};
+///
+/// let points = ["POINT (0 0)", "POINT (3 0)", "POINT (90 0)", "POINT EMPTY"].map(Geometry::from_wkt);
+/// let bounds: Vec<_> = points.into_iter().flatten().map(|point| point.bounds()).collect();
+/// assert_eq!(near_selection(&bounds, |index| index == 0, 5.0)?, [true, true, false, false]);
+/// # Ok::<(), burgeon_base::Error>(())
+/// ```
 pub fn near_selection(
     bounds: &[Option<BoundingBox>],
     selected: impl Fn(usize) -> bool,

@@ -27,6 +27,18 @@ pub struct Record {
 
 impl RecordTable {
     /// Returns a copy with only the columns whose names are in `names`.
+    ///
+    /// ```
+    /// use burgeon_data::Attribute;
+    /// use burgeon_data::output::{Record, RecordTable};
+    ///
+    /// let values = vec![(0, Attribute::Text("oak".into())), (1, Attribute::Number(12.0))];
+    /// let records = vec![Record { values, ..Record::default() }];
+    /// let trees = RecordTable { columns: vec!["kind".into(), "height".into()], records, ..RecordTable::default() };
+    /// let heights = trees.with_columns(&["height".into()]);
+    /// assert_eq!(heights.columns, ["height"]);
+    /// assert_eq!(heights.records[0].value(0), Some(&Attribute::Number(12.0)));
+    /// ```
     #[must_use]
     pub fn with_columns(&self, names: &[String]) -> Self {
         let is_kept = |name: &&String| names.contains(name);

@@ -77,6 +77,15 @@ impl Geometry {
     ///
     /// Corners that turn by less than 60 degrees stay corners. Empty if no area remains. Fails if the
     /// geometry has no areas, or if the distance is not finite.
+    ///
+    /// ```
+    /// use burgeon_spatial::Geometry;
+    ///
+    /// let lot = Geometry::from_wkt("POLYGON ((0 0, 20 0, 20 10, 0 10, 0 0))")?;
+    /// assert_eq!(lot.inset(3.0)?.area(), 14.0 * 4.0);
+    /// assert!(lot.inset(5.5)?.is_empty());
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn inset(&self, distance: f64) -> Result<Self> {
         if !distance.is_finite() {
             return Err(Error::argument(format!("inset takes a finite distance, not {distance}"))

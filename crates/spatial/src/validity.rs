@@ -64,6 +64,16 @@ impl Geometry {
     /// For invalid areas, it is the area with odd winding numbers. A line without length becomes a point.
     ///
     /// An area whose interior is connected only by points becomes several areas.
+    ///
+    /// ```
+    /// use burgeon_spatial::Geometry;
+    ///
+    /// let bow_tie = Geometry::from_wkt("POLYGON ((0 0, 4 4, 4 0, 0 4, 0 0))")?;
+    /// let valid = bow_tie.make_valid();
+    /// assert!(!bow_tie.is_valid() && valid.is_valid());
+    /// assert_eq!((valid.num_geometries(), valid.area()), (2, 8.0));
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     #[must_use]
     pub fn make_valid(&self) -> Self {
         if self.is_valid() {

@@ -40,6 +40,13 @@ impl Default for StreetKind {
 
 impl StreetKind {
     /// Returns the type for streets of a depth; the last type also applies to all greater depths.
+    ///
+    /// ```
+    /// use burgeon_streets::StreetKind;
+    ///
+    /// let kinds = [30.0, 12.0].map(|width| StreetKind { width, ..StreetKind::default() });
+    /// assert_eq!([0, 1, 5].map(|depth| StreetKind::of(&kinds, depth).width), [30.0, 12.0, 12.0]);
+    /// ```
     pub fn of(kinds: &[Self], depth: u32) -> Self {
         let last = kinds.len().saturating_sub(1);
         kinds.get((depth as usize).min(last)).copied().unwrap_or_default()
@@ -93,6 +100,15 @@ impl StreetKind {
     }
 
     /// Returns the number of lanes in both directions.
+    ///
+    /// ```
+    /// use burgeon_streets::StreetKind;
+    ///
+    /// let street = StreetKind { width: 20.0, sidewalk: 3.0, parking: 0.0, ..StreetKind::default() };
+    /// assert_eq!((street.carriageway(), street.lanes()), (14.0, 4));
+    /// let with_parking = StreetKind { parking: 2.0, ..street };
+    /// assert_eq!(with_parking.lanes(), 2);
+    /// ```
     pub fn lanes(&self) -> u32 {
         self.lanes.unwrap_or_else(|| {
             let driven = self.driven_width();

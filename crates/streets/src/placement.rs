@@ -114,6 +114,21 @@ impl StreetNetwork {
     /// from 0 to 1 for a segment's name, so the sites of a segment depend on nothing else.
     ///
     /// Fails if the options are invalid, or if too many positions would be tested.
+    ///
+    /// ```
+    /// use burgeon_streets::{Constraints, Obstacles, SiteOptions, StreetAttributes, StreetNetwork, SurfaceOptions};
+    /// use glam::DVec2;
+    ///
+    /// let mut network = StreetNetwork::new(Constraints::default(), Obstacles::default())?;
+    /// let start = network.begin(DVec2::ZERO)?;
+    /// network.grow(start, DVec2::new(100.0, 0.0), StreetAttributes { width: 10.0, ..StreetAttributes::default() })?;
+    /// let sizes = vec![DVec2::new(12.0, 10.0)];
+    /// let options = SiteOptions { sizes, along: 4.0, away: 20.0, distance: 8.0, setback: 3.0, gap: 2.0, shrink: 1.0 };
+    /// let found = network.sites(SurfaceOptions::default(), &options, &mut |_| Box::new(|| 0.5))?;
+    /// assert!(found.sites.len() >= 6);
+    /// assert!(found.sites.iter().all(|site| site.size == DVec2::new(12.0, 10.0)));
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn sites(
         &self,
         surface: SurfaceOptions,

@@ -43,6 +43,22 @@ pub struct VergePlace {
 
 impl StreetNetwork {
     /// Returns the positions of trees or lamps along the streets; `kinds` contains the street types by depth.
+    ///
+    /// ```
+    /// # use burgeon_streets::{Constraints, Obstacles, StreetNetwork};
+    /// use burgeon_streets::{StreetKind, StreetProfiles, SurfaceOptions, VergeKind};
+    /// use glam::DVec2;
+    ///
+    /// let mut network = StreetNetwork::new(Constraints::default(), Obstacles::default())?;
+    /// let kind = StreetKind { trees: 10.0, ..StreetKind::default() };
+    /// let start = network.begin(DVec2::ZERO)?;
+    /// network.grow(start, DVec2::new(100.0, 0.0), kind.attributes(0))?;
+    /// let (options, profiles) = (SurfaceOptions::default(), StreetProfiles::default());
+    /// let trees = network.verge(options, &profiles, &[kind], VergeKind::Tree);
+    /// assert!((14..=22).contains(&trees.len()), "both sides have about 10 trees each");
+    /// assert!(network.verge(options, &profiles, &[kind], VergeKind::Lamp).is_empty());
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn verge(
         &self,
         options: SurfaceOptions,

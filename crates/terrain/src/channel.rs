@@ -22,6 +22,18 @@ impl Channel {
     /// Computes the channel of `width` (m) along `path` (m) in ground with the heights (m) `height`.
     ///
     /// Points are added so that the ground between them cannot be much lower than the water.
+    ///
+    /// ```
+    /// use burgeon_terrain::Channel;
+    /// use glam::DVec3;
+    ///
+    /// // The path crosses a ridge 3 m high at x = 50 m.
+    /// let ground = |at: glam::DVec2| Some(if (at.x - 50.0).abs() < 10.0 { 13.0 } else { 10.0 });
+    /// let path = [DVec3::new(0.0, 0.0, 10.0), DVec3::new(100.0, 0.0, 10.0)];
+    /// let channel = Channel::new(&path, 4.0, ground);
+    /// assert!(channel.path.iter().all(|at| (at.z - 10.0).abs() < 1e-9));
+    /// assert!((channel.deepest.1 - 3.0).abs() < 1e-9);
+    /// ```
     pub fn new(path: &[DVec3], width: f64, height: impl Fn(DVec2) -> Option<f64>) -> Self {
         let path = dense(path, width / 2.0);
         let last = path.len().saturating_sub(1);

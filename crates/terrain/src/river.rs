@@ -12,6 +12,21 @@ use glam::{DVec2, DVec3};
 use crate::tiles::ground::GroundMap;
 
 /// The cells of a map, with their flow directions.
+///
+/// ```
+/// use burgeon_terrain::{Drainage, GroundMap};
+/// use glam::DVec2;
+///
+/// // A valley that falls to the east.
+/// let heights = (0..64_i32).map(|cell| f64::from(8 - cell % 8 + 4 * (cell / 8 - 4).abs())).collect();
+/// let map = GroundMap { columns: 8, rows: 8, corner: DVec2::ZERO, step: 10.0, heights };
+/// let mut drainage = Drainage::new(&map, None);
+/// let source = DVec2::new(25.0, 35.0);
+/// let river = drainage.river(source).expect("a way to the edge of the map");
+/// assert!(river.last().is_some_and(|mouth| mouth.x > 70.0));
+/// assert!(river.is_sorted_by(|a, b| a.z >= b.z));
+/// assert!(!drainage.is_source(source), "a river is there now");
+/// ```
 #[derive(Clone)]
 pub struct Drainage {
     columns: usize,

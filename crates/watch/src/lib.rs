@@ -58,6 +58,16 @@ pub struct Change {
 /// Returns the remaining wait until `files` are stable, or `None` if they are.
 ///
 /// A file that has just been written in place may be incomplete. A caller that cannot read it should try again.
+///
+/// ```
+/// use burgeon_watch::unsettled;
+/// use std::time::{Duration, SystemTime};
+///
+/// let file = tempfile::NamedTempFile::new()?;
+/// file.as_file().set_modified(SystemTime::now() - Duration::from_secs(60))?;
+/// assert_eq!(unsettled([file.path()]), None);
+/// # Ok::<(), std::io::Error>(())
+/// ```
 pub fn unsettled<'a>(files: impl IntoIterator<Item = &'a Path>) -> Option<Duration> {
     let now = SystemTime::now();
     let young = files.into_iter().filter_map(|path| {
@@ -68,6 +78,20 @@ pub fn unsettled<'a>(files: impl IntoIterator<Item = &'a Path>) -> Option<Durati
 }
 
 /// Calls `read` for the file at `path`, and repeats it while it fails and the file has just been written.
+///
+/// ```
+/// use burgeon_base::Error;
+/// use burgeon_watch::settled;
+///
+/// let file = tempfile::NamedTempFile::new()?;
+/// std::fs::write(file.path(), "42")?;
+/// let read = || {
+///     let text = std::fs::read_to_string(file.path()).map_err(|error| Error::file(file.path(), error))?;
+///     text.parse::<u32>().map_err(Error::data)
+/// };
+/// assert_eq!(settled(file.path(), read)?, 42);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn settled<T>(path: &Path, read: impl Fn() -> Result<T>) -> Result<T> {
     let begin = Instant::now();
     loop {
@@ -82,6 +106,21 @@ pub fn settled<T>(path: &Path, read: impl Fn() -> Result<T>) -> Result<T> {
 }
 
 /// Watches files in a separate thread until it is dropped.
+///
+/// ```
+/// use burgeon_watch::Watch;
+/// use std::sync::mpsc::channel;
+/// use std::time::Duration;
+///
+/// let folder = tempfile::tempdir()?;
+/// let script = folder.path().join("plant.lua");
+/// std::fs::write(&script, "-- 1")?;
+/// let (changed, changes) = channel();
+/// let _watch = Watch::new(vec![script.clone()], move |change| drop(changed.send(change)), |_| {})?;
+/// std::fs::write(&script, "-- 2")?;
+/// assert_eq!(changes.recv_timeout(Duration::from_secs(20))?.files, [script]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Watch {
     signals: Sender<Signal>,
     thread: Option<JoinHandle<()>>,
@@ -156,6 +195,22 @@ impl Watch {
 
     /// Watches `files` instead of the previous ones. The flag of each file is set if the file existed at the caller's
     /// last look, which was not before `since`. New files that have changed since are reported as changed.
+    ///
+    /// ```
+    /// use burgeon_watch::Watch;
+    /// use std::sync::mpsc::channel;
+    /// use std::time::{Duration, SystemTime};
+    ///
+    /// let folder = tempfile::tempdir()?;
+    /// let tree = folder.path().join("tree.glb");
+    /// let (changed, changes) = channel();
+    /// let watch = Watch::new(Vec::new(), move |change| drop(changed.send(change)), |_| {})?;
+    /// // A run did not find the file.
+    /// watch.follow(vec![(tree.clone(), false)], SystemTime::now());
+    /// std::fs::write(&tree, "a model")?;
+    /// assert_eq!(changes.recv_timeout(Duration::from_secs(20))?.files, [tree]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn follow(&self, files: Vec<(PathBuf, bool)>, since: SystemTime) {
         // The thread ends only when this value is dropped.
         let _ = self.signals.send(Signal::Follow(files, since));

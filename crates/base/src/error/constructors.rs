@@ -41,6 +41,14 @@ impl Error {
 
     /// Creates an error for an unknown `name` of a `what`. If one of the `known` names is similar enough, the remedy
     /// suggests it, and a later call of [`help`](Self::help) has no effect.
+    ///
+    /// ```
+    /// use burgeon_base::Error;
+    ///
+    /// let error = Error::not_found("layer", "streats", ["houses", "streets"], "no layer named `streats`");
+    /// assert_eq!(error.kind().code(), "not-found");
+    /// assert_eq!(error.remedy(), Some("did you mean streets?"));
+    /// ```
     pub fn not_found<'a>(
         what: &'static str,
         name: impl fmt::Display,

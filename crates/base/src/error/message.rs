@@ -112,6 +112,14 @@ impl Error {
     }
 
     /// Combines several problems into one error; `problems` must not be empty.
+    ///
+    /// ```
+    /// use burgeon_base::Error;
+    ///
+    /// let error = Error::several(vec![Error::syntax("missing brace"), Error::argument("invalid `side`")]);
+    /// let codes: Vec<_> = error.problems().map(|problem| problem.kind().code()).collect();
+    /// assert_eq!(codes, ["syntax", "argument"]);
+    /// ```
     pub fn several(mut problems: Vec<Error>) -> Self {
         if problems.is_empty() {
             return Self::internal("nothing is wrong");

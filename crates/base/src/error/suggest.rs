@@ -9,6 +9,13 @@ pub fn did_you_mean(near: &str) -> String {
 }
 
 /// Returns the name in `known` that is nearest to a misspelt `name`, if one is similar enough.
+///
+/// ```
+/// use burgeon_base::error::nearest;
+///
+/// assert_eq!(nearest("lenght", ["height", "length"]), Some("length"));
+/// assert_eq!(nearest("window", ["height", "length"]), None);
+/// ```
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     if name.len() > LONGEST_NEAR {
         return None;

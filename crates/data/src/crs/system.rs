@@ -25,6 +25,16 @@ pub struct Crs {
 
 impl Crs {
     /// Returns the coordinate system with the EPSG code `code`.
+    ///
+    /// ```
+    /// use burgeon_data::Crs;
+    ///
+    /// assert!(Crs::epsg(4326)?.is_geographic() && !Crs::epsg(3067)?.is_geographic());
+    /// // A former code of Web Mercator.
+    /// assert_eq!(Crs::epsg(900_913)?.name(), "EPSG:3857");
+    /// assert_eq!(Crs::epsg(1).map_err(|error| error.kind().code()), Err("not-found"));
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn epsg(code: u32) -> Result<Self> {
         // Codes that were in use before EPSG assigned one.
         let code = if matches!(code, 900_913 | 102_100 | 102_113) { 3857 } else { code };

@@ -34,6 +34,18 @@ impl Raster {
     }
 
     /// Reads `bytes`, the content of a file called `name`. Fails like [`Raster::open`].
+    ///
+    /// ```
+    /// use burgeon_base::Budget;
+    /// use burgeon_data::elevation::{HeightOptions, Raster};
+    ///
+    /// let grid = "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2 3\n4 5 6\n";
+    /// let wanted = HeightOptions { crs: Some(3067), ..HeightOptions::default() };
+    /// let raster = Raster::read(grid.as_bytes(), "hill.asc", &wanted, &Budget::default())?;
+    /// assert_eq!((raster.columns, raster.rows, raster.range()), (3, 2, [1.0, 6.0]));
+    /// assert_eq!(raster.bounds(), [0.0, 0.0, 30.0, 20.0]);
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn read(bytes: &[u8], name: &str, wanted: &HeightOptions, budget: &Budget) -> Result<Self> {
         let mut raster = Self::read_unfilled(bytes, name, wanted, &|| Ok(None), budget)?;
         raster.fill(budget)?;

@@ -132,6 +132,21 @@ impl Relief {
     ///
     /// The surface passes through the samples with a continuous slope, and stays within the range of the 16 surrounding
     /// samples. Method: Catmull and Rom, "A class of local interpolating splines", 1974, in both directions.
+    ///
+    /// ```
+    /// use burgeon_data::elevation::{Raster, Relief, SampleGrid};
+    /// use glam::DVec2;
+    /// use std::sync::Arc;
+    ///
+    /// // A slope to the east: samples every 10 m, in rows from the north.
+    /// let heights = (0..25).map(|at| (at % 5) as f32).collect();
+    /// let grid = SampleGrid { first: [0.0, 40.0], step: [10.0, 10.0] };
+    /// let relief = Relief::new(Arc::new(Raster::new("slope", [5, 5], heights, grid, None)), &mut None)?;
+    /// assert_eq!(relief.height(DVec2::new(20.0, 20.0)), Some(2.0));
+    /// assert!((relief.height(DVec2::new(15.0, 20.0)).expect("inside") - 1.5).abs() < 1e-6);
+    /// assert_eq!(relief.height(DVec2::new(100.0, 20.0)), None);
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn height(&self, place: DVec2) -> Option<f64> {
         let at = self.find(place)?;
         self.raster.covers(at.x, at.y, ROUNDING).then(|| self.around(at).0)

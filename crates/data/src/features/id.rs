@@ -7,6 +7,13 @@ use std::ops::Deref;
 const SHORT: usize = 14;
 
 /// Feature id: a text; short texts need no heap memory.
+///
+/// ```
+/// use burgeon_data::FeatureId;
+///
+/// let id = FeatureId::from("way/123456789");
+/// assert_eq!((id.as_str(), size_of::<FeatureId>()), ("way/123456789", 16));
+/// ```
 #[derive(Clone)]
 pub struct FeatureId(IdText);
 

@@ -20,6 +20,20 @@ pub enum ColumnKind {
 const LARGEST: f64 = 9_007_199_254_740_992.0;
 
 /// Returns the type of each column in `table`; a column without values is text.
+///
+/// ```
+/// use burgeon_data::Attribute;
+/// use burgeon_data::output::{ColumnKind, Record, RecordTable, column_kinds};
+///
+/// let record = |values: [f64; 2]| {
+///     let values = values.into_iter().map(Attribute::Number).enumerate().collect();
+///     Record { values, ..Record::default() }
+/// };
+/// let columns = vec!["floors".into(), "height".into(), "use".into()];
+/// let records = vec![record([2.0, 6.0]), record([3.0, 8.5])];
+/// let table = RecordTable { name: "houses".into(), columns, records };
+/// assert_eq!(column_kinds(&table), [ColumnKind::Integer, ColumnKind::Number, ColumnKind::Text]);
+/// ```
 pub fn column_kinds(table: &RecordTable) -> Vec<ColumnKind> {
     let mut kinds: Vec<Option<ColumnKind>> = vec![None; table.columns.len()];
     for record in &table.records {

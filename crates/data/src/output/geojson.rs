@@ -16,6 +16,23 @@ use burgeon_spatial::Geometry;
 ///
 /// Longitudes of a geometry across the antimeridian continue beyond 180. Fails if there are geometries but no `frame`
 /// with a position on Earth, and if a position has no longitude and latitude.
+///
+/// ```
+/// use burgeon_data::output::{Record, RecordTable, write_geojson};
+/// use burgeon_data::{Attribute, Crs, Geometry, ReferenceFrame};
+/// use glam::DVec3;
+///
+/// let frame = ReferenceFrame::around(&Crs::epsg(4326)?, [27.0, 60.0], "the town")?;
+/// let (geometry, values) = (Some(Geometry::point(DVec3::ZERO)), vec![(0, Attribute::Number(2.0))]);
+/// let records = vec![Record { id: "7".into(), geometry, values }];
+/// let table = RecordTable { name: "houses".into(), columns: vec!["floors".into()], records };
+/// let mut text = Vec::new();
+/// write_geojson(&[table], Some(&frame), &mut text)?;
+/// let json: serde_json::Value = serde_json::from_slice(&text)?;
+/// assert_eq!(json["features"][0]["properties"]["floors"], 2);
+/// assert!((json["features"][0]["geometry"]["coordinates"][0].as_f64().unwrap_or(0.0) - 27.0).abs() < 0.01);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write_geojson(
     tables: &[RecordTable],
     frame: Option<&ReferenceFrame>,

@@ -30,6 +30,16 @@ impl<'a> OutputPlacement<'a> {
     /// within a thousandth.
     ///
     /// Fails if the run's centre has no longitude and latitude.
+    ///
+    /// ```
+    /// use burgeon_data::output::OutputPlacement;
+    /// use burgeon_data::{Crs, ReferenceFrame};
+    ///
+    /// let frame = ReferenceFrame::around(&Crs::epsg(4326)?, [27.0, 60.0], "the town")?;
+    /// assert_eq!(OutputPlacement::metric(Some(&frame))?.code, Some(32_635));
+    /// assert_eq!(OutputPlacement::metric(None)?.code, None);
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn metric(frame: Option<&'a ReferenceFrame>) -> Result<Self> {
         let Some(frame) = frame.filter(|frame| frame.epsg.is_none()) else { return Self::native(frame) };
         let middle = frame.middle.or(frame.world_place().degrees).ok_or_else(|| {

@@ -51,6 +51,17 @@ pub fn glb(scene: &Scene) -> Result<Vec<u8>> {
 ///
 /// Primitives with `flat` in their extras require a viewer that supports it: each triangle has the normal of its last
 /// corner.
+///
+/// ```
+/// use burgeon_export::gltf::glb_for_viewer;
+/// use burgeon_scene::{Mesh, Scene};
+///
+/// // The mesh has no instance, so the document does not contain it.
+/// let scene = Scene { meshes: vec![Mesh::default()], ..Scene::default() };
+/// let (bytes, layout) = glb_for_viewer(&scene)?;
+/// assert_eq!((&bytes[..4], layout.meshes), (&b"glTF"[..], vec![None]));
+/// # Ok::<(), burgeon_base::Error>(())
+/// ```
 pub fn glb_for_viewer(scene: &Scene) -> Result<(Vec<u8>, Layout)> {
     bytes(scene, Arrays { small: true, measured: false }, &Stop::default())
 }

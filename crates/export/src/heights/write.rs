@@ -52,6 +52,21 @@ impl HeightFormat {
 /// Coordinates of a GeoTIFF and an ASCII grid are in the projection of the run. If the file format cannot store the
 /// projection, a `.prj` file next to the file contains it. Without a projection, coordinates are in metres of the run.
 /// Fails if the map has too few heights or infinite heights, if the format cannot store it, or if the disk is full.
+///
+/// ```
+/// use burgeon_export::{Files, heights};
+/// use glam::DVec2;
+///
+/// let heights = vec![1.0, 2.0, 3.0, 4.5];
+/// let map = heights::HeightMap { columns: 2, rows: 2, step: 10.0, corner: DVec2::ZERO, frame: None, heights };
+/// let folder = tempfile::tempdir()?;
+/// let mut files = Files::default();
+/// heights::write(&map, &folder.path().join("hill.asc"), &mut files)?;
+/// files.publish()?;
+/// let grid = std::fs::read_to_string(folder.path().join("hill.asc"))?;
+/// assert!(grid.starts_with("ncols") && grid.trim_end().ends_with("3 4.5"), "{grid}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write(map: &HeightMap, path: &Path, files: &mut Files) -> Result<()> {
     let format = HeightFormat::of(path)?;
     check(map, format).map_err(|error| error.about(&format!("cannot write {}", path.display())))?;

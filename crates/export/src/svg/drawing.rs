@@ -19,6 +19,18 @@ const LIMIT: usize = 4_000_000;
 ///
 /// Fails if the scene is invalid, if a texture cannot be read, if it has more than 4 million triangles, or if `stop`
 /// requests cancellation.
+///
+/// ```
+/// use burgeon_base::{Error, Stop};
+/// use burgeon_export::svg::svg;
+/// use burgeon_scene::Scene;
+///
+/// let stop = Stop::new();
+/// assert!(svg(&Scene::default(), &stop)?.starts_with("<svg"));
+/// stop.stop(Error::cancellation("the window was closed"));
+/// assert!(svg(&Scene::default(), &stop).is_err());
+/// # Ok::<(), Error>(())
+/// ```
 pub fn svg(scene: &Scene, stop: &Stop) -> Result<String> {
     let checked = check(scene)?;
     let count = scene.triangles();

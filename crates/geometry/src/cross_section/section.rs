@@ -73,6 +73,18 @@ impl Section {
 
     /// Creates an open section, swept to a ribbon; fails if it has fewer than 2 distinct points or intersects
     /// itself.
+    ///
+    /// ```
+    /// use burgeon_geometry::{Section, SectionPoint, Segment, SweepOptions, sweep};
+    /// use glam::DVec2;
+    ///
+    /// let section = Section::open(&[DVec2::ZERO, DVec2::X].map(SectionPoint::sharp))?;
+    /// let (mut part, mut path) = (Default::default(), Vec::new());
+    /// Segment { length: 3.0, ..Segment::default() }.stations(Default::default(), &mut path)?;
+    /// let ribbon = sweep(&mut part, &section, &path, &SweepOptions { back: false, ..SweepOptions::default() })?;
+    /// assert_eq!((part.triangles.len(), ribbon.open.len()), (2, 4));
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn open(points: &[SectionPoint]) -> Result<Self> {
         refuse_too_many(points.len())?;
         Self::with_rings(vec![knots(&outline::open(points)?)], true)
@@ -106,6 +118,16 @@ impl Section {
     /// points of the same density.
     ///
     /// The shading stays the same.
+    ///
+    /// ```
+    /// use burgeon_geometry::Section;
+    ///
+    /// let square = Section::rectangle(2.0, 2.0)?;
+    /// let finer = square.resampled(16)?;
+    /// assert_eq!((square.corners(), finer.corners()), (4, 16));
+    /// assert_eq!(finer.edge_lengths(0), [0.5; 16]);
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn resampled(&self, around: usize) -> Result<Self> {
         refuse_too_many(around)?;
         let step = self.edge_lengths(0).iter().sum::<f64>() / around.max(1) as f64;

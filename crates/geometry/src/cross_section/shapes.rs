@@ -14,6 +14,17 @@ impl Section {
     /// Creates a smooth regular polygon with points at 1 m from the centre, the first at (1, 0).
     ///
     /// Fails with fewer than 3 `sides`.
+    ///
+    /// ```
+    /// use burgeon_geometry::Section;
+    /// use glam::DVec2;
+    ///
+    /// let hexagon = Section::regular(6)?;
+    /// assert_eq!(hexagon.points().next(), Some(DVec2::X));
+    /// assert!((hexagon.perimeter() - 6.0).abs() < 1e-12);
+    /// assert!(Section::regular(2).is_err());
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn regular(sides: usize) -> Result<Self> {
         if sides < 3 {
             return Err(Error::geometry(format!("a regular cross-section of {sides} sides has no area"))
@@ -28,6 +39,15 @@ impl Section {
     /// (m) between.
     ///
     /// Fails with fewer than 2 `points` or if `inner` is not positive.
+    ///
+    /// ```
+    /// use burgeon_geometry::Section;
+    ///
+    /// let star = Section::star(5, 0.5)?;
+    /// assert_eq!(star.corners(), 10);
+    /// assert!(star.area() < Section::regular(5)?.area());
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn star(points: usize, inner: f64) -> Result<Self> {
         if points < 2 || !inner.is_finite() || inner <= 0.0 {
             return Err(Error::geometry(format!(

@@ -34,6 +34,19 @@ pub fn ring_ways(area: &[Rings<DVec2>], layer: usize) -> impl Iterator<Item = La
 /// divided.
 ///
 /// Fails if the work of this thread is cancelled.
+///
+/// ```
+/// use burgeon_geometry::overlay::{Fill, fill};
+/// use burgeon_geometry::{Polygon, Rings};
+/// use glam::DVec2;
+///
+/// // A pentagram: its centre has the winding number 2.
+/// let star = (0..5).map(|i| DVec2::from_angle(f64::from(2 * i) * std::f64::consts::TAU / 5.0)).collect();
+/// let star = [Rings(vec![star])];
+/// assert_eq!(fill(&star, Fill::NonZero)?.len(), 1);
+/// assert_eq!(fill(&star, Fill::EvenOdd)?.len(), 5);
+/// # Ok::<(), burgeon_base::error::Error>(())
+/// ```
 pub fn fill(area: &[Rings<DVec2>], rule: Fill) -> Result<PolygonArea> {
     let ways: Vec<LayerWay> = ring_ways(area, 0).collect();
     Ok(Subdivision::new(&ways)?.areas(|[around, _]| match rule {

@@ -36,6 +36,19 @@ pub struct BufferSource<'a> {
 ///
 /// Method: the union of the areas next to each edge and around each corner, computed piecewise if there are
 /// many short edges.
+///
+/// ```
+/// use burgeon_geometry::Polygon;
+/// use burgeon_geometry::overlay::{BufferSource, BufferStyle, Cap, Join, buffer};
+/// use glam::DVec2;
+///
+/// let street = [vec![DVec2::ZERO, DVec2::new(10.0, 0.0)]];
+/// let source = BufferSource { lines: &street, ..BufferSource::default() };
+/// let style = BufferStyle { join: Join::Round, cap: Cap::Square, quadrant_segments: 8 };
+/// let area = buffer(source, 2.0, style)?;
+/// assert_eq!(Polygon::new(area[0].clone())?.area(), 14.0 * 4.0);
+/// # Ok::<(), burgeon_base::error::Error>(())
+/// ```
 pub fn buffer(source: BufferSource<'_>, distance: f64, style: BufferStyle) -> Result<PolygonArea> {
     let outliner = Outliner { distance: distance.abs(), style };
     if distance <= 0.0 {

@@ -40,6 +40,21 @@ impl Subdivision {
     ///
     /// The area outside all rings is never included. Outer rings are counter-clockwise and holes are
     /// clockwise.
+    ///
+    /// ```
+    /// use burgeon_geometry::overlay::{LayerWay, Subdivision, WayKind};
+    /// use glam::DVec2;
+    ///
+    /// let square = |at: f64| {
+    ///     let ring = [(at, at), (at + 2.0, at), (at + 2.0, at + 2.0), (at, at + 2.0)];
+    ///     LayerWay { layer: 0, kind: WayKind::Ring, places: ring.map(DVec2::from).to_vec() }
+    /// };
+    /// let plane = Subdivision::new(&[square(0.0), square(1.0)])?;
+    /// let covered_twice = plane.areas(|[count, _]| count == 2);
+    /// assert_eq!((covered_twice.len(), plane.areas(|[count, _]| count == 1).len()), (1, 2));
+    /// assert!(covered_twice[0][0].contains(&DVec2::new(2.0, 1.0)));
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn areas(&self, keep: impl Fn([i32; 2]) -> bool) -> Vec<Rings<DVec2>> {
         let sides: Vec<i8> = self
             .edges

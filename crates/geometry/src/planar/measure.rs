@@ -59,6 +59,15 @@ pub(crate) fn has_area(ring: impl IntoIterator<Item = DVec2>) -> bool {
 ///
 /// Method: the parity of the crossings of a ray to the right, by exact predicates (J. Shewchuk, "Adaptive
 /// precision floating-point arithmetic and fast robust geometric predicates", 1997).
+///
+/// ```
+/// use burgeon_geometry::planar::contains;
+/// use glam::DVec2;
+///
+/// let notched = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (2.0, 1.0), (0.0, 4.0)].map(DVec2::from);
+/// assert!(contains(&notched, DVec2::new(0.5, 2.0)));
+/// assert!(!contains(&notched, DVec2::new(2.0, 2.0)));
+/// ```
 pub fn contains<P: Point>(ring: &[P], place: DVec2) -> bool {
     let crossed = edges(ring).filter(|edge| {
         let [a, b] = edge.map(Point::flat);

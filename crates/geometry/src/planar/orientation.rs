@@ -40,6 +40,15 @@ pub fn is_counter_clockwise(ring: &[DVec2]) -> bool {
 }
 
 /// Returns true if all points of a ring are exactly collinear.
+///
+/// ```
+/// use burgeon_geometry::planar::is_flat;
+/// use glam::DVec2;
+///
+/// let tenths = [(0.0, 0.0), (0.25, 0.75), (1.0, 3.0)].map(DVec2::from);
+/// assert!(is_flat(tenths));
+/// assert!(!is_flat([tenths[0], tenths[1], DVec2::new(1.0, 3.0 + 1e-15)]));
+/// ```
 pub fn is_flat(ring: impl IntoIterator<Item = DVec2> + Clone) -> bool {
     if has_area(ring.clone()) {
         return false;

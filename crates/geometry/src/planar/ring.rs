@@ -123,6 +123,17 @@ impl<P: Point> Ring<P> {
     }
 
     /// Reverses the ring; the first point stays first.
+    ///
+    /// ```
+    /// use burgeon_geometry::Ring;
+    /// use glam::DVec2;
+    ///
+    /// let ring = Ring::new([(0.0, 0.0), (0.0, 2.0), (3.0, 0.0)].map(DVec2::from).to_vec())?;
+    /// assert_eq!(ring.area(), -3.0);
+    /// let turned = ring.turned();
+    /// assert_eq!((turned.area(), turned[0], turned[1]), (3.0, DVec2::ZERO, DVec2::new(3.0, 0.0)));
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     #[must_use]
     pub fn turned(mut self) -> Self {
         self.points[1..].reverse();

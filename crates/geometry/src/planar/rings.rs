@@ -29,6 +29,18 @@ impl Rings {
 impl<P: Point> Rings<P> {
     /// Reverses rings with the wrong direction, so that the outer ring is counter-clockwise and holes are
     /// clockwise. A ring without area counts as clockwise.
+    ///
+    /// ```
+    /// use burgeon_geometry::{Polygon, Rings};
+    /// use glam::DVec2;
+    ///
+    /// let clockwise = [(0.0, 0.0), (0.0, 2.0), (2.0, 2.0), (2.0, 0.0)].map(DVec2::from).to_vec();
+    /// let mut rings = Rings(vec![clockwise]);
+    /// assert!(Polygon::new(rings.clone()).is_err());
+    /// rings.turn();
+    /// assert_eq!(Polygon::new(rings)?.area(), 4.0);
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn turn(&mut self) {
         for (index, ring) in self.0.iter_mut().enumerate() {
             let places: Vec<DVec2> = ring.iter().map(|point| point.flat()).collect();

@@ -131,6 +131,19 @@ impl Plan {
     /// rings.
     ///
     /// An edge runs from its point to the next point.
+    ///
+    /// ```
+    /// use burgeon_geometry::{Plan, Rings};
+    /// use glam::DVec3;
+    ///
+    /// // The second point is on the line from the first to the third.
+    /// let survey = [(0.0, 0.0), (5.0, 0.0), (9.0, 0.0), (9.0, 6.0), (0.0, 6.0)];
+    /// let plan = Plan::new(&Rings(vec![survey.map(|(x, y)| DVec3::new(x, y, 0.0)).to_vec()]))?;
+    /// assert_eq!((plan.given(), plan.polygon().size()), (5, 4));
+    /// let edges = plan.given_edges();
+    /// assert!(edges.iter().any(|edge| edge[..] == [0, 1]) && edges.iter().any(|edge| edge[..] == [3]));
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn given_edges(&self) -> Vec<SmallVec<[usize; 2]>> {
         let places = match &self.given {
             EdgeOrigin::Places(places) => places,
@@ -176,6 +189,17 @@ impl Plan {
     }
 
     /// Returns the ratio of the area to the area of the convex hull: 1 for a convex plan without holes.
+    ///
+    /// ```
+    /// use burgeon_geometry::{Plan, Rings};
+    /// use glam::DVec3;
+    ///
+    /// let corner = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)];
+    /// let corner = corner.map(|(x, y)| DVec3::new(f64::from(x), f64::from(y), 0.0)).to_vec();
+    /// let plan = Plan::new(&Rings(vec![corner]))?;
+    /// assert!((plan.convexity() - 3.0 / 3.5).abs() < 1e-9);
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn convexity(&self) -> f64 {
         let whole = self.polygon.hull().map_or(0.0, |hull| hull.area());
         if whole > 0.0 { self.polygon.area() / whole } else { 0.0 }

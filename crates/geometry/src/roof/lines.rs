@@ -34,6 +34,21 @@ pub struct RoofLine {
 const LEVEL: f64 = 0.2;
 
 /// Returns the lines of a roof, in the order of its patches.
+///
+/// ```
+/// use burgeon_geometry::roof::{Eaves, Ends, Rise, RoofLineKind, RoofShape, RoofSurface, lines};
+/// use burgeon_geometry::{Polygon, Rings};
+/// use glam::DVec2;
+///
+/// let walls = [(0.0, 0.0), (12.0, 0.0), (12.0, 8.0), (0.0, 8.0)].map(DVec2::from);
+/// let walls = Polygon::new(Rings(vec![walls.to_vec()]))?;
+/// let surface = RoofSurface::Sloped(Ends::Hips, &[]);
+/// let roof = RoofShape { surface, rise: Rise::Slope(1.0), overhang: 0.0, eaves: Eaves::Closed, slab: 0.0 };
+/// let lines = lines(&roof.cover(&walls, 3.0)?.patches);
+/// let count = |kind| lines.iter().filter(|line| line.kind == kind).count();
+/// assert_eq!([RoofLineKind::Ridge, RoofLineKind::Hip, RoofLineKind::Eaves].map(count), [1, 4, 4]);
+/// # Ok::<(), burgeon_base::error::Error>(())
+/// ```
 pub fn lines(patches: &[Patch]) -> Vec<RoofLine> {
     let key = |at: DVec3| at.as_vec3().to_array().map(f32::to_bits);
     let mut owner = FxHashMap::default();

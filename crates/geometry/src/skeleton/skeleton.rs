@@ -32,6 +32,14 @@ impl Pace {
     pub const STILL: Self = Self { speed: 0.0, rest: 0.0 };
 
     /// Returns the distance (m) that the edge has moved at `time` (m).
+    ///
+    /// ```
+    /// use burgeon_geometry::skeleton::Pace;
+    ///
+    /// let slow_and_late = Pace { speed: 0.5, rest: 2.0 };
+    /// assert_eq!([1.0, 2.0, 6.0].map(|time| slow_and_late.way(time)), [0.0, 0.0, 2.0]);
+    /// assert!(slow_and_late.moves_at(3.0) && !slow_and_late.moves());
+    /// ```
     pub fn way(&self, time: f64) -> f64 {
         self.speed * (time - self.rest).max(0.0)
     }

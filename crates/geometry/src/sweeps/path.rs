@@ -82,6 +82,21 @@ impl Segment {
     /// The stations lie on the arc, and their headings are tangent to it. Fails if a value is not finite, if
     /// there are no steps or too many, or if a step bends or twists by half a turn or more, because the
     /// surface would intersect itself.
+    ///
+    /// ```
+    /// use burgeon_geometry::{Frame, Segment};
+    /// use glam::DVec3;
+    /// use std::f64::consts::{FRAC_PI_2, TAU};
+    ///
+    /// // A quarter of a circle with a radius of 2 m.
+    /// let arc = Segment { length: TAU / 2.0, steps: 8, ..Segment::default() }.curved(1.0 / 2.0);
+    /// assert_eq!(arc.bend, FRAC_PI_2);
+    /// let mut stations = Vec::new();
+    /// let end = arc.stations(Frame::default(), &mut stations)?;
+    /// assert_eq!(stations.len(), 9);
+    /// assert!(end.position.abs_diff_eq(DVec3::new(-2.0, 0.0, 2.0), 1e-12));
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn stations(&self, start: Frame, stations: &mut impl Extend<Station>) -> Result<Frame> {
         self.refuse_impossible()?;
         stations.extend((0..=self.steps).map(|step| {

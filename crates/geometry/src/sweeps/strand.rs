@@ -57,6 +57,21 @@ const STRAIGHT: Mitre = (Vec3A::ZERO, 0.0);
 ///
 /// A strand stores only its last ring and position, so several strands can grow alternately in the same part.
 /// Call [`Strand::end`] exactly once, and do not continue a copy of a strand.
+///
+/// ```
+/// use burgeon_geometry::{Strand, solid};
+/// use burgeon_scene::Part;
+/// use glam::DVec3;
+///
+/// let mut twig = Part::default();
+/// let mut strand = Strand::begin(6, DVec3::ZERO, DVec3::X, 0.1)?;
+/// strand.extend_to(&mut twig, DVec3::new(0.0, 0.0, 1.0), 0.06)?;
+/// strand.extend_to(&mut twig, DVec3::new(0.5, 0.0, 1.5), 0.0)?;
+/// assert_eq!(strand.position(), DVec3::new(0.5, 0.0, 1.5));
+/// strand.end(&mut twig);
+/// assert!(solid::check([&twig]).is_solid());
+/// # Ok::<(), burgeon_base::error::Error>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Strand {
     circle: &'static Circle,

@@ -37,6 +37,14 @@ impl Argument {
 
     /// Adds the unit and the default that the function's `doc` gives in round brackets directly after the argument's
     /// name, such as `margin` (m, 5 unless given).
+    ///
+    /// ```
+    /// use burgeon_kit::Argument;
+    ///
+    /// let doc = "Adds a fence at the distance `margin` (m, 5 unless given).";
+    /// let margin = Argument::typed("margin", "number?").described(doc);
+    /// assert_eq!((margin.unit.as_deref(), &*margin.default), (Some("m"), "5"));
+    /// ```
     #[must_use]
     pub fn described(mut self, doc: &str) -> Self {
         let doc = doc.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -54,6 +62,13 @@ impl Argument {
 
 /// Returns the first unit that a doc gives in round brackets: `m` for "Its height (m)." and for "Its height (m, 5
 /// unless given)."
+///
+/// ```
+/// use burgeon_kit::declare::unit;
+///
+/// assert_eq!(unit("Area (m²) without the holes."), Some("m²"));
+/// assert_eq!(unit("Roughness (0 to 1)."), None);
+/// ```
 pub fn unit(doc: &str) -> Option<&'static str> {
     doc.match_indices('(').find_map(|(at, _)| bracketed(&doc[at..]).and_then(unit_in))
 }

@@ -8,6 +8,15 @@ use burgeon_base::error::{Error, Result};
 use burgeon_rewriting::ColumnValue;
 
 /// Refuses entries of `table` that are missing in `fields`.
+///
+/// ```
+/// use burgeon_kit::declare::refuse_unknown;
+/// use burgeon_kit::{Table, TableKey, Value};
+///
+/// let table = Table { class: None, entries: vec![(TableKey::Name("heigth".into()), Value::Number(2.0))] };
+/// let error = refuse_unknown("tower", &["height", "width"], &table).expect_err("a misspelt field");
+/// assert_eq!(error.remedy(), Some("did you mean height?"));
+/// ```
 pub fn refuse_unknown(kind: &str, fields: &[&str], table: &Table) -> Result<()> {
     for (key, value) in &table.entries {
         let TableKey::Name(name) = key else {
@@ -28,6 +37,18 @@ pub fn refuse_unknown(kind: &str, fields: &[&str], table: &Table) -> Result<()> 
 }
 
 /// Arguments of a call, read in order. For the attribute `methods`.
+///
+/// ```
+/// use burgeon_kit::Value;
+/// use burgeon_kit::declare::Arguments;
+///
+/// let values = [Value::Number(3.0), Value::Text("oak".into())];
+/// let mut arguments = Arguments::new("fence", "add", &values);
+/// assert_eq!(arguments.next::<f64>("length")?, 3.0);
+/// let error = arguments.next::<bool>("gate").expect_err("a string");
+/// assert_eq!(error.message(), "fence:add: gate must be true or false, not \"oak\"");
+/// # Ok::<(), burgeon_base::Error>(())
+/// ```
 pub struct Arguments<'a> {
     kind: &'static str,
     method: &'static str,

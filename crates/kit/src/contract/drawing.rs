@@ -11,6 +11,22 @@ use burgeon_base::error::Result;
 use burgeon_scene::{Instance, Material, Mesh, Normal, Part, Scene, SurfaceMeaning};
 
 /// Faces that an object has drawn, by material, and models that it has placed.
+///
+/// ```
+/// use burgeon_kit::Drawing;
+/// use burgeon_scene::{Material, Normal};
+/// use glam::{DVec3, Vec2, Vec3};
+///
+/// let mut drawing = Drawing::default();
+/// let plaster = drawing.material(&Material::default());
+/// let part = drawing.part(plaster);
+/// part.positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
+/// (part.normals, part.uvs) = (vec![Normal::Z; 3], vec![Vec2::ZERO; 3]);
+/// part.triangles.push([0, 1, 2]);
+/// assert_eq!(drawing.distance(DVec3::new(0.2, 0.2, 4.0)), 4.0);
+/// drawing.clear();
+/// assert_eq!(drawing.distance(DVec3::ZERO), f64::INFINITY);
+/// ```
 #[derive(Clone, Default)]
 pub struct Drawing {
     /// Position in the scene (m).

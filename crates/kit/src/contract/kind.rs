@@ -16,6 +16,14 @@ pub(crate) type SharedText = Cow<'static, str>;
 ///
 /// Burgeon, a host program or a script can define it. All types in a [`Registry`](crate::Registry) have the same
 /// rights, regardless of their origin.
+///
+/// ```
+/// use burgeon_kit::{Field, Kind};
+///
+/// let lamp = Kind::new("street_lamp", "A street lamp.").has(vec![Field::new("height", "number", "Height (m).")]);
+/// assert_eq!((lamp.luau(), lamp.with_article()), ("StreetLamp".into(), "a street_lamp".into()));
+/// assert!(lamp.method("turn_on").is_none());
+/// ```
 #[derive(Clone)]
 pub struct Kind {
     /// Name of the type and of its constructor in scripts.
@@ -230,6 +238,15 @@ impl Kind {
 
     /// Deprecates `name`, a field or a method, or the type itself if empty. Scripts that use it are warned to use
     /// `instead` since version `since` of the script API.
+    ///
+    /// ```
+    /// use burgeon_kit::Kind;
+    ///
+    /// let lamp = Kind::new("lamp", "A lamp.").deprecates("size", "1.3", "height");
+    /// let deprecation = lamp.deprecation("size").expect("a deprecated field");
+    /// assert_eq!(deprecation.message("lamp.size"), "lamp.size is deprecated since version 1.3 of the script API");
+    /// assert_eq!(deprecation.instead, "height");
+    /// ```
     #[must_use]
     pub fn deprecates(
         mut self,

@@ -75,6 +75,22 @@ impl Model {
     ///
     /// The frames are numbered from `first` on, see [`Instance::placement`]. `meaning`, if any, is the surface meaning
     /// of the whole model. Fails if the run is cancelled or has too little memory.
+    ///
+    /// ```
+    /// use burgeon_kit::Model;
+    /// use burgeon_scene::{Instance, Mesh, Scene};
+    /// use glam::{DAffine3, DVec3};
+    ///
+    /// # let (transform, name, feature) = (DAffine3::IDENTITY, String::from("lamp"), None);
+    /// # let instance = Instance { mesh: 0, transform, name, feature, origin: None, placement: None, meaning: None };
+    /// let lamp = Model::new(Scene { meshes: vec![Mesh::default()], instances: vec![instance], ..Scene::default() });
+    /// let mut street = Scene::default();
+    /// let frames = [0.0, 20.0, 40.0].map(|x| DAffine3::from_translation(DVec3::new(x, 0.0, 0.0)));
+    /// lamp.place(&mut street, &frames, 0, "lamps", None, None)?;
+    /// assert_eq!((street.meshes.len(), street.instances.len()), (1, 3));
+    /// assert_eq!(street.instances[2].placement, Some(2));
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn place(
         &self,
         scene: &mut Scene,

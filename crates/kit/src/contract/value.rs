@@ -7,6 +7,19 @@ use std::sync::Arc;
 use crate::{Object, ObjectContent};
 
 /// A number, a boolean, a string, a frozen table or an object.
+///
+/// ```
+/// use burgeon_kit::{Table, TableKey, Value};
+/// use std::sync::Arc;
+///
+/// let entries = vec![
+///     (TableKey::Index(1), Value::Number(2.0)),
+///     (TableKey::Name("name".into()), Value::Text("mill".into())),
+/// ];
+/// let table = Table { class: None, entries };
+/// assert_eq!((table.list().len(), table.get("name")), (1, Some(&Value::Text("mill".into()))));
+/// assert_eq!(Value::Table(Arc::new(table)).to_string(), r#"{2,name="mill"}"#);
+/// ```
 #[derive(Clone)]
 pub enum Value {
     /// No value, or an omitted optional value.
@@ -150,6 +163,12 @@ impl fmt::Display for Value {
 }
 
 /// Returns true if `name` is a keyword of Lua.
+///
+/// ```
+/// use burgeon_kit::is_keyword;
+///
+/// assert!(is_keyword("end") && !is_keyword("End"));
+/// ```
 pub fn is_keyword(name: &str) -> bool {
     const KEYWORDS: [&str; 21] = [
         "and", "break", "do", "else", "elseif", "end", "false", "for", "function", "if", "in", "local",

@@ -11,6 +11,18 @@ use burgeon_base::locks::LockRecovery;
 use burgeon_rewriting::{ColumnValue, ShowParameters};
 
 /// Strings, tables and objects in the modules of one derivation, each stored once.
+///
+/// ```
+/// use burgeon_kit::{Value, Values};
+///
+/// let values = Values::default();
+/// assert_eq!(values.pack(Value::Number(2.5)), 2.5);
+/// let oak = values.pack(Value::Text("oak".into()));
+/// assert_eq!(values.unpack(oak), Value::Text("oak".into()));
+/// // The same string is stored once.
+/// values.pack(Value::Text("oak".into()));
+/// assert_eq!(values.len(), 1);
+/// ```
 #[derive(Default)]
 pub struct Values {
     slots: RwLock<Slots>,

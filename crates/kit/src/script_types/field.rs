@@ -136,6 +136,19 @@ impl ScriptField {
     }
 
     /// Checks a `value` for the field, passed to a constructor of `of`. Fails if the field does not allow it.
+    ///
+    /// ```
+    /// use burgeon_kit::{ScriptField, Table, TableKey, Value};
+    /// use std::sync::Arc;
+    ///
+    /// let declaration = [("default", 4.0), ("min", 1.0), ("max", 9.0)];
+    /// let entries = declaration.map(|(key, number)| (TableKey::Name(key.into()), Value::Number(number)));
+    /// let declared = Value::Table(Arc::new(Table { class: None, entries: entries.to_vec() }));
+    /// let floors = ScriptField::declare("tower", "floors", &declared)?;
+    /// assert!(floors.read("tower", Value::Number(9.0)).is_ok());
+    /// assert!(floors.read("tower", Value::Number(10.0)).is_err());
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn read(&self, of: &str, value: Value) -> Result<Value> {
         match self.expected(&value) {
             None => Ok(value),

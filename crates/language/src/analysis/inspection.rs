@@ -15,6 +15,13 @@ pub fn inspects_tables(text: &str) -> bool {
 
 /// Returns the first arguments of the calls of `function` in `text` that are string literals, with escape sequences
 /// unchanged. Ignores comments and other strings.
+///
+/// ```
+/// use burgeon_language::analysis::calls_with_text;
+///
+/// let script = "local a = require('walls') -- require('old')\nlocal b = require \"roofs\"\n";
+/// assert_eq!(calls_with_text(script, "require").collect::<Vec<_>>(), ["walls", "roofs"]);
+/// ```
 pub fn calls_with_text<'a>(text: &'a str, function: &'a str) -> impl Iterator<Item = String> + use<'a> {
     let mut tokens = Tokens { rest: text };
     let mut called = 0;

@@ -4,6 +4,15 @@ use burgeon_base::error::{Error, Result};
 
 /// Returns the names of the parameters in `sql`, each once, in the order of first use: `$name` outside of strings,
 /// quoted names and comments. Fails if a `$` has no name.
+///
+/// ```
+/// use burgeon_language::analysis::sql_parameters;
+///
+/// let sql = "select * from houses where id = $id and name <> '$name' -- $comment";
+/// assert_eq!(sql_parameters(sql)?, ["id"]);
+/// assert!(sql_parameters("select $").is_err());
+/// # Ok::<(), burgeon_base::Error>(())
+/// ```
 pub fn sql_parameters(sql: &str) -> Result<Vec<&str>> {
     let mut names: Vec<&str> = Vec::new();
     let mut rest = sql;

@@ -57,6 +57,13 @@ pub(super) fn line_prefix(line: usize) -> String {
 }
 
 /// Splits a string successor into its line, which the analysis has added, and its text. Other strings have no line.
+///
+/// ```
+/// use burgeon_language::analysis::split_line;
+///
+/// assert_eq!(split_line("@12;F [ L ] F"), (Some(12), "F [ L ] F"));
+/// assert_eq!(split_line("F F"), (None, "F F"));
+/// ```
 pub fn split_line(text: &str) -> (Option<usize>, &str) {
     let parts = text.strip_prefix('@').and_then(|rest| rest.split_once(';'));
     match parts.and_then(|(line, rest)| Some((line.parse().ok()?, rest))) {
@@ -72,6 +79,15 @@ pub(super) const STACK: usize = 256 << 20;
 const PATIENCE: Duration = Duration::from_secs(30);
 
 /// Analyses `text`, the content of `file`. Text that Luau does not compile is kept as it is, so Luau reports the error.
+///
+/// ```
+/// use burgeon_language::analysis::{Globals, analyse};
+///
+/// let globals = Globals { names: vec!["print".into()], ..Globals::default() };
+/// let analysis = analyse("hello.lua", "local greeting = 'hello'\nprint(greting)\n", |_| Some(Vec::new()), &globals);
+/// let place = analysis.problems[0].place().expect("a location");
+/// assert_eq!((analysis.problems.len(), place.line), (1, 2));
+/// ```
 pub fn analyse(file: &str, text: &str, compile: Compile, globals: &Globals) -> Analysis {
     ScriptReader::begin(file, text, compile).finish(globals)
 }

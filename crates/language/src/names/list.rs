@@ -9,6 +9,13 @@ use super::name::{Effect, Name, NameKind};
 use super::{burgeon, luau, standard};
 
 /// Returns all names that every script has except for object types, and the types of their results.
+///
+/// ```
+/// use burgeon_language::{NameKind, names};
+///
+/// let lerp = names().iter().find(|name| name.name == "lerp").expect("a function of the language");
+/// assert_eq!((lerp.sort == NameKind::Global, lerp.forms[0].least()), (true, 3));
+/// ```
 pub fn names() -> &'static [Name] {
     static NAMES: LazyLock<Vec<Name>> = LazyLock::new(|| {
         let own = burgeon::names().into_iter().chain(luau::names());
@@ -30,6 +37,13 @@ pub fn is_pure_function(name: &str) -> bool {
 }
 
 /// Returns the effect of a library function.
+///
+/// ```
+/// use burgeon_language::{Effect, library_effect};
+///
+/// assert_eq!(library_effect("math", "max"), Effect::Pure);
+/// assert_eq!(library_effect("table", "insert"), Effect::ChangesFirst);
+/// ```
 pub fn library_effect(library: &str, function: &str) -> Effect {
     let library = names().iter().find(|known| known.name == library && known.sort != NameKind::Given);
     library.and_then(|library| library.find(function)).map_or(Effect::Other, |function| function.effect)

@@ -22,6 +22,14 @@ pub enum VariationAxis {
 
 impl VariationAxis {
     /// Parses seeds: numbers and inclusive ranges such as `1..16`, separated by commas.
+    ///
+    /// ```
+    /// use burgeon_live::variations::VariationAxis;
+    ///
+    /// assert_eq!(VariationAxis::seeds("1..3, 12")?, VariationAxis::Seeds(vec![1, 2, 3, 12]));
+    /// assert!(VariationAxis::seeds("3..1").is_err());
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn seeds(text: &str) -> Result<Self> {
         let help = "write a range such as 1..16, or numbers such as 3,7,12";
         let number = |text: &str| {

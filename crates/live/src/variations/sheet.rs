@@ -28,6 +28,18 @@ impl SheetLayout {
     /// columns.
     ///
     /// Fails if the sheet would exceed the maximum size of an image.
+    ///
+    /// ```
+    /// use burgeon_live::variations::SheetLayout;
+    /// use burgeon_picture::Picture;
+    ///
+    /// let picture = Picture { width: 320, height: 240, ..Picture::default() };
+    /// let layout = SheetLayout::new(7, Some(3), &picture)?;
+    /// assert_eq!((layout.columns, layout.rows, layout.cell), (3, 3, [320, 240]));
+    /// assert!(layout.size[0] >= 3 * 320);
+    /// assert!(SheetLayout::new(100_000, None, &picture).is_err(), "the sheet is too large");
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn new(count: usize, columns: Option<usize>, picture: &Picture) -> Result<Self> {
         let cell = [picture.width, picture.height];
         let margin = (cell[0].min(cell[1]) / 24).clamp(4, 40);

@@ -13,6 +13,15 @@ pub struct Editor(Vec<String>);
 impl Editor {
     /// Splits a command line at spaces outside of quotes, without a shell. The file is appended if `{file}` does not
     /// occur. Fails if there is no program or a quote is not closed.
+    ///
+    /// ```
+    /// use burgeon_live::Editor;
+    ///
+    /// assert_eq!(Editor::from_text("code -g")?, Editor::from_text("  'code'   -g  ")?);
+    /// assert_ne!(Editor::from_text("code -g")?, Editor::from_text("'code -g'")?);
+    /// assert!(Editor::from_text("code '-g").is_err(), "a quote is open");
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn from_text(text: &str) -> Result<Self> {
         let mut words: Vec<String> = Vec::new();
         let mut quote = None;

@@ -24,6 +24,16 @@ const DIGITS: std::ops::RangeInclusive<usize> = LENGTH * 2..=LENGTH * 16;
 const KEPT: Duration = Duration::from_secs(24 * 60 * 60);
 
 /// Random secret that is known only to recipients of the address.
+///
+/// ```
+/// use burgeon_live::Token;
+///
+/// let token = Token::random()?;
+/// assert!(token.is(token.as_str()) && !token.is("") && token.as_str().len() == 32);
+/// assert_eq!(Token::from_text(&"0f".repeat(16))?.as_str(), "0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f");
+/// assert!(Token::from_text("secret").is_err());
+/// # Ok::<(), burgeon_base::Error>(())
+/// ```
 #[derive(Clone, PartialEq, Eq)]
 pub struct Token(String);
 

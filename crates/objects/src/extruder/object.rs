@@ -21,6 +21,22 @@ const CREASE: f64 = 40.0;
 ///
 /// Each segment has its own length, curvature, twist and scale. Segments that continue each other exactly form one
 /// solid. A jump in position, direction, scale or section closes the solid and begins another.
+///
+/// ```
+/// use burgeon_kit::Object;
+/// use burgeon_objects::Extruder;
+/// use burgeon_scene::Scene;
+///
+/// let mut extruder = Extruder::new(Default::default())?;
+/// extruder.rectangle(2.0, 1.0)?;
+/// extruder.extrude(3.0)?;
+/// extruder.end()?;
+/// assert_eq!((extruder.position().z, extruder.open_edges()), (3.0, 0));
+/// let (mut scene, drawn): (Scene, &dyn Object) = (Scene::default(), &extruder);
+/// drawn.show(&mut scene, "beam", None)?;
+/// assert_eq!((scene.triangles(), scene.instances[0].name.as_str()), (12, "beam"));
+/// # Ok::<(), burgeon_base::Error>(())
+/// ```
 #[object(
     "extruder",
     options = ExtruderOptions,

@@ -79,6 +79,28 @@ impl<'a> FacadeLayout<'a> {
 
     /// Lays out `wall` over `over`, `depth` (m) in front of the frontage. Returns false if the wall does not fit or has
     /// too many faces.
+    ///
+    /// ```
+    /// use burgeon_kit::{Parameter, Table, TableKey, Value};
+    /// use burgeon_objects::Wall;
+    /// use burgeon_objects::facade::{FacadeLayout, Rectangle, grid, panel};
+    /// use glam::{DVec2, DVec3};
+    ///
+    /// let table = |fields: &[(&str, Value)]| {
+    ///     let entries = fields.iter().map(|(name, value)| (TableKey::Name((*name).into()), value.clone()));
+    ///     Table { class: None, entries: entries.collect() }
+    /// };
+    /// // Panels 1 to 2 m wide and 3 m high, in a row.
+    /// let sizes = table(&[("width", vec![1.0, 2.0].into_value()), ("height", Value::Number(3.0))]);
+    /// let bay = Value::Object(panel::kind().make(&sizes)?.into());
+    /// let row = table(&[("wall", bay), ("columns", vec![1.0, 9.0].into_value()), ("rows", Value::Number(1.0))]);
+    /// let wall = Wall::from_value(Value::Object(grid::kind().make(&row)?.into())).expect("a wall");
+    /// let mut layout = FacadeLayout::default();
+    /// let front = Rectangle { at: DVec2::ZERO, size: DVec2::new(9.0, 3.0) };
+    /// assert!(layout.lay(&wall, front, 0.0));
+    /// assert_eq!((layout.faces.len(), layout.faces[0].right), (6, DVec3::new(1.5, 0.0, 0.0)));
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn lay(&mut self, wall: &'a Wall, over: Rectangle, depth: f64) -> bool {
         let inner = &*wall.0;
         let material = inner.material.as_ref();

@@ -4,6 +4,17 @@ use burgeon_geometry::{SAME, Sizes};
 use burgeon_kit::{Expectation, Parameter, Value};
 
 /// A preferred length (m), or a minimum and a maximum, or a minimum, a preferred length and a maximum.
+///
+/// ```
+/// use burgeon_kit::{Parameter, Value};
+/// use burgeon_objects::facade::size::Size;
+///
+/// let read = |numbers: &[f64]| Size::from_value(numbers.to_vec().into_value());
+/// let width = read(&[1.0, 1.5, 3.0]).expect("a minimum, a preferred and a maximum length");
+/// assert_eq!((width.sizes().low(), width.target(), width.sizes().high()), (1.0, Some(1.5), 3.0));
+/// assert!(read(&[3.0, 1.0]).is_err(), "the minimum exceeds the maximum");
+/// assert_eq!(Size::from_value(Value::Number(2.0)).ok().and_then(|size| size.target()), Some(2.0));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Size {
     low: f64,

@@ -20,6 +20,26 @@ use glam::DVec3;
 ///
 /// The parts form one closed solid. Walls stand on the groundwork or on earlier walls. The roof covers the walls and
 /// completes the building.
+///
+/// ```
+/// use burgeon_kit::{Object, Parameter, Table, TableKey, Value, object};
+/// use burgeon_objects::Footprint;
+/// use glam::DVec3;
+/// use std::sync::Arc;
+///
+/// let ring = [(0.0, 0.0), (10.0, 0.0), (10.0, 6.0), (0.0, 6.0)].map(|(x, y)| DVec3::new(x, y, 0.0));
+/// let options = [("geometry", vec![ring.to_vec()].into_value()), ("height", Value::Number(5.0))];
+/// let entries = options.map(|(name, value)| (TableKey::Name(name.into()), value)).to_vec();
+/// let house = Value::Object(Footprint::kind().make(&Table { class: None, entries })?.into());
+/// let mut house = Arc::unwrap_or_clone(object::<Footprint>(house, "a footprint").expect("a footprint"));
+/// assert_eq!((house.area(), house.edges()), (60.0, 4));
+/// house.walls(None)?;
+/// house.roof(None)?;
+/// house.end()?;
+/// let drawn: &dyn Object = &house;
+/// assert!(drawn.triangles() > 8);
+/// # Ok::<(), burgeon_base::Error>(())
+/// ```
 #[object(
     "footprint",
     options = FootprintOptions,

@@ -26,6 +26,21 @@ use burgeon_streets::{
 /// A proposed street is built, shortened, bent, joined to a street or junction near its end, or refused. In the next
 /// step, rules read the outcome. Streets never cross without a junction, and keep their minimum distance. Streets that
 /// are built remain in all later steps.
+///
+/// ```
+/// use burgeon_kit::{Object, Vector};
+/// use burgeon_objects::Network;
+/// use glam::DVec3;
+///
+/// let mut network = Network::new(Default::default())?;
+/// network.begin();
+/// // A street 120 m long to the east, from junction 1 at the origin.
+/// network.grow(1, 0.0, 120.0, 0)?;
+/// network.end()?;
+/// assert_eq!((network.fate(1, 0.0), network.size()), ("built".to_owned(), 1));
+/// assert_eq!(network.distance(Vector(DVec3::new(60.0, 9.0, 0.0))), 9.0);
+/// # Ok::<(), burgeon_base::Error>(())
+/// ```
 #[object(
     "network",
     can(Show, HasLayers, Warn),

@@ -12,6 +12,27 @@ use glam::DVec3;
 ///
 /// Triangles with a corner that is not finite are skipped. Fails if the size is zero or exceeds 16384, if a texture
 /// cannot be read, or if the scene refers to a mesh, material or corner that does not exist.
+///
+/// ```
+/// use burgeon_picture::{Background, Picture, Quality, render};
+/// use burgeon_scene::{Instance, Mesh, Scene};
+/// use glam::{DAffine3, Vec3};
+///
+/// # let (transform, name, feature) = (DAffine3::IDENTITY, String::new(), None);
+/// # let instance = Instance { mesh: 0, transform, name, feature, origin: None, placement: None, meaning: None };
+/// let mut scene = Scene { instances: vec![instance], ..Scene::default() };
+/// let mut tile = Mesh::default();
+/// let part = tile.part(scene.material(&Default::default()));
+/// part.positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
+/// # (part.normals, part.uvs) = (vec![burgeon_scene::Normal::Z; 3], vec![glam::Vec2::ZERO; 3]);
+/// part.triangles.push([0, 1, 2]);
+/// scene.meshes.push(tile);
+/// let size = Picture { width: 16, height: 12, quality: Quality::Draft, ..Picture::default() };
+/// let image = render(&scene, &Picture { background: Background::Clear, ground: false, ..size })?;
+/// assert_eq!((image.width(), image.pixel(0, 0)[3]), (16, 0));
+/// assert!(image.pixels().iter().any(|[_, _, _, opacity]| *opacity == 255));
+/// # Ok::<(), burgeon_base::Error>(())
+/// ```
 pub fn render(scene: &Scene, picture: &Picture) -> Result<Image> {
     render_within(scene, None, picture, &Stop::default())
 }
@@ -21,6 +42,20 @@ pub fn render(scene: &Scene, picture: &Picture) -> Result<Image> {
 /// Renders of several scenes with the same extent and the same `picture` share a camera, so that sizes can be compared.
 /// If `picture` specifies no direction, the shape of the extent determines it. Fails as [`render`] does, and if `stop`
 /// requests cancellation.
+///
+/// ```
+/// use burgeon_base::{Error, Stop};
+/// use burgeon_picture::{Extent, Picture, Quality, render_within};
+/// use burgeon_scene::Scene;
+///
+/// let picture = Picture { width: 8, height: 6, quality: Quality::Draft, ..Picture::default() };
+/// let (scene, stop) = (Scene::default(), Stop::new());
+/// assert_eq!(render_within(&scene, Some(&Extent::default()), &picture, &stop)?.pixels().len(), 48);
+/// stop.stop(Error::cancellation("the window was closed"));
+/// let error = render_within(&scene, None, &picture, &stop).expect_err("cancelled");
+/// assert_eq!(error.message(), "the window was closed");
+/// # Ok::<(), Error>(())
+/// ```
 pub fn render_within(
     scene: &Scene,
     extent: Option<&Extent>,

@@ -45,6 +45,14 @@ pub fn has_alpha(bytes: &[u8]) -> Result<bool> {
 }
 
 /// Encodes `image` as a PNG file.
+///
+/// ```
+/// use burgeon_scene::image::{Image, decode, encode};
+///
+/// let ramp = Image::from_fn(4, 2, |x, y| [x as u8 * 60, y as u8 * 200, 0, 255]);
+/// assert_eq!(decode(&encode(&ramp)?)?.pixels(), ramp.pixels());
+/// # Ok::<(), burgeon_base::Error>(())
+/// ```
 pub fn encode(image: &Image) -> Result<Vec<u8>> {
     write([image.width(), image.height()], ColorType::Rgba, image.bytes())
 }

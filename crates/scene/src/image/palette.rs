@@ -15,6 +15,15 @@ impl PaletteImage {
     ///
     /// Method: Heckbert, "Color image quantization for frame buffer display", 1982. Each box of colours is cut at the
     /// median of its pixels, along its longest side.
+    ///
+    /// ```
+    /// use burgeon_scene::image::{Image, PaletteImage};
+    ///
+    /// let shades = Image::from_fn(16, 1, |x, _| [x as u8, 100, 200, 255]);
+    /// let reduced = PaletteImage::of(&shades, 4);
+    /// assert_eq!((reduced.colors.len(), reduced.pixels.len()), (4, 16));
+    /// assert_eq!(reduced.pixels[0], reduced.pixels[1]);
+    /// ```
     pub fn of(image: &Image, most: usize) -> Self {
         let mut pixels: Vec<(usize, [u8; 3])> =
             image.pixels().iter().map(|pixel| [pixel[0], pixel[1], pixel[2]]).enumerate().collect();

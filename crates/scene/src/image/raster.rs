@@ -67,6 +67,15 @@ impl Image {
     }
 
     /// Copies `other` over this image with its upper left corner at `left`, `top`, as far as it fits.
+    ///
+    /// ```
+    /// use burgeon_scene::image::Image;
+    ///
+    /// let mut sheet = Image::filled(4, 4, [0, 0, 0, 255]);
+    /// sheet.put(&Image::filled(2, 2, [255, 0, 0, 255]), 3, 3);
+    /// assert_eq!(sheet.pixel(3, 3), [255, 0, 0, 255]);
+    /// assert_eq!(sheet.pixels().iter().filter(|pixel| pixel[0] > 0).count(), 1);
+    /// ```
     pub fn put(&mut self, other: &Self, left: u32, top: u32) {
         for (y, row) in (top..self.height).zip(0..other.height) {
             let from = (left as usize).min(self.width as usize);
@@ -87,6 +96,13 @@ pub enum ImageKind {
 
 impl ImageKind {
     /// Detects the format of a file with this content by its first bytes; `None` if it is neither PNG nor JPEG.
+    ///
+    /// ```
+    /// use burgeon_scene::image::ImageKind;
+    ///
+    /// assert_eq!(ImageKind::of(b"\x89PNG\r\n\x1a\n...").map(ImageKind::extension), Some("png"));
+    /// assert!(ImageKind::of(b"GIF89a").is_none());
+    /// ```
     pub fn of(bytes: &[u8]) -> Option<Self> {
         match bytes {
             [0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1a, b'\n', ..] => Some(Self::Png),

@@ -59,6 +59,14 @@ impl Constraints {
     }
 
     /// Checks that the values are in range and consistent; the error names the field.
+    ///
+    /// ```
+    /// use burgeon_streets::Constraints;
+    ///
+    /// assert!(Constraints::default().check().is_ok());
+    /// let error = Constraints { min_angle: 5.0, ..Constraints::default() }.check().expect_err("too small");
+    /// assert!(error.message().starts_with("min_angle"));
+    /// ```
     pub fn check(&self) -> Result<()> {
         let Self { snap, min_angle, min_length, clearance, corner, bend, bridge, .. } = *self;
         let named = [

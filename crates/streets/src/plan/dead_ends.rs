@@ -40,6 +40,22 @@ impl StreetNetwork {
     /// Candidates for a dead end are junctions, nearest points of streets, and the intersection straight ahead. They
     /// are tried by increasing length, where a turn of 45 degrees doubles the length. The first candidate that meets
     /// all constraints and saves a sufficient detour is built.
+    ///
+    /// ```
+    /// use burgeon_streets::{Constraints, DeadEndOptions, Obstacles, StreetAttributes, StreetNetwork};
+    /// use glam::DVec2;
+    ///
+    /// // Three sides of a rectangle.
+    /// let mut network = StreetNetwork::new(Constraints::default(), Obstacles::default())?;
+    /// let mut end = network.begin(DVec2::ZERO)?;
+    /// for to in [(200.0, 0.0), (200.0, 100.0), (0.0, 100.0)] {
+    ///     end = network.grow(end, DVec2::from(to), StreetAttributes::default())?.end;
+    /// }
+    /// assert_eq!(network.dead_ends().count(), 2);
+    /// network.join_dead_ends(DeadEndOptions::default());
+    /// assert_eq!(network.dead_ends().count(), 0);
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn join_dead_ends(&mut self, options: DeadEndOptions) -> usize {
         let mut joined = 0;
         loop {

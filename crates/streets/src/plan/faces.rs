@@ -110,6 +110,21 @@ impl StreetNetwork {
     /// Returns the areas that the streets enclose, in a fixed order.
     ///
     /// A network without cycles encloses no area. A network inside a face is an island of that face.
+    ///
+    /// ```
+    /// use burgeon_streets::{Constraints, Obstacles, StreetAttributes, StreetNetwork};
+    /// use glam::DVec2;
+    ///
+    /// let mut network = StreetNetwork::new(Constraints::default(), Obstacles::default())?;
+    /// let mut end = network.begin(DVec2::ZERO)?;
+    /// for to in [(200.0, 0.0), (200.0, 100.0), (0.0, 100.0)] {
+    ///     end = network.grow(end, DVec2::from(to), StreetAttributes::default())?.end;
+    /// }
+    /// assert!(network.faces().is_empty());
+    /// network.grow(end, DVec2::ZERO, StreetAttributes::default())?;
+    /// assert_eq!(network.area(&network.faces()[0].around), 20_000.0);
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn faces(&self) -> Vec<StreetFace> {
         let mut faces = Vec::new();
         let mut outsides = Vec::new();

@@ -9,6 +9,15 @@ pub(crate) const PER_METRE: f64 = 1024.0;
 pub const FARTHEST: f64 = 500_000.0;
 
 /// Position on a grid with steps of 1/1024 m.
+///
+/// ```
+/// use burgeon_streets::GridPlace;
+/// use glam::DVec2;
+///
+/// let place = GridPlace::nearest(DVec2::new(0.5, 1.0 / 3.0)).expect("a finite position");
+/// assert_eq!(place.metres(), DVec2::new(0.5, 341.0 / 1024.0));
+/// assert_eq!(GridPlace::nearest(DVec2::splat(f64::NAN)), None);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct GridPlace {
     x: i64,

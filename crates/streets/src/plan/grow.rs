@@ -110,6 +110,22 @@ impl StreetNetwork {
     }
 
     /// Predicts the outcome of a street from a junction to a position, without building it.
+    ///
+    /// ```
+    /// use burgeon_streets::{Constraints, Fate, Obstacles, StreetAttributes, StreetNetwork};
+    /// use glam::DVec2;
+    ///
+    /// let mut network = StreetNetwork::new(Constraints::default(), Obstacles::default())?;
+    /// let street = StreetAttributes { width: 10.0, ..StreetAttributes::default() };
+    /// let start = network.begin(DVec2::ZERO)?;
+    /// network.grow(start, DVec2::new(200.0, 0.0), street)?;
+    /// let aside = network.begin(DVec2::new(100.0, 80.0))?;
+    /// // The street would end 5 m before the other street.
+    /// let prospect = network.probe(aside, DVec2::new(100.0, 5.0), street);
+    /// assert_eq!((prospect.fate, prospect.place), (Fate::Joined, DVec2::new(100.0, 0.0)));
+    /// assert_eq!(network.size(), 1);
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn probe(&self, from: JunctionId, to: DVec2, attributes: StreetAttributes) -> StreetProspect {
         match self.plan(from, to, attributes, &mut 0) {
             Ok(PlannedStreet { end, fate, .. }) => {

@@ -416,6 +416,19 @@ impl StreetNetwork {
     }
 
     /// Returns the segment nearest to a position, and its distance (m); `None` if there is none.
+    ///
+    /// ```
+    /// use burgeon_streets::{Constraints, Obstacles, StreetAttributes, StreetNetwork};
+    /// use glam::DVec2;
+    ///
+    /// let mut network = StreetNetwork::new(Constraints::default(), Obstacles::default())?;
+    /// assert_eq!(network.nearest(DVec2::ZERO), None);
+    /// let start = network.begin(DVec2::ZERO)?;
+    /// network.grow(start, DVec2::new(100.0, 0.0), StreetAttributes::default())?;
+    /// let (piece, distance) = network.nearest(DVec2::new(30.0, 7.0)).expect("a street");
+    /// assert_eq!((network.length(piece), distance), (100.0, 7.0));
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn nearest(&self, place: DVec2) -> Option<(PieceId, f64)> {
         let place = place.to_array();
         let found = self.piece_index.nearest_neighbor(&place)?;

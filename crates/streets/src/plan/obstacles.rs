@@ -13,6 +13,20 @@ use burgeon_geometry::{Polygon, planar};
 type ObstacleEdge = GeomWithData<IndexLine<[f64; 2]>, u32>;
 
 /// Areas (m) that streets avoid.
+///
+/// ```
+/// use burgeon_geometry::{Polygon, Rings};
+/// use burgeon_streets::{Constraints, Obstacle, Obstacles, StreetNetwork};
+/// use glam::DVec2;
+///
+/// let pond = [(0.0, 0.0), (40.0, 0.0), (40.0, 30.0), (0.0, 30.0)].map(DVec2::from).to_vec();
+/// let area = Polygon::new(Rings(vec![pond]))?;
+/// let obstacles = Obstacles::new(vec![Obstacle { area, is_limit: false, can_be_bridged: true }]);
+/// assert!(obstacles.at(DVec2::new(10.0, 10.0)).is_some());
+/// let mut network = StreetNetwork::new(Constraints::default(), obstacles)?;
+/// assert!(network.begin(DVec2::new(10.0, 10.0)).is_err());
+/// # Ok::<(), burgeon_base::error::Error>(())
+/// ```
 #[derive(Clone, Default)]
 pub struct Obstacles {
     areas: Arc<[Obstacle]>,

@@ -27,6 +27,19 @@ impl StreetStretch {
 
 impl StreetNetwork {
     /// Returns the streets between junctions, each once. A junction of two segments with equal attributes is a turn.
+    ///
+    /// ```
+    /// use burgeon_streets::{Constraints, Obstacles, StreetAttributes, StreetNetwork};
+    /// use glam::DVec2;
+    ///
+    /// let mut network = StreetNetwork::new(Constraints::default(), Obstacles::default())?;
+    /// let start = network.begin(DVec2::ZERO)?;
+    /// let turn = network.grow(start, DVec2::new(100.0, 0.0), StreetAttributes::default())?.end;
+    /// network.grow(turn, DVec2::new(100.0, 80.0), StreetAttributes::default())?;
+    /// let stretches = network.stretches();
+    /// assert_eq!((network.size(), stretches.len(), stretches[0].length()), (2, 1, 180.0));
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     pub fn stretches(&self) -> Vec<StreetStretch> {
         let kind = |piece: PieceId| (self.attributes(piece), self.is_bridge(piece));
         let ways = self.ways_between(|junction| {

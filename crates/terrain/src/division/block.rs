@@ -3,6 +3,16 @@
 use burgeon_rewriting::{ModuleKey, Symbol};
 
 /// A rectangle of cells, by column from the west and row from the north.
+///
+/// ```
+/// use burgeon_terrain::Area;
+///
+/// let area = Area { x: 2, y: 4, columns: 2, rows: 1 };
+/// assert_eq!((area.len(), area.at(1), area.index(3, 4)), (2, (3, 4), 1));
+/// assert_eq!(area.quadrants(), Area { x: 4, y: 8, columns: 4, rows: 2 });
+/// assert_eq!(area.parent_area(0), Area { x: 1, y: 2, columns: 1, rows: 1 });
+/// assert_eq!(area.join(Area { x: 0, y: 4, columns: 1, rows: 1 }), Area { x: 0, y: 4, columns: 4, rows: 1 });
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Area {
     /// Column of the first cell.

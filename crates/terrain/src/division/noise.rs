@@ -58,6 +58,16 @@ fn noise_around(place: DVec3, seed: u64) -> f64 {
 }
 
 /// Returns noise like [`octaves`] at a point in space, without the octaves that are smaller than `finest`.
+///
+/// ```
+/// use burgeon_terrain::octaves_around;
+/// use glam::DVec3;
+///
+/// let place = DVec3::new(0.3, 7.1, 2.8);
+/// assert_eq!(octaves_around(place, 4, 5, 0.0), octaves_around(place, 4, 5, 0.01));
+/// // With a finest detail of 0.3 only the octaves of size 1 and 1 / 2.03 are left.
+/// assert_ne!(octaves_around(place, 4, 5, 0.3), octaves_around(place, 4, 5, 0.0));
+/// ```
 pub fn octaves_around(place: DVec3, octaves: u32, seed: u64, finest: f64) -> f64 {
     let (mut sum, mut whole, mut strength, mut scale) = (0.0, 0.0, 1.0, 1.0);
     for octave in 0..octaves {

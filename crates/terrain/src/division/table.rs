@@ -46,6 +46,26 @@ pub struct Quadrants {
 }
 
 /// Rules of all symbols, by index.
+///
+/// ```
+/// use burgeon_terrain::{DivisionRules, LevelRules, NumberRange, Quadrants, RuleTable, Tables, World};
+/// use glam::DVec2;
+/// use std::sync::Arc;
+///
+/// // The north-west quadrant of each cell is higher, and each change is half the previous one.
+/// let change = [1.0, 0.0, 0.0, 0.0].map(NumberRange::exactly);
+/// let quadrants = Quadrants { weight: 1.0, symbols: [0; 4], change, decay: [NumberRange::exactly(0.5); 4] };
+/// let table = RuleTable { names: vec!["A".into()], rules: vec![vec![quadrants]] };
+/// assert!(!table.is_random());
+/// let (rules, names) = (DivisionRules::Table(Arc::new(table)), Arc::new(vec!["A".to_owned()]));
+/// let layers = vec![LevelRules { from: 0, rules, start: 0, height: 0.0, rest: vec![8.0], names }];
+/// let (corner, remap) = (DVec2::ZERO, vec![]);
+/// let world = World { corner, size: 64.0, layers, smooth: false, key: None, remap, measured: None };
+/// let root = world.root();
+/// let cells = world.descend(&root, 2, root.area.quadrants().quadrants(), true, &Tables)?;
+/// assert_eq!(cells.heights[0], 8.0 + 4.0);
+/// # Ok::<(), burgeon_base::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct RuleTable {
     /// Names of the symbols.

@@ -149,6 +149,21 @@ impl Edits {
 
     /// Reads edits of `world` from the JSON text of the file `name`. Fails if the text is invalid or belongs
     /// to another world.
+    ///
+    /// ```
+    /// use burgeon_terrain::{Edit, Edits, World};
+    /// use glam::DVec2;
+    ///
+    /// let (corner, layers, remap) = (DVec2::ZERO, vec![], vec![]);
+    /// let world = World { corner, size: 100.0, layers, smooth: true, key: None, remap, measured: None };
+    /// let mut edits = Edits::default();
+    /// edits.add(&world, Edit::Dig { path: vec![[10.0, 50.0], [90.0, 50.0]], width: 4.0, depth: 1.0 })?;
+    /// let text = edits.to_json(&world);
+    /// assert_eq!(Edits::from_json(&text, "ditch.json", &world)?.len(), 1);
+    /// let other = World { size: 200.0, ..world };
+    /// assert!(Edits::from_json(&text, "ditch.json", &other).is_err());
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn from_json(text: &str, name: &str, world: &World) -> Result<Self> {
         let file: EditsFile = serde_json::from_str(text).map_err(|error| {
             Error::data(format!("{name} holds no edits of a terrain: {error}"))

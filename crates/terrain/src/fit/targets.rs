@@ -61,6 +61,15 @@ impl Target {
     /// interpolated linearly between cell centres.
     ///
     /// Fails like [`new`](Self::new), or if the number of heights is not `columns` x `rows`.
+    ///
+    /// ```
+    /// use burgeon_terrain::fit::Target;
+    ///
+    /// let target = Target::resample(4, 2, &[0.0, 2.0, 4.0, 6.0, 0.0, 2.0, 4.0, 6.0], 2)?;
+    /// assert_eq!(target.heights(), [1.0, 5.0, 1.0, 5.0]);
+    /// assert!(Target::resample(4, 2, &[0.0; 8], 3).is_err(), "3 is not a power of two");
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn resample(columns: usize, rows: usize, heights: &[f64], across: usize) -> Result<Self> {
         if columns == 0 || rows == 0 || columns.checked_mul(rows) != Some(heights.len()) {
             let count = heights.len();
@@ -97,6 +106,16 @@ impl Target {
 
     /// Returns the error of the map `heights` with the same number of cells: the root mean square of the
     /// difference, after scaling each map to 0..1 by its own minimum and maximum. A flat map is 0 everywhere.
+    ///
+    /// ```
+    /// use burgeon_terrain::fit::Target;
+    ///
+    /// let target = Target::new(2, vec![0.0, 1.0, 2.0, 3.0])?;
+    /// // Only the shape counts, not the height.
+    /// assert_eq!(target.error(&[10.0, 20.0, 30.0, 40.0]), 0.0);
+    /// assert!(target.error(&[3.0, 2.0, 1.0, 0.0]) > 0.5);
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn error(&self, heights: &[f64]) -> f64 {
         error(&self.heights, heights)
     }

@@ -91,6 +91,14 @@ pub(super) fn area(corners: &[DVec3]) -> f64 {
 }
 
 /// Returns the absolute latitude (degrees) of a direction relative to the equator of `axis`.
+///
+/// ```
+/// use burgeon_terrain::globe::latitude;
+/// use glam::DVec3;
+///
+/// assert!((latitude(DVec3::new(1.0, 0.0, 1.0), DVec3::Z) - 45.0).abs() < 1e-9);
+/// assert!((latitude(DVec3::NEG_Z, DVec3::Z) - 90.0).abs() < 1e-9);
+/// ```
 pub fn latitude(direction: DVec3, axis: DVec3) -> f64 {
     (FRAC_PI_2 - direction.angle_between(axis)).abs().to_degrees()
 }

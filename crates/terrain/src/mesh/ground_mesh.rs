@@ -38,6 +38,26 @@ fn key([x, y]: GridCorner) -> u64 {
 impl<'a> GroundMesh<'a> {
     /// Computes the coarsest triangulation within `error` (m) of the ground at all corners of its cells, and
     /// at all samples of measured ground if cells are not larger than the sample distance.
+    ///
+    /// ```
+    /// use burgeon_terrain::{DivisionRules, Ground, GroundCuts, GroundMesh, LevelRules, Tables, View, World};
+    /// use glam::{DVec2, DVec3};
+    /// use std::sync::Arc;
+    ///
+    /// # let (rules, names) = (DivisionRules::None, Arc::default());
+    /// let plain = LevelRules { from: 0, rules, start: 0, height: 12.0, rest: vec![], names };
+    /// # let (corner, remap) = (DVec2::ZERO, vec![]);
+    /// let layers = vec![plain];
+    /// let world = World { corner, size: 64.0, layers, smooth: false, key: None, remap, measured: None };
+    /// let view = View::whole(&world, 4);
+    /// let mut ground = Ground::new(Arc::new(world));
+    /// ground.focus(DVec2::splat(32.0), &view, &Tables)?;
+    /// let mut part = Default::default();
+    /// GroundMesh::new(&ground, 0.1).write(0, DVec3::ZERO, 0.0, &GroundCuts::default(), &mut part);
+    /// // A plain needs no more triangles than a square.
+    /// assert_eq!((part.triangles.len(), part.positions[0].z), (2, 12.0));
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
     pub fn new(ground: &'a Ground, error: f64) -> Self {
         let owner = MemoryOwner::current();
         let grid = |tile| owner.charge(|| HeightGrid::new(ground, tile));

@@ -44,6 +44,17 @@ impl View {
     }
 
     /// Fails if the view of `world` from `eye` (m) is invalid: outside the world, or with too many heights.
+    ///
+    /// ```
+    /// use burgeon_terrain::{TileRing, View, World};
+    /// use glam::DVec2;
+    ///
+    /// let (corner, layers, remap) = (DVec2::ZERO, vec![], vec![]);
+    /// let world = World { corner, size: 1024.0, layers, smooth: true, key: None, remap, measured: None };
+    /// let view = View { cell: 128.0, rings: vec![TileRing { across: 3, levels: 4 }] };
+    /// assert!(view.check(&world, DVec2::splat(500.0)).is_ok());
+    /// assert!(view.check(&world, DVec2::splat(-1.0)).is_err(), "outside the world");
+    /// ```
     pub fn check(&self, world: &World, eye: DVec2) -> Result<()> {
         self.fit(world, eye).map(|_| ())
     }

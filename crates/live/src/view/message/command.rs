@@ -102,6 +102,15 @@ pub struct PickCommand {
 }
 
 /// Parses a page's message. Fails with the event to send to the page.
+///
+/// ```
+/// use burgeon_live::message::{Event, PageCommand, read};
+///
+/// let command = read(r#"{ "type": "steps", "steps": 4 }"#).expect("a command");
+/// assert!(matches!(command, PageCommand::Steps { steps: Some(4) }));
+/// let event = read(r#"{ "type": "dance", "id": 3 }"#).expect_err("there is no such command");
+/// assert!(matches!(*event, Event::Refused { id: Some(3), .. }));
+/// ```
 pub fn read(text: &str) -> Result<PageCommand, Box<Event>> {
     let refuse = |id: Option<u64>, error: Error| Err(Box::new(Event::rejection(id, &error)));
     let value: Value = match serde_json::from_str(text) {
