@@ -5,6 +5,7 @@ mod choice;
 mod closures;
 mod contexts;
 mod continued;
+mod decomposition;
 mod determinism;
 mod fragments;
 mod generate;

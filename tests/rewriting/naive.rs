@@ -194,17 +194,29 @@ pub(crate) fn step(items: &[Item], rules: &[(Pattern, Vec<Item>)], ignored: &[St
     rewrite(items, &mut chosen.into_iter(), rules)
 }
 
+/// Maximum depth of decompositions, as in the engine.
+const MAX_DEPTH: usize = 100;
+
 /// Returns the chain after `steps` steps; `rules` are lines as in [`super::scripts::Plain`].
 pub(crate) fn derive(axiom: &str, rules: &str, ignored: &str, steps: usize) -> String {
-    let rules: Vec<(Pattern, Vec<Item>)> = rules
-        .lines()
-        .filter_map(|line| line.split_once("->"))
-        .map(|(pattern, successor)| (Pattern::parse(pattern.trim()), parse(successor)))
-        .collect();
-    let ignored = words(ignored);
-    let mut items = parse(axiom);
+    let lines = |arrow: &str| -> Vec<(Pattern, Vec<Item>)> {
+        let divided = rules.lines().filter_map(|line| line.split_once(arrow));
+        divided.map(|(pattern, successor)| (Pattern::parse(pattern.trim()), parse(successor))).collect()
+    };
+    let (rewriting, decomposition, ignored) = (lines("->"), lines("=>"), words(ignored));
+    let decompose = |mut items: Vec<Item>| {
+        for _ in 0..MAX_DEPTH {
+            let next = step(&items, &decomposition, &ignored);
+            if next == items {
+                break;
+            }
+            items = next;
+        }
+        items
+    };
+    let mut items = decompose(parse(axiom));
     for _ in 0..steps {
-        items = step(&items, &rules, &ignored);
+        items = decompose(step(&items, &rewriting, &ignored));
     }
     write(&items)
 }

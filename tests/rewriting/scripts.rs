@@ -91,7 +91,8 @@ pub(crate) fn as_lua(chain: &str) -> String {
     out.trim_end_matches([',', ' ']).to_owned()
 }
 
-/// System without parameters: `rules` are lines such as `A < B > C -> D [ E ]`; an empty successor erases.
+/// System without parameters: `rules` are lines such as `A < B > C -> D [ E ]`; an empty successor erases. Decompositions
+/// have the arrow `=>`.
 pub(crate) struct Plain<'a> {
     pub ignore: &'a str,
     pub axiom: &'a str,
@@ -130,12 +131,16 @@ impl Plain<'_> {
         }
         script.push_str(&format!("s:axiom({})\n", as_lua(self.axiom)));
         for rule in self.rules.lines().map(str::trim).filter(|rule| !rule.is_empty()) {
-            let (pattern, successor) = rule.split_once("->").expect("an arrow in each rule");
+            let (method, arrow) = if rule.contains("=>") { ("decompose", "=>") } else { ("rule", "->") };
+            let (pattern, successor) = rule.split_once(arrow).expect("an arrow in each rule");
             let successor = match as_lua(successor) {
                 empty if empty.is_empty() => "nil".to_owned(),
                 made => made,
             };
-            script.push_str(&format!("s:rule(\"{}\", function() return {successor} end)\n", pattern.trim()));
+            script.push_str(&format!(
+                "s:{method}(\"{}\", function() return {successor} end)\n",
+                pattern.trim()
+            ));
         }
         script.push_str("s:derive(steps)\nend\n");
         for steps in steps {

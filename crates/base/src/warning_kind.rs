@@ -28,6 +28,8 @@ pub enum WarningKind {
     NotDerived,
     /// A parameter that is declared twice.
     ParameterTwice,
+    /// Modules that would be replaced beyond the maximum depth.
+    Depth,
     /// An option or a call without effect in its context.
     NoEffect,
     /// A file that is readable but partly invalid.
@@ -67,6 +69,7 @@ impl WarningKind {
             Self::DerivedTwice => "warning.derived-twice",
             Self::NotDerived => "warning.not-derived",
             Self::ParameterTwice => "warning.parameter-twice",
+            Self::Depth => "warning.depth",
             Self::NoEffect => "warning.no-effect",
             Self::Data => "warning.data",
             Self::Doubtful => "warning.doubtful",

@@ -21,6 +21,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "api" shows "api" "api.has";
     "color" shows "color";
     "consider" shows "system:consider";
+    "decompose" shows "system:decompose";
     "derived" shows "derived";
     "ease" shows "ease" "ease.in" "ease.out" "ease.inout" "ease.smooth" "ease.sine" "ease.back";
     "extend" shows "extend";

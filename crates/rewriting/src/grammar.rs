@@ -95,24 +95,46 @@ impl Grammar {
     /// rules are detected automatically.
     pub fn new(symbols: Arc<Symbols>, rules: Vec<Rule>, ignored: &[Symbol], random: bool) -> Self {
         let arities = symbols.arities();
-        let mut by_symbol = vec![Vec::new(); arities.len()];
-        for (index, rule) in (0u16..).zip(&rules).filter(|(_, rule)| rule.weight != Some(0.0)) {
-            by_symbol[usize::from(rule.pattern.predecessor.symbol)].push(index);
-        }
         let mut skipped = vec![false; arities.len()];
         for symbol in ignored.iter().filter(|symbol| **symbol > END) {
             skipped[usize::from(*symbol)] = true;
         }
-        let left = rules.iter().any(|rule| !rule.pattern.left.is_empty());
-        let right = rules.iter().any(|rule| !rule.pattern.right.is_empty());
         let mut branches = Branches::default();
         let rights = rules.iter().map(|rule| branches.number(&rule.pattern.right)).collect();
-        let choices = by_symbol
-            .iter()
-            .map(|of| Choice::among(of.iter().map(|rule| &rules[usize::from(*rule)]), of))
-            .collect();
         let random = random || rules.iter().any(|rule| rule.weight.is_some());
-        Self { symbols, rules, by_symbol, rights, branches, choices, skipped, arities, left, right, random }
+        let grammar = Self {
+            symbols,
+            rules,
+            by_symbol: Vec::new(),
+            rights,
+            branches,
+            choices: Vec::new(),
+            skipped,
+            arities,
+            left: false,
+            right: false,
+            random,
+        };
+        grammar.with_candidates(|_| true)
+    }
+
+    /// Returns the grammar in which only rules whose numbers satisfy `is_candidate` can be chosen. The numbers of the
+    /// rules and the random keys of modules stay the same, so that several phases of a derivation can share a chain.
+    #[must_use]
+    pub fn with_candidates(mut self, is_candidate: impl Fn(u16) -> bool) -> Self {
+        let mut by_symbol = vec![Vec::new(); self.arities.len()];
+        (self.left, self.right) = (false, false);
+        for (number, rule) in (0u16..).zip(&self.rules).filter(|(number, _)| is_candidate(*number)) {
+            self.left |= !rule.pattern.left.is_empty();
+            self.right |= !rule.pattern.right.is_empty();
+            if rule.weight != Some(0.0) {
+                by_symbol[usize::from(rule.pattern.predecessor.symbol)].push(number);
+            }
+        }
+        let among = |of: &Vec<u16>| Choice::among(of.iter().map(|rule| &self.rules[usize::from(*rule)]), of);
+        self.choices = by_symbol.iter().map(among).collect();
+        self.by_symbol = by_symbol;
+        self
     }
 
     /// Returns the declared modules.

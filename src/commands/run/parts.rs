@@ -58,7 +58,8 @@ mod tests {
 
     #[test]
     fn files_of_parts_are_numbered_before_their_extensions() {
-        let named = |text: &str, number, count| part_file(Path::new(text), number, count).display().to_string();
+        let named =
+            |text: &str, number, count| part_file(Path::new(text), number, count).display().to_string();
         assert_eq!(named("a/town.glb", 3, 12), "a/town-03.glb");
         assert_eq!(named("town.city.json", 1, 4), "town-1.city.json");
         assert_eq!((named("-", 1, 4), named("tiles", 2, 4)), ("-".to_owned(), "tiles-2".to_owned()));

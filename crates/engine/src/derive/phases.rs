@@ -8,7 +8,7 @@ use std::time::Instant;
 use super::checkpoints::CheckpointWriter;
 use super::interpret::InterpretationPass;
 use super::pending::{Resolution, resolve};
-use super::plan::{Derivation, DerivationPlan};
+use super::plan::{Decomposition, Derivation, DerivationPlan};
 use super::rewriter::SystemRewriter;
 use super::step::step;
 use super::threads::LeadingMachine;
@@ -16,8 +16,8 @@ use crate::declare::TraceRequest;
 use crate::machine::Driver as _;
 use crate::results::{RowFeatures, RuleName, RuleReport, Step, Times};
 use burgeon_base::error::Result;
-use burgeon_base::warning::Warning;
-use burgeon_rewriting::{Chain, Phase, PhaseOutcome, Phases, Stepper, Use};
+use burgeon_base::warning::{Warning, WarningKind};
+use burgeon_rewriting::{Chain, Phase, PhaseOutcome, Phases, StepOutcome, Stepper, Use, module_brief};
 
 /// State of a derivation, shared by its phases.
 pub(super) struct DerivationState<'a> {
@@ -25,6 +25,8 @@ pub(super) struct DerivationState<'a> {
     derivation: &'a Derivation,
     rewriter: SystemRewriter<'a>,
     stepper: Stepper,
+    /// Executor of the decomposition rules, if there are any.
+    decomposer: Option<Stepper>,
     /// Chain before the current step; its memory is reused once nothing reads it.
     previous: Option<Arc<Chain>>,
     times: Times,
@@ -83,6 +85,7 @@ pub(super) fn derive(
         derivation,
         rewriter: SystemRewriter::new(leader),
         stepper,
+        decomposer: plan.decomposition.as_ref().map(|rules| Stepper::new(Arc::clone(&rules.steps))),
         previous: None,
         times: Times::default(),
         interpretations,
@@ -95,15 +98,21 @@ pub(super) fn derive(
     };
     let view = leader.machine.current.chains_derived.borrow().with_begun(plan.system, grammar.symbols());
     session.show_chains(view);
-    let derived =
-        burgeon_rewriting::derive(&phases(&state), &mut state, Arc::new(chain), begin, derivation.limit)?;
+    let derived = burgeon_rewriting::derive(
+        &phases(&state, begin),
+        &mut state,
+        Arc::new(chain),
+        begin,
+        derivation.limit,
+    )?;
+    let uses = state.uses();
     let later = state.later;
     state.first.retain(|warning| later.iter().all(|other| !other.says_the_same(warning)));
     Ok(DerivationResults {
         chain: derived.chain,
         steps_made: derived.steps,
         times: state.times,
-        rules: reports(plan, state.stepper.uses(), &state.interpretations),
+        rules: reports(plan, &uses, &state.interpretations),
         warnings: state.first.into_iter().chain(later).collect(),
         steps: state.steps,
         features: state.features.map(RefCell::into_inner),
@@ -113,8 +122,9 @@ pub(super) fn derive(
 /// Returns the phases of a system.
 ///
 /// For a check, placeholders are not resolved and chains are not interpreted. If nothing can observe the
-/// earlier passes, only the last chain is interpreted.
-fn phases<'a>(state: &DerivationState<'a>) -> Phases<'static, DerivationState<'a>> {
+/// earlier passes, only the last chain is interpreted. A derivation that continues from step `begin` does not decompose
+/// its first chain again.
+fn phases<'a>(state: &DerivationState<'a>, begin: usize) -> Phases<'static, DerivationState<'a>> {
     let (derivation, options) = (state.derivation, &state.leader.machine.session.options);
     if options.check {
         return Phases {
@@ -125,10 +135,18 @@ fn phases<'a>(state: &DerivationState<'a>) -> Phases<'static, DerivationState<'a
     }
     let interprets = derivation.plan.objects.is_some();
     let mut phases: Phases<'static, DerivationState<'a>> = Phases {
-        first: vec![Box::new(Resolve), Box::new(Publish)],
-        each: vec![Box::new(Rewrite), Box::new(Resolve), Box::new(Publish)],
+        first: vec![Box::new(Resolve)],
+        each: vec![Box::new(Rewrite), Box::new(Resolve)],
         last: Vec::new(),
     };
+    if state.decomposer.is_some() {
+        if begin == 0 {
+            phases.first.push(Box::new(Decompose));
+        }
+        phases.each.push(Box::new(Decompose));
+    }
+    phases.first.push(Box::new(Publish));
+    phases.each.push(Box::new(Publish));
     if interprets {
         phases.first.push(Box::new(ExpandObjects));
     }
@@ -156,21 +174,84 @@ impl Phase<DerivationState<'_>> for Rewrite {
         session.stop.check()?;
         let begin = Instant::now();
         state.times.read += chain.symbols.len();
-        let before = state.traced_chain(&chain);
-        let outcome = step(state.leader, plan, &mut state.stepper, declared, &chain, number)?;
+        let mut outcome = step(state.leader, plan, &mut state.stepper, declared, &chain, number)?;
         state.times.rewriting += begin.elapsed();
-        if let Some(features) = &state.features {
-            features.borrow_mut().step(&outcome.applied);
-        }
-        if state.derivation.traced.is_some() {
-            let (applied, asked) = (outcome.applied, session.rows.take_noted());
-            state.steps.push(Step { number, chain: before, applied, answers: Vec::new(), asked });
-        }
+        state.record(&chain, &mut outcome, number);
         state.previous = Some(chain);
         // A step that could repeat forever without a difference does not count.
         let repeats = !outcome.changed && state.derivation.draws_afresh && !plan.steps.grammar.draws_random();
         Ok(PhaseOutcome { chain: Arc::new(outcome.chain), settled: !outcome.ran || repeats })
     }
+}
+
+/// Applies the decomposition rules until none applies, or up to the maximum depth.
+struct Decompose;
+
+impl Phase<DerivationState<'_>> for Decompose {
+    fn run(
+        &self,
+        state: &mut DerivationState<'_>,
+        mut chain: Arc<Chain>,
+        number: usize,
+    ) -> Result<PhaseOutcome> {
+        let Derivation { plan, declared, .. } = state.derivation;
+        let (Some(rules), Some(mut decomposer)) = (&plan.decomposition, state.decomposer.take()) else {
+            return Ok(PhaseOutcome::next(chain));
+        };
+        for depth in 1.. {
+            let begin = Instant::now();
+            if depth > rules.max_depth {
+                warn_of_depth(state, rules, &chain, number)?;
+                break;
+            }
+            let mut outcome = step(state.leader, plan, &mut decomposer, declared, &chain, number)?;
+            state.times.rewriting += begin.elapsed();
+            if !outcome.changed {
+                break;
+            }
+            state.times.read += chain.symbols.len();
+            state.record(&chain, &mut outcome, number);
+            decomposer.reuse(chain);
+            chain = Resolve.run(state, Arc::new(outcome.chain), number)?.chain;
+        }
+        state.decomposer = Some(decomposer);
+        Ok(PhaseOutcome::next(chain))
+    }
+}
+
+/// Warns if a decomposition rule would apply to `chain`, which has reached the maximum depth.
+fn warn_of_depth(
+    state: &DerivationState<'_>,
+    rules: &Decomposition,
+    chain: &Arc<Chain>,
+    number: usize,
+) -> Result<()> {
+    let Derivation { plan, declared, .. } = state.derivation;
+    let mut trial = Stepper::new(Arc::clone(&rules.steps));
+    if !step(state.leader, plan, &mut trial, declared, chain, number)?.changed {
+        return Ok(());
+    }
+    let (session, grammar) = (&state.leader.machine.session, &rules.steps.grammar);
+    let applied = trial.uses().iter().position(|uses| uses.applied > 0);
+    let Some(rule) = applied.and_then(|number| grammar.rules().get(number)) else { return Ok(()) };
+    let (symbol, arities) = (rule.pattern.predecessor.symbol, grammar.arities());
+    let mut param = 0;
+    let module = chain.symbols.iter().find_map(|other| {
+        let begin = param;
+        param += usize::from(arities[usize::from(*other)]);
+        (*other == symbol)
+            .then(|| module_brief(grammar.symbols(), &session.values, symbol, &chain.params[begin..param]))
+    });
+    let text = format!("the decomposition has not ended at depth {}, and goes no deeper", rules.max_depth);
+    let warning = Warning::new(WarningKind::Depth, text)
+        .at(rule.place.clone())
+        .rule(&rule.pattern.text)
+        .help("end it with a guard or a counter, or raise the limit: lsystem({ max_depth = 1000 })");
+    session.warn(match module {
+        Some(module) => warning.module(module, number),
+        None => warning,
+    });
+    Ok(())
 }
 
 /// Replaces placeholders by other modules.
@@ -215,7 +296,7 @@ struct Store;
 impl Phase<DerivationState<'_>> for Store {
     fn run(&self, state: &mut DerivationState<'_>, chain: Arc<Chain>, step: usize) -> Result<PhaseOutcome> {
         let status = (!state.failed().is_empty(), step == state.derivation.limit);
-        let uses = (state.stepper.uses(), &*state.interpretations);
+        let uses = (&*state.uses(), &*state.interpretations);
         if let Some(checkpoints) = &mut state.checkpoints {
             checkpoints.store(&state.leader.machine.session, step, &chain, status, uses);
         }
@@ -275,6 +356,28 @@ impl DerivationState<'_> {
             Some(TraceRequest { chain: Some(_), .. }) => chain.clone(),
             _ => Chain::default(),
         }
+    }
+
+    /// Records a step on `chain` for features and the lineage.
+    fn record(&mut self, chain: &Chain, outcome: &mut StepOutcome, number: usize) {
+        if let Some(features) = &self.features {
+            features.borrow_mut().step(&outcome.applied);
+        }
+        if self.derivation.traced.is_some() {
+            let before = self.traced_chain(chain);
+            let applied = std::mem::take(&mut outcome.applied);
+            let asked = self.leader.machine.session.rows.take_noted();
+            self.steps.push(Step { number, chain: before, applied, answers: Vec::new(), asked });
+        }
+    }
+
+    /// Returns the work of each rule in all phases.
+    fn uses(&self) -> Vec<Use> {
+        let mut uses = self.stepper.uses().to_vec();
+        if let Some(decomposer) = &self.decomposer {
+            uses.iter_mut().zip(decomposer.uses()).for_each(|(sum, more)| *sum += *more);
+        }
+        uses
     }
 
     /// Publishes the current chain to queries.

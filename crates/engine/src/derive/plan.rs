@@ -4,10 +4,17 @@ use std::sync::Arc;
 
 use super::rewriter::SystemRewriter;
 use crate::declare::TraceRequest;
-use crate::machine::{Axiom, Interpretations, Machine, Objects, SystemFunctions};
+use crate::machine::{Axiom, Interpretations, Machine, Objects, RulePhase, SystemFunctions};
 use burgeon_base::error::{Result, SourcePlace};
 use burgeon_base::warning::Warning;
 use burgeon_rewriting::{ModuleKey, StepPlan};
+
+/// Rules that apply repeatedly after the axiom and after each step.
+pub(crate) struct Decomposition {
+    pub steps: Arc<StepPlan>,
+    /// Maximum number of times that the rules apply one after another.
+    pub max_depth: usize,
+}
 
 /// Constant data of a derivation, shared by all threads.
 pub(crate) struct DerivationPlan {
@@ -15,6 +22,8 @@ pub(crate) struct DerivationPlan {
     pub system: usize,
     /// Rules, and how they are applied.
     pub steps: Arc<StepPlan>,
+    /// Decomposition rules, if there are any.
+    pub decomposition: Option<Decomposition>,
     pub interpretations: Interpretations,
     pub objects: Option<Arc<Objects>>,
     /// Set if the time of each interpretation rule is measured.
@@ -86,7 +95,7 @@ impl Derivation {
         machine.library.systems.borrow()[index].note_derivation(machine);
         let systems = machine.library.systems.borrow();
         let system = &systems[index];
-        let grammar = system.grammar(&machine.library, session.draws_random());
+        let grammar = system.grammar(&machine.library, session.draws_random(), RulePhase::Rewriting);
         let key = ModuleKey::seed(system.seed.unwrap_or(options.seed));
         let mut axiom = system.axiom(machine, key, grammar.draws_random())?;
         if let Some(chain) = traced.and_then(|traced| traced.chain) {
@@ -97,9 +106,8 @@ impl Derivation {
         let is_part = options.part.is_some();
         let forgiving = (axiom.given > 1 || is_part) && !options.strict;
         let objects = (!objects.is_empty()).then(|| Arc::new(Objects::new(objects, forgiving)));
-        let plan = Arc::new(DerivationPlan {
-            system: index,
-            steps: Arc::new(StepPlan {
+        let step_plan = |grammar| {
+            Arc::new(StepPlan {
                 grammar,
                 failed: objects.as_ref().map(|objects| Arc::clone(objects.failed())),
                 chains: axiom.features.len(),
@@ -107,7 +115,20 @@ impl Derivation {
                 limit: options.limits.modules,
                 traced: traced.is_some() || options.reports.records,
                 notes_places: traced.is_some_and(|traced| traced.chain.is_some()),
-            }),
+            })
+        };
+        let decomposition = system.has_rules_in(RulePhase::Decomposition).then(|| Decomposition {
+            steps: step_plan(system.grammar(
+                &machine.library,
+                session.draws_random(),
+                RulePhase::Decomposition,
+            )),
+            max_depth: system.max_depth,
+        });
+        let plan = Arc::new(DerivationPlan {
+            system: index,
+            steps: step_plan(grammar),
+            decomposition,
             interpretations: system.interpretations(&machine.library),
             objects,
             profiled: options.reports.profile,

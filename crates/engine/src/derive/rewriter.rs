@@ -9,7 +9,7 @@ use super::pending::{Resolution, resolve};
 use super::plan::DerivationPlan;
 use super::step::step;
 use super::threads::LeadingMachine;
-use crate::machine::{Interpretations, SystemFunctions};
+use crate::machine::{Interpretations, RulePhase, SystemFunctions};
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::{RewriteOutcome, Rewriter, RuleSet};
 use burgeon_rewriting::{Chain, ModuleKey, StepOutcome, StepPlan, Stepper};
@@ -49,6 +49,7 @@ impl<'a> SystemRewriter<'a> {
                 traced: true,
                 notes_places: false,
             }),
+            decomposition: None,
             interpretations: Interpretations::default(),
             objects: None,
             profiled: false,
@@ -76,8 +77,17 @@ impl Rewriter for SystemRewriter<'_> {
         let session = &self.leader.machine.session;
         let systems = self.leader.machine.library.systems.borrow();
         let system = &systems[index];
+        if system.has_rules_in(RulePhase::Decomposition) {
+            return Err(Error::script("an object that applies the rules of a system has no decompositions")
+                .at(system.place.clone())
+                .help("declare the rules with system:rule"));
+        }
         let rules = Arc::new(RuleSet {
-            grammar: system.grammar(&self.leader.machine.library, session.draws_random()),
+            grammar: system.grammar(
+                &self.leader.machine.library,
+                session.draws_random(),
+                RulePhase::Rewriting,
+            ),
             values: Arc::clone(&session.values),
             place: system.place.clone(),
             has_object: system.object.is_some(),

@@ -28,7 +28,7 @@ pub use blank::make_ready;
 pub(crate) use current::{Flusher, WorkState};
 pub(crate) use driver::Driver;
 pub(crate) use native::native;
-pub(crate) use system::{Axiom, Interpretations, SystemFunctions, returns_modules, returns_value};
+pub(crate) use system::{Axiom, Interpretations, RulePhase, SystemFunctions, returns_modules, returns_value};
 pub(crate) use types::Objects;
 pub use virtual_machine::Machine;
 pub(crate) use virtual_machine::{compile, read_column, write_column};

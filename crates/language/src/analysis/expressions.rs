@@ -180,7 +180,7 @@ impl Walk<'_> {
         for suffix in suffixes {
             match suffix {
                 Suffix::Call(Call::MethodCall(method)) => match text_of(method.name()).as_str() {
-                    "rule" => self.rule(method.args(), FunctionRole::Rule),
+                    "rule" | "decompose" => self.rule(method.args(), FunctionRole::Rule),
                     "interpret" => self.rule(method.args(), FunctionRole::Interpretation),
                     "axiom" => {
                         self.axiom = true;

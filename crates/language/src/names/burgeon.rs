@@ -161,6 +161,7 @@ pub static LSYSTEM: LazyLock<Name> = LazyLock::new(|| {
                     "nil",
                     "With \"last\", only the last chain is interpreted, and not that of every step.",
                 ),
+                field("max_depth", "number?", "100", "Maximum number of decompositions one after another."),
                 field(
                     "city",
                     "string?",
@@ -253,6 +254,12 @@ pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
             )
             .form([pattern(), successor()], "System<T>")
             .form([pattern(), options("{ ... }", RULE.fields.clone()), successor()], "System<T>"),
+            Name::function(
+                "decompose",
+                "Adds a decomposition rule, which applies repeatedly after the axiom and after each step.",
+            )
+            .form([pattern(), successor()], "System<T>")
+            .form([pattern(), options("{ ... }", RULE.fields.clone()), successor()], "System<T>"),
             Name::function("interpret", "Adds an interpretation: what is drawn for a module.")
                 .form([pattern(), argument("draw", "(this: T, ...any) -> ...any")], "System<T>"),
             Name::function("ignore", "Names modules that matching of contexts passes over.")
@@ -272,7 +279,7 @@ pub static RULE: LazyLock<Name> = LazyLock::new(|| {
     Name::return_value(
         "rule",
         "{ ... }",
-        "The options of system:rule, between its pattern and its successor.",
+        "Options of system:rule and system:decompose, between pattern and successor.",
     )
     .fields([
         field(

@@ -14,6 +14,9 @@ use burgeon_rewriting::{CLOSE, END, FIRST_SYMBOL, Grammar, OPEN, Pattern, Rule, 
 use burgeon_scene::CityClass;
 use mlua::{Function, Table, Value as LuaValue};
 
+/// Default of the maximum depth of decompositions.
+pub(super) const MAX_DEPTH: usize = 100;
+
 /// Declaration of a system by a script.
 pub(crate) struct SystemDeclaration {
     /// Object that is copied for each chain.
@@ -22,6 +25,8 @@ pub(crate) struct SystemDeclaration {
     pub last_only: bool,
     /// Class of the chains as CityJSON objects.
     pub city: Option<CityClass>,
+    /// Maximum number of times that decomposition rules apply one after another.
+    pub max_depth: usize,
     /// Seed of the system, if it overrides the seed of the run.
     pub seed: Option<u64>,
     /// Index among the systems of the script.
@@ -61,8 +66,31 @@ pub(crate) enum DeclaredAxiom {
     Source(LuaValue, Function),
 }
 
+/// Phase of a derivation in which a rule applies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum RulePhase {
+    /// Once in each step.
+    Rewriting,
+    /// After the axiom and after each step, repeatedly.
+    Decomposition,
+}
+
+impl RulePhase {
+    /// All phases, in the order of a step.
+    pub(crate) const ALL: [Self; 2] = [Self::Rewriting, Self::Decomposition];
+
+    /// Returns the name of the method that declares a rule of the phase.
+    pub(crate) fn method(self) -> &'static str {
+        match self {
+            Self::Rewriting => "rule",
+            Self::Decomposition => "decompose",
+        }
+    }
+}
+
 pub(crate) struct DeclaredRule {
     pub(crate) rule: Rule,
+    pub(crate) phase: RulePhase,
     pub(crate) guard: Option<Function>,
     /// Source text of the guard, if it is known.
     pub(crate) guard_text: Option<String>,
@@ -130,8 +158,13 @@ impl SystemDeclaration {
             || (self.object.as_ref().is_some_and(empties) && !self.rules.iter().any(|rule| rule.asks))
     }
 
-    /// Returns the rules in the form that machines share.
-    pub(crate) fn grammar(&self, library: &Library, random: bool) -> Grammar {
+    /// Returns true if a rule applies in `phase`.
+    pub(crate) fn has_rules_in(&self, phase: RulePhase) -> bool {
+        self.rules.iter().any(|declared| declared.phase == phase)
+    }
+
+    /// Returns the rules of a phase in the form that machines share. The numbers of rules are those of all phases.
+    pub(crate) fn grammar(&self, library: &Library, random: bool, phase: RulePhase) -> Grammar {
         let symbols = Arc::new(library.symbols.borrow().clone());
         let ignored = match &self.considered {
             Some(considered) => (FIRST_SYMBOL..)
@@ -141,7 +174,8 @@ impl SystemDeclaration {
             None => self.ignored.clone(),
         };
         let rules = self.rules.iter().map(|declared| declared.rule.clone()).collect();
-        Grammar::new(symbols, rules, &ignored, random)
+        let grammar = Grammar::new(symbols, rules, &ignored, random);
+        grammar.with_candidates(|number| self.rules[usize::from(number)].phase == phase)
     }
 
     /// Returns the interpretation of modules.

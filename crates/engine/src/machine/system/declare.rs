@@ -17,7 +17,9 @@ use burgeon_language::RULE;
 use burgeon_language::analysis::{QueryCall, analyse, split_line};
 use burgeon_rewriting::{MOST_RULES, NameScope, Pattern, Rule, Symbols};
 
-use super::{DeclaredAxiom, DeclaredInterpretation, DeclaredRule, SourceHandle, SystemDeclaration};
+use super::{
+    DeclaredAxiom, DeclaredInterpretation, DeclaredRule, RulePhase, SourceHandle, SystemDeclaration,
+};
 
 impl SystemDeclaration {
     pub(super) fn set_axiom(&mut self, mut arguments: Vec<LuaValue>) -> Result<()> {
@@ -40,9 +42,11 @@ impl SystemDeclaration {
         &mut self,
         library: &Library,
         lua: &Lua,
+        phase: RulePhase,
         mut arguments: Vec<LuaValue>,
     ) -> Result<()> {
-        let usage = "write system:rule(\"A(x)\", function(this, x) return ... end)";
+        let method = phase.method();
+        let usage = format!("write system:{method}(\"A(x)\", function(this, x) return ... end)");
         let Some(LuaValue::String(text)) = arguments.first().cloned() else {
             return Err(Error::argument("a rule begins with a pattern").help(usage));
         };
@@ -67,7 +71,7 @@ impl SystemDeclaration {
             (2, _) => None,
             (count, _) => {
                 return Err(named(
-                    Error::argument(format!("rule takes 2 or 3 arguments, not {count}")).help(usage),
+                    Error::argument(format!("{method} takes 2 or 3 arguments, not {count}")).help(usage),
                 ));
             }
         };
@@ -104,7 +108,7 @@ impl SystemDeclaration {
         let begin = guard.as_ref().and_then(begin_of);
         let guard_text = begin.and_then(|(file, line)| session.guard_text(&file, line));
         let rule = Rule::new(pattern, weight, guard.is_some(), place);
-        self.rules.push(DeclaredRule { rule, guard, guard_text, successor, asks });
+        self.rules.push(DeclaredRule { rule, phase, guard, guard_text, successor, asks });
         Ok(())
     }
 

@@ -18,6 +18,7 @@ use burgeon_rewriting::Symbol;
 use burgeon_scene::CityClass;
 
 use super::SystemDeclaration;
+use super::declaration::{MAX_DEPTH, RulePhase};
 
 /// Script value for a system.
 pub(crate) struct SystemHandle {
@@ -34,6 +35,7 @@ impl SystemHandle {
         let mut system = SystemDeclaration {
             object: None,
             last_only: false,
+            max_depth: MAX_DEPTH,
             city: None,
             seed: None,
             index: library.systems.borrow().len(),
@@ -68,6 +70,17 @@ impl SystemHandle {
                             Some(CityClass::of(&class).map_err(|error| error.about("lsystem: city"))?);
                     }
                     _ => return Err(Error::argument("lsystem: city must be a text, such as \"Road\"")),
+                },
+                #[allow(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "the range is checked"
+                )]
+                ("max_depth", value) => match to_value(&value, false)? {
+                    Value::Number(depth) if depth.fract() == 0.0 && (1.0..1e6).contains(&depth) => {
+                        system.max_depth = depth as usize;
+                    }
+                    _ => return Err(Error::argument("lsystem: max_depth must be a whole number from 1")),
                 },
                 #[allow(
                     clippy::cast_possible_truncation,
@@ -172,12 +185,15 @@ impl UserData for SystemHandle {
             })?;
             Ok(this.again())
         });
-        methods.add_function("rule", |lua, (this, arguments): (UserDataRef<Self>, MultiValue)| {
-            let arguments: Vec<LuaValue> = arguments.into_iter().collect();
-            let library = Rc::clone(&this.library);
-            this.declare(lua, "rule", |system| system.add_rule(&library, lua, arguments))?;
-            Ok(this.again())
-        });
+        for phase in RulePhase::ALL {
+            let declared = move |lua: &Lua, (this, arguments): (UserDataRef<Self>, MultiValue)| {
+                let arguments: Vec<LuaValue> = arguments.into_iter().collect();
+                let library = Rc::clone(&this.library);
+                this.declare(lua, "rule", |system| system.add_rule(&library, lua, phase, arguments))?;
+                Ok(this.again())
+            };
+            methods.add_function(phase.method(), declared);
+        }
         methods.add_function(
             "interpret",
             |lua, (this, pattern, rule): (UserDataRef<Self>, LuaValue, LuaValue)| {

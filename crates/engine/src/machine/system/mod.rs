@@ -14,7 +14,7 @@ mod unseen;
 
 pub(crate) use axiom::Axiom;
 pub(super) use declaration::{DeclaredAxiom, DeclaredInterpretation, DeclaredRule, DerivationRecord};
-pub(crate) use declaration::{Interpretations, SystemDeclaration, SystemFunctions};
+pub(crate) use declaration::{Interpretations, RulePhase, SystemDeclaration, SystemFunctions};
 pub(crate) use declare::{returns_modules, returns_value};
 pub(crate) use handle::SystemHandle;
 pub(crate) use lazy::{EagerMark, UNREAD, feature_of, install as install_lazy};

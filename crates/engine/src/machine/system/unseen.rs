@@ -15,7 +15,7 @@ use burgeon_base::error::SourcePlace;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_rewriting::{Context, FIRST_SYMBOL, Grammar, Pattern, Rule, Symbol};
 
-use super::{DeclaredRule, DerivationRecord, SystemDeclaration};
+use super::{DeclaredRule, DerivationRecord, RulePhase, SystemDeclaration};
 
 impl SystemDeclaration {
     /// Records that the system is derived with all declarations so far.
@@ -40,9 +40,18 @@ impl SystemDeclaration {
                 None => warning,
             });
         }
+        for phase in RulePhase::ALL {
+            self.tell_forestalled_in(phase, machine, grammar);
+        }
+    }
+
+    /// Warns about rules of a phase that never apply.
+    fn tell_forestalled_in(&self, phase: RulePhase, machine: &Machine, grammar: &Grammar) {
         let mut sure = CandidateRules::default();
         let mut guards = GuardClasses::default();
-        for (index, rule) in grammar.rules().iter().enumerate().filter(|(_, rule)| rule.weight != Some(0.0)) {
+        let can_apply =
+            |(index, rule): &(usize, &Rule)| rule.weight != Some(0.0) && self.rules[*index].phase == phase;
+        for (index, rule) in grammar.rules().iter().enumerate().filter(can_apply) {
             let guard = guards.class_of(machine, &self.rules, index);
             let warn =
                 |warning: Warning| machine.warn(warning.at(rule.place.clone()).rule(&rule.pattern.text));
