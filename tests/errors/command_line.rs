@@ -148,7 +148,7 @@ fn the_seed_decides_and_threads_do_not() {
 fn a_check_finds_what_only_a_run_meets_and_a_quick_one_derives_nothing() {
     let folder = Folder::new().with(
         "s.lua",
-        format!("local n = param(\"n\", {{ default = 3, unit = \"m\", text = \"how far\" }})\n{HEAD}s:rule(\"A(x)\", function(this, x) error(\"ran\") end)\ns:derive(n)\n"),
+        format!("local n = param(\"n\", {{ default = 3, unit = \"m\", doc = \"how far\" }})\n{HEAD}s:rule(\"A(x)\", function(this, x) error(\"ran\") end)\ns:derive(n)\n"),
     );
     assert_eq!(folder.refuses(&["check", "s.lua"]), folder.refuses(&["run", "s.lua"]));
     let said = folder.burgeon(&["check", "s.lua", "--quick"]).done();

@@ -21,7 +21,7 @@ s:interpret("Turn90", function(this)
 end)
 local roads = s:derive(0).objects[1]
 local function told(street)
-  return `{street.fate} {street.built} at {street.place.x}, {street.place.y}, junction {street.junction}`
+  return `{street.outcome} {street.built} at {street.place.x}, {street.place.y}, junction {street.junction}`
 end
 print(roads:size(), roads:dead_ends(), roads:degree(1))
 print(told(roads:probe(1, 180, 100, 0)))
@@ -57,9 +57,9 @@ fn existing_streets_that_cannot_be_are_told() {
     error: s.lua:1: network: existing must be a list whose item 1 is a street (a street of network { existing = ... }: lines must be a source of lines, a list of lines, or a list of points, not 3), not {lines=3}
       | network({ existing = { { lines = 3 } } })
     ");
-    assert_snapshot!(refused("network({ most = 1, existing = { { lines = { { 0, 0 }, { 90, 0 }, { 90, 90 } } } } })"), @r"
+    assert_snapshot!(refused("network({ max_segments = 1, existing = { { lines = { { 0, 0 }, { 90, 0 }, { 90, 90 } } } } })"), @r"
     error: s.lua:1: the existing streets have more than 1 pieces, which is the limit
-      | network({ most = 1, existing = { { lines = { { 0, 0 }, { 90, 0 }, { 90, 90 } } } } })
+      | network({ max_segments = 1, existing = { { lines = { { 0, 0 }, { 90, 0 }, { 90, 90 } } } } })
       help: give fewer streets, or raise the limit: network { most = ... }
     ");
     let sharp = "existing = { { lines = { { { 0, 0 }, { 200, 0 } }, { { 0, 0 }, { 200, 50 } } } } }";
@@ -85,9 +85,9 @@ fn existing_streets_that_cannot_be_are_told() {
       module: A, step 0
       help: give a finite heading, and a length above 0
     ");
-    assert_snapshot!(refused(&grown("", "this:stand(9, 0)")), @r"
+    assert_snapshot!(refused(&grown("", "this:move_to(9, 0)")), @r"
     error: s.lua:5: rule A (interpretation): there is no junction 9
-      | this:stand(9, 0)
+      | this:move_to(9, 0)
       module: A, step 0
       help: junctions are numbered from 1 to 1: network:reached tells where a street ends
     ");
@@ -103,11 +103,11 @@ fn a_network_goes_out_as_layers_that_another_grows_from() {
         town:axiom(Square(), Side())
         town:interpret("Square", function(this)
           for from = 1, 4 do
-            this:lead(from, places[from % 4 + 1], if from == 1 then 0 else 1)
+            this:grow_to(from, places[from % 4 + 1], if from == 1 then 0 else 1)
           end
         end)
         town:interpret("Side", function(this)
-          this:lead(2, places[5], 0)
+          this:grow_to(2, places[5], 0)
           this:grow(1, 180, 90, 1)
         end)
         local grown = town:derive(0).objects[1]

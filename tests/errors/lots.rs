@@ -31,7 +31,7 @@ for x = 0, 3 do
 end
 roads:axiom(table.unpack(ways))
 roads:interpret("Lead(from, x, y, depth)", function(this, from, x, y, depth)
-  this:lead(from, { x, y }, depth)
+  this:grow_to(from, { x, y }, depth)
 end)
 local streets = roads:derive(0).objects[1]
 "#;

@@ -243,7 +243,7 @@ fn a_proposal_that_cannot_be_is_refused_with_its_line() {
       module: A, step 0
     ");
     assert_snapshot!(
-        refused(&grown("most = 3", "for way = 0, 3 do this:grow(1, way * 90, 80, 0) end")), @r"
+        refused(&grown("max_segments = 3", "for way = 0, 3 do this:grow(1, way * 90, 80, 0) end")), @r"
     error: s.lua:5: rule A (interpretation): the network has 3 pieces of streets
       | for way = 0, 3 do this:grow(1, way * 90, 80, 0) end
       module: A, step 0
@@ -270,7 +270,7 @@ s:interpret("A(junction, heading, length)", function(this, junction, heading, le
   this:grow(junction, heading, length, 1)
 end)
 s:rule("A(junction, heading, length)", function(this, junction, heading, length)
-  print(`{junction} {heading} {length}: {this:fate(junction, heading)} {this:reached(junction, heading)}`)
+  print(`{junction} {heading} {length}: {this:outcome(junction, heading)} {this:open_end(junction, heading)}`)
   return nil
 end)
 s:derive(1)
@@ -307,18 +307,18 @@ fn a_network_of_which_no_street_is_built_says_why() {
 #[test]
 fn a_street_that_does_not_come_to_its_place_is_told() {
     let pond = "obstacles = { { { 80, -200 }, { 120, -200 }, { 120, 200 }, { 80, 200 } } }, bend = 0";
-    let to = |x: f64| grown(pond, &format!("this:lead(1, {{ {x}, 0 }}, 0)"));
+    let to = |x: f64| grown(pond, &format!("this:grow_to(1, {{ {x}, 0 }}, 0)"));
     silent(&[&to(60.0)]);
     assert_snapshot!(warned(&[&to(300.0), &to(1e9)]), @r#"
     local A = module("A")
     local s = lsystem({ object = network({ obstacles = { { { 80, -200 }, { 120, -200 }, { 120, 200 }, { 80, 200 } } }, bend = 0 }) })
     s:axiom(A())
     s:interpret("A", function(this)
-      this:lead(1, { 300, 0 }, 0)
+      this:grow_to(1, { 300, 0 }, 0)
     end)
     s:derive(0)
     warning: s.lua:5: rule A (interpretation): network:lead: the street from 0.0, 0.0 to 300.0, 0.0 ends at 69.0, 0.0, for an obstacle is in its way
-      | this:lead(1, { 300, 0 }, 0)
+      | this:grow_to(1, { 300, 0 }, 0)
       module: A, step 0
       help: lead it around the obstacle, or leave that out
 
@@ -326,26 +326,27 @@ fn a_street_that_does_not_come_to_its_place_is_told() {
     local s = lsystem({ object = network({ obstacles = { { { 80, -200 }, { 120, -200 }, { 120, 200 }, { 80, 200 } } }, bend = 0 }) })
     s:axiom(A())
     s:interpret("A", function(this)
-      this:lead(1, { 1000000000, 0 }, 0)
+      this:grow_to(1, { 1000000000, 0 }, 0)
     end)
     s:derive(0)
     warning: s.lua:5: rule A (interpretation): network:lead: no street leads from 0.0, 0.0 to 1000000000.0, 0.0: outside
-      | this:lead(1, { 1000000000, 0 }, 0)
+      | this:grow_to(1, { 1000000000, 0 }, 0)
       module: A, step 0
       help: lead it to a place within the `limit` of the network, and within 500 km of the origin
     "#);
-    let two = |y: f64| grown("", &format!("this:lead(1, {{ 90, 0 }}, 0) this:lead(1, {{ 40, {y} }}, 0)"));
+    let two =
+        |y: f64| grown("", &format!("this:grow_to(1, {{ 90, 0 }}, 0) this:grow_to(1, {{ 40, {y} }}, 0)"));
     silent(&[&two(80.0)]);
     assert_snapshot!(warned(&[&two(38.0)]), @r#"
     local A = module("A")
     local s = lsystem({ object = network({  }) })
     s:axiom(A())
     s:interpret("A", function(this)
-      this:lead(1, { 90, 0 }, 0) this:lead(1, { 40, 38 }, 0)
+      this:grow_to(1, { 90, 0 }, 0) this:grow_to(1, { 40, 38 }, 0)
     end)
     s:derive(0)
     warning: s.lua:5: rule A (interpretation): network:lead: no street leads from 0.0, 0.0 to 40.0, 38.0: angle
-      | this:lead(1, { 90, 0 }, 0) this:lead(1, { 40, 38 }, 0)
+      | this:grow_to(1, { 90, 0 }, 0) this:grow_to(1, { 40, 38 }, 0)
       module: A, step 0
       help: lead it elsewhere, or give the network a smaller `min_angle`
     "#);
@@ -368,7 +369,7 @@ fn highways_that_do_not_arrive_are_told() {
     let lake = "obstacles = { { { -100, -900 }, { 100, -900 }, { 100, 900 }, { -100, 900 } } }";
     assert_snapshot!(with_roads(&towns(lake, "")).warned(&["run", "s.lua"]), @r"
     warning: templates/roads/highways.lua:125: rule Arrival(junction, heading, length, goal, tries) (interpretation): network:lead: no street leads from -113.0, -28.9 to 600.0, 0.0: obstacle
-      | this:lead(junction, this:place(goal), 0)
+      | this:grow_to(junction, this:place(goal), 0)
       called at s.lua:2
       module: Arrival(8,-42.013161642443464,90,2,9), step 11
       help: lead it around the obstacle, or leave that out

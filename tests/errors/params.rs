@@ -6,7 +6,7 @@ use crate::support::{Folder, refused};
 
 const PARAMS: &str = r##"local n = param("n", { default = 3, min = 0, max = 10, step = 2.5, unit = "m" })
 local mode = param("mode", { default = "day", choices = { "day", "night" } })
-local on = param("on", { default = true, text = "whether it shines" })
+local on = param("on", { default = true, doc = "whether it shines" })
 local hue = param("hue", { default = "#ff0000" })
 print(n, mode, on, hue)
 "##;
@@ -75,7 +75,7 @@ fn a_value_of_the_wrong_type_is_told_with_the_default() {
     "#);
     assert_snapshot!(set(&["on=maybe"]), @r#"
     error: s.lua:3: param on must be true or false, not "maybe"
-      | local on = param("on", { default = true, text = "whether it shines" })
+      | local on = param("on", { default = true, doc = "whether it shines" })
       help: its default is true
     "#);
     assert_snapshot!(set(&["hue=rde"]), @r##"

@@ -29,7 +29,7 @@ local roads = lsystem({{
 }})
 roads:axiom(Tip(1, 10, 0), Tip(1, 100, 0), Tip(1, 190, 0))
 roads:rule("Tip(junction, heading, depth)", function(this, junction, heading, depth)
-  local at = this:reached(junction, heading)
+  local at = this:open_end(junction, heading)
   if not at then
     return nil
   end
@@ -89,7 +89,7 @@ fn ground_that_is_shown_without_its_streets_is_told() {
         |script: &str| warned(&[script]).contains("the ground is shown as it was without the streets");
     let script = on_hills(3, "max_slope = 9", "");
     assert!(!is_told(&script), "{script}");
-    let shown = script.replace("shown = roads ~= nil", "shown = true");
+    let shown = script.replace("visible = roads ~= nil", "visible = true");
     assert!(shown != script && is_told(&shown), "{script}");
 }
 

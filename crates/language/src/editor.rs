@@ -115,7 +115,7 @@ fn snippets() -> Value {
             "end)",
         ]),
         "Burgeon: a parameter": snippet("param", "A value that people may change", &[
-            "local ${1:size} = param(\"${1:size}\", { default = ${2:1}, min = ${3:0}, max = ${4:10}, text = \"$0\" })",
+            "local ${1:size} = param(\"${1:size}\", { default = ${2:1}, min = ${3:0}, max = ${4:10}, doc = \"$0\" })",
         ]),
     })
 }

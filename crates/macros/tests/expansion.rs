@@ -41,7 +41,15 @@ impl Tower {
 }
 
 /// A heap.
-#[object("heap", draws, begins_empty, deprecates("width", "1.3", "size"), deprecates("add", "1.3", "grow"))]
+#[object(
+    "heap",
+    draws,
+    begins_empty,
+    deprecates("width", "1.3", "size"),
+    deprecates("add", "1.3", "grow"),
+    renames("girth", "1.3", "width"),
+    renames("stack", "1.3", "add")
+)]
 pub struct Heap {
     /// How wide it is (m).
     #[default(2.0)]
@@ -240,6 +248,12 @@ fn a_type_is_what_its_struct_says() {
     assert_eq!(own.options.floors, 4, "the method that the attribute names was called");
     let instead = ["width", "add"].map(|name| Heap::kind().deprecation(name).map(|it| it.instead.clone()));
     assert_eq!(instead, [Some("size".into()), Some("grow".into())]);
+    let heap = Heap::kind().make(&table(&[("girth", Value::Number(3.0))])).expect("girth is a former name");
+    let heap = (&*heap as &dyn std::any::Any).downcast_ref::<Heap>().expect("it is a heap");
+    assert_eq!(heap.width.to_bits(), 3f64.to_bits());
+    let stack = Heap::kind().method("stack").expect("stack is a former name");
+    assert!(stack.call.changes());
+    assert_eq!(Heap::kind().deprecation("stack").map(|it| &*it.instead), Some("heap:add"));
     assert!(matches!(Other::kind().construct, Construct::Given) && Other::kind().fields.is_empty());
     assert!(
         !kind.has_capability::<dyn Draw>()

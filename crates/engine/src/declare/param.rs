@@ -22,7 +22,7 @@ pub struct Param {
     /// Display unit; may be empty.
     pub unit: String,
     /// Description for users; may be empty.
-    pub text: String,
+    pub doc: String,
     /// Set if the script itself declares it, not a file that it requires.
     pub own: bool,
 }
@@ -199,7 +199,7 @@ impl Param {
             default,
             control,
             unit: text("unit")?,
-            text: text("text")?,
+            doc: text("doc")?,
             own: true,
         };
         param.check(&param.default).map_err(|error| {

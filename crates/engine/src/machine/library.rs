@@ -22,9 +22,9 @@ use crate::declare::{API_VERSION, Param, Session, Setting, has_name};
 use crate::placeholders::{self, FRAGMENT, QUERY};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_kit::{Construct, Kind, ObjectContent, Registry};
-use burgeon_language::LOCKED;
+use burgeon_kit::{Construct, Field, Kind, ObjectContent, Registry};
 use burgeon_language::analysis::Globals;
+use burgeon_language::{LOCKED, PARAM};
 use burgeon_packages::{FileName, Package};
 use burgeon_rewriting::{NameScope, Signature, Symbol, Symbols};
 
@@ -420,8 +420,12 @@ impl Library {
                 let name = name.to_string_lossy();
                 let options =
                     named_fields(&format!("param {name}"), options).map_err(mlua::Error::external)?;
-                let mut param = Param::declare(&name, &options).map_err(mlua::Error::external)?;
                 let place = Machine::place(lua);
+                let fields: Vec<Field> = PARAM.options().cloned().collect();
+                let options = session
+                    .replace_former_names("param", &fields, &options, place.clone())
+                    .map_err(mlua::Error::external)?;
+                let mut param = Param::declare(&name, &options).map_err(mlua::Error::external)?;
                 if let Some(owner) = place.as_ref().and_then(|place| session.package_of(&place.file)) {
                     session.redefault(&mut param, owner).map_err(mlua::Error::external)?;
                     let package = owner.manifest.name.clone();

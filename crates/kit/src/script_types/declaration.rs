@@ -7,7 +7,8 @@ use std::sync::{Arc, Weak};
 use crate::capability;
 use crate::declare::refuse_unknown;
 use crate::{
-    Argument, Call, Construct, Kind, KindDeclaration, Method, Object, ScriptField, ScriptObject, Table, Value,
+    Argument, Call, Construct, Field, Kind, KindDeclaration, Method, Object, ScriptField, ScriptObject,
+    Table, Value,
 };
 use crate::{Draw, LevelOfDetail, Report, Warn};
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
@@ -145,7 +146,8 @@ impl ScriptType {
         }
         let own: BTreeSet<String> = self.fields.iter().map(|field| field.name.to_string()).collect();
         let inherited = base.iter().flat_map(|base| &base.fields);
-        let inherited: Vec<_> = inherited.filter(|field| !own.contains(&*field.name)).cloned().collect();
+        let is_own = |field: &Field| own.iter().any(|name| field.is_called(name));
+        let inherited: Vec<_> = inherited.filter(|field| !is_own(field)).cloned().collect();
         let mut fields: Vec<_> = self.fields.iter().map(ScriptField::describe).collect();
         fields.extend(inherited);
         let mut all: Vec<Method> = base.iter().flat_map(|base| base.methods.iter().cloned()).collect();
@@ -199,6 +201,7 @@ impl ScriptType {
                 Some(base) => Kind {
                     first: base.first.clone(),
                     begins_empty: base.begins_empty,
+                    deprecated: base.deprecated.clone(),
                     capabilities: base.capabilities.clone(),
                     gather: base.gather,
                     prefetch: base.prefetch,
@@ -230,7 +233,8 @@ impl ScriptType {
                 })?,
             };
             given.entries.retain(|(known, _)| *known != key);
-            let is_inherited = |base: &Arc<Kind>| base.fields.iter().any(|known| known.name == *field.name);
+            let is_inherited =
+                |base: &Arc<Kind>| base.fields.iter().any(|known| known.is_called(&field.name));
             if self.base.as_ref().is_some_and(is_inherited) && value != Value::Nil {
                 given.entries.push((key.clone(), value.clone()));
             }

@@ -186,6 +186,7 @@ impl ScriptField {
             unit: self.unit.as_ref().map(|unit| Cow::Owned(unit.to_string())),
             fields: Vec::new(),
             default: self.default.as_ref().map_or_else(String::new, Value::to_string),
+            former: Vec::new(),
         }
     }
 }

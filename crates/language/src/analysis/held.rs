@@ -94,7 +94,7 @@ impl CallCheck<'_> {
         };
         let Some(table) = table else { return };
         let names_a_field = table.fields().iter().any(|field| match field {
-            Field::NameKey { key, .. } => kind.fields.iter().any(|known| known.name == text_of(key)),
+            Field::NameKey { key, .. } => kind.fields.iter().any(|known| known.is_called(&text_of(key))),
             _ => false,
         });
         // A single table may be the value of the first field.
@@ -125,7 +125,7 @@ impl CallCheck<'_> {
         for field in table.fields() {
             let Field::NameKey { key, value, .. } = field else { continue };
             let name = text_of(key);
-            let Some(known) = fields.iter().find(|known| known.name == name) else {
+            let Some(known) = fields.iter().find(|known| known.is_called(&name)) else {
                 let names: Vec<&str> = fields.iter().map(|known| &*known.name).collect();
                 let message = format!("{owner} has no field called {name}");
                 let error = Error::not_found("field", &name, names.iter().copied(), message);

@@ -40,7 +40,7 @@ pub(super) fn names() -> Vec<Name> {
             "api",
             "What scripts can rely on: the version of these names, and whether a name is among them.",
         )
-        .fields([Field::new("version", "string", "The version of the script API, such as \"1.0.0\".")])
+        .fields([Field::new("version", "string", "The version of the script API, such as \"1.1.0\".")])
         .functions([Name::function(
             "has",
             "Whether there is such a name, such as \"terrain\" or \"extruder.bend\", or such a package, as \"@castle\".",
@@ -135,7 +135,7 @@ pub static PARAM: LazyLock<Name> = LazyLock::new(|| {
                     ),
                     field("choices", "{ string }?", "nil", "The texts to choose from."),
                     field("unit", "string", "\"\"", "The unit, for people."),
-                    field("text", "string", "\"\"", "What it does, for people."),
+                    field("doc", "string", "\"\"", "Description for users.").renamed_from("text", "1.1"),
                 ],
             ),
         ],

@@ -225,7 +225,7 @@ mod tests {
             default: Setting::Number(default),
             control: Control::Number { min: Some(1.0), max: Some(max), step: Some(1.0) },
             unit: String::new(),
-            text: String::new(),
+            doc: String::new(),
             own: true,
         }
     }

@@ -36,8 +36,11 @@ pub(super) fn fate(fate: Fate) -> &'static str {
 /// Creates the table that describes the predicted outcome of a street.
 pub(super) fn prospect(prospect: StreetProspect) -> Value {
     let junction = prospect.junction.map_or(Value::Nil, number);
+    let outcome = Value::Text(fate(prospect.fate).into());
     named_table([
-        ("fate", Value::Text(fate(prospect.fate).into())),
+        ("outcome", outcome.clone()),
+        // Former name of the outcome.
+        ("fate", outcome),
         ("built", Value::Boolean(!matches!(prospect.fate, Fate::Refused(_)))),
         ("place", place(prospect.place)),
         ("junction", junction),
@@ -157,11 +160,12 @@ pub(super) fn misled_warning(fate: Fate, [from, end, to]: [DVec2; 3]) -> Option<
                     "lead it to a place within the `limit` of the network, and within 500 km of the origin"
                 }
             };
-            (format!("network:lead: no street leads {way}: {}", why.name()), remedy)
+            (format!("network:grow_to: no street {way}: {}", why.name()), remedy)
         }
         Fate::Shortened => {
             let end = metres(end);
-            let text = format!("network:lead: the street {way} ends at {end}, for an obstacle is in its way");
+            let text =
+                format!("network:grow_to: the street {way} ends at {end}, for an obstacle is in its way");
             (text, "lead it around the obstacle, or leave that out")
         }
         _ => return None,

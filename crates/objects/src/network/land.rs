@@ -103,7 +103,7 @@ impl Network {
     /// Returns the warning about streets above or below the visible ground. Only a terrain that is created after the
     /// streets can match them.
     pub(super) fn hidden_warning(&self) -> Result<Option<Warning>> {
-        if self.network.size() == 0 || !self.options.on.as_ref().is_some_and(|ground| ground.is_shown()) {
+        if self.network.size() == 0 || !self.options.on.as_ref().is_some_and(|ground| ground.is_visible()) {
             return Ok(None);
         }
         let fit = self.fit()?;
@@ -111,7 +111,7 @@ impl Network {
         Ok((deepest > OFF).then(|| {
             let text = "network: on: the ground is shown as it was without the streets, some of which lie in it or above it";
             Warning::new(WarningKind::Doubtful, text).help(
-                "give that terrain shown = false, and show another one that is like it, with under = these streets",
+                "give that terrain visible = false, and show another one that is like it, with under = these streets",
             )
         }))
     }

@@ -31,6 +31,13 @@ use burgeon_streets::{
     can(Show, HasLayers, Warn),
     options = NetworkOptions,
     example = include_str!("../../scripts/network.lua"),
+    renames("lead", "1.1", "grow_to"),
+    renames("stand", "1.1", "move_to"),
+    renames("fate", "1.1", "outcome"),
+    renames("reached", "1.1", "open_end"),
+    renames("arrived", "1.1", "end_junction"),
+    renames("most", "1.1", "max_segments"),
+    renames("ground", "1.1", "block_color"),
     begin = restart,
     push = open_branch,
     pop = close_branch,
@@ -94,7 +101,7 @@ impl Network {
             bridge: options.bridge,
             shorten: options.shorten,
             square_ends: options.square_ends,
-            most: options.most as usize,
+            max_segments: options.max_segments as usize,
         };
         let NetworkAreas { areas, waters, mut warnings } = NetworkAreas::new(&options);
         let mut network =
@@ -142,8 +149,8 @@ impl Network {
         let count = self.network.junctions().len();
         match junction.checked_sub(1) {
             Some(id) if (id as usize) < count => Ok(id),
-            _ => Err(Error::argument(format!("there is no junction {junction}")).help(format!(
-                "junctions are numbered from 1 to {count}: network:reached tells where a street ends"
+            _ => Err(Error::argument(format!("unknown junction {junction}")).help(format!(
+                "junctions are numbered from 1 to {count}: network:open_end returns the junction at the end of a street"
             ))),
         }
     }

@@ -45,7 +45,7 @@ impl ProposalTally {
                 "network: no street was built of {proposed} that were proposed: {}",
                 reasons.join(", ")
             );
-            (text, "network:fate tells of each what became of it")
+            (text, "network:outcome returns the outcome of each")
         } else if proposed >= ENOUGH && 2 * narrow > proposed {
             let refused: usize = self.refused.iter().sum();
             let reasons: Vec<String> =

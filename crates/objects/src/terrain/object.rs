@@ -23,6 +23,7 @@ use glam::{DVec2, DVec3};
     can(Show, Expand, Warn),
     options = TerrainOptions,
     example = include_str!("../../scripts/terrain.lua"),
+    renames("shown", "1.1", "visible"),
     begins_empty,
     begin = restart,
     seed = take_seed,
@@ -435,7 +436,7 @@ impl Expand for Terrain {
 
 impl Terrain {
     /// Returns true if the terrain is visible.
-    pub(crate) fn is_shown(&self) -> bool {
-        self.options.shown
+    pub(crate) fn is_visible(&self) -> bool {
+        self.options.visible
     }
 }

@@ -15,7 +15,7 @@ use burgeon_terrain::{GroundCuts, GroundMesh};
 
 impl Show for Terrain {
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        if self.options.shown { self.draw(scene, name, feature) } else { Ok(()) }
+        if self.options.visible { self.draw(scene, name, feature) } else { Ok(()) }
     }
 }
 

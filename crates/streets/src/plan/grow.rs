@@ -93,10 +93,13 @@ impl StreetNetwork {
         to: DVec2,
         attributes: StreetAttributes,
     ) -> Result<StreetGrowth> {
-        if self.size() >= self.constraints.most {
-            let most = self.constraints.most;
-            return Err(Error::limit(Limit::Size, format!("the network has {most} pieces of streets"))
-                .help("let fewer streets grow, or raise the limit: network { most = ... }"));
+        if self.size() >= self.constraints.max_segments {
+            let most = self.constraints.max_segments;
+            return Err(Error::limit(
+                Limit::Size,
+                format!("the network has {most} street segments, which is the limit"),
+            )
+            .help("grow fewer streets, or raise network { max_segments = ... }"));
         }
         let mut looked_at = 0;
         let planned = self.plan(from, to, attributes, &mut looked_at);

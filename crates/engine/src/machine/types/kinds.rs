@@ -65,8 +65,8 @@ pub(in crate::machine) fn constructor(machine: &Machine, kind: &Arc<Kind>) -> ml
     let library = std::rc::Rc::clone(&machine.library);
     let constructor = match &kind.construct {
         Construct::Given => return Ok(None),
-        Construct::Fields(make) => {
-            let (kind, make) = (Arc::clone(kind), Arc::clone(make));
+        Construct::Fields(_) => {
+            let kind = Arc::clone(kind);
             let session = Arc::clone(&machine.session);
             lua.create_function(move |lua, given: MultiValue| {
                 let table = constructor_fields(&kind, given).map_err(mlua::Error::external)?;
@@ -74,8 +74,11 @@ pub(in crate::machine) fn constructor(machine: &Machine, kind: &Arc<Kind>) -> ml
                     let name = format!("{}.{}", kind.name, deprecation.name);
                     session.use_deprecated(&name, deprecation, Machine::place(lua));
                 }
+                let table = session
+                    .replace_former_names(&kind.name, &kind.fields, &table, Machine::place(lua))
+                    .map_err(mlua::Error::external)?;
                 // A faulty value of one feature may be correct in another.
-                let mut object = make(&table).map_err(|error| mlua::Error::external(error.of_data()))?;
+                let mut object = kind.make(&table).map_err(|error| mlua::Error::external(error.of_data()))?;
                 for warning in object.take_warnings() {
                     library.machine().map_err(mlua::Error::external)?.warn(warning);
                 }
@@ -166,7 +169,7 @@ fn constructor_fields(kind: &Kind, given: MultiValue) -> Result<Arc<ValueTable>>
         (LuaValue::Nil, LuaValue::Nil) => true,
         (LuaValue::Table(table), LuaValue::Nil) => {
             table.pairs::<LuaValue, LuaValue>().flatten().any(|(key, _)| {
-                kind.fields.iter().any(|field| matches!(&key, LuaValue::String(key) if *key == *field.name))
+                matches!(&key, LuaValue::String(key) if kind.fields.iter().any(|it| it.is_called(&key.to_string_lossy())))
             })
         }
         _ => false,
