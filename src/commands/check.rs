@@ -47,7 +47,7 @@ impl CheckCommand {
             let script = self.script.script.display();
             report::eprint(&report::warnings(&warnings));
             report::eprint(&match warnings.len() {
-                0 => format!("{script} is fine\n"),
+                0 => format!("{script}: no problems\n"),
                 1 => format!("{script} has 1 warning\n"),
                 count => format!("{script} has {count} warnings\n"),
             });

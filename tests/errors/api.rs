@@ -22,7 +22,7 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
       seed: number | string = 0
           Seed of the whole universe: a number or a string.
 
-    Read methods: rules and interpretations may call them
+    Read methods: rules and interpretations can call them
       galaxy(x: number, y: number, z: number) -> any
           Returns the galaxy in a cube of space, by its column, row and layer: a table with `position`
           and `radius` (light years), `kind`, `color`, `seed`, and `stars`, the number of its stars.
@@ -86,7 +86,7 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
           An SQL condition on attributes.
       tags: { [string]: any }?
           What tags of OpenStreetMap are: true for any value but no, "*" for any, false for none, a
-          text, or a list of texts. All of them hold; of a list of such tables, one holds.
+          text, or a list of strings. All of them hold; of a list of such tables, one holds.
       within: { number }?
           West, south, east and north of a box that features touch, in the coordinates of the file.
       limit: number?
@@ -126,7 +126,7 @@ fn a_field_or_a_method_is_told_by_itself() {
     extruder:bend(angle: number, toward: number? = 0)
       Bends each following segment by `angle` (degrees), towards the side at `toward` (degrees, 0 unless
       given), where 0 is left.
-      It changes the object: only interpretations may call it.
+      Write method: only interpretations can call it.
 
     Example
       -- Bends of 90 degrees: toward 0 is grey, 90 orange, 180 green, 270 purple. The extruder faces up, and its own up is along x.
@@ -145,7 +145,7 @@ fn a_field_or_a_method_is_told_by_itself() {
     assert_snapshot!(api(&["footprint:area"]), @r#"
     footprint:area() -> number
       Returns the area (m²) without the holes.
-      It only reads: rules and interpretations may call it.
+      Read method: rules and interpretations can call it.
 
     Example
       -- The shape measures of a footprint, and the height of its ground.
@@ -202,28 +202,28 @@ fn a_field_or_a_method_is_told_by_itself() {
 fn a_name_that_there_is_not_is_likely_another() {
     let failed = |name: &str| Folder::new().burgeon(&["api", name]).failed();
     assert_snapshot!(failed("extuder"), @r"
-    error: scripts have nothing called extuder
+    error: unknown name `extuder`
       help: did you mean extruder?
     ");
     assert_snapshot!(failed("extruder:extrud"), @r"
-    error: extruder has no field or method called extrud
+    error: unknown field or method `extrud` of extruder
       help: did you mean extrude?
     ");
     assert_snapshot!(failed("extruder:window"), @r"
-    error: extruder has no field or method called window
+    error: unknown field or method `window` of extruder
       help: it has advance, along, around, bend, caps, color, direction, distance, extrude, heading, jump, material, mesh, metallic, open_edges, pitch, place, polygon, position, rectangle, regular, resolution, roll, roughness, scale, shape, shift, sides, smooth, star, taper, turn, twist
     ");
     assert_snapshot!(failed("footprint:roof.detail"), @r"
-    error: footprint:roof has no field or method called detail
+    error: unknown field or method `detail` of footprint:roof
       help: did you mean details?
     ");
     assert_snapshot!(failed("roof"), @r"
-    error: scripts have nothing called roof
+    error: unknown name `roof`
       help: there is footprint:roof
     ");
     assert_snapshot!(failed("window"), @r"
-    error: scripts have nothing called window
-      help: burgeon api lists all names
+    error: unknown name `window`
+      help: run burgeon api to list all names
     ");
 }
 

@@ -50,7 +50,7 @@ print(of.length, of.dead_ends, of.segment, of.block)
 #[test]
 fn existing_streets_that_cannot_be_are_told() {
     assert_snapshot!(refused("network({ existing = { { lines = { { 0, 0 }, { 90, 0 } }, dept = 1 } } })"), @r"
-    error: s.lua:1: network: existing must be a list whose item 1 is a street (a street of network { existing = ... } has no field called dept), not {dept=1,lines={{0,0},{90,0}}}
+    error: s.lua:1: network: existing must be a list whose item 1 is a street (unknown field `dept` in a street of network { existing = ... }), not {dept=1,lines={{0,0},{90,0}}}
       | network({ existing = { { lines = { { 0, 0 }, { 90, 0 } }, dept = 1 } } })
     ");
     assert_snapshot!(refused("network({ existing = { { lines = 3 } } })"), @r"
@@ -74,16 +74,16 @@ fn existing_streets_that_cannot_be_are_told() {
         assert!(told.contains(expected), "{told}");
     }
     assert_snapshot!(refused(&grown("", "this:walk(0)")), @r"
-    error: s.lua:5: rule A (interpretation): network:walk: a street of 0 m cannot be
+    error: s.lua:5: rule A (interpretation): network:walk: invalid street length 0 m
       | this:walk(0)
       module: A, step 0
-      help: give a length above 0
+      help: use a length above 0
     ");
     assert_snapshot!(refused(&grown("", "this:probe(1, 0, -4, 0)")), @r"
-    error: s.lua:5: rule A (interpretation): network:probe: a street of -4 m towards 0 degrees cannot be
+    error: s.lua:5: rule A (interpretation): network:probe: invalid street of -4 m with the heading 0 degrees
       | this:probe(1, 0, -4, 0)
       module: A, step 0
-      help: give a finite heading, and a length above 0
+      help: use a finite heading, and a length above 0
     ");
     assert_snapshot!(refused(&grown("", "this:move_to(9, 0)")), @r"
     error: s.lua:5: rule A (interpretation): there is no junction 9

@@ -49,7 +49,7 @@ fn walls_and_roofs_that_cannot_be_are_refused_with_a_remedy() {
         ("this:roof({ kind = \"hip\", slope = 90 })", "slope is 90 degrees"),
         ("this:roof({ kind = \"hip\" }) this:walls({ height = 3 })", "has its roof already"),
         ("this:groundwork(\"zmin\")", "did you mean z_min?"),
-        ("this:walls({ height = 3 }) this:groundwork(\"z_min\")", "the groundwork comes first"),
+        ("this:walls({ height = 3 }) this:groundwork(\"z_min\")", "call groundwork first"),
         ("this:roof({ overhang = -1 })", "overhang is -1 m"),
     ] {
         let said = house(SQUARE, draw);

@@ -268,7 +268,10 @@ fn sources_has_limits_and_lists_equal_ids_and_what_is_wrong_quickly() {
     assert!(said.stdout.contains("a: 60000 points; EPSG:3067"), "{}", said.stdout);
     assert!(begin.elapsed() < Duration::from_secs(20), "{:?}", begin.elapsed());
     let text = folder.burgeon(&["sources", "a.gpkg", "--time-limit", "0.001"]).failed();
-    assert!(text.contains("reading took longer than 0.001 s") && text.contains("--time-limit"), "{text}");
+    assert!(
+        text.contains("reading exceeded the time limit of 0.001 s") && text.contains("--time-limit"),
+        "{text}"
+    );
     let folder = folder.with("many.gpkg", package(200_000));
     let text = folder.burgeon(&["sources", "many.gpkg", "--memory-limit", "16"]).failed();
     assert!(text.contains("more than 16 MB of memory") && text.contains("--memory-limit"), "{text}");

@@ -21,20 +21,20 @@ fn set(values: &[&str]) -> String {
 #[test]
 fn an_unknown_parameter_is_told_with_the_nearest_one() {
     assert_snapshot!(set(&["moed=day"]), @r"
-    error: s.lua has no parameter called moed
+    error: s.lua: unknown parameter `moed`
       help: did you mean mode?
     ");
     assert_snapshot!(set(&["height=3"]), @r"
-    error: s.lua has no parameter called height
+    error: s.lua: unknown parameter `height`
       help: it has n, mode, on, hue
     ");
     assert_snapshot!(Folder::new().with("s.lua", "local x = 1\n").refuses(&["run", "s.lua", "--set", "x=1"]), @r"
-    error: s.lua has no parameter called x
-      help: it declares none
+    error: s.lua: unknown parameter `x`
+      help: the script declares no parameters
     ");
     assert_snapshot!(Folder::new().with("s.lua", "local x = 1\n").refuses(&["check", "s.lua", "--set", "x=1"]), @r"
-    error: s.lua has no parameter called x
-      help: it declares none
+    error: s.lua: unknown parameter `x`
+      help: the script declares no parameters
     ");
 }
 
@@ -69,7 +69,7 @@ fn a_value_of_the_wrong_type_is_told_with_the_default() {
       help: its default is 5
     "#);
     assert_snapshot!(set(&["mode=dusk"]), @r#"
-    error: s.lua:2: param mode is "dusk", which is no choice
+    error: s.lua:2: param mode is "dusk", which is not one of the choices
       | local mode = param("mode", { default = "day", choices = { "day", "night" } })
       help: choose one of day, night
     "#);
@@ -118,7 +118,7 @@ fn a_declaration_is_checked() {
       help: choose 2.5 or 5
     "#);
     assert_snapshot!(refused("param(\"a\", { defualt = 3 })\n"), @r#"
-    error: s.lua:1: param a has no field called defualt
+    error: s.lua:1: unknown field `defualt` in param a
       | param("a", { defualt = 3 })
       help: did you mean default?
     "#);
@@ -153,11 +153,11 @@ fn a_declaration_is_checked() {
       | param("a", { default = 3, unit = 4 })
     "#);
     assert_snapshot!(refused("param(\"a\", { default = 3, choices = { \"b\" } })\n"), @r#"
-    error: s.lua:1: param a: choices are strings, so the default must be one, not 3
+    error: s.lua:1: param a: the default must be a string, as the choices, not 3
       | param("a", { default = 3, choices = { "b" } })
     "#);
     assert_snapshot!(refused("param(\"a\", { default = \"c\", choices = { \"b\" } })\n"), @r#"
-    error: s.lua:1: the default of param a is "c", which is no choice
+    error: s.lua:1: the default of param a is "c", which is not one of the choices
       | param("a", { default = "c", choices = { "b" } })
       help: choose one of b
     "#);

@@ -170,7 +170,7 @@ fn what_cannot_come_apart_or_be_asked_is_told_with_its_line() {
         ("s:axiom(fragment(Wall))\ns:derive()", "there is no module to its left", "right behind the module"),
         (
             "s:axiom(Count(1), fragment(Wall))\ns:derive()",
-            "Count(1), whose parts it is to make, has no geometry",
+            "Count(1) to its left has no geometry to divide",
             "give the module to its left a geometry",
         ),
         (
@@ -212,7 +212,7 @@ fn a_point_has_no_parts_and_stays_which_is_told() {
     let run = run.expect("it runs");
     assert_eq!(without_geometries(&all_chains(&run)), "Corner(\"well\")\n");
     assert!(
-        run.warnings[0].to_string().contains("a point has no parts, so it stays as it is"),
+        run.warnings[0].to_string().contains("a point has no parts, so it stays unchanged"),
         "{}",
         run.warnings[0]
     );

@@ -297,16 +297,24 @@ fn what_is_wrong_is_told_with_the_line_and_the_remedy() {
         (rule(r#"query(7, Item)"#), "takes a text of SQL, and not the number 7", "select * from"),
         (
             rule(r#"query("n", Named)"#),
-            "its rows have nothing for name and odd of Named(name, odd, half?)",
+            "the rows have no column for parameter name and odd of Named(name, odd, half?)",
             "they have n",
         ),
-        (rule(r#"query("half", Item)"#), "its rows have nothing for n of Item(n)", "select ... as n"),
+        (
+            rule(r#"query("half", Item)"#),
+            "the rows have no column for parameter n of Item(n)",
+            "select ... as n",
+        ),
         (rule(r#"query("select $1", Item)"#), "$1 in a query has no name", "$id"),
-        (rule("fragment(Item)"), "there is no module to its left on its branch", "right behind"),
-        (rule("B(1), { fragment(Item) }"), "there is no module to its left on its branch", "right behind"),
+        (rule("fragment(Item)"), "fragment needs a module to its left on its branch", "right behind"),
+        (
+            rule("B(1), { fragment(Item) }"),
+            "fragment needs a module to its left on its branch",
+            "right behind",
+        ),
         (
             rule("B(1), fragment(Item)"),
-            "B(1), whose parts it is to make, has no geometry",
+            "B(1) to its left has no geometry to divide",
             "give the module to its left",
         ),
     ] {
@@ -318,7 +326,7 @@ fn what_is_wrong_is_told_with_the_line_and_the_remedy() {
     let guard = r#"s:axiom(A(1)) s:rule("A(n)", { when = function(this, n) return query("n", Item) end }, function() return nil end) s:derive()"#;
     assert!(refused(guard).to_string().contains("a guard makes no modules"));
     let null = refused(r#"s:axiom(query("half as n", Item)) s:derive()"#);
-    assert_eq!(null.message(), "n is NULL in row 1, and Item must have it");
+    assert_eq!(null.message(), "n is NULL in row 1, but Item requires it");
 }
 
 #[test]

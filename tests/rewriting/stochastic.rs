@@ -174,7 +174,7 @@ fn siblings_and_generations_draw_independently() {
 fn guards_draw_no_random_numbers() {
     let told =
         error(&buds("s:rule(\"Bud\", { when = function() return random() < 0.5 end }, [[ return P() ]])"));
-    assert!(told.contains("a guard draws no random numbers") && told.contains("rule Bud"), "{told}");
+    assert!(told.contains("a guard cannot use random numbers") && told.contains("rule Bud"), "{told}");
 }
 
 /// Returns the random numbers of modules in a system with these rules, after `steps` steps.

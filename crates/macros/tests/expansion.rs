@@ -151,8 +151,8 @@ fn a_table_is_read_or_refused() {
     assert_eq!((options.height.to_bits(), options.floors), (5f64.to_bits(), 3));
     assert_eq!(options.r#type.as_deref(), Some("bell"));
     for (given, message) in [
-        (("hight", Value::Number(5.0)), "tower has no field called hight"),
-        (("floors", Value::Number(0.5)), "tower: floors must be a whole number from 0, not 0.5"),
+        (("hight", Value::Number(5.0)), "unknown field `hight` in tower"),
+        (("floors", Value::Number(0.5)), "tower: floors must be an integer of at least 0, not 0.5"),
         (("height", text("high")), "tower: height must be a number, not \"high\""),
     ] {
         let error = TowerOptions::from_table(&table(&[given])).expect_err(message);
@@ -219,7 +219,7 @@ fn a_call_that_does_not_fit_is_refused() {
         assert_eq!(call(&mut tower, name, &values), Err(message.to_owned()));
     }
     for name in ["reset", "height"] {
-        let message = "the method belongs to another type of object";
+        let message = "the method belongs to another object type";
         assert_eq!(call(&mut Other, name, &[]), Err(message.to_owned()));
     }
 }

@@ -493,7 +493,7 @@ impl Session {
     #[cfg(not(feature = "data"))]
     pub(crate) fn ask_about(&self, question: &Question, _: &ChainView, stays: bool) -> Result<Arc<Rows>> {
         let Some(source) = self.options.inputs.rows.as_deref() else {
-            return Err(Error::unavailable("this program was built without databases")
+            return Err(Error::unavailable("this program was built without database support")
                 .help("build it with the feature data"));
         };
         let asked = AskedRows { source, most: self.options.limits.modules, view: 0, stays };
@@ -536,8 +536,8 @@ fn data_root(folder: &Path) -> Result<PathBuf> {
     let found = folder.canonicalize().ok().filter(|found| found.is_dir());
     found.ok_or_else(|| {
         let shown = folder.display();
-        Error::not_found("folder", &shown, [], format!("there is no folder {shown}"))
-            .help("--data names a folder of data files")
+        Error::not_found("folder", &shown, [], format!("folder not found: {shown}"))
+            .help("--data needs a folder of data files")
     })
 }
 

@@ -340,7 +340,7 @@ impl Kind {
         names.extend(self.script.iter().flat_map(|script| script.member_names()));
         names.extend(others.iter().map(|method| &*method.name));
         names.dedup();
-        let message = format!("{} has no method or field called {name}", self.name);
+        let message = format!("unknown method or field `{name}` of {}", self.name);
         Error::not_found("method", name, names.iter().copied(), message)
             .help(format!("it has {}", names.join(", ")))
     }

@@ -41,12 +41,12 @@ impl Network {
     /// one more. A refused street ends its path.
     pub fn walk(&mut self, length: f64) -> Result<()> {
         if length <= 0.0 {
-            return Err(Error::argument(format!("network:walk: a street of {length} m cannot be"))
-                .help("give a length above 0"));
+            return Err(Error::argument(format!("network:walk: invalid street length {length} m"))
+                .help("use a length above 0"));
         }
         if self.network.junctions().is_empty() {
             return Err(Error::argument("network:walk: the network has no junction to walk from")
-                .help("give it starts, such as network { starts = { { 0, 0 } } }"));
+                .help("set starts, such as network { starts = { { 0, 0 } } }"));
         }
         let attributes = self.attributes(self.walk.depth());
         if let Some((junction, heading, growth)) =

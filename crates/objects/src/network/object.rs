@@ -73,7 +73,7 @@ impl Network {
     pub fn new(options: NetworkOptions) -> Result<Self> {
         let kinds: Vec<StreetKind> = options.streets.iter().map(StreetOptions::kind).collect();
         if kinds.is_empty() {
-            return Err(Error::argument("network: streets has no kind of street")
+            return Err(Error::argument("network: streets contains no street type")
                 .help("write streets = { { width = 20 }, { width = 14 } }"));
         }
         for (number, kind) in (1..).zip(&kinds) {
@@ -175,9 +175,9 @@ impl Network {
         let from = self.junction_id(junction)?;
         if length <= 0.0 {
             return Err(Error::argument(format!(
-                "network:{method}: a street of {length} m towards {heading} degrees cannot be"
+                "network:{method}: invalid street of {length} m with the heading {heading} degrees"
             ))
-            .help("give a finite heading, and a length above 0"));
+            .help("use a finite heading, and a length above 0"));
         }
         Ok((from, self.network.at(from) + DVec2::from_angle(heading.to_radians()) * length))
     }
@@ -186,11 +186,11 @@ impl Network {
 /// Allows other objects to take a script's network as a parameter.
 impl burgeon_kit::ObjectParameter for Network {
     const LUAU: &str = "Network";
-    const EXPECTED: &str = "a network that was derived: roads:derive().objects[1]";
+    const EXPECTED: &str = "a derived network: roads:derive().objects[1]";
 }
 
 impl std::fmt::Debug for Network {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "network of {} pieces", self.network.size())
+        write!(f, "network of {} segments", self.network.size())
     }
 }

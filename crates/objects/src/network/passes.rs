@@ -56,7 +56,9 @@ impl Network {
                 self.network.size()
             );
             Warning::new(WarningKind::DrawsNothing, text)
-                .help("let more streets meet: grow or walk farther, or join dead ends within a greater distance")
+                .help(
+                    "connect more streets: grow or walk farther, or join dead ends within a greater distance",
+                )
                 .of_pass()
         })
     }

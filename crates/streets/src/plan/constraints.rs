@@ -79,10 +79,9 @@ impl Constraints {
         }
         if snap > 0.0 && snap < clearance {
             return Err(Error::argument(format!(
-                "snap ({snap} m) is less than clearance ({clearance} m), so a street that ends between the two \
-                 could neither join nor stay"
+                "snap ({snap} m) is less than clearance ({clearance} m), so a street that ends between the two can neither join nor remain"
             ))
-            .help("give a greater snap, or a smaller clearance"));
+            .help("use a greater snap, or a smaller clearance"));
         }
         Ok(())
     }

@@ -104,7 +104,7 @@ pub(in crate::machine) fn constructor(machine: &Machine, kind: &Arc<Kind>) -> ml
                         }
                     };
                     if kind.fields.is_empty() && !fields.entries.is_empty() {
-                        return Err(Error::argument(format!("{} takes no options", kind.name))
+                        return Err(Error::argument(format!("{} does not accept options", kind.name))
                             .help(format!("write {}", loader.example)));
                     }
                     let asker = Machine::asker(lua, &session);
@@ -134,7 +134,7 @@ fn file_names(kind: &Kind, loader: &Loader, files: LuaValue) -> Result<Vec<Strin
         _ => None,
     });
     names.collect::<Option<Vec<_>>>().filter(|names| !names.is_empty()).ok_or_else(|| {
-        Error::argument(format!("{} takes the name of a file, or a list of such names", kind.name))
+        Error::argument(format!("{} needs a file name, or a list of file names", kind.name))
             .help(format!("write {}", loader.example))
     })
 }
@@ -179,7 +179,7 @@ fn constructor_fields(kind: &Kind, given: MultiValue) -> Result<Arc<ValueTable>>
     }
     let mut table = ValueTable::clone(&*named_fields(&kind.name, two)?);
     if table.get(first).is_some() {
-        return Err(Error::argument(format!("{} is given its {first} twice", kind.name)));
+        return Err(Error::argument(format!("{}: `{first}` was set twice", kind.name)));
     }
     table.entries.push((TableKey::Name(first.into()), to_field(&one)?));
     Ok(Arc::new(table))
