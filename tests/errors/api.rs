@@ -43,25 +43,24 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
     ");
     assert_snapshot!(api(&["system"]), @r#"
     system
-      A system of rules, as lsystem gives it; T is the type of its object.
+      A system of rules, created by lsystem; T is the type of its object.
 
     Methods
       axiom(...Module) -> System<T>
       axiom(source: Layer, chain: (feature: Feature) -> ...Module) -> System<T>
-          Sets what the chain begins as, or the function that makes the chain of each feature of a
-          source.
+          Sets the initial chain, or the function that returns the chain of each feature of a source.
       rule(pattern: string, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
       rule(pattern: string, options: { ... }, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
-          Adds a rule: what replaces a module that the pattern describes.
+          Adds a rule: the successor of a module that matches the pattern.
           Its fields: burgeon api system:rule
       interpret(pattern: string, draw: (this: T, ...any) -> ...any) -> System<T>
-          Adds an interpretation: what is drawn for a module.
+          Adds an interpretation: the function that draws a module.
       ignore(...string) -> System<T>
-          Names modules that matching of contexts passes over.
+          Sets modules that context matching ignores.
       consider(...string) -> System<T>
-          Names the only modules that matching of contexts sees.
+          Sets the only modules that context matching considers.
       derive(steps: number?) -> Derived
-          Applies the rules step by step, to the end where no number of steps is given.
+          Applies the rules step by step; without a number of steps, until no rule applies.
 
     Example
       -- All methods of a system, with context-sensitive rules.
@@ -79,7 +78,7 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
     "#);
     assert_snapshot!(api(&["source"]), @r#"
     source(what: string | { any }, options: { ... }?) -> Layer
-      The features of a data file, or of a list; what it has is told of under layer.
+      Loads the features of a data file, or of a list; see `layer`.
 
     Fields
       where: string?
@@ -90,17 +89,17 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
       within: { number }?
           West, south, east and north of a box that features touch, in the coordinates of the file.
       limit: number?
-          At most as many features.
+          Maximum number of features.
       id: string?
-          The attribute that tells features apart.
+          Name of the id attribute.
       kind: string?
           Only features with a "point", a "line" or a "polygon".
       crs: number?
-          The EPSG code of the coordinates, in place of the file's.
+          The EPSG code of the coordinates, instead of the file's.
       layer: string?
-          The layer, if its name does not stand behind a colon.
+          The layer, if its name does not follow a colon.
       table: string?
-          What query calls it, in place of its layer's name.
+          Name of the table in query, instead of the layer's name.
 
     Example
       -- A house for each feature of a list; a file source is source("town.gpkg:buildings").
@@ -275,7 +274,7 @@ fn what_the_language_gives_is_told_with_its_arguments() {
     assert_eq!(said["entries"][0]["forms"][0]["arguments"][0]["unit"], "degrees");
     assert_snapshot!(api(&["math.clamp"]), @r"
     math.clamp(x: number, low: number, high: number) -> number
-      The number, kept between two others.
+      Limits a number to a range.
     ");
 }
 

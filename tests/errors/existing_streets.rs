@@ -58,9 +58,9 @@ fn existing_streets_that_cannot_be_are_told() {
       | network({ existing = { { lines = 3 } } })
     ");
     assert_snapshot!(refused("network({ max_segments = 1, existing = { { lines = { { 0, 0 }, { 90, 0 }, { 90, 90 } } } } })"), @r"
-    error: s.lua:1: the existing streets have more than 1 pieces, which is the limit
+    error: s.lua:1: the existing streets have more than 1 segments, which is the limit
       | network({ max_segments = 1, existing = { { lines = { { 0, 0 }, { 90, 0 }, { 90, 90 } } } } })
-      help: give fewer streets, or raise the limit: network { most = ... }
+      help: omit some streets, or raise network { max_segments = ... }
     ");
     let sharp = "existing = { { lines = { { { 0, 0 }, { 200, 0 } }, { { 0, 0 }, { 200, 50 } } } } }";
     silent(&[&grown(sharp, "this:grow(1, 180, 90, 0)")]);
@@ -86,10 +86,10 @@ fn existing_streets_that_cannot_be_are_told() {
       help: use a finite heading, and a length above 0
     ");
     assert_snapshot!(refused(&grown("", "this:move_to(9, 0)")), @r"
-    error: s.lua:5: rule A (interpretation): there is no junction 9
+    error: s.lua:5: rule A (interpretation): unknown junction 9
       | this:move_to(9, 0)
       module: A, step 0
-      help: junctions are numbered from 1 to 1: network:reached tells where a street ends
+      help: junctions are numbered from 1 to 1: network:open_end returns the junction at the end of a street
     ");
 }
 

@@ -258,7 +258,7 @@ fn what_goes_out_without_a_meaning_says_so() {
     "#);
     Folder::new().with("s.lua", nowhere).burgeon(&["run", "s.lua", "--strict", "-o", "a.gpkg"]).done();
     assert_snapshot!(told("lsystem({ city = 'Raod' })", "a.glb"), @r#"
-    error: s.lua:1: lsystem: city: "Raod" is no class of city objects
+    error: s.lua:1: lsystem: city: unknown CityJSON class "Raod"
       | lsystem({ city = 'Raod' })
       help: did you mean Road?
     "#);

@@ -71,7 +71,7 @@ fn a_file_outside_the_folder_is_refused() {
         "\\\\server/x",
     ] {
         let said = required(&format!("require({name:?})"));
-        let refused = ["leads outside the script's folder", "finds no file", "needs the name of a file"]
+        let refused = ["is outside the script's folder", "file not found", "needs a file name"]
             .iter()
             .any(|text| said.contains(text));
         assert!(refused && said.contains("help: "), "{name}: {said}");
@@ -126,7 +126,7 @@ fn a_rule_in_a_required_file_is_bound_by_the_same_laws() {
       | n = n + 1
       called at s.lua:2
       module: A(1), step 1
-      help: a rule writes only its own locals; carry it in a parameter of a module
+      help: a rule can assign only its own locals; pass it in a parameter of a module
     ");
     let folder = Folder::new()
         .with("s.lua", format!("{HEAD}local make = require(\"rules\")\ns:rule(\"A(x)\", function(this, x) return make(A, x) end)\ns:derive(1)\n"))

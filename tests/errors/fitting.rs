@@ -148,11 +148,7 @@ fn rounds_end_the_search_however_long_they_take_unless_a_time_is_given_too() {
     let told = "--seconds ended the search after 0 of 3 rounds, so the result depends on the machine";
     assert_eq!(cut["warnings"], serde_json::json!([told]));
     let cut = folder.burgeon(&[&rounds[..6], &["--seconds", "0.001"]].concat()).done();
-    assert!(
-        cut.stderr.ends_with(&format!("warning: {told}\n  help: leave --seconds out\n")),
-        "{}",
-        cut.stderr
-    );
+    assert!(cut.stderr.ends_with(&format!("warning: {told}\n  help: remove --seconds\n")), "{}", cut.stderr);
     let help = folder.burgeon(&["fit", "--help"]).done().stdout;
     assert!(help.contains("[default: 60, or no such limit with --rounds]"), "{help}");
 }

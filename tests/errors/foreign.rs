@@ -61,9 +61,9 @@ fn bad() -> Vec<(Value, &'static str)> {
     let at = |geometry: Value| feature(&Value::Null, &geometry, json!({}));
     let ring = |ring: Value| at(json!({ "type": "Polygon", "coordinates": [ring] }));
     vec![
-        (ring(json!([[30, -10], [30.1, -10], [30.1, -10.1]])), "more than 2,000 km from the middle"),
+        (ring(json!([[30, -10], [30.1, -10], [30.1, -10.1]])), "more than 2,000 km from the centre"),
         (ring(json!([[6.1, 95], [6.2, 95], [6.2, 96]])), "no longitude and latitude"),
-        (ring(json!([[6.1, "a"], [6.2, 45.9], [6.2, 46]])), "has text in its coordinates"),
+        (ring(json!([[6.1, "a"], [6.2, 45.9], [6.2, 46]])), "has text instead of"),
         (
             ring(json!([[6.1, 45.9], [6.1001, 45.9], [6.1002, 45.9], [6.1, 45.9]])),
             "nowhere wider than 0.002 m",
@@ -77,7 +77,7 @@ fn bad() -> Vec<(Value, &'static str)> {
         (with(json!({ "height": null })), "height is missing"),
         (with(json!({ "levels": "many" })), "attempt to compare"),
         (with(json!({ "levels": { "a": 1 } })), "attempt to compare"),
-        (with(json!({ "levels": 7 })), "no kind called \"onion\""),
+        (with(json!({ "levels": 7 })), "unknown kind \"onion\""),
         (with(json!({ "colour": "no such" })), "color must be a colour"),
         (with(json!({ "colour": "lightblu" })), "such as \"lightblue\""),
         (with(json!({ "colour": 7 })), "color must be a colour"),
@@ -143,9 +143,9 @@ fn a_mistake_of_the_script_is_an_error_for_any_number_of_features() {
         assert_ne!(script, CITY);
         Folder::new().with("s.lua", script).with("town.geojson", &town).burgeon(&["run", "s.lua"]).failed()
     };
-    assert!(told("color = f.colour }", "colr = f.colour }").contains("no field called colr"));
+    assert!(told("color = f.colour }", "colr = f.colour }").contains("unknown field `colr`"));
     assert!(
-        told("this:walls({ height = h + 1", "this:walls({ hight = h + 1").contains("no field called hight")
+        told("this:walls({ height = h + 1", "this:walls({ hight = h + 1").contains("unknown field `hight`")
     );
     assert!(told("h * n / 2", "h * m.x / 2").contains("m"));
     assert!(told("h * n / 2", "nil * n").contains("attempt to perform arithmetic"));

@@ -392,11 +392,11 @@ fn blocks_that_lie_on_each_other_are_told() {
       help: use blocks that do not overlap: one:difference(other)
     "#);
     let told = divided("0, 79, 40");
-    assert!(told.contains("2460.00 m² in common, and 2 more pairs of blocks overlap, so that"), "{told}");
+    assert!(told.contains("overlap by 2460.00 m², and 2 more pairs of blocks overlap, so lots"), "{told}");
     // For very many pairs, the message does not have the exact number.
     let many = (0..20).map(|x| x.to_string()).collect::<Vec<_>>().join(", ");
     let told = divided(&many);
-    assert!(told.contains("and so have 99 more pairs of blocks at least"), "{told}");
+    assert!(told.contains("and at least 99 more pairs of blocks overlap"), "{told}");
     // Blocks with a common border do not overlap.
     assert_eq!(divided("0, 80, 160"), "");
 }

@@ -85,7 +85,7 @@ fn a_package_to_begin_with_is_made_and_is_fine() {
       help: choose another name
     ");
     insta::assert_snapshot!(folder.burgeon(&["mods", "new", "../Lights"]).failed(), @r#"
-    error: "../Lights" is no name for a package
+    error: invalid package name "../Lights"
       help: use lowercase letters, digits, - and _, such as "street-lamps"
     "#);
     let machine = folder.burgeon(&["mods", "new", "lamps", "--json"]).done().json();

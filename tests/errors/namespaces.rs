@@ -195,7 +195,7 @@ proptest! {
                     let _ = write!(body, " print(\"method\", this:{name}())");
                     expected.push(format!("method\t{owner}"));
                 }
-                None if owners.len() > 1 => errors.push((format!("this:{name}()"), format!("{name} is a method that"), owners)),
+                None if owners.len() > 1 => errors.push((format!("this:{name}()"), format!("{name} is a method of"), owners)),
                 None => {}
             }
         }
@@ -314,7 +314,7 @@ proptest! {
             let error = run(&folder, Vec::new()).expect_err("one of several");
             prop_assert!(error.contains(&message), "{}", error);
             let named = owners.iter().all(|owner| error.contains(PACKAGES[*owner]) || error.contains(&PACKAGES[*owner].replace('-', "_")));
-            prop_assert!(named && error.contains("say which one"), "{}", error);
+            prop_assert!(named && error.contains("specify one"), "{}", error);
         }
     }
 }

@@ -58,9 +58,9 @@ fn an_edge_that_there_is_not_is_refused() {
     "
     );
     for (rest, words) in [
-        (", { edge_keywords = { [4] = { \"gate\" } } }) })", "edge_keywords names edge 4"),
+        (", { edge_keywords = { [4] = { \"gate\" } } }) })", "edge_keywords refers to the unknown edge 4"),
         (", { edge_keywords = { \"gate\" } }) })", "{ [2] = { \"entry door\" } }, not {\"gate\"}"),
-        (", { streets = { { 0, 0 }, { 1, 1 } } }) })", "made once before: streets(source)"),
+        (", { streets = { { 0, 0 }, { 1, 1 } } }) })", "created once before: streets(source)"),
     ] {
         assert!(told(rest).contains(words), "{}", told(rest));
     }

@@ -226,10 +226,10 @@ fn a_street_does_not_begin_in_an_obstacle() {
 #[test]
 fn a_proposal_that_cannot_be_is_refused_with_its_line() {
     assert_snapshot!(refused(&grown("", "this:grow(2, 0, 80, 0)")), @r"
-    error: s.lua:5: rule A (interpretation): there is no junction 2
+    error: s.lua:5: rule A (interpretation): unknown junction 2
       | this:grow(2, 0, 80, 0)
       module: A, step 0
-      help: junctions are numbered from 1 to 1: network:reached tells where a street ends
+      help: junctions are numbered from 1 to 1: network:open_end returns the junction at the end of a street
     ");
     assert_snapshot!(refused(&grown("", "this:grow(1, 0, 0, 0)")), @r"
     error: s.lua:5: rule A (interpretation): network:grow: invalid street of 0 m with the heading 0 degrees
@@ -244,10 +244,10 @@ fn a_proposal_that_cannot_be_is_refused_with_its_line() {
     ");
     assert_snapshot!(
         refused(&grown("max_segments = 3", "for way = 0, 3 do this:grow(1, way * 90, 80, 0) end")), @r"
-    error: s.lua:5: rule A (interpretation): the network has 3 pieces of streets
+    error: s.lua:5: rule A (interpretation): the network has 3 street segments, which is the limit
       | for way = 0, 3 do this:grow(1, way * 90, 80, 0) end
       module: A, step 0
-      help: let fewer streets grow, or raise the limit: network { most = ... }
+      help: grow fewer streets, or raise network { max_segments = ... }
     ");
     assert_snapshot!(refused(&grown("", "this:join_dead_ends(1e6)")), @r"
     error: s.lua:5: rule A (interpretation): network:join_dead_ends needs a radius from 0 to 2000 and a detour from 1 to 100
@@ -300,7 +300,7 @@ fn a_network_of_which_no_street_is_built_says_why() {
     s:derive(0)
     warning: s.lua:2: network: none of 1 proposed streets was built: outside
       | local s = lsystem({ object = network({  }) })
-      help: network:fate tells of each what became of it
+      help: network:outcome returns the outcome of each
     "#);
 }
 
@@ -317,7 +317,7 @@ fn a_street_that_does_not_come_to_its_place_is_told() {
       this:grow_to(1, { 300, 0 }, 0)
     end)
     s:derive(0)
-    warning: s.lua:5: rule A (interpretation): network:lead: the street from 0.0, 0.0 to 300.0, 0.0 ends at 69.0, 0.0, for an obstacle is in its way
+    warning: s.lua:5: rule A (interpretation): network:grow_to: the street from 0.0, 0.0 to 300.0, 0.0 ends at 69.0, 0.0, before an obstacle
       | this:grow_to(1, { 300, 0 }, 0)
       module: A, step 0
       help: go around the obstacle, or remove the obstacle
@@ -329,7 +329,7 @@ fn a_street_that_does_not_come_to_its_place_is_told() {
       this:grow_to(1, { 1000000000, 0 }, 0)
     end)
     s:derive(0)
-    warning: s.lua:5: rule A (interpretation): network:lead: no street leads from 0.0, 0.0 to 1000000000.0, 0.0: outside
+    warning: s.lua:5: rule A (interpretation): network:grow_to: no street from 0.0, 0.0 to 1000000000.0, 0.0: outside
       | this:grow_to(1, { 1000000000, 0 }, 0)
       module: A, step 0
       help: choose a position within the `limit` of the network and within 500 km of the origin
@@ -345,7 +345,7 @@ fn a_street_that_does_not_come_to_its_place_is_told() {
       this:grow_to(1, { 90, 0 }, 0) this:grow_to(1, { 40, 38 }, 0)
     end)
     s:derive(0)
-    warning: s.lua:5: rule A (interpretation): network:lead: no street leads from 0.0, 0.0 to 40.0, 38.0: angle
+    warning: s.lua:5: rule A (interpretation): network:grow_to: no street from 0.0, 0.0 to 40.0, 38.0: angle
       | this:grow_to(1, { 90, 0 }, 0) this:grow_to(1, { 40, 38 }, 0)
       module: A, step 0
       help: choose another position, or set a smaller `min_angle`
@@ -368,7 +368,7 @@ fn highways_that_do_not_arrive_are_told() {
     ");
     let lake = "obstacles = { { { -100, -900 }, { 100, -900 }, { 100, 900 }, { -100, 900 } } }";
     assert_snapshot!(with_roads(&towns(lake, "")).warned(&["run", "s.lua"]), @r"
-    warning: templates/roads/highways.lua:125: rule Arrival(junction, heading, length, goal, tries) (interpretation): network:lead: no street leads from -113.0, -28.9 to 600.0, 0.0: obstacle
+    warning: templates/roads/highways.lua:125: rule Arrival(junction, heading, length, goal, tries) (interpretation): network:grow_to: no street from -113.0, -28.9 to 600.0, 0.0: obstacle
       | this:grow_to(junction, this:place(goal), 0)
       called at s.lua:2
       module: Arrival(8,-42.013161642443464,90,2,9), step 11
@@ -381,7 +381,10 @@ fn areas_that_are_no_polygons_or_cross_themselves_are_told() {
     let told = |areas: &str| warned(&[&grown(areas, "this:grow(1, 180, 60, 0)")]);
     for name in ["obstacles", "water"] {
         let text = told(&format!("{name} = {{ {{ vec(10, 10), vec(40, 40), vec(40, 10), vec(10, 40) }} }}"));
-        assert!(text.contains(&format!("s.lua:2: network: {name}: an area is no simple polygon")), "{text}");
+        assert!(
+            text.contains(&format!("s.lua:2: network: {name}: an area is not a simple polygon")),
+            "{text}"
+        );
         assert!(text.contains("meet at (25.000, 25.000)"), "{text}");
     }
     let text = told("limit = { vec(0, 0), vec(100, 0), vec(200, 0) }");

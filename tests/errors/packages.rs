@@ -100,12 +100,12 @@ fn a_package_begins_with_its_init_file() {
 fn what_leads_out_of_a_package_is_refused() {
     let tried = |call: &str| refused(&castle("").with("s.lua", call).with("secret.lua", "return 1"));
     insta::assert_snapshot!(tried("require(\"@castle/../../secret\")"), @r#"
-    error: s.lua:1: @castle/../../secret leads outside the package castle
+    error: s.lua:1: @castle/../../secret is outside the package castle
       | require("@castle/../../secret")
       help: use a file in its folder or its subfolders: "@castle/stone.png"
     "#);
     insta::assert_snapshot!(tried("require(\"@castle//etc/passwd\")"), @r#"
-    error: s.lua:1: @castle//etc/passwd leads outside the package castle
+    error: s.lua:1: @castle//etc/passwd is outside the package castle
       | require("@castle//etc/passwd")
       help: use a file in its folder or its subfolders: "@castle/stone.png"
     "#);
@@ -115,19 +115,19 @@ fn what_leads_out_of_a_package_is_refused() {
       help: write "@castle/stone.png" for stone.png of the package castle
     "#);
     insta::assert_snapshot!(tried("model(\"@castle/../secret.glb\")"), @r#"
-    error: s.lua:1: @castle/../secret.glb leads outside the package castle
+    error: s.lua:1: @castle/../secret.glb is outside the package castle
       | model("@castle/../secret.glb")
       help: use a file in its folder or its subfolders: "@castle/stone.png"
     "#);
     insta::assert_snapshot!(tried("source(\"@castle/../secret.geojson:lots\")"), @r#"
-    error: s.lua:1: @castle/../secret.geojson leads outside the package castle
+    error: s.lua:1: @castle/../secret.geojson is outside the package castle
       | source("@castle/../secret.geojson:lots")
       help: use a file in its folder or its subfolders: "@castle/stone.png"
     "#);
     insta::assert_snapshot!(
         tried("local s = lsystem({ object = extruder({ sides = 4 }) }) local A = module(\"A\") s:axiom(A()) s:interpret(\"A\", function(this) this:material({ texture = \"@castle/../a.png\", texture_size = { 1, 1 } }):extrude(1) end) s:derive()"),
         @r#"
-    error: @castle/../a.png leads outside the package castle
+    error: @castle/../a.png is outside the package castle
       help: use a file in its folder or its subfolders: "@castle/stone.png"
     "#
     );
@@ -307,7 +307,7 @@ fn a_package_sets_other_defaults_of_another_ones_parameters() {
     error: mods/ruins/mod.toml:7: the default set by the package ruins: param height is 50, out of its range
       | height = 50
       called at s.lua:1
-      help: it goes from 3 to 40
+      help: the allowed values are 3 to 40
     ");
     insta::assert_snapshot!(refused(&with("height = true")), @r#"
     error: mods/ruins/mod.toml:7: the default set by the package ruins: param height must be a number, not "true"

@@ -43,12 +43,12 @@ fn a_value_out_of_range_or_between_steps_is_told_with_what_is_allowed() {
     assert_snapshot!(set(&["n=11"]), @r#"
     error: s.lua:1: param n is 11, out of its range
       | local n = param("n", { default = 5, min = 0, max = 10, step = 2.5, unit = "m" })
-      help: it goes from 0 to 10
+      help: the allowed values are 0 to 10
     "#);
     assert_snapshot!(set(&["n=-1e300"]), @r#"
     error: s.lua:1: param n is -1e300, out of its range
       | local n = param("n", { default = 5, min = 0, max = 10, step = 2.5, unit = "m" })
-      help: it goes from 0 to 10
+      help: the allowed values are 0 to 10
     "#);
     assert_snapshot!(set(&["n=3"]), @r#"
     error: s.lua:1: param n is 3, between two steps of 2.5

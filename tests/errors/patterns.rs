@@ -309,7 +309,7 @@ fn a_module_is_declared_once_and_with_names() {
       help: declare it once, or rename the other module
     "#);
     assert_snapshot!(refused("local A = module(\"3A\")\n"), @r#"
-    error: s.lua:1: "3A" cannot be a module's name
+    error: s.lua:1: invalid module name "3A"
       | local A = module("3A")
       help: a name is a letter followed by letters, digits and underscores
     "#);
@@ -362,7 +362,7 @@ fn a_system_tells_what_it_takes() {
     ");
     let said = refused_rules("s:axiom(3)");
     assert!(
-        said.starts_with("error: s.lua:") && said.contains(": an axiom is made of modules, but "),
+        said.starts_with("error: s.lua:") && said.contains(": an axiom must contain only modules, but "),
         "{said}"
     );
     assert_snapshot!(refused_rules("print(s:derive(0).chain)"), @r"

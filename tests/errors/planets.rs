@@ -66,7 +66,7 @@ fn a_focus_below_the_ground_or_the_water_is_refused() {
     };
     let below = told(&focus("", 99_500.0));
     assert!(below.contains("planet: the focus (0, 0, 99500) is 500 m below the ground"), "{below}");
-    assert!(below.contains("there it is 100000.0 m from the centre"), "{below}");
+    assert!(below.contains("the surface there is 100000.0 m from the centre"), "{below}");
     let below = told(&focus("water = 2000,", 101_900.0));
     assert!(below.contains("is 100 m below the water"), "{below}");
 }

@@ -86,7 +86,7 @@ fn a_preset_that_does_not_fit_the_script_any_more_is_told_with_its_line() {
     assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\"floors\": 100 } } }", &["--preset", "tall"]), @r#"
     error: tower.presets.json:2: preset tall: param floors is 100, out of its range
       | "floors": 100 } } }
-      help: it goes from 1 to 90; change the preset
+      help: the allowed values are 1 to 90; change the preset
     "#);
     assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\"lit\": \"maybe\" } } }", &["--preset", "tall"]), @r#"
     error: tower.presets.json:2: preset tall: param lit must be true or false, not "maybe"

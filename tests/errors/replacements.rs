@@ -94,7 +94,7 @@ fn a_model_names_files_of_its_own_package_also_where_it_replaces_another() {
     assert_eq!(triangles(&folder), 2);
     let folder = folder.with("mods/ruins/door.gltf", door(6).replace("door.bin", "../castle/parts/door.bin"));
     insta::assert_snapshot!(refused(&folder), @r#"
-    error: s.lua:1: @ruins/../castle/parts/door.bin leads outside the package ruins
+    error: s.lua:1: @ruins/../castle/parts/door.bin is outside the package ruins
       | local door = model("@castle/parts/door.gltf")
       help: use a file in its folder or its subfolders: "@ruins/stone.png"
     "#);

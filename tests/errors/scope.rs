@@ -46,7 +46,7 @@ fn an_interpretation_cannot_assign_a_captured_variable() {
     error: s.lua:4: rule A(x) (interpretation): an interpretation rule assigns n, a variable declared outside
       | local function add() n = n + 1 end
       module: A(1), step 0
-      help: a rule writes only its own locals; carry it in a parameter of a module
+      help: a rule can assign only its own locals; pass it in a parameter of a module
     ");
 }
 
@@ -72,7 +72,7 @@ fn a_rule_cannot_assign_through_a_helper() {
         error: s.lua:5: rule A(x): a rule assigns n, a variable declared outside
           | n = n + 1
           module: A(1), step 1
-          help: a rule writes only its own locals; carry it in a parameter of a module
+          help: a rule can assign only its own locals; pass it in a parameter of a module
         "
     );
 }
@@ -85,7 +85,7 @@ fn a_rule_cannot_count_with_a_closure_that_a_factory_made() {
         error: s.lua:6: rule A(x): a rule assigns n, a variable declared outside
           | n = n + 1
           module: A(1), step 1
-          help: a rule writes only its own locals; carry it in a parameter of a module
+          help: a rule can assign only its own locals; pass it in a parameter of a module
         "
     );
 }
@@ -98,7 +98,7 @@ fn a_rule_that_is_declared_later_is_guarded_too() {
         error: s.lua:5: rule A(x): a rule assigns n, a variable declared outside
           | n = n + 1
           module: A(1), step 1
-          help: a rule writes only its own locals; carry it in a parameter of a module
+          help: a rule can assign only its own locals; pass it in a parameter of a module
         "
     );
 }

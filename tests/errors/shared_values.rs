@@ -143,7 +143,7 @@ fn what_remembers_and_cannot_be_frozen_is_refused_wherever_it_is() {
                  s:rule(\"A\", function() {write} return B({read}) end)\ns:derive(1)\n"
             );
             let error = chain(&Folder::new().with("s.lua", &script)).expect_err(&script);
-            assert!(error.contains("which remembers from one module to the next"), "{error}\n{script}");
+            assert!(error.contains("which keeps state from one module to the next"), "{error}\n{script}");
         }
     }
 }

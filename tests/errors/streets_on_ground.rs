@@ -86,7 +86,7 @@ fn streets_that_cut_deep_into_the_ground_are_told() {
 #[test]
 fn ground_that_is_shown_without_its_streets_is_told() {
     let is_told =
-        |script: &str| warned(&[script]).contains("the ground is shown as it was without the streets");
+        |script: &str| warned(&[script]).contains("the visible terrain is not adapted to the streets");
     let script = on_hills(3, "max_slope = 9", "");
     assert!(!is_told(&script), "{script}");
     let shown = script.replace("visible = roads ~= nil", "visible = true");

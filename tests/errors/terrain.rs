@@ -102,7 +102,7 @@ fn sizes_and_views_are_checked_with_their_numbers() {
       help: set levels, or focus on a position: this:focus(x, y, view) in an interpretation rule
 
     levels = 3, remap = { { 5, 0 }, { 1, 2 } }, rules = { A = { "A", "A", "A", "A" } }
-    error: s.lua:1: terrain: remap goes from 5 to 1
+    error: s.lua:1: terrain: remap decreases from 5 to 1
       | local land = lsystem({ object = terrain({ levels = 3, remap = { { 5, 0 }, { 1, 2 } }, rules = { A = { "A", "A", "A", "A" } } }) })
       help: write remap = { { -100, 0 }, { 0, 10 }, { 100, 80 } }: pairs from lower to higher heights
 
@@ -475,7 +475,7 @@ fn tiles_are_files_of_their_own_that_tell_where_they_are() {
     let tiles: Vec<&String> = files.keys().filter(|name| name.starts_with("tiles/")).collect();
     assert_eq!(tiles.len(), 16);
     assert!(files["tiles/3_3_4.glb"] > files["tiles/3_2_2.glb"]);
-    assert!(folder.refuses(&["run", "s.lua", "--tiles", "s.lua"]).contains("cannot make the folder s.lua"));
+    assert!(folder.refuses(&["run", "s.lua", "--tiles", "s.lua"]).contains("cannot create the folder s.lua"));
 }
 
 #[test]

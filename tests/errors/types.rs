@@ -187,7 +187,7 @@ fn a_function_of_a_type_assigns_only_its_state() {
     error: s.lua:11: rule A (interpretation): an interpretation rule assigns kept, a variable declared outside
       | kept = self
       module: A, step 0
-      help: a rule writes only its own locals; carry it in a parameter of a module
+      help: a rule can assign only its own locals; pass it in a parameter of a module
     ");
     assert_snapshot!(refused("local kept = {}\nlocal A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  changes = { go = function(self, n)\n    kept[1] = self\n  end },\n}))\n"), @r"
     error: s.lua:11: rule A (interpretation): attempt to modify a readonly table

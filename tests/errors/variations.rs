@@ -94,7 +94,7 @@ fn values_that_the_script_does_not_have_are_refused_before_anything_runs() {
     ");
     assert_snapshot!(told(&["--sweep", "n=1..9"], 1), @r"
     error: param n is 7, out of its range
-      help: it goes from 1 to 6
+      help: the allowed values are 1 to 6
     ");
     assert_snapshot!(told(&["--sweep", "kind=a,c"], 1), @r#"
     error: param kind is "c", which is not one of the choices

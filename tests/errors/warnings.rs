@@ -276,7 +276,7 @@ fn a_module_of_the_library_that_is_declared_anew() {
       | local F = module("F", "length", "width")
       help: interpret it, system:interpret("F(length, width)", function(this, length, width) ... end), or rename it
     "#);
-    assert!(checked(hidden).contains("stands in the place of"));
+    assert!(checked(hidden).contains("replaces the standard library's"));
     silent(&[
         &hidden.replace(
             "s:derive",

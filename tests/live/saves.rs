@@ -334,7 +334,7 @@ fn a_model_of_nothing_says_why() {
         )
     };
     server.write("s.lua", empty("s:rule(\"A\", function() return nil end)\n"));
-    says(&mut page, "no module is left");
+    says(&mut page, "the chain is empty");
     server.write("s.lua", empty("s:rule(\"A\", function() return B(), B() end)\n"));
     says(&mut page, "system:interpret(\"B\"");
     // An interpreted module gets no advice to add an interpretation.
@@ -414,7 +414,7 @@ fn files_of_packages_are_followed_and_one_that_goes_leaves_the_last_model_with_t
     page.next("model");
     server.write("given/castle/mod.toml", about.replace("castle", "Castle"));
     let error = page.next("error");
-    assert!(error["text"].as_str().unwrap().contains("cannot be the name of a package"), "{error}");
+    assert!(error["text"].as_str().unwrap().contains("invalid package name"), "{error}");
     server.write("given/castle/mod.toml", about);
     page.next("model");
 }

@@ -272,7 +272,7 @@ fn what_is_wrong_is_told_with_the_line_and_the_remedy() {
         format!("s:axiom(A(2)) s:rule(\"A(n)\", function(this, n)\n return {body} end) s:derive()")
     };
     for (script, message, help) in [
-        (rule(r#"query("n where n < $m", Item)"#), "$m of the query has no value", "name it there"),
+        (rule(r#"query("n where n < $m", Item)"#), "$m of the query has no value", "add it there"),
         (rule(r#"query("n where n < $n", Item, { m = 1 })"#), "the query has no $m", "it has $n"),
         (
             rule(r#"query("n where n < $n", Item, { n = 0 / 0 })"#),
@@ -306,16 +306,16 @@ fn what_is_wrong_is_told_with_the_line_and_the_remedy() {
             "select ... as n",
         ),
         (rule(r#"query("select $1", Item)"#), "$1 in a query has no name", "$id"),
-        (rule("fragment(Item)"), "fragment needs a module to its left on its branch", "right behind"),
+        (rule("fragment(Item)"), "fragment needs a module to its left on its branch", "directly after"),
         (
             rule("B(1), { fragment(Item) }"),
             "fragment needs a module to its left on its branch",
-            "right behind",
+            "directly after",
         ),
         (
             rule("B(1), fragment(Item)"),
             "B(1) to its left has no geometry to divide",
-            "give the module to its left",
+            "pass a geometry to the module to its left",
         ),
     ] {
         let error = refused(&script);
@@ -335,7 +335,7 @@ fn a_chain_that_grows_without_end_by_queries_is_stopped() {
     let mut options = options();
     options.limits.modules = 10_000;
     let error = refused_with(script, options);
-    assert!(error.to_string().contains("the chain grows past 10,000 modules"), "{error}");
+    assert!(error.to_string().contains("the chain exceeds 10,000 modules"), "{error}");
     assert!(error.to_string().contains("query("), "{error}");
 }
 

@@ -72,7 +72,7 @@ fn a_rule_of_weight_0_is_never_chosen_and_changes_nothing_for_the_others() {
     assert_eq!(words(&text(&format!("{never} {never}")))[0], "Bud(1)");
     for weight in ["-1", "0 / 0", "1 / 0", "true"] {
         let said = error(&buds(&format!("s:rule(\"Bud\", {{ weight = {weight} }}, [[ return R() ]])")));
-        assert!(said.contains("weight must be a number from 0"), "{weight}: {said}");
+        assert!(said.contains("weight must be a number of at least 0"), "{weight}: {said}");
     }
 }
 

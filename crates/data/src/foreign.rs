@@ -172,7 +172,7 @@ mod tests {
             b"II*\0\x08",
         ] {
             let told = told(head);
-            assert!(told.contains("which is not read as a source") && told.contains("help: "), "{told}");
+            assert!(told.contains("which is not supported as a source") && told.contains("help: "), "{told}");
         }
         for head in [&b"{\"type\""[..], b"<?xml", b"", b"0\n", b"name,lon,lat\n"] {
             assert!(refuse_beginning(head, "a").is_ok(), "{head:?}");

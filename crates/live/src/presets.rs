@@ -433,7 +433,7 @@ mod tests {
         let presets = Presets::save(&script, preset("\u{e9}t\u{e9}", 2.0)).unwrap();
         assert_eq!(presets.names().collect::<Vec<_>>(), ["\u{e9}t\u{e9}"]);
         assert_eq!(presets.get("e\u{301}te\u{301}").unwrap().params[0].1, Setting::Number(2.0));
-        assert!(refused("{ \"\u{e9}\": {},\n\"e\u{301}\": {} }").contains("two members called"));
+        assert!(refused("{ \"\u{e9}\": {},\n\"e\u{301}\": {} }").contains("two members named"));
     }
 
     #[cfg(unix)]

@@ -275,7 +275,7 @@ impl ModsCommand {
                 json!({ "ok": true, "name": name, "enabled": on, "changed": changed, "file": file });
             return report::print(&format!("{document}\n"));
         }
-        let state = if on { "on" } else { "off" };
+        let state = if on { "enabled" } else { "disabled" };
         let file = file.display();
         report::eprint(&match (changed, on) {
             (false, _) => format!("{name} is already {state}\n"),
