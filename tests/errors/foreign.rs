@@ -128,7 +128,7 @@ fn one_bad_feature_never_stops_a_city() {
     for (feature, why) in bad.iter().step_by(3) {
         let (said, _) = run(&[feature], &[]);
         let said = said.done();
-        assert!(said.stderr.contains("left out") && said.stderr.contains(why), "{why}: {}", said.stderr);
+        assert!(said.stderr.contains("skipped") && said.stderr.contains(why), "{why}: {}", said.stderr);
         let (said, _) = run(&[feature], &["--strict"]);
         assert!(said.failed().contains(why), "{why}");
     }
@@ -181,8 +181,9 @@ fn pipes_and_devices_are_refused_before_anything_is_read() {
         let preset: &[&str] = if name == "preset.lua" { &["--preset", "a"] } else { &[] };
         for output in ["a.glb", "a.png"] {
             let text = folder.burgeon(&[&["run", name, "-o", output], preset].concat()).failed();
-            let told =
-                ["pipe or a device", "is not a file", "lies outside"].iter().any(|it| text.contains(it));
+            let told = ["pipe or a device", "is not a file", "outside the script"]
+                .iter()
+                .any(|it| text.contains(it));
             assert!(told, "{name}: {text}");
         }
     }
@@ -295,7 +296,7 @@ fn what_a_terminal_would_obey_is_written_out_everywhere() {
     assert!(said.stdout.contains("\\u{1b}[2J"), "{}", said.stdout);
     let said = folder.burgeon(&["run", "s.lua"]).done();
     clean(&said.stderr);
-    assert!(said.stderr.contains("left out"), "{}", said.stderr);
+    assert!(said.stderr.contains("skipped"), "{}", said.stderr);
     clean(&folder.burgeon(&["run", "s.lua", "--strict"]).failed());
     let script = format!("source(\"one.geojson\", {{ id = {:?} }})", "x\u{1b}[1m").replace("\\u{1b}", "\\27");
     std::fs::write(folder.path().join("t.lua"), script).unwrap();
