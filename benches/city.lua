@@ -1,7 +1,7 @@
 --!strict
 -- The 17,362 buildings of a real city, with simple or with detailed facades.
-local rich = param("rich", { default = false, text = "whether every bay is a model" })
-local expand = param("expand", { default = false, text = "whether models become faces" })
+local rich = param("rich", { default = false, doc = "whether every bay is a model" })
+local expand = param("expand", { default = false, doc = "whether models become faces" })
 
 local function plain(color)
   return { color = color, roughness = 0.9 }

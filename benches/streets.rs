@@ -28,7 +28,7 @@ local Tip = module("Tip", "junction", "heading", "depth")
 local roads = lsystem({ object = network({ markings = false }) })
 roads:axiom(Tip(1, 0, 0), Tip(1, 90, 0), Tip(1, 180, 0), Tip(1, 270, 0))
 roads:rule("Tip(junction, heading, depth)", function(this, junction, heading, depth)
-  local at = this:reached(junction, heading)
+  local at = this:open_end(junction, heading)
   if not at or this:size() > 100000 then
     return nil
   elseif random() < 0.5 then

@@ -3,12 +3,12 @@
 -- burgeon run examples/castle.lua -o castle.glb
 local castle = require("@castle")
 
-local corners = param("corners", { default = 7, min = 4, max = 12, step = 1, text = "towers in the ring" })
-local size = param("size", { default = 34, min = 22, max = 60, unit = "m", text = "radius of the ring" })
+local corners = param("corners", { default = 7, min = 4, max = 12, step = 1, doc = "towers in the ring" })
+local size = param("size", { default = 34, min = 22, max = 60, unit = "m", doc = "radius of the ring" })
 local height =
-  param("wall height", { default = 9, min = 6, max = 14, unit = "m", text = "height of the walls" })
+  param("wall height", { default = 9, min = 6, max = 14, unit = "m", doc = "height of the walls" })
 local keep_height =
-  param("keep height", { default = 21, min = 12, max = 30, unit = "m", text = "height of the keep" })
+  param("keep height", { default = 21, min = 12, max = 30, unit = "m", doc = "height of the keep" })
 
 -- The ring is irregular like the hill. The gate is in the middle of the first wall, which faces south.
 local ring = {}

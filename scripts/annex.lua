@@ -9,14 +9,14 @@ local roads = require("templates/roads")
 local skyline = require("templates/skyline")
 
 local file =
-  param("file", { default = "quarter/roads.geojson", text = "The streets; for a layer of it, FILE:LAYER" })
+  param("file", { default = "quarter/roads.geojson", doc = "The streets; for a layer of it, FILE:LAYER" })
 local standing = param("standing", {
   default = "quarter/buildings.geojson",
-  text = "The buildings there, FILE:LAYER; nothing if none are known",
+  doc = "The buildings there, FILE:LAYER; nothing if none are known",
 })
 local reach = param(
   "reach",
-  { default = 250, min = 20, max = 3000, unit = "m", text = "How far the district goes beyond them" }
+  { default = 250, min = 20, max = 3000, unit = "m", doc = "How far the district goes beyond them" }
 )
 local pattern = param("pattern", { default = "organic", choices = { "organic", "raster", "radial" } })
 

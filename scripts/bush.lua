@@ -1,11 +1,11 @@
 --!strict
 -- A bush of random branches: each bud chooses one of several outcomes by weight. Another seed (burgeon run
 -- scripts/bush.lua --seed 7) gives another bush of the same kind.
-local years = param("years", { default = 7, min = 1, max = 9, step = 1, text = "How often the buds open" })
-local stems = param("stems", { default = 7, min = 1, max = 15, step = 1, text = "Stems out of the ground" })
-local spread = param("spread", { default = 38, min = 10, max = 70, unit = "deg", text = "Between branches" })
-local berries = param("berries", { default = 1, min = 0.1, max = 5, text = "Weight of berries (leaves: 4)" })
-local green = param("green", { default = "#5f8f3c", text = "Colour of the leaves" })
+local years = param("years", { default = 7, min = 1, max = 9, step = 1, doc = "How often the buds open" })
+local stems = param("stems", { default = 7, min = 1, max = 15, step = 1, doc = "Stems out of the ground" })
+local spread = param("spread", { default = 38, min = 10, max = 70, unit = "deg", doc = "Between branches" })
+local berries = param("berries", { default = 1, min = 0.1, max = 5, doc = "Weight of berries (leaves: 4)" })
+local green = param("green", { default = "#5f8f3c", doc = "Colour of the leaves" })
 
 local Bud = module("Bud", "length", "width")
 local Sprig = module("Sprig", "length")

@@ -8,7 +8,7 @@ local bend = param("bend", { default = 20, min = 5, max = 85, unit = "deg" })
 local branch = param("branch", { default = 90, min = 10, max = 170, unit = "deg" })
 local split = param("split", { default = "alternate", choices = { "alternate", "symmetric", "plain" } })
 local word =
-  param("word", { default = "F[X]F+X|F[X]F-X|F[X]FX", text = "What X becomes; | between words to draw from" })
+  param("word", { default = "F[X]F+X|F[X]F-X|F[X]FX", doc = "What X becomes; | between words to draw from" })
 
 local system = roads.word({
   axiom = "[X]--[X]",
@@ -18,6 +18,6 @@ local system = roads.word({
   branch = branch,
   split = split,
   lengths = { 110, 90, 75, 60 },
-  network = { ground = "#66774e" },
+  network = { block_color = "#66774e" },
 })
 system:derive(iterations)

@@ -9,26 +9,26 @@ local quarters = require("templates/quarters")
 local roads = require("templates/roads")
 local skyline = require("templates/skyline")
 
-local extent = param("extent", { default = 650, min = 250, max = 3000, unit = "m", text = "From the middle" })
+local extent = param("extent", { default = 650, min = 250, max = 3000, unit = "m", doc = "From the middle" })
 local with_river = param("river", { default = true })
 local highest = param("highest", {
   default = 70,
   min = 15,
   max = 200,
   unit = "m",
-  text = "The usual height in the middle; towers are higher",
+  doc = "The usual height in the middle; towers are higher",
 })
 local detail =
-  param("detail", { default = 130, min = 0, max = 3000, unit = "m", text = "How far there are facades" })
+  param("detail", { default = 130, min = 0, max = 3000, unit = "m", doc = "How far there are facades" })
 local with_trees = param("trees", { default = true })
 local hills = param(
   "hills",
-  { default = 0, min = 0, max = 80, unit = "m", text = "How high the ground rises; 0 if it is flat" }
+  { default = 0, min = 0, max = 80, unit = "m", doc = "How high the ground rises; 0 if it is flat" }
 )
 local heart = param("heart", {
   default = "towers",
   choices = { "towers", "old town", "boulevards" },
-  text = "What stands in the middle",
+  doc = "What stands in the middle",
 })
 
 -- The river runs from west to east past the centre.
@@ -94,7 +94,7 @@ local function ground(streets: Network?): Terrain
       levels = math.clamp(math.ceil(math.log(size / 4.5, 2)), 3, 10),
       rules = cells,
       under = streets,
-      shown = streets ~= nil,
+      visible = streets ~= nil,
       base = WATER - 20,
       water = if with_river then { level = WATER } else nil,
       covers = {

@@ -2,15 +2,15 @@
 -- The dragon curve: a strip of paper, folded in half repeatedly in the same direction, and opened until every fold is
 -- a right angle. A wall that rises along the strip draws it, with each fold rounded to an arc.
 local folds =
-  param("folds", { default = 11, min = 1, max = 14, step = 1, text = "How often the strip is folded" })
+  param("folds", { default = 11, min = 1, max = 14, step = 1, doc = "How often the strip is folded" })
 local angle = param(
   "angle",
-  { default = 90, min = 60, max = 120, unit = "deg", text = "Of a fold; 90 never crosses itself" }
+  { default = 90, min = 60, max = 120, unit = "deg", doc = "Of a fold; 90 never crosses itself" }
 )
 local height =
-  param("height", { default = 3, min = 0.5, max = 20, unit = "m", text = "Of the wall where it ends" })
+  param("height", { default = 3, min = 0.5, max = 20, unit = "m", doc = "Of the wall where it ends" })
 local thickness =
-  param("thickness", { default = 0.34, min = 0.05, max = 0.4, unit = "m", text = "Of the wall" })
+  param("thickness", { default = 0.34, min = 0.05, max = 0.4, unit = "m", doc = "Of the wall" })
 
 local Strip = module("Strip", "n", "side", "from", "to") -- n folds remain; from 0 to 1 along the strip
 local Fold = module("Fold", "side", "at")

@@ -3,12 +3,12 @@
 -- becomes a flower and sends a signal down the stem, one internode per step. The signal turns buds into flowers, so
 -- the uppermost flowers open first and the lowest are the youngest.
 local age =
-  param("age", { default = 27, min = 1, max = 48, step = 1, unit = "days", text = "Steps of growth" })
+  param("age", { default = 27, min = 1, max = 48, step = 1, unit = "days", doc = "Steps of growth" })
 local flowering =
-  param("flowering", { default = 14, min = 2, max = 24, step = 1, unit = "days", text = "When it flowers" })
+  param("flowering", { default = 14, min = 2, max = 24, step = 1, unit = "days", doc = "When it flowers" })
 local angle =
-  param("angle", { default = 52, min = 20, max = 80, unit = "deg", text = "Between the stem and its leaves" })
-local petals = param("petals", { default = "#8377dd", text = "Colour of the flowers" })
+  param("angle", { default = 52, min = 20, max = 80, unit = "deg", doc = "Between the stem and its leaves" })
+local petals = param("petals", { default = "#8377dd", doc = "Colour of the flowers" })
 
 local Seed = module("Seed", "day") -- dormant for some days
 local Apex = module("Apex", "day")

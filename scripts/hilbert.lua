@@ -2,11 +2,11 @@
 -- The Hilbert curve through all cells of a cube, drawn as a pipe with round bends. The curve through a cube consists
 -- of eight curves through its octants, each rotated so that it ends next to the start of the next one.
 local level =
-  param("level", { default = 3, min = 1, max = 4, step = 1, text = "How often the cube is divided" })
+  param("level", { default = 3, min = 1, max = 4, step = 1, doc = "How often the cube is divided" })
 local width =
-  param("width", { default = 0.5, min = 0.05, max = 0.8, unit = "m", text = "Diameter; cells measure 1 m" })
-local round = param("round", { default = 0.8, min = 0, max = 0.95, text = "How much of the way is bends" })
-local pieces = param("pieces", { default = 6, min = 1, max = 16, step = 1, text = "Pieces of a bend" })
+  param("width", { default = 0.5, min = 0.05, max = 0.8, unit = "m", doc = "Diameter; cells measure 1 m" })
+local round = param("round", { default = 0.8, min = 0, max = 0.95, doc = "How much of the way is bends" })
+local pieces = param("pieces", { default = 6, min = 1, max = 16, step = 1, doc = "Pieces of a bend" })
 
 -- A cube with its first cell at p, along the axes a, b and c; the curve ends in the direction a.
 local Cube = module("Cube", "p", "a", "b", "c", "n", "index")

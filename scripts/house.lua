@@ -15,18 +15,18 @@ local kinds = {
 local kind = param("kind", {
   default = "all",
   choices = { "all", table.unpack(kinds) },
-  text = "Kind of all roofs, or one of each",
+  doc = "Kind of all roofs, or one of each",
 })
 local eaves = param("eaves", {
   default = "open",
   choices = { "open", "closed", "slab" },
-  text = "How the roofs jut out",
+  doc = "How the roofs jut out",
 })
-local pitch = param("pitch", { default = 38, min = 5, max = 70, unit = "deg", text = "Slope of the roofs" })
-local floors = param("floors", { default = 2, min = 1, max = 6, step = 1, text = "Storeys" })
+local pitch = param("pitch", { default = 38, min = 5, max = 70, unit = "deg", doc = "Slope of the roofs" })
+local floors = param("floors", { default = 2, min = 1, max = 6, step = 1, doc = "Storeys" })
 local overhang =
-  param("overhang", { default = 0.6, min = 0, max = 2, unit = "m", text = "Width of the eaves" })
-local furnished = param("furnished", { default = true, text = "Whether chimneys and gutters are shown" })
+  param("overhang", { default = 0.6, min = 0, max = 2, unit = "m", doc = "Width of the eaves" })
+local furnished = param("furnished", { default = true, doc = "Whether chimneys and gutters are shown" })
 
 -- A ring is written as "x y, x y, ...". The ground rises to the east.
 local function ring(text: string, east: number, north: number)

@@ -3,14 +3,14 @@
 -- rotated by 30 degrees, and six around it at a third of the size. Each flake is therefore a terrace with seven
 -- smaller terraces.
 local terraces =
-  param("terraces", { default = 4, min = 0, max = 5, step = 1, text = "Terraces on each other" })
+  param("terraces", { default = 4, min = 0, max = 5, step = 1, doc = "Terraces on each other" })
 local radius =
-  param("radius", { default = 10, min = 1, max = 100, unit = "m", text = "From the middle to a tip" })
+  param("radius", { default = 10, min = 1, max = 100, unit = "m", doc = "From the middle to a tip" })
 local thickness =
-  param("thickness", { default = 0.13, min = 0.02, max = 0.4, text = "Of a terrace by its radius" })
-local gap = param("gap", { default = 0.03, min = 0, max = 0.2, text = "Between flakes by their radius" })
-local low = param("low", { default = "#16407f", text = "Colour of the lowest terrace" })
-local high = param("high", { default = "#f4fbff", text = "Colour of the highest" })
+  param("thickness", { default = 0.13, min = 0.02, max = 0.4, doc = "Of a terrace by its radius" })
+local gap = param("gap", { default = 0.03, min = 0, max = 0.2, doc = "Between flakes by their radius" })
+local low = param("low", { default = "#16407f", doc = "Colour of the lowest terrace" })
+local high = param("high", { default = "#f4fbff", doc = "Colour of the highest" })
 
 -- The outline: a triangle grows on the middle third of each edge, and smaller triangles on its edges.
 local Edge = module("Edge", "length", "n") -- n generations remain, to its right

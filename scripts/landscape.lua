@@ -1,12 +1,12 @@
 --!strict
 -- Landscapes of five kinds: a square is divided into quadrants, and rules define the change of each quadrant.
 local kinds = { "mountains", "hills", "ridge", "crater", "plain" }
-local kind = param("kind", { default = "mountains", choices = kinds, text = "What rises there" })
-local size = param("size", { default = 3000, min = 500, max = 50000, unit = "m", text = "Length of a side" })
+local kind = param("kind", { default = "mountains", choices = kinds, doc = "What rises there" })
+local size = param("size", { default = 3000, min = 500, max = 50000, unit = "m", doc = "Length of a side" })
 local levels =
-  param("levels", { default = 9, min = 3, max = 11, step = 1, text = "How often the square is divided" })
-local rough = param("rough", { default = 1, min = 0, max = 2, text = "How much finer cells add" })
-local trees = param("trees", { default = true, text = "Whether trees grow" })
+  param("levels", { default = 9, min = 3, max = 11, step = 1, doc = "How often the square is divided" })
+local rough = param("rough", { default = 1, min = 0, max = 2, doc = "How much finer cells add" })
+local trees = param("trees", { default = true, doc = "Whether trees grow" })
 
 -- Properties of a kind: the height (m) of its form at a position from -1 to 1, the initial noise and its decay from
 -- level to level, a mapping of the noise heights, the water level and the snow line.

@@ -1,14 +1,14 @@
 --!strict
 -- Buildings on hills: footprints with heights on measured terrain; rules add detail between its samples.
 -- burgeon run scripts/monaco.lua --data FOLDER -o monaco.png, with monaco.gpkg and N43E007.hgt.zip in that folder
-local file = param("buildings", { default = "monaco.gpkg:buildings", text = "The buildings: FILE:LAYER" })
-local heights = param("elevation", { default = "N43E007.hgt.zip", text = "The heights of the ground" })
+local file = param("buildings", { default = "monaco.gpkg:buildings", doc = "The buildings: FILE:LAYER" })
+local heights = param("elevation", { default = "N43E007.hgt.zip", doc = "The heights of the ground" })
 local size = param(
   "size",
-  { default = 4800, min = 500, max = 20000, unit = "m", text = "Length of a side of the ground" }
+  { default = 4800, min = 500, max = 20000, unit = "m", doc = "Length of a side of the ground" }
 )
 local levels =
-  param("levels", { default = 9, min = 4, max = 11, step = 1, text = "How often the ground is divided" })
+  param("levels", { default = 9, min = 4, max = 11, step = 1, doc = "How often the ground is divided" })
 
 local buildings = source(file)
 local low, high = buildings.bounds.min, buildings.bounds.max

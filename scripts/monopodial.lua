@@ -2,15 +2,15 @@
 -- A monopodial tree, after Honda's rules: The Algorithmic Beauty of Plants, figure 2.6. The apex grows straight; its
 -- branches divide alternately to the left and to the right, in horizontal planes.
 local years =
-  param("years", { default = 11, min = 1, max = 12, step = 1, text = "How often the apices grow" })
+  param("years", { default = 11, min = 1, max = 12, step = 1, doc = "How often the apices grow" })
 local trunk =
-  param("trunk", { default = 0.91, min = 0.7, max = 1, text = "Length of an internode by the one before" })
+  param("trunk", { default = 0.91, min = 0.7, max = 1, doc = "Length of an internode by the one before" })
 local branch =
-  param("branch", { default = 0.71, min = 0.4, max = 0.95, text = "Length of a branch by its parent" })
+  param("branch", { default = 0.71, min = 0.4, max = 0.95, doc = "Length of a branch by its parent" })
 local angle =
-  param("angle", { default = 52, min = 10, max = 90, unit = "deg", text = "Between trunk and branches" })
-local fork = param("fork", { default = 42, min = 10, max = 90, unit = "deg", text = "Between branches" })
-local leaves = param("leaves", { default = true, text = "Whether twigs bear leaves" })
+  param("angle", { default = 52, min = 10, max = 90, unit = "deg", doc = "Between trunk and branches" })
+local fork = param("fork", { default = 42, min = 10, max = 90, unit = "deg", doc = "Between branches" })
+local leaves = param("leaves", { default = true, doc = "Whether twigs bear leaves" })
 
 local GOLDEN = 137.5 -- degrees from one branch of the trunk to the next, as in most plants
 local THINNER = 0.707 -- the cross-sections of two branches add up to that of their parent (Leonardo's rule)

@@ -8,12 +8,12 @@ local quarters = require("templates/quarters")
 local roads = require("templates/roads")
 local skyline = require("templates/skyline")
 
-local extent = param("extent", { default = 165, min = 110, max = 400, unit = "m", text = "From the middle" })
-local wall_height = param("wall", { default = 7, min = 0, max = 14, unit = "m", text = "0 for no wall" })
+local extent = param("extent", { default = 165, min = 110, max = 400, unit = "m", doc = "From the middle" })
+local wall_height = param("wall", { default = 7, min = 0, max = 14, unit = "m", doc = "0 for no wall" })
 local plan = param("plan", {
   default = "grown",
   choices = { "grown", "laid out" },
-  text = "Crooked lanes, or straight ones of a town that was founded",
+  doc = "Crooked lanes, or straight ones of a town that was founded",
 })
 local with_trees = param("trees", { default = true })
 

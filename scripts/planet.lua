@@ -1,14 +1,14 @@
 --!strict
 -- A planet of seas and continents, from orbit to the ground. Its faces divide by rules for three scales: continental
 -- plates and deep sea, then lowlands and mountain belts, then meadows and crags.
-local seed = param("seed", { default = 129, min = 0, max = 1000, step = 1, text = "Which planet it is" })
+local seed = param("seed", { default = 129, min = 0, max = 1000, step = 1, doc = "Which planet it is" })
 local approach =
-  param("approach", { default = 0, min = 0, max = 1, text = "From the orbit (0) down to the ground (1)" })
+  param("approach", { default = 0, min = 0, max = 1, doc = "From the orbit (0) down to the ground (1)" })
 local radius =
-  param("radius", { default = 1200000, min = 100000, max = 7000000, unit = "m", text = "Of the planet" })
-local sea = param("sea", { default = 0, min = -3000, max = 3000, unit = "m", text = "Level of the seas" })
+  param("radius", { default = 1200000, min = 100000, max = 7000000, unit = "m", doc = "Of the planet" })
+local sea = param("sea", { default = 0, min = -3000, max = 3000, unit = "m", doc = "Level of the seas" })
 local cold =
-  param("cold", { default = 0, min = -20, max = 40, unit = "deg", text = "How far the ice reaches" })
+  param("cold", { default = 0, min = -20, max = 40, unit = "deg", doc = "How far the ice reaches" })
 
 -- Each rule has a symbol and a height change for each quadrant. The changes are random, and the decay reduces them on
 -- each level.

@@ -8,7 +8,7 @@ local pattern = param("pattern", {
   choices = { "organic", "raster", "radial", "contours", "population", "districts", "centres" },
 })
 local extent =
-  param("extent", { default = 1000, min = 150, max = 5000, unit = "m", text = "From the middle" })
+  param("extent", { default = 1000, min = 150, max = 5000, unit = "m", doc = "From the middle" })
 local dead_ends = param("dead_ends", { default = "keep", choices = { "keep", "remove" } })
 
 -- Hills for the contour pattern.
@@ -90,7 +90,7 @@ options.network = {
     { name = "lane", width = 11, lanes = 2, sidewalk = 2, asphalt = "#757a81" },
   },
   paving = "#d3cfc6",
-  ground = "#a9b58c",
+  block_color = "#a9b58c",
 }
 options.steps = math.ceil(extent / 25) + 8
 if pattern == "organic" then

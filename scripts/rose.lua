@@ -1,13 +1,13 @@
 --!strict
 -- A Gothic rose window. A rose is a ring of stone with a smaller rose in its centre and a wreath of roses around it;
 -- each touches its neighbours and the ring. The smallest roses are panes of coloured glass.
-local depth = param("depth", { default = 3, min = 1, max = 4, step = 1, text = "Roses within roses" })
+local depth = param("depth", { default = 3, min = 1, max = 4, step = 1, doc = "Roses within roses" })
 local petals =
-  param("petals", { default = 12, min = 5, max = 20, step = 1, text = "Roses in the outer wreath" })
+  param("petals", { default = 12, min = 5, max = 20, step = 1, doc = "Roses in the outer wreath" })
 local inner =
-  param("inner", { default = 6, min = 3, max = 12, step = 1, text = "Roses in each smaller wreath" })
-local radius = param("radius", { default = 5, min = 1, max = 12, unit = "m", text = "Of the whole window" })
-local stone = param("stone", { default = "#d8cbb4", text = "Colour of the tracery" })
+  param("inner", { default = 6, min = 3, max = 12, step = 1, doc = "Roses in each smaller wreath" })
+local radius = param("radius", { default = 5, min = 1, max = 12, unit = "m", doc = "Of the whole window" })
+local stone = param("stone", { default = "#d8cbb4", doc = "Colour of the tracery" })
 
 local GLASS = { "#7c1d2f", "#b3262e", "#173f8a", "#2a62b8", "#d99a2b", "#1f6b4f", "#5b2a78" }
 

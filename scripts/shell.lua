@@ -2,17 +2,17 @@
 -- A sea shell. The animal adds segments at the mouth, each a little larger than the last, with the same bend, the
 -- same twist and the same ratio. This alone forms the spiral.
 local pieces =
-  param("pieces", { default = 144, min = 10, max = 300, step = 1, text = "Pieces that have been added" })
+  param("pieces", { default = 144, min = 10, max = 300, step = 1, doc = "Pieces that have been added" })
 local growth =
-  param("growth", { default = 1.025, min = 1.005, max = 1.06, text = "Size of a piece by the one before" })
-local bend = param("bend", { default = 17.5, min = 5, max = 30, unit = "deg", text = "Bend of a piece" })
+  param("growth", { default = 1.025, min = 1.005, max = 1.06, doc = "Size of a piece by the one before" })
+local bend = param("bend", { default = 17.5, min = 5, max = 30, unit = "deg", doc = "Bend of a piece" })
 local twist = param(
   "twist",
-  { default = 4.8, min = -10, max = 10, unit = "deg", text = "Twist, which draws the spiral out" }
+  { default = 4.8, min = -10, max = 10, unit = "deg", doc = "Twist, which draws the spiral out" }
 )
-local ribs = param("ribs", { default = 9, min = 0, max = 24, step = 1, text = "Ribs along the tube" })
-local light = param("light", { default = "#f6e7d0", text = "Colour of the shell" })
-local dark = param("dark", { default = "#b4593a", text = "Colour of its bands" })
+local ribs = param("ribs", { default = 9, min = 0, max = 24, step = 1, doc = "Ribs along the tube" })
+local light = param("light", { default = "#f6e7d0", doc = "Colour of the shell" })
+local dark = param("dark", { default = "#b4593a", doc = "Colour of its bands" })
 
 local Facing = module("Facing", "angle")
 local Mouth = module("Mouth", "n", "radius")

@@ -4,9 +4,9 @@
 local build = require("templates/build")
 
 local only =
-  param("style", { default = "all", choices = { "all", table.unpack(build.names) }, text = "Style" })
+  param("style", { default = "all", choices = { "all", table.unpack(build.names) }, doc = "Style" })
 local levels =
-  param("levels", { default = 0, min = 0, max = 12, step = 1, text = "Storeys; 0 for as many as are usual" })
+  param("levels", { default = 0, min = 0, max = 12, step = 1, doc = "Storeys; 0 for as many as are usual" })
 
 local features, fronts = {}, {}
 local east, north = 0, 0

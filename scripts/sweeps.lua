@@ -2,11 +2,11 @@
 -- Four models from the same rules, as in figure 3 of the ML-System paper: recursion 1 at low and at high resolution
 -- in the back, recursion 2 and 3 in front. An arm is a row of segments, each with its own length, curvature, twist
 -- and scale. Each further level of recursion adds arms to the segments.
-local segments = param("segments", { default = 14, min = 5, max = 18, step = 1, text = "Segments of an arm" })
+local segments = param("segments", { default = 14, min = 5, max = 18, step = 1, doc = "Segments of an arm" })
 local curl =
-  param("curl", { default = 58, min = 0, max = 80, unit = "deg", text = "Bend of the last segment" })
-local arms = param("arms", { default = 3, min = 1, max = 5, step = 1, text = "Arms that a segment bears" })
-local lobes = param("lobes", { default = 5, min = 3, max = 9, step = 1, text = "Lobes of the cross-section" })
+  param("curl", { default = 58, min = 0, max = 80, unit = "deg", doc = "Bend of the last segment" })
+local arms = param("arms", { default = 3, min = 1, max = 5, step = 1, doc = "Arms that a segment bears" })
+local lobes = param("lobes", { default = 5, min = 3, max = 9, step = 1, doc = "Lobes of the cross-section" })
 
 local TAPER = 0.86 -- from one segment to the next
 

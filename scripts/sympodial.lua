@@ -2,15 +2,15 @@
 -- A sympodial flowering tree, after Aono and Kunii: The Algorithmic Beauty of Plants, figure 2.7. Each axis ends in
 -- two branches, so the apparent trunk is a row of branches.
 local years =
-  param("years", { default = 9, min = 1, max = 11, step = 1, text = "How often the branches fork" })
+  param("years", { default = 9, min = 1, max = 11, step = 1, doc = "How often the branches fork" })
 local first =
-  param("first", { default = 0.88, min = 0.5, max = 1, text = "Length of the stronger branch by its parent" })
-local second = param("second", { default = 0.8, min = 0.4, max = 1, text = "Length of the weaker one" })
+  param("first", { default = 0.88, min = 0.5, max = 1, doc = "Length of the stronger branch by its parent" })
+local second = param("second", { default = 0.8, min = 0.4, max = 1, doc = "Length of the weaker one" })
 local inner =
-  param("inner", { default = 26, min = 0, max = 80, unit = "deg", text = "Angle of the stronger branch" })
+  param("inner", { default = 26, min = 0, max = 80, unit = "deg", doc = "Angle of the stronger branch" })
 local outer =
-  param("outer", { default = 42, min = 0, max = 80, unit = "deg", text = "Angle of the weaker one" })
-local petals = param("petals", { default = "#f6c3d0", text = "Colour of the flowers" })
+  param("outer", { default = 42, min = 0, max = 80, unit = "deg", doc = "Angle of the weaker one" })
+local petals = param("petals", { default = "#f6c3d0", doc = "Colour of the flowers" })
 
 local Trunk = module("Trunk", "length", "width")
 local Fork = module("Fork", "length", "width")

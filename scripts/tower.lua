@@ -1,11 +1,11 @@
 --!strict
 -- A twisted tower of towers: tiers of storeys, storeys of pillars, pillars of thinner pillars. The turrets on its
 -- setbacks are towers too.
-local floors = param("floors", { default = 24, min = 1, max = 120, step = 1, text = "Storeys of the tower" })
-local twist = param("twist", { default = 4, min = -15, max = 15, unit = "deg", text = "Turn of each storey" })
-local sides = param("sides", { default = 8, min = 3, max = 12, step = 1, text = "Sides of the plan" })
-local detail = param("detail", { default = 1, min = 0, max = 3, step = 1, text = "How often pillars divide" })
-local stone = param("stone", { default = "#d9c3a0", text = "Colour of the walls" })
+local floors = param("floors", { default = 24, min = 1, max = 120, step = 1, doc = "Storeys of the tower" })
+local twist = param("twist", { default = 4, min = -15, max = 15, unit = "deg", doc = "Turn of each storey" })
+local sides = param("sides", { default = 8, min = 3, max = 12, step = 1, doc = "Sides of the plan" })
+local detail = param("detail", { default = 1, min = 0, max = 3, step = 1, doc = "How often pillars divide" })
+local stone = param("stone", { default = "#d9c3a0", doc = "Colour of the walls" })
 
 local HEIGHT = 3.6 -- of a storey (m)
 local TIER = 6 -- storeys between two setbacks

@@ -4,24 +4,24 @@
 local build = require("templates/build")
 local nature = require("templates/nature")
 
-local file = param("file", { default = "town.geojson", text = "The data; for a layer of it, FILE:LAYER" })
+local file = param("file", { default = "town.geojson", doc = "The data; for a layer of it, FILE:LAYER" })
 local forced = param("style", {
   default = "by data",
   choices = { "by data", table.unpack(build.names) },
-  text = "One style for all buildings",
+  doc = "One style for all buildings",
 })
 local radius = param("radius", {
   default = 0,
   min = 0,
   max = 100000,
   unit = "m",
-  text = "Shows what lies so near to the middle; 0 for everything",
+  doc = "Shows what lies so near to the middle; 0 for everything",
 })
 local east =
-  param("east", { default = 0, min = -50000, max = 50000, unit = "m", text = "Where the middle is" })
+  param("east", { default = 0, min = -50000, max = 50000, unit = "m", doc = "Where the middle is" })
 local north =
-  param("north", { default = 0, min = -50000, max = 50000, unit = "m", text = "Where the middle is" })
-local trees = param("trees", { default = true, text = "Whether trees are shown" })
+  param("north", { default = 0, min = -50000, max = 50000, unit = "m", doc = "Where the middle is" })
+local trees = param("trees", { default = true, doc = "Whether trees are shown" })
 
 -- The names of uses in the data, and their possible styles.
 local BY_ERA = {

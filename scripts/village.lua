@@ -6,9 +6,9 @@ local build = require("templates/build")
 local nature = require("templates/nature")
 local roads = require("templates/roads")
 
-local extent = param("extent", { default = 210, min = 150, max = 600, unit = "m", text = "From the middle" })
+local extent = param("extent", { default = 210, min = 150, max = 600, unit = "m", doc = "From the middle" })
 local hills =
-  param("hills", { default = 26, min = 0, max = 50, unit = "m", text = "How high the ground rises" })
+  param("hills", { default = 26, min = 0, max = 50, unit = "m", doc = "How high the ground rises" })
 local with_trees = param("trees", { default = true })
 
 -- The terrain, derived for queries and again with the lanes on it. A lane can leave the village and have houses
@@ -25,7 +25,7 @@ local function ground(lanes: Network?): Terrain
       decay = hills,
       rules = { Land = rolling },
       under = lanes,
-      shown = lanes ~= nil,
+      visible = lanes ~= nil,
       -- Below the sum of all changes and decays.
       base = math.min(-hills - 25, -1.85 * hills - 2),
       covers = {

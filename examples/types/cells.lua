@@ -49,7 +49,7 @@ local cells = object("cells", {
 
 local steps = param("steps", { default = 34, min = 1, max = 80, step = 1 })
 local crowd =
-  param("crowd", { default = 3, min = 1, max = 26, step = 1, text = "Neighbours that leave no room" })
+  param("crowd", { default = 3, min = 1, max = 26, step = 1, doc = "Neighbours that leave no room" })
 
 local Cell = module("Cell", "x", "y", "z", "age")
 local Tip = module("Tip", "x", "y", "z", "age")

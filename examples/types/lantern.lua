@@ -61,7 +61,7 @@ local lantern = object("lantern", {
   },
 })
 
-local arms = param("arms", { default = 3, min = 1, max = 6, step = 1, text = "Arms of a lantern" })
+local arms = param("arms", { default = 3, min = 1, max = 6, step = 1, doc = "Arms of a lantern" })
 local height = param("height", { default = 4.5, min = 2, max = 12, unit = "m" })
 
 local Mast = module("Mast")

@@ -87,7 +87,7 @@ local stair = object("stair", {
 })
 
 local storey =
-  param("storey", { default = 3, min = 1, max = 12, unit = "m", text = "How high the stair goes" })
+  param("storey", { default = 3, min = 1, max = 12, unit = "m", doc = "How high the stair goes" })
 
 local Step = module("Step")
 local Climb = module("Climb")

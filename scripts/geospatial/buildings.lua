@@ -13,7 +13,7 @@ local Sides, Top = module("Sides", "ring", "height", "points", "faces"), module(
 local Pyramid = module("Pyramid", "ring", "x", "y", "height", "rise", "faces")
 
 local storey = details.storey
-local rise = param("rise", { default = 2.5, min = 0.5, max = 8, unit = "m", text = "How high roofs are" })
+local rise = param("rise", { default = 2.5, min = 0.5, max = 8, unit = "m", doc = "How high roofs are" })
 
 -- Tests if a polygon is convex, so that it can have a pyramid roof.
 local function is_convex(geom): boolean

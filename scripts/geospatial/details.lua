@@ -3,7 +3,7 @@
 local details = {}
 
 details.storey =
-  param("storey", { default = 3, min = 2.4, max = 5, unit = "m", text = "How high a floor is" })
+  param("storey", { default = 3, min = 2.4, max = 5, unit = "m", doc = "How high a floor is" })
 
 type Style = {
   wall: string,

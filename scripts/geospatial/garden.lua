@@ -5,7 +5,7 @@
 local layers = require("layers")
 local models = require("models")
 
-local way = param("way", { default = 4, min = 1, max = 8, unit = "m", text = "Half the width of the ways" })
+local way = param("way", { default = 4, min = 1, max = 8, unit = "m", doc = "Half the width of the ways" })
 
 local Area, Plan = module("Area", "geom"), module("Plan", "geom", "radius")
 local Circle = module("Circle", "geom")

@@ -4,7 +4,7 @@
 -- burgeon run scripts/geospatial/town.lua --data ../shared/data --set town=helsinki.gpkg -o helsinki.glb
 local town = param("town", {
   default = "quarter",
-  text = "The data: quarter, a file with layers of OpenStreetMap, or the address of a database",
+  doc = "The data: quarter, a file with layers of OpenStreetMap, or the address of a database",
 })
 
 type Layers = {

@@ -6,7 +6,7 @@ local pieces = require("templates/shapes")
 
 local fine = param("fine", {
   default = true,
-  text = "Whether windows, railings and shutters have all their pieces; a city of thousands of buildings needs few",
+  doc = "Whether windows, railings and shutters have all their pieces; a city of thousands of buildings needs few",
 })
 -- The table of parts includes the shapes and materials.
 local parts: { [string]: (...any) -> any } = table.clone(pieces)

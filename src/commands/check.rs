@@ -39,7 +39,7 @@ impl CheckCommand {
         if self.script.json {
             let params: Vec<_> = params
                 .iter()
-                .map(|param| json!({ "name": param.name, "package": param.package, "value": report::setting_json(&param.value), "unit": param.unit, "text": param.text }))
+                .map(|param| json!({ "name": param.name, "package": param.package, "value": report::setting_json(&param.value), "unit": param.unit, "text": param.doc }))
                 .collect();
             let warnings = report::warnings_json(&warnings);
             report::print(&format!("{}\n", json!({ "ok": true, "params": params, "warnings": warnings })))?;
@@ -47,13 +47,13 @@ impl CheckCommand {
             let script = self.script.script.display();
             report::eprint(&report::warnings(&warnings));
             report::eprint(&match warnings.len() {
-                0 => format!("{script} is fine\n"),
+                0 => format!("{script}: no problems\n"),
                 1 => format!("{script} has 1 warning\n"),
                 count => format!("{script} has {count} warnings\n"),
             });
             for param in params {
                 let unit = if param.unit.is_empty() { String::new() } else { format!(" {}", param.unit) };
-                let text = if param.text.is_empty() { String::new() } else { format!("  {}", param.text) };
+                let text = if param.doc.is_empty() { String::new() } else { format!("  {}", param.doc) };
                 report::eprint(&format!("  {} = {}{unit}{text}\n", param.name, param.value));
             }
         }

@@ -12,7 +12,7 @@ use clap::{Parser, Subcommand};
     name = "burgeon",
     version,
     about = "Procedural modelling by rewriting: rules in Lua, geometry in Rust.",
-    after_help = "To begin:\n  burgeon new tree\n  burgeon live tree.lua\n  burgeon run tree.lua -o tree.glb"
+    after_help = "Getting started:\n  burgeon new tree\n  burgeon live tree.lua\n  burgeon run tree.lua -o tree.glb"
 )]
 pub(super) struct Cli {
     #[command(subcommand)]

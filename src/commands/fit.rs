@@ -153,7 +153,7 @@ impl FitCommand {
         let shown = path.display();
         if path.is_dir() {
             return Err(Error::file(path, format!("cannot write {shown}: it is a folder"))
-                .help(format!("name a file in it, such as {}", path.join("rules.lua").display())));
+                .help(format!("specify a file in it, such as {}", path.join("rules.lua").display())));
         }
         export::check_files([path.as_path()])?;
         if !path.is_file() {
@@ -164,9 +164,9 @@ impl FitCommand {
         if read.is_err() || !(first.is_empty() || first == MARK.as_bytes()) {
             return Err(Error::file(
                 path,
-                format!("{} is there already, and is no fitted rule table", path.display()),
+                format!("{} already exists and is not a fitted rule table", path.display()),
             )
-            .help("name another file, or move that one away"));
+            .help("specify another file, or move that file away"));
         }
         Ok(())
     }
@@ -175,7 +175,7 @@ impl FitCommand {
         let warning = late.map(|whole| {
             let asked = self.rounds.unwrap_or_default();
             format!(
-                "--seconds ended the search after {whole} of {asked} rounds, so its result depends on the machine"
+                "--seconds ended the search after {whole} of {asked} rounds, so the result depends on the machine"
             )
         });
         if self.json {
@@ -200,7 +200,7 @@ impl FitCommand {
             report::time(elapsed)
         ));
         if let Some(warning) = warning {
-            report::eprint(&format!("warning: {warning}\n  help: leave --seconds out\n"));
+            report::eprint(&format!("warning: {warning}\n  help: remove --seconds\n"));
         }
         Ok(())
     }
@@ -254,6 +254,6 @@ fn output(text: &str) -> Result<PathBuf, String> {
     if Path::new(text).extension().is_some_and(|extension| extension == "lua") {
         Ok(path)
     } else {
-        Err("a rule table is a module for scripts: name a .lua file".to_owned())
+        Err("a rule table is a Lua file: specify a .lua file".to_owned())
     }
 }

@@ -65,10 +65,10 @@ impl LiveCommand {
             ))?;
         } else {
             report::print(&format!("{address}\n"))?;
-            report::eprint("the address is secret, for whoever has it can set parameters; Ctrl-C ends\n");
+            report::eprint("keep the address secret: it allows setting parameters; Ctrl-C ends\n");
         }
         if self.port.is_none() && port != PORT {
-            report::eprint(&format!("port {PORT} is in use, so this is port {port}\n"));
+            report::eprint(&format!("port {PORT} is in use; using port {port}\n"));
         }
         let opens = self.open || (!self.no_open && !self.script.json && has_display());
         if let Some(Err(error)) = opens.then(|| browse(&address)) {

@@ -36,17 +36,16 @@ impl NewCommand {
         let mut file = OpenOptions::new().write(true).create_new(true).open(&path).map_err(|error| {
             match error.kind() {
                 ErrorKind::AlreadyExists => {
-                    Error::file(&path, format!("{shown} exists already")).help("choose another name")
+                    Error::file(&path, format!("{shown} already exists")).help("choose another name")
                 }
                 ErrorKind::NotFound | ErrorKind::NotADirectory => {
                     let folder =
                         path.parent().map_or_else(|| ".".into(), |folder| folder.display().to_string());
-                    Error::file(&path, format!("cannot make {shown}: there is no folder {folder}"))
-                        .help("make the folder first")
+                    Error::file(&path, format!("cannot create {shown}: folder not found: {folder}"))
+                        .help("create the folder first")
                 }
-                _ => {
-                    Error::file(&path, format!("cannot make {shown}: {error}")).help("choose another folder")
-                }
+                _ => Error::file(&path, format!("cannot create {shown}: {error}"))
+                    .help("choose another folder"),
             }
         })?;
         file.write_all(STARTER.as_bytes()).map_err(|error| {
@@ -58,7 +57,7 @@ impl NewCommand {
         if self.json {
             report::print(&format!("{}\n", json!({ "ok": true, "path": path })))?;
         } else {
-            report::eprint(&format!("made {shown}; now: burgeon run {shown} -o model.glb\n"));
+            report::eprint(&format!("created {shown}; now: burgeon run {shown} -o model.glb\n"));
         }
         Ok(())
     }

@@ -233,7 +233,7 @@ pub(crate) fn print_all(
             Ok(())
         }
         Err(error) => Err(Error::system(format!("cannot write to standard output: {error}"))
-            .help("look at where it leads: whether the disk is full, or the file may be written to")),
+            .help("check whether the disk is full and the file can be written")),
     }
 }
 

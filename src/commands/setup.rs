@@ -36,8 +36,8 @@ impl SetupCommand {
 
     pub(crate) fn run(&self) -> Result<()> {
         if !self.folder.is_dir() {
-            let message = format!("there is no folder {}", self.folder.display());
-            return Err(Error::file(&self.folder, message).help("make the folder first"));
+            let message = format!("folder not found: {}", self.folder.display());
+            return Err(Error::file(&self.folder, message).help("create the folder first"));
         }
         let packages = self.packages();
         // Merge the files first, so that nothing is written if one of them cannot be merged.
@@ -51,8 +51,8 @@ impl SetupCommand {
                 file,
                 merged.map_err(|why| {
                     let path = self.folder.join(file);
-                    let message = format!("{} is no JSON, so nothing was written: {why}", path.display());
-                    Error::file(&path, message).help("mend it, or move it away")
+                    let message = format!("{} is not JSON, so nothing was written: {why}", path.display());
+                    Error::file(&path, message).help("fix it, or move it away")
                 })?,
             ));
         }
@@ -147,7 +147,7 @@ fn read(path: &Path) -> Result<Option<String>> {
         Ok(text) => Ok(Some(text)),
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
         Err(error) => Err(Error::file(path, format!("cannot read {}: {error}", path.display()))
-            .help("choose another folder, or take the file away")),
+            .help("choose another folder, or remove the file")),
     }
 }
 

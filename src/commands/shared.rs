@@ -124,7 +124,7 @@ impl ScriptFlags {
         };
         let packages = Packages::find(&search, &api_version());
         let file = FileName { package: meant.package, path: "presets.json".to_owned() };
-        let located = packages.locate("file of presets", &file, None, &mut |_, _| {})?;
+        let located = packages.locate("presets file", &file, None, &mut |_, _| {})?;
         Ok((located.shown, meant.path))
     }
 
@@ -217,7 +217,7 @@ fn look(text: &str) -> std::result::Result<ViewBall, String> {
         [x, y, z, radius] if numbers.iter().all(|number| number.is_finite()) && *radius > 0.0 => {
             Ok(ViewBall { at: [*x, *y, *z], radius: *radius })
         }
-        _ => Err("write a place and a distance above 0, such as 10,-5,0,40".to_owned()),
+        _ => Err("write a position and a distance above 0, such as 10,-5,0,40".to_owned()),
     }
 }
 
@@ -296,20 +296,20 @@ fn setting(text: &str) -> Result<(String, String), String> {
 }
 
 pub(crate) fn whole<T: std::str::FromStr>(text: &str) -> Result<T, String> {
-    text.parse().map_err(|_| "write a whole number from 0".to_owned())
+    text.parse().map_err(|_| "write an integer of at least 0".to_owned())
 }
 
 pub(crate) fn threads(text: &str) -> Result<u16, String> {
     match text.parse() {
         Ok(threads) if (1..=1024).contains(&threads) => Ok(threads),
-        _ => Err("write a whole number from 1 to 1024".to_owned()),
+        _ => Err("write an integer from 1 to 1024".to_owned()),
     }
 }
 
 pub(crate) fn megabytes(text: &str) -> Result<u32, String> {
     match text.parse() {
         Ok(megabytes) if megabytes >= 16 => Ok(megabytes),
-        _ => Err("write a whole number of megabytes from 16".to_owned()),
+        _ => Err("write an integer number of megabytes of at least 16".to_owned()),
     }
 }
 
@@ -320,7 +320,7 @@ pub(crate) fn part(text: &str) -> Result<FeaturePart, String> {
 pub(crate) fn metres(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(metres) if (0.0..1e9).contains(&metres) => Ok(metres),
-        _ => Err("write a number of metres from 0".to_owned()),
+        _ => Err("write a number of metres of at least 0".to_owned()),
     }
 }
 

@@ -70,12 +70,12 @@ impl VariationsCommand {
         export::check_files([self.output.as_path()])?;
         let options = self.script.options()?;
         let over = self.seeds.as_ref().or(self.sweep.as_ref());
-        let over = over.ok_or_else(|| Error::usage("give --seeds or --sweep"))?;
+        let over = over.ok_or_else(|| Error::usage("specify --seeds or --sweep"))?;
         if let VariationAxis::Param { name, .. } = over
             && options.params.set.iter().any(|(known, _)| known == name)
         {
-            return Err(Error::usage(format!("{name} is set and varied at the same time"))
-                .help(format!("leave out --set {name} or --sweep {name}")));
+            return Err(Error::usage(format!("--set and --sweep both use `{name}`; remove one"))
+                .help(format!("remove --set {name} or --sweep {name}")));
         }
         let variations = Arc::new(Variations::new(&self.script.script, &options, over)?);
         let picture = Picture { quality: Quality::Draft, ..self.picture.picture(self.size) };
@@ -207,13 +207,13 @@ fn output(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     match Format::of(&path) {
         Ok(Format::Png) => Ok(path),
-        _ => Err("a contact sheet is a picture: name a .png file".to_owned()),
+        _ => Err("a contact sheet is an image: specify a .png file".to_owned()),
     }
 }
 
 fn columns(text: &str) -> Result<usize, String> {
     match text.parse() {
         Ok(columns) if columns > 0 => Ok(columns),
-        _ => Err("write a whole number from 1".to_owned()),
+        _ => Err("write an integer of at least 1".to_owned()),
     }
 }

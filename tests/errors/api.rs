@@ -22,7 +22,7 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
       seed: number | string = 0
           Seed of the whole universe: a number or a string.
 
-    Read methods: rules and interpretations may call them
+    Read methods: rules and interpretations can call them
       galaxy(x: number, y: number, z: number) -> any
           Returns the galaxy in a cube of space, by its column, row and layer: a table with `position`
           and `radius` (light years), `kind`, `color`, `seed`, and `stars`, the number of its stars.
@@ -43,25 +43,24 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
     ");
     assert_snapshot!(api(&["system"]), @r#"
     system
-      A system of rules, as lsystem gives it; T is the type of its object.
+      A system of rules, created by lsystem; T is the type of its object.
 
     Methods
       axiom(...Module) -> System<T>
       axiom(source: Layer, chain: (feature: Feature) -> ...Module) -> System<T>
-          Sets what the chain begins as, or the function that makes the chain of each feature of a
-          source.
+          Sets the initial chain, or the function that returns the chain of each feature of a source.
       rule(pattern: string, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
       rule(pattern: string, options: { ... }, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
-          Adds a rule: what replaces a module that the pattern describes.
+          Adds a rule: the successor of a module that matches the pattern.
           Its fields: burgeon api system:rule
       interpret(pattern: string, draw: (this: T, ...any) -> ...any) -> System<T>
-          Adds an interpretation: what is drawn for a module.
+          Adds an interpretation: the function that draws a module.
       ignore(...string) -> System<T>
-          Names modules that matching of contexts passes over.
+          Sets modules that context matching ignores.
       consider(...string) -> System<T>
-          Names the only modules that matching of contexts sees.
+          Sets the only modules that context matching considers.
       derive(steps: number?) -> Derived
-          Applies the rules step by step, to the end where no number of steps is given.
+          Applies the rules step by step; without a number of steps, until no rule applies.
 
     Example
       -- All methods of a system, with context-sensitive rules.
@@ -79,28 +78,28 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
     "#);
     assert_snapshot!(api(&["source"]), @r#"
     source(what: string | { any }, options: { ... }?) -> Layer
-      The features of a data file, or of a list; what it has is told of under layer.
+      Loads the features of a data file, or of a list; see `layer`.
 
     Fields
       where: string?
           An SQL condition on attributes.
       tags: { [string]: any }?
           What tags of OpenStreetMap are: true for any value but no, "*" for any, false for none, a
-          text, or a list of texts. All of them hold; of a list of such tables, one holds.
+          text, or a list of strings. All of them hold; of a list of such tables, one holds.
       within: { number }?
           West, south, east and north of a box that features touch, in the coordinates of the file.
       limit: number?
-          At most as many features.
+          Maximum number of features.
       id: string?
-          The attribute that tells features apart.
+          Name of the id attribute.
       kind: string?
           Only features with a "point", a "line" or a "polygon".
       crs: number?
-          The EPSG code of the coordinates, in place of the file's.
+          The EPSG code of the coordinates, instead of the file's.
       layer: string?
-          The layer, if its name does not stand behind a colon.
+          The layer, if its name does not follow a colon.
       table: string?
-          What query calls it, in place of its layer's name.
+          Name of the table in query, instead of the layer's name.
 
     Example
       -- A house for each feature of a list; a file source is source("town.gpkg:buildings").
@@ -126,7 +125,7 @@ fn a_field_or_a_method_is_told_by_itself() {
     extruder:bend(angle: number, toward: number? = 0)
       Bends each following segment by `angle` (degrees), towards the side at `toward` (degrees, 0 unless
       given), where 0 is left.
-      It changes the object: only interpretations may call it.
+      Write method: only interpretations can call it.
 
     Example
       -- Bends of 90 degrees: toward 0 is grey, 90 orange, 180 green, 270 purple. The extruder faces up, and its own up is along x.
@@ -145,7 +144,7 @@ fn a_field_or_a_method_is_told_by_itself() {
     assert_snapshot!(api(&["footprint:area"]), @r#"
     footprint:area() -> number
       Returns the area (m²) without the holes.
-      It only reads: rules and interpretations may call it.
+      Read method: rules and interpretations can call it.
 
     Example
       -- The shape measures of a footprint, and the height of its ground.
@@ -202,28 +201,28 @@ fn a_field_or_a_method_is_told_by_itself() {
 fn a_name_that_there_is_not_is_likely_another() {
     let failed = |name: &str| Folder::new().burgeon(&["api", name]).failed();
     assert_snapshot!(failed("extuder"), @r"
-    error: scripts have nothing called extuder
+    error: unknown name `extuder`
       help: did you mean extruder?
     ");
     assert_snapshot!(failed("extruder:extrud"), @r"
-    error: extruder has no field or method called extrud
+    error: unknown field or method `extrud` of extruder
       help: did you mean extrude?
     ");
     assert_snapshot!(failed("extruder:window"), @r"
-    error: extruder has no field or method called window
+    error: unknown field or method `window` of extruder
       help: it has advance, along, around, bend, caps, color, direction, distance, extrude, heading, jump, material, mesh, metallic, open_edges, pitch, place, polygon, position, rectangle, regular, resolution, roll, roughness, scale, shape, shift, sides, smooth, star, taper, turn, twist
     ");
     assert_snapshot!(failed("footprint:roof.detail"), @r"
-    error: footprint:roof has no field or method called detail
+    error: unknown field or method `detail` of footprint:roof
       help: did you mean details?
     ");
     assert_snapshot!(failed("roof"), @r"
-    error: scripts have nothing called roof
+    error: unknown name `roof`
       help: there is footprint:roof
     ");
     assert_snapshot!(failed("window"), @r"
-    error: scripts have nothing called window
-      help: burgeon api lists all names
+    error: unknown name `window`
+      help: run burgeon api to list all names
     ");
 }
 
@@ -275,7 +274,7 @@ fn what_the_language_gives_is_told_with_its_arguments() {
     assert_eq!(said["entries"][0]["forms"][0]["arguments"][0]["unit"], "degrees");
     assert_snapshot!(api(&["math.clamp"]), @r"
     math.clamp(x: number, low: number, high: number) -> number
-      The number, kept between two others.
+      Limits a number to a range.
     ");
 }
 

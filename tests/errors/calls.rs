@@ -19,17 +19,17 @@ fn drawn(line: &str) -> String {
 #[test]
 fn a_method_that_there_is_not_is_found() {
     assert_snapshot!(drawn("this:scale(x):extrde(1)"), @r"
-    error: s.lua:5: rule A(x) (interpretation): extruder has no method or field called extrde
+    error: s.lua:5: rule A(x) (interpretation): unknown method or field `extrde` of extruder
       | this:scale(x):extrde(1)
       help: did you mean extrude?
     ");
     assert_snapshot!(drawn("this:window()"), @r"
-    error: s.lua:5: rule A(x) (interpretation): extruder has no method or field called window
+    error: s.lua:5: rule A(x) (interpretation): unknown method or field `window` of extruder
       | this:window()
       help: it has regular, star, rectangle, polygon, direction, resolution, scale, taper, bend, twist, caps, smooth, extrude, advance, shift, jump, turn, pitch, roll, color, material, mesh, place, position, heading, distance, open_edges
     ");
     assert_snapshot!(check("s:derve()"), @r"
-    error: s.lua:4: a system has no method called derve
+    error: s.lua:4: unknown method `derve` of a system
       | s:derve()
       help: did you mean derive?
     ");
@@ -76,7 +76,7 @@ fn a_value_of_another_type_is_found() {
       | print(noise("a"))
     "#);
     assert_snapshot!(check("s:rule(A, \"return nil\")"), @r#"
-    error: s.lua:4: a rule begins with a pattern
+    error: s.lua:4: the first argument of a rule must be a pattern
       | s:rule(A, "return nil")
       help: write system:rule("A(x)", function(this, x) return ... end)
     "#);
@@ -85,7 +85,7 @@ fn a_value_of_another_type_is_found() {
 #[test]
 fn a_field_that_there_is_not_is_found() {
     assert_snapshot!(check("local f = footprint({ { 0, 0 }, { 1, 0 }, { 1, 1 } }, { hight = 3 })"), @r"
-    error: s.lua:4: footprint has no field called hight
+    error: s.lua:4: unknown field `hight` in footprint
       | local f = footprint({ { 0, 0 }, { 1, 0 }, { 1, 1 } }, { hight = 3 })
       help: did you mean height?
     ");
@@ -96,12 +96,12 @@ fn a_field_that_there_is_not_is_found() {
     let roof = "lsystem({ object = footprint }):interpret(\"A\", function(this)\n\
                   this:roof({ kind = \"hip\", details = { { modle = 3 } } })\nend)";
     assert_snapshot!(check(roof), @r#"
-    error: s.lua:5: rule A (interpretation): footprint:roof.details has no field called modle
+    error: s.lua:5: rule A (interpretation): unknown field `modle` in footprint:roof.details
       | this:roof({ kind = "hip", details = { { modle = 3 } } })
       help: did you mean model?
     "#);
     assert_snapshot!(check("s:rule(\"A(x)\", { wieght = 2 }, function() return nil end)"), @r#"
-    error: s.lua:4: rule A(x): a rule has no option called wieght
+    error: s.lua:4: rule A(x): unknown option `wieght` of a rule
       | s:rule("A(x)", { wieght = 2 }, function() return nil end)
       help: did you mean weight?
     "#);
@@ -110,14 +110,14 @@ fn a_field_that_there_is_not_is_found() {
 #[test]
 fn a_change_of_the_object_in_a_rule_is_found() {
     assert_snapshot!(check("s:rule(\"A(x)\", function(this, x)\n  this:extrude(x)\n  return nil\nend)"), @r"
-    error: s.lua:5: rule A(x): extruder:extrude changes the object, so a rule cannot call it
+    error: s.lua:5: rule A(x): extruder:extrude is a write method, so a rule cannot call it
       | this:extrude(x)
       help: use an interpretation rule: system:interpret(pattern, function(this, ...) ... end)
     ");
     let guard =
         "s:rule(\"A(x)\", { when = function(this) return this:extrude(1) end }, function() return nil end)";
     assert_snapshot!(check(guard), @r#"
-    error: s.lua:4: rule A(x): extruder:extrude changes the object, so a rule cannot call it
+    error: s.lua:4: rule A(x): extruder:extrude is a write method, so a rule cannot call it
       | s:rule("A(x)", { when = function(this) return this:extrude(1) end }, function() return nil end)
       help: use an interpretation rule: system:interpret(pattern, function(this, ...) ... end)
     "#);
@@ -147,7 +147,7 @@ fn what_scripts_add_to_one_type_no_other_has() {
     let folder = Folder::new().with("s.lua", lamps("extend"));
     for command in [&["check", "s.lua"][..], &["run", "s.lua", "-o", "s.glb"]] {
         let told = folder.burgeon(command).failed();
-        assert!(told.contains("turtle has no method or field called lamps"), "{command:?}: {told}");
+        assert!(told.contains("unknown method or field `lamps` of turtle"), "{command:?}: {told}");
     }
     // Static analysis cannot find the type, and the script fails before this line.
     let unknown = lamps("error(\"no\")\nextend").replace("(footprint", "(({ turtle })[1]");

@@ -148,7 +148,7 @@ fn the_seed_decides_and_threads_do_not() {
 fn a_check_finds_what_only_a_run_meets_and_a_quick_one_derives_nothing() {
     let folder = Folder::new().with(
         "s.lua",
-        format!("local n = param(\"n\", {{ default = 3, unit = \"m\", text = \"how far\" }})\n{HEAD}s:rule(\"A(x)\", function(this, x) error(\"ran\") end)\ns:derive(n)\n"),
+        format!("local n = param(\"n\", {{ default = 3, unit = \"m\", doc = \"how far\" }})\n{HEAD}s:rule(\"A(x)\", function(this, x) error(\"ran\") end)\ns:derive(n)\n"),
     );
     assert_eq!(folder.refuses(&["check", "s.lua"]), folder.refuses(&["run", "s.lua"]));
     let said = folder.burgeon(&["check", "s.lua", "--quick"]).done();
@@ -168,21 +168,21 @@ fn a_check_finds_what_only_a_run_meets_and_a_quick_one_derives_nothing() {
 fn new_makes_a_script_that_runs_and_never_overwrites_one() {
     let folder = Folder::new();
     let said = folder.burgeon(&["new", "tree"]).done();
-    assert_eq!(said.stderr, "made tree.lua; now: burgeon run tree.lua -o model.glb\n");
+    assert_eq!(said.stderr, "created tree.lua; now: burgeon run tree.lua -o model.glb\n");
     folder.burgeon(&["check", "tree.lua"]).done();
     folder.burgeon(&["run", "tree.lua", "-o", "model.glb"]).done();
     assert!(folder.files()["model.glb"] > 10_000);
     assert_snapshot!(folder.refuses(&["new", "tree"]), @r"
-    error: tree.lua exists already
+    error: tree.lua already exists
       help: choose another name
     ");
     assert_snapshot!(folder.refuses(&["new", "tree.lua"]), @r"
-    error: tree.lua exists already
+    error: tree.lua already exists
       help: choose another name
     ");
     assert_snapshot!(folder.refuses(&["new", "no/tree"]), @r"
-    error: cannot make no/tree.lua: there is no folder no
-      help: make the folder first
+    error: cannot create no/tree.lua: folder not found: no
+      help: create the folder first
     ");
     let said = folder.burgeon(&["new", "--json", "bush.lua"]).done();
     assert_eq!(said.stdout, "{\"ok\":true,\"path\":\"bush.lua\"}\n");
@@ -228,17 +228,17 @@ fn a_wrong_command_line_is_status_2_and_says_what_is_right() {
     For more information, try '--help'.
     ");
     assert_snapshot!(wrong(&["run", "s.lua", "--threads", "0"]), @r"
-    error: invalid value '0' for '--threads <N>': write a whole number from 1 to 1024
+    error: invalid value '0' for '--threads <N>': write an integer from 1 to 1024
 
     For more information, try '--help'.
     ");
     assert_snapshot!(wrong(&["run", "s.lua", "--steps", "-1"]), @r"
-    error: invalid value '-1' for '--steps <N>': write a whole number from 0
+    error: invalid value '-1' for '--steps <N>': write an integer of at least 0
 
     For more information, try '--help'.
     ");
     assert_snapshot!(wrong(&["run", "s.lua", "--seed", "1.5"]), @r"
-    error: invalid value '1.5' for '--seed <N>': write a whole number from 0
+    error: invalid value '1.5' for '--seed <N>': write an integer of at least 0
 
     For more information, try '--help'.
     ");
@@ -253,7 +253,7 @@ fn a_wrong_command_line_is_status_2_and_says_what_is_right() {
     For more information, try '--help'.
     ");
     assert_snapshot!(wrong(&["run", "s.lua", "--memory-limit", "1"]), @r"
-    error: invalid value '1' for '--memory-limit <MEGABYTES>': write a whole number of megabytes from 16
+    error: invalid value '1' for '--memory-limit <MEGABYTES>': write an integer number of megabytes of at least 16
 
     For more information, try '--help'.
     ");
@@ -263,20 +263,20 @@ fn a_wrong_command_line_is_status_2_and_says_what_is_right() {
     For more information, try '--help'.
     ");
     assert_snapshot!(wrong(&["run", "s.lua", "-o", "model.xyz"]), @r"
-    error: invalid value 'model.xyz' for '--output <FILE>': cannot write model.xyz: .xyz is not a format
-      help: the formats are .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson and .gpkg
+    error: invalid value 'model.xyz' for '--output <FILE>': cannot write model.xyz: unknown file extension .xyz
+      help: supported formats are .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson and .gpkg
 
     For more information, try '--help'.
     ");
     assert_snapshot!(wrong(&["run", "s.lua", "-o", "model.gtlf"]), @r"
-    error: invalid value 'model.gtlf' for '--output <FILE>': cannot write model.gtlf: .gtlf is not a format
+    error: invalid value 'model.gtlf' for '--output <FILE>': cannot write model.gtlf: unknown file extension .gtlf
       help: did you mean .gltf?
 
     For more information, try '--help'.
     ");
     assert_snapshot!(wrong(&["run", "s.lua", "-o", "model"]), @r"
-    error: invalid value 'model' for '--output <FILE>': cannot write model: its name does not end in a format
-      help: the formats are .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson and .gpkg
+    error: invalid value 'model' for '--output <FILE>': cannot write model: missing file extension
+      help: supported formats are .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson and .gpkg
 
     For more information, try '--help'.
     ");

@@ -114,12 +114,12 @@ fn printed(script: &str, flags: &[&str]) -> String {
 #[test]
 fn a_data_file_that_is_missing_or_lies_outside_is_told() {
     assert_snapshot!(told(r#"source("vilage.geojson")"#), @r#"
-    error: in/s.lua:2: there is no data file vilage.geojson
+    error: in/s.lua:2: data file not found: vilage.geojson
       | source("vilage.geojson")
       help: did you mean village.geojson?
     "#);
     assert_snapshot!(told(r#"source("zzz_nothing_like_it.gpkg")"#), @r#"
-    error: in/s.lua:2: there is no data file zzz_nothing_like_it.gpkg
+    error: in/s.lua:2: data file not found: zzz_nothing_like_it.gpkg
       | source("zzz_nothing_like_it.gpkg")
       help: it is looked for from the script's folder; other folders are given with --data FOLDER
     "#);
@@ -131,7 +131,7 @@ fn a_data_file_that_is_missing_or_lies_outside_is_told() {
     assert_snapshot!(told(r#"source("folder")"#), @r#"
     error: in/s.lua:2: folder is a folder
       | source("folder")
-      help: name a .geojson, .gpkg, .fgb, .shp, .csv, .gml, .kml, .gpx, .city.json or .osm.pbf file in it
+      help: specify a .geojson, .gpkg, .fgb, .shp, .csv, .gml, .kml, .gpx, .city.json or .osm.pbf file in it
     "#);
     assert_snapshot!(told(r#"source("../outside.geojson")"#), @r#"
     error: in/s.lua:2: the data file ../outside.geojson lies outside the script's folder
@@ -149,7 +149,7 @@ fn a_data_file_that_is_missing_or_lies_outside_is_told() {
       help: name it from the script's folder, or from one that is given: --data FOLDER
     "#);
     assert_snapshot!(told(r#"source("unknown_region.geojson")"#), @r#"
-    error: in/s.lua:2: there is no data file unknown_region.geojson
+    error: in/s.lua:2: data file not found: unknown_region.geojson
       | source("unknown_region.geojson")
       help: it is looked for from the script's folder; other folders are given with --data FOLDER
     "#);
@@ -158,14 +158,14 @@ fn a_data_file_that_is_missing_or_lies_outside_is_told() {
 #[test]
 fn a_file_that_is_no_data_file_is_told() {
     assert_snapshot!(told(r#"source("cut.geojson")"#), @r#"
-    error: in/s.lua:2: cut.geojson is not GeoJSON: it ends at line 1, column 150, where more should follow
+    error: in/s.lua:2: cut.geojson is not GeoJSON: it ends at line 1, column 150, but more should follow
       | source("cut.geojson")
-      help: the file is cut short; get it again
+      help: the file is cut short; download it again
     "#);
     assert_snapshot!(told(r#"source("empty.geojson")"#), @r#"
     error: in/s.lua:2: empty.geojson is empty
       | source("empty.geojson")
-      help: get the file again
+      help: download the file again
     "#);
     assert_snapshot!(told(r#"source("broken.geojson")"#), @r#"
     error: in/s.lua:2: broken.geojson is not GeoJSON: expected value (line 3, column 15)
@@ -178,9 +178,9 @@ fn a_file_that_is_no_data_file_is_told() {
       help: it needs "type": "FeatureCollection" and "features": [ ... ]
     "#);
     assert_snapshot!(told(r#"source("text.geojson")"#), @r#"
-    error: in/s.lua:2: feature 1 of text.geojson has text in its coordinates where a number should be
+    error: in/s.lua:2: feature 1 of text.geojson has text instead of a number in its coordinates
       | source("text.geojson")
-      help: points, lines, polygons, multi-geometries and collections of these are read
+      help: supported types are points, lines, polygons, multi-geometries and collections of these
     "#);
     assert_snapshot!(told(r#"source("binary.geojson")"#), @r#"
     error: in/s.lua:2: binary.geojson is not GeoJSON: expected value (line 1, column 1)
@@ -190,10 +190,10 @@ fn a_file_that_is_no_data_file_is_told() {
     assert_snapshot!(told(r#"source("cut.gpkg")"#), @r#"
     error: in/s.lua:2: cannot read cut.gpkg: database disk image is malformed
       | source("cut.gpkg")
-      help: the file is damaged or cut short; get it again
+      help: the file is damaged or cut short; download it again
     "#);
     assert_snapshot!(told(r#"source("other.gpkg")"#), @r#"
-    error: in/s.lua:2: other.gpkg is an SQLite database, but no GeoPackage
+    error: in/s.lua:2: other.gpkg is an SQLite database, but not a GeoPackage
       | source("other.gpkg")
       help: a GeoPackage has the tables gpkg_contents and gpkg_geometry_columns
     "#);
@@ -202,17 +202,17 @@ fn a_file_that_is_no_data_file_is_told() {
 #[test]
 fn a_layer_that_is_not_there_is_told() {
     assert_snapshot!(told(r#"source("town.gpkg:bulidings")"#), @r#"
-    error: in/s.lua:2: town.gpkg has no layer called bulidings
+    error: in/s.lua:2: town.gpkg: no layer named `bulidings`
       | source("town.gpkg:bulidings")
       help: did you mean buildings?
     "#);
     assert_snapshot!(told(r#"source("town.gpkg")"#), @r#"
     error: in/s.lua:2: town.gpkg has several layers
       | source("town.gpkg")
-      help: name one behind a colon: "town.gpkg:buildings"; it has buildings, roads
+      help: specify one after a colon: "town.gpkg:buildings"; it has buildings, roads
     "#);
     assert_snapshot!(told(r#"source("village.geojson:roads")"#), @r#"
-    error: in/s.lua:2: village.geojson has no layer called roads
+    error: in/s.lua:2: village.geojson: no layer named `roads`
       | source("village.geojson:roads")
       help: it has village
     "#);
@@ -221,37 +221,37 @@ fn a_layer_that_is_not_there_is_told() {
 #[test]
 fn coordinates_that_cannot_be_used_are_told() {
     assert_snapshot!(told(r#"source("metres.geojson")"#), @r#"
-    error: in/s.lua:2: feature f8c0fe66c234 of metres.geojson lies at 385423, 6671463, which is no longitude and latitude
+    error: in/s.lua:2: feature f8c0fe66c234 of metres.geojson is at 385423, 6671463, which is not a valid longitude and latitude
       | source("metres.geojson")
-      help: name the coordinate system of the file: source(file, { crs = 3067 })
+      help: specify the coordinate system of the file: source(file, { crs = 3067 })
     "#);
     assert_snapshot!(told(r#"source("huge.geojson")"#), @r#"
     error: in/s.lua:2: feature 1 of huge.geojson has coordinates that cannot be read: number out of range
       | source("huge.geojson")
-      help: points, lines, polygons, multi-geometries and collections of these are read
+      help: supported types are points, lines, polygons, multi-geometries and collections of these
     "#);
     assert_snapshot!(told(r#"source("crs.geojson")"#), @r#"
-    error: in/s.lua:2: crs.geojson: the coordinate system EPSG:99999 is not known
+    error: in/s.lua:2: crs.geojson: unknown coordinate system EPSG:99999
       | source("crs.geojson")
-      help: name the right one: source(file, { crs = 4326 }), or convert the file to EPSG:4326
+      help: specify the correct one: source(file, { crs = 4326 }), or convert the file to EPSG:4326
     "#);
     assert_snapshot!(told(r#"source("nowhere.geojson")"#), @r#"
-    error: in/s.lua:2: nowhere.geojson: the coordinate system {"type":"link"} of GeoJSON's crs member is not known
+    error: in/s.lua:2: nowhere.geojson: unknown coordinate system {"type":"link"} in GeoJSON's crs member
       | source("nowhere.geojson")
-      help: name it: source(file, { crs = 4326 })
+      help: specify it: source(file, { crs = 4326 })
     "#);
     assert_snapshot!(told(r#"source("local.gpkg:roads")"#), @r#"
     error: in/s.lua:2: local.gpkg:roads: the layer has no coordinate system
       | source("local.gpkg:roads")
-      help: name its EPSG code: source(file, { crs = 3067 })
+      help: specify its EPSG code: source(file, { crs = 3067 })
     "#);
     assert_snapshot!(told(r#"source("odd.gpkg:roads")"#), @r#"
-    error: in/s.lua:2: odd.gpkg:roads: the layer's coordinate system "odd" is none of EPSG's
+    error: in/s.lua:2: odd.gpkg:roads: the layer's coordinate system "odd" is not an EPSG system
       | source("odd.gpkg:roads")
-      help: name its EPSG code: source(file, { crs = 3067 })
+      help: specify its EPSG code: source(file, { crs = 3067 })
     "#);
     assert_snapshot!(told(r#"source("village.geojson") source("metres.geojson", { crs = 32601 })"#), @r#"
-    error: in/s.lua:2: feature f8c0fe66c234 of metres.geojson lies more than 2,000 km from the middle, at 385423, 6671463
+    error: in/s.lua:2: feature f8c0fe66c234 of metres.geojson is more than 2,000 km from the centre, at 385423, 6671463
       | source("village.geojson") source("metres.geojson", { crs = 32601 })
       help: all sources of a run share one model; check the coordinates and the coordinate system, or read a part
     "#);
@@ -265,8 +265,8 @@ fn a_feature_without_a_place_is_left_out_unless_the_run_is_strict() {
     let said = folder.burgeon(&["run", "in/s.lua", "--report", "-"]).done();
     let why = "feature 2 of nan.gpkg:buildings has a coordinate that is not a finite number";
     for text in [
-        "warning: in/s.lua:3: nan.gpkg:buildings: left out 1 feature without a geometry\n".to_owned(),
-        format!("warning: in/s.lua:3: left out 1 feature that cannot be used: {why}\n"),
+        "warning: in/s.lua:3: nan.gpkg:buildings: skipped 1 feature without a geometry\n".to_owned(),
+        format!("warning: in/s.lua:3: skipped 1 unusable feature: {why}\n"),
     ] {
         assert!(said.stderr.contains(&text), "{}", said.stderr);
     }
@@ -289,17 +289,17 @@ fn features_that_are_not_there_are_told() {
       help: check the file: burgeon sources FILE
     "#);
     assert_snapshot!(told(r#"source("town.gpkg:buildings", { where = "height > 99" })"#), @r#"
-    error: in/s.lua:2: no feature of town.gpkg:buildings meets where height > 99
+    error: in/s.lua:2: no feature of town.gpkg:buildings matches where height > 99
       | source("town.gpkg:buildings", { where = "height > 99" })
-      help: burgeon sources FILE lists attributes and their values
+      help: run burgeon sources FILE to list attributes and their values
     "#);
     assert_snapshot!(told(r#"source("town.gpkg:roads", { kind = "polygon" })"#), @r#"
-    error: in/s.lua:2: town.gpkg:roads has geometries of kind line, none of kind polygon
+    error: in/s.lua:2: town.gpkg:roads has only geometries of kind line, not of kind polygon
       | source("town.gpkg:roads", { kind = "polygon" })
-      help: name another layer, or leave kind out
+      help: specify another layer, or remove kind
     "#);
     assert_snapshot!(told(r#"source("town.gpkg:roads", { id = "nam" })"#), @r#"
-    error: in/s.lua:2: town.gpkg:roads has no attribute called nam
+    error: in/s.lua:2: town.gpkg:roads: unknown attribute `nam`
       | source("town.gpkg:roads", { id = "nam" })
       help: did you mean name?
     "#);
@@ -342,7 +342,7 @@ fn options_of_a_source_are_checked() {
       help: did you mean limit?
     "#);
     assert_snapshot!(told(r#"source("village.geojson", { limit = -1 })"#), @r#"
-    error: in/s.lua:2: source: limit must be a whole number from 0, not -1
+    error: in/s.lua:2: source: limit must be an integer of at least 0, not -1
       | source("village.geojson", { limit = -1 })
       help: write { limit = 100 }
     "#);
@@ -367,7 +367,7 @@ fn options_of_a_source_are_checked() {
       help: write source("village.geojson") or source({ { id = "a", ... }, ... })
     "#);
     assert_snapshot!(told(r#"local f = source("village.geojson").feature"#), @r#"
-    error: in/s.lua:2: a source has no field called feature
+    error: in/s.lua:2: a unknown field `feature` in source
       | local f = source("village.geojson").feature
       help: did you mean features?
     "#);
@@ -384,10 +384,10 @@ fn a_rule_reads_no_data() {
         "{HEAD}s:rule(\"A(x)\", function(this, x) source(\"village.geojson\") return nil end)\ns:derive(1)\n"
     );
     assert_snapshot!(folder().with("in/s.lua", script).refuses(&["run", "in/s.lua"]), @r#"
-    error: in/s.lua:3: rule A(x): source belongs at the top level of the script, not in a rule
+    error: in/s.lua:3: rule A(x): source can be called only at the top level of the script, not in a rule
       | s:rule("A(x)", function(this, x) source("village.geojson") return nil end)
       module: A(1), step 1
-      help: make it before derive, and let the rule use it
+      help: call it before derive, and use the result in the rule
     "#);
 }
 
@@ -408,8 +408,8 @@ fn a_folder_that_is_given_is_read_and_one_that_is_not_there_is_told() {
     assert_eq!(printed(script, &["--data", "data"]), "1\t1\n");
     let folder = folder().with("in/s.lua", script);
     assert_snapshot!(folder.refuses(&["run", "in/s.lua", "--data", "nothing"]), @r#"
-    error: there is no folder nothing
-      help: --data names a folder of data files
+    error: folder not found: nothing
+      help: --data needs a folder of data files
     "#);
 }
 
@@ -474,7 +474,7 @@ fn sources_are_listed_for_people_and_machines() {
     );
     assert_eq!(layer["attributes"][0]["range"], serde_json::json!([5.0, 15.0]));
     assert_snapshot!(folder.refuses(&["sources", "in/vilage.geojson"]), @r#"
-    error: there is no data file in/vilage.geojson
+    error: data file not found: in/vilage.geojson
       help: did you mean village.geojson?
     "#);
 }

@@ -132,9 +132,12 @@ fn weak_tables_are_refused() {
     for weak in ["{ __mode = \"k\" }", "{ [\"__mode\"] = \"v\" }"] {
         let script = format!("local kept = setmetatable({{}}, {weak})\nkept[1] = {{}}\n");
         let said = Folder::new().with("s.lua", script).burgeon(&["run", "s.lua"]).failed();
-        assert!(said.starts_with("error: s.lua:1: what a weak table holds is not certain\n"), "{said}");
+        assert!(
+            said.starts_with("error: s.lua:1: the content of a weak table is not deterministic\n"),
+            "{said}"
+        );
     }
     let script = "local meta: any = {}\nmeta.__mode = \"k\"\n";
     let said = Folder::new().with("s.lua", script).burgeon(&["check", "s.lua"]).failed();
-    assert!(said.starts_with("error: s.lua:2: what a weak table holds is not certain\n"), "{said}");
+    assert!(said.starts_with("error: s.lua:2: the content of a weak table is not deterministic\n"), "{said}");
 }

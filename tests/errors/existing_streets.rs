@@ -21,7 +21,7 @@ s:interpret("Turn90", function(this)
 end)
 local roads = s:derive(0).objects[1]
 local function told(street)
-  return `{street.fate} {street.built} at {street.place.x}, {street.place.y}, junction {street.junction}`
+  return `{street.outcome} {street.built} at {street.place.x}, {street.place.y}, junction {street.junction}`
 end
 print(roads:size(), roads:dead_ends(), roads:degree(1))
 print(told(roads:probe(1, 180, 100, 0)))
@@ -50,17 +50,17 @@ print(of.length, of.dead_ends, of.segment, of.block)
 #[test]
 fn existing_streets_that_cannot_be_are_told() {
     assert_snapshot!(refused("network({ existing = { { lines = { { 0, 0 }, { 90, 0 } }, dept = 1 } } })"), @r"
-    error: s.lua:1: network: existing must be a list whose item 1 is a street (a street of network { existing = ... } has no field called dept), not {dept=1,lines={{0,0},{90,0}}}
+    error: s.lua:1: network: existing must be a list whose item 1 is a street (unknown field `dept` in a street of network { existing = ... }), not {dept=1,lines={{0,0},{90,0}}}
       | network({ existing = { { lines = { { 0, 0 }, { 90, 0 } }, dept = 1 } } })
     ");
     assert_snapshot!(refused("network({ existing = { { lines = 3 } } })"), @r"
     error: s.lua:1: network: existing must be a list whose item 1 is a street (a street of network { existing = ... }: lines must be a source of lines, a list of lines, or a list of points, not 3), not {lines=3}
       | network({ existing = { { lines = 3 } } })
     ");
-    assert_snapshot!(refused("network({ most = 1, existing = { { lines = { { 0, 0 }, { 90, 0 }, { 90, 90 } } } } })"), @r"
-    error: s.lua:1: the existing streets have more than 1 pieces, which is the limit
-      | network({ most = 1, existing = { { lines = { { 0, 0 }, { 90, 0 }, { 90, 90 } } } } })
-      help: give fewer streets, or raise the limit: network { most = ... }
+    assert_snapshot!(refused("network({ max_segments = 1, existing = { { lines = { { 0, 0 }, { 90, 0 }, { 90, 90 } } } } })"), @r"
+    error: s.lua:1: the existing streets have more than 1 segments, which is the limit
+      | network({ max_segments = 1, existing = { { lines = { { 0, 0 }, { 90, 0 }, { 90, 90 } } } } })
+      help: omit some streets, or raise network { max_segments = ... }
     ");
     let sharp = "existing = { { lines = { { { 0, 0 }, { 200, 0 } }, { { 0, 0 }, { 200, 50 } } } } }";
     silent(&[&grown(sharp, "this:grow(1, 180, 90, 0)")]);
@@ -74,22 +74,22 @@ fn existing_streets_that_cannot_be_are_told() {
         assert!(told.contains(expected), "{told}");
     }
     assert_snapshot!(refused(&grown("", "this:walk(0)")), @r"
-    error: s.lua:5: rule A (interpretation): network:walk: a street of 0 m cannot be
+    error: s.lua:5: rule A (interpretation): network:walk: invalid street length 0 m
       | this:walk(0)
       module: A, step 0
-      help: give a length above 0
+      help: use a length above 0
     ");
     assert_snapshot!(refused(&grown("", "this:probe(1, 0, -4, 0)")), @r"
-    error: s.lua:5: rule A (interpretation): network:probe: a street of -4 m towards 0 degrees cannot be
+    error: s.lua:5: rule A (interpretation): network:probe: invalid street of -4 m with the heading 0 degrees
       | this:probe(1, 0, -4, 0)
       module: A, step 0
-      help: give a finite heading, and a length above 0
+      help: use a finite heading, and a length above 0
     ");
-    assert_snapshot!(refused(&grown("", "this:stand(9, 0)")), @r"
-    error: s.lua:5: rule A (interpretation): there is no junction 9
-      | this:stand(9, 0)
+    assert_snapshot!(refused(&grown("", "this:move_to(9, 0)")), @r"
+    error: s.lua:5: rule A (interpretation): unknown junction 9
+      | this:move_to(9, 0)
       module: A, step 0
-      help: junctions are numbered from 1 to 1: network:reached tells where a street ends
+      help: junctions are numbered from 1 to 1: network:open_end returns the junction at the end of a street
     ");
 }
 
@@ -103,11 +103,11 @@ fn a_network_goes_out_as_layers_that_another_grows_from() {
         town:axiom(Square(), Side())
         town:interpret("Square", function(this)
           for from = 1, 4 do
-            this:lead(from, places[from % 4 + 1], if from == 1 then 0 else 1)
+            this:grow_to(from, places[from % 4 + 1], if from == 1 then 0 else 1)
           end
         end)
         town:interpret("Side", function(this)
-          this:lead(2, places[5], 0)
+          this:grow_to(2, places[5], 0)
           this:grow(1, 180, 90, 1)
         end)
         local grown = town:derive(0).objects[1]

@@ -148,7 +148,7 @@ huts:derive()
     let hut = &read(&folder, "a.city.json")["CityObjects"]["hut"]["attributes"];
     assert_eq!(hut.as_object().unwrap().len(), 4, "{hut}");
     assert_snapshot!(folder.refuses(&["run", "s.lua", "-o", "a.glb", "--metadata=hight"]), @r"
-    error: --metadata: no feature has an attribute called hight
+    error: --metadata: no feature has an attribute named `hight`
       help: did you mean height?
     ");
 
@@ -247,18 +247,18 @@ fn what_goes_out_without_a_meaning_says_so() {
     };
     let plain = "local A = module('A')\nlocal s = lsystem({ object = turtle() })\ns:axiom(A())\ns:interpret('A', function(this) this:forward(1) end)\ns:derive()\n";
     assert_snapshot!(told(plain, "a.gpkg"), @r#"
-    error: s.lua:2: there are no layers to write, for no module of the final chains has a geometry
+    error: s.lua:2: no layers to write: no module of the final chains has a geometry
       | local s = lsystem({ object = turtle() })
-      help: pass a geometry on, such as Lot(feature.geometry, area)
+      help: pass a geometry, such as Lot(feature.geometry, area)
     "#);
     let nowhere = "local A = module('A', 'shape')\nlocal s = lsystem()\ns:axiom(A(geometry('POINT (1 2)')))\ns:derive()\n";
     assert_snapshot!(told(nowhere, "a.geojson"), @r#"
-    error: the model has no place on the earth, which GeoJSON counts its degrees on
-      help: read data that has one with source(FILE), or write a .gpkg, which takes metres from anywhere
+    error: the model has no location on the earth, which GeoJSON needs
+      help: read data with a location, source(FILE), or write a .gpkg, which accepts metres without a location
     "#);
     Folder::new().with("s.lua", nowhere).burgeon(&["run", "s.lua", "--strict", "-o", "a.gpkg"]).done();
     assert_snapshot!(told("lsystem({ city = 'Raod' })", "a.glb"), @r#"
-    error: s.lua:1: lsystem: city: "Raod" is no class of city objects
+    error: s.lua:1: lsystem: city: unknown CityJSON class "Raod"
       | lsystem({ city = 'Raod' })
       help: did you mean Road?
     "#);

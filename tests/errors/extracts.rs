@@ -7,14 +7,14 @@ use crate::data::{folder, told};
 #[test]
 fn extracts_of_openstreetmap() {
     assert_snapshot!(told(r#"source("town.osm.pbf")"#), @r#"
-    error: in/s.lua:2: town.osm.pbf is an extract of OpenStreetMap, of which a layer is read
+    error: in/s.lua:2: town.osm.pbf is an OpenStreetMap extract, which needs a layer
       | source("town.osm.pbf")
-      help: name a layer: "town.osm.pbf:buildings"; it has buildings, building_parts, roads, railways, squares, water, waterways, coastlines, green, landuse, trees, tree_rows, barriers, furniture; or choose by tags: source("town.osm.pbf", { tags = { building = true } })
+      help: specify a layer: "town.osm.pbf:buildings"; it has buildings, building_parts, roads, railways, squares, water, waterways, coastlines, green, landuse, trees, tree_rows, barriers, furniture; or select by tags: source("town.osm.pbf", { tags = { building = true } })
     "#);
     assert_snapshot!(told(r#"source("town.osm.pbf:houses")"#), @r#"
-    error: in/s.lua:2: town.osm.pbf has no layer called houses
+    error: in/s.lua:2: town.osm.pbf: no layer named `houses`
       | source("town.osm.pbf:houses")
-      help: it has buildings, building_parts, roads, railways, squares, water, waterways, coastlines, green, landuse, trees, tree_rows, barriers, furniture; or choose by tags: source("town.osm.pbf", { tags = { building = true } })
+      help: it has buildings, building_parts, roads, railways, squares, water, waterways, coastlines, green, landuse, trees, tree_rows, barriers, furniture; or select by tags: source("town.osm.pbf", { tags = { building = true } })
     "#);
     assert_snapshot!(told(r#"source("town.osm.pbf:buildings", { where = "floors > 10" })"#), @r#"
     error: in/s.lua:2: where "floors > 10" of town.osm.pbf:buildings: no such column: floors
@@ -24,32 +24,32 @@ fn extracts_of_openstreetmap() {
     assert_snapshot!(told(r#"source("town.osm.pbf", { tags = "building" })"#), @r#"
     error: in/s.lua:2: source: tags must be a table, not a string
       | source("town.osm.pbf", { tags = "building" })
-      help: write { tags = { building = true, ["roof:shape"] = { "gabled", "hipped" } } }: true for any value but no, "*" for any, false for none, a text, or a list of texts; a list of such tables for one or another
+      help: write { tags = { building = true, ["roof:shape"] = { "gabled", "hipped" } } }: true for any value but no, "*" for any, false for none, a text, or a list of strings; a list of such tables for one or another
     "#);
     assert_snapshot!(told(r#"source("town.osm.pbf", { tags = {} })"#), @r#"
     error: in/s.lua:2: source: tags is empty, which chooses nothing
       | source("town.osm.pbf", { tags = {} })
-      help: write { tags = { building = true, ["roof:shape"] = { "gabled", "hipped" } } }: true for any value but no, "*" for any, false for none, a text, or a list of texts; a list of such tables for one or another
+      help: write { tags = { building = true, ["roof:shape"] = { "gabled", "hipped" } } }: true for any value but no, "*" for any, false for none, a text, or a list of strings; a list of such tables for one or another
     "#);
     assert_snapshot!(told(r#"source("town.osm.pbf", { tags = { building = { a = 1 } } })"#), @r#"
     error: in/s.lua:2: source: tags: building is a table that is no list of texts
       | source("town.osm.pbf", { tags = { building = { a = 1 } } })
-      help: write { tags = { building = true, ["roof:shape"] = { "gabled", "hipped" } } }: true for any value but no, "*" for any, false for none, a text, or a list of texts; a list of such tables for one or another
+      help: write { tags = { building = true, ["roof:shape"] = { "gabled", "hipped" } } }: true for any value but no, "*" for any, false for none, a text, or a list of strings; a list of such tables for one or another
     "#);
     assert_snapshot!(told(r#"source("town.osm.pbf", { tags = { "building" } })"#), @r#"
     error: in/s.lua:2: source: a list of tags must have tables, not a string
       | source("town.osm.pbf", { tags = { "building" } })
-      help: write { tags = { building = true, ["roof:shape"] = { "gabled", "hipped" } } }: true for any value but no, "*" for any, false for none, a text, or a list of texts; a list of such tables for one or another
+      help: write { tags = { building = true, ["roof:shape"] = { "gabled", "hipped" } } }: true for any value but no, "*" for any, false for none, a text, or a list of strings; a list of such tables for one or another
     "#);
     assert_snapshot!(told(r#"source("town.osm.pbf", { tags = { { building = true }, height = "*" } })"#), @r#"
     error: in/s.lua:2: source: tags is a list of tables and has keys too
       | source("town.osm.pbf", { tags = { { building = true }, height = "*" } })
-      help: write { tags = { building = true, ["roof:shape"] = { "gabled", "hipped" } } }: true for any value but no, "*" for any, false for none, a text, or a list of texts; a list of such tables for one or another
+      help: write { tags = { building = true, ["roof:shape"] = { "gabled", "hipped" } } }: true for any value but no, "*" for any, false for none, a text, or a list of strings; a list of such tables for one or another
     "#);
     assert_snapshot!(told(r#"source("town.osm.pbf", { tags = { aeroway = true } })"#), @r#"
-    error: in/s.lua:2: no feature of town.osm.pbf has such tags
+    error: in/s.lua:2: no feature of town.osm.pbf has these tags
       | source("town.osm.pbf", { tags = { aeroway = true } })
-      help: look up how mappers tag it: https://wiki.openstreetmap.org/wiki/Map_features
+      help: look up the tags: https://wiki.openstreetmap.org/wiki/Map_features
     "#);
     assert_snapshot!(told(r#"source("town.osm.pbf:buildings", { within = { 1, 2 } })"#), @r#"
     error: in/s.lua:2: source: within must be { west, south, east, north }, the lesser number first
@@ -59,12 +59,12 @@ fn extracts_of_openstreetmap() {
     assert_snapshot!(told(r#"source("town.osm.pbf:buildings", { within = { 1, 2, 3, 4 } })"#), @r#"
     error: in/s.lua:2: no feature of town.osm.pbf:buildings touches within = { 1, 2, 3, 4 }
       | source("town.osm.pbf:buildings", { within = { 1, 2, 3, 4 } })
-      help: it is { west, south, east, north } in the coordinates of the file, which burgeon sources FILE lists
+      help: within is { west, south, east, north } in the coordinates of the file; run burgeon sources FILE to list them
     "#);
     assert_snapshot!(told(r#"source("village.geojson", { tags = { building = true } })"#), @r#"
-    error: in/s.lua:2: village.geojson is GeoJSON, which takes no tags
+    error: in/s.lua:2: village.geojson is GeoJSON, so tags are not allowed
       | source("village.geojson", { tags = { building = true } })
-      help: tags are for extracts of OpenStreetMap, .osm.pbf and .osm; leave them out
+      help: tags are only for OpenStreetMap extracts (.osm.pbf and .osm); remove them
     "#);
     let script = r#"
 local houses = source("town.osm.pbf", { tags = { { building = { "house", "hut" } }, { building = true, height = "*" } } })
@@ -76,8 +76,8 @@ print(all.features[2].id, #all.features[2].geometry.rings, roads.features[1].wid
     let said = folder().with("in/s.lua", script).burgeon(&["run", "in/s.lua"]).done().stderr;
     assert!(said.starts_with("1\t2\t1\tway/1\t2\tgabled\nrelation/1\t2\t8\n"), "{said}");
     for told in [
-        "relation/2 of town.osm.pbf:buildings lacks way/77, which is a part of it",
-        "1 line ends where the extract does",
+        "relation/2 of town.osm.pbf:buildings lacks its part way/77",
+        "1 line ends at the boundary of the extract",
     ] {
         assert!(said.contains(told), "{said}");
     }

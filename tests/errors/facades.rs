@@ -36,11 +36,11 @@ fn walls_and_templates_are_checked_when_they_are_made() {
     let all: Vec<String> = cases.iter().map(|case| format!("{case}\n{}", told(case))).collect();
     insta::assert_snapshot!(all.join("\n\n"), @r##"
     panel({ widht = 2 })
-    error: s.lua:2: panel has no field called widht
+    error: s.lua:2: unknown field `widht` in panel
       help: did you mean width?
 
     panel({ width = { 3, 2 } })
-    error: s.lua:2: panel: width must be a preferred length (m), { least, greatest } or { least, preferred, greatest }, not {3,2}
+    error: s.lua:2: panel: width must be a preferred length (m), { min, max } or { min, preferred, max }, not {3,2}
 
     panel({ model = wall })
     error: s.lua:2: panel: model must be what derive returned, or model("window.glb"), not a panel
@@ -52,11 +52,11 @@ fn walls_and_templates_are_checked_when_they_are_made() {
     error: s.lua:2: bordered: left must be a size (m), or a size and "min", "max" or "fixed": { 0.5, "max" }, not {0.5,"most"}
 
     bordered(wall, { left = 2, width = { 1, 2 } })
-    error: s.lua:2: bordered: it can never fit: its parts are at least 3 m wide, and it must be 1 to 2 m wide
-      help: widen what the parts or the wall itself allow
+    error: s.lua:2: bordered: it can never fit: its parts are at least 3 m wide, but it must be 1 to 2 m wide
+      help: allow a larger range of sizes for the parts or the wall
 
     bordered({ left = 0.5 })
-    error: s.lua:2: bordered: there is no wall between the margins
+    error: s.lua:2: bordered: missing wall between the margins
       help: write bordered { wall = panel { }, left = 0.5 }
 
     extruded(wall, { depth = 1000 })
@@ -68,30 +68,30 @@ fn walls_and_templates_are_checked_when_they_are_made() {
 
     list({ wall, panel({ height = { 4, 5 } }) })
     error: s.lua:2: list: it can never fit: wall 2 is 4 to 5 m high, the walls before it are 3 m high
-      help: put a margin around one of them: bordered { ... }
+      help: add a margin around one of them: bordered { ... }
 
     list({ wall, 7 })
     error: s.lua:2: list: walls must be a list whose item 2 is a wall: panel, bordered, extruded, list or grid, not 7
 
     list({ wall }, { direction = "upwards" })
-    error: s.lua:2: list: direction is "upwards"
-      help: there are "horizontal" and "vertical"
+    error: s.lua:2: list: unknown direction "upwards"
+      help: use "horizontal" or "vertical"
 
     grid(wall, { columns = { 0, 4 } })
-    error: s.lua:2: grid: columns must be a whole number from 1 to 1000, or { least, greatest }, not {0,4}
+    error: s.lua:2: grid: columns must be an integer from 1 to 1000, or { min, max }, not {0,4}
 
     grid(wall, { rows = 2.5 })
-    error: s.lua:2: grid: rows must be a whole number from 1 to 1000, or { least, greatest }, not 2.5
+    error: s.lua:2: grid: rows must be an integer from 1 to 1000, or { min, max }, not 2.5
 
     template({ wall = wall, keywords = "blind" })
     error: s.lua:2: template: keywords must be a list, not "blind"
 
     template({ wall = wall, weight = -1 })
     error: s.lua:2: template: weight is -1
-      help: give a number from 0 on
+      help: use a number of at least 0
 
     facade({})
-    error: s.lua:2: facade: there are no templates
+    error: s.lua:2: facade: missing templates
       help: write facade({ template { wall = panel { } } })
 
     facade({ wall })
@@ -115,15 +115,15 @@ fn walls_take_templates_or_a_photo() {
     "##);
     insta::assert_snapshot!(
         told("{ height = 3, templates = template({ wall = panel({}) }), photo = { texture = \"front.jpg\" } }"), @r##"
-    error: s.lua:5: rule House (interpretation): footprint:walls: there are both templates and a photo
+    error: s.lua:5: rule House (interpretation): footprint:walls: templates and photo are both set
       | this:walls({ height = 3, templates = template({ wall = panel({}) }), photo = { texture = "front.jpg" } })
       module: House, step 0
-      help: give one of them
+      help: remove one of them
     "##
     );
     insta::assert_snapshot!(told("{ height = 3, photo = { texture = \"front.jpg\" } }"), @r##"
-    error: there is no texture front.jpg
-      help: textures are files beside the script
+    error: texture not found: front.jpg
+      help: textures are files next to the script
     "##);
 }
 
@@ -151,14 +151,14 @@ s:derive()
 fn walls_within_walls_without_end_are_refused() {
     let nested = "local wall = panel({})\nfor _ = 1, 200000 do\n  wall = bordered(wall)\nend";
     insta::assert_snapshot!(refused(nested), @r##"
-    error: s.lua:3: bordered: more than 100 walls are within one another
+    error: s.lua:3: bordered: walls are nested more than 100 deep
       | wall = bordered(wall)
       help: repeat a wall with grid or list
     "##);
     let long = "local walls = table.create(1000, panel({}))\nlocal all = list(walls)";
     insta::assert_snapshot!(refused(long), @r##"
-    error: s.lua:2: list: there are 1000 walls
+    error: s.lua:2: list: 1000 walls are too many
       | local all = list(walls)
-      help: give at most 500, or repeat one with grid
+      help: use at most 500, or repeat a wall with grid
     "##);
 }

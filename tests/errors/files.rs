@@ -26,12 +26,12 @@ fn required(line: &str) -> String {
 #[test]
 fn a_required_file_that_is_missing_is_told() {
     assert_snapshot!(required("require(\"nothing\")"), @r#"
-    error: in/s.lua:2: require("nothing") finds no file nothing.lua
+    error: in/s.lua:2: require("nothing"): file not found: nothing.lua
       | require("nothing")
-      help: the name is a path from the requiring file or from the script's folder
+      help: the name is a path relative to the requiring file or to the script's folder
     "#);
     assert_snapshot!(required("require()"), @r#"
-    error: in/s.lua:2: require needs the name of a file
+    error: in/s.lua:2: require needs a file name
       | require()
       help: write require("facade") for facade.lua
     "#);
@@ -40,24 +40,24 @@ fn a_required_file_that_is_missing_is_told() {
 #[test]
 fn files_that_require_each_other_are_told_in_order() {
     assert_snapshot!(required("require(\"one\")"), @r#"
-    error: in/two.lua:1: files require each other in a circle: one.lua -> two.lua -> one.lua
+    error: in/two.lua:1: circular require: one.lua -> two.lua -> one.lua
       | return require("one")
       called at in/s.lua:2
-      help: move what both need into a third file
+      help: move the common part into a third file
     "#);
     assert_snapshot!(required("require(\"s\")"), @r#"
-    error: in/s.lua:2: files require each other in a circle: s.lua -> s.lua
+    error: in/s.lua:2: circular require: s.lua -> s.lua
       | require("s")
-      help: move what both need into a third file
+      help: move the common part into a third file
     "#);
 }
 
 #[test]
 fn a_file_outside_the_folder_is_refused() {
     assert_snapshot!(required("require(\"../outside\")"), @r#"
-    error: in/s.lua:2: require("../outside") leads outside the script's folder
+    error: in/s.lua:2: require("../outside") is outside the script's folder
       | require("../outside")
-      help: a script reads only files in its own folder and below it
+      help: a script can read only files in its own folder and its subfolders
     "#);
     for name in [
         "/etc/passwd",
@@ -71,7 +71,7 @@ fn a_file_outside_the_folder_is_refused() {
         "\\\\server/x",
     ] {
         let said = required(&format!("require({name:?})"));
-        let refused = ["leads outside the script's folder", "finds no file", "needs the name of a file"]
+        let refused = ["is outside the script's folder", "file not found", "needs a file name"]
             .iter()
             .any(|text| said.contains(text));
         assert!(refused && said.contains("help: "), "{name}: {said}");
@@ -102,9 +102,9 @@ fn an_error_in_a_required_file_names_that_file() {
       help: scripts are UTF-8 text; check the file's name
     "#);
     assert_snapshot!(required("require(\"folder\")"), @r#"
-    error: in/s.lua:2: require("folder") finds no file folder.lua
+    error: in/s.lua:2: require("folder"): file not found: folder.lua
       | require("folder")
-      help: the name is a path from the requiring file or from the script's folder
+      help: the name is a path relative to the requiring file or to the script's folder
     "#);
 }
 
@@ -114,19 +114,19 @@ fn a_rule_in_a_required_file_is_bound_by_the_same_laws() {
         .with("s.lua", format!("{HEAD}require(\"rules\")(s, A)\ns:derive(1)\n"))
         .with("rules.lua", "return function(s, A)\n  local n = 0\n  s:rule(\"A(x)\", function(this, x)\n    n = n + 1\n    return A(n)\n  end)\nend\n");
     assert_snapshot!(folder.refuses(&["run", "s.lua"]), @r"
-    error: rules.lua:4: rule A(x): a rule assigns n, a variable from outside it
+    error: rules.lua:4: rule A(x): a rule assigns n, a variable declared outside
       | n = n + 1
-      help: carry it in a parameter of a module; to change the object, use an interpretation rule
+      help: pass it in a parameter of a module; to change the object, use an interpretation rule
     ");
     let folder = Folder::new()
         .with("s.lua", format!("{HEAD}local make = require(\"rules\")\ns:rule(\"A(x)\", function(this, x) return make(A, x) end)\ns:derive(1)\n"))
         .with("rules.lua", "local n = 0\nreturn function(A, x)\n  n = n + 1\n  return A(n)\nend\n");
     assert_snapshot!(folder.refuses(&["run", "s.lua"]), @r"
-    error: rules.lua:3: rule A(x): a rule assigns n, a variable from outside it
+    error: rules.lua:3: rule A(x): a rule assigns n, a variable declared outside
       | n = n + 1
       called at s.lua:2
       module: A(1), step 1
-      help: a rule writes only its own locals; carry it in a parameter of a module
+      help: a rule can assign only its own locals; pass it in a parameter of a module
     ");
     let folder = Folder::new()
         .with("s.lua", format!("{HEAD}local make = require(\"rules\")\ns:rule(\"A(x)\", function(this, x) return make(A, x) end)\ns:derive(1)\n"))
@@ -162,8 +162,8 @@ fn a_name_with_a_dot_means_its_own_file() {
 fn a_script_that_is_missing_or_no_text_or_a_folder_is_told() {
     let folder = Folder::new().with("binary.lua", [0xff, 0xfe, 0, 1]).with("folder/a.lua", "");
     assert_snapshot!(folder.refuses(&["run", "nothing.lua"]), @r"
-    error: there is no script nothing.lua
-      help: check the path, or make one: burgeon new NAME
+    error: script not found: nothing.lua
+      help: check the path, or create a script: burgeon new NAME
     ");
     assert_snapshot!(folder.refuses(&["run", "binary.lua"]), @r"
     error: binary.lua is not a text file
@@ -171,22 +171,22 @@ fn a_script_that_is_missing_or_no_text_or_a_folder_is_told() {
     ");
     assert_snapshot!(folder.refuses(&["run", "folder"]), @r"
     error: folder is a folder
-      help: name a script in it
+      help: specify a script in the folder
     ");
     assert_snapshot!(folder.refuses(&["check", "nothing.lua"]), @r"
-    error: there is no script nothing.lua
-      help: check the path, or make one: burgeon new NAME
+    error: script not found: nothing.lua
+      help: check the path, or create a script: burgeon new NAME
     ");
 }
 
 #[test]
 fn a_script_that_derives_nothing_writes_nothing() {
     assert_snapshot!(refused(""), @r"
-    error: s.lua makes nothing to write, for it derives no system
+    error: s.lua derives no system, so there is nothing to write
       help: end it with system:derive()
     ");
     assert_snapshot!(refused(HEAD), @r"
-    error: s.lua makes nothing to write, for it derives no system
+    error: s.lua derives no system, so there is nothing to write
       help: end it with system:derive()
     ");
     let said = Folder::new().with("s.lua", "").burgeon(&["run", "s.lua"]).done();
@@ -197,32 +197,32 @@ fn a_script_that_derives_nothing_writes_nothing() {
 fn an_output_that_cannot_be_written_is_told_before_the_run() {
     let folder = Folder::new().with("s.lua", "print(\"it ran\")\n").with("model.glb/x", "").with("file", "");
     assert_snapshot!(folder.refuses(&["run", "s.lua", "-o", "no/model.glb"]), @r"
-    error: cannot write no/model.glb: there is no folder no
-      help: make the folder first, or write to one that is there
+    error: cannot write no/model.glb: folder not found: no
+      help: create the folder first, or write to an existing folder
     ");
     assert_snapshot!(folder.refuses(&["run", "s.lua", "-o", "model.glb"]), @r"
     error: cannot write model.glb: it is a folder
-      help: name a file in it, such as model.glb/model.glb
+      help: specify a file in it, such as model.glb/model.glb
     ");
     assert_snapshot!(folder.refuses(&["run", "s.lua", "-o", "a.glb", "-o", "file/model.glb"]), @r"
-    error: cannot write file/model.glb: there is no folder file
-      help: make the folder first, or write to one that is there
+    error: cannot write file/model.glb: folder not found: file
+      help: create the folder first, or write to an existing folder
     ");
     assert_snapshot!(folder.refuses(&["run", "s.lua", "--chain", "no/chain.txt"]), @r"
-    error: cannot write no/chain.txt: there is no folder no
-      help: make the folder first, or write to one that is there
+    error: cannot write no/chain.txt: folder not found: no
+      help: create the folder first, or write to an existing folder
     ");
     assert_snapshot!(folder.refuses(&["run", "s.lua", "--chain", "model.glb"]), @r"
     error: cannot write model.glb: it is a folder
-      help: name a file in it, such as model.glb/chains.txt
+      help: specify a file in it, such as model.glb/chains.txt
     ");
     assert_snapshot!(folder.refuses(&["run", "s.lua", "--chain", "s.lua"]), @r"
     error: the chains would overwrite the script s.lua
-      help: name another file: --chain chains.txt, or - for standard output
+      help: specify another file: --chain chains.txt, or - for standard output
     ");
     assert_snapshot!(folder.refuses(&["run", "s.lua", "-o", "/proc/model.glb"]), @r"
     error: cannot write /proc/model.glb: No such file or directory (os error 2)
-      help: make the folder first, or write to one that is there
+      help: create the folder first, or write to an existing folder
     ");
 }
 

@@ -145,14 +145,10 @@ fn rounds_end_the_search_however_long_they_take_unless_a_time_is_given_too() {
     let whole = folder.burgeon(&rounds).done().json();
     assert_eq!((&whole["warnings"], &whole["tried"]), (&serde_json::json!([]), &288.into()));
     let cut = folder.burgeon(&[&rounds[..], &["--seconds", "0.001"]].concat()).done().json();
-    let told = "--seconds ended the search after 0 of 3 rounds, so its result depends on the machine";
+    let told = "--seconds ended the search after 0 of 3 rounds, so the result depends on the machine";
     assert_eq!(cut["warnings"], serde_json::json!([told]));
     let cut = folder.burgeon(&[&rounds[..6], &["--seconds", "0.001"]].concat()).done();
-    assert!(
-        cut.stderr.ends_with(&format!("warning: {told}\n  help: leave --seconds out\n")),
-        "{}",
-        cut.stderr
-    );
+    assert!(cut.stderr.ends_with(&format!("warning: {told}\n  help: remove --seconds\n")), "{}", cut.stderr);
     let help = folder.burgeon(&["fit", "--help"]).done().stdout;
     assert!(help.contains("[default: 60, or no such limit with --rounds]"), "{help}");
 }
@@ -161,24 +157,24 @@ fn rounds_end_the_search_however_long_they_take_unless_a_time_is_given_too() {
 fn a_target_or_a_file_that_cannot_be_is_refused_before_the_search() {
     let folder = Folder::new().with("mine.lua", "local n = 3\n").with("folder.lua/a.txt", "");
     assert_snapshot!(folder.refuses(&["fit", "mountain", "-o", "rules.lua"]), @r"
-    error: there is no target mountain
+    error: unknown target `mountain`
       help: did you mean mountains?
     ");
     assert_snapshot!(folder.refuses(&["fit", "heights.tif", "-o", "rules.lua"]), @r"
-    error: there is no target heights.tif
-      help: there are hill, ridge, crater, plain, mountains
+    error: unknown target `heights.tif`
+      help: use hill, ridge, crater, plain, mountains
     ");
     assert_snapshot!(folder.refuses(&["fit", "hill", "-o", "no/rules.lua"]), @r"
-    error: cannot write no/rules.lua: there is no folder no
-      help: make the folder first, or write to one that is there
+    error: cannot write no/rules.lua: folder not found: no
+      help: create the folder first, or write to an existing folder
     ");
     assert_snapshot!(folder.refuses(&["fit", "hill", "-o", "folder.lua"]), @r"
     error: cannot write folder.lua: it is a folder
-      help: name a file in it, such as folder.lua/rules.lua
+      help: specify a file in it, such as folder.lua/rules.lua
     ");
     assert_snapshot!(folder.refuses(&["fit", "hill", "-o", "mine.lua"]), @r"
-    error: mine.lua is there already, and is no fitted rule table
-      help: name another file, or move that one away
+    error: mine.lua already exists and is not a fitted rule table
+      help: specify another file, or move that file away
     ");
 }
 
@@ -201,7 +197,7 @@ fn a_wrong_command_line_is_told_what_is_right() {
     For more information, try '--help'.
     ");
     assert_snapshot!(wrong(&["fit", "hill", "-o", "rules.glb"]), @r"
-    error: invalid value 'rules.glb' for '--output <FILE>': a rule table is a module for scripts: name a .lua file
+    error: invalid value 'rules.glb' for '--output <FILE>': a rule table is a Lua file: specify a .lua file
 
     For more information, try '--help'.
     ");
@@ -227,7 +223,7 @@ fn a_wrong_command_line_is_told_what_is_right() {
     For more information, try '--help'.
     ");
     assert_snapshot!(wrong(&[&hill[..], &["--rounds", "many"]].concat()), @r"
-    error: invalid value 'many' for '--rounds <N>': write a whole number from 0
+    error: invalid value 'many' for '--rounds <N>': write an integer of at least 0
 
     For more information, try '--help'.
     ");

@@ -40,16 +40,16 @@ fn a_plan_that_is_none_is_refused_with_the_place() {
 fn walls_and_roofs_that_cannot_be_are_refused_with_a_remedy() {
     let mut count = 0;
     for (draw, words) in [
-        ("this:walls()", "neither the walls nor the footprint have a height"),
+        ("this:walls()", "missing height of the walls or the footprint"),
         ("this:walls({ height = 0 })", "height is 0 m"),
         ("this:walls({ height = -2 })", "height is -2 m"),
         ("this:walls({ height = 1e6 })", "up to 2000"),
         ("this:walls({ height = 0/0 })", "height must be a finite number, not NaN"),
         ("this:roof({ kind = \"mansrad\" })", "did you mean mansard?"),
         ("this:roof({ kind = \"hip\", slope = 90 })", "slope is 90 degrees"),
-        ("this:roof({ kind = \"hip\" }) this:walls({ height = 3 })", "has its roof already"),
+        ("this:roof({ kind = \"hip\" }) this:walls({ height = 3 })", "already has a roof"),
         ("this:groundwork(\"zmin\")", "did you mean z_min?"),
-        ("this:walls({ height = 3 }) this:groundwork(\"z_min\")", "the groundwork comes first"),
+        ("this:walls({ height = 3 }) this:groundwork(\"z_min\")", "call groundwork first"),
         ("this:roof({ overhang = -1 })", "overhang is -1 m"),
     ] {
         let said = house(SQUARE, draw);

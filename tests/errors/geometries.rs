@@ -41,20 +41,20 @@ fn what_cannot_be_asked_of_a_geometry_is_told_with_what_to_do() {
         "point(1, 2):inset(1)",
             ]), @r#"
     geometry("POLYGON (0 0, 1 1)")
-    error: s.lua:3: geometry: no well-known text: at letter 10 there should be "(" or EMPTY, not "0"
+    error: s.lua:3: geometry: invalid well-known text: expected "(" or EMPTY at character 10, found "0"
       help: write POINT (1 2), LINESTRING (0 0, 5 0) or POLYGON ((0 0, 4 0, 4 3, 0 0))
     geometry("CIRCLE (1 2)")
-    error: s.lua:3: no well-known text: at letter 1 there should be the name of a kind of geometry, not "CIRCLE"
+    error: s.lua:3: invalid well-known text: expected a geometry type at character 1, found "CIRCLE"
       help: write POINT (1 2), LINESTRING (0 0, 5 0) or POLYGON ((0 0, 4 0, 4 3, 0 0))
     geometry({ kind = "blob" })
-    error: s.lua:3: geometry: what it is given must be a text such as "POINT (1 2)", a feature, or a table with rings or points, not {kind="blob"}
+    error: s.lua:3: geometry: what it is given must be a string such as "POINT (1 2)", a feature, or a table with rings or points, not {kind="blob"}
     point(1)
     error: s.lua:3: point takes 2 or 3 numbers, not 1
       help: write point(x, y), or point(x, y, height)
     point(1, 0 / 0)
     error: s.lua:3: point: y must be a finite number, not NaN
     line({ { 0, 0 } })
-    error: s.lua:3: line takes 2 points or more, not 1
+    error: s.lua:3: line needs at least 2 points, not 1
       help: write line({ { 0, 0 }, { 5, 0 } })
     line({ { 0, 0 }, { "x", 1 } })
     error: s.lua:3: line: point 2 must be a vector: { x, y, z } or vec(x, y, z), not {"x",1}
@@ -62,33 +62,33 @@ fn what_cannot_be_asked_of_a_geometry_is_told_with_what_to_do() {
     error: s.lua:3: polygon: its outer ring has fewer than 3 points
       help: write polygon({ { 0, 0 }, { 4, 0 }, { 4, 3 } })
     lawn:buffr(1)
-    error: s.lua:3: geometry has no method or field called buffr
+    error: s.lua:3: unknown method or field `buffr` of geometry
       help: did you mean buffer?
     lawn:buffer(1 / 0)
     error: s.lua:3: geometry:buffer: distance must be a finite number, not infinity
     lawn:buffer(1, { join = "mitred" })
-    error: s.lua:3: geometry:buffer: there is no join called "mitred"
+    error: s.lua:3: geometry:buffer: unknown join "mitred"
       help: did you mean mitre?
     lawn:buffer(1, { joint = "mitre" })
-    error: s.lua:3: geometry:buffer has no field called joint
+    error: s.lua:3: unknown field `joint` in geometry:buffer
       help: did you mean join?
     lawn:distance("far")
     error: s.lua:3: geometry:distance: other must be a geometry: feature.geometry, point(x, y), line({ ... }), polygon({ ... }) or geometry("POINT (1 2)"), not "far"
     lawn:relate(lawn, "TTT")
-    error: s.lua:3: geometry:relate: "TTT" is no pattern of nine letters
+    error: s.lua:3: geometry:relate: "TTT" is not a pattern of nine characters
       help: write one of *, T, F, 0, 1 and 2 for each cell: "F***1****"
     lawn:line_interpolate(0.5)
     error: s.lua:3: line_interpolate takes a line, not a polygon
-      help: take one line of it: geometry_n, exterior_ring or segments give such
+      help: use one line of it: geometry_n, exterior_ring or segments
     line({ { 0, 0 }, { 1, 1 } }):line_substring(0.7, 0.2)
-    error: s.lua:3: line_substring goes from 0.7 to 0.2, which is before it
-      help: give the lesser part first
+    error: s.lua:3: line_substring: 0.2 is before 0.7
+      help: pass the smaller fraction first
     lawn:random_point(2, 0)
     error: s.lua:3: random_point takes two numbers from 0 to 1, not 2
       help: write geometry:random_point(random(), random())
     point(1, 2):inset(1)
     error: s.lua:3: inset takes areas, not a point
-      help: buffer makes an area of lines and points
+      help: buffer converts lines and points to an area
     "#);
 }
 

@@ -147,7 +147,7 @@ fn nothing_that_remembers_gets_into_the_state_or_the_fields() {
         (
             "this:go()",
             "changes = { go = function(self) self.n = self.held end }",
-            "n of the state cannot be kept: a table with a metatable cannot be passed on",
+            "n of the state has an unsupported value: a table with a metatable cannot be passed on",
         ),
         (
             "this:go()",
@@ -230,9 +230,9 @@ fn types_hold_each_other_to_a_depth_and_not_in_crowds() {
     let run = |text: String| Folder::new().with("s.lua", text).burgeon(&["run", "s.lua"]);
     assert_eq!(run(nested(8, 1)).status, 0);
     let deep = run(nested(9, 1)).failed();
-    assert!(deep.contains("t9 holds objects that hold objects, more than 8 deep"), "{deep}");
+    assert!(deep.contains("t9 has child objects nested more than 8 deep"), "{deep}");
     let many = run(nested(3, 5)).failed();
-    assert!(many.contains("t3 holds 155 objects, those within them counted, and may hold 64"), "{many}");
+    assert!(many.contains("t3 has 155 child objects, counted recursively; the limit is 64"), "{many}");
     let own = Folder::new()
         .with("s.lua", "local own\nown = object(\"own\", { state = { inner = own() } })")
         .burgeon(&["run", "s.lua"]);

@@ -23,7 +23,7 @@ fn runaway_growth_names_the_rule_that_grew_most() {
         "{HEAD}s:rule(\"B\", function() return B() end)\ns:rule(\"A(x)\", function(this, x) return A(x), A(x + 1), B() end)\ns:derive()\n"
     );
     assert_snapshot!(refused_with(&script, &["--module-limit", "100000"]), @r#"
-    error: s.lua:4: rule A(x) (which grew most): the chain grew past 100000 modules in step 16
+    error: s.lua:4: rule A(x) (which grew most): the chain exceeded 100000 modules in step 16
       | s:rule("A(x)", function(this, x) return A(x), A(x + 1), B() end)
       help: end the growth with a guard or a counter, derive fewer steps, or raise the limit: --module-limit N
     "#);
@@ -38,10 +38,10 @@ fn runaway_within_one_application_of_a_rule_is_stopped() {
         format!("{HEAD}local b = B()\ns:rule(\"A(x)\", function(this, x)\n  {body}\nend)\ns:derive(1)\n")
     };
     assert_snapshot!(stopped(&script("while true do B() end"), &limit), @r"
-    error: s.lua:5: rule A(x): one application of a rule made more than 100000 modules
+    error: s.lua:5: rule A(x): one application of a rule returned more than 100000 modules
       | while true do B() end
       module: A(1), step 1
-      help: look for a loop that never ends, or raise the limit: --module-limit N
+      help: look for an endless loop, or raise the limit: --module-limit N
     ");
     for body in [
         "local t = {} for i = 1, 10000000 do table.insert(t, B()) end return t",
@@ -51,7 +51,7 @@ fn runaway_within_one_application_of_a_rule_is_stopped() {
         let said = stopped(&script(body), &limit);
         assert!(
             said.starts_with(
-                "error: s.lua:5: rule A(x): one application of a rule made more than 100000 modules"
+                "error: s.lua:5: rule A(x): one application of a rule returned more than 100000 modules"
             ),
             "{body}: {said}"
         );
@@ -62,20 +62,20 @@ fn runaway_within_one_application_of_a_rule_is_stopped() {
 #[test]
 fn an_endless_loop_in_a_rule_is_stopped() {
     assert_snapshot!(endless("s:rule(\"A(x)\", function(this, x)\n  local n = 0\n  while true do\n    n += 1\n  end\nend)"), @r"
-    error: s.lua:5: rule A(x): the run took longer than 1 s
+    error: s.lua:5: rule A(x): the run exceeded the time limit of 1 s
       | while true do
       module: A(1), step 1
-      help: look for a loop that never ends, or raise the limit: --time-limit SECONDS
+      help: look for an endless loop, or raise the limit: --time-limit SECONDS
     ");
 }
 
 #[test]
 fn an_endless_loop_in_a_guard_is_stopped() {
     assert_snapshot!(endless("s:rule(\"A(x)\", { when = function(this, x)\n  repeat until false\nend }, function() return B() end)"), @r"
-    error: s.lua:4: rule A(x): the run took longer than 1 s
+    error: s.lua:4: rule A(x): the run exceeded the time limit of 1 s
       | repeat until false
       module: A(1), step 1
-      help: look for a loop that never ends, or raise the limit: --time-limit SECONDS
+      help: look for an endless loop, or raise the limit: --time-limit SECONDS
     ");
 }
 
@@ -84,7 +84,9 @@ fn an_endless_loop_in_an_interpretation_is_stopped() {
     let said = endless("s:interpret(\"A(x)\", function(this, x)\n  while true do this:position() end\nend)");
     // The time limit is reached in the loop or in the call inside it; both are on one line.
     assert!(
-        said.starts_with("error: s.lua:4: rule A(x) (interpretation): the run took longer than 1 s\n"),
+        said.starts_with(
+            "error: s.lua:4: rule A(x) (interpretation): the run exceeded the time limit of 1 s\n"
+        ),
         "{said}"
     );
     assert!(said.contains("module: A(1), step 0\n") && said.contains("--time-limit"), "{said}");
@@ -93,9 +95,9 @@ fn an_endless_loop_in_an_interpretation_is_stopped() {
 #[test]
 fn an_endless_loop_at_the_top_level_is_stopped() {
     assert_snapshot!(stopped("local a = 1\nwhile true do\nend\n", &SOON), @r"
-    error: s.lua:2: the run took longer than 1 s
+    error: s.lua:2: the run exceeded the time limit of 1 s
       | while true do
-      help: look for a loop that never ends, or raise the limit: --time-limit SECONDS
+      help: look for an endless loop, or raise the limit: --time-limit SECONDS
     ");
 }
 
@@ -103,13 +105,13 @@ fn an_endless_loop_at_the_top_level_is_stopped() {
 fn an_endless_loop_in_a_required_file_is_stopped() {
     let folder = Folder::new().with("s.lua", "require(\"lib\")\n").with("lib.lua", "\n\nwhile true do end\n");
     let said = folder.burgeon(&["run", "s.lua", "--time-limit", "1"]).failed();
-    assert!(said.starts_with("error: lib.lua:3: the run took longer than 1 s\n"), "{said}");
+    assert!(said.starts_with("error: lib.lua:3: the run exceeded the time limit of 1 s\n"), "{said}");
 }
 
 #[test]
 fn derivation_without_end_is_stopped() {
     let said = endless("s:rule(\"A(x)\", function(this, x) return A(x + 1) end)\ns:derive()");
-    assert!(said.contains("the run took longer than 1 s\n") && said.contains("help: "), "{said}");
+    assert!(said.contains("the run exceeded the time limit of 1 s\n") && said.contains("help: "), "{said}");
 }
 
 #[test]
@@ -126,7 +128,7 @@ fn pcall_and_coroutines_do_not_outlive_the_time() {
     for body in bodies {
         let said = endless(&format!("s:rule(\"A(x)\", function(this, x)\n  {body}\nend)"));
         assert!(
-            said.starts_with("error: s.lua:4: rule A(x): the run took longer than 1 s\n"),
+            said.starts_with("error: s.lua:4: rule A(x): the run exceeded the time limit of 1 s\n"),
             "{body}: {said}"
         );
         assert!(said.contains("module: A(1), step 1\n"), "{body}: {said}");
@@ -144,7 +146,7 @@ fn library_functions_do_not_outlive_the_time() {
     for body in bodies {
         let said = endless(&format!("s:rule(\"A(x)\", function(this, x)\n  {body}\nend)"));
         assert!(
-            said.starts_with("error: s.lua:4: rule A(x): the run took longer than 1 s\n"),
+            said.starts_with("error: s.lua:4: rule A(x): the run exceeded the time limit of 1 s\n"),
             "{body}: {said}"
         );
     }
@@ -158,26 +160,29 @@ fn the_time_limit_is_kept_with_helpers_too() {
     let begin = Instant::now();
     let said = stopped(&script, &["--time-limit", "1", "--threads", "2"]);
     assert!(begin.elapsed() < Duration::from_secs(6), "{said}");
-    assert!(said.starts_with("error: s.lua:5: rule A(x): the run took longer than 1 s\n"), "{said}");
+    assert!(
+        said.starts_with("error: s.lua:5: rule A(x): the run exceeded the time limit of 1 s\n"),
+        "{said}"
+    );
 }
 
 #[test]
 fn a_table_that_grows_is_stopped_at_the_memory_limit() {
     assert_snapshot!(greedy("s:rule(\"A(x)\", function(this, x)\n  local t = {}\n  while true do\n    table.insert(t, {})\n  end\nend)"), @r#"
-    error: s.lua:6: rule A(x): the script needs more than 64 MB of memory
+    error: s.lua:6: rule A(x): the script exceeds the memory limit of 64 MB
       | table.insert(t, {})
       module: A(1), step 1
-      help: look for a table or a string that grows, or raise the limit: --memory-limit MEGABYTES
+      help: look for a growing table or string, or raise the limit: --memory-limit MEGABYTES
     "#);
 }
 
 #[test]
 fn a_string_that_doubles_is_stopped_at_the_memory_limit() {
     assert_snapshot!(greedy("s:rule(\"A(x)\", function(this, x)\n  local t = \"a\"\n  while true do t = t .. t end\nend)"), @r#"
-    error: s.lua:5: rule A(x): the script needs more than 64 MB of memory
+    error: s.lua:5: rule A(x): the script exceeds the memory limit of 64 MB
       | while true do t = t .. t end
       module: A(1), step 1
-      help: look for a table or a string that grows, or raise the limit: --memory-limit MEGABYTES
+      help: look for a growing table or string, or raise the limit: --memory-limit MEGABYTES
     "#);
 }
 
@@ -222,7 +227,7 @@ fn recursion_without_end_is_stopped() {
     error: s.lua:4: rule A(x): stack overflow
       | return 1 + f(n)
       module: A(1), step 1
-      help: look for a function that calls itself without end
+      help: look for an endless recursion
     ");
 }
 
@@ -255,7 +260,7 @@ fn a_script_that_is_too_large_is_refused_before_it_is_read() {
     let folder = Folder::new().with("s.lua", &large).with("t.lua", "require(\"s\")\n");
     assert_snapshot!(folder.refuses(&["run", "s.lua"]), @r"
     error: s.lua is larger than 4 MB
-      help: divide it; other files of its folder come in with require
+      help: divide it; require loads other files of its folder
     ");
     let said = folder.refuses(&["run", "t.lua"]);
     assert!(said.starts_with("error: t.lua:1: ") && said.contains("s.lua is larger than 4 MB"), "{said}");
@@ -264,8 +269,11 @@ fn a_script_that_is_too_large_is_refused_before_it_is_read() {
 #[test]
 fn a_run_whose_time_is_over_tells_how_far_it_came() {
     let said = endless("s:rule(\"A(x)\", function(this, x) return B(), A(x + 1) end)\ns:derive()");
-    assert!(said.contains("the run took longer than 1 s\n"), "{said}");
-    assert!(said.contains(" is done, with ") && said.contains(" modules: derive fewer steps, "), "{said}");
+    assert!(said.contains("the run exceeded the time limit of 1 s\n"), "{said}");
+    assert!(
+        said.contains(" is complete, with ") && said.contains(" modules: derive fewer steps, "),
+        "{said}"
+    );
 }
 
 #[test]
@@ -304,9 +312,9 @@ fn a_system_has_no_more_rules_than_can_be_numbered() {
         )
     };
     assert_snapshot!(refused_with(&script(65_100), &[]), @r#"
-    error: s.lua:4: a system has at most 65,000 rules
+    error: s.lua:4: a system can have at most 65,000 rules
       | s:rule("A(x)", { when = function(this, x) return x == -i end }, function() return B() end)
-      help: let one rule stand for many: carry what tells them apart in a parameter
+      help: join rules into one, and distinguish the cases by a parameter
     "#);
     let mut last = script(64_999);
     last = last.replace("s:derive(1)", "s:rule(\"A(x)\", function() return B(), B() end)\ns:derive(1)");

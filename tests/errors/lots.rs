@@ -31,7 +31,7 @@ for x = 0, 3 do
 end
 roads:axiom(table.unpack(ways))
 roads:interpret("Lead(from, x, y, depth)", function(this, from, x, y, depth)
-  this:lead(from, { x, y }, depth)
+  this:grow_to(from, { x, y }, depth)
 end)
 local streets = roads:derive(0).objects[1]
 "#;
@@ -49,20 +49,20 @@ fn lots_that_cannot_be_are_refused() {
     assert_snapshot!(refused(&asked("streets:lots({ area = 200, min_area = 150 })")), @r"
     error: s.lua:26: network:lots: area (200 m²) is less than twice min_area (150 m²), so a lot above it could not be divided
       | streets:lots({ area = 200, min_area = 150 })
-      help: give a greater area, or a smaller min_area
+      help: use a greater area, or a smaller min_area
     ");
     assert_snapshot!(refused(&asked("streets:lots({ width = 8, min_width = 12 })")), @r"
     error: s.lua:26: network:lots: min_width (12 m) is more than width (8 m)
       | streets:lots({ width = 8, min_width = 12 })
-      help: give a greater width, or a smaller min_width
+      help: use a greater width, or a smaller min_width
     ");
     assert_snapshot!(refused(&asked("streets:lots({ kind = \"strip\" })")), @r#"
-    error: s.lua:26: network:lots: there is no kind of lots called "strip"
+    error: s.lua:26: network:lots: unknown kind of lots "strip"
       | streets:lots({ kind = "strip" })
       help: did you mean strips?
     "#);
     assert_snapshot!(refused(&asked("streets:lots({ widht = 8 })")), @r"
-    error: s.lua:26: network:lots has no field called widht
+    error: s.lua:26: unknown field `widht` in network:lots
       | streets:lots({ widht = 8 })
       help: did you mean width?
     ");
@@ -73,7 +73,7 @@ fn lots_that_cannot_be_are_refused() {
     assert_snapshot!(refused(&asked("streets:lots({ width = 400, depth = 400 })")), @r"
     error: s.lua:26: network:lots: none of 9 blocks has room for a lot with 200 m of front and 48000 m²: the greatest has 7833 m²
       | streets:lots({ width = 400, depth = 400 })
-      help: give a smaller width and depth, or fewer parks
+      help: use a smaller width and depth, or fewer parks
     ");
 }
 
@@ -84,9 +84,9 @@ fn lots_that_are_too_long_are_told() {
     let told = warned(&[thin]);
     let told: Vec<&str> = told.lines().skip_while(|line| !line.contains("network:lots")).take(3).collect();
     assert_snapshot!(told.join("\n"), @r#"
-    warning: s.lua:2: network:lots: left out 1 lot more than 4 times as long as wide, up to 10.0 times
+    warning: s.lua:2: network:lots: skipped 1 lot more than 4 times as long as wide, up to 10.0 times
       | local lots = network({}):lots({ blocks = { thin }, width = 80, min_width = 60 })
-      help: give a greater elongation, or all = true: they are lots whose use is "rest"
+      help: set a greater elongation, or all = true to return them as lots with the use "rest"
     "#);
     let whole = thin.replace("min_width = 60", "min_width = 60, elongation = 11").replace("== 0", "== 1");
     assert_eq!(printed(&format!("{whole}\nprint(\"sound\")")), ["sound"]);
@@ -110,9 +110,9 @@ fn lots_that_an_obstacle_reaches_into_are_told_once_and_counted() {
     let pond = "polygon({ { 30, 20 }, { 60, 20 }, { 60, 40 }, { 30, 40 } })";
     let wet = |what: &str| asked(what).replace("snap = 6", &format!("snap = 6, obstacles = {{ {pond} }}"));
     assert_snapshot!(left_out(&wet("streets:lots({ width = 16 })")), @r#"
-    warning: s.lua:26: network:lots: left out 4 lots that an obstacle or water reaches into
+    warning: s.lua:26: network:lots: skipped 4 lots that overlap an obstacle or water
       | streets:lots({ width = 16 })
-      help: give all = true: they are lots whose use is "blocked"; or blocks that end before what is in the way: block.geometry:difference(water:buffer(0.1))
+      help: set all = true to return them as lots with the use "blocked", or cut the obstacle out of the blocks: block.geometry:difference(water:buffer(0.1))
     "#);
     // With `all = true`, blocked lots are included.
     let all = "local blocked = 0\nfor _, lot in streets:lots({ width = 16, all = true }) do\n\
@@ -123,9 +123,9 @@ fn lots_that_an_obstacle_reaches_into_are_told_once_and_counted() {
                  { x + 105, y + 15 }, { x + 105, y + 75 }, { x + 15, y + 75 } }))\n  end\nend\n";
     let ponds = format!("{ponds}{}", asked("streets:lots({ width = 16 })"));
     assert_snapshot!(refused(&ponds.replace("snap = 6", "snap = 6, obstacles = ponds")), @r"
-    error: s.lua:32: network:lots: an obstacle or water reaches into each of 147 lots
+    error: s.lua:32: network:lots: all 147 lots overlap an obstacle or water
       | streets:lots({ width = 16 })
-      help: give a smaller width and depth, or fewer obstacles
+      help: use a smaller width and depth, or fewer obstacles
     ");
 }
 
@@ -143,31 +143,31 @@ fn blocks_and_networks_without_any_lot_are_told() {
     assert_eq!(left_out(&given(yard)), "");
     assert_eq!(left_out(&given("")), "");
     assert_snapshot!(left_out(&given(&format!("{yard}, {flat}, {far}"))), @r"
-    warning: s.lua:2: network:lots: left out 2 of 3 blocks: nothing lies within their borders, or they lie more than 500 km from the origin
+    warning: s.lua:2: network:lots: skipped 2 of 3 blocks: they have no area inside their borders, or are more than 500 km from the origin
       | network({}):lots({ blocks = blocks, width = 12, elongation = 9 })
       help: give polygons with an area, near the origin
     ");
     assert_snapshot!(left_out(&given(&format!("{small}, {small}"))), @r"
     warning: s.lua:2: network:lots: none of 2 blocks has room for a lot with 6 m of front and 100.8 m²: the greatest has 20 m²
       | network({}):lots({ blocks = blocks, width = 12, elongation = 9 })
-      help: give a smaller width and depth, or fewer parks
+      help: use a smaller width and depth, or fewer parks
     ");
     assert_eq!(left_out(&given(&format!("{small}, {yard}"))), "");
     assert_eq!(left_out(&given(small).replace("width", "parks = 1, width")), "");
     assert_snapshot!(left_out("network({}):lots({})\nnetwork({}):sites({})"), @r"
-    warning: s.lua:1: network:lots: the streets enclose no block, so there are no lots
+    warning: s.lua:1: network:lots: the streets enclose no block to divide
       | network({}):lots({})
-      help: let streets meet, or say what to divide: blocks = { polygon }
-    warning: s.lua:2: network:sites: there are no streets, so there are no sites beside them
+      help: connect the streets, or specify the areas to divide: blocks = { polygon }
+    warning: s.lua:2: network:sites: the network has no streets
       | network({}):sites({})
-      help: ask the network when its streets have grown: system:derive(steps).objects[1]:sites()
+      help: call sites after the streets have grown: system:derive(steps).objects[1]:sites()
     ");
 }
 
 #[test]
 fn sites_that_cannot_be_are_refused() {
     assert_snapshot!(refused(&asked("streets:sites({ sizes = {} })")), @r"
-    error: s.lua:26: network:sites: sizes must be one or more pairs of numbers from 1 to 500
+    error: s.lua:26: network:sites: sizes must contain at least one pair of numbers from 1 to 500
       | streets:sites({ sizes = {} })
       help: write sizes = { { 24, 18 }, { 12, 10 } }
     ");
@@ -176,9 +176,9 @@ fn sites_that_cannot_be_are_refused() {
       | streets:sites({ along = 0 })
     ");
     assert_snapshot!(refused(&asked("streets:sites({ setback = 30, distance = 10 })")), @r"
-    error: s.lua:26: network:sites: setback (30 m) is more than distance (10 m), so no site could be beside a street
+    error: s.lua:26: network:sites: setback (30 m) is more than distance (10 m), so no site fits next to a street
       | streets:sites({ setback = 30, distance = 10 })
-      help: give a smaller setback, or a greater distance
+      help: use a smaller setback, or a greater distance
     ");
     // Four streets of 60 m leave no room between them for such a hall.
     let cross = format!(
@@ -188,14 +188,14 @@ fn sites_that_cannot_be_are_refused() {
         "{ sizes = { { 200, 200 } } }"
     );
     assert_snapshot!(refused(&cross), @r"
-    error: s.lua:4: network:sites: none of 176 places has room for a site: 176 are in a street or reach into one
+    error: s.lua:4: network:sites: no room for a site at any of 176 positions: 176 overlap a street
       | s:derive(0).objects[1]:sites({ sizes = { { 200, 200 } } })
-      help: give smaller sizes, or a smaller setback
+      help: use smaller sizes, or a smaller setback
     ");
     assert_snapshot!(refused(&asked("streets:sites({ along = 0.5, away = 0.5, distance = 2000 })")), @r"
-    error: s.lua:26: network:sites: 40289760 places along the streets would be tried
+    error: s.lua:26: network:sites: 40289760 positions along the streets are too many
       | streets:sites({ along = 0.5, away = 0.5, distance = 2000 })
-      help: give greater distances along and away
+      help: use greater distances along and away
     ");
 }
 
@@ -387,16 +387,16 @@ fn blocks_that_lie_on_each_other_are_told() {
         ))
     };
     assert_snapshot!(divided("0, 70"), @r#"
-    warning: s.lua:5: network:lots: the blocks "40:30" and "110:30" have 600.00 m² in common, so that lots overlap
+    warning: s.lua:5: network:lots: the blocks "40:30" and "110:30" overlap by 600.00 m², so lots overlap
       | network({}):lots({ blocks = blocks })
-      help: give blocks that are beside each other: one:difference(other)
+      help: use blocks that do not overlap: one:difference(other)
     "#);
     let told = divided("0, 79, 40");
-    assert!(told.contains("2460.00 m² in common, and 2 more pairs of blocks do, so that"), "{told}");
+    assert!(told.contains("overlap by 2460.00 m², and 2 more pairs of blocks overlap, so lots"), "{told}");
     // For very many pairs, the message does not have the exact number.
     let many = (0..20).map(|x| x.to_string()).collect::<Vec<_>>().join(", ");
     let told = divided(&many);
-    assert!(told.contains("and so have 99 more pairs of blocks at least"), "{told}");
+    assert!(told.contains("and at least 99 more pairs of blocks overlap"), "{told}");
     // Blocks with a common border do not overlap.
     assert_eq!(divided("0, 80, 160"), "");
 }
@@ -417,6 +417,9 @@ fn lots_are_stopped_at_the_time_limit() {
         let begin = Instant::now();
         let said = folder.burgeon(&["run", "s.lua", "--time-limit", "1"]).failed();
         assert!(begin.elapsed() < Duration::from_secs(10), "{kind}: {:?}", begin.elapsed());
-        assert!(said.contains("the run took longer than 1 s") && said.contains("network({}):lots"), "{said}");
+        assert!(
+            said.contains("the run exceeded the time limit of 1 s") && said.contains("network({}):lots"),
+            "{said}"
+        );
     }
 }

@@ -18,6 +18,7 @@ mod files;
 mod fitting;
 mod footprints;
 mod foreign;
+mod former_names;
 mod geometries;
 mod hostile;
 mod limits;

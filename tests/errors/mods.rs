@@ -6,7 +6,7 @@ use crate::support::Folder;
 #[test]
 fn packages_are_checked() {
     let checked = castle("").burgeon(&["mods", "check"]).done();
-    insta::assert_snapshot!(checked.stderr, @"castle 1.0.0 is fine: 1 script");
+    insta::assert_snapshot!(checked.stderr, @"castle 1.0.0: no problems in 1 script");
     let folder = castle("[replaces]\n\"@castle/gate.lua\" = \"gat.lua\"\n")
         .with("mods/castle/towers.lua", "local a = unknown\nreturn {")
         .with(
@@ -15,31 +15,31 @@ fn packages_are_checked() {
         )
         .with("mods/castle/stone.png", "x");
     insta::assert_snapshot!(folder.refuses(&["mods", "check", "mods/castle"]), @r#"
-    error: mods/castle/mod.toml:5: the package castle replaces a file of castle, which it does not depend on
+    error: mods/castle/mod.toml:5: the package castle replaces a file of castle, but does not depend on it
       | "@castle/gate.lua" = "gat.lua"
       help: write below [depends]: castle = "*"
     "#);
     insta::assert_snapshot!(castle("").with("mods/castle/gate.lua", "local stone = \"@castle/ston.png\"\nlocal a = lenght(3)\nrequire(\"./wall\")\nreturn stone, a").refuses(&["mods", "check", "mods/castle"]), @r#"
     error: mods/castle/gate.lua:1: the package castle has no file ston.png
       | local stone = "@castle/ston.png"
-      help: it is looked for in mods/castle
+      help: the expected location is mods/castle
     error: mods/castle/gate.lua:2: unknown name lenght
       | local a = lenght(3)
       help: declare it: local lenght = ...
     "#);
     insta::assert_snapshot!(castle("").refuses(&["mods", "check", "nowhere"]), @r"
-    error: there is no folder nowhere
-      help: --mods names a folder of packages
+    error: folder not found: nowhere
+      help: --mods needs a folder of packages
     ");
     insta::assert_snapshot!(castle("").refuses(&["mods", "explain", "castel"]), @r"
-    error: there is no package castel
+    error: unknown package `castel`
       help: did you mean castle?
     ");
     insta::assert_snapshot!(castle("").refuses(&["mods", "--script", "t.lua"]), @r"
-    error: there is no script t.lua
-      help: --script names the script whose packages are meant
+    error: script not found: t.lua
+      help: --script needs the script whose packages to use
     ");
-    insta::assert_snapshot!(Folder::new().burgeon(&["mods"]).done().stdout, @"there are no packages; make one, burgeon mods new NAME, or add one: burgeon mods add FOLDER");
+    insta::assert_snapshot!(Folder::new().burgeon(&["mods"]).done().stdout, @"no packages; create one with burgeon mods new NAME, or install one with burgeon mods add FOLDER");
 }
 
 #[test]
@@ -52,8 +52,8 @@ fn packages_are_added_and_replaced_only_if_asked() {
     insta::assert_snapshot!(said.stderr, @r#"added castle 1.0.0 to mods/castle; scripts use it with require("@castle")"#);
     assert_eq!(prints(&folder, &[]), "1\tadded\n");
     insta::assert_snapshot!(folder.refuses(&["mods", "add", "work"]), @r"
-    error: there is a package castle 1.0.0 in mods/castle already
-      help: put castle 1.0.0 in its place: --replace
+    error: a package castle 1.0.0 already exists in mods/castle
+      help: replace it by castle 1.0.0: --replace
     ");
     let said = folder.burgeon(&["mods", "add", "work", "--replace", "--json"]).done();
     assert_eq!(said.json()["replaced"], "1.0.0");
@@ -61,11 +61,11 @@ fn packages_are_added_and_replaced_only_if_asked() {
     insta::assert_snapshot!(said.stderr, @r#"added castle 1.0.0 to user/burgeon/mods/castle; scripts use it with require("@castle")"#);
     insta::assert_snapshot!(folder.refuses(&["mods", "add", "s.lua"]), @r"
     error: s.lua cannot be unpacked
-      help: name a zip, or the folder that has the mod.toml; a damaged one has to be got again
+      help: specify a zip, or the folder that contains the mod.toml; if the zip is damaged, download it again
     ");
     insta::assert_snapshot!(folder.refuses(&["mods", "add", "nowhere.zip"]), @r"
-    error: there is no folder or zip nowhere.zip
-      help: name the folder that has the mod.toml, or a zip of it
+    error: folder or zip not found: nowhere.zip
+      help: specify the folder that contains the mod.toml, or a zip of it
     ");
     insta::assert_snapshot!(folder.refuses(&["mods", "add", "user"]), @r"
     error: user has no mod.toml
@@ -77,16 +77,16 @@ fn packages_are_added_and_replaced_only_if_asked() {
 fn a_package_to_begin_with_is_made_and_is_fine() {
     let folder = Folder::new().with("s.lua", "print(next(require(\"@lights\")))");
     let said = folder.burgeon(&["mods", "new", "lights"]).done();
-    insta::assert_snapshot!(said.stderr, @r#"made mods/lights; now: require("@lights")"#);
+    insta::assert_snapshot!(said.stderr, @r#"created mods/lights; now: require("@lights")"#);
     folder.burgeon(&["mods", "check"]).done();
     assert_eq!(folder.burgeon(&["run", "s.lua"]).done().stderr.lines().next(), Some("nil"));
     insta::assert_snapshot!(folder.burgeon(&["mods", "new", "lights"]).failed(), @r"
-    error: mods/lights exists already
+    error: mods/lights already exists
       help: choose another name
     ");
     insta::assert_snapshot!(folder.burgeon(&["mods", "new", "../Lights"]).failed(), @r#"
-    error: "../Lights" is no name for a package
-      help: write it with small letters, digits, - and _, such as "street-lamps"
+    error: invalid package name "../Lights"
+      help: use lowercase letters, digits, - and _, such as "street-lamps"
     "#);
     let machine = folder.burgeon(&["mods", "new", "lamps", "--json"]).done().json();
     assert_eq!(machine["folder"], "mods/lamps");
@@ -104,7 +104,7 @@ fn two_packages_of_one_name_in_the_users_folder_are_told_to_whoever_uses_them() 
         .with("user/burgeon/mods/two/init.lua", "return {}");
     let text = folder.burgeon(&["run", "s.lua"]).failed();
     insta::assert_snapshot!(text, @r#"
-    error: FOLDER/user/burgeon/mods/two/mod.toml:1: there are two packages lights: lights 1.0.0 in FOLDER/user/burgeon/mods/one, and 2.0.0 in FOLDER/user/burgeon/mods/two
+    error: FOLDER/user/burgeon/mods/two/mod.toml:1: duplicate package lights: lights 1.0.0 in FOLDER/user/burgeon/mods/one, and 2.0.0 in FOLDER/user/burgeon/mods/two
       | name = "lights"
       help: remove one of them
     "#);

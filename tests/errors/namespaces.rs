@@ -54,7 +54,7 @@ fn parameters(count: usize) -> &'static str {
 /// Returns the script of the package `number`, which declares everything and uses it by plain names.
 fn init(number: usize, of: &Declared) -> String {
     let mut text = String::from("local M = {}\n");
-    // A package requires only packages with lower numbers, so there are no cycles.
+    // A package requires only packages with lower numbers, so use no cycles.
     for other in of.needs.iter().filter(|other| **other < number) {
         let _ = writeln!(text, "require(\"@{}\")", PACKAGES[*other]);
     }
@@ -195,7 +195,7 @@ proptest! {
                     let _ = write!(body, " print(\"method\", this:{name}())");
                     expected.push(format!("method\t{owner}"));
                 }
-                None if owners.len() > 1 => errors.push((format!("this:{name}()"), format!("{name} is a method that"), owners)),
+                None if owners.len() > 1 => errors.push((format!("this:{name}()"), format!("{name} is a method of"), owners)),
                 None => {}
             }
         }
@@ -285,7 +285,7 @@ proptest! {
         let given: Vec<(String, String)> = set.iter().map(|(name, value)| (name.clone(), value.to_string())).collect();
         let ran = run(&folder, given);
         if !wrong.is_empty() {
-            let error = ran.expect_err("a parameter that there is not, or that there are several of");
+            let error = ran.expect_err("a parameter that there is not, or that use several of");
             prop_assert!(wrong.iter().any(|name| error.contains(name)) && error.contains("help: "), "{}", error);
             return Ok(());
         }
@@ -314,7 +314,7 @@ proptest! {
             let error = run(&folder, Vec::new()).expect_err("one of several");
             prop_assert!(error.contains(&message), "{}", error);
             let named = owners.iter().all(|owner| error.contains(PACKAGES[*owner]) || error.contains(&PACKAGES[*owner].replace('-', "_")));
-            prop_assert!(named && error.contains("say which one"), "{}", error);
+            prop_assert!(named && error.contains("specify one"), "{}", error);
         }
     }
 }
@@ -338,16 +338,16 @@ fn what_may_be_one_of_several_is_told_with_what_to_write() {
         )
     };
     insta::assert_snapshot!(two(lua, &draw("this:turret(1)")).refuses(&["run", "s.lua"]), @r#"
-    error: s.lua:4: rule castle.Stone (interpretation): turret is a method that castle and towers have added to extruder
+    error: s.lua:4: rule castle.Stone (interpretation): turret is a method of extruder added by castle and towers
       | s:interpret("castle.Stone", function(this) this:turret(1) end)
       module: castle.Stone(1), step 0
-      help: say which one: this:castle_turret(...) or this:towers_turret(...)
+      help: specify one: this:castle_turret(...) or this:towers_turret(...)
     "#);
     insta::assert_snapshot!(
         two(lua, "lsystem():rule(\"Stone(w)\", function() end)").refuses(&["run", "s.lua"]), @r#"
     error: s.lua:2: Stone is a module of castle and of towers in the pattern "Stone(w)"
       | lsystem():rule("Stone(w)", function() end)
-      help: say which one: castle.Stone or towers.Stone
+      help: specify one: castle.Stone or towers.Stone
     "#);
     insta::assert_snapshot!(
         two(lua, "lsystem():rule(\"castle.Stole(w)\", function() end)").refuses(&["run", "s.lua"]), @r#"
@@ -359,16 +359,16 @@ fn what_may_be_one_of_several_is_told_with_what_to_write() {
         two(lua, "lsystem():rule(\"castle.Stone(w)\", \"return Stone(w)\")").refuses(&["run", "s.lua"]), @r#"
     error: s.lua:2: rule castle.Stone(w): Stone is a module of castle and of towers
       | lsystem():rule("castle.Stone(w)", "return Stone(w)")
-      help: let a function make it, by a constructor that the package gives: function(this) return stone(1) end
+      help: return it from a function, with a constructor of the package: function(this) return stone(1) end
     "#);
     insta::assert_snapshot!(two(lua, "").refuses(&["run", "s.lua", "--set", "size=9"]), @r#"
     error: mods/towers/init.lua:2: size is a parameter of castle and of towers
       | return { Stone = module("Stone", "w"), size = param("size", { default = 2 }) }
       called at s.lua:1
-      help: say which one: --set castle.size=VALUE or --set towers.size=VALUE
+      help: specify one: --set castle.size=VALUE or --set towers.size=VALUE
     "#);
     insta::assert_snapshot!(two(lua, "").refuses(&["run", "s.lua", "--set", "castle.sizes=9"]), @r"
-    error: s.lua has no parameter called castle.sizes
+    error: s.lua: unknown parameter `castle.sizes`
       help: did you mean castle.size?
     ");
     let fine = two(
@@ -426,15 +426,15 @@ fn the_packages_of_a_run_are_locked_in_its_summary_and_in_its_model() {
 #[test]
 fn a_package_is_switched_off_and_on() {
     let folder = castle("").with("other.lua", "print(1)");
-    insta::assert_snapshot!(folder.burgeon(&["mods", "disable", "castle"]).done().stderr, @"switched castle off in mods/disabled.txt; switch it on again: burgeon mods enable castle");
+    insta::assert_snapshot!(folder.burgeon(&["mods", "disable", "castle"]).done().stderr, @"disabled castle in mods/disabled.txt; to enable it: burgeon mods enable castle");
     insta::assert_snapshot!(folder.refuses(&["run", "s.lua"]), @r#"
-    error: s.lua:1: the package castle is switched off in mods/disabled.txt
+    error: s.lua:1: the package castle is disabled in mods/disabled.txt
       | local towers = require("@castle/towers")
-      help: switch it on: burgeon mods enable castle
+      help: enable it: burgeon mods enable castle
     "#);
-    insta::assert_snapshot!(folder.burgeon(&["mods"]).done().stdout, @"switched off: castle 1.0.0 in mods/castle");
+    insta::assert_snapshot!(folder.burgeon(&["mods"]).done().stdout, @"disabled: castle 1.0.0 in mods/castle");
     insta::assert_snapshot!(folder.refuses(&["mods", "disable", "castel"]), @r"
-    error: there is no package castel
+    error: unknown package `castel`
       help: did you mean castle?
     ");
     folder.burgeon(&["run", "other.lua"]).done();
@@ -461,9 +461,9 @@ fn links_to_checkouts_are_used_and_never_replaced() {
     assert!(other.path().join("work/towers.lua").exists());
     std::fs::remove_dir_all(other.path().join("work")).unwrap();
     insta::assert_snapshot!(other.refuses(&["run", "s.lua"]), @r#"
-    error: s.lua:1: mods/castle is a link that leads to nothing
+    error: s.lua:1: mods/castle is a broken link
       | local towers = require("@castle/towers")
-      help: remove it, or put a package there
+      help: remove it, or replace it by a package
     "#);
 }
 
@@ -473,13 +473,13 @@ fn what_is_no_package_is_never_deleted_and_what_is_missing_is_told() {
         .with("work/mod.toml", about("castle", "[depends]\nmasonry = \"1\""))
         .with("mods/castle/diary.txt", "dear");
     insta::assert_snapshot!(folder.refuses(&["mods", "add", "work"]), @r#"
-    error: work/mod.toml:5: the package castle needs masonry ^1, which is not there
+    error: work/mod.toml:5: the package castle needs masonry ^1, which is not installed
       | masonry = "1"
-      help: put it beside the other packages: burgeon mods add FOLDER
+      help: install it next to the other packages: burgeon mods add FOLDER
     "#);
     let folder = folder.with("mods/masonry/mod.toml", about("masonry", ""));
     insta::assert_snapshot!(folder.refuses(&["mods", "add", "work", "--replace"]), @r"
-    error: mods/castle is no package, so it is not replaced
+    error: mods/castle is not a package, so it is not replaced
       help: move it away, or remove it yourself; then add the package again
     ");
     let folder = folder.with("mods/castle/mod.toml", about("other", ""));
@@ -489,7 +489,7 @@ fn what_is_no_package_is_never_deleted_and_what_is_missing_is_told() {
     ");
     let folder = folder.with("mods/castle/mod.toml", about("castle", "")).with("mods/castle/.git/HEAD", "x");
     insta::assert_snapshot!(folder.refuses(&["mods", "add", "work", "--replace"]), @r"
-    error: mods/castle is a checkout, with a folder .git, so it is not replaced
+    error: mods/castle is a checkout with a folder .git, so it is not replaced
       help: move it away, or remove it yourself; then add the package again
     ");
     assert_eq!(std::fs::read_to_string(folder.path().join("mods/castle/diary.txt")).unwrap(), "dear");
@@ -499,6 +499,6 @@ fn what_is_no_package_is_never_deleted_and_what_is_missing_is_told() {
     insta::assert_snapshot!(folder.refuses(&["mods", "add", "work", "--replace"]), @r#"
     error: work/mod.toml:5: the package castle needs masonry ^2, but 1.0.0 is in mods/masonry
       | masonry = "2"
-      help: get a masonry of that version
+      help: install a masonry of that version
     "#);
 }

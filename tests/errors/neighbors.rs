@@ -51,16 +51,16 @@ fn an_edge_that_there_is_not_is_refused() {
     insta::assert_snapshot!(
         told(") })\ns:axiom(A())\ns:rule(\"A\", function(this)\n  return A(this:edge_length(4))\nend)\ns:derive(1)"),
         @r"
-    error: s.lua:5: rule A: footprint:edge_length: there is no edge 4
+    error: s.lua:5: rule A: footprint:edge_length: unknown edge 4
       | return A(this:edge_length(4))
       module: A, step 1
-      help: it has the edges 1 to 3, those of holes after those of the outer ring
+      help: it has the edges 1 to 3: edges of the outer ring, followed by edges of holes
     "
     );
     for (rest, words) in [
-        (", { edge_keywords = { [4] = { \"gate\" } } }) })", "edge_keywords names edge 4"),
+        (", { edge_keywords = { [4] = { \"gate\" } } }) })", "edge_keywords refers to the unknown edge 4"),
         (", { edge_keywords = { \"gate\" } }) })", "{ [2] = { \"entry door\" } }, not {\"gate\"}"),
-        (", { streets = { { 0, 0 }, { 1, 1 } } }) })", "made once before: streets(source)"),
+        (", { streets = { { 0, 0 }, { 1, 1 } } }) })", "created once before: streets(source)"),
     ] {
         assert!(told(rest).contains(words), "{}", told(rest));
     }

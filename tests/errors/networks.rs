@@ -31,17 +31,17 @@ fn fields_given_through_the_library_of_roads_are_refused_in_the_line_of_the_scri
         let said = refused_by_roads(&format!(
             "local function town()\n  return roads.{function}({options})\nend\ntown()"
         ));
-        let expected = "error: s.lua:3: network has no field called min_lenght\n";
+        let expected = "error: s.lua:3: unknown field `min_lenght` in network\n";
         assert!(said.starts_with(expected), "{function}: {said}");
         assert!(said.contains("help: did you mean min_length?"), "{function}: {said}");
     }
     assert_snapshot!(refused_by_roads("roads.grow({ network = { snap = 3, clearance = 6 } })"), @r"
-    error: s.lua:2: network: snap (3 m) is less than clearance (6 m), so a street that ends between the two could neither join nor stay
+    error: s.lua:2: network: snap (3 m) is less than clearance (6 m), so a street that ends between the two can neither join nor remain
       | roads.grow({ network = { snap = 3, clearance = 6 } })
-      help: give a greater snap, or a smaller clearance
+      help: use a greater snap, or a smaller clearance
     ");
     assert_snapshot!(refused_by_roads("roads.grow({ network = { streets = { { width = \"wide\" } } } })"), @r#"
-    error: s.lua:2: network: streets must be a list whose item 1 is a kind of street (street: width must be a number, not "wide"), not {width="wide"}
+    error: s.lua:2: network: streets must be a list whose item 1 is a street type (street: width must be a number, not "wide"), not {width="wide"}
       | roads.grow({ network = { streets = { { width = "wide" } } } })
     "#);
     assert_snapshot!(refused_by_roads("roads.word({ network = { streets = { { width = 0 } } } })"), @r"
@@ -115,16 +115,16 @@ fn a_rim_that_is_not_convex_is_refused() {
 #[test]
 fn fields_that_contradict_one_another_are_refused() {
     assert_snapshot!(refused("network({ snap = 3, clearance = 6 })"), @r"
-    error: s.lua:1: network: snap (3 m) is less than clearance (6 m), so a street that ends between the two could neither join nor stay
+    error: s.lua:1: network: snap (3 m) is less than clearance (6 m), so a street that ends between the two can neither join nor remain
       | network({ snap = 3, clearance = 6 })
-      help: give a greater snap, or a smaller clearance
+      help: use a greater snap, or a smaller clearance
     ");
     assert_snapshot!(refused("network({ min_angle = 120 })"), @r"
     error: s.lua:1: network: min_angle must be from 10 to 90, not 120
       | network({ min_angle = 120 })
     ");
     assert_snapshot!(refused("network({ min_lenght = 3 })"), @r"
-    error: s.lua:1: network has no field called min_lenght
+    error: s.lua:1: unknown field `min_lenght` in network
       | network({ min_lenght = 3 })
       help: did you mean min_length?
     ");
@@ -135,7 +135,7 @@ fn kinds_of_streets_whose_parts_do_not_fit_are_refused() {
     let street =
         |fields: &str| refused(&format!("network({{ streets = {{ {{ width = 14 }}, {{ {fields} }} }} }})"));
     assert_snapshot!(refused("network({ streets = {} })"), @r"
-    error: s.lua:1: network: streets has no kind of street
+    error: s.lua:1: network: streets contains no street type
       | network({ streets = {} })
       help: write streets = { { width = 20 }, { width = 14 } }
     ");
@@ -148,7 +148,7 @@ fn kinds_of_streets_whose_parts_do_not_fit_are_refused() {
       | network({ streets = { { width = 14 }, { width = -3 } } })
     ");
     assert_snapshot!(street("width = 0 / 0"), @r"
-    error: s.lua:1: network: streets must be a list whose item 2 is a kind of street (street: width must be a finite number, not NaN), not {width=nan}
+    error: s.lua:1: network: streets must be a list whose item 2 is a street type (street: width must be a finite number, not NaN), not {width=nan}
       | network({ streets = { { width = 14 }, { width = 0 / 0 } } })
     ");
     assert_snapshot!(street("width = 12, sidewalk = 6"), @r"
@@ -161,7 +161,7 @@ fn kinds_of_streets_whose_parts_do_not_fit_are_refused() {
       | network({ streets = { { width = 14 }, { width = 12, sidewalk = -1 } } })
     ");
     assert_snapshot!(street("width = 12, sidewalk = 2, lanes = 6"), @r"
-    error: s.lua:1: network: streets: kind 2: lanes = 6 does not fit: 8.00 m is left for them, 1.33 m for each
+    error: s.lua:1: network: streets: kind 2: lanes = 6 does not fit: 8.00 m remains for the lanes, 1.33 m for each
       | network({ streets = { { width = 14 }, { width = 12, sidewalk = 2, lanes = 6 } } })
       help: 4 fit, each at least 2 m wide
     ");
@@ -175,9 +175,9 @@ fn kinds_of_streets_whose_parts_do_not_fit_are_refused() {
       help: leave at least 2 m for a lane on each side of it
     ");
     assert_snapshot!(street("width = 24, median = 2, lanes = 3"), @r"
-    error: s.lua:1: network: streets: kind 2: lanes = 3 cannot be divided by a median into two directions
+    error: s.lua:1: network: streets: kind 2: with a median, lanes = 3 cannot be divided into two directions
       | network({ streets = { { width = 14 }, { width = 24, median = 2, lanes = 3 } } })
-      help: give an even number of lanes, or leave the median out
+      help: use an even number of lanes, or remove the median
     ");
     assert_snapshot!(street("width = 12, parking = 3.5"), @r"
     error: s.lua:1: network: streets: kind 2: parking = 3.5 on both sides leaves 0.20 m of a carriageway of 7.20 m
@@ -185,17 +185,17 @@ fn kinds_of_streets_whose_parts_do_not_fit_are_refused() {
       help: leave at least 2 m between the parking strips
     ");
     assert_snapshot!(street("width = 12, sidewalk = 0, trees = 9"), @r"
-    error: s.lua:1: network: streets: kind 2: trees need a sidewalk of 1 m, and this one has 0
+    error: s.lua:1: network: streets: kind 2: trees need a sidewalk of 1 m, not 0 m
       | network({ streets = { { width = 14 }, { width = 12, sidewalk = 0, trees = 9 } } })
-      help: give a greater sidewalk, or leave them out
+      help: use a wider sidewalk, or set them to 0
     ");
     assert_snapshot!(street("width = 12, lamps = 0.2"), @r"
     error: s.lua:1: network: streets: kind 2: lamps must be from 1 to 1000 m, not 0.2
       | network({ streets = { { width = 14 }, { width = 12, lamps = 0.2 } } })
-      help: that is their distance along the street; 0 for none
+      help: it is the distance between them along the street; 0 for none
     ");
     assert_snapshot!(street("width = 12, lane = 2"), @r"
-    error: s.lua:1: network: streets must be a list whose item 2 is a kind of street (street has no field called lane), not {lane=2,width=12}
+    error: s.lua:1: network: streets must be a list whose item 2 is a street type (unknown field `lane` in street), not {lane=2,width=12}
       | network({ streets = { { width = 14 }, { width = 12, lane = 2 } } })
     ");
     assert_snapshot!(refused("network({ streets = { 14 } })"), @r"
@@ -208,34 +208,34 @@ fn kinds_of_streets_whose_parts_do_not_fit_are_refused() {
 fn a_street_does_not_begin_in_an_obstacle() {
     assert_snapshot!(
         refused("network({ obstacles = { { { -5, -5 }, { 5, -5 }, { 5, 5 }, { -5, 5 } } } })"), @r"
-    error: s.lua:1: network: starts: a street cannot begin at [0, 0], for an obstacle is there
+    error: s.lua:1: network: starts: street start [0, 0] is in an obstacle
       | network({ obstacles = { { { -5, -5 }, { 5, -5 }, { 5, 5 }, { -5, 5 } } } })
-      help: begin elsewhere, or leave the obstacle out
+      help: start elsewhere, or remove the obstacle
     ");
     assert_snapshot!(refused("network({ starts = { { 0, 0 / 0 } } })"), @r"
     error: s.lua:1: network: starts must be a list whose item 1 is a vector of finite numbers, not {0,nan}
       | network({ starts = { { 0, 0 / 0 } } })
     ");
     assert_snapshot!(refused("network({ starts = { { 1e9, 0 } } })"), @r"
-    error: s.lua:1: network: starts: [1000000000, 0] is no place for a street
+    error: s.lua:1: network: starts: invalid street position [1000000000, 0]
       | network({ starts = { { 1e9, 0 } } })
-      help: places are finite, and within 500 km of the origin
+      help: use finite positions within 500 km of the origin
     ");
 }
 
 #[test]
 fn a_proposal_that_cannot_be_is_refused_with_its_line() {
     assert_snapshot!(refused(&grown("", "this:grow(2, 0, 80, 0)")), @r"
-    error: s.lua:5: rule A (interpretation): there is no junction 2
+    error: s.lua:5: rule A (interpretation): unknown junction 2
       | this:grow(2, 0, 80, 0)
       module: A, step 0
-      help: junctions are numbered from 1 to 1: network:reached tells where a street ends
+      help: junctions are numbered from 1 to 1: network:open_end returns the junction at the end of a street
     ");
     assert_snapshot!(refused(&grown("", "this:grow(1, 0, 0, 0)")), @r"
-    error: s.lua:5: rule A (interpretation): network:grow: a street of 0 m towards 0 degrees cannot be
+    error: s.lua:5: rule A (interpretation): network:grow: invalid street of 0 m with the heading 0 degrees
       | this:grow(1, 0, 0, 0)
       module: A, step 0
-      help: give a finite heading, and a length above 0
+      help: use a finite heading, and a length above 0
     ");
     assert_snapshot!(refused(&grown("", "this:grow(1, 0 / 0, 80, 0)")), @r"
     error: s.lua:5: rule A (interpretation): network:grow: heading must be a finite number, not NaN
@@ -243,14 +243,14 @@ fn a_proposal_that_cannot_be_is_refused_with_its_line() {
       module: A, step 0
     ");
     assert_snapshot!(
-        refused(&grown("most = 3", "for way = 0, 3 do this:grow(1, way * 90, 80, 0) end")), @r"
-    error: s.lua:5: rule A (interpretation): the network has 3 pieces of streets
+        refused(&grown("max_segments = 3", "for way = 0, 3 do this:grow(1, way * 90, 80, 0) end")), @r"
+    error: s.lua:5: rule A (interpretation): the network has 3 street segments, which is the limit
       | for way = 0, 3 do this:grow(1, way * 90, 80, 0) end
       module: A, step 0
-      help: let fewer streets grow, or raise the limit: network { most = ... }
+      help: grow fewer streets, or raise network { max_segments = ... }
     ");
     assert_snapshot!(refused(&grown("", "this:join_dead_ends(1e6)")), @r"
-    error: s.lua:5: rule A (interpretation): network:join_dead_ends takes a radius from 0 to 2000, and a detour from 1 to 100
+    error: s.lua:5: rule A (interpretation): network:join_dead_ends needs a radius from 0 to 2000 and a detour from 1 to 100
       | this:join_dead_ends(1e6)
       module: A, step 0
     ");
@@ -270,7 +270,7 @@ s:interpret("A(junction, heading, length)", function(this, junction, heading, le
   this:grow(junction, heading, length, 1)
 end)
 s:rule("A(junction, heading, length)", function(this, junction, heading, length)
-  print(`{junction} {heading} {length}: {this:fate(junction, heading)} {this:reached(junction, heading)}`)
+  print(`{junction} {heading} {length}: {this:outcome(junction, heading)} {this:open_end(junction, heading)}`)
   return nil
 end)
 s:derive(1)
@@ -298,56 +298,57 @@ fn a_network_of_which_no_street_is_built_says_why() {
       this:grow(1, 0, 1e9, 0)
     end)
     s:derive(0)
-    warning: s.lua:2: network: no street was built of 1 that were proposed: outside
+    warning: s.lua:2: network: none of 1 proposed streets was built: outside
       | local s = lsystem({ object = network({  }) })
-      help: network:fate tells of each what became of it
+      help: network:outcome returns the outcome of each
     "#);
 }
 
 #[test]
 fn a_street_that_does_not_come_to_its_place_is_told() {
     let pond = "obstacles = { { { 80, -200 }, { 120, -200 }, { 120, 200 }, { 80, 200 } } }, bend = 0";
-    let to = |x: f64| grown(pond, &format!("this:lead(1, {{ {x}, 0 }}, 0)"));
+    let to = |x: f64| grown(pond, &format!("this:grow_to(1, {{ {x}, 0 }}, 0)"));
     silent(&[&to(60.0)]);
     assert_snapshot!(warned(&[&to(300.0), &to(1e9)]), @r#"
     local A = module("A")
     local s = lsystem({ object = network({ obstacles = { { { 80, -200 }, { 120, -200 }, { 120, 200 }, { 80, 200 } } }, bend = 0 }) })
     s:axiom(A())
     s:interpret("A", function(this)
-      this:lead(1, { 300, 0 }, 0)
+      this:grow_to(1, { 300, 0 }, 0)
     end)
     s:derive(0)
-    warning: s.lua:5: rule A (interpretation): network:lead: the street from 0.0, 0.0 to 300.0, 0.0 ends at 69.0, 0.0, for an obstacle is in its way
-      | this:lead(1, { 300, 0 }, 0)
+    warning: s.lua:5: rule A (interpretation): network:grow_to: the street from 0.0, 0.0 to 300.0, 0.0 ends at 69.0, 0.0, before an obstacle
+      | this:grow_to(1, { 300, 0 }, 0)
       module: A, step 0
-      help: lead it around the obstacle, or leave that out
+      help: go around the obstacle, or remove the obstacle
 
     local A = module("A")
     local s = lsystem({ object = network({ obstacles = { { { 80, -200 }, { 120, -200 }, { 120, 200 }, { 80, 200 } } }, bend = 0 }) })
     s:axiom(A())
     s:interpret("A", function(this)
-      this:lead(1, { 1000000000, 0 }, 0)
+      this:grow_to(1, { 1000000000, 0 }, 0)
     end)
     s:derive(0)
-    warning: s.lua:5: rule A (interpretation): network:lead: no street leads from 0.0, 0.0 to 1000000000.0, 0.0: outside
-      | this:lead(1, { 1000000000, 0 }, 0)
+    warning: s.lua:5: rule A (interpretation): network:grow_to: no street from 0.0, 0.0 to 1000000000.0, 0.0: outside
+      | this:grow_to(1, { 1000000000, 0 }, 0)
       module: A, step 0
-      help: lead it to a place within the `limit` of the network, and within 500 km of the origin
+      help: choose a position within the `limit` of the network and within 500 km of the origin
     "#);
-    let two = |y: f64| grown("", &format!("this:lead(1, {{ 90, 0 }}, 0) this:lead(1, {{ 40, {y} }}, 0)"));
+    let two =
+        |y: f64| grown("", &format!("this:grow_to(1, {{ 90, 0 }}, 0) this:grow_to(1, {{ 40, {y} }}, 0)"));
     silent(&[&two(80.0)]);
     assert_snapshot!(warned(&[&two(38.0)]), @r#"
     local A = module("A")
     local s = lsystem({ object = network({  }) })
     s:axiom(A())
     s:interpret("A", function(this)
-      this:lead(1, { 90, 0 }, 0) this:lead(1, { 40, 38 }, 0)
+      this:grow_to(1, { 90, 0 }, 0) this:grow_to(1, { 40, 38 }, 0)
     end)
     s:derive(0)
-    warning: s.lua:5: rule A (interpretation): network:lead: no street leads from 0.0, 0.0 to 40.0, 38.0: angle
-      | this:lead(1, { 90, 0 }, 0) this:lead(1, { 40, 38 }, 0)
+    warning: s.lua:5: rule A (interpretation): network:grow_to: no street from 0.0, 0.0 to 40.0, 38.0: angle
+      | this:grow_to(1, { 90, 0 }, 0) this:grow_to(1, { 40, 38 }, 0)
       module: A, step 0
-      help: lead it elsewhere, or give the network a smaller `min_angle`
+      help: choose another position, or set a smaller `min_angle`
     "#);
 }
 
@@ -362,16 +363,16 @@ fn highways_that_do_not_arrive_are_told() {
     let told = with_roads(&towns("", "")).burgeon(&["run", "s.lua", "--strict"]).done().stderr;
     assert!(!told.contains("warning"), "{told}");
     assert_snapshot!(refused_by_roads(&towns("", "steps = 12,")), @r"
-    error: s.lua:2: roads.grow: the highway from centre 1 to centre 2, 1200 m, takes 15 steps or more, and there are 12; give more, or centres that are nearer
+    error: s.lua:2: roads.grow: the highway from centre 1 to centre 2, 1200 m, takes 15 steps or more, and use 12; give more, or centres that are nearer
       | roads.grow({ pattern = roads.raster(), network = {  }, centres = { { -600, 0 }, { 600, 0 } }, steps = 12,
     ");
     let lake = "obstacles = { { { -100, -900 }, { 100, -900 }, { 100, 900 }, { -100, 900 } } }";
     assert_snapshot!(with_roads(&towns(lake, "")).warned(&["run", "s.lua"]), @r"
-    warning: templates/roads/highways.lua:125: rule Arrival(junction, heading, length, goal, tries) (interpretation): network:lead: no street leads from -113.0, -28.9 to 600.0, 0.0: obstacle
-      | this:lead(junction, this:place(goal), 0)
+    warning: templates/roads/highways.lua:125: rule Arrival(junction, heading, length, goal, tries) (interpretation): network:grow_to: no street from -113.0, -28.9 to 600.0, 0.0: obstacle
+      | this:grow_to(junction, this:place(goal), 0)
       called at s.lua:2
       module: Arrival(8,-42.013161642443464,90,2,9), step 11
-      help: lead it around the obstacle, or leave that out
+      help: go around the obstacle, or remove the obstacle
     ");
 }
 
@@ -380,11 +381,14 @@ fn areas_that_are_no_polygons_or_cross_themselves_are_told() {
     let told = |areas: &str| warned(&[&grown(areas, "this:grow(1, 180, 60, 0)")]);
     for name in ["obstacles", "water"] {
         let text = told(&format!("{name} = {{ {{ vec(10, 10), vec(40, 40), vec(40, 10), vec(10, 40) }} }}"));
-        assert!(text.contains(&format!("s.lua:2: network: {name}: an area is no simple polygon")), "{text}");
+        assert!(
+            text.contains(&format!("s.lua:2: network: {name}: an area is not a simple polygon")),
+            "{text}"
+        );
         assert!(text.contains("meet at (25.000, 25.000)"), "{text}");
     }
     let text = told("limit = { vec(0, 0), vec(100, 0), vec(200, 0) }");
-    assert!(text.contains("s.lua:2: network: limit: left out an area that is no polygon"), "{text}");
+    assert!(text.contains("s.lua:2: network: limit: skipped an area that is not a polygon"), "{text}");
 }
 
 #[test]
@@ -403,9 +407,9 @@ end
     10	5	-90	0
     ");
     assert_snapshot!(refused(&format!("{script}roads:verge(\"bench\")")), @r#"
-    error: s.lua:11: there is nothing called "bench" beside streets
+    error: s.lua:11: unknown object "bench" along streets
       | roads:verge("bench")
-      help: ask for "tree" or "lamp"
+      help: use "tree" or "lamp"
     "#);
 }
 

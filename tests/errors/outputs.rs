@@ -145,7 +145,7 @@ fn a_file_is_not_written_twice_whatever_it_is_called() {
     };
     assert_snapshot!(twice(["-o", "a.glb"], ["-o", "a.glb"]), @r"
     error: a.glb would be written twice
-      help: name another file for each of them
+      help: specify different files
     ");
     for (first, second) in [
         (["-o", "a.glb"], ["-o", "./in/../a.glb"]),
@@ -169,8 +169,8 @@ fn what_the_script_reads_is_not_overwritten() {
     let script = SCRIPT.replace("this:forward(x)", textured).replace("print(\"it has run\")\n", "");
     let folder = Folder::new().with("s.lua", script).with("in/brick.png", &brick);
     assert_snapshot!(folder.refuses(&["run", "s.lua", "-o", "a.glb", "-o", "in/brick.png"]), @r"
-    error: in/brick.png would be overwritten, and the script reads it
-      help: name another file
+    error: cannot write in/brick.png: the script reads it
+      help: specify another file
     ");
     // A copy of a texture gets another name if its name is that of an image output.
     let all = ["run", "s.lua", "-o", "a.obj", "-o", "a.gltf", "-o", "a_brick.png", "--size", "8x6"];
@@ -259,7 +259,7 @@ fn what_cannot_be_printed_is_an_error() {
     assert_snapshot!(String::from_utf8(out.unwrap().stderr).unwrap(), @r"
     it has run
     error: cannot write to standard output: No space left on device (os error 28)
-      help: look at where it leads: whether the disk is full, or the file may be written to
+      help: check whether the disk is full and the file can be written
     ");
     assert!(!folder.path().join("a.glb").exists());
 }

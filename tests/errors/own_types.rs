@@ -42,7 +42,7 @@ fn checked(rest: &str) -> String {
 fn a_check_knows_the_methods_and_fields_of_types_of_the_script() {
     let system = "local A = module(\"A\", \"x\")\nlocal s = lsystem({ object = lamp({ height = 5 }) })\ns:axiom(A(1))\n";
     assert_snapshot!(checked(&format!("{system}s:interpret(\"A(x)\", function(this, x) this:ligth(x) end)")), @r##"
-    error: s.lua:22: rule A(x) (interpretation): lamp has no method or field called ligth
+    error: s.lua:22: rule A(x) (interpretation): unknown method or field `ligth` of lamp
       help: did you mean light?
     "##);
     assert_snapshot!(checked(&format!("{system}s:interpret(\"A(x)\", function(this, x) this:light(x, 2, 3) this:light(\"far\") end)")), @r##"
@@ -51,20 +51,20 @@ fn a_check_knows_the_methods_and_fields_of_types_of_the_script() {
     error: s.lua:22: rule A(x) (interpretation): lamp:light: reach must be a number, not "far"
     "##);
     assert_snapshot!(checked(&format!("{system}s:rule(\"A(x)\", function(this, x) this:light(x) return A(this:lit()) end)")), @r##"
-    error: s.lua:22: rule A(x): lamp:light changes the object, so a rule cannot call it
+    error: s.lua:22: rule A(x): lamp:light is a write method, so a rule cannot call it
       help: use an interpretation rule: system:interpret(pattern, function(this, ...) ... end)
     "##);
     assert_snapshot!(checked("lamp({ height = \"tall\", glow = 3, kind = \"oil\", sides = \"many\" })"), @r##"
     error: s.lua:19: lamp: height must be a number, not "tall"
-    error: s.lua:19: lamp has no field called glow
+    error: s.lua:19: unknown field `glow` in lamp
       help: it has height, kind, sides, shape, smooth, along, around, caps, color, roughness, metallic, position, heading
     error: s.lua:19: lamp: kind must be "gas" | "arc", not "oil"
     error: s.lua:19: lamp: sides must be a number, not "many"
     "##);
     assert_snapshot!(checked(&format!("{system}s:interpret(\"A(x)\", function(this, x) this:light(x):extrude(this.height):lightt(1) print(this.hieght, this.mast:extrude(1)) end)")), @r##"
-    error: s.lua:22: rule A(x) (interpretation): lamp has no method or field called lightt
+    error: s.lua:22: rule A(x) (interpretation): unknown method or field `lightt` of lamp
       help: did you mean light?
-    error: s.lua:22: rule A(x) (interpretation): lamp has no method or field called hieght
+    error: s.lua:22: rule A(x) (interpretation): unknown method or field `hieght` of lamp
       help: did you mean height?
     "##);
 }
@@ -77,31 +77,31 @@ fn a_check_knows_what_the_functions_of_a_type_may_do() {
         ))
     };
     assert_snapshot!(of("reads = { bad = function(self) self.n = 1 self:extrude(1) return self.m end }"), @r##"
-    error: s.lua:19: other: a function that reads assigns n
-      help: put it among the changes of the type, which interpretations may call
-    error: s.lua:19: other:extrude changes the object, and a function that reads does not
-      help: put it among the changes of the type
-    error: s.lua:19: other has no method or field called m
+    error: s.lua:19: other: a read method assigns n
+      help: move it to the changes of the type, which interpretations can call
+    error: s.lua:19: other:extrude is a write method, so a read method cannot call it
+      help: move it to the changes of the type
+    error: s.lua:19: unknown method or field `m` of other
       help: it has as, lit, light, bad, height, kind, lit, n, mast, regular, star, rectangle, polygon, direction, resolution, scale, taper, bend, twist, caps, smooth, extrude, advance, shift, jump, turn, pitch, roll, color, material, mesh, place, position, heading, distance, open_edges, note, detail
     "##);
     assert_snapshot!(of("changes = { bad = function(self) self.m = 1 self.height = 2 self.lit = 3 self:light() self:lite(1) end }"), @r##"
-    error: s.lua:19: other has no state called m
+    error: s.lua:19: other: unknown state variable `m`
       help: declare it: state = { m = ... }
-    error: s.lua:19: height is a field of other, which is given when one is made
-      help: keep what changes in its state
+    error: s.lua:19: height is a field of other, which only the constructor sets
+      help: keep changing values in the state
     error: s.lua:19: other:light takes 1 to 2 arguments, not 0
       help: write other:light(reach: number, toward: number?)
-    error: s.lua:19: other has no method or field called lite
+    error: s.lua:19: unknown method or field `lite` of other
       help: did you mean lit?
     "##);
     assert_snapshot!(of("begin = function(self) self.mast:extrde(1) self:as(lamp):light(\"a\") self:as(lamp):go() end"), @r##"
-    error: s.lua:19: extruder has no method or field called extrde
+    error: s.lua:19: unknown method or field `extrde` of extruder
       help: did you mean extrude?
     error: s.lua:19: lamp:light: reach must be a number, not "a"
-    error: s.lua:19: lamp has no method or field called go
+    error: s.lua:19: unknown method or field `go` of lamp
       help: it has as, lit, light, height, kind, lit, mast, regular, star, rectangle, polygon, direction, resolution, scale, taper, bend, twist, caps, smooth, extrude, advance, shift, jump, turn, pitch, roll, color, material, mesh, place, position, heading, distance, open_edges, note, detail
     "##);
-    // A type that inherits from it may have methods that the base type lacks.
+    // A type that inherits from the allowed parts are methods that the base type lacks.
     assert_snapshot!(of("changes = { go = function(self) self:draw_top() end } })\nobject(\"third\", { extends = other, changes = { draw_top = function(self) end }"), @"s.lua is fine");
 }
 
@@ -120,10 +120,10 @@ fn a_check_knows_types_of_required_files_and_of_packages() {
              extend(parts.lamp, { changes = { dim = function(self) end } })\ns:interpret(\"A\", function(this) this:dim(1) end)",
         );
     assert_snapshot!(folder.burgeon(&["check", "s.lua"]).stderr, @r#"
-    error: s.lua:5: rule A (interpretation): lamp has no method or field called lite
+    error: s.lua:5: rule A (interpretation): unknown method or field `lite` of lamp
       | s:interpret("A", function(this) this:lite(1) end)
       help: did you mean lit?
-    error: s.lua:6: lights.arc has no field called powr
+    error: s.lua:6: unknown field `powr` in lights.arc
       | local t = lsystem({ object = lights.arc({ powr = 3 }) })
       help: did you mean power?
     error: s.lua:8: rule A (interpretation): lights.arc:shine: n must be a number, not "far"
@@ -141,7 +141,7 @@ fn the_types_of_a_script_are_told_like_those_that_come_with_burgeon() {
       lamp    A lamp.
       turtle  A turtle as in The Algorithmic Beauty of Plants, which draws round branches in three dimensions.
 
-    burgeon api --script s.lua NAME tells more of one, such as lamp
+    Run burgeon api --script s.lua NAME for details, such as lamp
     "##);
     let lamp = told(&["s.lua", "lamp"]);
     assert!(
@@ -155,22 +155,20 @@ fn the_types_of_a_script_are_told_like_those_that_come_with_burgeon() {
     assert_snapshot!(told(&["s.lua", "turtle:high"]), @r##"
     turtle:high(above: number?) -> number
       How high it is.
-      It only reads: rules and interpretations may call it.
+      Read method: rules and interpretations can call it.
     "##);
     assert_snapshot!(told(&["s.lua", "lamp:as"]), @r##"
     lamp:as(constructor: any) -> any
       The object as the type that `constructor` makes sees it, which its own extends: a function that
       says anew what that type's does can call it so, such as self:as(lantern):lamp(1).
-      It only reads: rules and interpretations may call it.
+      Read method: rules and interpretations can call it.
     "##);
     assert_snapshot!(told(&["empty.lua"]), @r##"
-    empty.lua declares no type of object and adds to none
+    empty.lua neither declares nor extends an object type
     "##);
     let machine = folder.burgeon(&["api", "--script", "s.lua", "--json"]).done().json();
     let names: Vec<_> =
         machine["entries"].as_array().unwrap().iter().map(|entry| entry["name"].clone()).collect();
     assert_eq!(names, ["lamp", "turtle"]);
-    assert!(
-        folder.burgeon(&["api", "--script", "none.lua"]).failed().contains("there is no script none.lua")
-    );
+    assert!(folder.burgeon(&["api", "--script", "none.lua"]).failed().contains("script not found: none.lua"));
 }

@@ -6,7 +6,7 @@ use crate::support::{Folder, refused};
 
 const PARAMS: &str = r##"local n = param("n", { default = 3, min = 0, max = 10, step = 2.5, unit = "m" })
 local mode = param("mode", { default = "day", choices = { "day", "night" } })
-local on = param("on", { default = true, text = "whether it shines" })
+local on = param("on", { default = true, doc = "whether it shines" })
 local hue = param("hue", { default = "#ff0000" })
 print(n, mode, on, hue)
 "##;
@@ -21,20 +21,20 @@ fn set(values: &[&str]) -> String {
 #[test]
 fn an_unknown_parameter_is_told_with_the_nearest_one() {
     assert_snapshot!(set(&["moed=day"]), @r"
-    error: s.lua has no parameter called moed
+    error: s.lua: unknown parameter `moed`
       help: did you mean mode?
     ");
     assert_snapshot!(set(&["height=3"]), @r"
-    error: s.lua has no parameter called height
+    error: s.lua: unknown parameter `height`
       help: it has n, mode, on, hue
     ");
     assert_snapshot!(Folder::new().with("s.lua", "local x = 1\n").refuses(&["run", "s.lua", "--set", "x=1"]), @r"
-    error: s.lua has no parameter called x
-      help: it declares none
+    error: s.lua: unknown parameter `x`
+      help: the script declares no parameters
     ");
     assert_snapshot!(Folder::new().with("s.lua", "local x = 1\n").refuses(&["check", "s.lua", "--set", "x=1"]), @r"
-    error: s.lua has no parameter called x
-      help: it declares none
+    error: s.lua: unknown parameter `x`
+      help: the script declares no parameters
     ");
 }
 
@@ -43,12 +43,12 @@ fn a_value_out_of_range_or_between_steps_is_told_with_what_is_allowed() {
     assert_snapshot!(set(&["n=11"]), @r#"
     error: s.lua:1: param n is 11, out of its range
       | local n = param("n", { default = 5, min = 0, max = 10, step = 2.5, unit = "m" })
-      help: it goes from 0 to 10
+      help: the allowed values are 0 to 10
     "#);
     assert_snapshot!(set(&["n=-1e300"]), @r#"
     error: s.lua:1: param n is -1e300, out of its range
       | local n = param("n", { default = 5, min = 0, max = 10, step = 2.5, unit = "m" })
-      help: it goes from 0 to 10
+      help: the allowed values are 0 to 10
     "#);
     assert_snapshot!(set(&["n=3"]), @r#"
     error: s.lua:1: param n is 3, between two steps of 2.5
@@ -69,13 +69,13 @@ fn a_value_of_the_wrong_type_is_told_with_the_default() {
       help: its default is 5
     "#);
     assert_snapshot!(set(&["mode=dusk"]), @r#"
-    error: s.lua:2: param mode is "dusk", which is no choice
+    error: s.lua:2: param mode is "dusk", which is not one of the choices
       | local mode = param("mode", { default = "day", choices = { "day", "night" } })
       help: choose one of day, night
     "#);
     assert_snapshot!(set(&["on=maybe"]), @r#"
     error: s.lua:3: param on must be true or false, not "maybe"
-      | local on = param("on", { default = true, text = "whether it shines" })
+      | local on = param("on", { default = true, doc = "whether it shines" })
       help: its default is true
     "#);
     assert_snapshot!(set(&["hue=rde"]), @r##"
@@ -118,7 +118,7 @@ fn a_declaration_is_checked() {
       help: choose 2.5 or 5
     "#);
     assert_snapshot!(refused("param(\"a\", { defualt = 3 })\n"), @r#"
-    error: s.lua:1: param a has no field called defualt
+    error: s.lua:1: unknown field `defualt` in param a
       | param("a", { defualt = 3 })
       help: did you mean default?
     "#);
@@ -153,11 +153,11 @@ fn a_declaration_is_checked() {
       | param("a", { default = 3, unit = 4 })
     "#);
     assert_snapshot!(refused("param(\"a\", { default = 3, choices = { \"b\" } })\n"), @r#"
-    error: s.lua:1: param a: choices are strings, so the default must be one, not 3
+    error: s.lua:1: param a: the default must be a string, as the choices, not 3
       | param("a", { default = 3, choices = { "b" } })
     "#);
     assert_snapshot!(refused("param(\"a\", { default = \"c\", choices = { \"b\" } })\n"), @r#"
-    error: s.lua:1: the default of param a is "c", which is no choice
+    error: s.lua:1: the default of param a is "c", which is not one of the choices
       | param("a", { default = "c", choices = { "b" } })
       help: choose one of b
     "#);

@@ -97,17 +97,17 @@ fn an_arity_that_only_running_shows_is_told_with_the_module_and_the_step() {
 #[test]
 fn a_function_with_more_parameters_than_the_pattern_gives_is_refused() {
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", function(this, x, y) return B() end)"), @r#"
-    error: s.lua:3: rule A(x): the successor takes 3 parameters, but the pattern gives 2
+    error: s.lua:3: rule A(x): the successor has 3 parameters, but the pattern has 2
       | s:rule("A(x)", function(this, x, y) return B() end)
       help: write function(this, x)
     "#);
     assert_snapshot!(refused_rules("s:rule(\"A\", { when = function(this, x) return true end }, function() return B() end)"), @r#"
-    error: s.lua:3: rule A: the guard takes 2 parameters, but the pattern gives 1
+    error: s.lua:3: rule A: the guard has 2 parameters, but the pattern has 1
       | s:rule("A", { when = function(this, x) return true end }, function() return B() end)
       help: write function(this)
     "#);
     assert_snapshot!(refused_rules("s:interpret(\"B\", function(this, x) end)"), @r#"
-    error: s.lua:3: rule B: the interpretation takes 2 parameters, but the pattern gives 1
+    error: s.lua:3: rule B: the interpretation has 2 parameters, but the pattern has 1
       | s:interpret("B", function(this, x) end)
       help: write function(this)
     "#);
@@ -120,7 +120,7 @@ fn a_malformed_pattern_shows_the_place() {
         A((x)
           ^
       | s:rule("A((x)", function() return B() end)
-      help: a parameter's name belongs here
+      help: a parameter's expected name
     "#);
     assert_snapshot!(pattern("A(x) > B [ B"), @r#"
     error: s.lua:3: malformed pattern: unexpected '[' at character 10
@@ -141,60 +141,60 @@ fn a_malformed_pattern_shows_the_place() {
         A(x) > []
                ^
       | s:rule("A(x) > []", function() return B() end)
-      help: a branch in a context names at least one module
+      help: a branch in a context must contain at least one module
     "#);
     assert_snapshot!(pattern("A(x, x)"), @r#"
     error: s.lua:3: malformed pattern: unexpected 'x' at character 6
         A(x, x)
              ^
       | s:rule("A(x, x)", function() return B() end)
-      help: two parameters are called x; rename one
+      help: duplicate parameter name x
     "#);
     assert_snapshot!(pattern("A(1)"), @r#"
     error: s.lua:3: malformed pattern: unexpected '1' at character 3
         A(1)
           ^
       | s:rule("A(1)", function() return B() end)
-      help: a parameter's name belongs here
+      help: a parameter's expected name
     "#);
     assert_snapshot!(pattern("B < A(x) é"), @r#"
     error: s.lua:3: malformed pattern: unexpected 'é' at character 10
         B < A(x) é
                  ^
       | s:rule("B < A(x) é", function() return B() end)
-      help: a module's name belongs here
+      help: a module's expected name
     "#);
 }
 
 #[test]
 fn a_pattern_has_one_predecessor_and_no_empty_context() {
     assert_snapshot!(pattern(""), @r#"
-    error: s.lua:3: malformed pattern "": there is no predecessor
+    error: s.lua:3: malformed pattern "": missing predecessor
       | s:rule("", function() return B() end)
-      help: name the module to be rewritten
+      help: add the module to be rewritten
     "#);
     assert_snapshot!(pattern("A(x) B"), @r#"
-    error: s.lua:3: malformed pattern "A(x) B": there is more than one predecessor
+    error: s.lua:3: malformed pattern "A(x) B": more than one predecessor
       | s:rule("A(x) B", function() return B() end)
       help: a rule rewrites one module; put the others into a context: A < B > C
     "#);
     assert_snapshot!(pattern("< A(x)"), @r#"
-    error: s.lua:3: malformed pattern "< A(x)": the context beside < is empty
+    error: s.lua:3: malformed pattern "< A(x)": the context next to < is empty
       | s:rule("< A(x)", function() return B() end)
-      help: name a module there, or leave it out
+      help: add a module, or remove the separator
     "#);
     assert_snapshot!(pattern("B <"), @r#"
-    error: s.lua:3: malformed pattern "B <": there is no predecessor
+    error: s.lua:3: malformed pattern "B <": missing predecessor
       | s:rule("B <", function() return B() end)
-      help: name the module to be rewritten
+      help: add the module to be rewritten
     "#);
     assert_snapshot!(pattern("[B] < A(x)"), @r#"
-    error: s.lua:3: malformed pattern "[B] < A(x)": a left context has no branches
+    error: s.lua:3: malformed pattern "[B] < A(x)": a left context cannot have branches
       | s:rule("[B] < A(x)", function() return B() end)
-      help: it is the path towards the axiom; name only the modules on it
+      help: it is the path towards the axiom; write only the modules on it
     "#);
     assert_snapshot!(pattern("[B]"), @r#"
-    error: s.lua:3: malformed pattern "[B]": there is more than one predecessor
+    error: s.lua:3: malformed pattern "[B]": more than one predecessor
       | s:rule("[B]", function() return B() end)
       help: a rule rewrites one module; put the others into a context: A < B > C
     "#);
@@ -208,7 +208,7 @@ fn a_rule_is_declared_with_a_pattern_options_and_a_successor() {
       help: write system:rule("A(x)", function(this, x) return ... end)
     "#);
     assert_snapshot!(refused_rules("s:rule(function() end)"), @r#"
-    error: s.lua:3: a rule begins with a pattern
+    error: s.lua:3: the first argument of a rule must be a pattern
       | s:rule(function() end)
       help: write system:rule("A(x)", function(this, x) return ... end)
     "#);
@@ -218,19 +218,19 @@ fn a_rule_is_declared_with_a_pattern_options_and_a_successor() {
         "{said}"
     );
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", 3, function() end)"), @r#"
-    error: s.lua:3: rule A(x): the options of a rule are a table
+    error: s.lua:3: rule A(x): the options of a rule must be a table
       | s:rule("A(x)", 3, function() end)
       help: write { weight = 2 }
     "#);
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", { wieght = 3 }, function() end)"), @r#"
-    error: s.lua:3: rule A(x): a rule has no option called wieght
+    error: s.lua:3: rule A(x): unknown option `wieght` of a rule
       | s:rule("A(x)", { wieght = 3 }, function() end)
       help: did you mean weight?
     "#);
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", { weight = -3 }, function() end)"), @r#"
-    error: s.lua:3: rule A(x): weight must be a number from 0, not -3
+    error: s.lua:3: rule A(x): weight must be a number of at least 0, not -3
       | s:rule("A(x)", { weight = -3 }, function() end)
-      help: a rule of weight 0 is never chosen
+      help: a rule with weight 0 is never chosen
     "#);
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", { when = true }, function() end)"), @r#"
     error: s.lua:3: rule A(x): when must be a function, not a boolean
@@ -247,14 +247,14 @@ fn a_rule_is_declared_with_a_pattern_options_and_a_successor() {
 #[test]
 fn an_interpretation_has_no_context_and_a_module_has_one() {
     assert_snapshot!(refused_rules("s:interpret(\"B < A(x)\", function(this, x) end)"), @r#"
-    error: s.lua:3: rule B < A(x): an interpretation has no contexts
+    error: s.lua:3: rule B < A(x): an interpretation cannot have contexts
       | s:interpret("B < A(x)", function(this, x) end)
-      help: contexts are for rules; carry what is needed in a parameter of the module
+      help: only rules have contexts; pass the value in a parameter of the module
     "#);
     assert_snapshot!(refused_rules("s:interpret(\"A(x)\", function(this, x) end)\ns:interpret(\"A(y)\", function(this, y) end)"), @r#"
-    error: s.lua:4: rule A(y): A(y) is interpreted already in line 3
+    error: s.lua:4: rule A(y): A(y) is already interpreted in line 3
       | s:interpret("A(y)", function(this, y) end)
-      help: a module has one interpretation; join the two functions
+      help: a module can have only one interpretation; join the two functions
     "#);
     assert_snapshot!(refused_rules("s:interpret(\"A(x)\", 3)"), @r#"
     error: s.lua:3: rule A(x): an interpretation needs a function
@@ -304,17 +304,17 @@ fn a_successor_given_as_text_tells_its_mistakes_with_its_rule() {
 #[test]
 fn a_module_is_declared_once_and_with_names() {
     assert_snapshot!(refused("local A = module(\"A\", \"x\")\nlocal B = module(\"A\", \"y\")\n"), @r#"
-    error: s.lua:2: module A(x) is declared already
+    error: s.lua:2: module A(x) is already declared
       | local B = module("A", "y")
-      help: declare it once, or give the other module another name
+      help: declare it once, or rename the other module
     "#);
     assert_snapshot!(refused("local A = module(\"3A\")\n"), @r#"
-    error: s.lua:1: "3A" cannot be a module's name
+    error: s.lua:1: invalid module name "3A"
       | local A = module("3A")
       help: a name is a letter followed by letters, digits and underscores
     "#);
     assert_snapshot!(refused("local A = module(\"A\", \"x\", \"x\")\n"), @r#"
-    error: s.lua:1: module A has two parameters called x
+    error: s.lua:1: module A has two parameters named `x`
       | local A = module("A", "x", "x")
     "#);
     assert_snapshot!(refused("local A = module(\"A\", \"x?\", \"y\")\n"), @r#"
@@ -332,7 +332,7 @@ fn a_module_is_declared_once_and_with_names() {
 #[test]
 fn a_system_tells_what_it_takes() {
     assert_snapshot!(refused("local s = lsystem({ objekt = turtle() })\n"), @r"
-    error: s.lua:1: lsystem has no field called objekt
+    error: s.lua:1: unknown field `objekt` in lsystem
       | local s = lsystem({ objekt = turtle() })
       help: did you mean object?
     ");
@@ -344,14 +344,14 @@ fn a_system_tells_what_it_takes() {
     assert_snapshot!(refused("local s = lsystem({ interpret = \"first\" })\n"), @r#"
     error: s.lua:1: lsystem: interpret must be "last"
       | local s = lsystem({ interpret = "first" })
-      help: leave it out to interpret after every step
+      help: omit it to interpret after every step
     "#);
     assert_snapshot!(refused("local s = lsystem({ seed = -1 })\n"), @r"
-    error: s.lua:1: lsystem: seed must be a whole number from 0
+    error: s.lua:1: lsystem: seed must be an integer of at least 0
       | local s = lsystem({ seed = -1 })
     ");
     assert_snapshot!(refused_rules("s:derives()"), @r"
-    error: s.lua:3: a system has no method called derives
+    error: s.lua:3: unknown method `derives` of a system
       | s:derives()
       help: did you mean derive?
     ");
@@ -362,11 +362,11 @@ fn a_system_tells_what_it_takes() {
     ");
     let said = refused_rules("s:axiom(3)");
     assert!(
-        said.starts_with("error: s.lua:") && said.contains(": an axiom is made of modules, but "),
+        said.starts_with("error: s.lua:") && said.contains(": an axiom must contain only modules, but "),
         "{said}"
     );
     assert_snapshot!(refused_rules("print(s:derive(0).chain)"), @r"
-    error: s.lua:3: a derived system has no field called chain
+    error: s.lua:3: unknown field `chain` of a derived system
       | print(s:derive(0).chain)
       help: did you mean chains?
     ");
@@ -377,13 +377,13 @@ fn derive_takes_a_whole_number_of_steps_from_0() {
     for steps in ["-1", "2.5", "0/0", "1/0", "true", "\"many\"", "{}"] {
         let said = refused(&format!("{HEAD}s:derive({steps})\n"));
         assert!(
-            said.starts_with("error: s.lua:3: derive takes a whole number of steps from 0, not "),
+            said.starts_with("error: s.lua:3: derive needs an integer number of steps of at least 0, not "),
             "{said}"
         );
     }
     assert_snapshot!(refused(&format!("{HEAD}s:derive(-1)\n")), @r"
-    error: s.lua:3: derive takes a whole number of steps from 0, not -1
+    error: s.lua:3: derive needs an integer number of steps of at least 0, not -1
       | s:derive(-1)
-      help: leave it out to derive until no rule applies
+      help: omit it to derive until no rule applies
     ");
 }

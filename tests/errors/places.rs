@@ -15,12 +15,12 @@ fn told(script: &str) -> (usize, String) {
 #[test]
 fn a_wrong_axiom_is_told_where_it_stands() {
     for (axiom, what) in [
-        ("s:axiom(A(1), \"B\")", "an axiom is made of modules, but one item is the string \"B\""),
-        ("s:axiom(A(1), { B(), { 5 } })", "an axiom is made of modules, but one item is the number 5"),
-        ("s:axiom(true)", "an axiom is made of modules, but one item is the boolean true"),
-        ("s:axiom(nil)", "an axiom is made of modules, but one item is nothing"),
-        ("s:axiom(A)", "an axiom is made of modules, but one item is a function"),
-        ("s:axiom(s)", "an axiom is made of modules, but one item is a userdata"),
+        ("s:axiom(A(1), \"B\")", "an axiom must contain only modules, but one item is the string \"B\""),
+        ("s:axiom(A(1), { B(), { 5 } })", "an axiom must contain only modules, but one item is the number 5"),
+        ("s:axiom(true)", "an axiom must contain only modules, but one item is the boolean true"),
+        ("s:axiom(nil)", "an axiom must contain only modules, but one item is nothing"),
+        ("s:axiom(A)", "an axiom must contain only modules, but one item is a function"),
+        ("s:axiom(s)", "an axiom must contain only modules, but one item is a userdata"),
         (
             "local t: any = {} t[1] = t s:axiom(t)",
             "branches are nested more than 200 deep, or a branch contains itself",
@@ -32,7 +32,7 @@ fn a_wrong_axiom_is_told_where_it_stands() {
         ("s:axiom(A({ [print] = 1 }))", "a table has a function as a key"),
         (
             "s:axiom(source({ {} }), function(feature) return 5 end)",
-            "an axiom is made of modules, but one item is the number 5",
+            "an axiom must contain only modules, but one item is the number 5",
         ),
     ] {
         let script = format!("{HEAD}\n{axiom}\nlocal x = 1\n\ns:derive(1)\n");
@@ -43,7 +43,7 @@ fn a_wrong_axiom_is_told_where_it_stands() {
 #[test]
 fn an_error_that_is_no_text_is_told_where_it_was_raised() {
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", function(this, x)\n  local y = x\n  error({})\nend)"), @r#"
-    error: s.lua:5: rule A(x): the script raised an error that is no text
+    error: s.lua:5: rule A(x): the script raised an error that is not a string
       | error({})
       module: A(1), step 1
       help: write error("what is wrong")
@@ -67,17 +67,19 @@ fn an_error_that_is_no_text_is_told_where_it_was_raised() {
             let rule = format!("s:rule(\"A(x)\", function(this, x)\n  local y = x\n  {call}\nend)");
             let said = refused_rules(&rule);
             assert!(
-                said.starts_with("error: s.lua:5: rule A(x): the script raised an error that is no text\n"),
+                said.starts_with(
+                    "error: s.lua:5: rule A(x): the script raised an error that is not a string\n"
+                ),
                 "{call}: {said}"
             );
         }
     }
     let (line, what) = told(&format!("{HEAD}local function f()\n  error({{}})\nend\n\nf()\n"));
-    assert_eq!((line, what.as_str()), (4, "the script raised an error that is no text"));
+    assert_eq!((line, what.as_str()), (4, "the script raised an error that is not a string"));
     let (line, what) = told(&format!(
         "{HEAD}s:rule(\"A(x)\", {{ when = function(this, x)\n  error({{}})\nend }}, function() return B() end)\ns:derive(1)\n"
     ));
-    assert_eq!((line, what.as_str()), (4, "rule A(x): the script raised an error that is no text"));
+    assert_eq!((line, what.as_str()), (4, "rule A(x): the script raised an error that is not a string"));
     let (line, _) =
         told(&format!("{HEAD}s:interpret(\"A(x)\", function(this, x)\n  error({{}})\nend)\ns:derive(1)\n"));
     assert_eq!(line, 4);
@@ -145,12 +147,12 @@ fn what_a_library_catches_is_raised_again_in_the_line_of_its_caller() {
         refused(&script)
     };
     assert_snapshot!(of("extruder", "error(made, 2)"), @r"
-    error: s.lua:10: extruder has no field called sidess
+    error: s.lua:10: unknown field `sidess` in extruder
       | return make({ sidess = 3 })
       help: did you mean sides?
     ");
     assert_snapshot!(of("extruder", "error(made, 3)"), @r"
-    error: s.lua:12: extruder has no field called sidess
+    error: s.lua:12: unknown field `sidess` in extruder
       | use()
       help: did you mean sides?
     ");
@@ -164,11 +166,11 @@ fn what_a_library_catches_is_raised_again_in_the_line_of_its_caller() {
     ");
     // A message with additional text is not changed.
     assert_snapshot!(of("extruder", "error(\"no: \" .. made, 2)"), @r"
-    error: s.lua:10: no: s.lua:2: extruder has no field called sidess
+    error: s.lua:10: no: s.lua:2: unknown field `sidess` in extruder
       | return make({ sidess = 3 })
     ");
     assert_snapshot!(of("extruder", "error(made, 0)"), @r"
-    error: s.lua:2: extruder has no field called sidess
+    error: s.lua:2: unknown field `sidess` in extruder
       | local is_made, made = pcall(extruder, ...)
       help: did you mean sides?
     ");
@@ -182,7 +184,7 @@ fn what_a_library_catches_is_raised_again_in_the_line_of_its_caller() {
          print(select(2, pcall(function()\n  make()\nend)))\n",
     );
     let said = folder.burgeon(&["run", "s.lua", "--json"]).done();
-    assert_eq!(said.stderr, "s.lua:6: extruder has no field called sidess\n");
+    assert_eq!(said.stderr, "s.lua:6: unknown field `sidess` in extruder\n");
 }
 
 #[test]

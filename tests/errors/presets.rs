@@ -54,39 +54,39 @@ fn a_preset_gives_parameters_and_seed_and_what_is_given_by_hand_wins() {
 #[test]
 fn an_unknown_preset_is_told_with_the_nearest_or_with_all() {
     assert_snapshot!(refused(PRESETS, &["--preset", "tal"]), @r"
-    error: tower.presets.json has no preset called tal
+    error: unknown preset `tal` in tower.presets.json
       help: did you mean tall?
     ");
     assert_snapshot!(refused(PRESETS, &["--preset", "wide"]), @r"
-    error: tower.presets.json has no preset called wide
+    error: unknown preset `wide` in tower.presets.json
       help: it has tall, other
     ");
     assert_snapshot!(Folder::new().with("tower.lua", SCRIPT).refuses(&["run", "tower.lua", "--preset", "tall"]), @r"
-    error: there is no preset tall, for there are none
-      help: write them into tower.presets.json, or save one: burgeon run --save-preset NAME
+    error: unknown preset `tall`: the script has no presets
+      help: write presets into tower.presets.json, or save one: burgeon run --save-preset NAME
     ");
     assert_snapshot!(Folder::new().refuses(&["run", "tower.lua", "--preset", "tall"]), @r"
-    error: there is no script tower.lua
-      help: check the path, or make one: burgeon new NAME
+    error: script not found: tower.lua
+      help: check the path, or create a script: burgeon new NAME
     ");
 }
 
 #[test]
 fn a_preset_that_does_not_fit_the_script_any_more_is_told_with_its_line() {
     assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\"flors\": 60 } } }", &["--preset", "tall"]), @r#"
-    error: tower.presets.json:2: preset tall sets flors, but tower.lua has no parameter called flors
+    error: tower.presets.json:2: preset tall sets the unknown parameter `flors` of tower.lua
       | "flors": 60 } } }
       help: did you mean floors?
     "#);
     assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\"wings\": 2 } } }", &["--preset", "tall"]), @r#"
-    error: tower.presets.json:2: preset tall sets wings, but tower.lua has no parameter called wings
+    error: tower.presets.json:2: preset tall sets the unknown parameter `wings` of tower.lua
       | "wings": 2 } } }
       help: remove wings from the preset, or declare it again: param("wings", ...)
     "#);
     assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\"floors\": 100 } } }", &["--preset", "tall"]), @r#"
     error: tower.presets.json:2: preset tall: param floors is 100, out of its range
       | "floors": 100 } } }
-      help: it goes from 1 to 90; change the preset
+      help: the allowed values are 1 to 90; change the preset
     "#);
     assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\"lit\": \"maybe\" } } }", &["--preset", "tall"]), @r#"
     error: tower.presets.json:2: preset tall: param lit must be true or false, not "maybe"
@@ -94,7 +94,7 @@ fn a_preset_that_does_not_fit_the_script_any_more_is_told_with_its_line() {
       help: its default is false; change the preset
     "#);
     assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\"kind\": \"c\" } } }", &["--preset", "tall"]), @r#"
-    error: tower.presets.json:2: preset tall: param kind is "c", which is no choice
+    error: tower.presets.json:2: preset tall: param kind is "c", which is not one of the choices
       | "kind": "c" } } }
       help: choose one of a, b; change the preset
     "#);
@@ -107,7 +107,7 @@ fn a_broken_file_is_told_with_its_line_and_kept() {
     assert_eq!(said, refused(broken, &["--save-preset", "tall"]));
     assert_snapshot!(said, @r"
     error: tower.presets.json:3: this is not JSON: EOF while parsing an object
-      help: mend the file, or move it away
+      help: fix the file, or move it away
     ");
 }
 
@@ -151,6 +151,6 @@ fn a_run_that_fails_saves_nothing() {
     assert!(said.contains("out of its range"), "{said}");
     assert_snapshot!(refused(PRESETS, &["--save-preset", " "]), @r#"
     error: " " cannot be the name of a preset
-      help: use 1 to 80 characters, without line breaks and bidirectional controls, and no space at the beginning or the end
+      help: use 1 to 80 characters, without line breaks, bidirectional controls, and spaces at the beginning or the end
     "#);
 }

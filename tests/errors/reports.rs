@@ -89,9 +89,9 @@ s:derive()
 "#;
     let said = Folder::new().with("s.lua", script).burgeon(&["run", "s.lua", "--report", "-"]).done();
     insta::assert_snapshot!(said.stdout, @r#"
-    {"features":3,"skipped":0,"simplified":2,"counts":{"a hole outside the outer ring left out":1,"loops of the outer ring left out":1},"remarks":[
-    {"source":"","feature":"hourglass","done":"simplified","what":"loops of the outer ring left out","why":"edges 1-2 and 3-4 of the outer ring of the footprint meet at (4.000, 4.000)"},
-    {"source":"","feature":"hole","done":"simplified","what":"a hole outside the outer ring left out","why":"hole 1 of the footprint is outside the outer ring: it begins at (9.000, 9.000)"}
+    {"features":3,"skipped":0,"simplified":2,"counts":{"a hole outside the outer ring removed":1,"loops of the outer ring removed":1},"remarks":[
+    {"source":"","feature":"hourglass","done":"simplified","what":"loops of the outer ring removed","why":"edges 1-2 and 3-4 of the outer ring of the footprint meet at (4.000, 4.000)"},
+    {"source":"","feature":"hole","done":"simplified","what":"a hole outside the outer ring removed","why":"hole 1 of the footprint is outside the outer ring: it begins at (9.000, 9.000)"}
     ]}
     "#);
     assert!(said.stderr.ends_with("2 of 3 features simplified\n"), "{}", said.stderr);
@@ -139,5 +139,5 @@ fn a_report_that_cannot_be_written_is_refused_before_the_run() {
     let said = folder.refuses(&["run", "s.lua", "--report", "s.lua"]);
     assert!(said.contains("the report would overwrite the script"), "{said}");
     let said = folder.refuses(&["run", "s.lua", "--report", "none/report.json"]);
-    assert!(said.contains("there is no folder none"), "{said}");
+    assert!(said.contains("folder not found: none"), "{said}");
 }

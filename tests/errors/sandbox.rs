@@ -298,10 +298,10 @@ s:derive(1)
     assert_eq!(said.status, 1);
     assert_decent(&said.stderr);
     insta::assert_snapshot!(said.stderr, @r"
-    false	s.lua:4: turtle has no field called wdth
+    false	s.lua:4: unknown field `wdth` in turtle
     false	s.lua:5: B has no parameters, not 1
-    false	!s.lua:6: turtle has no field called wdth
-    false	s.lua:7: turtle has no field called wdth
+    false	!s.lua:6: unknown field `wdth` in turtle
+    false	s.lua:7: unknown field `wdth` in turtle
     4	false	table
     error: s.lua:10: rule A(x): turtle:distance: place must be a vector: { x, y, z } or vec(x, y, z), not nothing
       | local done, cause = pcall(function() this:distance() end)

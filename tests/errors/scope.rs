@@ -7,19 +7,19 @@ use crate::support::{Folder, HEAD, chain, printed, refused, refused_rules};
 #[test]
 fn a_rule_cannot_assign_a_captured_variable() {
     assert_snapshot!(refused_rules("local n = 0\ns:rule(\"A(x)\", function(this, x)\n  n = n + 1\n  return A(n)\nend)"), @r"
-    error: s.lua:5: rule A(x): a rule assigns n, a variable from outside it
+    error: s.lua:5: rule A(x): a rule assigns n, a variable declared outside
       | n = n + 1
-      help: carry it in a parameter of a module; to change the object, use an interpretation rule
+      help: pass it in a parameter of a module; to change the object, use an interpretation rule
     ");
     assert_snapshot!(refused_rules("local n = 0\ns:rule(\"A(x)\", function(this, x)\n  local function add() n += 1 end\n  add()\n  return A(n)\nend)"), @r"
-    error: s.lua:5: rule A(x): a rule assigns n, a variable from outside it
+    error: s.lua:5: rule A(x): a rule assigns n, a variable declared outside
       | local function add() n += 1 end
-      help: carry it in a parameter of a module; to change the object, use an interpretation rule
+      help: pass it in a parameter of a module; to change the object, use an interpretation rule
     ");
     assert_snapshot!(refused_rules("local f\ns:rule(\"A(x)\", function(this, x)\n  function f() end\n  return A(x)\nend)"), @r"
-    error: s.lua:5: rule A(x): a rule assigns f, a variable from outside it
+    error: s.lua:5: rule A(x): a rule assigns f, a variable declared outside
       | function f() end
-      help: carry it in a parameter of a module; to change the object, use an interpretation rule
+      help: pass it in a parameter of a module; to change the object, use an interpretation rule
     ");
 }
 
@@ -28,9 +28,9 @@ fn a_guard_cannot_assign_a_captured_variable() {
     assert_snapshot!(
         refused_rules("local n = 0\ns:rule(\"A(x)\", { when = function(this, x)\n  n = n + 1\n  return n > 3\nend }, function() return B() end)"),
         @r"
-        error: s.lua:5: rule A(x): a guard assigns n, a variable from outside it
+        error: s.lua:5: rule A(x): a guard assigns n, a variable declared outside
           | n = n + 1
-          help: carry it in a parameter of a module; to change the object, use an interpretation rule
+          help: pass it in a parameter of a module; to change the object, use an interpretation rule
         "
     );
 }
@@ -38,27 +38,27 @@ fn a_guard_cannot_assign_a_captured_variable() {
 #[test]
 fn an_interpretation_cannot_assign_a_captured_variable() {
     assert_snapshot!(refused_rules("local n = 0\ns:interpret(\"A(x)\", function(this, x)\n  n = n + 1\nend)"), @r"
-    error: s.lua:5: rule A(x) (interpretation): an interpretation rule assigns n, a variable from outside it
+    error: s.lua:5: rule A(x) (interpretation): an interpretation rule assigns n, a variable declared outside
       | n = n + 1
-      help: it changes only this; keep what must be remembered in a parameter of a module
+      help: it can change only `this`; keep values in a parameter of a module
     ");
     assert_snapshot!(refused_rules("local n = 0\nlocal function add() n = n + 1 end\ns:interpret(\"A(x)\", function(this, x)\n  add()\nend)"), @r"
-    error: s.lua:4: rule A(x) (interpretation): an interpretation rule assigns n, a variable from outside it
+    error: s.lua:4: rule A(x) (interpretation): an interpretation rule assigns n, a variable declared outside
       | local function add() n = n + 1 end
       module: A(1), step 0
-      help: a rule writes only its own locals; carry it in a parameter of a module
+      help: a rule can assign only its own locals; pass it in a parameter of a module
     ");
 }
 
 #[test]
 fn a_rule_cannot_assign_a_global() {
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", function(this, x)\n  count = 1\n  return A(x)\nend)"), @r"
-    error: s.lua:4: rule A(x): count is assigned, but it is no local variable
+    error: s.lua:4: rule A(x): cannot assign count: it is not a local variable
       | count = 1
-      help: a rule writes only its own locals; declare it inside: local ..., or use an interpretation rule to change the object
+      help: a rule can assign only its own locals; declare it inside: local ..., or use an interpretation rule to change the object
     ");
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", function(this, x)\n  print = nil\n  return A(x)\nend)"), @r"
-    error: s.lua:4: rule A(x): print is Burgeon's own and cannot be assigned
+    error: s.lua:4: rule A(x): cannot assign print: it is built in
       | print = nil
       help: choose another name: local ...
     ");
@@ -69,10 +69,10 @@ fn a_rule_cannot_assign_through_a_helper() {
     assert_snapshot!(
         refused_rules("local n = 0\nlocal function count()\n  n = n + 1\n  return n\nend\ns:rule(\"A(x)\", function(this, x)\n  return A(count())\nend)"),
         @r"
-        error: s.lua:5: rule A(x): a rule assigns n, a variable from outside it
+        error: s.lua:5: rule A(x): a rule assigns n, a variable declared outside
           | n = n + 1
           module: A(1), step 1
-          help: a rule writes only its own locals; carry it in a parameter of a module
+          help: a rule can assign only its own locals; pass it in a parameter of a module
         "
     );
 }
@@ -82,10 +82,10 @@ fn a_rule_cannot_count_with_a_closure_that_a_factory_made() {
     assert_snapshot!(
         refused_rules("local function counter()\n  local n = 0\n  return function()\n    n = n + 1\n    return n\n  end\nend\nlocal count = counter()\ns:rule(\"A(x)\", function(this, x)\n  return A(count())\nend)"),
         @r"
-        error: s.lua:6: rule A(x): a rule assigns n, a variable from outside it
+        error: s.lua:6: rule A(x): a rule assigns n, a variable declared outside
           | n = n + 1
           module: A(1), step 1
-          help: a rule writes only its own locals; carry it in a parameter of a module
+          help: a rule can assign only its own locals; pass it in a parameter of a module
         "
     );
 }
@@ -95,10 +95,10 @@ fn a_rule_that_is_declared_later_is_guarded_too() {
     assert_snapshot!(
         refused_rules("local n = 0\nlocal function successor(this, x)\n  n = n + 1\n  return A(n)\nend\ns:rule(\"A(x)\", successor)"),
         @r"
-        error: s.lua:5: rule A(x): a rule assigns n, a variable from outside it
+        error: s.lua:5: rule A(x): a rule assigns n, a variable declared outside
           | n = n + 1
           module: A(1), step 1
-          help: a rule writes only its own locals; carry it in a parameter of a module
+          help: a rule can assign only its own locals; pass it in a parameter of a module
         "
     );
 }
@@ -109,7 +109,7 @@ fn a_rule_cannot_write_into_a_captured_table() {
     error: s.lua:5: rule A(x): attempt to modify a readonly table
       | t.n = t.n + 1
       module: A(1), step 1
-      help: the library is read-only, and so are tables from outside a rule while rules run; make a new table, or use table.clone
+      help: the library is read-only, and while rules run, so are tables from outside the rule; create a new table, or use table.clone
     ");
     for write in [
         "rawset(t, \"n\", 1)",
@@ -183,7 +183,7 @@ fn what_remembers_from_one_module_to_the_next_is_refused() {
 #[test]
 fn a_rule_cannot_call_a_changing_method() {
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", function(this, x)\n  this:forward(1)\n  return A(x)\nend)"), @r"
-    error: s.lua:4: rule A(x): turtle:forward changes the object, so a rule cannot call it
+    error: s.lua:4: rule A(x): turtle:forward is a write method, so a rule cannot call it
       | this:forward(1)
       module: A(1), step 1
       help: use an interpretation rule: system:interpret(pattern, function(this, ...) ... end)
@@ -191,26 +191,26 @@ fn a_rule_cannot_call_a_changing_method() {
     assert_snapshot!(
         refused_rules("s:rule(\"A(x)\", { when = function(this, x)\n  this:width(2)\n  return true\nend }, function() return B() end)"),
         @r"
-        error: s.lua:4: rule A(x): turtle:width changes the object, so a rule cannot call it
+        error: s.lua:4: rule A(x): turtle:width is a write method, so a rule cannot call it
           | this:width(2)
           module: A(1), step 1
           help: use an interpretation rule: system:interpret(pattern, function(this, ...) ... end)
         "
     );
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", function(this, x)\n  this:color(\"#ff0000\")\n  return A(x)\nend)"), @r##"
-    error: s.lua:4: rule A(x): turtle:color changes the object, so a rule cannot call it
+    error: s.lua:4: rule A(x): turtle:color is a write method, so a rule cannot call it
       | this:color("#ff0000")
       module: A(1), step 1
       help: use an interpretation rule: system:interpret(pattern, function(this, ...) ... end)
     "##);
     assert_snapshot!(refused_rules("local t = turtle()\ns:rule(\"A(x)\", function(this, x)\n  t:forward(1)\n  return A(x)\nend)"), @r"
-    error: s.lua:5: rule A(x): turtle:forward changes the object, so a rule cannot call it
+    error: s.lua:5: rule A(x): turtle:forward is a write method, so a rule cannot call it
       | t:forward(1)
       module: A(1), step 1
       help: use an interpretation rule: system:interpret(pattern, function(this, ...) ... end)
     ");
     assert_snapshot!(refused_rules("local t = turtle()\nt:forward(1)"), @r"
-    error: s.lua:4: turtle:forward changes the object, and only interpretation rules may
+    error: s.lua:4: turtle:forward is a write method, so only interpretation rules can call it
       | t:forward(1)
       help: use system:interpret(pattern, function(this, ...) ... end)
     ");
@@ -223,13 +223,13 @@ fn a_rule_cannot_call_a_changing_method() {
     assert_snapshot!(refused_rules("local t = turtle()\nt.width = 3"), @r"
     error: s.lua:4: width of a turtle cannot be assigned
       | t.width = 3
-      help: its fields are given when it is made: turtle { width = ... }
+      help: set fields in the constructor: turtle { width = ... }
     ");
     assert_snapshot!(refused_rules("s:interpret(\"A(x)\", function(this, x)\n  this.width = 3\nend)"), @r"
     error: s.lua:4: rule A(x) (interpretation): attempt to modify a readonly table
       | this.width = 3
       module: A(1), step 0
-      help: the library is read-only, and so are tables from outside a rule while rules run; make a new table, or use table.clone
+      help: the library is read-only, and while rules run, so are tables from outside the rule; create a new table, or use table.clone
     ");
 }
 
@@ -245,10 +245,10 @@ fn a_guard_draws_no_random_numbers() {
     assert_snapshot!(
         refused_rules("s:rule(\"A(x)\", { when = function(this, x)\n  return random() > 0.5\nend }, function() return B() end)"),
         @r"
-        error: s.lua:4: rule A(x): a guard draws no random numbers
+        error: s.lua:4: rule A(x): a guard cannot use random numbers
           | return random() > 0.5
           module: A(1), step 1
-          help: draw in the successor, or give the rules weights: { weight = 2 }
+          help: call random in the successor, or set the weights of the rules: { weight = 2 }
         "
     );
 }

@@ -53,13 +53,13 @@ fn settings_keep_their_comments_and_what_is_no_json_is_not_touched() {
     let folder = Folder::new().with(".luaurc", "{ \"languageMode\" }");
     let said = folder.burgeon(&["setup"]).failed();
     assert!(
-        said.starts_with("error: ./.luaurc is no JSON, so nothing was written: line 1 is not JSON"),
+        said.starts_with("error: ./.luaurc is not JSON, so nothing was written: line 1 is not JSON"),
         "{said}"
     );
     assert_eq!(folder.files().len(), 1);
     assert_snapshot!(folder.burgeon(&["setup", "nowhere"]).failed(), @r"
-    error: there is no folder nowhere
-      help: make the folder first
+    error: folder not found: nowhere
+      help: create the folder first
     ");
 }
 

@@ -143,7 +143,7 @@ fn what_remembers_and_cannot_be_frozen_is_refused_wherever_it_is() {
                  s:rule(\"A\", function() {write} return B({read}) end)\ns:derive(1)\n"
             );
             let error = chain(&Folder::new().with("s.lua", &script)).expect_err(&script);
-            assert!(error.contains("which remembers from one module to the next"), "{error}\n{script}");
+            assert!(error.contains("which keeps state from one module to the next"), "{error}\n{script}");
         }
     }
 }
@@ -180,7 +180,7 @@ fn what_a_package_returns_is_changed_by_nobody_however_it_is_reached() {
             .with("mods/castle/towers.lua", format!("return {value}\n"))
             .with("s.lua", "require(\"@castle/towers\")");
         insta::allow_duplicates! {
-            insta::assert_snapshot!(folder.refuses(&["run", "s.lua"]).lines().next().unwrap(), @"error: mods/castle/towers.lua:1: the package castle gives a buffer, which everybody who uses it could change for the others");
+            insta::assert_snapshot!(folder.refuses(&["run", "s.lua"]).lines().next().unwrap(), @"error: mods/castle/towers.lua:1: the package castle returns a buffer, which one user could change for all others");
         }
     }
 }
@@ -222,7 +222,7 @@ fn state_that_cannot_be_kept_is_told_of_where_it_is_assigned() {
             "n of the state of lamp cannot be a table with the boolean true for a key",
         ),
         ("self.n = F(1)", "n of the state of lamp cannot be a module"),
-        ("self.pen = extruder()", "lamp has no state called pen"),
+        ("self.pen = extruder()", "lamp: unknown state variable `pen`"),
         ("self.held = extruder()", "held of lamp is an object, which nothing replaces"),
         ("self.n = extruder() self.n:extrude(1)", "extruder:extrude changes an object that was made here"),
     ] {
@@ -231,16 +231,16 @@ fn state_that_cannot_be_kept_is_told_of_where_it_is_assigned() {
         assert!(error.contains(what) && error.contains("help: "), "{assignment}: {error}");
     }
     insta::assert_snapshot!(kept("self.pen = extruder()"), @r"
-    error: s.lua:4: rule A (interpretation): lamp has no state called pen
+    error: s.lua:4: rule A (interpretation): lamp: unknown state variable `pen`
       | self.pen = extruder()
       module: A, step 0
-      help: declare what it draws with: state = { pen = extruder() }, and call its methods: self.pen:...
+      help: declare the child object: state = { pen = extruder() }, and call its methods: self.pen:...
     ");
     insta::assert_snapshot!(kept("self.n = f"), @r"
     error: s.lua:4: rule A (interpretation): n of the state of lamp cannot be a function
       | self.n = f
       module: A, step 0
-      help: state is numbers, booleans, strings, tables of these, and objects
+      help: a state variable is a number, a boolean, a string, a table of these, or an object
     ");
     insta::assert_snapshot!(kept("self.n = extruder() self.n:extrude(1)"), @r"
     error: s.lua:4: rule A (interpretation): extruder:extrude changes an object that was made here, and nothing is drawn with it

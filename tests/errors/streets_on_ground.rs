@@ -29,7 +29,7 @@ local roads = lsystem({{
 }})
 roads:axiom(Tip(1, 10, 0), Tip(1, 100, 0), Tip(1, 190, 0))
 roads:rule("Tip(junction, heading, depth)", function(this, junction, heading, depth)
-  local at = this:reached(junction, heading)
+  local at = this:open_end(junction, heading)
   if not at then
     return nil
   end
@@ -79,24 +79,24 @@ fn streets_that_cut_deep_into_the_ground_are_told() {
     let warnings = warned(&[&on_hills(3, "max_slope = 1", "")]);
     let told = warnings.lines().find(|line| line.starts_with("warning")).unwrap_or_default();
     assert_snapshot!(told, @r"
-    warning: s.lua:4: network: 37 of 59 pieces of streets lie more than 8 m above or below the ground, up to 21.6 m, so that none is steeper than max_slope = 1 %
+    warning: s.lua:4: network: 37 of 59 street segments are more than 8 m above or below the ground, up to 21.6 m, to keep max_slope = 1 %
     ");
 }
 
 #[test]
 fn ground_that_is_shown_without_its_streets_is_told() {
     let is_told =
-        |script: &str| warned(&[script]).contains("the ground is shown as it was without the streets");
+        |script: &str| warned(&[script]).contains("the visible terrain is not adapted to the streets");
     let script = on_hills(3, "max_slope = 9", "");
     assert!(!is_told(&script), "{script}");
-    let shown = script.replace("shown = roads ~= nil", "shown = true");
+    let shown = script.replace("visible = roads ~= nil", "visible = true");
     assert!(shown != script && is_told(&shown), "{script}");
 }
 
 #[test]
 fn streets_beyond_their_ground_are_refused() {
     assert_snapshot!(refused(&grown("on = 3", "")), @r"
-    error: s.lua:2: network: on must be a terrain that was derived: land:derive().objects[1], not 3
+    error: s.lua:2: network: on must be a derived terrain: land:derive().objects[1], not 3
       | local s = lsystem({ object = network({ on = 3 }) })
     ");
     assert_snapshot!(refused(&grown("max_slope = 0", "")), @r"
@@ -105,8 +105,8 @@ fn streets_beyond_their_ground_are_refused() {
     ");
     let land = "local land = lsystem({ object = terrain({ size = 64, levels = 4, rules = { A = { \"A\", \"A\", \"A\", \"A\" } } }) }):derive().objects[1]\n";
     assert_snapshot!(refused(&format!("{land}{}", grown("on = land", "this:grow(1, 0, 200, 0)"))), @r"
-    error: s.lua:3: network: on: there is no ground at (200.0, 0.0), where a street is
+    error: s.lua:3: network: on: the terrain has no ground at (200.0, 0.0), below a street
       | local s = lsystem({ object = network({ on = land }) })
-      help: make the terrain greater, derive it before, or keep streets on it: network { limit = ... }
+      help: enlarge the terrain, derive it before, or keep streets on it: network { limit = ... }
     ");
 }

@@ -60,7 +60,7 @@ fn a_branch_is_a_list_that_does_not_contain_itself() {
     error: s.lua:4: rule A(x): branches are nested more than 200 deep, or a branch contains itself
       | local t = {} t[1] = t return t
       module: A(1), step 1
-      help: let a rule make the rest: each step adds to what is there
+      help: use a rule to add the rest step by step
     ");
     assert_snapshot!(successor("return B(), { n = B() }"), @r"
     error: s.lua:4: rule A(x): a branch is a list of modules, but this one has the field n
@@ -83,7 +83,7 @@ fn a_branch_is_a_list_that_does_not_contain_itself() {
     assert_snapshot!(refused_rules("local t = { B() } t[2] = t\ns:axiom(t)"), @r"
     error: s.lua:4: branches are nested more than 200 deep, or a branch contains itself
       | s:axiom(t)
-      help: let a rule make the rest: each step adds to what is there
+      help: use a rule to add the rest step by step
     ");
 }
 
@@ -121,7 +121,7 @@ fn a_parameter_is_data() {
     error: s.lua:4: rule A(x): a table has a table as a key
       | return A({ [{}] = 1 })
       module: A(1), step 1
-      help: keys of such tables are names or whole numbers
+      help: use names or integers as keys
     ");
     assert_snapshot!(refused_rules("s:axiom(A(B()))"), @r"
     error: s.lua:3: x of A cannot be a module
@@ -143,7 +143,7 @@ fn a_table_that_travels_in_a_module_is_frozen() {
         error: s.lua:5: rule A(x): attempt to modify a readonly table
           | x.n = 2
           module: A({n=1}), step 1
-          help: the library is read-only, and so are tables from outside a rule while rules run; make a new table, or use table.clone
+          help: the library is read-only, and while rules run, so are tables from outside the rule; create a new table, or use table.clone
         "
     );
     assert_snapshot!(
@@ -152,7 +152,7 @@ fn a_table_that_travels_in_a_module_is_frozen() {
         error: s.lua:6: rule A(x): attempt to modify a readonly table
           | t.n = 2
           module: A(1), step 1
-          help: the library is read-only, and so are tables from outside a rule while rules run; make a new table, or use table.clone
+          help: the library is read-only, and while rules run, so are tables from outside the rule; create a new table, or use table.clone
         "
     );
 }
@@ -194,7 +194,7 @@ fn a_length_that_is_no_finite_number_is_refused_by_turtle_and_extruder() {
 #[test]
 fn a_constructor_refuses_unknown_fields_and_wrong_types() {
     assert_snapshot!(refused("local t = turtle({ wdth = 3 })\n"), @r"
-    error: s.lua:1: turtle has no field called wdth
+    error: s.lua:1: unknown field `wdth` in turtle
       | local t = turtle({ wdth = 3 })
       help: did you mean width?
     ");
@@ -207,7 +207,7 @@ fn a_constructor_refuses_unknown_fields_and_wrong_types() {
       | local t = turtle({ sides = 2 })
     ");
     assert_snapshot!(refused("local t = turtle({ sides = 2.5 })\n"), @r"
-    error: s.lua:1: turtle: sides must be a whole number from 0, not 2.5
+    error: s.lua:1: turtle: sides must be an integer of at least 0, not 2.5
       | local t = turtle({ sides = 2.5 })
     ");
     assert_snapshot!(refused("local t = turtle({ color = \"rd\" })\n"), @r##"
@@ -219,7 +219,7 @@ fn a_constructor_refuses_unknown_fields_and_wrong_types() {
       | local t = turtle({ heading = { 1 } })
     "##);
     assert_snapshot!(refused("local t = turtle({ 3 })\n"), @r"
-    error: s.lua:1: turtle takes named fields, but was given 3 without a name
+    error: s.lua:1: turtle needs named fields, but 3 has no name
       | local t = turtle({ 3 })
       help: write turtle { step = 3 }
     ");
@@ -234,7 +234,7 @@ fn a_method_tells_what_it_takes() {
     let interpreted =
         |call: &str| refused_rules(&format!("s:interpret(\"A(x)\", function(this, x)\n  {call}\nend)"));
     assert_snapshot!(interpreted("this:foward(1)"), @r"
-    error: s.lua:4: rule A(x) (interpretation): turtle has no method or field called foward
+    error: s.lua:4: rule A(x) (interpretation): unknown method or field `foward` of turtle
       | this:foward(1)
       module: A(1), step 0
       help: did you mean forward?
@@ -255,7 +255,7 @@ fn a_method_tells_what_it_takes() {
       module: A(1), step 0
     "#);
     assert_snapshot!(interpreted("this:width(-1)"), @r#"
-    error: s.lua:4: rule A(x) (interpretation): turtle:width: width must not be negative, and is -1
+    error: s.lua:4: rule A(x) (interpretation): turtle:width: width must be at least 0, not -1
       | this:width(-1)
       module: A(1), step 0
     "#);
@@ -275,7 +275,7 @@ fn a_method_tells_what_it_takes() {
       module: A(1), step 0
     ");
     assert_snapshot!(interpreted("this:end_polygon()"), @r#"
-    error: s.lua:4: rule A(x) (interpretation): turtle:end_polygon: no polygon has been begun
+    error: s.lua:4: rule A(x) (interpretation): turtle:end_polygon: no polygon is open
       | this:end_polygon()
       module: A(1), step 0
       help: begin it with BeginPolygon()

@@ -61,9 +61,9 @@ print(nothing)"#,
         error: s.lua:4: rule A(x): unknown name Bogus
           | s:rule("A(x)", function(this, x) return A(1, 2), Bogus() end)
           help: declare it as a module: local Bogus = module("Bogus")
-        error: s.lua:5: rule B (interpretation): count is assigned, but it is no local variable
+        error: s.lua:5: rule B (interpretation): cannot assign count: it is not a local variable
           | s:interpret("B", function(this) count = 1 end)
-          help: a rule writes only its own locals; declare it inside: local ..., or use an interpretation rule to change the object
+          help: a rule can assign only its own locals; declare it inside: local ..., or use an interpretation rule to change the object
         error: s.lua:6: unknown name flors
           | local unused = flors
           help: declare it: local flors = ...
@@ -105,10 +105,10 @@ s:derive(1)
     error: s.lua:6: rule B (interpretation): unknown name unknown
       | s:interpret("B", function(this) return unknown end)
       help: declare it: local unknown = ...
-    error: s.lua:7: rule A(x): the successor takes 3 parameters, but the pattern gives 2
+    error: s.lua:7: rule A(x): the successor has 3 parameters, but the pattern has 2
       | s:rule("A(x)", function(this, x, y) return B() end)
       help: write function(this, x)
-    error: s.lua:8: rule A(x): a rule has no option called wen
+    error: s.lua:8: rule A(x): unknown option `wen` of a rule
       | s:rule("A(x)", { wen = 3 }, function(this, x) return A(1) end)
       help: did you mean when?
     "#);
@@ -119,16 +119,16 @@ fn names_of_lua_that_scripts_do_not_have_come_with_a_remedy() {
     assert_snapshot!(refused("print(os.time())\nlocal x = math.random(6)\nloadstring(\"x = 1\")()\n_G.x = 1\n"), @r#"
     error: s.lua:1: unknown name os
       | print(os.time())
-      help: scripts reach no files, clock or programs; other scripts in the folder come in with require
+      help: scripts cannot use files, the clock or programs; load other scripts of the folder with require
     error: s.lua:2: unknown name math.random
       | local x = math.random(6)
-      help: write random() or random(low, high), which follow the seed and the module
+      help: write random() or random(low, high), which depend on the seed and the module
     error: s.lua:3: unknown name loadstring
       | loadstring("x = 1")()
-      help: scripts do not compile text; a successor may be given as a string
+      help: scripts cannot compile text; a successor can be a string
     error: s.lua:4: unknown name _G
       | _G.x = 1
-      help: there are no globals to change; pass values on as parameters or with require
+      help: globals cannot be changed; pass values as parameters or with require
     "#);
 }
 
@@ -152,33 +152,33 @@ fn names_of_the_engine_cannot_be_used_or_declared() {
         assert!(said.contains(&format!("error: s.lua:{line}: unknown name {name}\n")), "{said}");
     }
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", function(this, x) local __done = nil return A(x) end)"), @r#"
-    error: s.lua:3: rule A(x): a variable cannot be called __done
+    error: s.lua:3: rule A(x): a variable cannot be named __done
       | s:rule("A(x)", function(this, x) local __done = nil return A(x) end)
-      help: names that begin with two underscores are Burgeon's own
+      help: names that begin with two underscores are reserved
     "#);
     assert_snapshot!(refused("local function __guard() end\n"), @r"
-    error: s.lua:1: a variable cannot be called __guard
+    error: s.lua:1: a variable cannot be named __guard
       | local function __guard() end
-      help: names that begin with two underscores are Burgeon's own
+      help: names that begin with two underscores are reserved
     ");
 }
 
 #[test]
 fn what_burgeon_gives_cannot_be_assigned() {
     assert_snapshot!(refused("random = function() return 4 end\n"), @r"
-    error: s.lua:1: random is Burgeon's own and cannot be assigned
+    error: s.lua:1: cannot assign random: it is built in
       | random = function() return 4 end
       help: choose another name: local ...
     ");
     assert_snapshot!(refused("Turn = nil\n"), @r"
-    error: s.lua:1: Turn is Burgeon's own and cannot be assigned
+    error: s.lua:1: cannot assign Turn: it is built in
       | Turn = nil
       help: choose another name: local ...
     ");
     assert_snapshot!(refused("local a = 1\nb = a\n"), @r"
-    error: s.lua:2: b is assigned, but it is no local variable
+    error: s.lua:2: cannot assign b: it is not a local variable
       | b = a
-      help: scripts have no globals of their own; write: local b = ...
+      help: scripts cannot define globals; write local b = ...
     ");
 }
 
@@ -187,9 +187,9 @@ fn syntax_that_only_luau_knows_does_not_switch_the_checks_off() {
     assert_snapshot!(
         refused_rules("@[native] local function f() end\nlocal n = 0\ns:rule(\"A(x)\", function(this, x) n += 1 return A(n) end)"),
         @r"
-        error: s.lua:3: this part of Luau's syntax is not known to Burgeon
+        error: s.lua:3: Burgeon does not support this Luau syntax
           | @[native] local function f() end
-          help: write it in another way; attributes in brackets, such as @[native], are not needed
+          help: write it differently; attributes in brackets, such as @[native], are not needed
         "
     );
 }

@@ -28,7 +28,7 @@ fn rule_tables_are_checked_whole() {
         "rules = 7",
     ]), @r##"
     size = 100
-    error: s.lua:1: terrain: there are no rules
+    error: s.lua:1: terrain: missing rules
       | local land = lsystem({ object = terrain({ size = 100 }) })
       help: write rules = { A = { "A", "A", "A", "A", change = { 1, -1, 0.5, -0.5 }, decay = 0.5 } }
 
@@ -37,7 +37,7 @@ fn rule_tables_are_checked_whole() {
       | local land = lsystem({ object = terrain({ rules = { A = { "A", "A", "A" } } }) })
 
     rules = { Hill = { "Hill", "Hil", "Hill", "Hill" } }
-    error: s.lua:1: terrain: rules must be a table with a rule for each symbol: the rule for Hill has Hil, which has none (did you mean Hill?), not {Hill={"Hill","Hil","Hill","Hill"}}
+    error: s.lua:1: terrain: rules must be a table with a rule for each symbol: the rule for Hill has the unknown symbol Hil (did you mean Hill?), not {Hill={"Hill","Hil","Hill","Hill"}}
       | local land = lsystem({ object = terrain({ rules = { Hill = { "Hill", "Hil", "Hill", "Hill" } } }) })
 
     rules = { A = { "A", "A", "A", "A", chance = 1 } }
@@ -45,20 +45,20 @@ fn rule_tables_are_checked_whole() {
       | local land = lsystem({ object = terrain({ rules = { A = { "A", "A", "A", "A", chance = 1 } } }) })
 
     rules = { A = { "A", "A", "A", "A", change = { 1, 2 } } }
-    error: s.lua:1: terrain: rules must be a table whose rule for A has change as a number, or one or a range { least, greatest } for each quadrant, not {A={"A","A","A","A",change={1,2}}}
+    error: s.lua:1: terrain: rules must be a table whose rule for A has change as a number, or a number or a range { min, max } for each quadrant, not {A={"A","A","A","A",change={1,2}}}
       | local land = lsystem({ object = terrain({ rules = { A = { "A", "A", "A", "A", change = { 1, 2 } } } }) })
 
     rules = { A = { "A", "A", "A", "A", change = { 1, 2, 3, { 5, 4 } } } }
-    error: s.lua:1: terrain: rules must be a table whose rule for A has change as a number, or one or a range { least, greatest } for each quadrant, not a table
+    error: s.lua:1: terrain: rules must be a table whose rule for A has change as a number, or a number or a range { min, max } for each quadrant, not a table
       | local land = lsystem({ object = terrain({ rules = { A = { "A", "A", "A", "A", change = { 1, 2, 3, { 5, 4 } } } } }) })
 
     rules = { A = { "A", "A", "A", "A" } }, start = "B"
-    error: s.lua:1: terrain: there is no rule for B, the start
+    error: s.lua:1: terrain: no rule for the start symbol B
       | local land = lsystem({ object = terrain({ rules = { A = { "A", "A", "A", "A" } }, start = "B" }) })
-      help: there are A
+      help: use A
 
     rules = { { from = 2, rules = { A = { "A", "A", "A", "A" } } } }
-    error: s.lua:1: terrain: rules must be a list of rules from level 0 on and then from higher levels, in order, not {{from=2,rules={A={"A","A","A","A"}}}}
+    error: s.lua:1: terrain: rules must be a list of rules that starts at level 0, in ascending order of levels, not {{from=2,rules={A={"A","A","A","A"}}}}
       | local land = lsystem({ object = terrain({ rules = { { from = 2, rules = { A = { "A", "A", "A", "A" } } } } }) })
 
     rules = 7
@@ -84,39 +84,39 @@ fn sizes_and_views_are_checked_with_their_numbers() {
     size = 0, rules = { A = { "A", "A", "A", "A" } }
     error: s.lua:1: terrain: size is 0 m
       | local land = lsystem({ object = terrain({ size = 0, rules = { A = { "A", "A", "A", "A" } } }) })
-      help: give a length above 0 and up to 1e9 m
+      help: use a length above 0 and up to 1e9 m
 
     size = 1e7, levels = 28, rules = { A = { "A", "A", "A", "A" } }
-    error: s.lua:1: terrain: that would be 72057594037927936 heights, which take 576.5 PB
+    error: s.lua:1: terrain: 72057594037927936 heights need 576.5 PB
       | local land = lsystem({ object = terrain({ size = 1e7, levels = 28, rules = { A = { "A", "A", "A", "A" } } }) })
-      help: at most 67108864 are expanded at once: use fewer levels, or focus on a part
+      help: the maximum is 67108864 heights: use fewer levels, or focus on a part
 
     levels = 40, rules = { A = { "A", "A", "A", "A" } }
     error: s.lua:1: view: cells are divided 40 times in all
       | local land = lsystem({ object = terrain({ levels = 40, rules = { A = { "A", "A", "A", "A" } } }) })
-      help: divide them at most 30 times
+      help: the maximum is 30
 
     rules = { A = { "A", "A", "A", "A" } }
-    error: s.lua:1: terrain: nothing of it is expanded
+    error: s.lua:1: terrain: nothing is expanded
       | local land = lsystem({ object = terrain({ rules = { A = { "A", "A", "A", "A" } } }) })
-      help: give it levels, or focus on a place: this:focus(x, y, view) in an interpretation rule
+      help: set levels, or focus on a position: this:focus(x, y, view) in an interpretation rule
 
     levels = 3, remap = { { 5, 0 }, { 1, 2 } }, rules = { A = { "A", "A", "A", "A" } }
-    error: s.lua:1: terrain: remap goes from 5 to 1
+    error: s.lua:1: terrain: remap decreases from 5 to 1
       | local land = lsystem({ object = terrain({ levels = 3, remap = { { 5, 0 }, { 1, 2 } }, rules = { A = { "A", "A", "A", "A" } } }) })
       help: write remap = { { -100, 0 }, { 0, 10 }, { 100, 80 } }: pairs from lower to higher heights
 
     levels = 3, base = 10, rules = { A = { "A", "A", "A", "A" } }
-    error: s.lua:1: terrain: base is 10 m, above the ground at its rim
+    error: s.lua:1: terrain: base is 10 m, above the ground at its edge
       | local land = lsystem({ object = terrain({ levels = 3, base = 10, rules = { A = { "A", "A", "A", "A" } } }) })
-      help: give a height below 0.0 m
+      help: use a height below 0.0 m
 
     levels = 3, covers = { { colour = "#ffffff" } }, rules = { A = { "A", "A", "A", "A" } }
-    error: s.lua:1: terrain: covers must be a list whose item 1 is a cover (cover has no field called colour), not {colour="#ffffff"}
+    error: s.lua:1: terrain: covers must be a list whose item 1 is a cover (unknown field `colour` in cover), not {colour="#ffffff"}
       | local land = lsystem({ object = terrain({ levels = 3, covers = { { colour = "#ffffff" } }, rules = { A = { "A", "A", "A", "A" } } }) })
 
     levels = 3, covers = { { }, { on = { symbols = { "B" } } } }, rules = { A = { "A", "A", "A", "A" } }
-    error: s.lua:1: terrain: no rule makes B
+    error: s.lua:1: terrain: no rule produces B
       | local land = lsystem({ object = terrain({ levels = 3, covers = { { }, { on = { symbols = { "B" } } } }, rules = { A = { "A", "A", "A", "A" } } }) })
       help: the cells are A
 
@@ -157,24 +157,24 @@ fn what_lies_outside_is_told_where_it_is_asked() {
     error: s.lua:4: rule Look() (interpretation): the focus (9000, 0) is outside the terrain
       | land:interpret("Look()", function(this) this:focus(9000, 0, { cell = 128, rings = { { 2, 3 } } }) end)
       module: Look, step 0
-      help: it reaches from (-512, -512) to (512, 512) m
+      help: it extends from (-512, -512) to (512, 512) m
 
     this:focus(0, 0, { cell = 100, rings = { { 2, 3 } } })
     error: s.lua:4: rule Look() (interpretation): view: cells of 100 m do not divide a world of 1024 m
       | land:interpret("Look()", function(this) this:focus(0, 0, { cell = 100, rings = { { 2, 3 } } }) end)
       module: Look, step 0
-      help: halve its size again and again; the nearest such size is 128 m
+      help: use the world's size divided by a power of two; the nearest is 128 m
 
     this:focus(0, 0, { cell = 128, rings = { { 4, 3 }, { 2, 1 } } })
-    error: s.lua:4: rule Look() (interpretation): terrain:focus: view must be a view whose rings grow, and are divided less the farther they are, not {cell=128,rings={{4,3},{2,1}}}
+    error: s.lua:4: rule Look() (interpretation): terrain:focus: view must be a view with growing rings that are divided less with distance, not {cell=128,rings={{4,3},{2,1}}}
       | land:interpret("Look()", function(this) this:focus(0, 0, { cell = 128, rings = { { 4, 3 }, { 2, 1 } } }) end)
       module: Look, step 0
 
     this:focus(0, 0, { cell = 1, rings = { { 1024, 12 } } })
-    error: s.lua:4: rule Look() (interpretation): terrain: that would be 17592186044416 heights, which take 140.7 TB
+    error: s.lua:4: rule Look() (interpretation): terrain: 17592186044416 heights need 140.7 TB
       | land:interpret("Look()", function(this) this:focus(0, 0, { cell = 1, rings = { { 1024, 12 } } }) end)
       module: Look, step 0
-      help: at most 67108864 are expanded at once: use fewer levels, or focus on a part
+      help: the maximum is 67108864 heights: use fewer levels, or focus on a part
 
     this:focus(0, 0)
     error: s.lua:4: rule Look() (interpretation): terrain:focus: view must be a view: { cell = 512, rings = { { 4, 8 }, { 8, 6 } } }, which divides the nearest 4 x 4 cells 8 times, not nothing
@@ -185,10 +185,10 @@ fn what_lies_outside_is_told_where_it_is_asked() {
     error: s.lua:4: rule Look() (interpretation): terrain: nothing is expanded at (600, 0)
       | land:interpret("Look()", function(this) print(this:height({ 600, 0 })) end)
       module: Look, step 0
-      help: it reaches from (-512, -512) to (512, 512) m; what is not focused on is contracted
+      help: it extends from (-512, -512) to (512, 512) m; areas outside the focus are contracted
 
     this:flatten({ { 0, 0 }, { 1, 0 } })
-    error: s.lua:4: rule Look() (interpretation): the ground cannot be changed so: its outline has fewer than three points
+    error: s.lua:4: rule Look() (interpretation): invalid terrain edit: the outline has fewer than three points
       | land:interpret("Look()", function(this) this:flatten({ { 0, 0 }, { 1, 0 } }) end)
       module: Look, step 0
 
@@ -196,10 +196,10 @@ fn what_lies_outside_is_told_where_it_is_asked() {
     error: s.lua:4: rule Look() (interpretation): (8992.5, -7.5) is outside the terrain
       | land:interpret("Look()", function(this) this:cut({ { 9000, 0, 3 }, { 9500, 0, 4 } }, 5) end)
       module: Look, step 0
-      help: it reaches from (-512, -512) to (512, 512) m
+      help: it extends from (-512, -512) to (512, 512) m
 
     this:dig({ { 0, 0 }, { 9, 0 } }, 0, 4)
-    error: s.lua:4: rule Look() (interpretation): the ground cannot be changed so: its width is 0
+    error: s.lua:4: rule Look() (interpretation): invalid terrain edit: the width is 0
       | land:interpret("Look()", function(this) this:dig({ { 0, 0 }, { 9, 0 } }, 0, 4) end)
       module: Look, step 0
 
@@ -237,47 +237,47 @@ fn cells_that_a_system_divides_have_four_quadrants_and_a_height() {
     }
     insta::assert_snapshot!(text, @r##"
     cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), Hill(h), Hill(h) end)
-    error: s.lua:4: rule Hill(h): a cell becomes 3 modules, where it has four quadrants
+    error: s.lua:4: rule Hill(h): a cell must be replaced by four quadrants, not by 3 modules
       | cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), Hill(h), Hill(h) end)
       module: Hill(5), step 1
-      help: return four modules: north-west, north-east, south-west and south-east; or no value, to leave the cell as it is
+      help: return four modules: north-west, north-east, south-west and south-east; or no value to keep the cell unchanged
 
     cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return nil end)
-    error: s.lua:4: rule Hill(h): a cell becomes nothing, where it has four quadrants
+    error: s.lua:4: rule Hill(h): a cell must be replaced by four quadrants, not by nothing
       | cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return nil end)
       module: Hill(5), step 1
-      help: return four modules: north-west, north-east, south-west and south-east; or no value, to leave the cell as it is
+      help: return four modules: north-west, north-east, south-west and south-east; or no value to keep the cell unchanged
 
     cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), { Hill(h) }, Hill(h), Hill(h) end)
-    error: s.lua:4: rule Hill(h): a cell becomes 6 modules, where it has four quadrants
+    error: s.lua:4: rule Hill(h): a cell must be replaced by four quadrants, not by 6 modules
       | cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), { Hill(h) }, Hill(h), Hill(h) end)
       module: Hill(5), step 1
-      help: return four modules: north-west, north-east, south-west and south-east; or no value, to leave the cell as it is
+      help: return four modules: north-west, north-east, south-west and south-east; or no value to keep the cell unchanged
 
     cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), Hill(h), Hill(h), Bush() end)
-    error: s.lua:4: rule Hill(h): Bush is no cell of a terrain: it has no parameter called height
+    error: s.lua:4: rule Hill(h): module Bush cannot be a terrain cell: missing parameter `height`
       | cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), Hill(h), Hill(h), Bush() end)
-      help: declare it with one: module("Bush", "height", ...)
+      help: add it: module("Bush", "height", ...)
 
     cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), Hill(h), Hill(h), Hill(1 / 0) end)
-    error: s.lua:4: rule Hill(h): the height of Hill(inf) is no finite number
+    error: s.lua:4: rule Hill(h): the height of Hill(inf) is not finite
       | cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), Hill(h), Hill(h), Hill(1 / 0) end)
-      help: give each quadrant a height in metres
+      help: set a height in metres for each quadrant
 
     cells:axiom(Hill(5)) cells:rule("Hill > Hill", function(this) return nil end)
-    error: s.lua:3: the cells of a terrain have no neighbours in their chain
+    error: s.lua:3: rules for the cells of a terrain cannot have contexts
       | local cells = lsystem()
       help: write rules for single modules, without < and >
 
     cells:axiom(Hill(5), Hill(6))
-    error: s.lua:3: a terrain begins with one cell
+    error: s.lua:3: a terrain must begin with one cell
       | local cells = lsystem()
-      help: give its system one module without branches: cells:axiom(Hill(0, 100))
+      help: use one module without branches as axiom: cells:axiom(Hill(0, 100))
 
     cells:axiom(Bush())
-    error: s.lua:6: Bush is no cell of a terrain: it has no parameter called height
+    error: s.lua:6: module Bush cannot be a terrain cell: missing parameter `height`
       | land:derive()
-      help: declare it with one: module("Bush", "height", ...)
+      help: add it: module("Bush", "height", ...)
 
 
     error: s.lua:6: the system has no axiom
@@ -295,7 +295,7 @@ fn a_decay_that_does_not_converge_is_warned_of() {
     insta::assert_snapshot!(folder.warned(&["run", "s.lua"]), @r##"
     warning: s.lua:1: terrain: a decay of 1.25 does not converge: heights grow with every level
       | local land = lsystem({ object = terrain({ levels = 3, rules = { A = { "A", "A", "A", "A", decay = 1.25 } } }) })
-      help: give a decay below 1, such as decay = 0.5
+      help: use a decay below 1, such as decay = 0.5
     "##);
 }
 
@@ -328,7 +328,7 @@ fn cells_that_cannot_show_measured_samples_are_warned_of_and_the_ground_keeps_th
         .with("smooth.lua", script(6, ""))
         .with("straight.lua", script(6, ", smooth = false"));
     insta::assert_snapshot!(folder.warned(&["run", "coarse.lua"]), @r##"
-    warning: coarse.lua:2: terrain: cells of 37.5 m cannot show samples that are 10 m apart: only height() keeps to each of them
+    warning: coarse.lua:2: terrain: cells of 37.5 m cannot show samples that are 10 m apart: only height() returns each of them
       | local land = lsystem({ object = terrain({ size = 300, levels = 3, elevation = heights }) })
       help: write levels = 5 to show all of them
     "##);
@@ -374,22 +374,22 @@ fn a_river_from_under_water_and_a_second_focus_are_warned_of() {
         text += &folder.warned(&["run", name]);
     }
     insta::assert_snapshot!(text, @r##"
-    warning: sea.lua:5: rule Do() (interpretation): terrain:river: the source (10.0, 20.0) lies 475.0 m under water, so there is no river (2 times)
+    warning: sea.lua:5: rule Do() (interpretation): terrain:river: the source (10.0, 20.0) is 475.0 m under water, so no river is created (2 times)
       | this:river({ 10, 20 }, 5)
       module: Do, step 0
-      help: give a place above the water: this:height({ x, y }) tells how high the ground is
-    warning: rim.lua:5: rule Do() (interpretation): terrain:river: the source (511.0, 20.0) lies at the rim or at the shore, so there is no river
+      help: use a position above the water: this:height({ x, y }) returns the height of the ground
+    warning: rim.lua:5: rule Do() (interpretation): terrain:river: the source (511.0, 20.0) is at the edge of the map or at the shore, so no river is created
       | this:river({ 511, 20 }, 5)
       module: Do, step 0
-      help: give a place farther up
-    warning: focus.lua:7: rule Do() (interpretation): terrain:focus: this takes the place of the focus on (0, 0) in the same pass
+      help: use a position farther up
+    warning: focus.lua:7: rule Do() (interpretation): terrain:focus: this replaces the focus on (0, 0) in the same pass
       | this:focus(64, 0, { cell = 128, rings = { { 2, 3 } } })
       module: Do, step 0
-      help: the last focus of a pass counts: focus once
-    warning: planet.lua:6: rule Do() (interpretation): planet:focus: this takes the place of the focus on (0, 0, 3000) in the same pass
+      help: call focus once per pass: only the last call counts
+    warning: planet.lua:6: rule Do() (interpretation): planet:focus: this replaces the focus on (0, 0, 3000) in the same pass
       | this:focus(0, 0, 2000)
       module: Do, step 0
-      help: the last focus of a pass counts: focus once
+      help: call focus once per pass: only the last call counts
     "##);
 }
 
@@ -444,21 +444,21 @@ fn edits_are_kept_in_a_file_and_are_those_of_one_world() {
         text += &folder.refuses(arguments);
     }
     insta::assert_snapshot!(text, @r##"
-    error: c.lua:5: kept.json holds edits of another world: 1024 m from (-512, -512) on
+    error: c.lua:5: kept.json contains edits of another world: 1024 m from (-512, -512) on
       | local made = land:derive(0)
       help: this one is 2048 m from (-1024, -1024) on
-    error: d.lua:5: broken.json holds no edits of a terrain: invalid type: integer `3`, expected a string at line 1 column 13
+    error: d.lua:5: broken.json contains no terrain edits: invalid type: integer `3`, expected a string at line 1 column 13
       | local made = land:derive(0)
-      help: such a file is written by burgeon run --edits FILE
-    error: f.lua:5: drawn.json holds edits of another world: 1024 m from (-512, -512) on, drawn from e220a8397b1dcdaf
+      help: write such a file with burgeon run --edits FILE
+    error: f.lua:5: drawn.json contains edits of another world: 1024 m from (-512, -512) on, seeded by e220a8397b1dcdaf
       | local made = land:derive(0)
-      help: this one is 1024 m from (-512, -512) on, drawn from 1d0b14e4db018fed
-    error: there is no terrain to write the heights or the edits of
+      help: this one is 1024 m from (-512, -512) on, seeded by 1d0b14e4db018fed
+    error: the script has no terrain whose heights or edits to write
       help: write lsystem({ object = terrain({ ... }) }):derive()
-    error: cannot write a.glb: its extension is no format of height maps
-      help: the formats are .png, .asc, .tif, .r32 and .r64
+    error: cannot write a.glb: unknown file extension of a height map
+      help: supported formats are .png, .asc, .tif, .r32 and .r64
     error: the edits would overwrite the script a.lua
-      help: name another file: --edits ground.json, or - for standard output
+      help: specify another file: --edits ground.json, or - for standard output
     "##);
 }
 
@@ -475,7 +475,7 @@ fn tiles_are_files_of_their_own_that_tell_where_they_are() {
     let tiles: Vec<&String> = files.keys().filter(|name| name.starts_with("tiles/")).collect();
     assert_eq!(tiles.len(), 16);
     assert!(files["tiles/3_3_4.glb"] > files["tiles/3_2_2.glb"]);
-    assert!(folder.refuses(&["run", "s.lua", "--tiles", "s.lua"]).contains("cannot make the folder s.lua"));
+    assert!(folder.refuses(&["run", "s.lua", "--tiles", "s.lua"]).contains("cannot create the folder s.lua"));
 }
 
 #[test]

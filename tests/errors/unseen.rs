@@ -19,17 +19,17 @@ fn rules_that_others_forestall() {
     s:derive(1)
     warning: s.lua:4: rule A(y): this rule is never applied: A(x) in s.lua:3 always applies first
       | s:rule("A(y)", function(this, y) return F(1), F(y) end)
-      help: give the earlier rule a guard, or both a weight, or put this one before it
+      help: add a guard to the earlier rule, set a weight for both, or put this rule before it
     warning: s.lua:5: rule B < A(y): this rule is never applied: A(x) in s.lua:3 always applies first
       | s:rule("B < A(y)", { when = function(this, y) return true end, weight = 2 }, function() return F(1) end)
-      help: give the earlier rule a guard, or both a weight, or put this one before it
+      help: add a guard to the earlier rule, set a weight for both, or put this rule before it
 
     s:rule("A(x)", { weight = 3 }, function(this, x) return F(x) end)
     s:rule("A(x)", function(this, x) return F(x), F(x) end)
     s:derive(1)
     warning: s.lua:4: rule A(x): this rule is never applied: A(x) in s.lua:3 always applies first
       | s:rule("A(x)", function(this, x) return F(x), F(x) end)
-      help: give both rules a weight: { weight = 1 }
+      help: set a weight for both rules: { weight = 1 }
 
     s:rule("B < A(x) > [B] A(y)", function(this, x) return F(x) end)
     s:rule("B < A(k) > [B] A(l)", function(this, k) return F(k) end)
@@ -37,7 +37,7 @@ fn rules_that_others_forestall() {
     s:derive(1)
     warning: s.lua:4: rule B < A(k) > [B] A(l): this rule is never applied: B < A(x) > [B] A(y) in s.lua:3 always applies first
       | s:rule("B < A(k) > [B] A(l)", function(this, k) return F(k) end)
-      help: give the earlier rule a guard, or both a weight, or put this one before it
+      help: add a guard to the earlier rule, set a weight for both, or put this rule before it
     "#);
     silent(&[
         &with(
@@ -70,7 +70,7 @@ fn contexts_that_cannot_occur() {
     s:derive(1)
     warning: s.lua:4: rule B < A(x): B is ignored, so this context never occurs
       | s:rule("B < A(x)", function() return F(2) end)
-      help: take it out of system:ignore(...), or out of the context
+      help: remove it from system:ignore(...), or from the context
 
     s:consider("A")
     s:rule("A(x) > [A(y) B]", function() return F(2) end)
@@ -101,7 +101,7 @@ fn a_rule_with_the_guard_of_an_earlier_one_is_never_applied() {
     s:derive(1)
     warning: s.lua:4: rule A(y): this rule is never applied: A(x) in s.lua:3 applies first and has the same guard
       | s:rule("A(y)", { when = function(this, x)
-      help: join the two rules, or give one of them another guard, or both a weight
+      help: join the two rules, change the guard of one, or set a weight for both
 
     local function large(this, x) return x > 0 end
     s:rule("A(x)", { when = large }, function(this, x) return F(x) end)
@@ -109,7 +109,7 @@ fn a_rule_with_the_guard_of_an_earlier_one_is_never_applied() {
     s:derive(1)
     warning: s.lua:5: rule A(x): this rule is never applied: A(x) in s.lua:4 applies first and has the same guard
       | s:rule("A(x)", { when = large }, function(this, x) return F(2 * x) end)
-      help: join the two rules, or give one of them another guard, or both a weight
+      help: join the two rules, change the guard of one, or set a weight for both
     "#);
     silent(&[
         // The guards capture different values or have different arguments, or the first rule has a weight.
@@ -146,9 +146,9 @@ fn an_axiom_that_replaces_another_is_told() {
     s:axiom(A(1))
     s:axiom(A(2))
     s:derive(0)
-    warning: s.lua:5: this axiom replaces the axiom in s.lua:4, which is never derived
+    warning: s.lua:5: this axiom replaces the axiom in s.lua:4, which was never derived
       | s:axiom(A(2))
-      help: give the system one axiom of all modules, or derive it before the next axiom
+      help: set one axiom with all modules, or derive the system before the next axiom
     "#);
     silent(&["local A = module(\"A\", \"x\")\nlocal s = lsystem({ object = turtle() })\n\
         s:interpret(\"A(x)\", function(this, x) this:forward(x) end)\n\

@@ -81,37 +81,37 @@ fn if_all_variations_fail_the_reasons_are_told_once() {
       module: A(3), step 1
     "#);
     assert_snapshot!(Folder::new().refuses(&["variations", "no.lua", "--seeds", "1..9", "-o", "a.png"]), @r"
-    error: there is no script no.lua
-      help: check the path, or make one: burgeon new NAME
+    error: script not found: no.lua
+      help: check the path, or create a script: burgeon new NAME
     ");
 }
 
 #[test]
 fn values_that_the_script_does_not_have_are_refused_before_anything_runs() {
     assert_snapshot!(told(&["--sweep", "nn=1..3"], 1), @r"
-    error: s.lua has no parameter called nn
+    error: s.lua: unknown parameter `nn`
       help: did you mean n?
     ");
     assert_snapshot!(told(&["--sweep", "n=1..9"], 1), @r"
     error: param n is 7, out of its range
-      help: it goes from 1 to 6
+      help: the allowed values are 1 to 6
     ");
     assert_snapshot!(told(&["--sweep", "kind=a,c"], 1), @r#"
-    error: param kind is "c", which is no choice
+    error: param kind is "c", which is not one of the choices
       help: choose one of a, b
     "#);
     assert_snapshot!(told(&["--sweep", "n"], 1), @r"
-    error: param n has no list of choices
-      help: say which values: n=LOW..HIGH:STEP or n=A,B,C
+    error: param n has no choices
+      help: specify the values: n=LOW..HIGH:STEP or n=A,B,C
     ");
     assert_snapshot!(told(&["--sweep", "n=1..3", "--set", "n=2"], 1), @r"
-    error: n is set and varied at the same time
-      help: leave out --set n or --sweep n
+    error: --set and --sweep both use `n`; remove one
+      help: remove --set n or --sweep n
     ");
     let flags = ["variations", "s.lua", "--seeds", "1..200", "--columns", "200", "-o", "sheet.png"];
     assert_snapshot!(folder().refuses(&flags), @r"
     error: the sheet would be 66613 x 388 pixels, more than 16384 on a side
-      help: take smaller cells, --size WIDTHxHEIGHT, or fewer of them
+      help: use smaller cells, --size WIDTHxHEIGHT, or fewer of them
     ");
 }
 
@@ -140,7 +140,7 @@ fn a_command_line_that_makes_no_sheet_says_what_would() {
     For more information, try '--help'.
     ");
     assert_snapshot!(wrong(&["--seeds", "1..4", "-o", "a.glb"]), @r"
-    error: invalid value 'a.glb' for '--output <FILE>': a contact sheet is a picture: name a .png file
+    error: invalid value 'a.glb' for '--output <FILE>': a contact sheet is an image: specify a .png file
 
     For more information, try '--help'.
     ");
@@ -158,13 +158,13 @@ fn a_command_line_that_makes_no_sheet_says_what_would() {
     For more information, try '--help'.
     ");
     assert_snapshot!(wrong(&["--sweep", "n=1..900", "-o", "a.png"]), @r"
-    error: invalid value 'n=1..900' for '--sweep <NAME=VALUES>': 900 variations are more than 256, the most at once
-      help: take a larger step: LOW..HIGH:STEP
+    error: invalid value 'n=1..900' for '--sweep <NAME=VALUES>': 900 variations exceed the maximum of 256
+      help: use a larger step: LOW..HIGH:STEP
 
     For more information, try '--help'.
     ");
     assert_snapshot!(wrong(&["--seeds", "1..4", "--columns", "0", "-o", "a.png"]), @r"
-    error: invalid value '0' for '--columns <N>': write a whole number from 1
+    error: invalid value '0' for '--columns <N>': write an integer of at least 1
 
     For more information, try '--help'.
     ");

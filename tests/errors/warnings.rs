@@ -56,9 +56,9 @@ fn modules_that_an_interpretation_returns() {
       return F(x), { B() }
     end)
     s:derive(0)
-    warning: s.lua:5: rule A(x) (interpretation): an interpretation returns modules, and nobody takes them
+    warning: s.lua:5: rule A(x) (interpretation): modules returned by an interpretation are ignored
       | return F(x), { B() }
-      help: return them from a rule, system:rule(pattern, function); an interpretation calls methods of this
+      help: return them from a rule, system:rule(pattern, function); an interpretation only calls methods of `this`
 
     local function draw(this, x)
       this:forward(x)
@@ -66,21 +66,21 @@ fn modules_that_an_interpretation_returns() {
     end
     s:interpret("A(x)", draw)
     s:derive(0)
-    warning: s.lua:7: rule A(x) (interpretation): an interpretation returns modules, and nobody takes them
+    warning: s.lua:7: rule A(x) (interpretation): modules returned by an interpretation are ignored
       | s:interpret("A(x)", draw)
       module: A(1), step 0
-      help: return them from a rule, system:rule(pattern, function); an interpretation calls methods of this
+      help: return them from a rule, system:rule(pattern, function); an interpretation only calls methods of `this`
 
     local function part(x) return F(x) end
     s:interpret("A(x)", function(this, x) return part(x) end)
     s:derive(0)
-    warning: s.lua:2: the model is empty, for this system draws nothing
+    warning: s.lua:2: the model is empty: this system draws nothing
       | local s = lsystem({ object = turtle() }) s:axiom(A(1))
-      help: another warning tells why
-    warning: s.lua:4: rule A(x) (interpretation): an interpretation returns modules, and nobody takes them
+      help: another warning shows the reason
+    warning: s.lua:4: rule A(x) (interpretation): modules returned by an interpretation are ignored
       | s:interpret("A(x)", function(this, x) return part(x) end)
       module: A(1), step 0
-      help: return them from a rule, system:rule(pattern, function); an interpretation calls methods of this
+      help: return them from a rule, system:rule(pattern, function); an interpretation only calls methods of `this`
     "#);
     silent(&[
         &with("s:interpret(\"A(x)\", function(this, x) return this:forward(x) end) s:derive(0)"),
@@ -100,10 +100,10 @@ fn values_that_an_interpretation_returns() {
       return x
     end)
     s:derive(0)
-    warning: s.lua:3: rule A(x) (interpretation): an interpretation returns the number 1, and nobody takes it
+    warning: s.lua:3: rule A(x) (interpretation): the number 1 returned by an interpretation is ignored
       | s:interpret("A(x)", function(this, x)
       module: A(1), step 0
-      help: an interpretation calls methods of this, and returns nothing
+      help: an interpretation only calls methods of `this`; return nothing
     "#);
     silent(&[&with(
         "s:interpret(\"A(x)\", function(this, x) this:forward(x) return x > 3 and this:forward(x) end) s:derive(0)",
@@ -130,7 +130,7 @@ fn systems_that_draw_nothing_beside_others() {
     t:derive(0)
     warning: s.lua:2: this system draws nothing
       | local s = lsystem({ object = extruder })
-      help: its interpretations draw nothing: see that lengths and scales are above 0
+      help: its interpretations draw nothing: check that lengths and scales are above 0
 
     local A, B = module("A"), module("B")
     local s = lsystem({ object = extruder })
@@ -143,7 +143,7 @@ fn systems_that_draw_nothing_beside_others() {
     t:derive(0)
     warning: s.lua:2: this system draws nothing
       | local s = lsystem({ object = extruder })
-      help: its interpretations draw nothing: see that lengths and scales are above 0
+      help: its interpretations draw nothing: check that lengths and scales are above 0
     "#);
     silent(&[&format!("{nothing}t:interpret(\"B\", function(this) this:extrude(1) end)\nt:derive(0)")
         .replace("extrude(0)", "extrude(2)")]);
@@ -159,9 +159,9 @@ fn interpretations_without_an_object() {
     s:axiom(A())
     s:interpret("A", function(this) this:forward(1) end)
     s:derive(0)
-    warning: s.lua:4: rule A (interpretation): the system has no object, so its interpretations are never run
+    warning: s.lua:4: rule A (interpretation): the system has no object, so its interpretations never run
       | s:interpret("A", function(this) this:forward(1) end)
-      help: give it one, such as lsystem({ object = turtle() })
+      help: set an object, such as lsystem({ object = turtle() })
     "#);
     silent(&[
         "local A = module(\"A\")\nlocal s = lsystem()\ns:axiom(A())\ns:rule(\"A\", function() return A(), A() end)\ns:derive(1)",
@@ -182,21 +182,21 @@ fn declarations_after_derive() {
     s:ignore("B")
     s:consider("A")
     s:axiom(B())
-    warning: s.lua:5: this rule comes after derive, so it has no effect
+    warning: s.lua:5: rule has no effect after derive
       | s:rule("B", function() return F(1) end)
-      help: put it before system:derive()
-    warning: s.lua:6: this interpretation comes after derive, so it has no effect
+      help: call it before system:derive()
+    warning: s.lua:6: interpretation has no effect after derive
       | s:interpret("B", function(this) this:forward(1) end)
-      help: put it before system:derive()
-    warning: s.lua:7: this ignore comes after derive, so it has no effect
+      help: call it before system:derive()
+    warning: s.lua:7: ignore has no effect after derive
       | s:ignore("B")
-      help: put it before system:derive()
-    warning: s.lua:8: this consider comes after derive, so it has no effect
+      help: call it before system:derive()
+    warning: s.lua:8: consider has no effect after derive
       | s:consider("A")
-      help: put it before system:derive()
-    warning: s.lua:9: this axiom comes after derive, so it has no effect
+      help: call it before system:derive()
+    warning: s.lua:9: axiom has no effect after derive
       | s:axiom(B())
-      help: put it before system:derive()
+      help: call it before system:derive()
     "#);
     // A system may be derived repeatedly, with more declarations each time.
     silent(&[&with(
@@ -218,16 +218,16 @@ fn modules_that_nothing_draws() {
     s:interpret("A(x)", function(this, x) this:forward(x) end)
     s:rule("A(x)", function(this, x) return A(x), B() end)
     s:derive(2)
-    warning: s.lua:1: B has neither a rule nor an interpretation, so it is drawn nowhere
+    warning: s.lua:1: B has neither a rule nor an interpretation, so it is never drawn
       | local A, B = module("A", "x"), module("B")
-      help: system:interpret("B", function(this) ... end); if it is only a mark, say so: system:ignore("B")
+      help: system:interpret("B", function(this) ... end); if it is only a mark, ignore it: system:ignore("B")
 
     local A = module("A")
     local s = lsystem({ object = extruder() })
     s:axiom(A(), F(1))
     s:interpret("A", function(this) this:extrude(1) end)
     s:derive(0)
-    warning: s.lua:2: the standard library draws F with a turtle, and this is none
+    warning: s.lua:2: the standard library draws F only with a turtle
       | local s = lsystem({ object = extruder() })
       help: system:interpret("F(length)", function(this, length) ... end)
 
@@ -236,9 +236,9 @@ fn modules_that_nothing_draws() {
     s:axiom(A())
     s:rule("A", function() return F(1), B() end)
     s:derive()
-    warning: s.lua:1: B has neither a rule nor an interpretation, so it is drawn nowhere
+    warning: s.lua:1: B has neither a rule nor an interpretation, so it is never drawn
       | local A, B = module("A"), module("B")
-      help: system:interpret("B", function(this) ... end); if it is only a mark, say so: system:ignore("B")
+      help: system:interpret("B", function(this) ... end); if it is only a mark, ignore it: system:ignore("B")
     "#);
     for script in [&*undrawn, other] {
         let folder = Folder::new().with("s.lua", script);
@@ -272,11 +272,11 @@ fn a_module_of_the_library_that_is_declared_anew() {
     s:axiom(F(1, 2), Sphere(1))
     s:rule("F(l, w)", function(this, l, w) return F(l, w), F(l, w) end)
     s:derive(2)
-    warning: s.lua:1: F(length, width) stands in the place of the standard library's F(length?), so the turtle draws nothing for it
+    warning: s.lua:1: F(length, width) replaces the standard library's F(length?), so the turtle draws nothing for it
       | local F = module("F", "length", "width")
-      help: interpret it, system:interpret("F(length, width)", function(this, length, width) ... end), or give it another name
+      help: interpret it, system:interpret("F(length, width)", function(this, length, width) ... end), or rename it
     "#);
-    assert!(checked(hidden).contains("stands in the place of"));
+    assert!(checked(hidden).contains("replaces the standard library's"));
     silent(&[
         &hidden.replace(
             "s:derive",
@@ -304,10 +304,10 @@ fn calls_that_draw_nothing() {
     end)
     s:interpret("B", function(this) this:scale(1):extrude(1) end)
     s:derive(0)
-    warning: s.lua:6: rule A(r) (interpretation): extruder:extrude draws nothing where the scale is 0 (2 times)
+    warning: s.lua:6: rule A(r) (interpretation): extruder:extrude draws nothing if the scale is 0 (2 times)
       | this:scale(r):extrude(1)
       module: A(0), step 0
-      help: give a scale above 0, or go on without drawing: this:advance(length)
+      help: use a scale above 0, or advance without drawing: this:advance(length)
     "#);
     // If only some sizes are 0, there is no warning; a taper to 0 makes a cone.
     silent(&[
@@ -334,13 +334,13 @@ fn calls_of_an_object_that_is_held_name_their_line() {
       this:up(r)
     end)
     s:derive(0)
-    warning: s.lua:3: rule A(r) (interpretation): extruder:extrude draws nothing where the scale is 0
+    warning: s.lua:3: rule A(r) (interpretation): extruder:extrude draws nothing if the scale is 0
       | self.rail:scale(r):extrude(1)
       module: A(0), step 0
-      help: give a scale above 0, or go on without drawing: this:advance(length)
-    warning: s.lua:7: the model is empty, for this system draws nothing
+      help: use a scale above 0, or advance without drawing: this:advance(length)
+    warning: s.lua:7: the model is empty: this system draws nothing
       | local s = lsystem({ object = post() })
-      help: another warning tells why
+      help: another warning shows the reason
     "#);
 }
 
@@ -355,12 +355,12 @@ fn a_system_that_is_derived_twice() {
     s:derive(1)
     s:derive(2)
     local last = s:derive(3)
-    warning: s.lua:5: the system is derived again after the time in s.lua:4, and both models stay
+    warning: s.lua:5: the system is derived again after the time in s.lua:4, and both models are kept
       | s:derive(2)
-      help: derive it once; what another system places is not shown by itself
-    warning: s.lua:6: the system is derived again after the time in s.lua:4, and both models stay
+      help: derive it once; a model that another system places is not shown separately
+    warning: s.lua:6: the system is derived again after the time in s.lua:4, and both models are kept
       | local last = s:derive(3)
-      help: derive it once; what another system places is not shown by itself
+      help: derive it once; a model that another system places is not shown separately
     "#);
     silent(&[
         // One of the models is placed and therefore not shown on its own, or each derivation begins from a
@@ -379,7 +379,7 @@ fn systems_of_which_none_is_derived() {
     insta::assert_snapshot!(warned(&["local s = lsystem({ object = turtle() })\ns:axiom(F(1))"]), @r#"
     local s = lsystem({ object = turtle() })
     s:axiom(F(1))
-    warning: s.lua:1: no system is derived, so nothing is made
+    warning: s.lua:1: no system is derived, so the model is empty
       | local s = lsystem({ object = turtle() })
       help: end the script with system:derive()
     "#);
@@ -395,17 +395,17 @@ fn a_parameter_that_is_declared_twice() {
     ]), @r#"
     local a = param("n", { default = 1 })
     local b = param("n", { default = 2, min = 0 })
-    warning: s.lua:2: the parameter n is declared already in s.lua:1, and people only see that one
+    warning: s.lua:2: the parameter n is already in s.lua:1, and users see only that declaration
       | local b = param("n", { default = 2, min = 0 })
-      help: declare it once and use its value again, or give this one another name
+      help: declare it once and reuse its value, or rename this one
 
     local a = param("n", { default = 1 })
     local b = param("n", { default = 1 })
-    warning: s.lua:2: the parameter n is declared already in s.lua:1, and people only see that one
+    warning: s.lua:2: the parameter n is already in s.lua:1, and users see only that declaration
       | local b = param("n", { default = 1 })
-      help: declare it once and use its value again, or give this one another name
+      help: declare it once and reuse its value, or rename this one
     "#);
-    // A parameter declared in a function that is called twice, and in a file that shares it.
+    // A parameter in a function that is called twice, and in a file that shares it.
     silent(&["local function n() return param(\"n\", { default = 1 }) end\nlocal a, b = n(), n()"]);
     let folder = Folder::new()
         .with("s.lua", "local a = param(\"n\", { default = 1 })\nlocal b = require(\"part\")")
@@ -430,29 +430,29 @@ fn a_model_without_triangles() {
     ]), @r#"
     s:rule("A(x)", function(this, x) return A(x), A(x) end)
     s:derive(2)
-    warning: s.lua:2: the model is empty, for this system draws nothing
+    warning: s.lua:2: the model is empty: this system draws nothing
       | local s = lsystem({ object = turtle() }) s:axiom(A(1))
-      help: no module of its final chain is drawn: write system:interpret(pattern, function(this, ...) ... end)
+      help: no module of its final chain is drawn: add system:interpret(pattern, function(this, ...) ... end)
 
     s:derive()
-    warning: s.lua:1: A has neither a rule nor an interpretation, so it is drawn nowhere
+    warning: s.lua:1: A has neither a rule nor an interpretation, so it is never drawn
       | local A, B = module("A", "x"), module("B")
-      help: system:interpret("A(x)", function(this, x) ... end); if it is only a mark, say so: system:ignore("A")
-    warning: s.lua:2: the model is empty, for this system draws nothing
+      help: system:interpret("A(x)", function(this, x) ... end); if it is only a mark, ignore it: system:ignore("A")
+    warning: s.lua:2: the model is empty: this system draws nothing
       | local s = lsystem({ object = turtle() }) s:axiom(A(1))
-      help: another warning tells why
+      help: another warning shows the reason
 
     s:interpret("A(x)", function(this, x) this:advance(x) end)
     s:derive(0)
-    warning: s.lua:2: the model is empty, for this system draws nothing
+    warning: s.lua:2: the model is empty: this system draws nothing
       | local s = lsystem({ object = turtle() }) s:axiom(A(1))
-      help: its interpretations draw nothing: see that lengths and scales are above 0
+      help: its interpretations draw nothing: check that lengths and scales are above 0
 
     local A = module("A")
     local s = lsystem({ object = turtle() })
     s:axiom(source({}), function() return F(1) end)
     s:derive()
-    warning: s.lua:2: the model is empty, for this system draws nothing
+    warning: s.lua:2: the model is empty: this system draws nothing
       | local s = lsystem({ object = turtle() })
       help: its source has no features
 
@@ -462,14 +462,14 @@ fn a_model_without_triangles() {
     local t = lsystem({ object = extruder() })
     t:axiom(Place(made))
     t:derive()
-    warning: s.lua:4: the model is empty, for this system draws nothing
+    warning: s.lua:4: the model is empty: this system draws nothing
       | local t = lsystem({ object = extruder() })
-      help: a system that another one is to place is not shown by itself: see that it is placed
+      help: a system that another one places is not shown separately: check that it is placed
     "#);
     insta::assert_snapshot!(file("local A = module(\"A\")\nlocal s = lsystem()\ns:axiom(A())\ns:derive(0)"), @r#"
-    warning: s.lua:2: the model is empty, for no system has an object that draws
+    warning: s.lua:2: the model is empty: no system has an object that draws
       | local s = lsystem()
-      help: give one, such as lsystem({ object = turtle() }); chains are written with --chain FILE
+      help: set one, such as lsystem({ object = turtle() }); to write chains, use --chain FILE
     "#);
     // `--steps` shows an earlier step.
     let folder =
@@ -527,12 +527,12 @@ fn an_axiom_declares_nothing_while_it_makes_chains() {
         told += &folder.refuses(&["run", "s.lua"]);
     }
     insta::assert_snapshot!(told, @r#"
-    error: s.lua:4: a declaration belongs outside of the function that makes each feature's chain
+    error: s.lua:4: a declaration cannot be called in the function that returns each feature's chain
       | s:rule("A", function() return F(1) end)
-      help: put it before derive, and let the function use it
-    error: s.lua:4: lsystem belongs outside of the function that makes each feature's chain
+      help: call it before derive, and use the result in the function
+    error: s.lua:4: lsystem cannot be called in the function that returns each feature's chain
       | lsystem()
-      help: put it before derive, and let the function use it
+      help: call it before derive, and use the result in the function
     "#);
 }
 

@@ -131,7 +131,7 @@ fn values_that_a_new_script_does_not_take_are_told_once_left_out_and_used_again_
     page.next("model");
     server.write("s.lua", script(2).replace("\"length\"", "\"size\""));
     page.next("model");
-    assert!(page.next("note")["text"].as_str().unwrap().contains("no parameter called length"));
+    assert!(page.next("note")["text"].as_str().unwrap().contains("unknown parameter `length`"));
     server.write("s.lua", script(3));
     assert_eq!(page.next("model")["params"][0]["value"], 7.0);
 }
@@ -228,7 +228,7 @@ fn a_preset_is_saved_loaded_and_deleted_for_all_pages() {
     assert_eq!(file, json!({ "long": { "seed": 5, "params": { "length": 4 } } }));
     assert_eq!(server.page().next("model")["preset"], "long");
     page.say(&json!({ "type": "preset", "action": "save", "name": "long" }));
-    assert!(page.any()["text"].as_str().unwrap().contains("a preset called long already"));
+    assert!(page.any()["text"].as_str().unwrap().contains("preset `long` already exists"));
     assert_eq!(page.model_of(json!({ "type": "reset" }))["preset"], Value::Null);
     page.model_of(json!({ "type": "seed", "seed": "6" }));
     page.say(&json!({ "type": "preset", "action": "save", "name": "long", "replace": true }));

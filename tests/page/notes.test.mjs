@@ -415,7 +415,7 @@ test("an empty model says why, and one that grows out of the view is offered to 
   open(BLOCKS.replace("tower:axiom(Block(count))", "tower:axiom(Block(0))"), async ({ page, script }) => {
     let last = await drawn(page);
     await visible(page, "nothing");
-    assert.match(await seen(page, "nothing").textContent(), /no module is left/);
+    assert.match(await seen(page, "nothing").textContent(), /the chain is empty/);
     save(script, BLOCKS);
     last = await drawn(page, last);
     await hidden(page, "nothing");

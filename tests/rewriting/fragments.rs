@@ -167,11 +167,15 @@ fn parts_have_random_numbers_of_their_own_for_any_number_of_threads() {
 #[test]
 fn what_cannot_come_apart_or_be_asked_is_told_with_its_line() {
     for (script, message, help) in [
-        ("s:axiom(fragment(Wall))\ns:derive()", "there is no module to its left", "right behind the module"),
+        (
+            "s:axiom(fragment(Wall))\ns:derive()",
+            "fragment needs a module to its left",
+            "directly after the module",
+        ),
         (
             "s:axiom(Count(1), fragment(Wall))\ns:derive()",
-            "Count(1), whose parts it is to make, has no geometry",
-            "give the module to its left a geometry",
+            "Count(1) to its left has no geometry to divide",
+            "pass a geometry to the module to its left",
         ),
         (
             "s:axiom(query(\"select geom from plan where id = '4'\", Shape), fragment(Count))\ns:derive()",
@@ -182,13 +186,13 @@ fn what_cannot_come_apart_or_be_asked_is_told_with_its_line() {
         ("s:axiom(query(\"select * from plan wher id = 1\", Shape))\ns:derive()", "", ""),
         (
             "s:axiom(query(\"select id from plan\", Shape))\ns:derive()",
-            "its rows have nothing for geom",
+            "the rows have no column for parameter geom",
             "they have id",
         ),
         (
             "s:axiom(query(\"select null as geom\", Shape))\ns:derive()",
             "geom is NULL in row 1",
-            "leave such rows out",
+            "exclude such rows",
         ),
         ("s:axiom(Count(query(\"delete from plan\")[1].n))\ns:derive()", "", ""),
     ] {
@@ -212,7 +216,7 @@ fn a_point_has_no_parts_and_stays_which_is_told() {
     let run = run.expect("it runs");
     assert_eq!(without_geometries(&all_chains(&run)), "Corner(\"well\")\n");
     assert!(
-        run.warnings[0].to_string().contains("a point has no parts, so it stays as it is"),
+        run.warnings[0].to_string().contains("a point has no parts, so it stays unchanged"),
         "{}",
         run.warnings[0]
     );

@@ -273,7 +273,7 @@ fn what_is_wrong_is_told_with_the_line_and_the_remedy() {
         format!("s:axiom(A(2)) s:rule(\"A(n)\", function(this, n)\n return {body} end) s:derive()")
     };
     for (script, message, help) in [
-        (rule(r#"query("n where n < $m", Item)"#), "$m of the query has no value", "name it there"),
+        (rule(r#"query("n where n < $m", Item)"#), "$m of the query has no value", "add it there"),
         (rule(r#"query("n where n < $n", Item, { m = 1 })"#), "the query has no $m", "it has $n"),
         (
             rule(r#"query("n where n < $n", Item, { n = 0 / 0 })"#),
@@ -298,17 +298,25 @@ fn what_is_wrong_is_told_with_the_line_and_the_remedy() {
         (rule(r#"query(7, Item)"#), "takes a text of SQL, and not the number 7", "select * from"),
         (
             rule(r#"query("n", Named)"#),
-            "its rows have nothing for name and odd of Named(name, odd, half?)",
+            "the rows have no column for parameter name and odd of Named(name, odd, half?)",
             "they have n",
         ),
-        (rule(r#"query("half", Item)"#), "its rows have nothing for n of Item(n)", "select ... as n"),
+        (
+            rule(r#"query("half", Item)"#),
+            "the rows have no column for parameter n of Item(n)",
+            "select ... as n",
+        ),
         (rule(r#"query("select $1", Item)"#), "$1 in a query has no name", "$id"),
-        (rule("fragment(Item)"), "there is no module to its left on its branch", "right behind"),
-        (rule("B(1), { fragment(Item) }"), "there is no module to its left on its branch", "right behind"),
+        (rule("fragment(Item)"), "fragment needs a module to its left on its branch", "directly after"),
+        (
+            rule("B(1), { fragment(Item) }"),
+            "fragment needs a module to its left on its branch",
+            "directly after",
+        ),
         (
             rule("B(1), fragment(Item)"),
-            "B(1), whose parts it is to make, has no geometry",
-            "give the module to its left",
+            "B(1) to its left has no geometry to divide",
+            "pass a geometry to the module to its left",
         ),
     ] {
         let error = refused(&script);
@@ -319,7 +327,7 @@ fn what_is_wrong_is_told_with_the_line_and_the_remedy() {
     let guard = r#"s:axiom(A(1)) s:rule("A(n)", { when = function(this, n) return query("n", Item) end }, function() return nil end) s:derive()"#;
     assert!(refused(guard).to_string().contains("a guard makes no modules"));
     let null = refused(r#"s:axiom(query("half as n", Item)) s:derive()"#);
-    assert_eq!(null.message(), "n is NULL in row 1, and Item must have it");
+    assert_eq!(null.message(), "n is NULL in row 1, but Item requires it");
 }
 
 #[test]
@@ -328,7 +336,7 @@ fn a_chain_that_grows_without_end_by_queries_is_stopped() {
     let mut options = options();
     options.limits.modules = 10_000;
     let error = refused_with(script, options);
-    assert!(error.to_string().contains("the chain grows past 10,000 modules"), "{error}");
+    assert!(error.to_string().contains("the chain exceeds 10,000 modules"), "{error}");
     assert!(error.to_string().contains("query("), "{error}");
 }
 

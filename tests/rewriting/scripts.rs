@@ -162,7 +162,7 @@ pub(crate) enum Passing<'a> {
 #[derive(Debug, Clone)]
 pub(crate) struct Case<'a> {
     pub passing: Passing<'a>,
-    /// Chains; if there are several, each comes from a feature.
+    /// Chains; if use several, each comes from a feature.
     pub chains: Vec<String>,
     pub pattern: Pattern,
 }

@@ -67,8 +67,8 @@ fn told(text: &str) -> [u64; 5] {
         number(" ", " of "),
         number(" of ", " streets were added"),
         refused,
-        number(" ", " lie beyond"),
-        number(" ", " repeat a street"),
+        number(" ", " are after"),
+        number(" ", " repeat an existing street"),
     ];
     // Each reason has a count and a position.
     let reasons = text.split("): ").next().unwrap_or(text);

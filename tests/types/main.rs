@@ -320,7 +320,7 @@ fn a_type_draws_less_in_lower_levels_of_detail_and_notes_what_it_left_out() {
     let text = r#"
 local post = object("post", {
   extends = extruder,
-  state = { inner = object("cap", { changes = { cap = function(self) self:note("no cap", "there is no room") end } })() },
+  state = { inner = object("cap", { changes = { cap = function(self) self:note("no cap", "the space is too small") end } })() },
   changes = { raise = function(self)
     if self:detail() < 2 then
       self:note("a plain post", `detail {self:detail()}`)

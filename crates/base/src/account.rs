@@ -146,8 +146,8 @@ impl MemoryAccount {
 
 /// Returns the error for a run that needs more than `limit` (bytes).
 fn too_much(limit: usize) -> Error {
-    Error::limit(Limit::Memory, format!("the run needs more than {} MB of memory", limit / 1_000_000))
-        .help("look for a table, a string or notes that grow, or raise the limit: --memory-limit MEGABYTES")
+    Error::limit(Limit::Memory, format!("the run exceeds the memory limit of {} MB", limit / 1_000_000))
+        .help("look for a growing table, string or report, or raise the limit: --memory-limit MEGABYTES")
 }
 
 impl Drop for MemoryAccount {
@@ -325,8 +325,8 @@ mod tests {
         owner.charge(|| drop(vec![1_u8; 11 * MB]));
         assert!(account.is_exceeded());
         insta::assert_snapshot!(account.error(), @r"
-        the run needs more than 10 MB of memory
-          help: look for a table, a string or notes that grow, or raise the limit: --memory-limit MEGABYTES
+        the run exceeds the memory limit of 10 MB
+          help: look for a growing table, string or report, or raise the limit: --memory-limit MEGABYTES
         ");
     }
 

@@ -68,8 +68,11 @@ impl Budget {
             if begin.elapsed() < time {
                 return Ok(());
             }
-            Err(Error::limit(Limit::Time, format!("reading took longer than {} s", time.as_secs_f64()))
-                .help("read a part, or raise the limit: --time-limit SECONDS"))
+            Err(Error::limit(
+                Limit::Time,
+                format!("reading exceeded the time limit of {} s", time.as_secs_f64()),
+            )
+            .help("read a part of the data, or raise the limit: --time-limit SECONDS"))
         })
     }
 
@@ -109,8 +112,11 @@ impl Budget {
     }
 
     fn too_much(&self) -> Error {
-        Error::limit(Limit::Memory, format!("reading takes more than {} MB of memory", self.most / 1_000_000))
-            .help("read a part, or raise the limit: --memory-limit MEGABYTES")
+        Error::limit(
+            Limit::Memory,
+            format!("reading exceeded the memory limit of {} MB", self.most / 1_000_000),
+        )
+        .help("read a part of the data, or raise the limit: --memory-limit MEGABYTES")
     }
 
     /// Returns taken memory (bytes) to the budget.
@@ -190,8 +196,8 @@ mod tests {
         drop(budget.hold(400_000).unwrap());
         assert_eq!(budget.used_bytes(), 600_000);
         insta::assert_snapshot!(budget.take(500_000).unwrap_err(), @r"
-        reading takes more than 1 MB of memory
-          help: read a part, or raise the limit: --memory-limit MEGABYTES
+        reading exceeded the memory limit of 1 MB
+          help: read a part of the data, or raise the limit: --memory-limit MEGABYTES
         ");
     }
 
@@ -211,8 +217,8 @@ mod tests {
     fn time_that_is_over_is_told() {
         let budget = Budget::within(Duration::ZERO, 1);
         insta::assert_snapshot!(budget.tick().unwrap_err(), @r"
-        reading took longer than 0 s
-          help: read a part, or raise the limit: --time-limit SECONDS
+        reading exceeded the time limit of 0 s
+          help: read a part of the data, or raise the limit: --time-limit SECONDS
         ");
     }
 }

@@ -239,18 +239,18 @@ mod tests {
         let warnings = Warnings::default();
         for (line, text) in [(7, "late"), (0, "nowhere"), (2, "early"), (7, "late"), (7, "also late")] {
             let place = if line == 0 { None } else { at(line) };
-            warnings.add(Warning::new(WarningKind::NoEffect, text).at(place).help("leave it out"));
+            warnings.add(Warning::new(WarningKind::NoEffect, text).at(place).help("remove it"));
         }
         let texts: Vec<String> = warnings.list().iter().map(ToString::to_string).collect();
         insta::assert_snapshot!(texts.join("\n"), @r"
         a.lua:2: early
-          help: leave it out
+          help: remove it
         a.lua:7: also late
-          help: leave it out
+          help: remove it
         a.lua:7: late (2 times)
-          help: leave it out
+          help: remove it
         nowhere
-          help: leave it out
+          help: remove it
         ");
         assert_eq!(warnings.list()[2].to_json()["count"], 2);
     }

@@ -79,8 +79,7 @@ pub(crate) fn coordinate_system(path: &Path, name: &str) -> Result<Option<String
     let name = Path::new(name).with_extension(PRJ).display().to_string();
     let (file, _) = burgeon_base::files::open(&real)
         .map_err(|error| Error::file(&real, format!("cannot read {name}: {error}")))?;
-    let remedy = "a .prj file is the text of one coordinate system; write it anew, or name the EPSG code: \
-                  elevation(file, { crs = 3067 })";
+    let remedy = "a .prj file contains the text of one coordinate system; re-export it, or specify the EPSG code: elevation(file, { crs = 3067 })";
     read_text(file, &name, remedy).map(Some)
 }
 

@@ -91,7 +91,7 @@ impl DataFile {
             return Ok(());
         }
         Err(Error::limit(Limit::Size, format!("{} is larger than {} MB", self.name, most / 1_000_000))
-            .help("convert it to a FlatGeobuf or a GeoPackage, of which a part can be read"))
+            .help("convert it to a FlatGeobuf or a GeoPackage, which can be read in parts"))
     }
 
     /// Returns the file name without folders and extension.
@@ -110,10 +110,10 @@ impl DataFile {
         match self.content {
             Content::File(file) => Ok((file, self.path, self.name)),
             Content::Memory(_) => Err(Error::data(format!(
-                "{} holds a {what}, which is not read while it is packed",
+                "{} contains a {what}, which is not supported in an archive",
                 self.name
             ))
-            .help("unpack it, and name the file itself")),
+            .help("unpack it, and specify the file itself")),
         }
     }
 }

@@ -5,8 +5,7 @@ use std::path::Path;
 use burgeon_base::error::{Error, Result};
 
 /// Supported formats.
-pub(crate) const FORMATS: &str = "data files are GeoJSON, GeoPackage, FlatGeobuf, Shapefile, CSV, GML, CityGML, CityJSON, KML, GPX, \
-                                  .osm and .osm.pbf";
+pub(crate) const FORMATS: &str = "supported formats are GeoJSON, GeoPackage, FlatGeobuf, Shapefile, CSV, GML, CityGML, CityJSON, KML, GPX, .osm and .osm.pbf";
 
 /// Conversion with GDAL.
 const OGR: &str = "convert it: ogr2ogr out.gpkg FILE";
@@ -15,7 +14,7 @@ const OGR: &str = "convert it: ogr2ogr out.gpkg FILE";
 const BEGINNINGS: [(&[u8], &str, &str); 36] = [
     (b"PAR1", "a GeoParquet file", OGR),
     (b"ARROW1", "an Arrow (Feather) file", OGR),
-    (b"AC10", "a drawing of AutoCAD (DWG)", "save it as DXF, and convert that: ogr2ogr out.gpkg FILE.dxf"),
+    (b"AC10", "an AutoCAD drawing (DWG)", "save it as DXF, and convert that: ogr2ogr out.gpkg FILE.dxf"),
     (
         b"AutoCAD Binary DXF",
         "a drawing (binary DXF)",
@@ -23,8 +22,8 @@ const BEGINNINGS: [(&[u8], &str, &str); 36] = [
     ),
     (
         b"LASF",
-        "a cloud of points (LAS or LAZ)",
-        "make heights of it: pdal translate FILE out.tif --writers.gdal.resolution=1",
+        "a point cloud (LAS or LAZ)",
+        "convert it to heights: pdal translate FILE out.tif --writers.gdal.resolution=1",
     ),
     (b"ply", "a mesh (PLY)", "convert it to .glb, and place it: model(\"FILE.glb\")"),
     (b"glTF", "a model (glTF)", "place it: model(\"FILE.glb\")"),
@@ -37,7 +36,7 @@ const BEGINNINGS: [(&[u8], &str, &str); 36] = [
     (b"!TABLE", "a MapInfo table (TAB)", OGR),
     (b"\x00\x01\x00\x00Standard Jet DB", "a personal geodatabase (MDB)", OGR),
     (b"\x00\x01\x00\x00Standard ACE DB", "an Access database", OGR),
-    (b"PMTiles", "a file of map tiles (PMTiles)", "convert it: ogr2ogr out.gpkg FILE, of one zoom level"),
+    (b"PMTiles", "a map tile file (PMTiles)", "convert it: ogr2ogr out.gpkg FILE, of one zoom level"),
     (
         b"\x89HDF",
         "an HDF5 or NetCDF file",
@@ -47,80 +46,76 @@ const BEGINNINGS: [(&[u8], &str, &str); 36] = [
     (b"CDF\x02", "a NetCDF file", "convert its heights: gdal_translate NETCDF:FILE:VARIABLE out.tif"),
     (
         b"PGDMP",
-        "a dump of a database (pg_dump)",
-        "load it into PostGIS, and read that: source(\"postgres://...\")",
+        "a database dump (pg_dump)",
+        "load it into PostGIS, and read the database: source(\"postgres://...\")",
     ),
-    (b"II*\0", "a raster (TIFF)", "heights are read by elevation(\"FILE\")"),
-    (b"MM\0*", "a raster (TIFF)", "heights are read by elevation(\"FILE\")"),
-    (b"\x89PNG", "a picture (PNG)", "heights in it are read by elevation(\"FILE\")"),
-    (b"\xff\xd8\xff", "a picture (JPEG)", "name a file of features"),
-    (b"%PDF", "a PDF", "get the data that it was drawn of"),
-    (b"BZh", "packed by bzip2", "unpack it: bunzip2 FILE"),
-    (b"\xfd7zXZ", "packed by xz", "unpack it: unxz FILE"),
-    (b"\x28\xb5\x2f\xfd", "packed by zstd", "unpack it: unzstd FILE"),
-    (b"7z\xbc\xaf\x27\x1c", "packed by 7-Zip", "unpack it: 7z x FILE"),
-    (b"Rar!", "packed by RAR", "unpack it: unrar x FILE"),
+    (b"II*\0", "a raster (TIFF)", "to read heights, write elevation(\"FILE\")"),
+    (b"MM\0*", "a raster (TIFF)", "to read heights, write elevation(\"FILE\")"),
+    (b"\x89PNG", "an image (PNG)", "to read heights from it, write elevation(\"FILE\")"),
+    (b"\xff\xd8\xff", "an image (JPEG)", "specify a file of features"),
+    (b"%PDF", "a PDF", "get the data that it was drawn from"),
+    (b"BZh", "compressed with bzip2", "unpack it: bunzip2 FILE"),
+    (b"\xfd7zXZ", "compressed with xz", "unpack it: unxz FILE"),
+    (b"\x28\xb5\x2f\xfd", "compressed with zstd", "unpack it: unzstd FILE"),
+    (b"7z\xbc\xaf\x27\x1c", "compressed with 7-Zip", "unpack it: 7z x FILE"),
+    (b"Rar!", "compressed with RAR", "unpack it: unrar x FILE"),
     (
         b"\xff\xe0\x04o5m2",
-        "an extract of OpenStreetMap (o5m)",
+        "an OpenStreetMap extract (o5m)",
         "convert it: osmium cat FILE -o out.osm.pbf, or osmconvert",
     ),
     (
         b"\xd0\xcf\x11\xe0",
-        "an old document of Office",
+        "an old Office document",
         "save its table as .csv, with columns of longitude and latitude",
     ),
-    (b"version https://git-lfs", "a pointer of Git LFS, not the data itself", "get the data: git lfs pull"),
-    (b"<!DOCTYPE html", "a web page, not data", "the download failed, or needs a login; get it again"),
-    (b"<!doctype html", "a web page, not data", "the download failed, or needs a login; get it again"),
-    (b"<html", "a web page, not data", "the download failed, or needs a login; get it again"),
-    (b"ncols", "a raster (ASCII grid)", "heights are read by elevation(\"FILE\")"),
-    (b"NCOLS", "a raster (ASCII grid)", "heights are read by elevation(\"FILE\")"),
+    (b"version https://git-lfs", "a Git LFS pointer, not the data itself", "get the data: git lfs pull"),
+    (b"<!DOCTYPE html", "a web page, not data", "the download failed, or needs a login; download it again"),
+    (b"<!doctype html", "a web page, not data", "the download failed, or needs a login; download it again"),
+    (b"<html", "a web page, not data", "the download failed, or needs a login; download it again"),
+    (b"ncols", "a raster (ASCII grid)", "to read heights, write elevation(\"FILE\")"),
+    (b"NCOLS", "a raster (ASCII grid)", "to read heights, write elevation(\"FILE\")"),
     (b"solid ", "a mesh (STL)", "convert it to .glb, and place it: model(\"FILE.glb\")"),
 ];
 
 /// File extension, description, and remedy, for files that cannot be recognised from their first bytes.
 const EXTENSIONS: [(&str, &str, &str); 24] = [
-    ("dbf", "the table of a shapefile", "name its .shp file, and keep all of its files beside one another"),
-    ("shx", "the index of a shapefile", "name its .shp file, and keep all of its files beside one another"),
+    ("dbf", "the table of a shapefile", "specify its .shp file, and keep all its files in one folder"),
+    ("shx", "the index of a shapefile", "specify its .shp file, and keep all its files in one folder"),
     (
         "prj",
         "the coordinate system of a shapefile",
-        "name its .shp file, and keep all of its files beside one another",
+        "specify its .shp file, and keep all its files in one folder",
     ),
-    (
-        "cpg",
-        "the encoding of a shapefile",
-        "name its .shp file, and keep all of its files beside one another",
-    ),
+    ("cpg", "the encoding of a shapefile", "specify its .shp file, and keep all its files in one folder"),
     ("dxf", "a drawing (DXF)", OGR),
-    ("dwg", "a drawing of AutoCAD (DWG)", "save it as DXF, and convert that: ogr2ogr out.gpkg FILE.dxf"),
-    ("dgn", "a drawing of MicroStation (DGN)", OGR),
+    ("dwg", "an AutoCAD drawing (DWG)", "save it as DXF, and convert that: ogr2ogr out.gpkg FILE.dxf"),
+    ("dgn", "a MicroStation drawing (DGN)", OGR),
     ("mif", "a MapInfo file (MIF)", OGR),
-    ("mid", "the table of a MapInfo file", "name its .mif file: ogr2ogr out.gpkg FILE.mif"),
-    ("map", "a part of a MapInfo table", "name its .tab file: ogr2ogr out.gpkg FILE.tab"),
+    ("mid", "the table of a MapInfo file", "convert its .mif file: ogr2ogr out.gpkg FILE.mif"),
+    ("map", "a part of a MapInfo table", "convert its .tab file: ogr2ogr out.gpkg FILE.tab"),
     ("gdb", "a part of a File Geodatabase", "convert the whole folder: ogr2ogr out.gpkg FOLDER.gdb"),
     ("gdbtable", "a part of a File Geodatabase", "convert the whole folder: ogr2ogr out.gpkg FOLDER.gdb"),
     (
         "laz",
-        "a cloud of points (LAZ)",
-        "make heights of it: pdal translate FILE out.tif --writers.gdal.resolution=1",
+        "a point cloud (LAZ)",
+        "convert it to heights: pdal translate FILE out.tif --writers.gdal.resolution=1",
     ),
-    ("hgt", "a raster of heights (SRTM)", "heights are read by elevation(\"FILE\")"),
-    ("asc", "a raster of heights (ASCII grid)", "heights are read by elevation(\"FILE\")"),
+    ("hgt", "a raster of heights (SRTM)", "to read heights, write elevation(\"FILE\")"),
+    ("asc", "a raster of heights (ASCII grid)", "to read heights, write elevation(\"FILE\")"),
     ("000", "a nautical chart (S-57)", OGR),
     ("e00", "an ArcInfo coverage", OGR),
     ("mvt", "a map tile (MVT)", OGR),
-    ("mbtiles", "a file of map tiles (MBTiles)", OGR),
+    ("mbtiles", "a map tile file (MBTiles)", OGR),
     ("parquet", "a GeoParquet file", OGR),
     ("tar", "an archive (tar)", "unpack it: tar xf FILE"),
-    ("sql", "statements of SQL", "load them into PostGIS, and read that: source(\"postgres://...\")"),
+    ("sql", "SQL statements", "load them into PostGIS, and read the database: source(\"postgres://...\")"),
     ("xlsx", "a spreadsheet", "save its table as .csv, with columns of longitude and latitude"),
-    ("skp", "a model of SketchUp", "export it as .glb, and place it: model(\"FILE.glb\")"),
+    ("skp", "a SketchUp model", "export it as .glb, and place it: model(\"FILE.glb\")"),
 ];
 
 fn error(name: &str, what: &str, remedy: &str) -> Error {
-    Error::data(format!("{name} is {what}, which is not read as a source")).help(remedy)
+    Error::data(format!("{name} is {what}, which is not supported as a source")).help(remedy)
 }
 
 /// Fails if a file that begins with `head` has a known but unsupported format.
@@ -177,7 +172,7 @@ mod tests {
             b"II*\0\x08",
         ] {
             let told = told(head);
-            assert!(told.contains("which is not read as a source") && told.contains("help: "), "{told}");
+            assert!(told.contains("which is not supported as a source") && told.contains("help: "), "{told}");
         }
         for head in [&b"{\"type\""[..], b"<?xml", b"", b"0\n", b"name,lon,lat\n"] {
             assert!(refuse_beginning(head, "a").is_ok(), "{head:?}");

@@ -140,7 +140,7 @@ impl ReferenceFrame {
             let [x, y] = passage.enter([at[0], at[1]]);
             let at = format!("{}, {}", number(at[0]), number(at[1]));
             Some(if x.is_finite() && y.is_finite() {
-                Error::data(format!("{feature} lies more than 2,000 km from the middle, at {at}")).help(
+                Error::data(format!("{feature} is more than 2,000 km from the centre, at {at}")).help(
                     "all sources of a run share one model; check the coordinates and the coordinate system, or read a part",
                 )
             } else {
@@ -211,8 +211,9 @@ fn refuse_odd_degrees(crs: &Crs, table: &mut FeatureTable) -> Result<()> {
         let DVec3 { x, y, .. } =
             *feature.geometry.points().find(|at| at.x.abs() > 360.0 || at.y.abs() > 90.0)?;
         let (id, x, y) = (shown(&feature.id), number(x), number(y));
-        let message = format!("feature {id} of {name} lies at {x}, {y}, which is no longitude and latitude");
-        let help = "name the coordinate system of the file: source(file, { crs = 3067 })";
+        let message =
+            format!("feature {id} of {name} is at {x}, {y}, which is not a valid longitude and latitude");
+        let help = "specify the coordinate system of the file: source(file, { crs = 3067 })";
         Some(Error::data(message).help(help))
     })
 }

@@ -48,17 +48,17 @@ impl Layer {
         let why = "with too few different points for a line or an area";
         for (count, why) in [(bare, "without a geometry"), (collapsed, why)] {
             if count > 0 {
-                let text = format!("{shown}: left out {count} {} {why}", features(count));
-                warnings.push(Warning::new(WarningKind::Data, text).help("take them out of the file"));
+                let text = format!("{shown}: skipped {count} {} {why}", features(count));
+                warnings.push(Warning::new(WarningKind::Data, text).help("remove them from the file"));
             }
         }
         if let Some((_, error)) = self.refused.first() {
             let (count, such) =
-                (self.refused.len(), if self.refused.len() == 1 { ":" } else { ", such as this one:" });
+                (self.refused.len(), if self.refused.len() == 1 { ":" } else { ", e.g. this one:" });
             let what = features(count);
-            let text = format!("left out {count} {what} that cannot be used{such} {}", error.message());
+            let text = format!("skipped {count} unusable {what}{such} {}", error.message());
             let warning = Warning::new(WarningKind::Data, text);
-            warnings.push(warning.help(error.remedy().unwrap_or("repair the file, or leave them out")));
+            warnings.push(warning.help(error.remedy().unwrap_or("repair the file, or remove them")));
         }
         warnings.extend(self.notes.iter().map(|note| Warning::new(WarningKind::Data, note.clone())));
         warnings
@@ -71,7 +71,7 @@ impl Layer {
         let count = burgeon_base::text::grouped(self.derived);
         (self.derived > 0).then(|| {
             format!(
-                "{}: {count} {features} one from what they are: it changes with the feature, {{ id = \"name\" }} names an attribute",
+                "{}: {count} {features} one from the feature's content: it changes with the feature; specify an attribute with {{ id = \"name\" }}",
                 self.shown
             )
         })
@@ -162,7 +162,7 @@ fn invalid(table: &FeatureTable) -> Result<Option<String>> {
     let Some(first) = wrong.first().map(|number| &table.features[*number]) else { return Ok(None) };
     let (file, id) = (&table.shown, shown(&first.id));
     let why = reason(first)?.unwrap_or_default();
-    let remedy = "geometry:make_valid() and ST_MakeValid repair it, footprints repair it by themselves";
+    let remedy = "geometry:make_valid() and ST_MakeValid repair it; footprints repair it automatically";
     Ok(Some(match wrong.len() {
         1 => format!("{file}: feature {id} is not valid: {why}; {remedy}"),
         count => format!("{file}: {count} features are not valid, such as {id}: {why}; {remedy}"),
@@ -225,8 +225,8 @@ mod tests {
         assert_eq!(
             told,
             [
-                "a.geojson: left out 2 features without a geometry",
-                "a.geojson: left out 2 features with too few different points for a line or an area"
+                "a.geojson: skipped 2 features without a geometry",
+                "a.geojson: skipped 2 features with too few different points for a line or an area"
             ]
         );
     }

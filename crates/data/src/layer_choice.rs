@@ -8,13 +8,13 @@ pub(crate) fn choose_layer(name: &str, layers: &[String], wanted: Option<&str>) 
     let list = listed(layers.iter().map(String::as_str));
     match (wanted, layers) {
         (_, []) => Err(Error::data(format!("{name} has no layers of features"))
-            .help("it holds no features table; was it written as a GeoPackage of features?")),
+            .help("it contains no features table; was it written as a GeoPackage of features?")),
         (None, [only]) => Ok(only.clone()),
         (None, _) => Err(Error::argument(format!("{name} has several layers"))
-            .help(format!("name one behind a colon: \"{name}:{}\"; it has {list}", shown(&layers[0])))),
+            .help(format!("specify one after a colon: \"{name}:{}\"; it has {list}", shown(&layers[0])))),
         (Some(wanted), _) if layers.iter().any(|layer| layer == wanted) => Ok(wanted.to_owned()),
         (Some(wanted), _) => {
-            let message = format!("{name} has no layer called {}", shown(wanted));
+            let message = format!("{name}: no layer named `{}`", shown(wanted));
             Err(Error::not_found("layer", wanted, layers.iter().map(String::as_str), message)
                 .help(format!("it has {list}")))
         }

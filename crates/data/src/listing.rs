@@ -265,7 +265,7 @@ impl LayerListing {
         // Writing into a string cannot fail.
         let _ = writeln!(text, "  {}: {kinds}{parts}{empty}; {}", shown(&self.name), escaped(&crs));
         if let Some((count, why)) = &self.refused {
-            let _ = writeln!(text, "    {count} left out, such as: {}", escaped(why));
+            let _ = writeln!(text, "    {count} skipped, e.g.: {}", escaped(why));
         }
         if let Some([west, south, east, north]) = self.extent {
             let [west, south, east, north] = [west, south, east, north].map(number);

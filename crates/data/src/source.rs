@@ -29,7 +29,7 @@ pub enum Source {
 
 /// Remedy for a file that is not a data file.
 const NAME_ONE: &str =
-    "name a .geojson, .gpkg, .fgb, .shp, .csv, .gml, .kml, .gpx, .city.json or .osm.pbf file";
+    "specify a .geojson, .gpkg, .fgb, .shp, .csv, .gml, .kml, .gpx, .city.json or .osm.pbf file";
 
 /// Number of first bytes used to detect the format.
 const HEAD: u64 = 4096;
@@ -59,11 +59,11 @@ impl Source {
     pub fn open_within(path: &Path, name: &str, wanted: &SourceOptions) -> Result<Self> {
         let cannot = |error: std::io::Error| match error.kind() {
             std::io::ErrorKind::NotFound => {
-                Error::not_found("data file", name, [], format!("there is no data file {name}"))
+                Error::not_found("data file", name, [], format!("data file not found: {name}"))
                     .help("check the path")
             }
             std::io::ErrorKind::IsADirectory => foreign::folder(path, name).unwrap_or_else(|| {
-                Error::file(path, format!("{name} is a folder")).help(format!("{NAME_ONE} in it"))
+                Error::file(path, format!("{name} is a folder")).help(format!("{NAME_ONE} in the folder"))
             }),
             _ => Error::file(path, format!("cannot read {name}: {error}")).help(NAME_ONE),
         };
@@ -93,7 +93,7 @@ impl Source {
         cannot: impl Fn(std::io::Error) -> Error,
     ) -> Result<Self> {
         if head.is_empty() {
-            return Err(Error::data(format!("{} is empty", file.name)).help("get the file again"));
+            return Err(Error::data(format!("{} is empty", file.name)).help("download the file again"));
         }
         if head.starts_with(b"SQLite format 3") {
             let (open, path, name) = file.on_disk("GeoPackage")?;
@@ -189,8 +189,8 @@ impl Source {
     /// ```
     pub fn read(self, name: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
         if wanted.tags.is_some() && !matches!(self, Self::Osm(_)) {
-            return Err(Error::argument(format!("{name} is {}, which takes no tags", self.format()))
-                .help("tags are for extracts of OpenStreetMap, .osm.pbf and .osm; leave them out"));
+            return Err(Error::argument(format!("{name} is {}, so tags are not allowed", self.format()))
+                .help("tags are only for OpenStreetMap extracts (.osm.pbf and .osm); remove them"));
         }
         let (asked, asks_itself) = (wanted, self.asks_conditions());
         let wanted = if asks_itself { asked.clone() } else { asked.without_condition() };

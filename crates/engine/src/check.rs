@@ -42,8 +42,8 @@ pub fn check_package(folder: &Path, options: RunOptions) -> Result<ScriptCheck> 
         let broken = broken.map(|broken| broken.error.clone());
         let problems: Vec<Error> = packages.problems.iter().cloned().chain(broken).collect();
         return Err(if problems.is_empty() {
-            Error::not_found("package", &shown, [], format!("{shown} is no package that is used"))
-                .help("burgeon mods lists those that are")
+            Error::not_found("package", &shown, [], format!("the script does not use the package {shown}"))
+                .help("run burgeon mods to list the packages in use")
         } else {
             Error::several(problems)
         });

@@ -187,10 +187,8 @@ fn note_unplaced(systems: &[Arc<DerivedSystem>]) -> Option<String> {
     let lines = lines.join(", ");
     match count {
         0 => None,
-        1 => Some(format!("the system in {lines} is not shown: a rule can place it, and has not")),
-        count => {
-            Some(format!("{count} systems are not shown: rules can place them, and have not ({lines}{more})"))
-        }
+        1 => Some(format!("the system in {lines} is not shown: no rule places it")),
+        count => Some(format!("{count} systems are not shown: no rule places them ({lines}{more})")),
     }
 }
 
@@ -262,9 +260,9 @@ pub(crate) fn refuse_unknown(session: &Session, params: &[Param]) -> Result<()> 
 /// Returns the error for a parameter `name` that `script` does not declare.
 pub fn no_such(script: &Path, name: &str, params: &[Param]) -> Error {
     let names: Vec<&str> = params.iter().map(|param| param.name.as_str()).collect();
-    let message = format!("{} has no parameter called {name}", script.display());
+    let message = format!("{}: unknown parameter `{name}`", script.display());
     Error::not_found("parameter", name, names.iter().copied(), message).help(match names.is_empty() {
-        true => "it declares none".to_owned(),
+        true => "the script declares no parameters".to_owned(),
         false => format!("it has {}", names.join(", ")),
     })
 }
@@ -282,12 +280,12 @@ fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
         let found = path.canonicalize();
         session.seek(&path, found.is_ok());
         let path = found.map_err(|_| {
-            let error = Error::not_found("texture", &shown, [], format!("there is no texture {shown}"));
-            session.propose_packages(&shown, error).help("textures are files beside the script")
+            let error = Error::not_found("texture", &shown, [], format!("texture not found: {shown}"));
+            session.propose_packages(&shown, error).help("textures are files next to the script")
         })?;
         if !path.starts_with(session.root()) {
-            return Err(Error::file(&path, format!("the texture {shown} lies outside the script's folder"))
-                .help("a script reads only files in its own folder and below it"));
+            return Err(Error::file(&path, format!("the texture {shown} is outside the script's folder"))
+                .help("a script can read only files in its own folder and its subfolders"));
         }
         texture.path = readable(path, &shown)?;
     }
@@ -298,7 +296,7 @@ fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
 fn readable(path: PathBuf, shown: &str) -> Result<PathBuf> {
     burgeon_base::files::open(&path).map_err(|error| {
         Error::file(&path, format!("the texture {shown} cannot be read: {error}"))
-            .help("textures are PNG or JPEG files beside the script")
+            .help("textures are PNG or JPEG files next to the script")
     })?;
     Ok(path)
 }

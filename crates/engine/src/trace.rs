@@ -84,7 +84,7 @@ pub struct LineProducts {
 /// Derives the chain again, with its lineage. Fails if the changed script no longer derives the chain.
 pub fn pick(script: &Path, options: &RunOptions, scene: &Scene, pick: Pick) -> Result<PickOrigin> {
     let instance =
-        scene.instances.get(pick.instance).ok_or_else(|| Error::unavailable("there is no such instance"))?;
+        scene.instances.get(pick.instance).ok_or_else(|| Error::unavailable("unknown instance"))?;
     let mesh = &scene.meshes[instance.mesh];
     let mut picked = PickOrigin { drawn: None, placed: None };
     if let Some(origin) = mesh.origin {
@@ -188,8 +188,7 @@ pub fn trace(script: &Path, options: &RunOptions, wanted: TraceRequest) -> Resul
     let reports = RunReports { trace: Some(wanted), ..options.reports.clone() };
     let session = Session::new(script, RunOptions { reports, ..options.clone() })?;
     run_traced(&session)?.ok_or_else(|| {
-        Error::script("the script no longer derives this system")
-            .help("wait until the model has been made anew")
+        Error::script("the script no longer derives this system").help("wait until the model is updated")
     })
 }
 

@@ -40,15 +40,14 @@ pub(super) fn check(scene: &Scene) -> Result<SceneCheck<'_>> {
     for (i, instance) in scene.instances.iter().enumerate() {
         let name = || item_label("instance", &instance.name, i);
         let Some(shown) = meshes.get_mut(instance.mesh) else {
-            return Err(Error::internal(format!(
-                "{} shows mesh {}, which is not there",
-                name(),
-                instance.mesh
-            )));
+            return Err(Error::internal(format!("{} refers to the missing mesh {}", name(), instance.mesh)));
         };
         *shown = true;
         if !instance.transform.to_cols_array().iter().all(|number| number.abs() <= LARGEST) {
-            let error = Error::geometry(format!("the transform of {} is not made of usable numbers", name()));
+            let error = Error::geometry(format!(
+                "the transform of {} has numbers that are not finite or too large",
+                name()
+            ));
             return Err(error.help("look for a division by zero in a length, a scale or an angle"));
         }
     }
@@ -125,18 +124,18 @@ fn unsound(mesh: &Mesh, index: usize, what: &str) -> Error {
 /// Measures `part`. Fails with the end of a sentence about its mesh.
 fn check_part(scene: &Scene, part: &Part) -> Result<PartExtent, String> {
     let Some(material) = scene.materials.get(part.material) else {
-        return Err(format!("uses material {}, which is not there", part.material));
+        return Err(format!("refers to the missing material {}", part.material));
     };
     let count = part.positions.len();
     if part.normals.len() != count || part.uvs.len() != count {
-        return Err("has not one normal and one texture coordinate for each point".into());
+        return Err("does not have one normal and one texture coordinate for each point".into());
     }
     if part.triangles.iter().flatten().any(|corner| corner as usize >= count) {
-        return Err("has a triangle at a point that is not there".into());
+        return Err("has a triangle with a missing point".into());
     }
     let usable = |number: f32| f64::from(number.abs()) <= LARGEST;
     if !part.positions.iter().all(|p| usable(p.x) && usable(p.y) && usable(p.z)) {
-        return Err("has a point whose coordinates are not usable numbers".into());
+        return Err("has a point with coordinates that are not finite or too large".into());
     }
     if let Some(texture) = &material.texture {
         if !texture.size.iter().all(|size| *size > 0.0 && size.is_finite()) {
@@ -144,7 +143,7 @@ fn check_part(scene: &Scene, part: &Part) -> Result<PartExtent, String> {
             return Err(format!("has a texture of {width} m by {height} m"));
         }
         if !part.uvs.iter().all(|uv| usable(uv.x) && usable(uv.y)) {
-            return Err("has texture coordinates that are not usable numbers".into());
+            return Err("has texture coordinates that are not finite or too large".into());
         }
     }
     let first = part.positions.first().copied().unwrap_or_default();
@@ -166,26 +165,26 @@ mod tests {
             check(&scene).unwrap_err().message().to_owned()
         };
         insta::assert_snapshot!(
-            refused(|it| it.instances[0].mesh = 7), @r#"instance 0 ("box 0") shows mesh 7, which is not there"#
+            refused(|it| it.instances[0].mesh = 7), @r#"instance 0 ("box 0") refers to the missing mesh 7"#
         );
         insta::assert_snapshot!(
             refused(|it| it.instances[0].transform.translation.x = f64::NAN),
-            @r#"the transform of instance 0 ("box 0") is not made of usable numbers"#
+            @r#"the transform of instance 0 ("box 0") has numbers that are not finite or too large"#
         );
         insta::assert_snapshot!(
-            refused(|it| it.meshes[0].parts[0].material = 9), @r#"mesh 0 ("box") uses material 9, which is not there"#
+            refused(|it| it.meshes[0].parts[0].material = 9), @r#"mesh 0 ("box") refers to the missing material 9"#
         );
         insta::assert_snapshot!(
             refused(|it| it.meshes[0].parts[0].triangles.push([0, 99, 1])),
-            @r#"mesh 0 ("box") has a triangle at a point that is not there"#
+            @r#"mesh 0 ("box") has a triangle with a missing point"#
         );
         insta::assert_snapshot!(
             refused(|it| it.meshes[0].parts[0].positions[0].y = f32::INFINITY),
-            @r#"mesh 0 ("box") has a point whose coordinates are not usable numbers"#
+            @r#"mesh 0 ("box") has a point with coordinates that are not finite or too large"#
         );
         insta::assert_snapshot!(
             refused(|it| it.meshes[0].parts[0].normals.truncate(23)),
-            @r#"mesh 0 ("box") has not one normal and one texture coordinate for each point"#
+            @r#"mesh 0 ("box") does not have one normal and one texture coordinate for each point"#
         );
     }
 

@@ -76,7 +76,7 @@ impl Files {
         let target = FileTarget::of(path)?;
         if self.written.iter().any(|known| known.target.is(&target)) {
             return Err(Error::usage(format!("{} would be written twice", path.display()))
-                .help("name another file for each of them"));
+                .help("specify different files"));
         }
         let (temporary, file, way) = target.create()?;
         let written = OutputFile { target, temporary, way };
@@ -95,19 +95,16 @@ impl Files {
         let missing: Vec<&Path> = path.ancestors().take_while(missing).collect();
         for folder in missing.into_iter().rev() {
             let made = Temporary::folder(folder).map_err(|error| {
-                Error::file(folder, format!("cannot make the folder {}: {error}", folder.display()))
-                    .help("make it first, or name one that is there")
+                Error::file(folder, format!("cannot create the folder {}: {error}", folder.display()))
+                    .help("create it first, or specify an existing folder")
             })?;
             self.folders.push(made);
         }
         if path.is_dir() {
             return Ok(());
         }
-        Err(Error::file(
-            path,
-            format!("cannot make the folder {}: there is a file of that name", path.display()),
-        )
-        .help("name another folder"))
+        Err(Error::file(path, format!("cannot create the folder {}: a file has that name", path.display()))
+            .help("specify another folder"))
     }
 
     /// Writes `bytes` as [`write`](Self::write) does, unless the same `bytes` have already been written to `path`.
@@ -306,12 +303,12 @@ mod tests {
             text.replace(&folder.path().display().to_string(), "FOLDER")
         };
         insta::assert_snapshot!(said(&folder.path().join("no/a.glb")), @r"
-        cannot write FOLDER/no/a.glb: there is no folder FOLDER/no
-          help: make the folder first, or write to one that is there
+        cannot write FOLDER/no/a.glb: folder not found: FOLDER/no
+          help: create the folder first, or write to an existing folder
         ");
         insta::assert_snapshot!(said(folder.path()), @r"
         cannot write FOLDER: it is a folder
-          help: name a file in it, such as FOLDER/model.glb
+          help: specify a file in it, such as FOLDER/model.glb
         ");
     }
 }

@@ -100,9 +100,9 @@ impl Format {
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     pub fn of(path: &Path) -> Result<Self> {
-        let known = format!("the formats are {}", Self::extension_list("and"));
+        let known = format!("supported formats are {}", Self::extension_list("and"));
         let Some(extension) = path.extension() else {
-            let message = format!("cannot write {}: its name does not end in a format", path.display());
+            let message = format!("cannot write {}: missing file extension", path.display());
             return Err(Error::usage(message).help(known));
         };
         let extension = extension.to_string_lossy();
@@ -113,7 +113,7 @@ impl Format {
         if let Some(format) = Self::ALL.into_iter().find(ends) {
             return Ok(format);
         }
-        let message = format!("cannot write {}: .{extension} is not a format", path.display());
+        let message = format!("cannot write {}: unknown file extension .{extension}", path.display());
         let extensions = Self::ALL.map(|format| format!(".{}", format.extension()));
         let meant = extensions.iter().map(String::as_str);
         Err(Error::not_found("format", format!(".{extension}"), meant, message).help(known))
@@ -136,20 +136,20 @@ mod tests {
     #[test]
     fn an_unknown_extension_is_refused_with_a_suggestion() {
         insta::assert_snapshot!(Format::of(Path::new("a/tower.gtlf")).unwrap_err(), @r"
-        cannot write a/tower.gtlf: .gtlf is not a format
+        cannot write a/tower.gtlf: unknown file extension .gtlf
           help: did you mean .gltf?
         ");
         insta::assert_snapshot!(Format::of(Path::new("tower.step")).unwrap_err(), @r"
-        cannot write tower.step: .step is not a format
-          help: the formats are .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson and .gpkg
+        cannot write tower.step: unknown file extension .step
+          help: supported formats are .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson and .gpkg
         ");
     }
 
     #[test]
     fn a_missing_extension_is_refused() {
         insta::assert_snapshot!(Format::of(Path::new("a.b/tower")).unwrap_err(), @r"
-        cannot write a.b/tower: its name does not end in a format
-          help: the formats are .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson and .gpkg
+        cannot write a.b/tower: missing file extension
+          help: supported formats are .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson and .gpkg
         ");
     }
 }

@@ -39,7 +39,7 @@ impl FileTarget {
         if there.as_ref().is_some_and(Metadata::is_dir) {
             let error = Error::file(named, format!("cannot write {}: it is a folder", named.display()));
             return Err(
-                error.help(format!("name a file in it, such as {}", named.join("model.glb").display()))
+                error.help(format!("specify a file in it, such as {}", named.join("model.glb").display()))
             );
         }
         let real = match &there {
@@ -50,8 +50,8 @@ impl FileTarget {
         let folder = folder(&real);
         if !folder.is_dir() {
             let (shown, folder) = (named.display(), folder.display());
-            return Err(Error::file(named, format!("cannot write {shown}: there is no folder {folder}"))
-                .help("make the folder first, or write to one that is there"));
+            return Err(Error::file(named, format!("cannot write {shown}: folder not found: {folder}"))
+                .help("create the folder first, or write to an existing folder"));
         }
         // Replacing a file does not require permission to write to it, but its owner may have write-protected it on
         // purpose.
@@ -125,7 +125,7 @@ fn follow(path: &Path) -> io::Result<PathBuf> {
             Err(_) => return Ok(path),
         }
     }
-    Err(io::Error::other("its links lead in a circle"))
+    Err(io::Error::other("circular symbolic link"))
 }
 
 /// Returns the folder that contains `path`.
@@ -194,12 +194,12 @@ fn is_forbidden(error: &io::Error) -> bool {
 fn path_error(path: &Path, error: &io::Error) -> Error {
     let said = Error::file(path, format!("cannot write {}: {error}", path.display()));
     match error.kind() {
-        ErrorKind::NotFound => said.help("make the folder first, or write to one that is there"),
+        ErrorKind::NotFound => said.help("create the folder first, or write to an existing folder"),
         ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
             let (file, folder) = (path.display(), folder(path).display());
             said.help(match path.is_file() {
-                true => format!("allow yourself to write {file}, or choose another name"),
-                false => format!("write to a folder other than {folder}, where you may make files"),
+                true => format!("get write permission for {file}, or choose another name"),
+                false => format!("write to a folder other than {folder}, with write permission"),
             })
         }
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {

@@ -97,7 +97,7 @@ impl ImageFile {
         let bytes = match &texture.content {
             Some(content) => content.to_vec(),
             None => burgeon_base::files::read(path, LARGEST).map_err(|error| {
-                refused(&error).help("correct the path, which starts at the script's folder")
+                refused(&error).help("correct the path, which is relative to the script's folder")
             })?,
         };
         let remedy = "give a PNG or JPEG file that an image viewer opens";

@@ -56,7 +56,7 @@ pub fn shaded_face(part: &mut Part, corners: &[DVec3], shading: CornerShading<'_
     }
     if points.len() < 3 {
         return Err(Error::geometry(format!(
-            "the polygon has {} different corners, and needs 3",
+            "the polygon has {} distinct corners, but needs 3",
             points.len()
         ))
         .help("add corners with Point(), moving in between"));
@@ -76,7 +76,7 @@ pub fn shaded_face(part: &mut Part, corners: &[DVec3], shading: CornerShading<'_
         .collect();
     let raw = geo_polygon(std::slice::from_ref(&flat)).earcut_triangles_raw();
     let base = u32::try_from(part.positions.len())
-        .map_err(|_| Error::limit(Limit::Size, "a mesh holds too many vertices"))?;
+        .map_err(|_| Error::limit(Limit::Size, "a mesh has too many vertices"))?;
     for ((point, flat), number) in points.iter().zip(&flat).zip(numbers) {
         let given = shading.normals.map_or(DVec3::ZERO, |normals| normals[number].normalize_or_zero());
         part.positions.push(point.as_vec3());
@@ -122,7 +122,7 @@ pub fn sphere(part: &mut Part, center: DVec3, radius: f64, sides: u32) -> Result
     }
     let (sides, rows) = (sides.max(3), (sides / 2).max(2));
     let base = u32::try_from(part.positions.len())
-        .map_err(|_| Error::limit(Limit::Size, "a mesh holds too many vertices"))?;
+        .map_err(|_| Error::limit(Limit::Size, "a mesh has too many vertices"))?;
     for row in 0..=rows {
         let (sin, cos) = (std::f64::consts::PI * f64::from(row) / f64::from(rows)).sin_cos();
         // Exact poles close the surface.

@@ -135,7 +135,7 @@ impl Sizes {
 }
 
 fn too_many() -> Error {
-    Error::limit(Limit::Size, format!("there are more than {MOST} separate sizes that it could have"))
+    Error::limit(Limit::Size, format!("it could have more than {MOST} separate sizes"))
         .help("let the size of a part vary, or repeat it less often")
 }
 

@@ -25,7 +25,7 @@ impl Registry {
     ///
     /// let twice = Registry::try_from_kinds([Kind::new("bead", "A bead."), Kind::new("bead", "Another.")]);
     /// let error = twice.expect_err("two of a name");
-    /// assert_eq!(error.message(), "there is already a type of object called bead, which every script has");
+    /// assert_eq!(error.message(), "object type `bead` is already declared, as a built-in type");
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     pub fn try_from_kinds(kinds: impl IntoIterator<Item = impl Into<Arc<Kind>>>) -> Result<Self> {
@@ -46,10 +46,9 @@ impl Registry {
     pub fn refuse_taken(&self, name: &str) -> Result<()> {
         let Some(known) = self.get(name) else { return Ok(()) };
         let place = known.script.as_ref().and_then(|script| script.place());
-        let place =
-            place.map_or_else(|| "which every script has".to_owned(), |place| format!("declared in {place}"));
-        Err(Error::argument(format!("there is already a type of object called {name}, {place}"))
-            .help("give this one another name, or add to that one: extend(constructor, { ... })"))
+        let place = place.map_or_else(|| "as a built-in type".to_owned(), |place| format!("in {place}"));
+        Err(Error::argument(format!("object type `{name}` is already declared, {place}"))
+            .help("rename this one, or add methods to the other: extend(constructor, { ... })"))
     }
 
     /// Fails if the registry was collected from types of which two have the same name.
@@ -104,9 +103,6 @@ mod tests {
         let registry: Registry = ["bead", "string", "bead", "string"].map(kind).into_iter().collect();
         assert_eq!(registry.kinds().count(), 2);
         let error = registry.check().expect_err("two of a name").to_string();
-        assert!(
-            error.contains("there is already a type of object called bead, which every script has"),
-            "{error}"
-        );
+        assert!(error.contains("object type `bead` is already declared, as a built-in type"), "{error}");
     }
 }

@@ -34,7 +34,7 @@ impl Parameter for Seed {
                 u64::from_str_radix(&text, 16).map(Self).map_err(|_| Expectation::new("a seed"))
             }
             Value::Text(text) => Ok(Self(ModuleKey::default().feature(&text).0)),
-            _ => Err(Expectation::new("a whole number below 2^53, or a string")),
+            _ => Err(Expectation::new("an integer below 2^53, or a string")),
         }
     }
 

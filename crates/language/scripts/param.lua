@@ -1,5 +1,5 @@
 -- A value that --set floors=7 or the live view can change.
-local floors = param("floors", { default = 3, min = 1, max = 40, step = 1, text = "How many floors." })
+local floors = param("floors", { default = 3, min = 1, max = 40, step = 1, doc = "How many floors." })
 local Floor = module("Floor", "left")
 local tower = lsystem({ object = extruder({ sides = 6 }) })
 tower:axiom(Floor(floors))

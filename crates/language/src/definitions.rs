@@ -281,6 +281,10 @@ impl Writer {
             let luau = self.argument_type(field.luau.trim_end_matches('?'), &field.fields);
             let doc = field.doc.split_whitespace().collect::<Vec<_>>().join(" ");
             let _ = writeln!(table, "  --- {doc}\n  read {}: {},", key(&field.name), optional(&luau));
+            for former in &field.former {
+                let doc = format!("Deprecated since {}: use {}.", former.since, former.instead);
+                let _ = writeln!(table, "  --- {doc}\n  read {}: {},", key(&former.name), optional(&luau));
+            }
         }
         table + "}"
     }

@@ -109,23 +109,23 @@ fn snippets() -> Value {
             "end)",
             "${3:plant}:derive(${6:5})",
         ]),
-        "Burgeon: a rule": snippet("rule", "What replaces a module", &[
+        "Burgeon: a rule": snippet("rule", "The successor of a module", &[
             "${1:plant}:rule(\"${2:A(x)}\", function(this, ${3:x}: number)",
             "  return $0",
             "end)",
         ]),
-        "Burgeon: a rule by chance": snippet("weighted", "One of several rules of a module", &[
+        "Burgeon: a stochastic rule": snippet("weighted", "One of several rules of a module", &[
             "${1:plant}:rule(\"${2:A}\", { weight = ${3:1} }, function(this)",
             "  return $0",
             "end)",
         ]),
-        "Burgeon: an interpretation": snippet("interpret", "What is drawn for a module", &[
+        "Burgeon: an interpretation": snippet("interpret", "The drawing of a module", &[
             "${1:plant}:interpret(\"${2:A(x)}\", function(this, ${3:x})",
             "  this:$0",
             "end)",
         ]),
-        "Burgeon: a parameter": snippet("param", "A value that people may change", &[
-            "local ${1:size} = param(\"${1:size}\", { default = ${2:1}, min = ${3:0}, max = ${4:10}, text = \"$0\" })",
+        "Burgeon: a parameter": snippet("param", "A value that users can change", &[
+            "local ${1:size} = param(\"${1:size}\", { default = ${2:1}, min = ${3:0}, max = ${4:10}, doc = \"$0\" })",
         ]),
     })
 }

@@ -47,7 +47,7 @@ pub(crate) fn add_missing(text: &str, wanted: &Map<String, Value>) -> Result<Opt
     let mut edited = text.to_owned();
     let mut root = read(&edited)?;
     if !matches!(root.content, NodeContent::Object(_)) {
-        return Err("it is no object".to_owned());
+        return Err("it is not an object".to_owned());
     }
     let mut add = |root: &mut JsonNode, path: Option<&str>, name: Option<&str>, value: &Value| {
         let into = path.map_or(Some(&*root), |path| root.member(path));

@@ -62,7 +62,7 @@ impl Presets {
         let path = path.to_path_buf();
         let cannot = |why: &dyn std::fmt::Display| {
             Error::file(&path, format!("cannot read the presets in {}: {why}", path.display()))
-                .help("presets are a JSON file that Burgeon can read; move that away if it is something else")
+                .help("presets are in a JSON file; move this file away if it contains something else")
         };
         // Messages show lines of the file, and the target of a link may belong to another user.
         if path.is_symlink() {
@@ -78,7 +78,7 @@ impl Presets {
                     Limit::Size,
                     format!("{} is too large for presets", path.display()),
                 )
-                .help(format!("presets have at most {LARGEST} bytes; move that file away")));
+                .help(format!("a presets file can have at most {LARGEST} bytes; move this file away")));
             }
             Err(error) => return Err(cannot(&error)),
         };
@@ -140,12 +140,12 @@ impl Presets {
                     "preset",
                     name,
                     [],
-                    format!("there is no preset {name}, for there are none"),
+                    format!("unknown preset `{name}`: the script has no presets"),
                 )
-                .help(format!("write them into {file}, or save one: burgeon run --save-preset NAME"));
+                .help(format!("write presets into {file}, or save one: burgeon run --save-preset NAME"));
             }
             let names: Vec<&str> = self.names().collect();
-            let message = format!("{file} has no preset called {name}");
+            let message = format!("unknown preset `{name}` in {file}");
             Error::not_found("preset", name, names.iter().copied(), message)
                 .help(format!("it has {}", names.join(", ")))
         })
@@ -207,7 +207,7 @@ pub fn check_name(name: &str) -> Result<()> {
         return Ok(());
     }
     Err(Error::argument(format!("{name:?} cannot be the name of a preset")).help(format!(
-        "use 1 to {LONGEST} characters, without line breaks and bidirectional controls, and no space at the beginning or the end"
+        "use 1 to {LONGEST} characters, without line breaks, bidirectional controls, and spaces at the beginning or the end"
     )))
 }
 
@@ -229,7 +229,7 @@ impl<'a> PresetsFile<'a> {
             let place = SourcePlace { file: self.name.clone(), line: error.line().max(1) };
             Error::data(format!("this is not JSON: {said}"))
                 .at(Some(place))
-                .help("mend the file, or move it away")
+                .help("fix the file, or move it away")
         })?;
         let mut presets = Vec::new();
         for (name, raw) in self.members(file, "the file", "{ \"name\": { \"seed\": 0, \"params\": {} } }")? {
@@ -239,8 +239,8 @@ impl<'a> PresetsFile<'a> {
                 match key.as_str() {
                     "seed" => {
                         let seed = serde_json::from_str(raw.get()).map_err(|_| {
-                            Error::data(format!("{what}: {} is no seed", short(raw)))
-                                .help("write a whole number from 0")
+                            Error::data(format!("{what}: invalid seed {}", short(raw)))
+                                .help("write an integer of at least 0")
                                 .at(Some(self.place(raw)))
                         })?;
                         preset.seed = Some(seed);
@@ -254,9 +254,9 @@ impl<'a> PresetsFile<'a> {
                         }
                     }
                     _ => {
-                        let message = format!("{what} has no field called {key}");
+                        let message = format!("unknown field `{key}` in {what}");
                         return Err(Error::not_found("field", &key, ["seed", "params"], message)
-                            .help("a preset has a seed and params; parameters belong into params")
+                            .help("a preset has a seed and params; put parameters into params")
                             .at(Some(self.place(raw))));
                     }
                 }
@@ -276,7 +276,7 @@ impl<'a> PresetsFile<'a> {
         let mut known = FxHashSet::default();
         for (name, raw) in &members {
             if !known.insert(normal_form(name)) {
-                return Err(refuse(format!("{what} has two members called {name}"), raw)
+                return Err(refuse(format!("{what} has two members named `{name}`"), raw)
                     .help("remove or rename one of them"));
             }
         }
@@ -293,7 +293,7 @@ impl<'a> PresetsFile<'a> {
             _ => None,
         };
         read.ok_or_else(|| {
-            Error::data(format!("{what}: {} is no value for {name}", short(raw)))
+            Error::data(format!("{what}: invalid value {} for {name}", short(raw)))
                 .help("write a number, true, false or a string")
                 .at(Some(self.place(raw)))
         })
@@ -404,11 +404,11 @@ mod tests {
     fn a_file_of_another_form_is_refused_with_its_line_and_kept() {
         insta::assert_snapshot!(refused("{\n  \"tall\": {\n    \"seed\": 7,,\n"), @r"
         FOLDER/tower.presets.json:3: this is not JSON: key must be a string
-          help: mend the file, or move it away
+          help: fix the file, or move it away
         ");
         insta::assert_snapshot!(refused(""), @r"
         FOLDER/tower.presets.json:1: this is not JSON: EOF while parsing a value
-          help: mend the file, or move it away
+          help: fix the file, or move it away
         ");
         insta::assert_snapshot!(refused("[1, 2]"), @r#"
         FOLDER/tower.presets.json:1: the file is [1, 2], not an object
@@ -419,31 +419,31 @@ mod tests {
           help: write { "seed": 0, "params": {} }
         "#);
         insta::assert_snapshot!(refused("{ \"tall\": {\n\"sed\": 3 } }"), @r"
-        FOLDER/tower.presets.json:2: preset tall has no field called sed
+        FOLDER/tower.presets.json:2: preset unknown field `sed` in tall
           help: did you mean seed?
         ");
         insta::assert_snapshot!(refused("{ \"tall\": {\n\"floors\": 3 } }"), @r"
-        FOLDER/tower.presets.json:2: preset tall has no field called floors
-          help: a preset has a seed and params; parameters belong into params
+        FOLDER/tower.presets.json:2: preset unknown field `floors` in tall
+          help: a preset has a seed and params; put parameters into params
         ");
         insta::assert_snapshot!(refused("{ \"tall\": { \"seed\": -1 } }"), @r"
-        FOLDER/tower.presets.json:1: preset tall: -1 is no seed
-          help: write a whole number from 0
+        FOLDER/tower.presets.json:1: preset tall: invalid seed -1
+          help: write an integer of at least 0
         ");
         insta::assert_snapshot!(refused("{ \"tall\": { \"seed\": 1e400 } }"), @r"
-        FOLDER/tower.presets.json:1: preset tall: 1e400 is no seed
-          help: write a whole number from 0
+        FOLDER/tower.presets.json:1: preset tall: invalid seed 1e400
+          help: write an integer of at least 0
         ");
         insta::assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\n\"a\": [1] } } }"), @r"
-        FOLDER/tower.presets.json:3: preset tall: [1] is no value for a
+        FOLDER/tower.presets.json:3: preset tall: invalid value [1] for a
           help: write a number, true, false or a string
         ");
         insta::assert_snapshot!(refused("{ \"tall\": { \"params\": { \"a\": 1e999 } } }"), @r"
-        FOLDER/tower.presets.json:1: preset tall: 1e999 is no value for a
+        FOLDER/tower.presets.json:1: preset tall: invalid value 1e999 for a
           help: write a number, true, false or a string
         ");
         insta::assert_snapshot!(refused("{ \"tall\": {},\n\"tall\": {} }"), @r"
-        FOLDER/tower.presets.json:2: the file has two members called tall
+        FOLDER/tower.presets.json:2: the file has two members named `tall`
           help: remove or rename one of them
         ");
     }
@@ -456,7 +456,7 @@ mod tests {
         let presets = Presets::save(&script, preset("\u{e9}t\u{e9}", 2.0)).unwrap();
         assert_eq!(presets.names().collect::<Vec<_>>(), ["\u{e9}t\u{e9}"]);
         assert_eq!(presets.get("e\u{301}te\u{301}").unwrap().params[0].1, Setting::Number(2.0));
-        assert!(refused("{ \"\u{e9}\": {},\n\"e\u{301}\": {} }").contains("two members called"));
+        assert!(refused("{ \"\u{e9}\": {},\n\"e\u{301}\": {} }").contains("two members named"));
     }
 
     #[cfg(unix)]

@@ -183,6 +183,7 @@ impl<'a> Declaration<'a> {
                     let value: #of = #default;
                     #kit::Parameter::written(value)
                 },
+                former: ::std::vec::Vec::new(),
             }
         }
     }

@@ -170,6 +170,8 @@ pub fn fields(arguments: TokenStream, item: TokenStream) -> TokenStream {
 /// - `first = "field"`, `example = "..."`, `gathers = function`, `prefetches = function`, as its `Kind` takes them;
 /// - `deprecates("height", "1.3", "size")`: a deprecated name, the version that deprecates it, and its replacement; can
 ///   be repeated;
+/// - `renames("height", "1.3", "size")`: the former name of a field or method, the version that deprecates it, and the
+///   present name; can be repeated. Scripts can still use the former name;
 /// - `make = function`: the function of the type that makes an object from a script's `&Table`, if reading the fields
 ///   is not enough;
 /// - `options = TowerOptions`: the constructor takes the fields of that struct, which has `#[fields]`, and `new` makes

@@ -105,7 +105,10 @@ fn kind(declared: &ObjectArguments, object: &Ident, doc: &str) -> TokenStream {
             Some(quote! { .loaded(#fields, #loader) })
         }
     };
-    let values = declared.values.iter().map(|(verb, value)| quote_spanned! { verb.span() => .#verb(#value) });
+    let calls = |list: &[(Ident, TokenStream)]| -> Vec<TokenStream> {
+        list.iter().map(|(verb, value)| quote_spanned! { verb.span() => .#verb(#value) }).collect()
+    };
+    let (values, renames) = (calls(&declared.values), calls(&declared.renames));
     let draws = declared.draws.as_ref().map(|verb| quote_spanned! { verb.span() => .#verb::<#object>() });
     let capabilities = declared
         .capabilities
@@ -113,7 +116,7 @@ fn kind(declared: &ObjectArguments, object: &Ident, doc: &str) -> TokenStream {
         .map(|of| quote_spanned! { of.span() => .can(#kit::capability!(#object: #of)) });
     let begins_empty = declared.begins_empty.as_ref().map(|_| quote! { .begins_empty() });
     quote! {
-        #kit::Kind::new(#name, #doc) #made #(#values)* .methods(#object::methods()) #begins_empty #draws #(#capabilities)*
+        #kit::Kind::new(#name, #doc) #made #(#values)* .methods(#object::methods()) #(#renames)* #begins_empty #draws #(#capabilities)*
     }
 }
 
@@ -219,7 +222,7 @@ mod tests {
                 "\"tower\", shines",
                 tower,
                 "object takes no shines: it takes begins_empty, can, crate, deprecates, draws, example, first, functions, gathers, given, has, loader, \
-                 make, options, prefetches, and of what the engine calls begin, push, pop, end, seed",
+                 make, options, prefetches, renames, and of what the engine calls begin, push, pop, end, seed",
             ),
             ("\"tower\", draws, draws", tower, "draws stands here already"),
             (

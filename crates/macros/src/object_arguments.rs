@@ -11,7 +11,7 @@ use crate::attribute::AttributeArguments;
 /// The verbs of a kind that take a value.
 const VALUES: [&str; 6] = ["example", "first", "functions", "gathers", "has", "prefetches"];
 /// Everything, for messages.
-const ALL: &str = "begins_empty, can, crate, deprecates, draws, example, first, functions, gathers, given, has, loader, make, options, prefetches";
+const ALL: &str = "begins_empty, can, crate, deprecates, draws, example, first, functions, gathers, given, has, loader, make, options, prefetches, renames";
 
 /// Arguments of the attribute.
 pub(crate) struct ObjectArguments {
@@ -29,6 +29,8 @@ pub(crate) struct ObjectArguments {
     pub capabilities: Vec<Path>,
     /// Other arguments of the kind, as names of methods of `Kind` with their values.
     pub values: Vec<(Ident, TokenStream)>,
+    /// Arguments of `renames`, one for each former name.
+    pub renames: Vec<(Ident, TokenStream)>,
     /// Hooks with the methods of the type that implement them.
     pub hooks: Vec<(Hook, Ident)>,
 }
@@ -80,6 +82,7 @@ impl Parse for ObjectArguments {
             draws: None,
             capabilities: Vec::new(),
             values: Vec::new(),
+            renames: Vec::new(),
             hooks: Vec::new(),
         };
         let (mut known, mut options, mut loader, mut given) = (Vec::<Ident>::new(), None, None, false);
@@ -89,10 +92,11 @@ impl Parse for ObjectArguments {
                 break;
             }
             let name = input.call(Ident::parse_any)?;
-            if name == "deprecates" {
+            if name == "deprecates" || name == "renames" {
                 let given;
                 parenthesized!(given in input);
-                declared.values.push((name, given.parse()?));
+                let list = if name == "renames" { &mut declared.renames } else { &mut declared.values };
+                list.push((name, given.parse()?));
                 continue;
             }
             if known.contains(&name) {

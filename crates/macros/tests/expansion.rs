@@ -41,7 +41,15 @@ impl Tower {
 }
 
 /// A heap.
-#[object("heap", draws, begins_empty, deprecates("width", "1.3", "size"), deprecates("add", "1.3", "grow"))]
+#[object(
+    "heap",
+    draws,
+    begins_empty,
+    deprecates("width", "1.3", "size"),
+    deprecates("add", "1.3", "grow"),
+    renames("girth", "1.3", "width"),
+    renames("stack", "1.3", "add")
+)]
 pub struct Heap {
     /// How wide it is (m).
     #[default(2.0)]
@@ -143,8 +151,8 @@ fn a_table_is_read_or_refused() {
     assert_eq!((options.height.to_bits(), options.floors), (5f64.to_bits(), 3));
     assert_eq!(options.r#type.as_deref(), Some("bell"));
     for (given, message) in [
-        (("hight", Value::Number(5.0)), "tower has no field called hight"),
-        (("floors", Value::Number(0.5)), "tower: floors must be a whole number from 0, not 0.5"),
+        (("hight", Value::Number(5.0)), "unknown field `hight` in tower"),
+        (("floors", Value::Number(0.5)), "tower: floors must be an integer of at least 0, not 0.5"),
         (("height", text("high")), "tower: height must be a number, not \"high\""),
     ] {
         let error = TowerOptions::from_table(&table(&[given])).expect_err(message);
@@ -211,7 +219,7 @@ fn a_call_that_does_not_fit_is_refused() {
         assert_eq!(call(&mut tower, name, &values), Err(message.to_owned()));
     }
     for name in ["reset", "height"] {
-        let message = "the method belongs to another type of object";
+        let message = "the method belongs to another object type";
         assert_eq!(call(&mut Other, name, &[]), Err(message.to_owned()));
     }
 }
@@ -240,6 +248,12 @@ fn a_type_is_what_its_struct_says() {
     assert_eq!(own.options.floors, 4, "the method that the attribute names was called");
     let instead = ["width", "add"].map(|name| Heap::kind().deprecation(name).map(|it| it.instead.clone()));
     assert_eq!(instead, [Some("size".into()), Some("grow".into())]);
+    let heap = Heap::kind().make(&table(&[("girth", Value::Number(3.0))])).expect("girth is a former name");
+    let heap = (&*heap as &dyn std::any::Any).downcast_ref::<Heap>().expect("it is a heap");
+    assert_eq!(heap.width.to_bits(), 3f64.to_bits());
+    let stack = Heap::kind().method("stack").expect("stack is a former name");
+    assert!(stack.call.changes());
+    assert_eq!(Heap::kind().deprecation("stack").map(|it| &*it.instead), Some("heap:add"));
     assert!(matches!(Other::kind().construct, Construct::Given) && Other::kind().fields.is_empty());
     assert!(
         !kind.has_capability::<dyn Draw>()

@@ -42,8 +42,8 @@ impl ElevationOptions {
             })
         });
         if let Some(encoding) = self.encoding.as_deref().filter(|encoding| *encoding != TERRAIN_RGB) {
-            return Err(Error::argument(format!("elevation: there is no encoding {encoding:?}"))
-                .help(format!("write encoding = {TERRAIN_RGB:?}, or leave it out")));
+            return Err(Error::argument(format!("elevation: unknown encoding {encoding:?}"))
+                .help(format!("write encoding = {TERRAIN_RGB:?}, or omit it")));
         }
         Ok(HeightOptions {
             crs: self.crs,
@@ -120,7 +120,7 @@ impl Elevation {
     fn outside_error(&self, place: DVec3) -> Error {
         let (low, high) = (self.relief.low(), self.relief.high());
         Error::argument(format!(
-            "elevation: {:.1}, {:.1} lies outside of {}, which reaches from {:.1}, {:.1} to {:.1}, {:.1}",
+            "elevation: {:.1}, {:.1} is outside {}, which extends from {:.1}, {:.1} to {:.1}, {:.1}",
             place.x,
             place.y,
             self.relief.raster().name,
@@ -129,13 +129,13 @@ impl Elevation {
             high.x,
             high.y
         ))
-        .help("ask within its bounds, or use a file that reaches farther")
+        .help("use a position within its bounds, or a larger file")
         .of_data()
     }
 }
 
 const LOADER: Loader = Loader {
-    what: "file of heights",
+    what: "height file",
     example: "elevation(\"N43E007.hgt\")",
     example_with_fields: "elevation(\"N43E007.hgt\", { crs = 4326 })",
     several: &["hgt", "tif", "tiff", "asc", "zip"],
@@ -188,7 +188,7 @@ impl Parameter for Elevation {
     }
 
     fn from_value(value: Value) -> Result<Self, Expectation> {
-        let what = "an elevation, made once before: elevation(\"N43E007.hgt\")";
+        let what = "an elevation, created once before: elevation(\"N43E007.hgt\")";
         object(value, what).map(|elevation: Arc<Self>| (*elevation).clone())
     }
 

@@ -95,12 +95,12 @@ pub const PLAIN_EXAMPLES: &[ScriptExample] = examples! {
     "network/dead_ends" shows "network:grow" "network:join_dead_ends" "network:remove_dead_ends"
         "network:open_ends" "network:joinable" "network:dead_ends";
     "network/existing" shows "network:omitted";
-    "network/fate" shows "network:arrived" "network:fate" "network:probe" "network:place"
+    "network/outcome" shows "network:end_junction" "network:outcome" "network:probe" "network:place"
         "network:places" "network:degree";
     "network/lots" shows "network:measures" "network:size" "network:distance" "network:streets"
         "network:junctions" "network:blocks" "network:lots" "network:height" "network:verge"
         "network:sites" "network:face";
-    "network/walk" shows "network:lead" "network:walk" "network:turn" "network:stand";
+    "network/walk" shows "network:grow_to" "network:walk" "network:turn" "network:move_to";
     "planet/height" shows "planet:focus" "planet:height" "planet:surface" "planet:symbol"
         "planet:heights";
     "streets/distance" shows "streets:distance";
@@ -139,7 +139,7 @@ mod tests {
             assert!(named(shown), "{shown}");
         }
         for kind in registry.kinds() {
-            for method in &kind.methods {
+            for method in kind.methods.iter().filter(|it| kind.deprecation(&it.name).is_none()) {
                 let name = format!("{}:{}", kind.name, method.name);
                 let shows = |list: &[ScriptExample]| list.iter().any(|it| it.shows.contains(&&*name));
                 let drawn = kind.has_capability::<dyn burgeon_kit::Draw>()

@@ -45,7 +45,7 @@ pub struct LineIndex {
 
 impl fmt::Debug for LineIndex {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "streets of {} pieces", self.pieces.size())
+        write!(f, "streets of {} segments", self.pieces.size())
     }
 }
 
@@ -67,7 +67,7 @@ impl LineIndex {
         let mut index = Self::of_lines(&lines);
         if let Some((count, first)) = refused {
             let items = if count == 1 { "item" } else { "items" };
-            let text = format!("streets: left out {count} {items} of the list: {first}");
+            let text = format!("streets: skipped {count} {items} of the list: {first}");
             let warning = Warning::new(WarningKind::Data, text);
             index.warnings.push(warning.help("give lines of points with finite coordinates in metres"));
         }
@@ -118,7 +118,7 @@ impl Parameter for LineIndex {
     }
 
     fn from_value(value: Value) -> Result<Self, Expectation> {
-        object(value, "streets, made once before: streets(source)")
+        object(value, "streets, created once before: streets(source)")
             .map(|streets: Arc<Self>| (*streets).clone())
     }
 

@@ -189,9 +189,9 @@ pub(crate) fn draw_mesh(
     ] {
         if let Some(count) = count.filter(|count| *count != wanted) {
             return Err(Error::argument(format!(
-                "{kind}:mesh: there are {count} {name} for {wanted} {each}s"
+                "{kind}:mesh: {count} {name} do not match {wanted} {each}s"
             ))
-            .help(format!("give one for each {each}, or leave {name} out")));
+            .help(format!("give one for each {each}, or omit {name}")));
         }
     }
     check(kind, placed.len(), faces)?;
@@ -219,17 +219,16 @@ fn check(kind: &str, count: usize, faces: &MeshFaces) -> Result<()> {
     for (number, face) in (1..).zip(faces.iter()) {
         if face.len() < 3 {
             return Err(Error::argument(format!("{kind}:mesh: face {number} has {} corners", face.len()))
-                .help("a face has three corners or more, such as { 1, 2, 3 }"));
+                .help("a face has at least three corners, such as { 1, 2, 3 }"));
         }
         if face.iter().any(|corner| !(first..first + count).contains(&(*corner as usize))) {
             let what = match count {
-                0 => "a point, and there are none".to_owned(),
+                0 => "a point, but no points are given".to_owned(),
                 _ => format!("a point that is not one of {first} to {}", first + count - 1),
             };
             let kept = if first == 0 { " in a buffer" } else { "" };
-            return Err(Error::argument(format!("{kind}:mesh: face {number} names {what}")).help(format!(
-                "points are numbered from {first} on{kept}, in the order in which they are given"
-            )));
+            return Err(Error::argument(format!("{kind}:mesh: face {number} refers to {what}"))
+                .help(format!("points are numbered from {first}{kept}, in the given order")));
         }
     }
     Ok(())
@@ -253,8 +252,9 @@ fn parts(
         });
         if known.len() > MOST_COLORS {
             let message = format!("{kind}:mesh: the faces have more than {MOST_COLORS} different colours");
-            return Err(Error::limit(Limit::Size, message)
-                .help("round the colours, or draw an image on the mesh: a texture, with uvs"));
+            return Err(
+                Error::limit(Limit::Size, message).help("round the colours, or use a texture with uvs")
+            );
         }
         numbers.push(number);
     }
@@ -276,7 +276,7 @@ fn triangle(
         return Ok(());
     }
     let base = u32::try_from(part.positions.len() + 2)
-        .map_err(|_| Error::limit(Limit::Size, "a mesh holds too many vertices"))?
+        .map_err(|_| Error::limit(Limit::Size, "a mesh has too many vertices"))?
         - 2;
     let right = normal.any_orthonormal_vector();
     let up = normal.cross(right);

@@ -194,8 +194,9 @@ impl Turtle {
     /// Turns the heading to `direction`.
     pub fn face(&mut self, direction: Vector) -> Result<()> {
         if direction.0.length_squared() < 1e-24 {
-            return Err(Error::argument("turtle:face: direction has no length")
-                .help("give a vector that is not zero"));
+            return Err(
+                Error::argument("turtle:face: direction has no length").help("use a vector that is not zero")
+            );
         }
         self.state.frame.face(direction.0);
         Ok(())
@@ -210,7 +211,7 @@ impl Turtle {
     /// Sets the diameter of branches to `width` (m). A branch tapers to it along the next step.
     pub fn width(&mut self, width: f64) -> Result<()> {
         if width < 0.0 {
-            return Err(Error::argument(format!("turtle:width: width must not be negative, and is {width}")));
+            return Err(Error::argument(format!("turtle:width: width must be at least 0, not {width}")));
         }
         self.state.width = width;
         Ok(())
@@ -225,11 +226,13 @@ impl Turtle {
     pub fn paint(&mut self, number: u32) -> Result<()> {
         let color = (number as usize).checked_sub(1).and_then(|index| self.options.palette.get(index));
         let Some(color) = color else {
-            return Err(Error::argument(format!("turtle:paint: the palette has no colour number {number}"))
-                .help(format!(
-                    "it has {}; set it with turtle {{ palette = {{ \"#2f6b3a\", ... }} }}",
-                    self.options.palette.len()
-                )));
+            return Err(Error::argument(format!(
+                "turtle:paint: unknown colour number {number} of the palette"
+            ))
+            .help(format!(
+                "the palette has {}; set it with turtle {{ palette = {{ \"#2f6b3a\", ... }} }}",
+                self.options.palette.len()
+            )));
         };
         self.paint_with(*color);
         Ok(())
@@ -328,7 +331,7 @@ impl Turtle {
 
 #[cold]
 fn no_polygon(method: &str) -> Error {
-    Error::script(format!("turtle:{method}: no polygon has been begun")).help("begin it with BeginPolygon()")
+    Error::script(format!("turtle:{method}: no polygon is open")).help("begin it with BeginPolygon()")
 }
 
 impl Turtle {
@@ -341,10 +344,7 @@ impl Turtle {
             )));
         }
         if options.width < 0.0 {
-            return Err(Error::argument(format!(
-                "turtle: width must not be negative, and is {}",
-                options.width
-            )));
+            return Err(Error::argument(format!("turtle: width must be at least 0, not {}", options.width)));
         }
         if options.heading.0.length_squared() < 1e-24 {
             return Err(Error::argument("turtle: heading has no length"));

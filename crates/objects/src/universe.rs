@@ -318,9 +318,9 @@ impl Parentage {
                 "number",
                 index,
                 [],
-                format!("universe:{what}: there is no {what} number {index}"),
+                format!("universe:{what}: unknown {what} number {index}"),
             )
-            .help(format!("there are {}, from 1", self.count)));
+            .help(format!("use a number from 1 to {}", self.count)));
         }
         whole(index)
     }
@@ -336,7 +336,7 @@ fn whole(number: f64) -> Result<usize> {
     if number.fract() == 0.0 && number.abs() < 9_007_199_254_740_992.0 {
         return Ok((number as i64) as usize);
     }
-    Err(Error::argument(format!("universe: {number} is no whole number below 2^53"))
+    Err(Error::argument(format!("universe: {number} is not an integer below 2^53"))
         .help("galaxies, stars and planets are numbered"))
 }
 
@@ -351,7 +351,7 @@ impl Parameter for Galaxy {
 
     fn from_value(value: Value) -> Result<Self, Expectation> {
         let found = Parentage::read(&value, GALAXIES, "stars");
-        found.map(Self).ok_or_else(|| Expectation::new("a galaxy, as universe:galaxy gives it"))
+        found.map(Self).ok_or_else(|| Expectation::new("a galaxy, as returned by universe:galaxy"))
     }
 
     fn into_value(self) -> Value {
@@ -370,7 +370,7 @@ impl Parameter for Star {
 
     fn from_value(value: Value) -> Result<Self, Expectation> {
         let found = Parentage::read(&value, STARS, "planets");
-        found.map(Self).ok_or_else(|| Expectation::new("a star, as universe:star gives it"))
+        found.map(Self).ok_or_else(|| Expectation::new("a star, as returned by universe:star"))
     }
 
     fn into_value(self) -> Value {

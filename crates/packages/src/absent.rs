@@ -9,8 +9,8 @@ use super::copy::PackageCopy;
 /// Fails, because zip files are not supported.
 pub(crate) fn unpack(from: &Path, _: &mut PackageCopy) -> Result<()> {
     Err(Error::unavailable(format!(
-        "{} is no folder, and this Burgeon is built without zips",
+        "{} is not a folder, and this program was built without zip support",
         from.display()
     ))
-    .help("unpack it, and name its folder"))
+    .help("unpack it, and specify its folder"))
 }

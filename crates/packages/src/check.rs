@@ -100,7 +100,7 @@ fn conflicts(package: &Package, together: &[&Package]) -> Vec<Error> {
         let versions = &conflict.versions;
         versions.matches(&other.manifest.version).then(|| {
             let (name, version) = (&other.manifest.name, &other.manifest.version);
-            Error::data(format!("the package {} cannot be used with {name} {version}", package.manifest.name))
+            Error::data(format!("the package {} conflicts with {name} {version}", package.manifest.name))
                 .help(format!("remove one of {} and {}", package.shown.display(), other.shown.display()))
                 .at(Some(package.manifest.place(conflict.line)))
         })
@@ -114,13 +114,11 @@ fn problems(found: &Packages, package: &Package, api: &Version, circles: &[Depen
     let name = &manifest.name;
     let mut problems = package.problems.clone();
     if !manifest.api.matches(api) {
-        let message = format!(
-            "the package {name} is made for version {} of the script API, and this is {api}",
-            manifest.api
-        );
+        let message =
+            format!("the package {name} needs version {} of the script API, but this is {api}", manifest.api);
         problems.push(
             Error::data(message)
-                .help(format!("get a Burgeon with that version, or a {name} for this one"))
+                .help(format!("use a Burgeon with that version, or a {name} for this version"))
                 .at(Some(manifest.place(manifest.api_line))),
         );
     }
@@ -147,8 +145,8 @@ fn problems(found: &Packages, package: &Package, api: &Version, circles: &[Depen
             .find(|wanted| Some(&wanted.name) == circle.get(1))
             .map_or(1, |it| it.line);
         problems.push(
-            Error::data(format!("packages depend on each other in a circle: {}", circle.join(" -> ")))
-                .help("move what both need into a third package")
+            Error::data(format!("circular package dependency: {}", circle.join(" -> ")))
+                .help("move the common part into a third package")
                 .at(Some(manifest.place(line))),
         );
     }
@@ -167,19 +165,18 @@ fn need(found: &Packages, manifest: &Manifest, wanted: &Dependency) -> Option<Er
     let Some(other) = found.get(&wanted.name) else {
         if found.is_off(&wanted.name) {
             let file = found.off.1.display();
-            let message =
-                format!("the package {name} needs {}, which is switched off in {file}", wanted.name);
-            let help = format!("switch it on: burgeon mods enable {}", wanted.name);
+            let message = format!("the package {name} needs {}, which is disabled in {file}", wanted.name);
+            let help = format!("enable it: burgeon mods enable {}", wanted.name);
             return Some(Error::data(message).help(help).at(place));
         }
         let known = found.order().iter().map(|package| package.manifest.name.as_str());
-        let message = format!("the package {name} needs {} {versions}, which is not there", wanted.name);
+        let message = format!("the package {name} needs {} {versions}, which is not installed", wanted.name);
         return Some(match found.broken_called(&wanted.name) {
             Some(broken) => {
-                Error::data(message).help(format!("mend it first: {}", broken.error.message())).at(place)
+                Error::data(message).help(format!("fix it first: {}", broken.error.message())).at(place)
             }
             None => Error::not_found("package", &wanted.name, known, message)
-                .help("put it beside the other packages: burgeon mods add FOLDER")
+                .help("install it next to the other packages: burgeon mods add FOLDER")
                 .at(place),
         });
     };
@@ -201,14 +198,14 @@ pub(crate) fn version_mismatch(
     let better = found.hidden.iter().find(|it| it.name == *name && versions.matches(&it.version));
     Error::data(message).help(match better {
         Some(better) => {
-            format!("{} in {} would do: remove the other one", better.version, better.shown.display())
+            format!("{} in {} is suitable: remove the other one", better.version, better.shown.display())
         }
-        None => format!("get a {name} of that version"),
+        None => format!("install a {name} of that version"),
     })
 }
 
 fn undeclared_dependency(manifest: &Manifest, does: &str, other: &str, line: usize) -> Error {
-    Error::data(format!("the package {} {does} {other}, which it does not depend on", manifest.name))
+    Error::data(format!("the package {} {does} {other}, but does not depend on it", manifest.name))
         .help(format!("write below [depends]: {other} = \"*\""))
         .at(Some(manifest.place(line)))
 }
@@ -230,7 +227,7 @@ fn unused_packages(found: &Packages) -> Vec<(String, Warning)> {
             for target in targets {
                 let message = format!("{name} changes nothing of {target}: {}", problem.message());
                 let warning = Warning::new(WarningKind::BrokenPackage, message);
-                let help = problem.remedy().unwrap_or("burgeon mods check tells more");
+                let help = problem.remedy().unwrap_or("run burgeon mods check for details");
                 warnings.push((target.to_owned(), warning.help(help).at(problem.place().cloned())));
             }
         }
@@ -243,9 +240,10 @@ fn unused_packages(found: &Packages) -> Vec<(String, Warning)> {
             } else {
                 continue;
             };
-            let message = format!("{name} does without {}, which is there: {}", wanted.name, why.message());
+            let message =
+                format!("{name} does not use its optional dependency {}: {}", wanted.name, why.message());
             let warning = Warning::new(WarningKind::BrokenPackage, message);
-            let warning = warning.help(why.remedy().unwrap_or("burgeon mods check tells more"));
+            let warning = warning.help(why.remedy().unwrap_or("run burgeon mods check for details"));
             warnings.push((name.clone(), warning.at(Some(manifest.place(wanted.line)))));
         }
     }
@@ -273,8 +271,10 @@ fn conflicting_replacements(found: &Packages) -> Vec<(String, Warning)> {
             let (name, wins) = (&first.manifest.name, &then.manifest.name);
             let knows = found.with_wanted(wins).iter().any(|package| package.manifest.name == *name);
             if !knows {
-                let message = format!("{name} and {wins} both replace {what}, and that of {wins} counts");
-                let help = format!("remove one of them, or let {wins} depend on {name} if that is meant");
+                let message = format!("{name} and {wins} both replace {what}; {wins} takes precedence");
+                let help = format!(
+                    "remove one of them, or add {name} to the dependencies of {wins} if this is intended"
+                );
                 let warning = Warning::new(WarningKind::ReplacedTwice, message);
                 let warning = warning.help(help).at(Some(first.manifest.place(*line)));
                 warnings.push((of.clone(), warning));

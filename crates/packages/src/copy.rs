@@ -58,7 +58,7 @@ impl PackageCopy {
             io::copy(&mut content.take(left + 1), &mut file).and_then(|copied| file.flush().map(|()| copied));
         let copied = copied.map_err(|error| {
             Error::file(from, format!("{} cannot be unpacked: {name}: {error}", from.display()))
-                .help("it is damaged, or the disk is full; get it again")
+                .help("it is damaged, or the disk is full; download it again")
         })?;
         self.bytes += copied;
         if copied > left {
@@ -66,7 +66,7 @@ impl PackageCopy {
                 Limit::Size,
                 format!("{} has more than {} MB", from.display(), self.most_bytes / 1_000_000),
             )
-            .help("a package may not be larger"));
+            .help("reduce the size of the package"));
         }
         Ok(())
     }
@@ -92,7 +92,9 @@ impl PackageCopy {
                 let most = self.most_files;
                 if self.names.len() > most {
                     let message = format!("{} has more than {most} files and folders", from.display());
-                    return Err(Error::limit(Limit::Size, message).help("a package may not have more"));
+                    return Err(
+                        Error::limit(Limit::Size, message).help("remove files that scripts do not need")
+                    );
                 }
                 continue;
             };
@@ -102,10 +104,13 @@ impl PackageCopy {
             let message = match written == path {
                 true => format!("{} has {path} twice", from.display()),
                 false => {
-                    format!("{} has {written} and {path}, which many systems take for one", from.display())
+                    format!(
+                        "{} has {written} and {path}, which are the same name on many systems",
+                        from.display()
+                    )
                 }
             };
-            return Err(Error::data(message).help("this is no sound package; do not use it"));
+            return Err(Error::data(message).help("this package is unsafe; do not use it"));
         }
         Ok(())
     }
@@ -131,14 +136,14 @@ pub(super) fn parts<'a>(from: &Path, name: &'a str) -> Result<Vec<&'a str>> {
     let refuse = |why: &str| {
         let name = name.escape_debug();
         Err(Error::data(format!("{} has a file {name}, {why}", from.display()))
-            .help("this is no sound package; do not use it"))
+            .help("this package is unsafe; do not use it"))
     };
     let parts: Vec<&str> = name.split('/').collect();
     if name.starts_with('/') || parts.contains(&"..") {
-        return refuse("which leads out of the package");
+        return refuse("which is outside the package");
     }
     if parts.len() > DEEPEST {
-        return refuse("which is in too many folders");
+        return refuse("which is nested too deep");
     }
     let is_odd = |part: &&str| {
         part.is_empty()
@@ -151,7 +156,7 @@ pub(super) fn parts<'a>(from: &Path, name: &'a str) -> Result<Vec<&'a str>> {
             || is_device(part)
     };
     if parts.iter().any(is_odd) {
-        return refuse("whose name not every system can have");
+        return refuse("with a name that not all systems support");
     }
     Ok(parts)
 }
@@ -173,11 +178,11 @@ fn is_left_out(parts: &[&str]) -> bool {
 pub(crate) fn no_file(from: &Path, name: &str, is_link: bool) -> Error {
     let what = if is_link { "a link" } else { "a device or a pipe" };
     Error::data(format!("{} has {}, which is {what}", from.display(), name.escape_debug()))
-        .help("a package holds files and folders only")
+        .help("a package can contain only files and folders")
 }
 
 /// Returns the error for a path that cannot be written.
 pub(super) fn unwritable(path: &Path, error: &io::Error) -> Error {
     Error::file(path, format!("cannot write {}: {error}", path.display()))
-        .help("name another folder: --into FOLDER")
+        .help("specify another folder: --into FOLDER")
 }

@@ -77,8 +77,8 @@ impl Packages {
                 _ => {
                     let shown = given.display();
                     found.sought.push((given.clone(), false));
-                    let error = Error::not_found("folder", &shown, [], format!("there is no folder {shown}"));
-                    found.problems.push(error.help("--mods names a folder of packages"));
+                    let error = Error::not_found("folder", &shown, [], format!("folder not found: {shown}"));
+                    found.problems.push(error.help("--mods needs a folder of packages"));
                 }
             }
         }
@@ -106,7 +106,7 @@ impl Packages {
 
     fn warn(&mut self, error: Error) {
         let warning = Warning::new(burgeon_base::WarningKind::BrokenPackage, error.message());
-        let warning = warning.help(error.remedy().unwrap_or("burgeon mods check tells more"));
+        let warning = warning.help(error.remedy().unwrap_or("run burgeon mods check for details"));
         self.warnings.push(warning.at(error.place().cloned()));
     }
 
@@ -116,8 +116,9 @@ impl Packages {
         let names = match names(root) {
             Ok(names) => names,
             Err(error) => {
-                let error = Error::file(shown, format!("cannot look into {}: {error}", shown.display()))
-                    .help("packages are folders with a mod.toml in it");
+                let error =
+                    Error::file(shown, format!("cannot read the folder {}: {error}", shown.display()))
+                        .help("packages are folders that contain a mod.toml");
                 return match origin {
                     PackageOrigin::Given => self.problems.push(error),
                     _ => self.warn(error),
@@ -138,8 +139,8 @@ impl Packages {
                     }
                 }
                 Err(_) if folder.is_symlink() => {
-                    let message = format!("{} is a link that leads to nothing", shown.display());
-                    let error = Error::file(&shown, message).help("remove it, or put a package there");
+                    let message = format!("{} is a broken link", shown.display());
+                    let error = Error::file(&shown, message).help("remove it, or replace it by a package");
                     self.sought.push((folder.join(MANIFEST), false));
                     self.broken.push(BrokenPackage { folder, error });
                 }
@@ -169,7 +170,7 @@ impl Packages {
         let both = format!("{} {} in {}", name, known.manifest.version, known.shown.display());
         if known.shown.parent() == shown.parent() {
             let error = Error::data(format!(
-                "there are two packages {name}: {both}, and {version} in {}",
+                "duplicate package {name}: {both}, and {version} in {}",
                 shown.display()
             ))
             .help("remove one of them")
@@ -180,9 +181,9 @@ impl Packages {
         }
         // The user's folder is shared by all scripts, and each script may have its own versions.
         if origin != PackageOrigin::User {
-            let message = format!("{name} {version} in {} is not used, for there is {both}", shown.display());
+            let message = format!("ignored {name} {version} in {}: {both} takes precedence", shown.display());
             let warning = Warning::new(burgeon_base::WarningKind::HiddenPackage, message);
-            let warning = warning.at(Some(manifest.begin())).help("remove the one that is not meant");
+            let warning = warning.at(Some(manifest.begin())).help("remove one of them");
             self.warnings.push(warning.clone());
             self.notices.push((name.clone(), warning));
         }

@@ -106,26 +106,26 @@ fn a_hostile_zip_is_refused_and_leaves_nothing_behind() {
         refusal(b"no zip at all"),
     ];
     insta::assert_snapshot!(said.join("\n"), @r"
-    FOLDER/castle.zip has a file ../evil.lua, which leads out of the package
-    FOLDER/castle.zip has a file a/../../evil.lua, which leads out of the package
-    FOLDER/castle.zip has a file /etc/evil, which leads out of the package
-    FOLDER/castle.zip has a file C:/evil, whose name not every system can have
-    FOLDER/castle.zip has a file a\\..\\evil, whose name not every system can have
-    FOLDER/castle.zip has a file a//b, whose name not every system can have
-    FOLDER/castle.zip has a file a/./b, whose name not every system can have
-    FOLDER/castle.zip has a file nul.lua, whose name not every system can have
-    FOLDER/castle.zip has a file a\nb, whose name not every system can have
-    FOLDER/castle.zip has a file trailing., whose name not every system can have
-    FOLDER/castle.zip has a file a\u{202e}gpj.lua, whose name not every system can have
+    FOLDER/castle.zip has a file ../evil.lua, which is outside the package
+    FOLDER/castle.zip has a file a/../../evil.lua, which is outside the package
+    FOLDER/castle.zip has a file /etc/evil, which is outside the package
+    FOLDER/castle.zip has a file C:/evil, with a name that not all systems support
+    FOLDER/castle.zip has a file a\\..\\evil, with a name that not all systems support
+    FOLDER/castle.zip has a file a//b, with a name that not all systems support
+    FOLDER/castle.zip has a file a/./b, with a name that not all systems support
+    FOLDER/castle.zip has a file nul.lua, with a name that not all systems support
+    FOLDER/castle.zip has a file a\nb, with a name that not all systems support
+    FOLDER/castle.zip has a file trailing., with a name that not all systems support
+    FOLDER/castle.zip has a file a\u{202e}gpj.lua, with a name that not all systems support
     FOLDER/castle.zip has é.lua twice
-    FOLDER/castle.zip has a file ../evil, which leads out of the package
+    FOLDER/castle.zip has a file ../evil, which is outside the package
     FOLDER/castle.zip has link.png, which is a link
-    FOLDER/castle.zip has mod.toml and MOD.toml, which many systems take for one
+    FOLDER/castle.zip has mod.toml and MOD.toml, which are the same name on many systems
     FOLDER/castle.zip has mod.toml twice
-    FOLDER/castle.zip has a file a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/x, which is in too many folders
+    FOLDER/castle.zip has a file a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/a/x, which is nested too deep
     FOLDER/castle.zip has no mod.toml
     FOLDER/castle.zip has no mod.toml
-    mod.toml has no version
+    missing field `version` in mod.toml
     FOLDER/castle.zip has no mod.toml
     FOLDER/castle.zip cannot be unpacked
     ");
@@ -205,7 +205,7 @@ fn a_folder_with_links_or_devices_is_refused_and_a_sound_one_is_copied() {
     assert_eq!(refused(), "FOLDER/work has pipe, which is a device or a pipe");
     std::fs::remove_file(&pipe).unwrap();
     std::fs::write(from.join("A"), "").unwrap();
-    assert!(refused().contains("which many systems take for one"));
+    assert!(refused().contains("which are the same name on many systems"));
     std::fs::remove_file(from.join("A")).unwrap();
     install(&from, &mods, false, |_| Ok(())).unwrap();
     assert_eq!(all(&mods), ["castle", "castle/a", "castle/a/b.lua", "castle/mod.toml"]);

@@ -58,8 +58,8 @@ pub fn install(
 ) -> Result<Installation> {
     let meta = from.metadata().map_err(|_| {
         let shown = from.display();
-        Error::not_found("package", &shown, [], format!("there is no folder or zip {shown}"))
-            .help("name the folder that has the mod.toml, or a zip of it")
+        Error::not_found("package", &shown, [], format!("folder or zip not found: {shown}"))
+            .help("specify the folder that contains the mod.toml, or a zip of it")
     })?;
     let was_there = into.exists();
     fs::create_dir_all(into).map_err(|error| unwritable(into, &error))?;
@@ -102,11 +102,11 @@ fn move_into_place(
     };
     if !there && let Some(other) = find_other_folder(into, &manifest.name) {
         return Err(Error::data(format!(
-            "there is a package {} in {} already",
+            "a package {} already exists in {}",
             manifest.name,
             other.display()
         ))
-        .help("remove it first, for its folder has another name than the package"));
+        .help("remove it first, because its folder is not named after the package"));
     }
     if there && !replace {
         let version = match &before {
@@ -114,8 +114,8 @@ fn move_into_place(
             _ => String::new(),
         };
         let (name, new) = (&manifest.name, &manifest.version);
-        let message = format!("there is a package {name}{version} in {} already", folder.display());
-        return Err(Error::file(&folder, message).help(format!("put {name} {new} in its place: --replace")));
+        let message = format!("a package {name}{version} already exists in {}", folder.display());
+        return Err(Error::file(&folder, message).help(format!("replace it by {name} {new}: --replace")));
     }
     if there {
         refuse_to_replace(&folder, &manifest.name, before.as_ref())?;
@@ -150,10 +150,10 @@ fn refuse_to_replace(folder: &Path, name: &str, before: Option<&Result<Manifest>
     match before {
         Some(Ok(before)) if before.name == name => {}
         Some(Ok(before)) => return refuse(&format!("is the package {}", before.name)),
-        _ => return refuse("is no package"),
+        _ => return refuse("is not a package"),
     }
     match CHECKOUTS.iter().find(|inner| folder.join(inner).symlink_metadata().is_ok()) {
-        Some(inner) => refuse(&format!("is a checkout, with a folder {inner}")),
+        Some(inner) => refuse(&format!("is a checkout with a folder {inner}")),
         None => Ok(()),
     }
 }
@@ -172,7 +172,7 @@ fn find_other_folder(into: &Path, name: &str) -> Option<PathBuf> {
 fn copy_folder(from: &Path, copy: &mut PackageCopy) -> Result<()> {
     let cannot = |path: &Path, error: &io::Error| {
         Error::file(path, format!("cannot read {}: {error}", path.display()))
-            .help("see that you may read all of it")
+            .help("get read permission for the whole folder")
     };
     let mut folders = vec![String::new()];
     while let Some(folder) = folders.pop() {
@@ -182,7 +182,8 @@ fn copy_folder(from: &Path, copy: &mut PackageCopy) -> Result<()> {
         for entry in entries {
             let entry = entry.map_err(|error| cannot(&path, &error))?;
             names.push(entry.file_name().into_string().map_err(|name| {
-                let message = format!("{} has a file {name:?}, whose name is no text", from.display());
+                let message =
+                    format!("{} has a file {name:?} with a name that is not valid text", from.display());
                 Error::data(message).help("rename it")
             })?);
         }
@@ -204,7 +205,7 @@ fn copy_folder(from: &Path, copy: &mut PackageCopy) -> Result<()> {
         }
         if folders.len() > MOST {
             let message = format!("{} has more than {MOST} files and folders", from.display());
-            return Err(Error::limit(Limit::Size, message).help("a package may not have more"));
+            return Err(Error::limit(Limit::Size, message).help("remove files that scripts do not need"));
         }
     }
     Ok(())

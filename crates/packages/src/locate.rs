@@ -73,12 +73,12 @@ impl Packages {
             Ok(_) => Err(Error::file(
                 &shown,
                 format!(
-                    "{} is a link that leads outside the package {}",
+                    "{} is a link to a file outside the package {}",
                     shown.display(),
                     package.manifest.name
                 ),
             )
-            .help("a package has only files in its own folder")),
+            .help("a package can use only files in its own folder")),
             Err(_) => Err(missing_file(what, name, package, &path, by)),
         }
     }
@@ -110,8 +110,8 @@ impl Packages {
         }
         if self.is_off(name) {
             let file = self.off.1.display();
-            return Err(Error::file(name, format!("the package {name} is switched off in {file}"))
-                .help(format!("switch it on: burgeon mods enable {name}")));
+            return Err(Error::file(name, format!("the package {name} is disabled in {file}"))
+                .help(format!("enable it: burgeon mods enable {name}")));
         }
         if let Some(broken) = self.broken_called(name) {
             return Err(broken.error.clone());
@@ -120,9 +120,9 @@ impl Packages {
             seek(&root.join(name).join(MANIFEST), false);
         }
         let known = self.order().iter().map(|package| package.manifest.name.as_str());
-        let message = format!("there is no package {name}");
+        let message = format!("unknown package `{name}`");
         Err(Error::not_found("package", name, known, message).help(
-            "put its folder into mods/ beside the script, or name the folder that it is in: --mods FOLDER",
+            "put its folder into mods/ next to the script, or specify its parent folder: --mods FOLDER",
         ))
     }
 
@@ -194,7 +194,7 @@ impl Package {
     /// Returns the error for the use of a package that is not declared as a dependency.
     pub fn not_declared(&self, other: &str) -> Error {
         let message = format!("the package {} does not depend on {other}", self.manifest.name);
-        Error::scope(message).help(format!("write into its mod.toml, below [depends]: {other} = \"*\""))
+        Error::scope(message).help(format!("add to its mod.toml, below [depends]: {other} = \"*\""))
     }
 
     /// Returns the paths of its Lua files relative to its folder, sorted.
@@ -286,13 +286,12 @@ fn missing_file(
     });
     let message = match by {
         None => format!("the package {} has no {what} {path}", package.manifest.name),
-        Some(_) => format!(
-            "the package {} has no {what} {path}, which it puts in the place of {name}",
-            package.manifest.name
-        ),
+        Some(_) => {
+            format!("the package {} has no {what} {path}, its replacement for {name}", package.manifest.name)
+        }
     };
     let shown = package.shown.display();
     let error = Error::not_found(what, path, near.as_deref(), message);
     let error = error.at(by.map(|by| package.manifest.place(by.line)));
-    error.help(format!("it is looked for in {shown}"))
+    error.help(format!("the expected location is {shown}"))
 }

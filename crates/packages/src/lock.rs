@@ -43,7 +43,7 @@ impl Package {
         let name = self.manifest.name.clone();
         let refuse = |what: String| {
             Error::limit(Limit::Size, format!("the package {name} has more than {what}"))
-                .help("a package may not have more; move what scripts do not need out of its folder")
+                .help("move files that scripts do not need out of its folder")
         };
         if files.len() > MOST {
             return Err(refuse(format!("{MOST} files")));
@@ -55,7 +55,7 @@ impl Package {
             let path = self.folder.join(&file);
             let cannot = |error: std::io::Error| {
                 Error::file(&path, format!("cannot read {}: {error}", self.shown.join(&file).display()))
-                    .help("see that you may read all of the package")
+                    .help("get read permission for the whole package")
             };
             let (opened, meta) = burgeon_base::files::open(&path).map_err(cannot)?;
             let length = meta.len();

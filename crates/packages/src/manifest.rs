@@ -138,12 +138,12 @@ impl Manifest {
             let said = error.message().lines().next().unwrap_or_default();
             Error::data(format!("this is not TOML: {said}"))
                 .at(Some(file.place(at)))
-                .help("write name = \"castle\", one field a line")
+                .help("write name = \"castle\", one field per line")
         })?;
         let table = table.get_ref();
         for key in table.keys() {
             if !KEYS.contains(&&**key.get_ref()) {
-                let message = format!("mod.toml has no field called {}", key.get_ref());
+                let message = format!("unknown field `{}` in mod.toml", key.get_ref());
                 return Err(Error::not_found("field", key.get_ref(), KEYS, message)
                     .help(format!("it has {}", KEYS.join(", ")))
                     .at(Some(file.place(key.span().start))));
@@ -151,13 +151,13 @@ impl Manifest {
         }
         let name = file.text_of(table, "name")?.ok_or_else(|| file.lacks("name", "castle"))?;
         if !is_name(&name.0) {
-            return Err(Error::data(format!("{:?} cannot be the name of a package", name.0))
-                .help(format!("a name begins with a small letter, and has small letters, digits, _ and -, {LONGEST} at most"))
+            return Err(Error::data(format!("invalid package name {:?}", name.0))
+                .help(format!("a name begins with a lowercase letter and contains lowercase letters, digits, _ and -, at most {LONGEST} characters"))
                 .at(Some(file.place(name.1))));
         }
         let version = file.text_of(table, "version")?.ok_or_else(|| file.lacks("version", "1.0.0"))?;
         let version = Version::parse(&version.0).map_err(|error| {
-            Error::data(format!("{:?} is no version: {error}", version.0))
+            Error::data(format!("invalid version {:?}: {error}", version.0))
                 .help("a version has three numbers: version = \"1.0.0\"")
                 .at(Some(file.place(version.1)))
         })?;
@@ -226,7 +226,7 @@ impl ManifestFile<'_> {
     }
 
     fn lacks(&self, field: &str, example: &str) -> Error {
-        Error::data(format!("mod.toml has no {field}"))
+        Error::data(format!("missing field `{field}` in mod.toml"))
             .help(format!("write {field} = {example:?}"))
             .at(Some(self.place(0)))
     }
@@ -242,7 +242,7 @@ impl ManifestFile<'_> {
         match value.get_ref().as_str() {
             Some(text) => Ok(Some((text.to_owned(), value.span().start))),
             None => {
-                Err(self.refuse(field, "a text in quotes", value).help(format!("write {field} = \"...\"")))
+                Err(self.refuse(field, "a string in quotes", value).help(format!("write {field} = \"...\"")))
             }
         }
     }
@@ -251,9 +251,9 @@ impl ManifestFile<'_> {
         let Some(value) = table.get("authors") else { return Ok(Vec::new()) };
         let list = value.get_ref().as_array().into_iter().flat_map(|list| list.iter());
         let texts: Option<Vec<String>> = list.map(|one| one.get_ref().as_str().map(str::to_owned)).collect();
-        texts
-            .filter(|_| value.get_ref().is_array())
-            .ok_or_else(|| self.refuse("authors", "a list of texts", value).help("write authors = [\"Ada\"]"))
+        texts.filter(|_| value.get_ref().is_array()).ok_or_else(|| {
+            self.refuse("authors", "a list of strings", value).help("write authors = [\"Ada\"]")
+        })
     }
 
     /// Returns the members of the table `field`: the key, the offset of the key (bytes) and the value.
@@ -277,8 +277,8 @@ impl ManifestFile<'_> {
 
     fn versions(&self, text: &str, at: usize) -> Result<VersionReq> {
         VersionReq::parse(text).map_err(|error| {
-            Error::data(format!("{text:?} names no versions: {error}"))
-                .help("write \"1.2\" for 1.2.0 up to, but not, 2.0.0; \">=1.2, <1.5\"; or \"*\" for all")
+            Error::data(format!("invalid version requirement {text:?}: {error}"))
+                .help("write \"1.2\" for 1.2.0 to 2.0.0 (exclusive); \">=1.2, <1.5\"; or \"*\" for all")
                 .at(Some(self.place(at)))
         })
     }
@@ -289,13 +289,13 @@ impl ManifestFile<'_> {
         members
             .map(|(name, at, value)| {
                 if !is_name(name) {
-                    return Err(Error::data(format!("{field}: {name:?} cannot be the name of a package"))
+                    return Err(Error::data(format!("{field}: invalid package name {name:?}"))
                         .help(format!("write {example}"))
                         .at(Some(self.place(at))));
                 }
                 let Some(text) = value.get_ref().as_str() else {
                     return Err(self
-                        .refuse(&format!("{field}: {name}"), "a text in quotes", value)
+                        .refuse(&format!("{field}: {name}"), "a string in quotes", value)
                         .help("write \"1.0\""));
                 };
                 let versions = self.versions(text, value.span().start)?;
@@ -313,9 +313,12 @@ impl ManifestFile<'_> {
                 let target =
                     FileName::parse(target).map_err(|error| error.at(place.clone()).help(example))?;
                 if target.path.is_empty() {
-                    return Err(Error::data(format!("replaces: @{} names no file", target.package))
-                        .help(format!("write {example}"))
-                        .at(place));
+                    return Err(Error::data(format!(
+                        "replaces: @{} does not contain a file name",
+                        target.package
+                    ))
+                    .help(format!("write {example}"))
+                    .at(place));
                 }
                 let Some(file) = value.get_ref().as_str() else {
                     return Err(self
@@ -324,8 +327,8 @@ impl ManifestFile<'_> {
                 };
                 // The validity of a path does not depend on the package's name.
                 FileName::parse(&format!("@own/{file}")).map_err(|_| {
-                    Error::file(file, format!("replaces: {file:?} is no file of the package"))
-                        .help("name it from the package's folder: \"textures/stone.png\"")
+                    Error::file(file, format!("replaces: {file:?} is not a file of the package"))
+                        .help("use a path relative to the package's folder: \"textures/stone.png\"")
                         .at(place.clone())
                 })?;
                 Ok(Replacement { target, file: file.to_owned(), line: self.line(at) })
@@ -353,7 +356,7 @@ impl ManifestFile<'_> {
                     _ => {
                         let what = format!("params: {package}: {}", name.get_ref());
                         return Err(self
-                            .refuse(&what, "a number, a switch or a text", value)
+                            .refuse(&what, "a number, a boolean or a string", value)
                             .help(format!("write {example}")));
                     }
                 };

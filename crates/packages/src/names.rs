@@ -51,20 +51,20 @@ impl FileName {
         let inner = name.strip_prefix('@').unwrap_or(name);
         let (package, path) = inner.split_once('/').unwrap_or((inner, ""));
         if !name.starts_with('@') || !is_name(package) {
-            return Err(Error::file(name, format!("{name:?} names no file of a package"))
+            return Err(Error::file(name, format!("{name:?} is not a file of a package"))
                 .help("write \"@castle/stone.png\" for stone.png of the package castle"));
         }
         let leads_out = |part: &str| part == ".." || part.contains(['\\', ':', '\0']);
         if path.starts_with('/') || path.split('/').any(leads_out) {
-            return Err(Error::file(name, format!("{name} leads outside the package {package}"))
-                .help(format!("name a file in its folder or below it: \"@{package}/stone.png\"")));
+            return Err(Error::file(name, format!("{name} is outside the package {package}"))
+                .help(format!("use a file in its folder or its subfolders: \"@{package}/stone.png\"")));
         }
         if has_bidi_controls(path) {
             return Err(Error::file(
                 name,
-                format!("{} has a character that turns text round", name.escape_unicode()),
+                format!("{} has a character that reverses text", name.escape_unicode()),
             )
-            .help("rename the file: such names do not read as they are written"));
+            .help("rename the file: such names are shown in another order than stored"));
         }
         let parts: Vec<&str> = path.split('/').filter(|part| !part.is_empty() && *part != ".").collect();
         Ok(Self { package: package.to_owned(), path: normal_form(&parts.join("/")).into_owned() })

@@ -41,7 +41,7 @@ pub fn switch(script: &Path, name: &str, on: bool) -> Result<(PathBuf, bool)> {
     }
     let cannot = |error: std::io::Error| {
         Error::file(&file, format!("cannot write {}: {error}", file.display()))
-            .help("see that you may write there")
+            .help("get write permission there")
     };
     let before = read(&folder)?.unwrap_or_default();
     let mut lines: Vec<&str> = before.lines().filter(|line| name_of(line) != name).collect();
@@ -69,8 +69,8 @@ pub(crate) fn disabled_names(mods: &Path) -> Result<Vec<String>> {
             name if is_name(name) => names.push(name.to_owned()),
             _ => {
                 let place = SourcePlace { file: mods.join(SWITCHES).display().to_string(), line: index + 1 };
-                return Err(Error::data("this is no name of a package, so no package is switched off")
-                    .help("write one name a line; what follows # is a comment")
+                return Err(Error::data("invalid package name, so no package is disabled")
+                    .help("write one name per line; # begins a comment")
                     .at(Some(place)));
             }
         }
@@ -90,14 +90,14 @@ fn read(mods: &Path) -> Result<Option<String>> {
     let file = mods.join(SWITCHES);
     let cannot = |why: &dyn std::fmt::Display| {
         Error::file(&file, format!("cannot read {}: {why}", file.display()))
-            .help("it is a text file with one name a line")
+            .help("it must be a text file with one name per line")
     };
     match file.symlink_metadata() {
         Err(error) if error.kind() == ErrorKind::NotFound || error.kind() == ErrorKind::NotADirectory => {
             return Ok(None);
         }
         Err(error) => return Err(cannot(&error)),
-        Ok(meta) if !meta.is_file() => return Err(cannot(&"it is no regular file")),
+        Ok(meta) if !meta.is_file() => return Err(cannot(&"it is not a regular file")),
         Ok(_) => {}
     }
     let bytes = burgeon_base::files::read(&file, LARGEST).map_err(|error| cannot(&error))?;

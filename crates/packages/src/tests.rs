@@ -91,8 +91,8 @@ fn of_one_name_the_one_beside_the_script_counts_and_the_others_are_told() {
     // The user's folder is shared by all scripts, so other versions in it cause no warning.
     let warnings: Vec<String> = packages.warnings.iter().map(ToString::to_string).collect();
     insta::assert_snapshot!(warnings.join("\n").replace(&folder.path().display().to_string(), "FOLDER"), @r"
-    FOLDER/given/castle/mod.toml:1: castle 2.0.0 in FOLDER/given/castle is not used, for there is castle 1.0.0 in FOLDER/mods/castle
-      help: remove the one that is not meant
+    ignored FOLDER/given/castle/mod.toml:1: castle 2.0.0 in FOLDER/given/castle: castle takes precedence 1.0.0 in FOLDER/mods/castle
+      help: remove one of them
     ");
 }
 
@@ -105,39 +105,39 @@ fn what_cannot_be_used_together_is_told_with_its_line() {
         troubles(&folder, &packages)
     };
     insta::assert_snapshot!(told_of(&[("mods/castle", "[depends]\nmasonry = \"1\"")]), @r"
-    FOLDER/mods/castle/mod.toml:5: the package castle needs masonry ^1, which is not there
-      help: put it beside the other packages: burgeon mods add FOLDER
+    FOLDER/mods/castle/mod.toml:5: the package castle needs masonry ^1, which is not installed
+      help: install it next to the other packages: burgeon mods add FOLDER
     ");
     insta::assert_snapshot!(told_of(&[("mods/castle", "[depends]\nmasonry = \"2\""), ("mods/masonry", "")]), @r"
     FOLDER/mods/castle/mod.toml:5: the package castle needs masonry ^2, but 1.0.0 is in FOLDER/mods/masonry
-      help: get a masonry of that version
+      help: install a masonry of that version
     ");
     insta::assert_snapshot!(told_of(&[("mods/castle", "[depends]\nmasonry = \"2\""), ("mods/masonry", ""), ("user/masonry", "version = \"2.1.0\"")]), @r"
     FOLDER/mods/castle/mod.toml:5: the package castle needs masonry ^2, but 1.0.0 is in FOLDER/mods/masonry
-      help: 2.1.0 in FOLDER/user/masonry would do: remove the other one
+      help: 2.1.0 in FOLDER/user/masonry is suitable: remove the other one
     ");
     insta::assert_snapshot!(told_of(&[("mods/a", "[depends]\nb = \"1\""), ("mods/b", "[depends]\nc = \"1\""), ("mods/c", "[depends]\na = \"1\"")]), @r"
-    FOLDER/mods/a/mod.toml:5: packages depend on each other in a circle: a -> b -> c -> a
-      help: move what both need into a third package
+    FOLDER/mods/a/mod.toml:5: circular package dependency: a -> b -> c -> a
+      help: move the common part into a third package
     ");
     insta::assert_snapshot!(told_of(&[("mods/a", "[depends]\na = \"1\"")]), @r"
-    FOLDER/mods/a/mod.toml:5: packages depend on each other in a circle: a -> a
-      help: move what both need into a third package
+    FOLDER/mods/a/mod.toml:5: circular package dependency: a -> a
+      help: move the common part into a third package
     ");
     insta::assert_snapshot!(told_of(&[("mods/a", "[conflicts]\nb = \"1\""), ("given/b", "")]), @r"
-    FOLDER/mods/a/mod.toml:5: the package a cannot be used with b 1.0.0
+    FOLDER/mods/a/mod.toml:5: the package a conflicts with b 1.0.0
       help: remove one of FOLDER/mods/a and FOLDER/given/b
     ");
     insta::assert_snapshot!(told_of(&[("mods/a", "[replaces]\n\"@b/x.png\" = \"x.png\""), ("given/b", "")]), @r#"
-    FOLDER/mods/a/mod.toml:5: the package a replaces a file of b, which it does not depend on
+    FOLDER/mods/a/mod.toml:5: the package a replaces a file of b, but does not depend on it
       help: write below [depends]: b = "*"
-    FOLDER/mods/a/mod.toml:5: a changes nothing of b: the package a replaces a file of b, which it does not depend on
+    FOLDER/mods/a/mod.toml:5: a changes nothing of b: the package a replaces a file of b, but does not depend on it
       help: write below [depends]: b = "*"
     "#);
     insta::assert_snapshot!(told_of(&[("mods/a", "[params.b]\nx = 1"), ("given/b", "")]), @r#"
-    FOLDER/mods/a/mod.toml:5: the package a sets a parameter of b, which it does not depend on
+    FOLDER/mods/a/mod.toml:5: the package a sets a parameter of b, but does not depend on it
       help: write below [depends]: b = "*"
-    FOLDER/mods/a/mod.toml:5: a changes nothing of b: the package a sets a parameter of b, which it does not depend on
+    FOLDER/mods/a/mod.toml:5: a changes nothing of b: the package a sets a parameter of b, but does not depend on it
       help: write below [depends]: b = "*"
     "#);
     insta::assert_snapshot!(told_of(&[("mods/one/castle", "")]), @"");
@@ -159,8 +159,8 @@ fn optional_packages_may_name_one_another() {
     let said = locate(&packages, "@b/x.lua", "c").unwrap_err();
     assert!(said.contains("the package c needs b ^2, but 1.0.0 is in"), "{said}");
     insta::assert_snapshot!(troubles(&folder, &packages), @r"
-    FOLDER/mods/c/mod.toml:5: c does without b, which is there: the package c needs b ^2, but 1.0.0 is in FOLDER/mods/b
-      help: get a b of that version
+    FOLDER/mods/c/mod.toml:5: c does not use its optional dependency b: the package c needs b ^2, but 1.0.0 is in FOLDER/mods/b
+      help: install a b of that version
     ");
 }
 
@@ -176,12 +176,12 @@ fn switched_off_packages_are_not_there() {
     let packages = find(&folder);
     assert_eq!((order(&packages), packages.disabled.len()), (vec!["ruins"], 1));
     insta::assert_snapshot!(locate(&packages, "@ruins/a.lua", "").unwrap_err().replace(&script.display().to_string(), "FOLDER"), @r"
-    FOLDER/mods/ruins/mod.toml:5: the package ruins needs castle, which is switched off in FOLDER/mods/disabled.txt
-      help: switch it on: burgeon mods enable castle
+    FOLDER/mods/ruins/mod.toml:5: the package ruins needs castle, which is disabled in FOLDER/mods/disabled.txt
+      help: enable it: burgeon mods enable castle
     ");
     insta::assert_snapshot!(locate(&packages, "@castle/a.lua", "").unwrap_err().replace(&script.display().to_string(), "FOLDER"), @r"
-    the package castle is switched off in FOLDER/mods/disabled.txt
-      help: switch it on: burgeon mods enable castle
+    the package castle is disabled in FOLDER/mods/disabled.txt
+      help: enable it: burgeon mods enable castle
     ");
     let file = script.join("mods").join(SWITCHES);
     std::fs::write(&file, "# for now\ncastle # until it is done\n\nruins\n").unwrap();
@@ -196,7 +196,7 @@ fn switched_off_packages_are_not_there() {
     std::fs::remove_file(&file).unwrap();
     std::os::unix::fs::symlink("/etc/passwd", &file).unwrap();
     let said = switch(script, "castle", false).unwrap_err().to_string();
-    assert!(said.contains("it is no regular file") && !said.contains("root"), "{said}");
+    assert!(said.contains("it is not a regular file") && !said.contains("root"), "{said}");
 }
 
 #[test]
@@ -209,7 +209,7 @@ fn names_of_files_are_the_same_however_their_accents_are_written() {
         assert!(locate(&packages, &format!("@castle/{name}"), "").is_ok(), "{name:?}");
     }
     let said = locate(&packages, "@castle/a\u{202e}b.lua", "").unwrap_err();
-    assert!(said.contains("turns text round") && !said.contains('\u{202e}'), "{said}");
+    assert!(said.contains("reverses text") && !said.contains('\u{202e}'), "{said}");
 }
 
 #[test]
@@ -217,7 +217,7 @@ fn a_package_that_nobody_uses_breaks_no_script_from_the_users_folder() {
     let folder = folder(&[("user/a", "[depends]\nb = \"1\""), ("user/c", "nonsense"), ("mods/d", "")]);
     let packages = find(&folder);
     assert!(packages.problems.is_empty(), "{}", messages(&folder, &packages.problems));
-    assert!(locate(&packages, "@a/x.lua", "").unwrap_err().contains("needs b ^1, which is not there"));
+    assert!(locate(&packages, "@a/x.lua", "").unwrap_err().contains("needs b ^1, which is not installed"));
     assert!(locate(&packages, "@c/x.lua", "").unwrap_err().contains("this is not TOML"));
 }
 
@@ -260,10 +260,10 @@ fn two_packages_that_replace_the_same_are_told_of_unless_one_knows_the_other() {
     ]);
     let warnings: Vec<String> = find(&folder).warnings.iter().map(ToString::to_string).collect();
     insta::assert_snapshot!(warnings.join("\n").replace(&folder.path().display().to_string(), "FOLDER"), @r"
-    FOLDER/mods/ruins/mod.toml:7: ruins and snow both replace @castle/a.png, and that of snow counts
-      help: remove one of them, or let snow depend on ruins if that is meant
-    FOLDER/mods/ruins/mod.toml:9: ruins and snow both replace the default of height of castle, and that of snow counts
-      help: remove one of them, or let snow depend on ruins if that is meant
+    FOLDER/mods/ruins/mod.toml:7: ruins and snow both replace @castle/a.png; snow takes precedence
+      help: remove one of them, or add ruins to the dependencies of snow if this is intended
+    FOLDER/mods/ruins/mod.toml:9: ruins and snow both replace the default of height of castle; snow takes precedence
+      help: remove one of them, or add ruins to the dependencies of snow if this is intended
     ");
 }
 
@@ -279,7 +279,7 @@ fn names_lead_nowhere_but_into_the_folders_of_packages() {
         "@castle/a\0b",
     ] {
         assert!(
-            FileName::parse(name).unwrap_err().to_string().contains("leads outside the package castle"),
+            FileName::parse(name).unwrap_err().to_string().contains("is outside the package castle"),
             "{name:?}"
         );
     }
@@ -324,12 +324,12 @@ fn links_lead_nowhere_but_into_the_folders_of_packages() {
     );
     for name in ["stone.png", "all/secret", "beside", "inner/a.lua"] {
         let said = locate(&packages, &format!("@castle/{name}"), "").unwrap_err();
-        assert!(said.contains("is a link that leads outside the package castle"), "{said}");
+        assert!(said.contains("is a link to a file outside the package castle"), "{said}");
     }
     assert!(locate(&packages, "@castle/within", "").is_ok());
     insta::assert_snapshot!(troubles(&folder, &packages), @r"
-    FOLDER/mods/gone is a link that leads to nothing
-      help: remove it, or put a package there
+    FOLDER/mods/gone is a broken link
+      help: remove it, or replace it by a package
     ");
     // A mod.toml must be inside the folder of its package.
     std::fs::remove_file(mods.join("gone")).unwrap();
@@ -374,49 +374,49 @@ fn a_mod_toml_is_refused_with_its_line() {
     .map(refused)
     .to_vec();
     insta::assert_snapshot!(said.join("\n"), @r#"
-    mod.toml:1: name must be a text in quotes, not a number
+    mod.toml:1: name must be a string in quotes, not a number
       help: write name = "..."
     mod.toml:1: this is not TOML: invalid basic string, expected `"`
-      help: write name = "castle", one field a line
+      help: write name = "castle", one field per line
     mod.toml:2: this is not TOML: duplicate key
-      help: write name = "castle", one field a line
-    mod.toml:1: mod.toml has no name
+      help: write name = "castle", one field per line
+    mod.toml:1: missing field `name` in mod.toml
       help: write name = "castle"
-    mod.toml:1: "Castle" cannot be the name of a package
-      help: a name begins with a small letter, and has small letters, digits, _ and -, 40 at most
-    mod.toml:1: mod.toml has no version
+    mod.toml:1: invalid package name "Castle"
+      help: a name begins with a lowercase letter and contains lowercase letters, digits, _ and -, at most 40 characters
+    mod.toml:1: missing field `version` in mod.toml
       help: write version = "1.0.0"
-    mod.toml:2: "1.0" is no version: unexpected end of input while parsing minor version number
+    mod.toml:2: invalid version "1.0": unexpected end of input while parsing minor version number
       help: a version has three numbers: version = "1.0.0"
-    mod.toml:1: mod.toml has no api
+    mod.toml:1: missing field `api` in mod.toml
       help: write api = "1.0"
-    mod.toml:3: "one" names no versions: unexpected character 'o' while parsing major version number
-      help: write "1.2" for 1.2.0 up to, but not, 2.0.0; ">=1.2, <1.5"; or "*" for all
-    mod.toml:4: authors must be a list of texts, not a text
+    mod.toml:3: invalid version requirement "one": unexpected character 'o' while parsing major version number
+      help: write "1.2" for 1.2.0 to 2.0.0 (exclusive); ">=1.2, <1.5"; or "*" for all
+    mod.toml:4: authors must be a list of strings, not a text
       help: write authors = ["Ada"]
-    mod.toml:4: mod.toml has no field called dependss
+    mod.toml:4: unknown field `dependss` in mod.toml
       help: did you mean depends?
-    mod.toml:4: mod.toml has no field called icon
+    mod.toml:4: unknown field `icon` in mod.toml
       help: it has name, version, api, doc, authors, licence, depends, optional, conflicts, replaces, params
     mod.toml:4: depends must be a table, not a list
       help: write [depends] and below it masonry = "1.0"
-    mod.toml:5: depends: masonry must be a text in quotes, not a number
+    mod.toml:5: depends: masonry must be a string in quotes, not a number
       help: write "1.0"
-    mod.toml:5: depends: "../masonry" cannot be the name of a package
+    mod.toml:5: invalid package name depends: "../masonry"
       help: write [depends] and below it masonry = "1.0"
-    mod.toml:5: "newest" names no versions: unexpected character 'n' while parsing major version number
-      help: write "1.2" for 1.2.0 up to, but not, 2.0.0; ">=1.2, <1.5"; or "*" for all
-    mod.toml:5: "stone.png" names no file of a package
+    mod.toml:5: invalid version requirement "newest": unexpected character 'n' while parsing major version number
+      help: write "1.2" for 1.2.0 to 2.0.0 (exclusive); ">=1.2, <1.5"; or "*" for all
+    mod.toml:5: "stone.png" is not a file of a package
       help: write "@castle/stone.png" for stone.png of the package castle
-    mod.toml:5: replaces: @a names no file
+    mod.toml:5: replaces: @a does not contain a file name
       help: write [replaces] and below it "@castle/stone.png" = "stone.png"
-    mod.toml:5: @a/../b leads outside the package a
-      help: name a file in its folder or below it: "@a/stone.png"
-    mod.toml:5: replaces: "../a.png" is no file of the package
-      help: name it from the package's folder: "textures/stone.png"
+    mod.toml:5: @a/../b is outside the package a
+      help: use a file in its folder or its subfolders: "@a/stone.png"
+    mod.toml:5: replaces: "../a.png" is not a file of the package
+      help: use a path relative to the package's folder: "textures/stone.png"
     mod.toml:5: params: height must be a table, not a number
       help: write [params.castle] and below it height = 12
-    mod.toml:5: params: masonry: height must be a number, a switch or a text, not a list
+    mod.toml:5: params: masonry: height must be a number, a boolean or a string, not a list
       help: write [params.castle] and below it height = 12
     "#);
 }

@@ -24,19 +24,19 @@ pub(crate) fn unpack(from: &Path, copy: &mut PackageCopy) -> Result<()> {
     let shown = from.display();
     let damaged = || {
         Error::data(format!("{shown} cannot be unpacked"))
-            .help("name a zip, or the folder that has the mod.toml; a damaged one has to be got again")
+            .help("specify a zip, or the folder that contains the mod.toml; if the zip is damaged, download it again")
     };
     let (file, meta) = burgeon_base::files::open(from).map_err(|error| {
-        Error::file(from, format!("cannot read {shown}: {error}")).help("name a folder or a zip")
+        Error::file(from, format!("cannot read {shown}: {error}")).help("specify a folder or a zip")
     })?;
     if meta.len() > LARGEST {
         return Err(Error::limit(Limit::Size, format!("{shown} has more than {} MB", LARGEST / 1_000_000))
-            .help("a package may not be larger"));
+            .help("reduce the size of the package"));
     }
     let mut archive = ZipArchive::new(BufReader::new(file)).map_err(|_| damaged())?;
     if archive.len() > MOST {
         return Err(Error::limit(Limit::Size, format!("{shown} has more than {MOST} files and folders"))
-            .help("a package may not have more"));
+            .help("remove files that scripts do not need"));
     }
     let (mut file, _) = burgeon_base::files::open(from).map_err(|_| damaged())?;
     let names = entry_names(&mut file, archive.central_directory_start()).ok_or_else(damaged)?;
@@ -44,7 +44,7 @@ pub(crate) fn unpack(from: &Path, copy: &mut PackageCopy) -> Result<()> {
     if let Some(twice) = names.iter().find(|name| !known.insert(*name)) {
         let name = String::from_utf8_lossy(twice);
         return Err(Error::data(format!("{shown} has {} twice", name.escape_debug()))
-            .help("this is no sound package; do not use it"));
+            .help("this package is unsafe; do not use it"));
     }
     if names.len() != archive.len() {
         return Err(damaged());
@@ -52,16 +52,19 @@ pub(crate) fn unpack(from: &Path, copy: &mut PackageCopy) -> Result<()> {
     for index in 0..archive.len() {
         let mut entry = archive.by_index(index).map_err(|error| match error {
             zip::result::ZipError::UnsupportedArchive(zip::result::ZipError::PASSWORD_REQUIRED) => {
-                Error::data(format!("{shown} needs a password")).help("unpack it, and name its folder")
+                Error::data(format!("{shown} needs a password")).help("unpack it, and specify its folder")
             }
             zip::result::ZipError::UnsupportedArchive(_) => {
-                Error::data(format!("{shown} is packed in a way that cannot be read"))
-                    .help("unpack it, and name its folder")
+                Error::data(format!("{shown} has an unsupported compression"))
+                    .help("unpack it, and specify its folder")
             }
             _ => damaged(),
         })?;
         let name = std::str::from_utf8(entry.name_raw())
-            .map_err(|_| Error::data(format!("{shown} has a file whose name is no text")).help("rename it"))?
+            .map_err(|_| {
+                Error::data(format!("{shown} has a file with a name that is not valid text"))
+                    .help("rename it")
+            })?
             .to_owned();
         let kind = entry.unix_mode().map_or(PLAIN, |mode| mode & KIND);
         match name.strip_suffix('/') {

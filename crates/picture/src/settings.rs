@@ -104,9 +104,9 @@ impl Picture {
     pub fn check(&self) -> Result<()> {
         let fits = |size: u32| (1..=Self::LARGEST).contains(&size);
         if !fits(self.width) || !fits(self.height) {
-            let message = format!("a picture cannot be {} x {} pixels", self.width, self.height);
+            let message = format!("invalid image size {} x {}", self.width, self.height);
             return Err(Error::argument(message)
-                .help(format!("give a width and a height from 1 to {}", Self::LARGEST)));
+                .help(format!("use a width and a height from 1 to {} pixels", Self::LARGEST)));
         }
         if self.azimuth.is_some_and(|angle| !angle.is_finite()) {
             return Err(

@@ -154,7 +154,7 @@ impl ClosureSystem {
     ) -> Result<()> {
         if !(weight >= 0.0 && weight.is_finite()) {
             return Err(Error::argument(format!(
-                "the weight {weight} of {pattern} is below 0 or not finite"
+                "the weight of {pattern} must be finite and at least 0, not {weight}"
             ))
             .help("give a number of 0 or more"));
         }
@@ -170,7 +170,7 @@ impl ClosureSystem {
     ) -> Result<()> {
         if self.rules.len() == MOST_RULES {
             return Err(Error::limit(Limit::Size, format!("the system has more than {MOST_RULES} rules"))
-                .help("join rules, and tell their modules apart by a parameter"));
+                .help("join rules, and distinguish their modules by a parameter"));
         }
         let pattern = Pattern::parse(pattern, &self.symbols)?;
         self.rules.push(Rule::new(pattern, weight, guard.is_some(), None));

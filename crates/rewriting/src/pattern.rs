@@ -154,17 +154,17 @@ impl PatternReader<'_> {
         for (separator, group) in [('<', &left), ('>', &right)] {
             if separators.contains(&separator) && group.is_empty() {
                 return Err(self.error(
-                    &format!("the context beside {separator} is empty"),
-                    "name a module there, or leave it out",
+                    &format!("the context next to {separator} is empty"),
+                    "add a module, or remove the separator",
                 ));
             }
         }
         let predecessor = match middle.as_slice() {
             [Context::Module(item)] => *item,
-            [] => return Err(self.error("there is no predecessor", "name the module to be rewritten")),
+            [] => return Err(self.error("missing predecessor", "add the module to be rewritten")),
             _ => {
                 return Err(self.error(
-                    "there is more than one predecessor",
+                    "more than one predecessor",
                     "a rule rewrites one module; put the others into a context: A < B > C",
                 ));
             }
@@ -174,8 +174,8 @@ impl PatternReader<'_> {
             .map(|context| match context {
                 Context::Module(item) => Ok(item),
                 Context::Branch(_) => Err(self.error(
-                    "a left context has no branches",
-                    "it is the path towards the axiom; name only the modules on it",
+                    "a left context cannot have branches",
+                    "it is the path towards the axiom; write only the modules on it",
                 )),
             })
             .collect::<Result<_>>()?;
@@ -210,7 +210,7 @@ impl PatternReader<'_> {
         self.depth -= 1;
         if inner.is_empty() {
             self.at = begin;
-            return Err(self.error_here("a branch in a context names at least one module"));
+            return Err(self.error_here("a branch in a context must contain at least one module"));
         }
         Ok(Context::Branch(inner))
     }
@@ -230,7 +230,7 @@ impl PatternReader<'_> {
         while self.peek() != Some(')') {
             if bound > 0 {
                 if self.peek() != Some(',') {
-                    return Err(self.error_here("a comma or a closing bracket belongs here"));
+                    return Err(self.error_here("expected a comma or a closing bracket"));
                 }
                 self.at += 1;
             }
@@ -239,7 +239,7 @@ impl PatternReader<'_> {
             if formal != "_" && self.formals.contains(&formal) {
                 self.at = before;
                 self.peek();
-                return Err(self.error_here(&format!("two parameters are called {formal}; rename one")));
+                return Err(self.error_here(&format!("duplicate parameter name {formal}")));
             }
             self.formals.push(formal);
             bound += 1;
@@ -268,7 +268,7 @@ impl PatternReader<'_> {
             let package = package.to_owned();
             self.at += package.len() + 1;
             if self.text[self.at..].starts_with(char::is_whitespace) {
-                return Err(self.error_here("the name of a module of the package belongs here"));
+                return Err(self.error_here("expected the name of a module of the package"));
             }
             return Ok(format!("{package}.{}", self.name("a module's name")?));
         }
@@ -282,7 +282,7 @@ impl PatternReader<'_> {
         };
         let length = rest.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).unwrap_or(rest.len());
         if length == 0 || rest.starts_with(|c: char| c.is_ascii_digit()) {
-            return Err(self.error_here(&format!("{what} belongs here")));
+            return Err(self.error_here(&format!("expected {what}")));
         }
         self.at += length;
         Ok(rest[..length].to_owned())

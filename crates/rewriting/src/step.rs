@@ -244,7 +244,7 @@ impl Stepper {
     /// Returns the error for a chain that exceeds the limit, with the rule that has produced the most symbols.
     fn limit_error(&self, growth: &[usize], step: usize) -> Error {
         let limit = self.plan.limit;
-        let error = Error::limit(Limit::Modules, format!("the chain grew past {limit} modules in step {step}"))
+        let error = Error::limit(Limit::Modules, format!("the chain exceeded {limit} modules in step {step}"))
             .help("end the growth with a guard or a counter, derive fewer steps, or raise the limit: --module-limit N");
         match growth.iter().enumerate().max_by_key(|(index, count)| (**count, usize::MAX - index)) {
             Some((rule, _)) => {

@@ -56,7 +56,7 @@ impl Signature {
     /// ```
     pub fn new(name: &str, parameters: &[String]) -> Result<Self> {
         if !is_name(name) {
-            return Err(Error::argument(format!("{name:?} cannot be a module's name"))
+            return Err(Error::argument(format!("invalid module name {name:?}"))
                 .help("a name is a letter followed by letters, digits and underscores"));
         }
         if parameters.len() > MOST_PARAMETERS {
@@ -64,7 +64,7 @@ impl Signature {
                 Limit::Size,
                 format!("module {name} has {} parameters, of at most {MOST_PARAMETERS}", parameters.len()),
             )
-            .help("put what belongs together into one table parameter"));
+            .help("combine parameters in one table"));
         }
         let required =
             parameters.iter().position(|parameter| parameter.ends_with('?')).unwrap_or(parameters.len());
@@ -72,13 +72,11 @@ impl Signature {
         for (index, parameter) in parameters.iter().enumerate() {
             let bare = parameter.strip_suffix('?').unwrap_or(parameter);
             if !is_name(bare) {
-                return Err(Error::argument(format!(
-                    "{parameter:?} cannot be the name of a parameter of {name}"
-                ))
-                .help("a name is a letter followed by letters, digits and underscores"));
+                return Err(Error::argument(format!("invalid parameter name {parameter:?} of {name}"))
+                    .help("a name is a letter followed by letters, digits and underscores"));
             }
             if names.iter().any(|known| known == bare) {
-                return Err(Error::argument(format!("module {name} has two parameters called {bare}")));
+                return Err(Error::argument(format!("module {name} has two parameters named `{bare}`")));
             }
             if index >= required && !parameter.ends_with('?') {
                 return Err(Error::argument(format!(
@@ -203,14 +201,14 @@ impl Symbols {
             }
             if !self.is_standard(symbol) {
                 let usage = self.signature(symbol).usage();
-                return Err(Error::script(format!("module {usage} is declared already"))
-                    .help("declare it once, or give the other module another name"));
+                return Err(Error::script(format!("module {usage} is already declared"))
+                    .help("declare it once, or rename the other module"));
             }
         }
         let symbol = u16::try_from(self.signatures.len() + usize::from(FIRST_PLACEHOLDER)).ok();
         let symbol = symbol.filter(|_| self.signatures.len() < MOST_MODULES).ok_or_else(|| {
             Error::limit(Limit::Size, "more than 65,000 modules are declared")
-                .help("declare fewer, and tell them apart by a parameter")
+                .help("declare fewer modules, and distinguish them by a parameter")
         })?;
         self.shown.push(signature.name.clone());
         self.owners.push(owner.map(Into::into));
@@ -293,7 +291,7 @@ impl Symbols {
                     known.iter().filter_map(|symbol| Some(format!("{}.{name}", self.owner(*symbol)?)));
                 let message = format!("{name} is a module of {}", owners.join(" and of "));
                 Err(Error::script(message)
-                    .help(format!("say which one: {}", named.collect::<Vec<_>>().join(" or "))))
+                    .help(format!("specify one: {}", named.collect::<Vec<_>>().join(" or "))))
             }
         }
     }
@@ -308,7 +306,7 @@ impl Symbols {
             let message = format!("unknown symbol {name}");
             let error = Error::not_found("symbol", name, known.iter().map(String::as_str), message);
             error.help(match known.is_empty() {
-                true => format!("no file of a package {package} that was required declares a module"),
+                true => format!("no required file of a package {package} declares a module"),
                 false => format!("{package} declares {}", known.join(", ")),
             })
         })
@@ -388,7 +386,7 @@ mod tests {
         for scope in [of(None, &[]), of(None, &["castle", "tower"]), of(Some("gate"), &[])] {
             let error = find("Stone", &scope).unwrap_err();
             assert_eq!(error.message(), "Stone is a module of castle and of tower");
-            assert_eq!(error.remedy(), Some("say which one: castle.Stone or tower.Stone"));
+            assert_eq!(error.remedy(), Some("specify one: castle.Stone or tower.Stone"));
         }
         assert!(
             find("tower.Stole", &of(None, &[]))

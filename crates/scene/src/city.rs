@@ -34,9 +34,8 @@ impl CityClass {
     /// Returns the class called `name`. Fails if there is none; the error lists the classes.
     pub fn of(name: &str) -> Result<Self> {
         CLASSES.iter().find(|known| **known == name).map(|known| Self(known)).ok_or_else(|| {
-            let message = format!("{name:?} is no class of city objects");
-            Error::not_found("class", name, CLASSES, message)
-                .help(format!("there are {}", CLASSES.join(", ")))
+            let message = format!("unknown CityJSON class {name:?}");
+            Error::not_found("class", name, CLASSES, message).help(format!("use {}", CLASSES.join(", ")))
         })
     }
 

@@ -74,12 +74,14 @@ impl Geometry {
         if !distance.is_finite() || distance.abs() > super::FARTHEST {
             let taken = if distance.is_finite() { "a distance of at most 1e9" } else { "a finite distance" };
             return Err(Error::argument(format!("buffer takes {taken}, not {distance:?}"))
-                .help("give metres: more to grow, less than 0 to shrink"));
+                .help("use metres: above 0 to grow, below 0 to shrink"));
         }
         if !(1..=1000).contains(&options.quadrant_segments) {
             let given = options.quadrant_segments;
-            return Err(Error::argument(format!("buffer takes 1 to 1000 quadrant_segments, not {given}"))
-                .help("8 are 1 % from a circle's area"));
+            return Err(Error::argument(format!(
+                "quadrant_segments of buffer must be from 1 to 1000, not {given}"
+            ))
+            .help("with 8, the area differs by 1 % from a circle"));
         }
         let made = self.grown(distance, options);
         made.check().map_err(|error| error.about("buffer")).map(|()| made)

@@ -63,10 +63,8 @@ impl Geometry {
         check_part("line_substring", from)?;
         check_part("line_substring", to)?;
         if from > to {
-            return Err(Error::argument(format!(
-                "line_substring goes from {from} to {to}, which is before it"
-            ))
-            .help("give the lesser part first"));
+            return Err(Error::argument(format!("line_substring: {to} is before {from}"))
+                .help("pass the smaller fraction first"));
         }
         if line.is_empty() {
             return Ok(Self::empty(1));
@@ -118,7 +116,7 @@ impl Geometry {
             Self::Line(points) if self.is_sound() => Ok(points),
             Self::Line(_) => Ok(&[]),
             _ => Err(Error::argument(format!("{method} takes a line, not a {}", self.kind().name()))
-                .help("take one line of it: geometry_n, exterior_ring or segments give such")),
+                .help("use one line of it: geometry_n, exterior_ring or segments")),
         }
     }
 
@@ -193,7 +191,7 @@ impl Geometry {
                     "offset takes lines or areas, not a {}",
                     self.kind().name()
                 ))
-                .help("buffer makes an area of points"));
+                .help("buffer converts points to an area"));
             }
         }
         if distance == 0.0 {
@@ -266,7 +264,7 @@ fn check_part(method: &str, part: f64) -> Result<()> {
     if (0.0..=1.0).contains(&part) {
         return Ok(());
     }
-    Err(Error::argument(format!("{method} takes parts from 0 to 1, not {part}"))
+    Err(Error::argument(format!("{method} needs a fraction from 0 to 1, not {part}"))
         .help("0 is the first point of the line and 1 the last"))
 }
 

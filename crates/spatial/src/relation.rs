@@ -30,8 +30,11 @@ impl Relation {
         let known =
             |letter: &u8| matches!(letter.to_ascii_uppercase(), b'*' | b'T' | b'F' | b'0' | b'1' | b'2');
         if letters.len() != 9 || !letters.iter().all(known) {
-            return Err(Error::argument(format!("\"{}\" is no pattern of nine letters", shown(pattern)))
-                .help("write one of *, T, F, 0, 1 and 2 for each cell: \"F***1****\""));
+            return Err(Error::argument(format!(
+                "\"{}\" is not a pattern of nine characters",
+                shown(pattern)
+            ))
+            .help("write one of *, T, F, 0, 1 and 2 for each cell: \"F***1****\""));
         }
         Ok(self.cells.iter().zip(letters).all(|(cell, letter)| match letter.to_ascii_uppercase() {
             b'*' => true,

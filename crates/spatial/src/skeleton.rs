@@ -89,7 +89,7 @@ impl Geometry {
     pub fn inset(&self, distance: f64) -> Result<Self> {
         if !distance.is_finite() {
             return Err(Error::argument(format!("inset takes a finite distance, not {distance}"))
-                .help("give metres: more goes further inwards"));
+                .help("use metres: a greater distance goes further inwards"));
         }
         let (plane, polygons) = self.plans("inset")?;
         let parts = polygons.iter().flat_map(|polygon| polygon.inset(distance)).map(|part| {
@@ -105,7 +105,7 @@ impl Geometry {
         let plane = Plane::of(&[self]);
         if self.dimension() < 2 || !self.is_sound() {
             return Err(Error::argument(format!("{method} takes areas, not a {}", self.kind().name()))
-                .help("buffer makes an area of lines and points"));
+                .help("buffer converts lines and points to an area"));
         }
         let areas = super::overlay::dissolved(plane.polygons(self));
         let polygons = areas.iter().map(|polygon| {

@@ -137,14 +137,14 @@ impl StreetKind {
         for (name, value) in [("trees", self.trees), ("lamps", self.lamps)] {
             if value != 0.0 && !(1.0..=1000.0).contains(&value) {
                 return Err(Error::argument(format!("{name} must be from 1 to 1000 m, not {value}"))
-                    .help("that is their distance along the street; 0 for none"));
+                    .help("it is the distance between them along the street; 0 for none"));
             }
             if value > 0.0 && self.sidewalk < LEAST_VERGE {
                 return Err(Error::argument(format!(
-                    "{name} need a sidewalk of {LEAST_VERGE} m, and this one has {}",
+                    "{name} need a sidewalk of {LEAST_VERGE} m, not {} m",
                     self.sidewalk
                 ))
-                .help("give a greater sidewalk, or leave them out"));
+                .help("use a wider sidewalk, or set them to 0"));
             }
         }
         let Self { width, sidewalk, median, parking, .. } = *self;
@@ -173,16 +173,16 @@ impl StreetKind {
         }
         if self.median > 0.0 && self.lanes() % 2 == 1 {
             return Err(Error::argument(format!(
-                "lanes = {} cannot be divided by a median into two directions",
+                "with a median, lanes = {} cannot be divided into two directions",
                 self.lanes()
             ))
-            .help("give an even number of lanes, or leave the median out"));
+            .help("use an even number of lanes, or remove the median"));
         }
         let lane = driven / f64::from(self.lanes());
         if lane < LEAST_LANE - 1e-9 {
             let most = (driven / LEAST_LANE + 1e-9).floor();
             return Err(Error::argument(format!(
-                "lanes = {} does not fit: {driven:.2} m is left for them, {lane:.2} m for each",
+                "lanes = {} does not fit: {driven:.2} m remains for the lanes, {lane:.2} m for each",
                 self.lanes()
             ))
             .help(format!("{most} fit, each at least {LEAST_LANE} m wide")));

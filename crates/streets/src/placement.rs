@@ -42,7 +42,7 @@ impl SiteOptions {
     pub fn check(&self) -> Result<()> {
         let sides = self.sizes.iter().flat_map(|size| size.to_array());
         if self.sizes.is_empty() || !sides.into_iter().all(|side| (1.0..=500.0).contains(&side)) {
-            return Err(Error::argument("sizes must be one or more pairs of numbers from 1 to 500")
+            return Err(Error::argument("sizes must contain at least one pair of numbers from 1 to 500")
                 .help("write sizes = { { 24, 18 }, { 12, 10 } }"));
         }
         let ranges = [
@@ -60,10 +60,10 @@ impl SiteOptions {
         }
         if self.setback > self.distance {
             let text = format!(
-                "setback ({} m) is more than distance ({} m), so no site could be beside a street",
+                "setback ({} m) is more than distance ({} m), so no site fits next to a street",
                 self.setback, self.distance
             );
-            return Err(Error::argument(text).help("give a smaller setback, or a greater distance"));
+            return Err(Error::argument(text).help("use a smaller setback, or a greater distance"));
         }
         Ok(())
     }
@@ -140,8 +140,8 @@ impl StreetNetwork {
         let length: f64 = self.pieces().map(|(piece, _)| self.length(piece)).sum();
         let places = length / options.along * 2.0 * f64::from(rows);
         if places > MOST_PLACES {
-            let text = format!("{places:.0} places along the streets would be tried");
-            return Err(Error::argument(text).help("give greater distances along and away"));
+            let text = format!("{places:.0} positions along the streets are too many");
+            return Err(Error::argument(text).help("use greater distances along and away"));
         }
         let mut index = SiteIndex::new(self, surface);
         let ground = self.pieces().filter(|(_, piece)| piece.attributes.level == 0);

@@ -39,9 +39,7 @@ impl Parameter for View {
             return Err(what());
         }
         if rings.windows(2).any(|pair| pair[0].across >= pair[1].across || pair[0].levels < pair[1].levels) {
-            return Err(Expectation::new(
-                "a view whose rings grow, and are divided less the farther they are",
-            ));
+            return Err(Expectation::new("a view with growing rings that are divided less with distance"));
         }
         Ok(Self { cell, rings })
     }

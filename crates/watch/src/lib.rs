@@ -243,7 +243,7 @@ impl Watcher {
         if let Some(why) = self.folders.failure()
             && let Some(complain) = self.complain.take()
         {
-            complain(&format!("cannot watch folders, so files are looked at ten times a second: {why}"));
+            complain(&format!("cannot watch folders; polling files ten times a second: {why}"));
         }
     }
 

@@ -1,6 +1,6 @@
 --!strict
 -- Materials with images of this package. Other packages can replace the images or this file.
-local tint = param("stone", { default = "#fff3dc", text = "tint of the masonry" })
+local tint = param("stone", { default = "#fff3dc", doc = "tint of the masonry" })
 
 local function stone(color)
   return {

@@ -90,7 +90,7 @@ function country.rules(
   system:rule(
     "CountryRoad(junction, heading, length, rest, tries)",
     function(this: Network, junction: number, heading: number, length: number, rest: number, tries: number)
-      local at = this:reached(junction, heading)
+      local at = this:open_end(junction, heading)
       if at then
         local place, left = this:place(at), rest - length
         if left < 0.5 * PIECE or not inside(place.x, place.y) then
@@ -98,7 +98,7 @@ function country.rules(
         end
         local turn = OUTWARDS * checks.between(heading, bearing(place)) + random(-SWING, SWING)
         return CountryRoad(at, heading + math.clamp(turn, -SWING, SWING), PIECE, left, 0)
-      elseif not this:arrived(junction, heading) and tries < #ASIDE then
+      elseif not this:end_junction(junction, heading) and tries < #ASIDE then
         return CountryRoad(junction, heading + ASIDE[tries + 1], length, rest, tries + 1)
       end
       return nil

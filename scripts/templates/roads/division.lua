@@ -260,7 +260,7 @@ function division.rules(
       kind: number
     )
       local heading = ways.aim(this, junction, way[1], way[2])
-      local first = this:arrived(junction, heading)
+      local first = this:end_junction(junction, heading)
       if not first then
         return Quarter(junction, along, tries + 1, kind)
       end

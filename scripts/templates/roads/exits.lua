@@ -342,7 +342,7 @@ function exits.rules(system: System<Network>, options: Exits)
   system:rule(
     "Exit(junction, heading, rest, pieces)",
     function(this: Network, junction: number, heading: number, rest: number, pieces: number)
-      local at = this:reached(junction, heading)
+      local at = this:open_end(junction, heading)
       if not at or pieces == 1 then
         return nil
       end

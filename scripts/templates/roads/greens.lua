@@ -66,7 +66,7 @@ function greens.rules(
       elseif wait > 0 then
         return Fork(junction, heading, along, side, depth, wait - 1, left - 1)
       end
-      local at = this:reached(junction, heading)
+      local at = this:open_end(junction, heading)
       if not at then
         return nil
       end

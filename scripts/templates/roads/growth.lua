@@ -114,12 +114,12 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
     local ahead = this:probe(junction, heading, reach, depth)
     if ahead.junction and this:degree(ahead.junction) > 2 then
       for _, turn in BESIDE do
-        if this:probe(junction, heading + turn, reach, depth).fate == "joined" then
+        if this:probe(junction, heading + turn, reach, depth).outcome == "joined" then
           return heading + turn, reach
         end
       end
     end
-    return heading, if ahead.fate == "joined" or ahead.fate == "snapped" then reach else length
+    return heading, if ahead.outcome == "joined" or ahead.outcome == "snapped" then reach else length
   end
 
   local field = math.floor(random() * 1000000)
@@ -364,7 +364,7 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
       if left <= 0 then
         return nil
       end
-      local at = this:reached(junction, heading)
+      local at = this:open_end(junction, heading)
       if at then
         local modules = onward(this, at, heading, depth, run, left - 1)
         if #modules == 0 and of.divides then
@@ -372,7 +372,7 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
         end
         return table.unpack(modules)
       end
-      local crossed = this:arrived(junction, heading)
+      local crossed = this:end_junction(junction, heading)
       if crossed then
         local place = this:place(crossed)
         local pattern = pattern_at(place.x, place.y)
@@ -382,7 +382,7 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
         end
       elseif depth == 0 and tries < #ASIDE then
         -- A pattern of straight lines bends only for obstacles.
-        local place, fate = this:place(junction), this:fate(junction, heading)
+        local place, fate = this:place(junction), this:outcome(junction, heading)
         local is_free = fate ~= "obstacle" and fate ~= "outside" and fate ~= "unknown"
         if not is_free or not pattern_at(place.x, place.y).straight then
           return Tip(junction, heading + ASIDE[tries + 1], length, depth, run, tries + 1, left - 1)

@@ -76,7 +76,7 @@ function highways.rules(
       tries: number,
       left: number
     )
-      local at = this:arrived(junction, heading)
+      local at = this:end_junction(junction, heading)
       if not at then
         return if tries < #highways.ASIDE
           then Highway(junction, heading + highways.ASIDE[tries + 1], length, goal, tries + 1, left - 1)
@@ -105,7 +105,7 @@ function highways.rules(
   system:rule(
     "Arrival(junction, heading, length, goal, tries)",
     function(this: Network, junction: number, heading: number, length: number, goal: number, tries: number)
-      if this:arrived(junction, heading) or tries > #ASTRAY then
+      if this:end_junction(junction, heading) or tries > #ASTRAY then
         return nil
       end
       return Arrival(junction, heading + (ASTRAY[tries + 1] or 0), length, goal, tries + 1)
@@ -122,7 +122,7 @@ function highways.rules(
     "Arrival(junction, heading, length, goal, tries)",
     function(this: Network, junction: number, heading: number, length: number, goal: number, tries: number)
       if tries > #ASTRAY then
-        this:lead(junction, this:place(goal), 0)
+        this:grow_to(junction, this:place(goal), 0)
       else
         this:grow(junction, heading, length, 0)
       end

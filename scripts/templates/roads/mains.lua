@@ -182,7 +182,7 @@ function mains.rules(
       room: number,
       tries: number
     )
-      local at = this:reached(junction, heading)
+      local at = this:open_end(junction, heading)
       if at then
         local place = this:place(at)
         local far = polar(place)
@@ -195,7 +195,7 @@ function mains.rules(
             onward(place, at, heading + turn - 58, right, room * share)
         end
         return onward(place, at, heading, bearing, room)
-      elseif not this:arrived(junction, heading) and tries < #ASIDE then
+      elseif not this:end_junction(junction, heading) and tries < #ASIDE then
         return Spoke(junction, heading + ASIDE[tries + 1], length, bearing, room, tries + 1)
       end
       return nil
@@ -221,7 +221,7 @@ function mains.rules(
       local heading = math.deg(math.atan2(y - place.y, x - place.x)) + turn
       local length = math.sqrt((x - place.x) ^ 2 + (y - place.y) ^ 2)
       local found = this:probe(at, heading, length, depth)
-      local is_fit = found.built and (not joins or found.fate == "snapped" or found.fate == "joined")
+      local is_fit = found.built and (not joins or found.outcome == "snapped" or found.outcome == "joined")
       return if is_fit then Rim(at, heading, length, goal, meets, depth, tries) else nil
     end
     if is_near or place:distance(ends) < NEAR * PIECE or gap > 300 then
@@ -343,16 +343,16 @@ function mains.rules(
       depth: number,
       tries: number
     )
-      local at = this:reached(junction, heading)
+      local at = this:open_end(junction, heading)
       if at then
         -- A street that is too near to its end is shortened by a piece.
         return along(this, at, goal, meets, depth, tries, false)
           or along(this, junction, goal, meets, depth, tries, true)
           or unclosed(this, at)
-      elseif not this:arrived(junction, heading) and tries < TRIES then
+      elseif not this:end_junction(junction, heading) and tries < TRIES then
         return along(this, junction, goal, meets, depth, tries + 1, false) or unclosed(this, junction)
       end
-      return if this:arrived(junction, heading) then nil else unclosed(this, junction)
+      return if this:end_junction(junction, heading) then nil else unclosed(this, junction)
     end
   )
 

@@ -15,7 +15,7 @@ function ways.lead(this: Network, junction: number, way: { number }, depth: numb
   for index = 1, #way, 2 do
     local heading, length = ways.aim(this, at :: number, way[index], way[index + 1])
     propose(this, at :: number, heading, length, depth)
-    at = this:reached(at :: number, heading)
+    at = this:open_end(at :: number, heading)
     if not at then
       return
     end

@@ -149,7 +149,7 @@ fn find<'a>(entries: &'a [Entry], name: &str) -> Result<ApiSubject<'a>> {
             return within(&entry.name, &entry.members, &name[end..]).map(ApiSubject::Member);
         }
     }
-    let message = format!("scripts have nothing called {name}");
+    let message = format!("unknown name `{name}`");
     // A user who enters only the name of a method wants to know its owner.
     let owners: Vec<String> = entries
         .iter()
@@ -167,7 +167,7 @@ fn find<'a>(entries: &'a [Entry], name: &str) -> Result<ApiSubject<'a>> {
         .flat_map(|entry| entry.members.iter().map(|member| member.full_name(&entry.name)))
         .collect();
     let known = entries.iter().map(|entry| entry.name.as_str()).chain(full.iter().map(String::as_str));
-    Err(Error::not_found("name", name, known, message).help("burgeon api lists all names"))
+    Err(Error::not_found("name", name, known, message).help("run burgeon api to list all names"))
 }
 
 /// Finds the member of `members` at `path`, such as `:roof.details`, and the full name of its owner.
@@ -186,11 +186,11 @@ fn within<'a>(owner: &str, members: &'a [Member], path: &str) -> Result<(String,
             names.sort_unstable();
             names.dedup();
             let help = if names.is_empty() {
-                "it has none".to_owned()
+                "it has no fields or methods".to_owned()
             } else {
                 format!("it has {}", names.join(", "))
             };
-            let message = format!("{owner} has no field or method called {inner}");
+            let message = format!("unknown field or method `{inner}` of {owner}");
             Err(Error::not_found("name", inner, names, message).help(help))
         }
     }

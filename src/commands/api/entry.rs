@@ -174,6 +174,15 @@ fn deprecation(found: Option<&Deprecation>) -> String {
     found.map_or_else(String::new, |it| format!(" Deprecated since {}: use {}.", it.since, it.instead))
 }
 
+/// Returns the notice of the former names of a field, which follows its description.
+fn former_names(field: &Field) -> String {
+    field
+        .former
+        .iter()
+        .map(|it| format!(" Former name: `{}`, deprecated since {}.", it.name, it.since))
+        .collect()
+}
+
 impl Member {
     fn of_field(field: &Field) -> Self {
         Self {
@@ -183,7 +192,7 @@ impl Member {
             forms: Vec::new(),
             default: field.default.clone(),
             unit: field.unit.as_ref().map(ToString::to_string),
-            doc: field.doc.to_string(),
+            doc: format!("{}{}", field.doc, former_names(field)),
             fields: field.fields.iter().map(Self::of_field).collect(),
             example: String::new(),
         }

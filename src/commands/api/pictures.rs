@@ -36,7 +36,7 @@ pub(super) fn file_of(example: &ScriptExample) -> String {
 pub(super) fn draw(folder: &Path) -> Result<()> {
     let pictures = folder.join("pictures");
     std::fs::create_dir_all(&pictures)
-        .map_err(|error| Error::file(&pictures, format!("cannot make {}: {error}", pictures.display())))?;
+        .map_err(|error| Error::file(&pictures, format!("cannot create {}: {error}", pictures.display())))?;
     let list = pictures.join(LIST);
     let known = std::fs::read_to_string(&list).unwrap_or_default();
     let mut text = String::new();

@@ -33,13 +33,13 @@ pub(super) fn list(entries: &[Entry], script: Option<&Path>) -> String {
     let flag = script.map_or_else(String::new, |script| format!(" --script {}", script.display()));
     match (script, entries.first()) {
         (Some(script), None) => {
-            let _ = writeln!(text, "{} declares no type of object and adds to none", script.display());
+            let _ = writeln!(text, "{} neither declares nor extends an object type", script.display());
         }
         (Some(_), Some(Entry { name, .. })) => {
-            let _ = writeln!(text, "burgeon api{flag} NAME tells more of one, such as {name}");
+            let _ = writeln!(text, "Run burgeon api{flag} NAME for details, such as {name}");
         }
         (None, _) => {
-            text.push_str("burgeon api NAME tells more of one, such as extruder or extruder:extrude\n")
+            text.push_str("Run burgeon api NAME for details, such as extruder or extruder:extrude\n")
         }
     }
     text
@@ -54,8 +54,8 @@ pub(super) fn entry(entry: &Entry) -> String {
         (MemberKind::Field, "Fields"),
         (MemberKind::Declares, "Methods"),
         (MemberKind::Function, "Functions"),
-        (MemberKind::Reads, "Read methods: rules and interpretations may call them"),
-        (MemberKind::Changes, "Write methods: only interpretations may call them"),
+        (MemberKind::Reads, "Read methods: rules and interpretations can call them"),
+        (MemberKind::Changes, "Write methods: only interpretations can call them"),
     ] {
         for (index, member) in entry.members(what).enumerate() {
             if index == 0 {
@@ -87,8 +87,8 @@ pub(super) fn member(owner: &str, member: &Member) -> String {
     wrap(&mut text, &member.doc, 2);
     match member.what {
         MemberKind::Field | MemberKind::Declares | MemberKind::Function => {}
-        MemberKind::Reads => wrap(&mut text, "It only reads: rules and interpretations may call it.", 2),
-        MemberKind::Changes => wrap(&mut text, "It changes the object: only interpretations may call it.", 2),
+        MemberKind::Reads => wrap(&mut text, "Read method: rules and interpretations can call it.", 2),
+        MemberKind::Changes => wrap(&mut text, "Write method: only interpretations can call it.", 2),
     }
     example(&mut text, &member.example);
     for (index, field) in member.fields.iter().enumerate() {

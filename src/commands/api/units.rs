@@ -6,7 +6,7 @@ use super::entry::{Entry, EntryGroup, Member, MemberKind};
 use burgeon::language::CallForm;
 
 /// Counts.
-const COUNTS: [&str; 30] = [
+const COUNTS: [&str; 31] = [
     "derived.modules",
     "derived.steps",
     "extruder.along",
@@ -25,9 +25,10 @@ const COUNTS: [&str; 30] = [
     "grid.rows",
     "network.existing.depth",
     "network.existing.lanes",
-    "network.most",
+    "network.max_segments",
     "network.streets.lanes",
     "network:grow depth",
+    "network:grow_to depth",
     "network:lead depth",
     "network:probe depth",
     "planet.levels",
@@ -94,7 +95,7 @@ const FACTORS: [&str; 50] = [
 ];
 
 /// Indices, codes and seeds.
-const NUMBERS: [&str; 31] = [
+const NUMBERS: [&str; 36] = [
     ".seed",
     "Paint number",
     "elevation.crs",
@@ -108,11 +109,16 @@ const NUMBERS: [&str; 31] = [
     "geometry:point_n number",
     "network.existing.level",
     "network:arrived junction",
+    "network:end_junction junction",
     "network:degree junction",
     "network:face junction",
     "network:fate junction",
     "network:grow junction",
+    "network:grow_to junction",
     "network:lead junction",
+    "network:move_to junction",
+    "network:open_end junction",
+    "network:outcome junction",
     "network:place junction",
     "network:probe junction",
     "network:reached junction",

@@ -99,8 +99,8 @@ impl ModsCommand {
         let Some(script) = &self.script else { return Ok(PathBuf::new()) };
         if !script.is_file() {
             let shown = script.display();
-            return Err(Error::not_found("script", &shown, [], format!("there is no script {shown}"))
-                .help("--script names the script whose packages are meant"));
+            return Err(Error::not_found("script", &shown, [], format!("script not found: {shown}"))
+                .help("--script needs the script whose packages to use"));
         }
         Ok(script.parent().map(Path::to_path_buf).unwrap_or_default())
     }
@@ -124,7 +124,7 @@ impl ModsCommand {
         if self.json {
             return report::print(&format!("{}\n", json!({ "ok": true, "folder": folder })));
         }
-        report::eprint(&format!("made {}; now: require(\"@{name}\")\n", folder.display()));
+        report::eprint(&format!("created {}; now: require(\"@{name}\")\n", folder.display()));
         Ok(())
     }
 
@@ -132,8 +132,8 @@ impl ModsCommand {
         let packages = self.packages()?;
         let Some(package) = packages.get(name.trim_start_matches('@')) else {
             let known = packages.order().iter().map(|package| package.manifest.name.as_str());
-            let error = Error::not_found("package", name, known, format!("there is no package {name}"));
-            return Err(error.help("burgeon mods lists those that there are"));
+            let error = Error::not_found("package", name, known, format!("unknown package `{name}`"));
+            return Err(error.help("run burgeon mods to list the packages"));
         };
         report::print(&match self.json {
             true => {
@@ -166,8 +166,10 @@ impl ModsCommand {
         if let (Some(folder), true, true) = (folder, meant.is_empty(), problems.is_empty()) {
             let shown = folder.display();
             let problem =
-                Error::not_found("package", &shown, [], format!("{shown} has no package that is used"));
-            problems.push(problem.help("name the folder that has the mod.toml; burgeon mods lists all"));
+                Error::not_found("package", &shown, [], format!("{shown} contains no package in use"));
+            problems.push(
+                problem.help("specify the folder that contains the mod.toml; run burgeon mods to list all"),
+            );
         }
         // A problem of one package is also a problem of the packages that require it.
         let mut known: BTreeSet<String> = problems.iter().map(ToString::to_string).collect();
@@ -200,7 +202,7 @@ impl ModsCommand {
             let (name, version) = (&package.manifest.name, &package.manifest.version);
             let scripts = package.scripts().len();
             let scripts = if scripts == 1 { "1 script".to_owned() } else { format!("{scripts} scripts") };
-            report::eprint(&format!("{name} {version} is fine: {scripts}\n"));
+            report::eprint(&format!("{name} {version}: no problems in {scripts}\n"));
         }
         Ok(())
     }
@@ -245,9 +247,10 @@ impl ModsCommand {
             if !of_package().any(|param| param.short_name() == default.name) {
                 let names = of_package().map(burgeon::script::Param::short_name);
                 let message =
-                    format!("the package {} has no parameter called {}", default.package, default.name);
+                    format!("unknown parameter of the package {}: `{}`", default.package, default.name);
                 let error = Error::not_found("parameter", &default.name, names, message);
-                let error = error.help(format!("burgeon mods explain {} lists what it has", default.package));
+                let error = error
+                    .help(format!("run burgeon mods explain {} to list its parameters", default.package));
                 problems.push(error.at(Some(default.place(&package.manifest))));
             }
         }
@@ -263,8 +266,8 @@ impl ModsCommand {
         let known: Vec<&str> = known.collect();
         // A deleted package can still be disabled.
         if !known.contains(&name) && (!on || !is_name(name)) {
-            let error = Error::not_found("package", name, known, format!("there is no package {name}"));
-            return Err(error.help("burgeon mods lists those that there are"));
+            let error = Error::not_found("package", name, known, format!("unknown package `{name}`"));
+            return Err(error.help("run burgeon mods to list the packages"));
         }
         let (file, changed) = packages::switch(&self.beside()?, name, on)?;
         if self.json {
@@ -272,14 +275,14 @@ impl ModsCommand {
                 json!({ "ok": true, "name": name, "enabled": on, "changed": changed, "file": file });
             return report::print(&format!("{document}\n"));
         }
-        let state = if on { "on" } else { "off" };
+        let state = if on { "enabled" } else { "disabled" };
         let file = file.display();
         report::eprint(&match (changed, on) {
-            (false, _) => format!("{name} is switched {state} already\n"),
+            (false, _) => format!("{name} is already {state}\n"),
             (true, false) => {
-                format!("switched {name} off in {file}; switch it on again: burgeon mods enable {name}\n")
+                format!("disabled {name} in {file}; to enable it: burgeon mods enable {name}\n")
             }
-            (true, true) => format!("switched {name} on\n"),
+            (true, true) => format!("enabled {name}\n"),
         });
         Ok(())
     }
@@ -308,7 +311,7 @@ impl ModsCommand {
                 })
             ));
         }
-        let instead = replaced.map_or_else(String::new, |old| format!(" in the place of {old}"));
+        let instead = replaced.map_or_else(String::new, |old| format!(" instead of {old}"));
         let folder = added.folder.display();
         report::eprint(&format!(
             "added {name} {version} to {folder}{instead}; scripts use it with require(\"@{name}\")\n"

@@ -13,13 +13,13 @@ const INIT: &str = "init.lua";
 /// the path exists already.
 pub(super) fn create(into: &Path, name: &str) -> Result<PathBuf> {
     if !is_name(name) {
-        return Err(Error::argument(format!("{name:?} is no name for a package"))
-            .help("write it with small letters, digits, - and _, such as \"street-lamps\""));
+        return Err(Error::argument(format!("invalid package name {name:?}"))
+            .help("use lowercase letters, digits, - and _, such as \"street-lamps\""));
     }
     let folder = into.join(name);
     let shown = folder.display();
     if folder.symlink_metadata().is_ok() {
-        return Err(Error::file(&folder, format!("{shown} exists already")).help("choose another name"));
+        return Err(Error::file(&folder, format!("{shown} already exists")).help("choose another name"));
     }
     let version = api_version();
     let manifest = format!(
@@ -30,7 +30,7 @@ pub(super) fn create(into: &Path, name: &str) -> Result<PathBuf> {
         "--!strict\n-- What require(\"@{name}\") gives. Other files come in with require(\"./file\").\nreturn {{}}\n"
     );
     let wrong = |error: std::io::Error| {
-        Error::file(&folder, format!("cannot make {shown}: {error}")).help("choose another folder")
+        Error::file(&folder, format!("cannot create {shown}: {error}")).help("choose another folder")
     };
     std::fs::create_dir_all(&folder).map_err(wrong)?;
     std::fs::write(folder.join(MANIFEST), manifest).map_err(wrong)?;

@@ -22,20 +22,16 @@ pub(super) fn list(packages: &Packages) -> String {
         text += &problems(package);
     }
     if packages.order().is_empty() && packages.disabled.is_empty() {
-        text +=
-            "there are no packages; make one, burgeon mods new NAME, or add one: burgeon mods add FOLDER\n";
+        text += "no packages; create one with burgeon mods new NAME, or install one with burgeon mods add FOLDER\n";
     }
     for disabled in &packages.disabled {
         let (name, version, shown) = (&disabled.name, &disabled.version, disabled.shown.display());
-        let _ = writeln!(text, "switched off: {name} {version} in {shown}");
+        let _ = writeln!(text, "disabled: {name} {version} in {shown}");
     }
     for hidden in &packages.hidden {
         let (name, version, by) = (&hidden.name, &hidden.version, hidden.by.display());
-        let _ = writeln!(
-            text,
-            "not used: {name} {version} in {}, since {by} comes first",
-            hidden.shown.display()
-        );
+        let _ =
+            writeln!(text, "ignored: {name} {version} in {}: {by} takes precedence", hidden.shown.display());
     }
     let broken = packages.broken.iter().map(|broken| &broken.error);
     for error in broken.chain(&packages.problems) {
@@ -61,9 +57,9 @@ pub(super) fn explain(packages: &Packages, package: &Package) -> String {
         let _ = writeln!(text, "  by {}", manifest.authors.join(", "));
     }
     let why = match package.origin {
-        PackageOrigin::Beside => "it is in mods beside the script",
-        PackageOrigin::Given => "its folder is given with --mods",
-        PackageOrigin::User => "it is in the user's folder, for scripts that name it",
+        PackageOrigin::Beside => "in mods/ next to the script",
+        PackageOrigin::Given => "in a folder of --mods",
+        PackageOrigin::User => "in the user's folder, for scripts that require it",
     };
     let _ = writeln!(text, "found: {why}");
     for hidden in packages.hidden.iter().filter(|hidden| hidden.name == manifest.name) {
@@ -97,9 +93,9 @@ fn replaced(packages: &Packages, package: &Package) -> String {
     for one in &package.manifest.replaces {
         let winner = packages.replacer(&one.target);
         let but = match winner {
-            _ if !package.is_replacing => " (not by itself: it is in the user's folder)".to_owned(),
-            _ if !package.replaces() => " (not at present: it cannot be used)".to_owned(),
-            Some(winner) if winner != package.manifest.name => format!(" (that of {winner} counts)"),
+            _ if !package.is_replacing => " (not automatically: in the user's folder)".to_owned(),
+            _ if !package.replaces() => " (not at present: it has problems)".to_owned(),
+            Some(winner) if winner != package.manifest.name => format!(" ({winner} takes precedence)"),
             _ => String::new(),
         };
         let _ = writeln!(text, "  replaces {} with {}{but}", one.target, one.file);

@@ -162,11 +162,11 @@ impl RunCommand {
     fn warn_of_nothing(&self, session: &Session, run: &mut burgeon::Run) -> Result<()> {
         let is_bare = || layers(session, &run.systems).iter().all(|layer| layer.records.is_empty());
         if self.writes(Format::has_layers) && is_bare() {
-            let text = "there are no layers to write, for no module of the final chains has a geometry";
+            let text = "no layers to write: no module of the final chains has a geometry";
             let warning = Warning::new(WarningKind::EmptyModel, text)
                 .at(run.systems.first().and_then(|system| system.place.clone()))
                 .called_at(run.systems.first().and_then(|system| system.caller.clone()))
-                .help("pass a geometry on, such as Lot(feature.geometry, area)");
+                .help("pass a geometry, such as Lot(feature.geometry, area)");
             if session.options.strict {
                 return Err(warning.into_error());
             }
@@ -181,11 +181,11 @@ impl RunCommand {
         if run.scene.triangles() > 0 || session.options.steps.is_some() || session.options.part.is_some() {
             return Ok(());
         }
-        let text = "the model is empty, for no system has an object that draws";
+        let text = "the model is empty: no system has an object that draws";
         let warning = Warning::new(WarningKind::EmptyModel, text)
             .at(place)
             .called_at(caller)
-            .help("give one, such as lsystem({ object = turtle() }); chains are written with --chain FILE");
+            .help("set one, such as lsystem({ object = turtle() }); to write chains, use --chain FILE");
         if session.options.strict {
             return Err(warning.into_error());
         }

@@ -29,7 +29,7 @@ impl RunCommand {
         self.heights.as_deref().map_or(Ok(()), export::heights::check_name)?;
         if self.script.json && self.report.as_deref() == Some(Path::new(STANDARD)) {
             return Err(Error::usage("standard output cannot take both a report and the JSON document")
-                .help("name a file: --report report.json; the document has the counts"));
+                .help("specify a file: --report report.json; the document contains the counts"));
         }
         let beside = self.output.iter().filter_map(|output| match Format::of(output) {
             Ok(Format::Gltf) => Some(output.with_extension("bin")),
@@ -58,11 +58,11 @@ impl RunCommand {
         let shown = path.display();
         if same(path, &self.script.script) {
             return Err(Error::usage(format!("{what} would overwrite the script {shown}"))
-                .help(format!("name another file: --{flag} {example}, or - for standard output")));
+                .help(format!("specify another file: --{flag} {example}, or - for standard output")));
         }
         if path.is_dir() {
             return Err(Error::file(path, format!("cannot write {shown}: it is a folder"))
-                .help(format!("name a file in it, such as {}", path.join(example).display())));
+                .help(format!("specify a file in it, such as {}", path.join(example).display())));
         }
         Ok(())
     }
@@ -75,10 +75,8 @@ impl RunCommand {
         let is_read = |path: &&Path| path.canonicalize().is_ok_and(|path| read.contains(&path));
         let written = self.output.iter().map(|path| path.as_path()).chain(self.named());
         match written.filter(|path| Some(*path) != self.edits.as_deref()).find(is_read) {
-            Some(path) => {
-                Err(Error::usage(format!("{} would be overwritten, and the script reads it", path.display()))
-                    .help("name another file"))
-            }
+            Some(path) => Err(Error::usage(format!("cannot write {}: the script reads it", path.display()))
+                .help("specify another file")),
             None => Ok(()),
         }
     }
@@ -87,7 +85,7 @@ impl RunCommand {
     pub(super) fn write(&self, run: &burgeon::Run, session: &Session) -> Result<()> {
         if run.systems.is_empty() && !self.output.is_empty() {
             let script = self.script.script.display();
-            return Err(Error::script(format!("{script} makes nothing to write, for it derives no system"))
+            return Err(Error::script(format!("{script} derives no system, so there is nothing to write"))
                 .help("end it with system:derive()"));
         }
         self.check_inputs(session)?;
@@ -159,10 +157,10 @@ fn attributes(session: &Session, names: &[String], systems: &[SystemFacts]) -> R
     let names: Vec<&String> = names.iter().filter(|name| !name.is_empty()).collect();
     for name in names.iter().filter(|name| **name != "*") {
         if !known().any(|column| column == *name) {
-            let message = format!("--metadata: no feature has an attribute called {name}");
+            let message = format!("--metadata: no feature has an attribute named `{name}`");
             let known: Vec<&str> = known().map(String::as_str).collect();
             return Err(Error::not_found("attribute", name, known, message)
-                .help("burgeon sources FILE lists the attributes of a file"));
+                .help("run burgeon sources FILE to list the attributes of a file"));
         }
     }
     let is_wanted = |column: &&String| match names.as_slice() {
@@ -191,9 +189,9 @@ fn terrain(run: &burgeon::Run) -> Result<&Terrain> {
     let mut terrains = objects.filter_map(|object| as_ref::<Terrain>(&**object));
     match (terrains.next(), terrains.next()) {
         (Some(terrain), None) => Ok(terrain),
-        (None, _) => Err(Error::script("there is no terrain to write the heights or the edits of")
+        (None, _) => Err(Error::script("the script has no terrain whose heights or edits to write")
             .help("write lsystem({ object = terrain({ ... }) }):derive()")),
-        _ => Err(Error::script("there are several terrains to write the heights or the edits of")
+        _ => Err(Error::script("the script has several terrains whose heights or edits to write")
             .help("keep one of them in the script")),
     }
 }

@@ -101,11 +101,10 @@ pub(super) fn replacement(code: u16) -> Option<u16> {
 pub(super) fn refuse_withdrawn(code: u16) -> Result<()> {
     let Some(other) = replacement(code) else { return Ok(()) };
     let message = format!(
-        "the coordinate system EPSG:{code} was withdrawn by EPSG because it was wrong, and programs disagree about it"
+        "EPSG withdrew the coordinate system EPSG:{code} because it was wrong, and programs disagree about it"
     );
     Err(Error::data(message).help(format!(
-        "name the system that the coordinates are in: EPSG:{other} replaced it, {{ crs = {other} }}; \
-         if they have another unit or origin, name that system"
+        "specify the system of the coordinates: EPSG:{other} replaced it, {{ crs = {other} }}; if they have another unit or origin, specify that system"
     )))
 }
 
@@ -200,7 +199,7 @@ mod tests {
     fn withdrawn_codes_are_refused_with_the_one_that_replaced_them() {
         for (code, other) in WITHDRAWN {
             let error = Crs::epsg(code.into()).unwrap_err();
-            assert!(error.message().contains("was withdrawn"), "{error}");
+            assert!(error.message().contains("EPSG withdrew"), "{error}");
             assert!(error.remedy().unwrap().contains(&format!("crs = {other}")), "{error}");
             assert!(Crs::epsg(other.into()).is_ok(), "{other}");
         }

@@ -21,16 +21,12 @@ const SAME_DATUM: f64 = 0.5;
 pub(crate) const IN_METRES: &str = " in metres";
 
 /// Remedy for a coordinate system of a data file that is not known.
-pub(crate) const NAME_IT: &str = "name its EPSG code: source(file, { crs = 3067 })";
+pub(crate) const NAME_IT: &str = "specify its EPSG code: source(file, { crs = 3067 })";
 
 /// Returns the coordinate system of a text; `label` and the remedy are used in messages.
 pub(crate) fn crs_of_text(text: &str, label: &str, remedy: &str) -> Result<Crs> {
     let unknown = |name: &str| {
-        Error::data(format!(
-            "{label} is in the coordinate system \"{}\", which is none of EPSG's that are known",
-            shown(name)
-        ))
-        .help(remedy)
+        Error::data(format!("{label}: unknown coordinate system \"{}\"", shown(name))).help(remedy)
     };
     let Some(node) = TextNode::read(text) else {
         return Err(unknown(text.lines().next().unwrap_or_default()));
@@ -92,7 +88,7 @@ pub(crate) fn height_unit(text: &str, label: &str, remedy: &str) -> Result<Optio
         return Ok(None);
     };
     vertical::unit(found).map(Some).ok_or_else(|| {
-        Error::data(format!("{label} does not tell the unit of its heights, \"{}\"", shown(found.name())))
+        Error::data(format!("{label} does not specify the unit of its heights, \"{}\"", shown(found.name())))
             .help(remedy)
     })
 }

@@ -5,7 +5,7 @@ use burgeon_base::error::{Error, Result};
 
 /// Remedy for a coordinate system that cannot be used.
 pub(crate) const REMEDY: &str =
-    "name the right one: source(file, { crs = 4326 }), or convert the file to EPSG:4326";
+    "specify the correct one: source(file, { crs = 4326 }), or convert the file to EPSG:4326";
 
 /// Remedy for a datum without a known shift.
 const SHIFT_REMEDY: &str =
@@ -39,7 +39,7 @@ impl Crs {
         // Codes that were in use before EPSG assigned one.
         let code = if matches!(code, 900_913 | 102_100 | 102_113) { 3857 } else { code };
         let (code, definition) = find_system(code)?.ok_or_else(|| {
-            let message = format!("the coordinate system EPSG:{code} is not known");
+            let message = format!("unknown coordinate system EPSG:{code}");
             Error::not_found("coordinate system", code, [], message).help(REMEDY)
         })?;
         Ok(Self::of_parts(Some(code), format!("EPSG:{code}"), definition))
@@ -104,7 +104,7 @@ impl Crs {
                 .help(REMEDY)
         };
         if self.definition.contains("+proj=geocent") {
-            return Err(cannot("it counts from the centre of the earth".into()));
+            return Err(cannot("its origin is the centre of the earth".into()));
         }
         Projection::new(&self.definition, cannot)
     }
@@ -119,8 +119,7 @@ impl Crs {
     pub(crate) fn shift_note(&self, shown: &str) -> Option<[String; 2]> {
         let datum = self.unshifted_datum()?;
         let text = format!(
-            "{shown} is in {}: no shift from {datum} to WGS 84 is known; places in longitude and latitude, and in other \
-             coordinate systems, may be off by some hundred metres",
+            "{shown} is in {}: no shift from {datum} to WGS 84 is known; positions in longitude and latitude, and in other coordinate systems, may be off by some hundred metres",
             self.name
         );
         Some([text, SHIFT_REMEDY.to_owned()])

@@ -7,8 +7,7 @@ use crate::heights::{HeightOptions, RasterHeader, ascii, hgt, raw};
 use burgeon_base::error::{Error, Result};
 
 /// Supported formats.
-const KNOWN: &str = "heights are read from .hgt (also zipped), GeoTIFF (.tif), ESRI ASCII grids (.asc), PNG, \
-                     and raw floats (.r32, .r64)";
+const KNOWN: &str = "supported formats are .hgt (also zipped), GeoTIFF (.tif), ESRI ASCII grid (.asc), PNG, and raw floats (.r32, .r64)";
 
 /// Reads `bytes`, the content of the file called `name`.
 ///
@@ -19,13 +18,15 @@ pub(super) fn read<'a>(
     wanted: &'a HeightOptions,
 ) -> Result<RasterHeader<'a>> {
     if bytes.is_empty() {
-        return Err(Error::data(format!("{name} is empty")).help("get it again"));
+        return Err(Error::data(format!("{name} is empty")).help("download it again"));
     }
     let extension = Path::new(name).extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     let is_png = bytes.starts_with(b"\x89PNG");
     if !is_png && (wanted.low.is_some() || wanted.high.is_some() || wanted.terrain_rgb) {
-        return Err(Error::argument(format!("{name} is no PNG, so it takes no low, high or encoding"))
-            .help("its heights are metres already; leave these options out"));
+        return Err(Error::argument(format!(
+            "{name} is not a PNG, so low, high and encoding are not allowed"
+        ))
+        .help("its heights are already in metres; remove these options"));
     }
     match bytes {
         _ if is_png => png::read(bytes, name, wanted),
@@ -36,10 +37,10 @@ pub(super) fn read<'a>(
         _ if matches!(&*extension, "r64" | "f64") => raw::read::<8>(bytes, name),
         _ if extension == "asc" || begins_with(bytes, b"ncols") => ascii::read(bytes, name),
         _ if matches!(&*extension, "png" | "tif" | "tiff" | "zip") => {
-            Err(Error::data(format!("{name} does not begin as a .{extension} file does"))
-                .help("get it again, or give it the extension of what it is"))
+            Err(Error::data(format!("{name} does not begin like a .{extension} file"))
+                .help("download it again, or correct its extension"))
         }
-        _ => Err(Error::data(format!("{name} is in no format of heights that is known")).help(KNOWN)),
+        _ => Err(Error::data(format!("{name} has an unknown format of heights")).help(KNOWN)),
     }
 }
 

@@ -120,9 +120,9 @@ fn the_place_is_asked_for_and_memory_taken_before_heights_are_unpacked() {
     let begin = Instant::now();
     // There is no memory budget, but no memory is needed yet.
     let error = Raster::read(&without, "a.tif", &HeightOptions::default(), &small(0)).unwrap_err();
-    assert_eq!(error.message(), "a.tif does not tell where it lies");
+    assert_eq!(error.message(), "a.tif does not contain its location");
     let error = Raster::read(&with, "a.tif", &HeightOptions::default(), &small(30)).unwrap_err();
-    assert_eq!(error.message(), "reading takes more than 30 MB of memory");
+    assert_eq!(error.message(), "reading exceeded the memory limit of 30 MB");
     assert!(begin.elapsed() < packing.max(Duration::from_millis(200)));
     let raster = Raster::read(&with, "a.tif", &HeightOptions::default(), &small(90)).unwrap();
     assert!(raster.heights.len() == 9_000_000 && raster.heights.iter().all(|height| *height == 7.0));

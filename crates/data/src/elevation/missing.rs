@@ -94,12 +94,12 @@ pub(super) fn take_out(
         let most = format!(
             "{name} has a height of {height} m in row {row}, column {column}, and most of its heights"
         );
-        return Err(Error::data(format!("{most} lie beyond {low} to {high} m"))
+        return Err(Error::data(format!("{most} are outside {low} to {high} m"))
             .help("if they are in another unit, convert them to metres: gdal_calc.py --calc=A*0.001"));
     }
     if known == 0 {
-        return Err(Error::data(format!("{name} has no data: all its heights are missing"))
-            .help("get another part, or look at it in a viewer of maps"));
+        return Err(Error::data(format!("{name} contains no data: all its heights are missing"))
+            .help("download another part, or open it in a map viewer"));
     }
     Ok(found)
 }
@@ -149,7 +149,7 @@ mod tests {
         let error = take_out("a.tif", 2, &mut heights, true, false).unwrap_err();
         assert!(error.message().starts_with("a.tif has a height of 125000 m in row 1, column 1"), "{error}");
         let error = take_out("a.tif", 2, &mut [-9999.0; 4], true, false).unwrap_err();
-        assert_eq!(error.message(), "a.tif has no data: all its heights are missing");
+        assert_eq!(error.message(), "a.tif contains no data: all its heights are missing");
     }
 
     #[test]

@@ -24,9 +24,7 @@ pub(super) fn join(mut tiles: Vec<Raster>, budget: &Budget) -> Result<Raster> {
         y.total_cmp(&v).then(x.total_cmp(&u)).then_with(|| a.name.cmp(&b.name))
     });
     let Some(first) = tiles.first() else {
-        return Err(
-            Error::argument("elevation needs the name of a file").help("write elevation(\"N43E007.hgt\")")
-        );
+        return Err(Error::argument("elevation needs a file name").help("write elevation(\"N43E007.hgt\")"));
     };
     let step = first.grid.step;
     for tile in &tiles[1..] {
@@ -41,11 +39,12 @@ pub(super) fn join(mut tiles: Vec<Raster>, budget: &Budget) -> Result<Raster> {
     if columns.checked_mul(rows).is_none_or(|all| all > MOST) {
         let most = MOST / 1_000_000;
         let what = format!(
-            "the {} files reach over {columns} x {rows} heights, more than {most} million",
+            "the {} files extend over {columns} x {rows} heights, more than {most} million",
             tiles.len()
         );
-        return Err(Error::limit(Limit::Size, what)
-            .help("name files that lie nearer to one another, or coarser ones"));
+        return Err(
+            Error::limit(Limit::Size, what).help("use files that are closer together, or coarser files")
+        );
     }
     budget.take(columns * rows * size_of::<f32>())?;
     let (name, crs) = (file_names(&tiles), first.crs.clone());
@@ -102,7 +101,7 @@ fn unwrap_longitudes(tiles: &mut [Raster]) {
 fn check_same(first: &Raster, other: &Raster) -> Result<()> {
     let [a, b] =
         [first, other].map(|tile| tile.crs.as_ref().map_or("metres of the run".to_owned(), Crs::name));
-    let warp = "bring all of them into one grid first: gdalwarp -t_srs EPSG:CODE -tr X Y -tap IN... OUT.tif";
+    let warp = "resample all files to one grid: gdalwarp -t_srs EPSG:CODE -tr X Y -tap IN... OUT.tif";
     if a != b {
         let what = format!("{} is in {a}, and {} in {b}", first.name, other.name);
         return Err(Error::data(what).help(warp));
@@ -130,12 +129,11 @@ fn place(grid: &SampleGrid, tile: &Raster, first: &str) -> Result<[usize; 4]> {
     let offset = [(x - grid.first[0]) / grid.step[0], (grid.first[1] - y) / grid.step[1]];
     for axis in offset {
         if (axis - axis.round()).abs() > TOLERANCE || !(axis.round() >= 0.0 && axis < 1e9) {
-            let what = format!(
-                "the heights of {} lie between those of {first}, not on one grid with them",
-                tile.name
+            let what =
+                format!("the heights of {} are not on the same grid as the heights of {first}", tile.name);
+            return Err(
+                Error::data(what).help("resample all files to one grid: gdalwarp -tr X Y -tap IN... OUT.tif")
             );
-            return Err(Error::data(what)
-                .help("bring all of them into one grid first: gdalwarp -tr X Y -tap IN... OUT.tif"));
         }
     }
     let [left, top] = offset.map(|axis| axis.round() as usize);
@@ -327,7 +325,7 @@ mod tests {
         assert!(coarse.contains("a height every") && coarse.contains("gdalwarp"), "{coarse}");
         let mut moved = tile([8.0, 43.0], 61);
         moved.grid.first[0] += moved.grid.step[0] * 0.4;
-        assert!(told(tile([7.0, 43.0], 61), moved).contains("lie between those of"));
+        assert!(told(tile([7.0, 43.0], 61), moved).contains("not on the same grid"));
         let mut metres = tile([8.0, 43.0], 61);
         metres.crs = Some(Crs::epsg(3067).unwrap());
         assert!(told(tile([7.0, 43.0], 61), metres).contains("is in EPSG:4326, and"));

@@ -61,8 +61,8 @@ impl Raster {
             return Self::open(path, name, wanted, budget);
         }
         if wanted.bounds.is_some() {
-            return Err(Error::argument("elevation: bounds are those of one file, not of several")
-                .help("leave bounds out, and name files that tell where they lie"));
+            return Err(Error::argument("elevation: bounds can only be set for a single file")
+                .help("remove bounds, and use files that contain their location"));
         }
         let tiles = files.iter().map(|(name, path)| Self::open_unfilled(path, name, wanted, budget));
         let mut raster = mosaic::join(tiles.collect::<Result<_>>()?, budget)?;
@@ -103,7 +103,7 @@ impl Raster {
                 let known = Crs::epsg(code).map_err(|error| {
                     let message = format!("elevation: {}", error.message());
                     Error::not_found("coordinate system", code, [], message)
-                        .help("name the right one: elevation(file, { crs = 4326 })")
+                        .help("specify the correct one: elevation(file, { crs = 4326 })")
                 })?;
                 (Some(known), beside.unit_alone(&crs))
             }
@@ -118,9 +118,8 @@ impl Raster {
             None => grid,
         };
         let grid = grid.ok_or_else(|| {
-            Error::data(format!("{name} does not tell where it lies")).help(
-                "name its edges: elevation(file, { bounds = { west, south, east, north } }), in metres of the run, \
-                 or in the coordinate system crs",
+            Error::data(format!("{name} does not contain its location")).help(
+                "specify its bounds: elevation(file, { bounds = { west, south, east, north } }), in metres of the run, or in the coordinate system crs",
             )
         })?;
         check_grid(name, &grid, columns, rows, crs.as_ref())?;
@@ -149,7 +148,7 @@ impl CompanionSystem<'_> {
     /// Returns the coordinate system, and the length (m) of the unit of its heights, if the text has them.
     fn read(&self) -> Result<(Option<Crs>, Option<f64>)> {
         let Some(text) = (self.prj)()? else { return Ok((None, None)) };
-        let crs = crs_of_text(&text, &self.name, "name its EPSG code: elevation(file, { crs = 3067 })")?;
+        let crs = crs_of_text(&text, &self.name, "specify its EPSG code: elevation(file, { crs = 3067 })")?;
         Ok((Some(crs), self.unit_in(&text)?))
     }
 
@@ -184,10 +183,12 @@ fn with_bytes<T>(
     let cannot = |error: std::io::Error| Error::file(path, format!("cannot read {name}: {error}"));
     let meta = path.metadata().map_err(cannot)?;
     if meta.is_dir() {
-        return Err(Error::file(path, format!("{name} is a folder")).help("name a file of heights in it"));
+        return Err(
+            Error::file(path, format!("{name} is a folder")).help("specify a file of heights in the folder")
+        );
     }
     if !meta.is_file() {
-        return Err(Error::file(path, format!("{name} is not a file")).help("name a file of heights"));
+        return Err(Error::file(path, format!("{name} is not a file")).help("specify a file of heights"));
     }
     if meta.len() > LARGEST {
         let most = LARGEST / 1_000_000;
@@ -207,10 +208,8 @@ fn check_bounds(bounds: [f64; 4]) -> Result<[f64; 4]> {
     if bounds.iter().all(|edge| edge.is_finite()) && west < east && south < north {
         return Ok(bounds);
     }
-    Err(Error::argument(format!(
-        "elevation: bounds = {{ {west}, {south}, {east}, {north} }} enclose nothing"
-    ))
-    .help("write { west, south, east, north }, with west below east and south below north"))
+    Err(Error::argument(format!("elevation: bounds = {{ {west}, {south}, {east}, {north} }} are empty"))
+        .help("write { west, south, east, north }, with west below east and south below north"))
 }
 
 /// Fails if coordinates are impossible.
@@ -220,24 +219,26 @@ fn check_grid(name: &str, grid: &SampleGrid, columns: usize, rows: usize, crs: O
     let last = [x + dx * count(columns - 1), y - dy * count(rows - 1)];
     if [x, y, dx, dy, last[0], last[1]].iter().any(|value| !value.is_finite()) || dx <= 0.0 || dy <= 0.0 {
         return Err(Error::data(format!(
-            "{name} lies at {}, {} with steps of {}, {}, which is nowhere",
+            "{name} has an invalid location: {}, {} with steps of {}, {}",
             number(x),
             number(y),
             number(dx),
             number(dy)
         ))
-        .help("name its edges: elevation(file, { bounds = { west, south, east, north } })"));
+        .help("specify its bounds: elevation(file, { bounds = { west, south, east, north } })"));
     }
     if crs.is_some_and(Crs::is_geographic) {
         // A pole may be half a step away.
         if y > 90.0 + dy || last[1] < -90.0 - dy || x < -360.0 - dx || last[0] > 540.0 + dx {
             let (x, y) = (number(x), number(y));
-            return Err(Error::data(format!("{name} lies at {x}, {y}, which is no longitude and latitude"))
-                .help("name the coordinate system of the file: elevation(file, { crs = 3067 })"));
+            return Err(Error::data(format!(
+                "{name} is at {x}, {y}, which is not a valid longitude and latitude"
+            ))
+            .help("specify the coordinate system of the file: elevation(file, { crs = 3067 })"));
         }
     } else if dx < FINEST || dy < FINEST {
         return Err(Error::data(format!("{name} has steps of {dx} x {dy} m, less than a millimetre"))
-            .help("if these are degrees, say so: elevation(file, { crs = 4326 })"));
+            .help("if these are degrees, specify it: elevation(file, { crs = 4326 })"));
     }
     Ok(())
 }

@@ -76,11 +76,11 @@ impl Raster {
         let surplus = (*surplus > 0).then(|| {
             let text =
                 format!("{name} has {surplus} {what} more than the {columns} x {rows} heights of its header");
-            warning(text, "they are left out; correct ncols and nrows")
+            warning(text, "they were skipped; correct ncols and nrows")
         });
         let seam = (*seam > 0.0).then(|| {
-            let text = format!("{name}: files differ by up to {seam} m in the heights that they share");
-            warning(text, "the means are used; get all files from one edition of one survey")
+            let text = format!("{name}: files differ by up to {seam} m in their common heights");
+            warning(text, "the mean is used; download all files from one edition of one survey")
         });
         let shift = self.crs.as_ref().and_then(|crs| crs.shift_note(name));
         let shift = shift.map(|[text, help]| warning(text, &help));
@@ -93,9 +93,8 @@ impl Raster {
         let warning = |text: String, help: &str| Warning::new(WarningKind::Data, text).help(help);
         let all = columns * rows;
         let filled = (*filled > 0).then(|| {
-            let text =
-                format!("{name}: filled {filled} of {all} heights, which are missing, from around them");
-            warning(text, "say that this is right, { fill = true }, or fill them in the file")
+            let text = format!("{name}: filled {filled} of {all} missing heights from their surroundings");
+            warning(text, "allow it with { fill = true }, or fill them in the file")
         });
         let marks = (marks.count > 0).then(|| {
             let (count, values) = (grouped(marks.count), marks.text());
@@ -104,7 +103,7 @@ impl Raster {
             let text = format!(
                 "{name}: {count} {heights} {values} and {counts} as missing, though the file does not declare it"
             );
-            warning(text, "declare the mark in the file: gdal_translate -a_nodata VALUE IN OUT.tif")
+            warning(text, "declare the no-data value in the file: gdal_translate -a_nodata VALUE IN OUT.tif")
         });
         filled.into_iter().chain(marks).collect()
     }

@@ -317,10 +317,10 @@ fn check_near(raster: &Raster, low: DVec2, high: DVec2) -> Result<()> {
             "{} has no coordinate system, and its coordinates are too large for metres of the run: {west}, {south}",
             raster.name
         ))
-        .help("name its EPSG code: elevation(file, { crs = 3067 }), or put a .prj file beside it"));
+        .help("specify its EPSG code: elevation(file, { crs = 3067 }), or put a .prj file next to it"));
     }
     Err(Error::data(format!(
-        "{} lies more than 2,000 km from the middle, or reaches so far, at {west}, {south}",
+        "{} is more than 2,000 km from the centre, or extends that far, at {west}, {south}",
         raster.name
     ))
     .help("all sources of a run share one model; check the coordinates and the coordinate system, or cut out a part"))

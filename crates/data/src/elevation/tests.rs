@@ -92,7 +92,10 @@ fn a_tile_lies_where_its_name_says() {
         assert_eq!(raster.crs.and_then(|crs| crs.code), Some(4326));
     }
     for name in ["N91E007.hgt", "N43E190.hgt", "a.hgt", "N4+E007.hgt"] {
-        assert!(read(&bytes, name).unwrap_err().message().contains("where it lies"), "{name}");
+        assert!(
+            read(&bytes, name).unwrap_err().message().contains("does not contain its location"),
+            "{name}"
+        );
     }
     let north = read(&wide([1801, 3601]), "N61E007.hgt").unwrap();
     assert_eq!((north.columns, north.rows, north.grid.step), (1801, 3601, [1.0 / 1800.0, 1.0 / 3600.0]));
@@ -105,11 +108,14 @@ fn only_tiles_of_known_sizes_are_a_degree_large_unless_their_place_is_given() {
         let error = read(&bytes, "N43E007.hgt").unwrap_err();
         assert_eq!(
             error.message(),
-            format!("N43E007.hgt has {side} x {side} heights, which no tile of a degree has")
+            format!("N43E007.hgt has {side} x {side} heights, which is not the size of a one-degree tile")
         );
         let zip = zipped(&[("N43E007.hgt", &bytes)]);
         assert!(
-            read(&zip, "N43E007.hgt.zip").unwrap_err().message().contains("which no tile of a degree has")
+            read(&zip, "N43E007.hgt.zip")
+                .unwrap_err()
+                .message()
+                .contains("not the size of a one-degree tile")
         );
         let raster = read_square(&bytes, "N43E007.hgt").unwrap();
         assert_eq!((raster.columns, raster.bounds()[0]), (side, 7.0));
@@ -123,7 +129,7 @@ fn a_zip_gives_its_one_tile() {
     let packed = read_square(&zip, "b.zip").unwrap();
     assert_eq!((packed.heights, packed.grid), (plain.heights, plain.grid));
     for (files, why) in [
-        (&[("a.txt", b"x".as_slice())][..], "holds no .hgt file"),
+        (&[("a.txt", b"x".as_slice())][..], "contains no .hgt file"),
         (&[("a.hgt", b"x"), ("b.hgt", b"x")], "holds 2 .hgt files"),
         (&[("a.hgt", b"")], "is empty"),
         (&[("a.hgt", b"xyz")], "is not square"),
@@ -192,7 +198,7 @@ fn a_prj_file_beside_heights_tells_their_coordinate_system() {
         assert_eq!(open().unwrap().crs.and_then(|crs| crs.code), code, "{name}");
         std::fs::write(path.with_extension("prj"), "LOCAL[\"x\"]").unwrap();
         if code == Some(3067) {
-            assert!(open().unwrap_err().message().contains("none of EPSG's"), "{name}");
+            assert!(open().unwrap_err().message().contains("unknown coordinate system"), "{name}");
         }
         std::fs::remove_file(path.with_extension("prj")).unwrap();
     }
@@ -236,7 +242,7 @@ fn a_prj_file_beside_heights_tells_the_unit_of_their_heights() {
     assert_eq!(height(&plain, flat, &as_told).unwrap(), 10.0);
     let unclear = format!("COMPD_CS[\"a\",{flat},VERT_CS[\"Local heights\",VERT_DATUM[\"Local\",2005]]]");
     let error = height(&plain, &unclear, &as_told).unwrap_err();
-    assert_eq!(error.message(), "a.prj does not tell the unit of its heights, \"Local heights\"");
+    assert_eq!(error.message(), "a.prj does not specify the unit of its heights, \"Local heights\"");
 }
 
 #[test]
@@ -319,7 +325,7 @@ fn a_place_in_space_scales_heights_where_the_file_says_that_they_are_heights() {
 fn options_win_over_what_a_file_says() {
     let other = [1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 32767];
     let bytes = geotiff(&other, &[SCALE, TIE], None);
-    assert!(read(&bytes, "a.tif").unwrap_err().message().contains("none of EPSG's"));
+    assert!(read(&bytes, "a.tif").unwrap_err().message().contains("without an EPSG code"));
     let wanted =
         HeightOptions { crs: Some(3067), bounds: Some([0.0, 0.0, 60.0, 40.0]), ..HeightOptions::default() };
     let raster = Raster::read(&bytes, "a.tif", &wanted, &Budget::default()).unwrap();

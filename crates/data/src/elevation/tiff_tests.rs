@@ -15,7 +15,7 @@ use burgeon_base::error::{Error, Limit};
 #[derive(Clone, Default)]
 struct TestImage {
     size: [u32; 2],
-    /// Sides of tiles; strips of all rows if there are none.
+    /// Sides of tiles; strips of all rows if use none.
     tile: Option<[u32; 2]>,
     bits: u32,
     compression: u32,
@@ -194,7 +194,11 @@ fn a_hostile_mask_obeys_the_limits_of_memory_and_time() {
     for tile in [[65_536, 65_536], [u32::MAX, 16], [16, u32::MAX], [u32::MAX, u32::MAX]] {
         for compression in [1, 5, 8] {
             let error = within(&with_mask(tile, vec![vec![7; 40]], compression), &small()).unwrap_err();
-            assert_eq!(error.message(), "reading takes more than 20 MB of memory", "{tile:?} {compression}");
+            assert_eq!(
+                error.message(),
+                "reading exceeded the memory limit of 20 MB",
+                "{tile:?} {compression}"
+            );
         }
     }
     // Fewer tiles than the image has, none, and tiles without extent.
@@ -225,7 +229,7 @@ fn directories_in_a_circle_end_the_search_for_a_mask() {
         bytes[end - 4..].copy_from_slice(&first);
         read(&bytes, "a.tif")
     };
-    assert_eq!(circle(std::slice::from_ref(&image)).unwrap_err().message(), "a.tif is a damaged TIFF");
+    assert_eq!(circle(std::slice::from_ref(&image)).unwrap_err().message(), "a.tif: damaged TIFF file");
     let raster = circle(&[image, overview]).unwrap();
     assert_eq!((raster.filled, raster.heights.len()), (0, 120));
 }

@@ -326,7 +326,7 @@ impl FeatureTable {
             endless.then(|| {
                 let id = shown(&feature.id);
                 Error::data(format!("feature {id} of {name} has a coordinate that is not a finite number"))
-                    .help("repair the file, or leave the feature out")
+                    .help("repair the file, or remove the feature")
             })
         })
     }
@@ -335,7 +335,7 @@ impl FeatureTable {
     pub(crate) fn column(&self, name: &str) -> Result<usize> {
         self.names.iter().position(|known| known == name).ok_or_else(|| {
             let names = || self.names.iter().map(String::as_str);
-            let message = format!("{} has no attribute called {}", self.shown, shown(name));
+            let message = format!("{}: unknown attribute `{}`", self.shown, shown(name));
             Error::not_found("attribute", name, names(), message).help(format!("it has {}", listed(names())))
         })
     }
@@ -367,12 +367,12 @@ impl FeatureTable {
             return Ok(());
         }
         Err(Error::argument(format!(
-            "{} has geometries of kind {}, none of kind {}",
+            "{} has only geometries of kind {}, not of kind {}",
             self.shown,
             there.join(" and "),
             kind.name()
         ))
-        .help("name another layer, or leave kind out"))
+        .help("specify another layer, or remove kind"))
     }
 }
 
@@ -380,20 +380,20 @@ impl FeatureTable {
 fn no_features(table: &FeatureTable, wanted: &SourceOptions) -> Error {
     let what = &table.shown;
     if wanted.limit == Some(0) {
-        return Error::argument(format!("limit = 0 leaves no feature of {what}")).help("leave limit out");
+        return Error::argument(format!("limit = 0 excludes all features of {what}")).help("remove limit");
     }
     if let Some(condition) = &wanted.condition {
-        return Error::data(format!("no feature of {what} meets where {condition}"))
-            .help("burgeon sources FILE lists attributes and their values");
+        return Error::data(format!("no feature of {what} matches where {condition}"))
+            .help("run burgeon sources FILE to list attributes and their values");
     }
     if let (Some([west, south, east, north]), true) = (wanted.within, table.has_seen()) {
         let place = format!("{{ {west}, {south}, {east}, {north} }}");
         return Error::data(format!("no feature of {what} touches within = {place}"))
-            .help("it is { west, south, east, north } in the coordinates of the file, which burgeon sources FILE lists");
+            .help("within is { west, south, east, north } in the coordinates of the file; run burgeon sources FILE to list them");
     }
     if wanted.tags.is_some() {
-        return Error::data(format!("no feature of {what} has such tags"))
-            .help("look up how mappers tag it: https://wiki.openstreetmap.org/wiki/Map_features");
+        return Error::data(format!("no feature of {what} has these tags"))
+            .help("look up the tags: https://wiki.openstreetmap.org/wiki/Map_features");
     }
     if table.empty > 0 {
         return Error::data(format!("{what} has no features with a geometry"));

@@ -15,18 +15,18 @@ pub(super) fn read_blob(bytes: &[u8], near: f64, budget: &Budget) -> Result<Vec<
 /// Returns the well-known binary after the header of a blob.
 fn body(bytes: &[u8]) -> Result<&[u8], String> {
     if !bytes.starts_with(b"GP") || bytes.len() < 8 {
-        return Err("is no geometry of a GeoPackage".into());
+        return Err("is not a GeoPackage geometry".into());
     }
     let flags = bytes[3];
     if flags & 0x20 != 0 {
-        return Err("is of an extended type".into());
+        return Err("has an extended type".into());
     }
     let envelope = match (flags >> 1) & 7 {
         0 => 0,
         1 => 32,
         2 | 3 => 48,
         4 => 64,
-        _ => return Err("has an envelope that is not known".into()),
+        _ => return Err("has an unknown envelope".into()),
     };
     // The flag for empty geometries is redundant with the content.
     bytes.get(8 + envelope..).ok_or_else(|| "ends too early".into())

@@ -89,7 +89,7 @@ impl LayeredFile for CsvFile {
         let mut records = CsvRecords::open(&self.file, wanted)?;
         let names = match records.next(wanted)? {
             Some(names) => unique(names),
-            None => return Err(Error::data(format!("{name} is empty")).help("get it again")),
+            None => return Err(Error::data(format!("{name} is empty")).help("download it again")),
         };
         if names.len() > MOST_COLUMNS {
             return Err(
@@ -98,10 +98,10 @@ impl LayeredFile for CsvFile {
         }
         let place = place_columns(&names, name)?;
         let crs = match place {
-            PlaceColumns::Pair { is_degrees: false, .. } => Err(Error::data(format!(
-                "{name} has columns of coordinates, and does not tell their coordinate system"
-            ))
-            .help("name its EPSG code: source(file, { crs = 3067 })")),
+            PlaceColumns::Pair { is_degrees: false, .. } => {
+                Err(Error::data(format!("{name} has columns of coordinates without a coordinate system"))
+                    .help("specify its EPSG code: source(file, { crs = 3067 })"))
+            }
             _ => Crs::epsg(4326),
         };
         let mut table = FeatureTable::new(layer, name, crs, wanted);
@@ -131,7 +131,7 @@ impl LayeredFile for CsvFile {
                     wanted.budget.check()?;
                     let line = records.begin;
                     let error = Error::data(format!("line {line} of {name} {why}"));
-                    table.refuse(line.to_string(), error.help("correct it, or leave it out"))?;
+                    table.refuse(line.to_string(), error.help("correct it, or remove it"))?;
                 }
             }
         }
@@ -141,7 +141,7 @@ impl LayeredFile for CsvFile {
         if short > 0 {
             let what = if short == 1 { "line has" } else { "lines have" };
             table.notes.push(format!(
-                "{name}: {short} {what} other than {} fields, as the first one has",
+                "{name}: {short} {what} a different number of fields from the first line, which has {}",
                 names.len()
             ));
         }
@@ -174,7 +174,7 @@ fn parts(
                 match text.parse::<f64>() {
                     Ok(number) => Ok(Some(number)),
                     Err(_) if text.is_empty() => Ok(None),
-                    Err(_) => Err(format!("has \"{}\" where a coordinate should be", shown(&text))),
+                    Err(_) => Err(format!("has \"{}\" instead of a coordinate", shown(&text))),
                 }
             };
             let (x, y) = (number(*x)?, number(*y)?);
@@ -233,8 +233,8 @@ fn place_columns(names: &[String], file: &str) -> Result<PlaceColumns> {
     let pair = PAIRS.iter().find_map(|(x, y, is_degrees)| Some((find(x)?, find(y)?, *is_degrees)));
     let (x, y, is_degrees) = pair.ok_or_else(|| {
         let columns = listed(names.iter().map(String::as_str));
-        Error::data(format!("{file} has no columns that tell places: it has {columns}")).help(
-            "call them lon and lat, or x and y with crs, or write well-known text in a column called WKT",
+        Error::data(format!("{file} has no columns of positions: it has {columns}")).help(
+            "name them lon and lat, or x and y with crs, or write well-known text in a column named WKT",
         )
     })?;
     Ok(PlaceColumns::Pair { x, y, z: HEIGHTS.iter().find_map(|name| find(name)), is_degrees })
@@ -292,7 +292,7 @@ impl CsvRecords {
         wanted.budget.check()?;
         let head = records.file.fill_buf().map_err(cannot)?;
         if head.starts_with(b"\xff\xfe") || head.starts_with(b"\xfe\xff") {
-            return Err(Error::data(format!("{} is UTF-16, which is not read", file.name))
+            return Err(Error::data(format!("{} is UTF-16, which is not supported", file.name))
                 .help("convert it: iconv -f UTF-16 -t UTF-8 IN > OUT.csv"));
         }
         if head.starts_with(b"\xef\xbb\xbf") {

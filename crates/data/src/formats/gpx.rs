@@ -47,7 +47,7 @@ impl GpxFile {
                 "{} is GPX without waypoints, routes and tracks",
                 found.file.name
             ))
-            .help("get it again"));
+            .help("download it again"));
         }
         Ok(found)
     }
@@ -99,7 +99,7 @@ impl LayeredFile for GpxFile {
             found.read(xml, element, wanted)?;
             if let Some(why) = found.wrong {
                 let error = Error::data(format!("feature {number} of {label} {why}"));
-                table.refuse(number.to_string(), error.help("correct it, or leave it out"))?;
+                table.refuse(number.to_string(), error.help("correct it, or remove it"))?;
                 return Ok(true);
             }
             let parts = match element.name.as_str() {
@@ -120,7 +120,7 @@ impl LayeredFile for GpxFile {
             } else {
                 "segments have one point and were"
             };
-            table.notes.push(format!("{label}: {single} {what} left out"));
+            table.notes.push(format!("{label}: {single} {what} skipped"));
         }
         types.finish(&mut table)?;
         Ok(table)
@@ -197,8 +197,9 @@ impl GpxFeature {
         match (x.trim().parse(), y.trim().parse()) {
             (Ok(x), Ok(y)) => Some(DVec3::new(x, y, 0.0)),
             _ => {
-                self.wrong
-                    .get_or_insert_with(|| format!("has a place at \"{}\", \"{}\"", shown(x), shown(y)));
+                self.wrong.get_or_insert_with(|| {
+                    format!("has an invalid position \"{}\", \"{}\"", shown(x), shown(y))
+                });
                 None
             }
         }

@@ -114,7 +114,9 @@ impl LayeredFile for KmlFile {
         let PlacemarkReader { mut table, types, .. } = reader;
         if links > 0 {
             let what = if links == 1 { "link to another file is" } else { "links to other files are" };
-            table.notes.push(format!("{name}: {links} {what} not followed; get these files, and name them"));
+            table
+                .notes
+                .push(format!("{name}: {links} {what} not followed; download these files, and specify them"));
         }
         types.finish(&mut table)?;
         Ok(table)
@@ -153,9 +155,10 @@ impl PlacemarkReader {
         if let (true, Some(why)) = (found.parts.is_empty(), &found.wrong) {
             let id = id.unwrap_or_else(|| self.number.to_string());
             let error = Error::data(format!("placemark {} of {} {why}", shown(&id), self.table.shown));
-            return self
-                .table
-                .refuse(id, error.help("points, lines, polygons, tracks and collections of these are read"));
+            return self.table.refuse(
+                id,
+                error.help("supported types are points, lines, polygons, tracks and collections of these"),
+            );
         }
         let mut attributes: Vec<(usize, Attribute)> = Vec::with_capacity(found.values.len() + 1);
         if !folder.is_empty() {
@@ -374,7 +377,7 @@ fn places(text: &str, budget: &Budget) -> Result<std::result::Result<Vec<DVec3>,
         budget.tick()?;
         let mut numbers = place.split(',').map(|text| text.trim().parse::<f64>());
         let (Some(Ok(x)), Some(Ok(y))) = (numbers.next(), numbers.next()) else {
-            return Ok(Err(format!("has \"{}\" where coordinates should be", shown(place))));
+            return Ok(Err(format!("has \"{}\" instead of coordinates", shown(place))));
         };
         let z = numbers.next().and_then(std::result::Result::ok).unwrap_or_default();
         places.push(DVec3::new(x, y, z));

@@ -32,7 +32,7 @@ pub(crate) fn open_layers(file: DataFile, head: &[u8], wanted: &SourceOptions) -
         return Ok(match root.as_str() {
             "osmChange" => {
                 return Err(Error::data(format!(
-                    "{} holds changes of OpenStreetMap, not an extract",
+                    "{} contains OpenStreetMap changes, not an extract",
                     file.name
                 ))
                 .help("apply them to an extract: osmium apply-changes IN.osm.pbf FILE -o OUT.osm.pbf"));
@@ -41,7 +41,7 @@ pub(crate) fn open_layers(file: DataFile, head: &[u8], wanted: &SourceOptions) -
             root if GpxFile::is_one(root) => boxed(GpxFile::open(file, wanted)?),
             "html" => {
                 return Err(Error::data(format!("{} is a web page, not data", file.name))
-                    .help("the download failed, or needs a login; get it again"));
+                    .help("the download failed, or needs a login; download it again"));
             }
             _ => boxed(GmlFile::open(file, wanted)?),
         });

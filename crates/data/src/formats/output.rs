@@ -201,10 +201,10 @@ impl PackageWriter<'_> {
 fn position_error(record: &Record, table: &RecordTable) -> Error {
     let id = burgeon_base::text::shown(&record.id);
     Error::data(format!(
-        "{id} of the layer {} cannot be brought to the coordinate system of the data",
+        "{id} of the layer {} cannot be converted to the coordinate system of the data",
         table.name
     ))
-    .help("leave it out")
+    .help("remove it")
 }
 
 fn cell(value: Option<&Attribute>, kind: ColumnKind) -> Cell {

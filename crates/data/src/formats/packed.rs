@@ -17,5 +17,5 @@ pub(super) const DEFLATED: usize = 1040;
 /// Returns the error for a file that declares more heights than it can contain.
 pub(super) fn cannot_hold(name: &str, bytes: usize, columns: usize, rows: usize) -> Error {
     Error::data(format!("{name} is cut short: its {bytes} bytes cannot hold {columns} x {rows} heights"))
-        .help("get it again")
+        .help("download it again")
 }

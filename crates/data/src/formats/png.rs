@@ -99,12 +99,14 @@ impl Samples {
         };
         let (low, high) = (wanted.low.or_else(|| told(text::LOW)), wanted.high.or_else(|| told(text::HIGH)));
         let (Some(low), Some(high)) = (low, high) else {
-            return Err(Error::argument(format!("{name} does not tell the heights of black and white"))
-                .help("name them (m): elevation(file, { low = 0, high = 1200, ... })"));
+            return Err(Error::argument(format!("{name} does not specify the heights of black and white"))
+                .help("specify them (m): elevation(file, { low = 0, high = 1200, ... })"));
         };
         if !(low.is_finite() && high.is_finite() && low < high) {
-            return Err(Error::argument(format!("{name} cannot lie between low = {low} and high = {high}"))
-                .help("low is the height (m) of black, high the greater one of white"));
+            return Err(Error::argument(format!(
+                "{name} cannot be scaled from low = {low} to high = {high}"
+            ))
+            .help("low is the height (m) of black; high, the height of white, must be greater"));
         }
         Ok((heights, Some([low, (high - low) / 65535.0])))
     }
@@ -126,18 +128,16 @@ fn parts(name: &str, form: (ColorType, BitDepth), wanted: &HeightOptions) -> Res
     match (wanted.terrain_rgb, form) {
         (true, (ColorType::Rgb, BitDepth::Eight)) => Ok(3),
         (true, (ColorType::Rgba, BitDepth::Eight)) => Ok(4),
-        (true, _) => Err(Error::data(format!("{name} has no colours of 8 bits that could be heights"))
-            .help("leave encoding out, if it is grey; get the tile as .pngraw, if it has a palette")),
+        (true, _) => Err(Error::data(format!("{name} has no 8-bit colours to decode as heights"))
+            .help("remove encoding if it is grey; download the tile as .pngraw if it has a palette")),
         (false, (ColorType::Grayscale, BitDepth::Sixteen)) => Ok(2),
         (false, (ColorType::GrayscaleAlpha, BitDepth::Sixteen)) => Ok(4),
-        (false, _) if colored => {
-            Err(Error::data(format!("{name} is a PNG in colours, not in grey of 16 bits"))
-                .help("if its colours are heights as Mapbox encodes them, say encoding = \"terrain-rgb\""))
-        }
-        (false, _) => {
-            Err(Error::data(format!("{name} is a PNG of 8 bits or less, whose 256 levels would make steps"))
-                .help("export it with 16 bits, or as a GeoTIFF"))
-        }
+        (false, _) if colored => Err(Error::data(format!("{name} is a PNG in colour, not in 16-bit grey"))
+            .help("if its colours are heights in Mapbox encoding, set encoding = \"terrain-rgb\"")),
+        (false, _) => Err(Error::data(format!(
+            "{name} is a PNG of at most 8 bits: 256 levels are too coarse for heights"
+        ))
+        .help("export it with 16 bits, or as a GeoTIFF")),
     }
 }
 
@@ -157,15 +157,13 @@ fn damage_error(name: &str, bytes: &[u8], error: &DecodingError) -> Error {
     match error {
         DecodingError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
             let length = bytes.len();
-            Error::data(format!(
-                "{name} is cut short: it ends after {length} bytes, where more should follow"
-            ))
-            .help("get it again")
+            Error::data(format!("{name} is cut short: it ends after {length} bytes, but more should follow"))
+                .help("download it again")
         }
         DecodingError::LimitsExceeded => {
             Error::limit(Limit::Size, format!("{name} takes too much memory to unpack"))
-                .help("cut out a part of it, or write it without texts and profiles")
+                .help("cut out a part of it, or re-export it without texts and profiles")
         }
-        _ => Error::data(format!("{name} is a damaged PNG")).help("get it again"),
+        _ => Error::data(format!("{name}: damaged PNG file")).help("download it again"),
     }
 }

@@ -41,12 +41,12 @@ fn delimited_text_has_places_in_columns_of_many_names() {
     insta::assert_snapshot!(told(&read_as("a.csv", semicolons.as_bytes(), &wanted).unwrap()), @r#"
     POINT (3500000.5 5500000.25); X=Text("3500000,5"), Y=Text("5500000,25"), hoch=Number(1.0)
     POINT (3 4); X=Text("3"), Y=Text("4")
-    refused: line 4 of a.csv has "zwei" where a coordinate should be
-      help: correct it, or leave it out
-    note: a.csv: 1 line has other than 3 fields, as the first one has
+    refused: line 4 of a.csv has "zwei" instead of a coordinate
+      help: correct it, or remove it
+    note: a.csv: 1 line has a different number of fields from the first line, which has 3
     "#);
     let crs = read("a.csv", semicolons).unwrap().crs.unwrap_err();
-    assert!(crs.message().contains("does not tell their coordinate system"), "{crs}");
+    assert!(crs.message().contains("without a coordinate system"), "{crs}");
     let tabs = read("a.tsv", "lng\tlat\tcode\n7\t43\t007\n8\t44\t010\n").unwrap();
     insta::assert_snapshot!(told(&tabs), @r#"
     POINT (7 43); lng=Number(7.0), lat=Number(43.0), code=Text("007")
@@ -67,17 +67,17 @@ fn delimited_text_has_geometries_in_well_known_text_binary_and_geojson() {
     POLYGON ((0 0, 4 0, 4 4, 0 0)); n=Number(1.0)
     POINT (1 2); n=Number(3.0)
     POINT (5 6); n=Number(4.0)
-    refused: line 3 of a.csv has a geometry that cannot be read: no well-known text: at letter 17 there should be the end, not "|"
-      help: correct it, or leave it out
+    refused: line 3 of a.csv has a geometry that cannot be read: invalid well-known text: expected the end at character 17, found "|"
+      help: correct it, or remove it
     "#);
     let none = read("a.csv", "name,height\na,3\n").err().unwrap();
     insta::assert_snapshot!(none, @r#"
-    a.csv has no columns that tell places: it has name, height
-      help: call them lon and lat, or x and y with crs, or write well-known text in a column called WKT
+    a.csv has no columns of positions: it has name, height
+      help: name them lon and lat, or x and y with crs, or write well-known text in a column named WKT
     "#);
     let open = read("a.csv", "lon,lat,name\n1,2,\"a\n3,4,b\n").err().unwrap();
     insta::assert_snapshot!(open, @r#"
-    a.csv cannot be read: a text in quotes begins in line 2 and does not end
+    a.csv cannot be read: a string in quotes begins in line 2 and does not end
       help: the file is cut short, or has a single quote (") in a text
     "#);
     let latin = read_as("a.csv", b"lon,lat,name\n1,2,H\xe4user\n", &SourceOptions::default()).unwrap();
@@ -103,9 +103,9 @@ fn placemarks_of_all_folders_are_features() {
     POLYGON Z ((0 0 5, 4 0 5, 4 4 5, 0 0 5), (2 1 0, 3 1 0, 3 2 0, 2 1 0)); folder=Text("north/old"), name=Text("House"), floors=Number(3.0), kind=Text("shed & barn")
     POINT (9 9); folder=Text("north/old"), name=Text("House"), floors=Number(3.0), kind=Text("shed & barn")
     LINESTRING Z (1 2 3, 2 3 4); name=Text("Walk"), begin=Number(1999.0)
-    refused: placemark 3 of a.kml has "north,3" where coordinates should be
-      help: points, lines, polygons, tracks and collections of these are read
-    note: a.kml: 1 link to another file is not followed; get these files, and name them
+    refused: placemark 3 of a.kml has "north,3" instead of coordinates
+      help: supported types are points, lines, polygons, tracks and collections of these
+    note: a.kml: 1 link to another file is not followed; download these files, and specify them
     "#);
     assert_eq!((table.empty, table.features[0].id.as_str(), table.derived), (1, "p1", 1));
 }
@@ -125,11 +125,11 @@ fn waypoints_routes_and_tracks_are_layers() {
     POINT Z (7 43 12.5); ele=Number(12.5), name=Text("Peak"), link=Text("http://x")
     LINESTRING Z (7 43 0, 8 44 3); name=Text("r")
     LINESTRING (2 1, 4 3); name=Text("t"), speed=Number(3.0)
-    note: a.gpx:tracks: 1 segment has one point and was left out
+    note: a.gpx:tracks: 1 segment has one point and was skipped
     "#);
     insta::assert_snapshot!(read("a.gpx", text).err().unwrap(), @r#"
     a.gpx has several layers
-      help: name one behind a colon: "a.gpx:waypoints"; it has waypoints, routes, tracks
+      help: specify one after a colon: "a.gpx:waypoints"; it has waypoints, routes, tracks
     "#);
 }
 
@@ -163,24 +163,24 @@ fn packed_files_hold_what_they_are_called() {
     assert_eq!(read("a.kmz", &zip(&[("files/x.png", b"x"), ("doc.kml", kml)])).unwrap().features.len(), 1);
     let several = read("a.zip", &zip(&[("a.csv", b"x"), ("b.csv", b"x")])).err().unwrap();
     insta::assert_snapshot!(several, @r#"
-    a.zip holds several data files: a.csv, b.csv
-      help: unpack it, and name the one that is meant
+    a.zip contains several data files: a.csv, b.csv
+      help: unpack it, and specify one of them
     "#);
     insta::assert_snapshot!(read("a.zip", &zip(&[("a.gdb/a.gdbtable", b"x")])).err().unwrap(), @r#"
-    a.zip holds a File Geodatabase (.gdb), which is not read
+    a.zip contains a File Geodatabase (.gdb), which is not supported
       help: convert it: ogr2ogr out.gpkg FILE.zip
     "#);
     insta::assert_snapshot!(read("a.xlsx", &zip(&[("xl/workbook.xml", b"x")])).err().unwrap(), @r#"
-    a.xlsx is a spreadsheet, which is not read
+    a.xlsx is a spreadsheet, which is not supported
       help: save its table as .csv, with columns of longitude and latitude or of well-known text
     "#);
     insta::assert_snapshot!(read("a.gpkg.gz", &gz(b"SQLite format 3\0rest")).err().unwrap(), @r#"
-    a.gpkg.gz holds a GeoPackage, which is not read while it is packed
-      help: unpack it, and name the file itself
+    a.gpkg.gz contains a GeoPackage, which is not supported in an archive
+      help: unpack it, and specify the file itself
     "#);
     insta::assert_snapshot!(read("a.gz", &gz(geojson.as_bytes())[..40]).err().unwrap(), @r#"
     a.gz cannot be unpacked
-      help: the file is damaged or cut short; get it again
+      help: the file is damaged or cut short; download it again
     "#);
 }
 
@@ -190,7 +190,7 @@ fn latin_geojson_is_read_with_a_note() {
     let table = read_as("a.geojson", text, &SourceOptions::default()).unwrap();
     insta::assert_snapshot!(told(&table), @r#"
     POINT (7 43); name=Text("Häuser")
-    note: a.geojson is not UTF-8, as GeoJSON has to be, and was read as Windows-1252 (Latin-1); if its texts look wrong, convert it: iconv -f ENCODING -t UTF-8 IN > OUT.geojson
+    note: a.geojson is not UTF-8, which GeoJSON requires, and was read as Windows-1252 (Latin-1); if its texts look wrong, convert it: iconv -f ENCODING -t UTF-8 IN > OUT.geojson
     "#);
     let wide: Vec<u8> = std::str::from_utf8(
         &text[..45].iter().map(|byte| if *byte > 127 { b'x' } else { *byte }).collect::<Vec<_>>(),

@@ -24,7 +24,8 @@ const PIECE: usize = 1 << 20;
 const MOST_FILES: usize = 100_000;
 
 fn damage_error(name: &str) -> Error {
-    Error::data(format!("{name} cannot be unpacked")).help("the file is damaged or cut short; get it again")
+    Error::data(format!("{name} cannot be unpacked"))
+        .help("the file is damaged or cut short; download it again")
 }
 
 /// Decompresses the data from `packed`, counted in the memory budget.
@@ -38,7 +39,7 @@ fn unpack(mut packed: impl Read, name: &str, budget: &Budget) -> Result<Arc<[u8]
             (&mut packed).take(PIECE as u64).read_to_end(&mut bytes).map_err(|_| damage_error(name))?;
         if bytes.len() > LARGEST {
             let what = format!("{name} is larger than {} MB when it is unpacked", LARGEST / 1_000_000);
-            return Err(Error::limit(Limit::Size, what).help("unpack it, and take a part of it"));
+            return Err(Error::limit(Limit::Size, what).help("unpack it, and extract a part of it"));
         }
         if count == 0 {
             drop(held);
@@ -76,8 +77,8 @@ impl ZippedFiles {
         let bytes = file.bytes(LARGEST_PACKED, &wanted.budget)?;
         let archive = zip::ZipArchive::new(Cursor::new(&bytes)).map_err(|_| damage_error(&file.name))?;
         if archive.len() > MOST_FILES {
-            return Err(Error::data(format!("{} holds {} files", file.name, archive.len()))
-                .help("unpack it, and name the file of data itself"));
+            return Err(Error::data(format!("{} contains {} files", file.name, archive.len()))
+                .help("unpack it, and specify the data file itself"));
         }
         let mut names: Vec<String> = archive.file_names().map(str::to_owned).collect();
         // The macOS Finder adds resource fork files.
@@ -116,7 +117,7 @@ impl ZippedFiles {
     pub(crate) fn only(&self, budget: &Budget) -> Result<DataFile> {
         if self.names.iter().any(|name| name.contains(".gdb/")) {
             return Err(Error::data(format!(
-                "{} holds a File Geodatabase (.gdb), which is not read",
+                "{} contains a File Geodatabase (.gdb), which is not supported",
                 self.name
             ))
             .help("convert it: ogr2ogr out.gpkg FILE.zip"));
@@ -127,7 +128,7 @@ impl ZippedFiles {
             ("word/document.xml", "document"),
         ];
         if let Some((_, what)) = office.iter().find(|(part, _)| self.names.iter().any(|name| name == part)) {
-            return Err(Error::data(format!("{} is a {what}, which is not read", self.name)).help(
+            return Err(Error::data(format!("{} is a {what}, which is not supported", self.name)).help(
                 "save its table as .csv, with columns of longitude and latitude or of well-known text",
             ));
         }
@@ -148,17 +149,18 @@ impl ZippedFiles {
         match found[..] {
             [one] => self.file(one, budget),
             [] if !self.with_extensions(&["hgt", "tif", "asc"]).is_empty() => {
-                Err(Error::data(format!("{} holds heights, not features", self.name))
-                    .help("ask it for heights: elevation(\"N43E007.hgt.zip\")"))
+                Err(Error::data(format!("{} contains heights, not features", self.name))
+                    .help("read heights with elevation(\"N43E007.hgt.zip\")"))
             }
-            [] => Err(Error::data(format!("{} is a zip without a data file", self.name))
-                .help("it may hold one shapefile or several, or one .kml, .geojson, .gml, .csv or the like")),
+            [] => Err(Error::data(format!("{} is a zip without a data file", self.name)).help(
+                "it can contain one or several shapefiles, or one .kml, .geojson, .gml, .csv or similar file",
+            )),
             _ => Err(Error::data(format!(
-                "{} holds several data files: {}",
+                "{} contains several data files: {}",
                 self.name,
                 listed(found.iter().copied())
             ))
-            .help("unpack it, and name the one that is meant")),
+            .help("unpack it, and specify one of them")),
         }
     }
 }

@@ -132,7 +132,7 @@ impl Xml {
                         (Some(letter), _) => self.text.push(letter),
                         (None, Some(text)) => self.text.push_str(text),
                         (None, None) => {
-                            let why = format!("it names the entity {}, which is not known", shown(&name));
+                            let why = format!("it uses the unknown entity {}", shown(&name));
                             return Err(damage_error(&self.name, &why));
                         }
                     }
@@ -140,7 +140,7 @@ impl Xml {
                 Event::DocType(kind) if kind.contains("<!ENTITY") => {
                     return Err(damage_error(
                         &self.name,
-                        "it declares entities of its own, which are not followed",
+                        "it declares its own entities, which are not supported",
                     ));
                 }
                 Event::DocType(_) | Event::Comment(_) | Event::PI(_) | Event::Decl(_) | Event::Empty(_) => {}
@@ -197,7 +197,7 @@ fn element(start: &BytesStart<'_>) -> std::result::Result<Element, String> {
 
 fn damage_error(name: &str, why: &str) -> Error {
     Error::data(format!("{name} cannot be read: {why}"))
-        .help("the file is damaged or cut short; get it again")
+        .help("the file is damaged or cut short; download it again")
 }
 
 fn wrong(name: &str, why: &str, at: u64) -> Error {
@@ -215,8 +215,10 @@ fn is_latin(head: &[u8], name: &str) -> Result<bool> {
     match encoding.to_ascii_lowercase().as_str() {
         "" | "utf-8" | "utf8" | "us-ascii" | "ascii" => Ok(false),
         "iso-8859-1" | "iso-8859-15" | "latin1" | "windows-1252" | "cp1252" => Ok(true),
-        other => Err(Error::data(format!("{name} is written in {}, which is not read", shown(other)))
-            .help("convert it: iconv -f ENCODING -t UTF-8 IN > OUT.gml, and mend its first line")),
+        other => {
+            Err(Error::data(format!("{name} has the encoding {}, which is not supported", shown(other)))
+                .help("convert it: iconv -f ENCODING -t UTF-8 IN > OUT.gml, and correct its first line"))
+        }
     }
 }
 

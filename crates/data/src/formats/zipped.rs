@@ -15,7 +15,7 @@ use burgeon_base::error::{Error, Result};
 pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str, wanted: &HeightOptions) -> Result<RasterHeader<'a>> {
     let damaged = move || {
         Error::data(format!("{name} cannot be unpacked"))
-            .help("the file is damaged or cut short; get it again")
+            .help("the file is damaged or cut short; download it again")
     };
     let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).map_err(|_| damaged())?;
     let is_tile = |entry: &&str| entry.to_ascii_lowercase().ends_with(".hgt");
@@ -23,19 +23,19 @@ pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str, wanted: &HeightOptions) -
     let tile = match (tiles.next(), tiles.len()) {
         (Some(tile), 0) => tile,
         (None, _) => {
-            return Err(Error::data(format!("{name} holds no .hgt file"))
-                .help("unpack it, and name the file of heights itself"));
+            return Err(Error::data(format!("{name} contains no .hgt file"))
+                .help("unpack it, and specify the file of heights itself"));
         }
         (Some(_), more) => {
-            return Err(Error::data(format!("{name} holds {} .hgt files", more + 1))
-                .help("unpack it, and name the one that is meant"));
+            return Err(Error::data(format!("{name} contains {} .hgt files", more + 1))
+                .help("unpack it, and specify one of them"));
         }
     };
     let shown = format!("{tile} in {name}");
     let unpacked = archive.by_name(&tile).map_err(|_| damaged())?.size();
     let unpacked = usize::try_from(unpacked).unwrap_or(usize::MAX);
     if unpacked == 0 {
-        return Err(Error::data(format!("{shown} is empty")).help("get it again"));
+        return Err(Error::data(format!("{shown} is empty")).help("download it again"));
     }
     let [columns, rows] = size(unpacked, &shown, wanted)?;
     if !can_hold(bytes.len(), DEFLATED, unpacked) {

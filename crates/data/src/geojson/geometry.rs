@@ -28,7 +28,7 @@ struct RawGeometry<'a> {
 macro_rules! no_list {
     ($life:lifetime, $value:ty) => {
         fn visit_f64<E: serde::de::Error>(self, _: f64) -> Result<$value, E> {
-            Err(E::custom("has a number in its coordinates where a list should be"))
+            Err(E::custom("has a number instead of a list in its coordinates"))
         }
 
         fn visit_i64<E: serde::de::Error>(self, _: i64) -> Result<$value, E> {
@@ -40,19 +40,19 @@ macro_rules! no_list {
         }
 
         fn visit_bool<E: serde::de::Error>(self, _: bool) -> Result<$value, E> {
-            Err(E::custom("has a boolean in its coordinates where a list should be"))
+            Err(E::custom("has a boolean instead of a list in its coordinates"))
         }
 
         fn visit_str<E: serde::de::Error>(self, _: &str) -> Result<$value, E> {
-            Err(E::custom("has text in its coordinates where a list should be"))
+            Err(E::custom("has text instead of a list in its coordinates"))
         }
 
         fn visit_unit<E: serde::de::Error>(self) -> Result<$value, E> {
-            Err(E::custom("has null in its coordinates where a list should be"))
+            Err(E::custom("has null instead of a list in its coordinates"))
         }
 
         fn visit_map<A: MapAccess<$life>>(self, _: A) -> Result<$value, A::Error> {
-            Err(A::Error::custom("has an object in its coordinates where a list should be"))
+            Err(A::Error::custom("has an object instead of a list in its coordinates"))
         }
     };
 }
@@ -82,7 +82,7 @@ pub(super) fn read(text: &RawValue, wanted: &SourceOptions) -> Result<Vec<Geomet
 #[cfg(feature = "data")]
 pub(crate) fn geometry_of(text: &str, wanted: &SourceOptions) -> Result<Vec<Geometry>, String> {
     let text: &RawValue = serde_json::from_str(text)
-        .map_err(|error| format!("has a geometry that is none: {}", parser_message(&error)))?;
+        .map_err(|error| format!("has an invalid geometry: {}", parser_message(&error)))?;
     read(text, wanted)
 }
 
@@ -105,7 +105,7 @@ fn geometry(
     parts: &mut Vec<Geometry>,
 ) -> Result<(), String> {
     let raw: RawGeometry<'_> = serde_json::from_str(text.get())
-        .map_err(|error| format!("has a geometry that is none: {}", parser_message(&error)))?;
+        .map_err(|error| format!("has an invalid geometry: {}", parser_message(&error)))?;
     let kind: String = raw
         .r#type
         .and_then(|kind| serde_json::from_str(kind.get()).ok())
@@ -127,14 +127,14 @@ fn members(
             return Err(format!("has collections nested more than {DEEPEST} deep"));
         }
         let list: Vec<&RawValue> =
-            serde_json::from_str(list.get()).map_err(|_| "has a collection that is no list".to_owned())?;
+            serde_json::from_str(list.get()).map_err(|_| "has a collection that is not a list".to_owned())?;
         return list
             .into_iter()
             .filter(|inner| inner.get() != "null")
             .try_for_each(|inner| geometry(inner, wanted, depth + 1, parts));
     }
     if !is_known(kind) {
-        return Err(format!("has a geometry of type \"{}\", which is not known", shown(kind)));
+        return Err(format!("has a geometry of unknown type \"{}\"", shown(kind)));
     }
     // Some programs write an empty list for a feature without a position.
     let Some(text) = coordinates.map(RawValue::get).filter(|text| !is_empty(text)) else { return Ok(()) };
@@ -251,23 +251,23 @@ impl<'t> Visitor<'t> for NumberVisitor {
     }
 
     fn visit_bool<E: serde::de::Error>(self, _: bool) -> Result<Number, E> {
-        Err(E::custom("has a boolean in its coordinates where a number should be"))
+        Err(E::custom("has a boolean instead of a number in its coordinates"))
     }
 
     fn visit_str<E: serde::de::Error>(self, _: &str) -> Result<Number, E> {
-        Err(E::custom("has text in its coordinates where a number should be"))
+        Err(E::custom("has text instead of a number in its coordinates"))
     }
 
     fn visit_unit<E: serde::de::Error>(self) -> Result<Number, E> {
-        Err(E::custom("has null in its coordinates where a number should be"))
+        Err(E::custom("has null instead of a number in its coordinates"))
     }
 
     fn visit_seq<A: SeqAccess<'t>>(self, _: A) -> Result<Number, A::Error> {
-        Err(A::Error::custom("has a list in its coordinates where a number should be"))
+        Err(A::Error::custom("has a list instead of a number in its coordinates"))
     }
 
     fn visit_map<A: MapAccess<'t>>(self, _: A) -> Result<Number, A::Error> {
-        Err(A::Error::custom("has an object in its coordinates where a number should be"))
+        Err(A::Error::custom("has an object instead of a number in its coordinates"))
     }
 }
 

@@ -52,7 +52,7 @@ pub(crate) fn read(bytes: &[u8], path: &Path, name: &str, wanted: &SourceOptions
         }
         Some(GuessedText::Other(text, encoding)) => (Cow::Owned(text), Some(encoding)),
         _ => {
-            return Err(Error::data(format!("{name} is a binary file of no format that is known"))
+            return Err(Error::data(format!("{name} is a binary file of unknown format"))
                 .help(format!("{}; convert it: ogr2ogr out.gpkg FILE", crate::foreign::FORMATS)));
         }
     };
@@ -60,8 +60,7 @@ pub(crate) fn read(bytes: &[u8], path: &Path, name: &str, wanted: &SourceOptions
     let mut reader = FeatureReader::new(path, name, wanted);
     if let Some(encoding) = encoding {
         reader.table.notes.push(format!(
-            "{name} is not UTF-8, as GeoJSON has to be, and was read as {encoding}; if its texts look wrong, convert it: \
-             iconv -f ENCODING -t UTF-8 IN > OUT.geojson"
+            "{name} is not UTF-8, which GeoJSON requires, and was read as {encoding}; if its texts look wrong, convert it: iconv -f ENCODING -t UTF-8 IN > OUT.geojson"
         ));
     }
     if text.trim_start().starts_with(RECORD) {
@@ -104,7 +103,7 @@ impl<'a> FeatureReader<'a> {
             if !record.trim().is_empty() {
                 match self.text(record) {
                     Ok((head, rest)) if rest.trim().is_empty() => self.member(head)?,
-                    Ok(_) => self.refuse_line(line, "holds more than one text between separators")?,
+                    Ok(_) => self.refuse_line(line, "contains more than one text between separators")?,
                     Err(why) => self.refuse_text(line, &why)?,
                 }
             }
@@ -204,7 +203,7 @@ impl<'a> FeatureReader<'a> {
             return Err(error);
         }
         let number = self.number();
-        self.refuse(number.to_string(), "is JSON, but no feature and no geometry")
+        self.refuse(number.to_string(), "is JSON, but neither a feature nor a geometry")
     }
 
     /// Returns the error that must end the reading, if any.
@@ -229,7 +228,7 @@ impl<'a> FeatureReader<'a> {
             Ok(feature) => self.feature(&feature),
             Err(error) => {
                 let number = self.number();
-                self.refuse(number.to_string(), &format!("is no feature: {}", parser_message(&error)))
+                self.refuse(number.to_string(), &format!("is not a feature: {}", parser_message(&error)))
             }
         }
     }
@@ -323,7 +322,7 @@ impl<'a> FeatureReader<'a> {
 
     fn refuse_at(&mut self, id: String, why: &str, bounds: Option<[f64; 4]>) -> Result<()> {
         let error = Error::data(format!("feature {} of {} {why}", shown(&id), self.name))
-            .help("points, lines, polygons, multi-geometries and collections of these are read");
+            .help("supported types are points, lines, polygons, multi-geometries and collections of these");
         self.table.refuse_at(id, error, bounds)
     }
 
@@ -336,7 +335,7 @@ impl<'a> FeatureReader<'a> {
     fn refuse_line(&mut self, line: usize, why: &str) -> Result<()> {
         let number = self.number();
         let error = Error::data(format!("line {line} of {} {why}", self.name))
-            .help("a sequence has one feature to a line, or a separator (RS) before each");
+            .help("a sequence has one feature per line, or a separator (RS) before each");
         self.table.refuse(number.to_string(), error)
     }
 }
@@ -351,8 +350,8 @@ fn not_json(name: &str, text: &str, error: &serde_json::Error) -> Error {
     let at = format!("line {}, column {}", error.line(), error.column());
     if error.is_eof() {
         let why = if text.trim_ascii().is_empty() { "it is empty" } else { "the file is cut short" };
-        return Error::data(format!("{name} is not GeoJSON: it ends at {at}, where more should follow"))
-            .help(format!("{why}; get it again"));
+        return Error::data(format!("{name} is not GeoJSON: it ends at {at}, but more should follow"))
+            .help(format!("{why}; download it again"));
     }
     Error::data(format!("{name} is not GeoJSON: {} ({at})", parser_message(error)))
         .help("GeoJSON is described in RFC 7946")
@@ -369,8 +368,8 @@ fn system(crs: Option<&Value>) -> Result<Crs> {
         _ => {
             let crs = crs.to_string();
             let crs = shown(&crs);
-            Err(Error::data(format!("the coordinate system {crs} of GeoJSON's crs member is not known"))
-                .help("name it: source(file, { crs = 4326 })"))
+            Err(Error::data(format!("unknown coordinate system {crs} in GeoJSON's crs member"))
+                .help("specify it: source(file, { crs = 4326 })"))
         }
     }
 }

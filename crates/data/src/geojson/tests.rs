@@ -105,20 +105,20 @@ fn one_bad_feature_among_others_is_left_out_with_the_reason() {
     let table = table(&format!(r#"{{"type":"FeatureCollection","features":[{good},{all}]}}"#));
     assert_eq!((table.refused.len(), table.features.len()), (bad.len(), bad.len()));
     insta::assert_snapshot!(told(&table).join("\n"), @r#"
-    2: feature 2 of a.geojson has text in its coordinates where a number should be
+    2: feature 2 of a.geojson has text instead of a number in its coordinates
     4: feature 4 of a.geojson has coordinates that cannot be read: number out of range
-    6: feature 6 of a.geojson has a number in its coordinates where a list should be
+    6: feature 6 of a.geojson has a number instead of a list in its coordinates
     8: feature 8 of a.geojson has a point of fewer than two numbers
-    10: feature 10 of a.geojson has a number in its coordinates where a list should be
-    12: feature 12 of a.geojson has null in its coordinates where a number should be
-    14: feature 14 of a.geojson has a list in its coordinates where a number should be
-    16: feature 16 of a.geojson has a geometry of type "Blob", which is not known
+    10: feature 10 of a.geojson has a number instead of a list in its coordinates
+    12: feature 12 of a.geojson has null instead of a number in its coordinates
+    14: feature 14 of a.geojson has a list instead of a number in its coordinates
+    16: feature 16 of a.geojson has a geometry of unknown type "Blob"
     18: feature 18 of a.geojson has a geometry without a type
-    20: feature 20 of a.geojson has a geometry that is none: invalid type: integer `7`, expected a geometry
+    20: feature 20 of a.geojson has an invalid geometry: invalid type: integer `7`, expected a geometry
     22: feature 22 of a.geojson has properties that cannot be read: invalid type: sequence, expected an object
     24: feature 24 of a.geojson has properties that cannot be read: number out of range
-    26: feature 26 of a.geojson is no feature: invalid type: null, expected a feature
-    28: feature 28 of a.geojson is no feature: invalid length 1, expected a feature with 3 elements
+    26: feature 26 of a.geojson is not a feature: invalid type: null, expected a feature
+    28: feature 28 of a.geojson is not a feature: invalid length 1, expected a feature with 3 elements
     "#);
 }
 
@@ -151,7 +151,7 @@ fn sequences_are_read_with_separators_and_line_by_line() {
         told(&broken),
         [
             "2: line 2 of a.geojsonl is not JSON: expected value",
-            "4: feature 4 of a.geojsonl is JSON, but no feature and no geometry",
+            "4: feature 4 of a.geojsonl is JSON, but neither a feature nor a geometry",
         ]
     );
     let broken = read_as(&format!("\u{1e}{a}\n\u{1e}{{\"type\n\u{1e}{b}\n"), "a.geojsons").unwrap();

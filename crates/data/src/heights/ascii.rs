@@ -50,7 +50,7 @@ impl Header {
 /// Surplus heights are at the end of the result.
 pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<RasterHeader<'a>> {
     let text = std::str::from_utf8(bytes).map_err(|_| {
-        Error::data(format!("{name} is no ASCII grid: it has bytes that are no text")).help(REMEDY)
+        Error::data(format!("{name} is not an ASCII grid: it contains bytes that are not text")).help(REMEDY)
     })?;
     let mut header = Header::default();
     let mut lines = text.lines().enumerate().peekable();
@@ -119,8 +119,8 @@ fn heights<'a>(
             budget.tick()?;
             let value: f64 = word.parse().map_err(|_| {
                 let word = shorten(word);
-                Error::data(format!("{name} has {word:?} in line {}, which is no height", number + 1))
-                    .help("write heights with a point, such as 12.5")
+                Error::data(format!("{name} has {word:?} in line {}, which is not a height", number + 1))
+                    .help("write heights with a decimal point, such as 12.5")
             })?;
             heights.push(if Some(value) == missing { f32::NAN } else { narrow(value) });
         }
@@ -132,7 +132,7 @@ fn heights<'a>(
         found if found < expected => Err(Error::data(format!(
             "{name} is cut short: it has {found} of {expected} heights ({length} bytes)"
         ))
-        .help("get it again")),
+        .help("download it again")),
         _ => Ok(heights),
     }
 }
@@ -143,7 +143,7 @@ fn whole(name: &str, what: &str, value: f64) -> Result<usize> {
     if value.fract() == 0.0 && (0.0..1e15).contains(&value) {
         return Ok(value as usize);
     }
-    Err(Error::data(format!("{name} has {what} {value}, which is no number of heights")).help(REMEDY))
+    Err(Error::data(format!("{name} has an invalid number of heights: {what} {value}")).help(REMEDY))
 }
 
 /// Returns the beginning of a text that may be long.

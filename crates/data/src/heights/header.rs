@@ -53,7 +53,7 @@ pub(crate) type ReadHeights<'a> = Box<dyn FnOnce(&Budget) -> Result<Vec<f32>> + 
 pub(crate) fn check_size(name: &str, columns: usize, rows: usize) -> Result<()> {
     if columns < 2 || rows < 2 {
         return Err(Error::data(format!("{name} has {columns} x {rows} heights"))
-            .help("at least 2 x 2 are needed to know what is in between"));
+            .help("at least 2 x 2 heights are needed for interpolation"));
     }
     if columns.checked_mul(rows).is_none_or(|all| all > MOST) {
         return Err(Error::limit(

@@ -42,9 +42,9 @@ pub(crate) fn size(bytes: usize, name: &str, wanted: &HeightOptions) -> Result<[
     check_size(name, side, side)?;
     if wanted.bounds.is_none() {
         return Err(Error::data(format!(
-            "{name} has {side} x {side} heights, which no tile of a degree has"
+            "{name} has {side} x {side} heights, which is not the size of a one-degree tile"
         ))
-        .help("tiles have 1201 x 1201 or 3601 x 3601; if it is a part of one, name its bounds and crs"));
+        .help("tiles have 1201 x 1201 or 3601 x 3601 heights; if it is a part of a tile, specify its bounds and crs"));
     }
     Ok([side, side])
 }
@@ -57,8 +57,9 @@ pub(crate) fn place(
 ) -> Result<(Option<SampleGrid>, Result<Option<Crs>>)> {
     let corner = corner(name);
     if corner.is_none() && wanted.bounds.is_none() {
-        return Err(Error::data(format!("{name} does not tell where it lies"))
-            .help("name it after its south-west corner, such as N43E007.hgt, or give its bounds and crs"));
+        return Err(Error::data(format!("{name} does not contain its location")).help(
+            "name it after its south-west corner, such as N43E007.hgt, or specify its bounds and crs",
+        ));
     }
     let step = [columns, rows].map(|side| 1.0 / count(side - 1));
     Ok((corner.map(|[x, y]| SampleGrid { first: [x, y + 1.0], step }), Crs::epsg(4326).map(Some)))
@@ -73,9 +74,9 @@ fn not_square(bytes: usize, name: &str) -> Error {
             sides[0],
             sides[1]
         ))
-        .help("it is cut short; get it again"),
+        .help("it is cut short; download it again"),
         None => Error::data(format!("{name} is not square: it has {bytes} bytes of 16-bit heights"))
-            .help("get it again: a tile has 3601 x 3601 heights"),
+            .help("download it again: a tile has 3601 x 3601 heights"),
     }
 }
 

@@ -14,7 +14,7 @@ pub(crate) fn read<'a, const SIZE: usize>(bytes: &'a [u8], name: &str) -> Result
             bytes.len(),
             next * next * SIZE
         ))
-        .help("it is cut short, or no square of floats; a GeoTIFF may have any shape"));
+        .help("it is cut short, or not a square of floats; a GeoTIFF can have any shape"));
     }
     check_size(name, side, side)?;
     let height = |part: &[u8]| {

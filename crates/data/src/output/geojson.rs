@@ -42,8 +42,8 @@ pub fn write_geojson(
     let outward = match frame {
         Some(frame) => Some(OutputPlacement::degrees(frame)?),
         None if places => {
-            return Err(Error::script("the model has no place on the earth, which GeoJSON counts its degrees on")
-                .help("read data that has one with source(FILE), or write a .gpkg, which takes metres from anywhere"));
+            return Err(Error::script("the model has no location on the earth, which GeoJSON needs")
+                .help("read data with a location, source(FILE), or write a .gpkg, which accepts metres without a location"));
         }
         None => None,
     };
@@ -158,6 +158,6 @@ impl DegreeWriter<'_> {
     fn position_error(&self) -> Error {
         let (id, name) = (burgeon_base::text::shown(&self.record.id), &self.table.name);
         Error::data(format!("{id} of the layer {name} has no longitude and latitude"))
-            .help("leave it out, or write a .gpkg, whose places are metres")
+            .help("remove it, or write a .gpkg, whose positions are in metres")
     }
 }

@@ -148,8 +148,8 @@ fn what_has_no_place_on_the_earth_is_no_geojson() {
     let mut bytes = Vec::new();
     let error = write_geojson(&[lots()], None, &mut bytes).unwrap_err();
     insta::assert_snapshot!(error, @r"
-    the model has no place on the earth, which GeoJSON counts its degrees on
-      help: read data that has one with source(FILE), or write a .gpkg, which takes metres from anywhere
+    the model has no location on the earth, which GeoJSON needs
+      help: read data with a location, source(FILE), or write a .gpkg, which accepts metres without a location
     ");
     assert_eq!(json(&[], None), serde_json::json!({ "type": "FeatureCollection", "features": [] }));
 }

@@ -7,7 +7,7 @@ use burgeon_packages::Version;
 /// Version of the scripting API: of the names that scripts have, and of their meaning.
 ///
 /// Additions raise the second number. Changes that can break a script raise the first.
-pub const API_VERSION: &str = "1.0.0";
+pub const API_VERSION: &str = "1.1.0";
 
 /// Returns [`API_VERSION`] as a version.
 pub fn api_version() -> Version {
@@ -22,7 +22,7 @@ pub(crate) fn has_name(name: &str, registry: &Registry) -> bool {
     };
     if let Some(kind) = registry.get(owner) {
         let has = |member: &str| {
-            kind.method(member).is_some() || kind.fields.iter().any(|field| field.name == member)
+            kind.method(member).is_some() || kind.fields.iter().any(|field| field.is_called(member))
         };
         return member.is_none_or(has);
     }

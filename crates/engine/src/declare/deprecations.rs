@@ -1,13 +1,14 @@
 //! Deprecated names: each used name gets one warning, at the first line that uses it.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
 
 use super::session::Session;
-use burgeon_base::error::SourcePlace;
+use burgeon_base::error::{Result, SourcePlace};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_kit::{Deprecation, Registry};
+use burgeon_kit::{Deprecation, Field, Registry, Table};
 use burgeon_language::deprecated_names;
 
 /// Deprecated names, and the names that scripts have used.
@@ -40,6 +41,21 @@ impl Session {
     /// Returns the deprecated names of values.
     pub(crate) fn deprecated_names(&self) -> &Arc<BTreeMap<String, Deprecation>> {
         &self.deprecated.names
+    }
+
+    /// Replaces the former names of `fields` in the table of `owner`, and records them as used at `place`. Fails if a
+    /// field has both names.
+    pub(crate) fn replace_former_names<'a>(
+        &self,
+        owner: &str,
+        fields: &[Field],
+        table: &'a Table,
+        place: Option<SourcePlace>,
+    ) -> Result<Cow<'a, Table>> {
+        for former in Field::former_names(fields, table) {
+            self.use_deprecated(&format!("{owner}.{}", former.name), former, place.clone());
+        }
+        Field::replace_former_names(owner, fields, table)
     }
 
     /// Records that a script uses the deprecated `name` at `place`.

@@ -51,7 +51,7 @@ impl Session {
         let found = self.packages().order().iter().filter(meant).filter_map(|package| {
             let name = package.manifest.name.clone();
             let file = FileName { package: name.clone(), path: PRESETS.to_owned() };
-            let located = self.packages().locate("file of presets", &file, None, &mut |_, _| {}).ok()?;
+            let located = self.packages().locate("presets file", &file, None, &mut |_, _| {}).ok()?;
             Some((name, located.path))
         });
         found.collect()
@@ -148,7 +148,9 @@ impl Session {
     pub(crate) fn propose_packages(&self, name: &str, error: Error) -> Error {
         match self.packages().files_called(name).as_slice() {
             [] => error,
-            names => error.help(format!("a package's file is named with it: {}", names.join(" or "))),
+            names => {
+                error.help(format!("a package file needs the name of its package: {}", names.join(" or ")))
+            }
         }
     }
 
@@ -163,7 +165,7 @@ impl Session {
             self.together(package)?;
             param.default = param.accept(&wanted.value).map_err(|error| {
                 let message =
-                    format!("the default that the package {} sets: {}", manifest.name, error.message());
+                    format!("the default set by the package {}: {}", manifest.name, error.message());
                 let help = error.remedy().unwrap_or("change it").to_owned();
                 Error::of(error.kind().clone(), message).help(help).at(Some(wanted.place(manifest)))
             })?;

@@ -22,7 +22,7 @@ pub struct Param {
     /// Display unit; may be empty.
     pub unit: String,
     /// Description for users; may be empty.
-    pub text: String,
+    pub doc: String,
     /// Set if the script itself declares it, not a file that it requires.
     pub own: bool,
 }
@@ -119,7 +119,7 @@ impl Param {
         let named: Vec<String> = of.iter().map(|param| format!("--set {}=VALUE", param.name)).collect();
         let name = of.first().map_or("", |param| param.short_name());
         Error::argument(format!("{name} is a parameter of {}", owners.join(" and of ")))
-            .help(format!("say which one: {}", named.join(" or ")))
+            .help(format!("specify one: {}", named.join(" or ")))
     }
 
     /// Parses the declaration `param(name, { default = ..., ... })`. The value is the default.
@@ -131,7 +131,7 @@ impl Param {
             };
             let known = PARAM.part_names();
             if !known.contains(&key.as_str()) {
-                let message = format!("param {name} has no field called {key}");
+                let message = format!("unknown field `{key}` in param {name}");
                 return Err(Error::not_found("field", &key, known.iter().copied(), message)
                     .help(format!("it has {}", known.join(", "))));
             }
@@ -167,7 +167,7 @@ impl Param {
             }
             (Some(default), Some(_)) if !matches!(default, Value::Text(_)) => {
                 return Err(Error::argument(format!(
-                    "param {name}: choices are strings, so the default must be one, not {default}"
+                    "param {name}: the default must be a string, as the choices, not {default}"
                 )));
             }
             (Some(Value::Text(default)), Some(choices)) => {
@@ -199,7 +199,7 @@ impl Param {
             default,
             control,
             unit: text("unit")?,
-            text: text("text")?,
+            doc: text("doc")?,
             own: true,
         };
         param.check(&param.default).map_err(|error| {
@@ -275,9 +275,9 @@ impl Param {
                 let shown = Value::Number(*number);
                 if min.is_some_and(|min| *number < min) || max.is_some_and(|max| *number > max) {
                     let range = match (min, max) {
-                        (Some(min), Some(max)) => format!("it goes from {min} to {max}"),
-                        (Some(min), None) => format!("it begins at {min}"),
-                        (None, Some(max)) => format!("it ends at {max}"),
+                        (Some(min), Some(max)) => format!("the allowed values are {min} to {max}"),
+                        (Some(min), None) => format!("the minimum is {min}"),
+                        (None, Some(max)) => format!("the maximum is {max}"),
                         (None, None) => String::new(),
                     };
                     return Err(
@@ -302,7 +302,7 @@ impl Param {
                 Ok(())
             }
             (Control::Choice(choices), Setting::Text(choice)) if !choices.contains(choice) => {
-                Err(Error::argument(format!("param {name} is {choice:?}, which is no choice"))
+                Err(Error::argument(format!("param {name} is {choice:?}, which is not one of the choices"))
                     .help(format!("choose one of {}", choices.join(", "))))
             }
             _ => Ok(()),

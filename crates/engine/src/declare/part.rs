@@ -29,8 +29,7 @@ impl FeaturePart {
     /// Returns the report entry about a part that draws nothing.
     pub fn empty_note(&self) -> String {
         format!(
-            "part {} of {} is empty: its features draw nothing, or it has none; systems without features, such as a \
-             terrain, are in part 1",
+            "part {} of {} is empty: it has no features, or its features draw nothing; systems without features, such as a terrain, are in part 1",
             self.number, self.count
         )
     }
@@ -47,7 +46,9 @@ impl FromStr for FeaturePart {
             Some((number, count)) if (1..=count).contains(&number) && count <= 1_000_000 => {
                 Ok(Self { number, count, reach: 0.0 })
             }
-            _ => Err(Error::argument(format!("a part is a number of parts, such as 2/4, not {text:?}"))),
+            _ => Err(Error::argument(format!(
+                "invalid part {text:?}: write the number of the part and the number of parts, such as 2/4"
+            ))),
         }
     }
 }

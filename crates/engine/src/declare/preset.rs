@@ -55,7 +55,7 @@ impl Preset {
     pub(crate) fn outdated(&self, name: &str, script: &str, params: &[Param]) -> Error {
         let preset = &self.name;
         let names = params.iter().map(|param| param.name.as_str());
-        let message = format!("preset {preset} sets {name}, but {script} has no parameter called {name}");
+        let message = format!("preset {preset} sets the unknown parameter `{name}` of {script}");
         Error::not_found("parameter", name, names, message)
             .help(format!("remove {name} from the preset, or declare it again: param(\"{name}\", ...)"))
             .at(self.place_of(name))

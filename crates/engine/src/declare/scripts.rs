@@ -152,7 +152,7 @@ fn begin_reading(path: &Path, name: &str) -> Result<ScriptReader> {
 /// Returns name and text of a file that replaces the standard library.
 pub(super) fn read_stdlib(path: &Path) -> Result<(String, String)> {
     let name = path.display().to_string();
-    let remedy = "--stdlib names a Lua file; without it the built-in one is used";
+    let remedy = "--stdlib needs a Lua file; without it, the built-in standard library is used";
     let bytes = burgeon_base::files::read(path, LARGEST).map_err(|error| {
         Error::file(path, format!("cannot read the standard library {name}: {error}")).help(remedy)
     })?;
@@ -168,15 +168,15 @@ pub(super) fn unreadable(path: &Path, error: &std::io::Error) -> Error {
     let shown = path.display();
     match error.kind() {
         std::io::ErrorKind::NotFound => {
-            Error::not_found("script", &shown, [], format!("there is no script {shown}"))
-                .help("check the path, or make one: burgeon new NAME")
+            Error::not_found("script", &shown, [], format!("script not found: {shown}"))
+                .help("check the path, or create a script: burgeon new NAME")
         }
         std::io::ErrorKind::IsADirectory => {
-            Error::file(path, format!("{shown} is a folder")).help("name a script in it")
+            Error::file(path, format!("{shown} is a folder")).help("specify a script in the folder")
         }
         std::io::ErrorKind::FileTooLarge => {
             Error::limit(Limit::Size, format!("{shown} is larger than {} MB", LARGEST / 1_000_000))
-                .help("divide it; other files of its folder come in with require")
+                .help("divide it; require loads other files of its folder")
         }
         std::io::ErrorKind::InvalidInput => {
             Error::file(path, format!("cannot read {shown}: {error}")).help("scripts are text files")

@@ -530,8 +530,8 @@ fn data_root(folder: &Path) -> Result<PathBuf> {
     let found = folder.canonicalize().ok().filter(|found| found.is_dir());
     found.ok_or_else(|| {
         let shown = folder.display();
-        Error::not_found("folder", &shown, [], format!("there is no folder {shown}"))
-            .help("--data names a folder of data files")
+        Error::not_found("folder", &shown, [], format!("folder not found: {shown}"))
+            .help("--data needs a folder of data files")
     })
 }
 

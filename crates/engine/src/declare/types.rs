@@ -93,10 +93,7 @@ pub(crate) fn qualified_name(owner: &str, name: &str) -> String {
 /// Returns the documentation of a method that several packages have added.
 pub(crate) fn contested_method<'a>(name: &str, owners: impl Iterator<Item = &'a String>) -> Method {
     let named = owners.filter(|owner| !owner.is_empty()).map(|owner| qualified_name(owner, name));
-    let doc = format!(
-        "One of {}: that of the package that has been required.",
-        named.collect::<Vec<_>>().join(", ")
-    );
+    let doc = format!("One of {}: the method of the required package.", named.collect::<Vec<_>>().join(", "));
     Method {
         name: name.to_owned().into(),
         doc: doc.into(),

@@ -81,7 +81,7 @@ fn convert(value: &LuaValue, manner: CopyMode, depth: usize) -> Result<Value> {
                     LuaValue::String(name) => TableKey::Name(owned(&name)?),
                     other => {
                         return Err(Error::argument(format!("a table has a {} as a key", other.type_name()))
-                            .help("keys of such tables are names or whole numbers"));
+                            .help("use names or integers as keys"));
                     }
                 };
                 entries.push((key, convert(&value, manner, depth + 1)?));
@@ -143,7 +143,7 @@ fn owned(text: &LuaString) -> Result<Arc<str>> {
 
 fn no_module() -> Error {
     Error::argument("a module cannot be passed on")
-        .help("pass its parameters on, and make the module where it belongs into the chain")
+        .help("pass its parameters, and create the module where the chain needs it")
 }
 
 /// Converts a value to Lua. Tables are frozen if `freeze` is set.

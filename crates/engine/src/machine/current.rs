@@ -148,7 +148,7 @@ impl WorkState {
         let of = self.kind.borrow().as_ref().filter(|known| known.name == kind).cloned();
         match of.or_else(|| registry.get(kind).cloned()) {
             Some(kind) => kind.unknown_method(name),
-            None => Error::argument(format!("{kind} has no method or field called {name}")),
+            None => Error::argument(format!("unknown method or field `{name}` of {kind}")),
         }
     }
 
@@ -166,7 +166,7 @@ impl WorkState {
         let chain = self.chain_of(application);
         let objects = self.objects.borrow();
         let objects = objects.as_ref().ok_or_else(outside)?;
-        let missing = || Error::internal("there is no such method");
+        let missing = || Error::internal("unknown method");
         let kind = match slot {
             None => self.kind.borrow().clone().ok_or_else(missing)?,
             Some(slot) => objects.read(chain, |object| {

@@ -39,8 +39,8 @@ pub(crate) fn freeze<'a>(
     let mut seen = FxHashSet::default();
     for reached in functions {
         let refuse = |what: &str| {
-            Err(Error::scope(format!("the rule reaches {what}, which remembers from one module to the next"))
-                .help("make it inside the rule, or carry what it remembers in a parameter of a module")
+            Err(Error::scope(format!("the rule uses {what}, which keeps state from one module to the next"))
+                .help("create it inside the rule, or keep the state in a parameter of a module")
                 .at(reached.place.clone())
                 .rule(&reached.name))
         };

@@ -144,9 +144,9 @@ fn add_applications(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::R
                 return Err(mlua::Error::external(
                     Error::limit(
                         Limit::Modules,
-                        format!("one application of a rule made more than {limit} modules"),
+                        format!("one application of a rule returned more than {limit} modules"),
                     )
-                    .help("look for a loop that never ends, or raise the limit: --module-limit N"),
+                    .help("look for an endless loop, or raise the limit: --module-limit N"),
                 ));
             }
             Ok(())
@@ -158,8 +158,8 @@ fn add_applications(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::R
         lua.create_function(move |_, (phase, application, drawn): (u8, usize, usize)| match phase {
             TOP => Ok(state.top.borrow_mut().uniform()),
             GUARD => Err(mlua::Error::external(
-                Error::scope("a guard draws no random numbers")
-                    .help("draw in the successor, or give the rules weights: { weight = 2 }"),
+                Error::scope("a guard cannot use random numbers")
+                    .help("call random in the successor, or set the weights of the rules: { weight = 2 }"),
             )),
             _ => state.draw(application, drawn).map_err(mlua::Error::external),
         })?,
@@ -249,7 +249,7 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Li
                     made
                 }
                 Call::Write { .. } | Call::Script { .. } => Err(mlua::Error::external(Error::scope(
-                    format!("{name} changes the object, and only interpretation rules may"),
+                    format!("{name} is a write method, so only interpretation rules can call it"),
                 ))),
             }
         })?,
@@ -309,8 +309,8 @@ fn add_script_objects(
                 let (name, value) = pair?;
                 let value = to_value(&value, false).map_err(|error| {
                     mlua::Error::external(
-                        Error::argument(format!("{name} of the state cannot be kept: {}", error.message()))
-                            .help("state is numbers, booleans, strings, tables of these, and objects"),
+                        Error::argument(format!("{name} of the state has an unsupported value: {}", error.message()))
+                            .help("a state variable is a number, a boolean, a string, a table of these, or an object"),
                     )
                 })?;
                 entries.push((burgeon_kit::TableKey::Name(name.into()), value));

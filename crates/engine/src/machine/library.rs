@@ -22,9 +22,9 @@ use crate::declare::{API_VERSION, Param, Session, Setting, has_name};
 use crate::placeholders::{self, FRAGMENT, QUERY};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_kit::{Construct, Kind, ObjectContent, Registry};
-use burgeon_language::LOCKED;
+use burgeon_kit::{Construct, Field, Kind, ObjectContent, Registry};
 use burgeon_language::analysis::Globals;
+use burgeon_language::{LOCKED, PARAM};
 use burgeon_packages::{FileName, Package};
 use burgeon_rewriting::{NameScope, Signature, Symbol, Symbols};
 
@@ -114,7 +114,7 @@ impl Library {
     /// Returns the machine of this library. Fails until the machine is complete.
     pub(crate) fn machine(&self) -> Result<std::rc::Rc<Machine>> {
         let machine = self.machine.borrow().as_ref().and_then(std::rc::Weak::upgrade);
-        machine.ok_or_else(|| Error::internal("this cannot be used while the machine is being made"))
+        machine.ok_or_else(|| Error::internal("not available while the machine is being created"))
     }
 
     pub(crate) fn set_machine(&self, machine: &std::rc::Rc<Machine>) {
@@ -189,7 +189,7 @@ impl Library {
                 Some(other) => {
                     let owner = other.package.as_deref().unwrap_or("a package");
                     Err(Error::argument(format!("{name} is a parameter of the script and of {owner}"))
-                        .help(format!("give that of {owner} a value too: --set {}=VALUE", other.name)))
+                        .help(format!("set the parameter of {owner} too: --set {}=VALUE", other.name)))
                 }
                 None => param.given(&values.set, values.preset.as_ref(), false),
             },
@@ -207,10 +207,10 @@ impl Library {
             if !shared {
                 let first = first.as_ref().map_or_else(String::new, |first| format!(" in {first}"));
                 let text = format!(
-                    "the parameter {} is declared already{first}, and people only see that one",
+                    "the parameter {} is already declared{first}, and users see only that declaration",
                     param.name
                 );
-                let help = "declare it once and use its value again, or give this one another name";
+                let help = "declare it once and reuse its value, or rename this one";
                 machine.warn(Warning::new(WarningKind::ParameterTwice, text).at(place).help(help));
             }
             return Ok(());
@@ -238,13 +238,13 @@ impl Library {
         };
         let exports: LuaValue = chunk.call(()).map_err(|error| machine.translate(error))?;
         let LuaValue::Table(exports) = exports else {
-            return Err(Error::script(format!("{name} returns no table"))
-                .help("end it with: return { name = value, ... }, the names that scripts get"));
+            return Err(Error::script(format!("{name} does not return a table"))
+                .help("end it with return { name = value, ... }"));
         };
         let globals = machine.lua().globals();
         for pair in exports.pairs::<String, LuaValue>() {
             let (name, value) = pair.map_err(|_| {
-                Error::script(format!("{name} returns a table with keys that are no names"))
+                Error::script(format!("{name} returns a table with keys that are not names"))
                     .help("return { name = value, ... }")
             })?;
             if name.starts_with(char::is_lowercase) {
@@ -413,15 +413,19 @@ impl Library {
                 library.at_top_level("param").map_err(mlua::Error::external)?;
                 let LuaValue::String(name) = name else {
                     return Err(mlua::Error::external(
-                        Error::argument("param begins with a name")
+                        Error::argument("the first argument of param must be a name")
                             .help("write param(\"height\", { default = 3 })"),
                     ));
                 };
                 let name = name.to_string_lossy();
                 let options =
                     named_fields(&format!("param {name}"), options).map_err(mlua::Error::external)?;
-                let mut param = Param::declare(&name, &options).map_err(mlua::Error::external)?;
                 let place = Machine::place(lua);
+                let fields: Vec<Field> = PARAM.options().cloned().collect();
+                let options = session
+                    .replace_former_names("param", &fields, &options, place.clone())
+                    .map_err(mlua::Error::external)?;
+                let mut param = Param::declare(&name, &options).map_err(mlua::Error::external)?;
                 if let Some(owner) = place.as_ref().and_then(|place| session.package_of(&place.file)) {
                     session.redefault(&mut param, owner).map_err(mlua::Error::external)?;
                     let package = owner.manifest.name.clone();
@@ -525,7 +529,8 @@ impl Library {
             lua.create_function(move |lua, name: LuaValue| {
                 let LuaValue::String(name) = name else {
                     return Err(mlua::Error::external(
-                        Error::argument("api.has takes a name").help("write api.has(\"extruder.bend\")"),
+                        Error::argument("the argument of api.has must be a name")
+                            .help("write api.has(\"extruder.bend\")"),
                     ));
                 };
                 let name = name.to_string_lossy();

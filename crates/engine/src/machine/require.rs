@@ -17,8 +17,9 @@ pub(super) fn require(library: &Library, session: &Session, lua: &Lua, name: &st
     let machine = library.machine()?;
     let bare = name.strip_suffix(".lua").unwrap_or(name);
     if bare.is_empty() || bare.ends_with(['/', '.']) {
-        return Err(Error::argument("require needs the name of a file")
-            .help("write require(\"facade\") for facade.lua"));
+        return Err(
+            Error::argument("require needs a file name").help("write require(\"facade\") for facade.lua")
+        );
     }
     let asker = Machine::asker(lua, session);
     if let Ok(file) = FileName::parse(bare) {
@@ -46,8 +47,8 @@ pub(super) fn require(library: &Library, session: &Session, lua: &Lua, name: &st
         let loading = library.loading.borrow();
         let cycle: Vec<String> =
             loading[position..].iter().chain([&path]).map(|file| session.name_of(file)).collect();
-        return Err(Error::script(format!("files require each other in a circle: {}", cycle.join(" -> ")))
-            .help("move what both need into a third file"));
+        return Err(Error::script(format!("circular require: {}", cycle.join(" -> ")))
+            .help("move the common part into a third file"));
     }
     load(library, session, &machine, path, &shown)
 }
@@ -112,9 +113,9 @@ fn freeze_all(value: &LuaValue, package: &str) -> Result<()> {
             LuaValue::Table(table) => table,
             LuaValue::Buffer(_) => {
                 return Err(Error::scope(format!(
-                    "the package {package} gives a buffer, which everybody who uses it could change for the others"
+                    "the package {package} returns a buffer, which one user could change for all others"
                 ))
-                .help("give a function that makes one, or a string: buffer.tostring(b)"));
+                .help("return a function that creates a buffer, or a string: buffer.tostring(b)"));
             }
             _ => continue,
         };
@@ -152,8 +153,8 @@ fn find_in_package(
     let relative = PathBuf::from(format!("{bare}.lua"));
     let inner = from.strip_prefix(&package.shown).unwrap_or(Path::new(""));
     let outside = || {
-        Error::file(bare, format!("require(\"{bare}\") leads outside the package {name}"))
-            .help("a file of another package is named with it: require(\"@castle/towers\")")
+        Error::file(bare, format!("require(\"{bare}\") is outside the package {name}"))
+            .help("a file of another package needs the package name: require(\"@castle/towers\")")
     };
     if is_absolute(&relative) {
         return Err(outside());
@@ -177,8 +178,8 @@ fn find_in_package(
 /// Finds the file for `require(name)`, and returns its path and display name.
 fn find(session: &Session, from: &Path, name: &str, bare: &str) -> Result<(PathBuf, String)> {
     let outside = || {
-        Error::file(name, format!("require(\"{name}\") leads outside the script's folder"))
-            .help("a script reads only files in its own folder and below it")
+        Error::file(name, format!("require(\"{name}\") is outside the script's folder"))
+            .help("a script can read only files in its own folder and its subfolders")
     };
     let relative = PathBuf::from(format!("{bare}.lua"));
     if is_absolute(&relative) {
@@ -201,9 +202,9 @@ fn find(session: &Session, from: &Path, name: &str, bare: &str) -> Result<(PathB
             return Ok((path.clone(), shown.display().to_string()));
         }
     }
-    let message = format!("require(\"{name}\") finds no file {}", relative.display());
+    let message = format!("require(\"{name}\"): file not found: {}", relative.display());
     let error = Error::not_found("file", name, [], message);
     Err(session
         .propose_packages(&format!("{bare}.lua"), error)
-        .help("the name is a path from the requiring file or from the script's folder"))
+        .help("the name is a path relative to the requiring file or to the script's folder"))
 }

@@ -216,13 +216,10 @@ impl Machine {
         match self.session.stop.check() {
             Err(reason) if out_of_memory => translated.at(exhausted).because(&reason),
             Err(reason) => translated.because(&reason),
-            Ok(()) if out_of_memory => {
-                translated
-                    .at(exhausted)
-                    .because(&Error::limit(Limit::Memory, format!("the script needs more than {limit} MB of memory")).help(
-                    "look for a table or a string that grows, or raise the limit: --memory-limit MEGABYTES",
-                ))
-            }
+            Ok(()) if out_of_memory => translated.at(exhausted).because(
+                &Error::limit(Limit::Memory, format!("the script exceeds the memory limit of {limit} MB"))
+                    .help("look for a growing table or string, or raise the limit: --memory-limit MEGABYTES"),
+            ),
             Ok(()) => translated,
         }
     }
@@ -231,8 +228,10 @@ impl Machine {
     pub(crate) fn refuse_in_rules(&self, what: &str) -> Result<()> {
         match self.prelude.phase.call::<u8>(()) {
             Ok(0) => Ok(()),
-            _ => Err(Error::scope(format!("{what} belongs at the top level of the script, not in a rule"))
-                .help("make it before derive, and let the rule use it")),
+            _ => Err(Error::scope(format!(
+                "{what} can be called only at the top level of the script, not in a rule"
+            ))
+            .help("call it before derive, and use the result in the rule")),
         }
     }
 
@@ -335,7 +334,7 @@ fn parse(text: &str) -> Error {
         _ => message,
     };
     if place.is_none() && is_no_text(message) {
-        return Error::script("the script raised an error that is no text")
+        return Error::script("the script raised an error that is not a string")
             .at(places(traceback).next())
             .called_at(places(traceback).last())
             .help("write error(\"what is wrong\")");
@@ -352,9 +351,9 @@ fn parse(text: &str) -> Error {
             }
         }
         None if message.contains("modify a readonly table") => error.in_kind(ErrorKind::Scope).help(
-            "the library is read-only, and so are tables from outside a rule while rules run; make a new table, or use table.clone",
+            "the library is read-only, and while rules run, so are tables from outside the rule; create a new table, or use table.clone",
         ),
-        None if message.contains("stack overflow") => error.help("look for a function that calls itself without end"),
+        None if message.contains("stack overflow") => error.help("look for an endless recursion"),
         None if is_of_values(message) => error.of_data(),
         None => error,
     }

@@ -115,12 +115,12 @@ impl Watchdog {
 fn overdue(session: &Session) -> Error {
     let error = Error::limit(
         Limit::Time,
-        format!("the run took longer than {} s", session.options.limits.time.as_secs_f64()),
+        format!("the run exceeded the time limit of {} s", session.options.limits.time.as_secs_f64()),
     );
     match session.progress.counts() {
-        (0, ..) => error.help("look for a loop that never ends, or raise the limit: --time-limit SECONDS"),
+        (0, ..) => error.help("look for an endless loop, or raise the limit: --time-limit SECONDS"),
         (step, _, modules) => error.help(format!(
-            "step {} is done, with {} modules: derive fewer steps, look for a loop that never ends, or raise the limit: --time-limit SECONDS",
+            "step {} is complete, with {} modules: derive fewer steps, look for an endless loop, or raise the limit: --time-limit SECONDS",
             grouped(step),
             grouped(modules)
         )),

@@ -20,24 +20,24 @@ pub(crate) fn emptiness(warnings: &[Warning], systems: &[Arc<DerivedSystem>]) ->
     let mut drawing = systems.iter().filter(|system| system.draws);
     let drawing = drawing.clone().find(|system| !system.is_placed()).or_else(|| drawing.next())?;
     let help = if warnings.iter().any(tells_of_emptiness) {
-        "another warning tells why"
+        "another warning shows the reason"
     } else if systems.iter().any(|system| system.is_placed()) {
-        "a system that another one is to place is not shown by itself: see that it is placed"
+        "a system that another one places is not shown separately: check that it is placed"
     } else if drawing.objects.is_empty() {
         "its source has no features"
     } else if is_interpreted(drawing) {
         NO_EXTENT
     } else if drawing.steps == 0 {
-        "it was derived by 0 steps: see that a rule applies to the axiom, or interpret the axiom's modules"
+        "the derivation has 0 steps: check that a rule applies to the axiom, or interpret the axiom's modules"
     } else {
-        "no module of its final chain is drawn: write system:interpret(pattern, function(this, ...) ... end)"
+        "no module of its final chain is drawn: add system:interpret(pattern, function(this, ...) ... end)"
     };
-    let warning = Warning::new(WarningKind::EmptyModel, "the model is empty, for this system draws nothing");
+    let warning = Warning::new(WarningKind::EmptyModel, "the model is empty: this system draws nothing");
     Some(warning.at(drawing.place.clone()).called_at(drawing.caller.clone()).help(help))
 }
 
 /// Advice for interpretations that draw nothing.
-const NO_EXTENT: &str = "its interpretations draw nothing: see that lengths and scales are above 0";
+const NO_EXTENT: &str = "its interpretations draw nothing: check that lengths and scales are above 0";
 
 /// Returns the warning for a system that draws nothing although its interpretations ran and other systems
 /// draw.
@@ -71,10 +71,10 @@ pub(crate) fn left_out(system: &DerivedSystem) -> Option<Warning> {
     let id = first.feature.as_deref().map_or_else(String::new, |id| format!(" {}", shown(id)));
     let source = if first.source.is_empty() { String::new() } else { format!(" of {}", first.source) };
     let text = match count {
-        1 => format!("left out feature{id}{source}: {why}"),
-        _ => format!("left out {count} of {} features, such as feature{id}{source}: {why}", system.given),
+        1 => format!("skipped feature{id}{source}: {why}"),
+        _ => format!("skipped {count} of {} features, e.g. feature{id}{source}: {why}", system.given),
     };
     let warning = Warning::new(WarningKind::Data, text);
     let warning = warning.at(system.place.clone()).called_at(system.caller.clone());
-    Some(warning.help("--report FILE lists all of them; with --strict they are errors"))
+    Some(warning.help("--report FILE lists all; with --strict they are errors"))
 }

@@ -60,10 +60,10 @@ impl Quantiser<'_> {
 
 fn place_error(at: DVec3) -> Error {
     Error::data(format!(
-        "what lies at {}, {} m cannot be brought to the coordinate system of the data",
+        "the position {}, {} m cannot be converted to the coordinate system of the data",
         at.x, at.y
     ))
-    .help("leave it out, or read the data in a projection that reaches that far")
+    .help("remove it, or read the data in a projection that extends that far")
 }
 
 /// Returns the city objects of a scene, in the order of their first instances.

@@ -34,10 +34,10 @@ impl HeightFormat {
             "r64" | "f64" => Self::Raw64,
             _ => {
                 return Err(Error::usage(format!(
-                    "cannot write {}: its extension is no format of height maps",
+                    "cannot write {}: unknown file extension of a height map",
                     path.display()
                 ))
-                .help("the formats are .png, .asc, .tif, .r32 and .r64"));
+                .help("supported formats are .png, .asc, .tif, .r32 and .r64"));
             }
         };
         if matches!(format, Self::Png | Self::GeoTiff) {
@@ -98,7 +98,7 @@ fn check(map: &HeightMap, format: HeightFormat) -> Result<()> {
     if !fits || columns < 2 || rows < 2 {
         let count = map.heights.len();
         return Err(Error::argument(format!(
-            "the height map has {columns} x {rows} places for {count} heights"
+            "the height map has {columns} x {rows} cells, but {count} heights"
         ))
         .help("give one height for each place, at least 2 x 2"));
     }
@@ -118,13 +118,11 @@ fn check(map: &HeightMap, format: HeightFormat) -> Result<()> {
         .help("give finite heights"));
     }
     if format == HeightFormat::Png && map.heights.iter().any(|height| height.is_nan()) {
-        return Err(Error::argument("a PNG cannot leave heights out").help("write a GeoTIFF: .tif"));
+        return Err(Error::argument("a PNG cannot have missing heights").help("write a GeoTIFF: .tif"));
     }
     if matches!(format, HeightFormat::Raw32 | HeightFormat::Raw64) && columns != rows {
-        return Err(Error::argument(format!(
-            "raw floats tell no width, and {columns} x {rows} is no square"
-        ))
-        .help("make it square, or write a GeoTIFF: .tif"));
+        return Err(Error::argument(format!("raw floats must be square, not {columns} x {rows}"))
+            .help("make it square, or write a GeoTIFF: .tif"));
     }
     Ok(())
 }
@@ -258,14 +256,14 @@ mod tests {
             error.message().replace(&folder.path().display().to_string(), "FOLDER")
         };
         let mut hills = map(9, None);
-        insta::assert_snapshot!(told(&hills, "a.r32"), @"cannot write FOLDER/a.r32: raw floats tell no width, and 12 x 9 is no square");
-        insta::assert_snapshot!(told(&hills, "a.obj"), @"cannot write FOLDER/a.obj: its extension is no format of height maps");
+        insta::assert_snapshot!(told(&hills, "a.r32"), @"cannot write FOLDER/a.r32: raw floats must be square, not 12 x 9");
+        insta::assert_snapshot!(told(&hills, "a.obj"), @"cannot write FOLDER/a.obj: unknown file extension of a height map");
         hills.heights[13] = f64::NAN;
-        insta::assert_snapshot!(told(&hills, "a.png"), @"cannot write FOLDER/a.png: a PNG cannot leave heights out");
+        insta::assert_snapshot!(told(&hills, "a.png"), @"cannot write FOLDER/a.png: a PNG cannot have missing heights");
         hills.heights[13] = f64::INFINITY;
         insta::assert_snapshot!(told(&hills, "a.tif"), @"cannot write FOLDER/a.tif: the height in row 2, column 2 is infinite");
         hills.heights.pop();
-        insta::assert_snapshot!(told(&hills, "a.tif"), @"cannot write FOLDER/a.tif: the height map has 12 x 9 places for 107 heights");
+        insta::assert_snapshot!(told(&hills, "a.tif"), @"cannot write FOLDER/a.tif: the height map has 12 x 9 cells, but 107 heights");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     }
 }

@@ -35,9 +35,11 @@ pub fn svg(scene: &Scene, stop: &Stop) -> Result<String> {
     let checked = check(scene)?;
     let count = scene.triangles();
     if count > LIMIT {
-        let error =
-            Error::limit(Limit::Size, format!("a drawing cannot show {count} triangles; it ends at {LIMIT}"));
-        return Err(error.help("write a picture (.png) instead, or draw a part of the model"));
+        let error = Error::limit(
+            Limit::Size,
+            format!("a drawing cannot show {count} triangles; the limit is {LIMIT}"),
+        );
+        return Err(error.help("write an image (.png) instead, or draw a part of the model"));
     }
     let images = Images::load(&checked)?;
     let view = DrawingSide::of(&checked);

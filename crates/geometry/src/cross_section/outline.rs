@@ -113,7 +113,7 @@ pub(crate) fn open(points: &[SectionPoint]) -> Result<Vec<SectionPoint>> {
     drop_repeated(&mut points, SECTION.near, false);
     if points.len() < 2 {
         return Err(Error::geometry("the line of an open cross-section has fewer than 2 distinct points")
-            .help("give at least 2 points that differ"));
+            .help("give at least 2 distinct points"));
     }
     drop_straight(&mut points, false);
     let line = NamedRing { name, points };
@@ -160,8 +160,10 @@ fn ring(name: String, points: &[SectionPoint], is_hole: bool, manner: &OutlineOp
         drop_spikes(&mut points, is_hole, manner);
     }
     if points.len() < 3 {
-        return Err(Error::geometry(format!("{name} of the {owner} is nowhere wider than {width} m"))
-            .help("leave it out"));
+        return Err(Error::geometry(format!(
+            "{name} of the {owner} is nowhere wider than {width} m, which is too narrow"
+        ))
+        .help("remove it"));
     }
     Ok(NamedRing { name, points })
 }
@@ -288,9 +290,8 @@ fn refuse_crossings(rings: &[NamedRing], closed: bool, manner: &OutlineOptions) 
                     "edge {second} of {two} meets edge {first} of {one} of the {owner} at ({x:.3}, {y:.3})"
                 )
             };
-            return Err(Error::geometry(message).help(
-                "edges are named by their points, counted from 1; move these apart or leave some out",
-            ));
+            return Err(Error::geometry(message)
+                .help("edges are numbered by their points, from 1; move these points apart or remove some"));
         }
     }
     Ok(())
@@ -336,7 +337,7 @@ fn refuse_misplaced_holes(rings: &[NamedRing], manner: &OutlineOptions) -> Resul
             let side = if other == 0 { "outside" } else { "inside" };
             let message = format!("{} of the {} is {side} {}", hole.name, manner.owner, around.name);
             return Err(Error::geometry(format!("{message}: it begins at ({x:.3}, {y:.3})"))
-                .help("a hole lies inside the outer ring and beside the other holes"));
+                .help("a hole lies inside the outer ring and outside the other holes"));
         }
     }
     Ok(())

@@ -329,7 +329,7 @@ mod tests {
         ");
         insta::assert_snapshot!(Section::open(&[SectionPoint::sharp(DVec2::X); 2]).expect_err("a point"), @r"
         the line of an open cross-section has fewer than 2 distinct points
-          help: give at least 2 points that differ
+          help: give at least 2 distinct points
         ");
     }
 
@@ -337,15 +337,15 @@ mod tests {
     fn a_ring_that_meets_itself_is_refused_by_its_edges_and_the_place() {
         insta::assert_snapshot!(message(&[(0., 0.), (2., 2.), (2., 0.), (0., 1.)], &[]), @r"
         edges 1-2 and 3-4 of the outer ring of the cross-section meet at (0.667, 0.667)
-          help: edges are named by their points, counted from 1; move these apart or leave some out
+          help: edges are numbered by their points, from 1; move these points apart or remove some
         ");
         insta::assert_snapshot!(message(&[(0., 0.), (4., 0.), (2., 0.), (2., 2.)], &[]), @r"
         edges 1-2 and 2-3 of the outer ring of the cross-section meet at (4.000, 0.000)
-          help: edges are named by their points, counted from 1; move these apart or leave some out
+          help: edges are numbered by their points, from 1; move these points apart or remove some
         ");
         insta::assert_snapshot!(message(&[(0., 0.), (4., 0.), (4., 4.), (2., 0.), (0., 4.)], &[]), @r"
         edges 1-2 and 4-5 of the outer ring of the cross-section meet at (2.000, 0.000)
-          help: edges are named by their points, counted from 1; move these apart or leave some out
+          help: edges are numbered by their points, from 1; move these points apart or remove some
         ");
     }
 
@@ -353,17 +353,17 @@ mod tests {
     fn a_hole_that_is_not_inside_is_refused() {
         insta::assert_snapshot!(message(&SQUARE, &[&[(5., 1.), (6., 1.), (6., 2.)]]), @r"
         hole 1 of the cross-section is outside the outer ring: it begins at (5.000, 1.000)
-          help: a hole lies inside the outer ring and beside the other holes
+          help: a hole lies inside the outer ring and outside the other holes
         ");
         insta::assert_snapshot!(message(&SQUARE, &[&[(1., 1.), (6., 1.), (1., 2.)]]), @r"
         edge 1-2 of hole 1 meets edge 2-3 of the outer ring of the cross-section at (4.000, 1.000)
-          help: edges are named by their points, counted from 1; move these apart or leave some out
+          help: edges are numbered by their points, from 1; move these points apart or remove some
         ");
         insta::assert_snapshot!(
             message(&SQUARE, &[&[(1., 1.), (3., 1.), (3., 3.), (1., 3.)], &[(1.5, 1.5), (2., 2.), (2., 1.5)]]),
             @r"
             hole 2 of the cross-section is inside hole 1: it begins at (1.500, 1.500)
-              help: a hole lies inside the outer ring and beside the other holes
+              help: a hole lies inside the outer ring and outside the other holes
             "
         );
     }

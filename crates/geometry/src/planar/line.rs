@@ -32,7 +32,7 @@ impl<P: Point> Line<P> {
         if points.len() < 2 {
             let count = points.len();
             return Err(Error::geometry(format!("the line has too few points: {count}"))
-                .help("give at least 2 points that differ"));
+                .help("give at least 2 distinct points"));
         }
         Ok(Self { points })
     }

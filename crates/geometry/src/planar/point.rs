@@ -49,7 +49,7 @@ pub(super) fn check<P: Point>(name: &str, points: &[P]) -> Result<()> {
         if number > 1 && points[number - 2] == *point {
             let message =
                 format!("point {number} of {name} repeats point {}, {}", number - 1, point_text(*point));
-            return Err(Error::geometry(message).help("leave one of them out"));
+            return Err(Error::geometry(message).help("remove one of them"));
         }
     }
     Ok(())
@@ -60,7 +60,7 @@ pub(super) fn point_text<P: Point>(point: P) -> String {
     let DVec2 { x, y } = point.flat();
     let mut text = format!("({x}, {y})");
     if !point.is_finite() && point.flat().is_finite() {
-        let _ = write!(text, " with a height that is no number");
+        let _ = write!(text, " with a height that is not a number");
     }
     text
 }

@@ -81,7 +81,7 @@ impl<P: Point> Polygon<P> {
                     "points {number} and {next} of {name} of the polygon are both at {}",
                     point_text(a)
                 );
-                return Err(Error::geometry(message).help("leave one out: as seen from above they are one"));
+                return Err(Error::geometry(message).help("remove one: they are equal as seen from above"));
             }
             let ring = turned(ring, index == 0, &name)?;
             if !has_area(ring.iter().map(|point| point.flat())) {

@@ -50,7 +50,7 @@ impl<P: Point> Ring<P> {
         {
             let place = point_text(*first);
             let message = format!("the last point of {name}, {count}, repeats point 1, {place}");
-            return Err(Error::geometry(message).help("leave it out: a ring closes by itself"));
+            return Err(Error::geometry(message).help("remove it: a ring closes automatically"));
         }
         if points.len() < 3 {
             let count = points.len();

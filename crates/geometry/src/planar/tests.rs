@@ -133,7 +133,7 @@ fn what_breaks_a_promise_is_named_with_what_to_do() {
     };
     insta::assert_snapshot!(Line::new(ring(&[(1., 2.)])).expect_err("a point"), @r"
     the line has too few points: 1
-      help: give at least 2 points that differ
+      help: give at least 2 distinct points
     ");
     insta::assert_snapshot!(Ring::new(ring(&square[..2])).expect_err("a line"), @r"
     the ring has too few points: 2
@@ -141,7 +141,7 @@ fn what_breaks_a_promise_is_named_with_what_to_do() {
     ");
     insta::assert_snapshot!(Ring::new(ring(&[(0., 0.), (4., 0.), (4., 0.), (0., 4.)])).expect_err("repeated"), @r"
     point 3 of the ring repeats point 2, (4, 0)
-      help: leave one of them out
+      help: remove one of them
     ");
     insta::assert_snapshot!(refused(&[&[(0., 0.), (4., 0.), (f64::NAN, 1.)]]), @r"
     point 3 of the outer ring is (NaN, 1)
@@ -149,7 +149,7 @@ fn what_breaks_a_promise_is_named_with_what_to_do() {
     ");
     insta::assert_snapshot!(refused(&[&[(0., 0.), (4., 0.), (4., 4.), (0., 0.)]]), @r"
     the last point of the outer ring, 4, repeats point 1, (0, 0)
-      help: leave it out: a ring closes by itself
+      help: remove it: a ring closes automatically
     ");
     insta::assert_snapshot!(refused(&[&square, &[(1., 1.), (2., 1.), (2., 2.)]]), @r"
     hole 1 of the polygon is counter-clockwise
@@ -163,11 +163,11 @@ fn what_breaks_a_promise_is_named_with_what_to_do() {
     assert!(Ring::new(upright.to_vec()).is_ok());
     insta::assert_snapshot!(Polygon::new(vec![upright.to_vec()]).expect_err("a wall"), @r"
     points 2 and 3 of the outer ring of the polygon are both at (4, 0)
-      help: leave one out: as seen from above they are one
+      help: remove one: they are equal as seen from above
     ");
     let high = [DVec3::ZERO, DVec3::X.with_z(f64::INFINITY), DVec3::Y];
     insta::assert_snapshot!(Ring::new(high.to_vec()).expect_err("no height"), @r"
-    point 2 of the ring is (1, 0) with a height that is no number
+    point 2 of the ring is (1, 0) with a height that is not a number
       help: give finite coordinates in metres
     ");
 }

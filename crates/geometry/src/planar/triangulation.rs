@@ -36,7 +36,7 @@ pub(crate) fn triangulate(rings: &[impl AsRef<[DVec2]>]) -> Result<Vec<[usize; 3
             Error::geometry(
                 "the cross-section cannot be filled with triangles, as it is too narrow somewhere",
             )
-            .help("move the points that almost touch another edge further from it, or leave them out")
+            .help("move the points that almost touch another edge away from it, or remove them")
         })
 }
 

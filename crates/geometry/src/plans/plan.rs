@@ -68,10 +68,10 @@ impl Plan {
         let count: usize = rings.iter().map(Vec::len).sum();
         if count > MOST_GIVEN {
             return Err(Error::limit(Limit::Size, format!("the footprint has {count} points"))
-                .help(format!("simplify it: a footprint takes at most {MOST_GIVEN} points")));
+                .help(format!("simplify it: a footprint can have at most {MOST_GIVEN} points")));
         }
         let Some((outer, holes)) = rings.split_first() else {
-            return Err(Error::geometry("the footprint has no ring").help("give it at least 3 points"));
+            return Err(Error::geometry("the footprint has no ring").help("add a ring of at least 3 points"));
         };
         let sharp = |ring: &Vec<DVec3>| -> Vec<SectionPoint> {
             ring.iter().map(|point| SectionPoint::sharp(point.truncate())).collect()
@@ -99,7 +99,7 @@ impl Plan {
         if corners > MOST_CORNERS {
             let message = format!("the footprint has {corners} corners after it is simplified to 2 mm");
             return Err(Error::limit(Limit::Size, message)
-                .help(format!("simplify it: a footprint takes at most {MOST_CORNERS} corners")));
+                .help(format!("simplify it: a footprint can have at most {MOST_CORNERS} corners")));
         }
         let sound: Vec<Vec<DVec2>> =
             clean.iter().map(|ring| ring.iter().map(|point| point.point.at).collect()).collect();

@@ -39,7 +39,7 @@ const SLITS: &str = "slits of at most 1 cm filled";
 /// Note for a plan with notches.
 const NOTCHED: &str = "a notch cut where it touches itself";
 /// Note for an outer ring that crosses itself.
-const LOOPS: &str = "loops of the outer ring left out";
+const LOOPS: &str = "loops of the outer ring removed";
 
 /// A repaired plan.
 pub(super) struct PlanRepair {
@@ -216,9 +216,9 @@ fn enclosed_area(rings: &Rings<DVec2>, notes: &mut Vec<&'static str>) -> Result<
         let hole = whole(hole)?;
         let size = size(&hole);
         if size <= 0.0 {
-            note(notes, "a hole without area left out");
+            note(notes, "a hole without area removed");
         } else if self::size(&overlay::overlay(&outer, &hole, |is_in| is_in == [true; 2])?) <= 1e-6 * size {
-            note(notes, "a hole outside the outer ring left out");
+            note(notes, "a hole outside the outer ring removed");
         } else {
             cut.extend(hole);
         }
@@ -259,7 +259,7 @@ fn greatest(areas: PolygonArea, notes: &mut Vec<&'static str>) -> Option<Rings<D
         .filter(|(size, _)| *size > LEAST)
         .collect();
     if sized.len() > 1 && !notes.contains(&LOOPS) {
-        note(notes, "the greatest part kept");
+        note(notes, "the largest part kept");
     }
     // The first of equal areas is chosen.
     let greatest = sized.into_iter().reduce(|best, next| if next.0 > best.0 { next } else { best });

@@ -28,7 +28,7 @@ const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0
 fn of_an_hourglass_the_greater_half_is_kept_with_its_edges() {
     let plan = made(&[&[[0.0, 0.0], [6.0, 6.0], [0.0, 6.0], [2.0, 0.0]]]);
     assert_valid(&plan);
-    assert!(plan.repairs().0.contains(&"loops of the outer ring left out"), "{:?}", plan.repairs());
+    assert!(plan.repairs().0.contains(&"loops of the outer ring removed"), "{:?}", plan.repairs());
     // The lower triangle has 2 m along y = 0 and the upper triangle has 6 m along y = 6, so they meet at y =
     // 1.5.
     assert!((plan.polygon().area() - 13.5).abs() < 1e-6, "{}", plan.polygon().area());
@@ -42,7 +42,7 @@ fn of_an_hourglass_the_greater_half_is_kept_with_its_edges() {
 fn holes_outside_are_dropped_and_those_that_overlap_are_merged() {
     let hole = |x: f64, y: f64| [[x, y], [x + 2.0, y], [x + 2.0, y + 2.0], [x, y + 2.0]];
     let outside = made(&[&SQUARE, &hole(20.0, 1.0)]);
-    assert_eq!(outside.repairs().0, ["a hole outside the outer ring left out"]);
+    assert_eq!(outside.repairs().0, ["a hole outside the outer ring removed"]);
     assert_eq!((outside.polygon().area(), outside.polygon().size()), (100.0, 4));
     let merged = made(&[&SQUARE, &hole(2.0, 2.0), &hole(3.0, 3.0)]);
     assert_eq!(merged.repairs().0, ["holes that touch merged"]);
@@ -101,7 +101,7 @@ fn a_plan_that_a_hole_divides_but_for_rounding_is_divided() {
     let plan =
         made(&[&[[-0.14, 0.29], [0.28, 0.26], [0.0, 0.0]], &[[0.14, 0.27], [0.1, 0.0], [-0.11, -0.23]]]);
     assert_valid(&plan);
-    assert_eq!(plan.repairs().0, ["a hole at the outer ring cut out", "the greatest part kept"]);
+    assert_eq!(plan.repairs().0, ["a hole at the outer ring cut out", "the largest part kept"]);
 }
 
 #[test]

@@ -39,7 +39,7 @@ pub(super) type TriangleIndices = SmallVec<[[usize; 3]; 16]>;
 pub fn fill(part: &mut Part, rings: &[Ring<DVec3>], right: DVec3, origin: DVec3) -> Result<()> {
     let FilledPolygon { normal, corners, triangles } = FilledPolygon::new(rings, right, origin)?;
     let base = u32::try_from(part.positions.len())
-        .map_err(|_| Error::limit(Limit::Size, "a mesh holds too many vertices"))?;
+        .map_err(|_| Error::limit(Limit::Size, "a mesh has too many vertices"))?;
     part.make_room(corners.len(), triangles.len());
     part.positions.extend(rings.iter().flatten().map(DVec3::as_vec3));
     part.normals.resize(part.positions.len(), normal.into());

@@ -132,14 +132,14 @@ fn chain(borders: &mut [[usize; 2]]) -> Result<Vec<usize>> {
     while at != first {
         ring.push(at);
         let Some(next) = borders[..left].iter().position(|border| border[0] == at) else {
-            return Err(Error::geometry("a face of the roof is not closed"));
+            return Err(Error::geometry("roof face is not closed"));
         };
         at = borders[next][1];
         left -= 1;
         borders.swap(next, left);
     }
     if left > 0 {
-        return Err(Error::geometry("a face of the roof is in several pieces"));
+        return Err(Error::geometry("roof face is in several pieces"));
     }
     Ok(ring)
 }
@@ -160,11 +160,11 @@ fn verify(
     let mut sum = 0.0;
     for (edge, face) in edges.iter().zip(faces) {
         if face.len() < 3 {
-            return Err(Error::geometry("a face of the roof has no corners but its edge's"));
+            return Err(Error::geometry("roof face has only the corners of its edge"));
         }
         let corners = || face.iter().map(|&peak| &peaks[peak]);
         if corners().any(|peak| edge.distance_ahead(peak.at, peak.time).abs() > OFF_PLANE) {
-            return Err(Error::geometry("a face of the roof is not flat"));
+            return Err(Error::geometry("roof face is not flat"));
         }
         let area = twice_area(corners().map(|peak| peak.at));
         along.clear();
@@ -174,18 +174,18 @@ fn verify(
             let length = along.iter().copied().fold(f64::NEG_INFINITY, f64::max)
                 - along.iter().copied().fold(f64::INFINITY, f64::min);
             if area < -MERGED * length || edge.pace.moves() {
-                return Err(Error::geometry("a face of the roof is turned over"));
+                return Err(Error::geometry("roof face is turned over"));
             }
         }
         sum += area;
         let monotone = |within| is_monotone(along, within * MERGED);
         // Peaks may replace others that are 2 mm away, at both ends of a border.
         if !monotone(2.0) && (is_even() && !monotone(4.0) || crosses_itself(edge, peaks, face)) {
-            return Err(Error::geometry("a face of the roof overlaps itself"));
+            return Err(Error::geometry("roof face self-intersects"));
         }
     }
     if (sum - whole).abs() > 1e-6 * whole {
-        return Err(Error::geometry("the faces of the roof do not cover the plan"));
+        return Err(Error::geometry("roof faces do not cover the plan"));
     }
     Ok(())
 }

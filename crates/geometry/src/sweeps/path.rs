@@ -144,9 +144,8 @@ impl Segment {
             ("scale of y at the end", self.to.y),
         ];
         if let Some((name, value)) = values.into_iter().find(|(_, value)| !value.is_finite()) {
-            return Err(
-                Error::argument(format!("the {name} of the segment is {value}")).help("give a finite number")
-            );
+            return Err(Error::argument(format!("the segment's {name} must be finite, not {value}"))
+                .help("give a finite number"));
         }
         if self.steps == 0 {
             return Err(Error::argument("the segment has no steps").help("give at least 1 step"));
@@ -160,9 +159,8 @@ impl Segment {
             if step >= TAU / 2.0 {
                 let steps = (angle.abs() / (TAU / 2.0)) as usize + 1;
                 let message = format!("the segment {name} by {whole:.1} degrees in {} steps", self.steps);
-                return Err(
-                    Error::geometry(message).help(format!("give at least {steps} steps, better many more"))
-                );
+                return Err(Error::geometry(message)
+                    .help(format!("give at least {steps} steps, preferably many more")));
             }
         }
         Ok(())
@@ -222,7 +220,7 @@ mod tests {
             segment.stations(Frame::default(), &mut Vec::new()).expect_err("refused").to_string()
         };
         insta::assert_snapshot!(refuse(Segment { twist: f64::NAN, ..Segment::default() }), @r"
-        the twist of the segment is NaN
+        the segment's twist must be finite, not NaN
           help: give a finite number
         ");
         insta::assert_snapshot!(refuse(Segment { steps: usize::MAX, ..Segment::default() }), @r"
@@ -235,7 +233,7 @@ mod tests {
         ");
         insta::assert_snapshot!(refuse(Segment { bend: 7.0, steps: 2, ..Segment::default() }), @r"
         the segment bends by 401.1 degrees in 2 steps
-          help: give at least 3 steps, better many more
+          help: give at least 3 steps, preferably many more
         ");
     }
 }

@@ -144,8 +144,8 @@ fn ring(
     let slope = heading.dot(normal);
     // A mitre of 160 degrees is already six times as long as the section is wide.
     if slope < 0.17 {
-        return Err(Error::geometry(format!("the way turns back on itself at station {number}"))
-            .help("turn in several steps with some length between them, or begin a new run"));
+        return Err(Error::geometry(format!("the path turns back on itself at station {number}"))
+            .help("turn in several steps with a length between them, or begin a new run"));
     }
     let (x, y) = pose.axes();
     let place = |point: DVec2| {

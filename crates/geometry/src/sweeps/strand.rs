@@ -108,7 +108,7 @@ impl Strand {
     pub fn begin(sides: usize, position: DVec3, side: DVec3, radius: f64) -> Result<Self> {
         refuse_infinite(position, radius)?;
         if !(3..=MOST_SIDES).contains(&sides) {
-            return Err(Error::argument(format!("a round tube of {sides} sides cannot be made"))
+            return Err(Error::argument(format!("a round tube cannot have {sides} sides"))
                 .help(format!("give 3 to {MOST_SIDES} sides, or sweep a cross-section")));
         }
         let side = if side.is_finite() { side.normalize_or_zero().as_vec3a() } else { Vec3A::ZERO };
@@ -141,7 +141,7 @@ impl Strand {
         if most > Triangles::MOST_BEFORE - 8 * self.vertices() {
             return Err(Error::limit(
                 Limit::Size,
-                format!("a mesh holds no more than {} vertices or triangles", u32::MAX),
+                format!("a mesh can have at most {} vertices or triangles", u32::MAX),
             )
             .help("draw fewer branches or fewer sides, or begin another mesh"));
         }
@@ -334,8 +334,8 @@ fn refuse_infinite(position: DVec3, radius: f64) -> Result<()> {
         return Ok(());
     }
     let DVec3 { x, y, z } = position;
-    Err(Error::geometry(format!("a branch goes to ({x}, {y}, {z}) with a radius of {radius}"))
-        .help("give a place and a radius in metres, within 1e9 of the origin"))
+    Err(Error::geometry(format!("a branch ends at ({x}, {y}, {z}) with a radius of {radius}"))
+        .help("give a position and a radius in metres, within 1e9 of the origin"))
 }
 
 #[cfg(test)]
@@ -455,11 +455,11 @@ mod tests {
         let mut nan =
             |radius| tube(&mut part, 6, (DVec3::ZERO, 1.0), (DVec3::Z, radius)).expect_err("refused");
         insta::assert_snapshot!(nan(f64::NAN), @r"
-        a branch goes to (0, 0, 1) with a radius of NaN
-          help: give a place and a radius in metres, within 1e9 of the origin
+        a branch ends at (0, 0, 1) with a radius of NaN
+          help: give a position and a radius in metres, within 1e9 of the origin
         ");
         insta::assert_snapshot!(Strand::begin(2, DVec3::ZERO, DVec3::X, 1.0).expect_err("refused"), @r"
-        a round tube of 2 sides cannot be made
+        a round tube cannot have 2 sides
           help: give 3 to 64 sides, or sweep a cross-section
         ");
     }

@@ -99,7 +99,7 @@ impl<'a> SweepSurface<'a> {
         }
         Err(Error::limit(
             Limit::Size,
-            format!("the sweep needs up to {most} vertices, and a mesh holds {}", u32::MAX),
+            format!("the sweep needs up to {most} vertices, but a mesh can have {}", u32::MAX),
         )
         .help("give fewer steps or points, or begin another mesh"))
     }
@@ -321,13 +321,13 @@ fn no_area(a: &SectionRing, b: &SectionRing, point: usize) -> Error {
     let (from, to) = (a.station, b.station);
     let message = format!("between stations {from} and {to} the face after point {} has no area", point + 1);
     Error::geometry(message)
-        .help("leave some length between the stations, or centre the cross-section differently")
+        .help("increase the length between the stations, or centre the cross-section differently")
 }
 
 fn crossing(a: &SectionRing, b: &SectionRing) -> Error {
     Error::geometry(format!(
-        "the outlines at stations {} and {} are at one place and cross",
+        "the outlines at stations {} and {} are at the same position and cross",
         a.station, b.station
     ))
-    .help("leave some length between the stations, or end the run there and begin a new one")
+    .help("increase the length between the stations, or end the run there and begin a new one")
 }

@@ -20,14 +20,12 @@ use burgeon_rewriting::ColumnValue;
 pub fn refuse_unknown(kind: &str, fields: &[&str], table: &Table) -> Result<()> {
     for (key, value) in &table.entries {
         let TableKey::Name(name) = key else {
-            return Err(Error::argument(format!(
-                "{kind} takes named fields, but was given {value} without a name"
-            ))
-            .help(format!("write {kind} {{ {} = {value} }}", fields.first().unwrap_or(&"name")))
-            .of_script());
+            return Err(Error::argument(format!("{kind} needs named fields, but {value} has no name"))
+                .help(format!("write {kind} {{ {} = {value} }}", fields.first().unwrap_or(&"name")))
+                .of_script());
         };
         if !fields.contains(&&**name) {
-            let message = format!("{kind} has no field called {name}");
+            let message = format!("unknown field `{name}` in {kind}");
             return Err(Error::not_found("field", name, fields.iter().copied(), message)
                 .help(format!("it has {}", fields.join(", ")))
                 .of_script());
@@ -169,7 +167,7 @@ pub fn as_mut<T: Object>(object: &mut dyn Object) -> Option<&mut T> {
 
 #[cold]
 fn wrong_type() -> Error {
-    Error::script("the method belongs to another type of object")
+    Error::script("the method belongs to another object type")
         .help("call it with a colon: this:method()")
         .of_script()
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::capability::{Capabilities, Capability, Draw, Gather, Show};
 use crate::capability;
-use crate::{Argument, BeginPrefetch, Constructor, Loader, Object, Table, Value};
+use crate::{Argument, BeginPrefetch, Constructor, Deprecation, Loader, Object, Table, Value};
 use burgeon_base::error::{Error, Result, SourcePlace};
 
 /// Text that is static in a built-in type and owned in any other.
@@ -70,24 +70,6 @@ pub trait KindDeclaration: Any + Send + Sync {
     fn place(&self) -> Option<&SourcePlace>;
 }
 
-/// A deprecated name, which still works and will be removed.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Deprecation {
-    /// Name of a field or method; empty for the type itself.
-    pub name: SharedText,
-    /// First version of the script API that deprecates the name.
-    pub since: SharedText,
-    /// Replacement.
-    pub instead: SharedText,
-}
-
-impl Deprecation {
-    /// Returns the warning for users; `name` is the name as the script writes it.
-    pub fn message(&self, name: &str) -> String {
-        format!("{name} is deprecated since version {} of the script API", self.since)
-    }
-}
-
 /// Function that makes an object from the constructor's table.
 pub type Make = Arc<dyn Fn(&Table) -> Result<Box<dyn Object>> + Send + Sync>;
 
@@ -117,6 +99,8 @@ pub struct Field {
     pub fields: Vec<Field>,
     /// Value of an omitted field, as written in a script.
     pub default: String,
+    /// Former names, which scripts can still use.
+    pub former: Vec<Deprecation>,
 }
 
 /// A method that scripts can call.
@@ -138,7 +122,15 @@ impl Field {
     /// Creates a field of type `luau`; a type that ends with `?` makes the field optional.
     pub fn new(name: impl Into<SharedText>, luau: &str, doc: impl Into<SharedText>) -> Self {
         let (luau, default) = (luau.to_owned(), String::new());
-        Self { name: name.into(), doc: doc.into(), luau, unit: None, fields: Vec::new(), default }
+        Self {
+            name: name.into(),
+            doc: doc.into(),
+            luau,
+            unit: None,
+            fields: Vec::new(),
+            default,
+            former: Vec::new(),
+        }
     }
 }
 
@@ -236,33 +228,6 @@ impl Kind {
         Self { fields, ..self }
     }
 
-    /// Deprecates `name`, a field or a method, or the type itself if empty. Scripts that use it are warned to use
-    /// `instead` since version `since` of the script API.
-    ///
-    /// ```
-    /// use burgeon_kit::Kind;
-    ///
-    /// let lamp = Kind::new("lamp", "A lamp.").deprecates("size", "1.3", "height");
-    /// let deprecation = lamp.deprecation("size").expect("a deprecated field");
-    /// assert_eq!(deprecation.message("lamp.size"), "lamp.size is deprecated since version 1.3 of the script API");
-    /// assert_eq!(deprecation.instead, "height");
-    /// ```
-    #[must_use]
-    pub fn deprecates(
-        mut self,
-        name: impl Into<SharedText>,
-        since: impl Into<SharedText>,
-        instead: impl Into<SharedText>,
-    ) -> Self {
-        self.deprecated.push(Deprecation { name: name.into(), since: since.into(), instead: instead.into() });
-        self
-    }
-
-    /// Returns the deprecation of the field or method `name`, if it is deprecated.
-    pub fn deprecation(&self, name: &str) -> Option<&Deprecation> {
-        self.deprecated.iter().find(|known| known.name == name)
-    }
-
     /// Allows the field `first` before the table.
     #[must_use]
     pub fn first(self, first: impl Into<SharedText>) -> Self {
@@ -342,7 +307,7 @@ impl Kind {
     /// Makes an object from the fields of the constructor. Fails if the type has no constructor with fields.
     pub fn make(&self, table: &Table) -> Result<Box<dyn Object>> {
         match &self.construct {
-            Construct::Fields(make) => make(table),
+            Construct::Fields(make) => make(&*Field::replace_former_names(&self.name, &self.fields, table)?),
             Construct::File(_) | Construct::Given => {
                 Err(Error::argument(format!("{} is not made of fields", self.name)))
             }
@@ -377,12 +342,13 @@ impl Kind {
     /// Returns the error for a method name that does not exist, with the nearest existing name.
     pub fn unknown_method(&self, name: &str) -> Error {
         let is_own = |method: &&Method| matches!(method.call, Call::Script { .. });
-        let (own, others): (Vec<_>, Vec<_>) = self.methods.iter().partition(is_own);
+        let current = self.methods.iter().filter(|method| self.deprecation(&method.name).is_none());
+        let (own, others): (Vec<_>, Vec<_>) = current.partition(is_own);
         let mut names: Vec<&str> = own.iter().map(|method| &*method.name).collect();
         names.extend(self.script.iter().flat_map(|script| script.member_names()));
         names.extend(others.iter().map(|method| &*method.name));
         names.dedup();
-        let message = format!("{} has no method or field called {name}", self.name);
+        let message = format!("unknown method or field `{name}` of {}", self.name);
         Error::not_found("method", name, names.iter().copied(), message)
             .help(format!("it has {}", names.join(", ")))
     }

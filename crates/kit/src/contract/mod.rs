@@ -5,6 +5,7 @@ mod argument;
 mod capability;
 mod constructor;
 pub mod declare;
+mod deprecation;
 mod drawing;
 mod kind;
 mod loading;
@@ -22,10 +23,9 @@ pub use capability::{
     Warn,
 };
 pub use constructor::Constructor;
+pub use deprecation::Deprecation;
 pub use drawing::Drawing;
-pub use kind::{
-    Call, Construct, Deprecation, Field, Kind, KindDeclaration, Make, Method, ReadCall, Write, WriteNumbers,
-};
+pub use kind::{Call, Construct, Field, Kind, KindDeclaration, Make, Method, ReadCall, Write, WriteNumbers};
 pub use loading::{LoadRequest, LoadServices, LoadedObject, Loader, Resources};
 pub use model::Model;
 pub use object::Object;

@@ -236,9 +236,9 @@ impl Parameter for u32 {
     fn from_value(value: Value) -> Result<Self, Expectation> {
         match value {
             Value::Number(number) => {
-                Self::from_number(number).ok_or_else(|| Expectation::new("a whole number from 0"))
+                Self::from_number(number).ok_or_else(|| Expectation::new("an integer of at least 0"))
             }
-            _ => Err(Expectation::new("a whole number from 0")),
+            _ => Err(Expectation::new("an integer of at least 0")),
         }
     }
 

@@ -7,7 +7,8 @@ use std::sync::{Arc, Weak};
 use crate::capability;
 use crate::declare::refuse_unknown;
 use crate::{
-    Argument, Call, Construct, Kind, KindDeclaration, Method, Object, ScriptField, ScriptObject, Table, Value,
+    Argument, Call, Construct, Field, Kind, KindDeclaration, Method, Object, ScriptField, ScriptObject,
+    Table, Value,
 };
 use crate::{Draw, LevelOfDetail, Report, Warn};
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
@@ -102,21 +103,21 @@ impl ScriptType {
             let kind = object.kind();
             if !kind.has_capability::<dyn Draw>() {
                 return Err(Error::argument(format!(
-                    "{name}: {held} of its state is a {}, which cannot be held",
+                    "{name}: {held} of its state is a {}, which cannot be a child object",
                     kind.name
                 ))
-                .help("hold an object that draws where it is told to, such as an extruder or a turtle"));
+                .help("use an object that draws with its own methods, such as an extruder or a turtle"));
             }
         }
-        let help = "let modules place what others have drawn: this:place(derived)";
+        let help = "place derived models with modules: this:place(derived)";
         if self.held_depth() > DEEPEST_HELD {
-            let message = format!("{name} holds objects that hold objects, more than {DEEPEST_HELD} deep");
+            let message = format!("{name} has child objects nested more than {DEEPEST_HELD} deep");
             return Err(Error::limit(Limit::Size, message).help(help));
         }
         let count = self.held_count();
         if count > MOST_HELD {
             let message =
-                format!("{name} holds {count} objects, those within them counted, and may hold {MOST_HELD}");
+                format!("{name} has {count} child objects, counted recursively; the limit is {MOST_HELD}");
             return Err(Error::limit(Limit::Size, message).help(help));
         }
         Ok(())
@@ -139,13 +140,14 @@ impl ScriptType {
             && !base.has_capability::<dyn Draw>()
         {
             return Err(Error::argument(format!(
-                "a {} does not draw, so {name} can hold nothing that does",
+                "a {} does not draw, so {name} cannot have child objects that draw",
                 base.name
             )));
         }
         let own: BTreeSet<String> = self.fields.iter().map(|field| field.name.to_string()).collect();
         let inherited = base.iter().flat_map(|base| &base.fields);
-        let inherited: Vec<_> = inherited.filter(|field| !own.contains(&*field.name)).cloned().collect();
+        let is_own = |field: &Field| own.iter().any(|name| field.is_called(name));
+        let inherited: Vec<_> = inherited.filter(|field| !is_own(field)).cloned().collect();
         let mut fields: Vec<_> = self.fields.iter().map(ScriptField::describe).collect();
         fields.extend(inherited);
         let mut all: Vec<Method> = base.iter().flat_map(|base| base.methods.iter().cloned()).collect();
@@ -164,8 +166,8 @@ impl ScriptType {
                 }
                 Some(known) => {
                     let of = base.as_ref().map_or("every object", |base| &*base.name);
-                    return Err(Error::argument(format!("{of} has a method called {} already", known.name))
-                        .help(format!("give that of {name} another name")));
+                    return Err(Error::argument(format!("{of} already has a method `{}`", known.name))
+                        .help(format!("rename the method of {name}")));
                 }
                 None => all.push(method),
             }
@@ -174,14 +176,12 @@ impl ScriptType {
             .iter()
             .find(|field| own.contains(&*field.name) && all.iter().any(|method| method.name == field.name))
         {
-            return Err(Error::argument(format!("{name} has a field and a method called {}", clash.name))
-                .help("give one of them another name"));
+            return Err(Error::argument(format!("{name} has a field and a method named `{}`", clash.name))
+                .help("rename one of them"));
         }
         if let Some((held, _)) = self.held.iter().find(|(held, _)| all.iter().any(|it| it.name == **held)) {
-            return Err(Error::argument(format!(
-                "{name} has a method called {held}, and holds an object of that name"
-            ))
-            .help("give one of them another name"));
+            return Err(Error::argument(format!("{name} has a method and a child object named `{held}`"))
+                .help("rename one of them"));
         }
         let doc = doc.to_owned();
         let of = Arc::new(self);
@@ -199,6 +199,7 @@ impl ScriptType {
                 Some(base) => Kind {
                     first: base.first.clone(),
                     begins_empty: base.begins_empty,
+                    deprecated: base.deprecated.clone(),
                     capabilities: base.capabilities.clone(),
                     gather: base.gather,
                     prefetch: base.prefetch,
@@ -224,13 +225,14 @@ impl ScriptType {
                 Some(value) => field.read(&kind.name, value)?,
                 None => field.default.clone().ok_or_else(|| {
                     let (kind, name) = (&kind.name, &field.name);
-                    Error::argument(format!("{kind}: {name} must be given"))
+                    Error::argument(format!("{kind}: missing field `{name}`"))
                         .help(format!("write {kind} {{ {name} = ... }}"))
                         .of_data()
                 })?,
             };
             given.entries.retain(|(known, _)| *known != key);
-            let is_inherited = |base: &Arc<Kind>| base.fields.iter().any(|known| known.name == *field.name);
+            let is_inherited =
+                |base: &Arc<Kind>| base.fields.iter().any(|known| known.is_called(&field.name));
             if self.base.as_ref().is_some_and(is_inherited) && value != Value::Nil {
                 given.entries.push((key.clone(), value.clone()));
             }
@@ -252,8 +254,7 @@ fn inner(object: &Arc<dyn Object>) -> Option<&ScriptType> {
 const AS: &str = "as";
 
 fn seen_as() -> Method {
-    let doc = "The object as the type that `constructor` makes sees it, which its own extends: a function that says anew what that \
-               type's does can call it so, such as self:as(lantern):lamp(1).";
+    let doc = "Returns the object as its base type with this `constructor`: a method that overrides a method of the base type can call the original with it, such as self:as(lantern):lamp(1).";
     let (name, arguments, returns) = (AS.into(), vec![Argument::new("constructor")], "any".to_owned());
     Method { name, doc: doc.into(), arguments, returns, call: Call::Script { changes: false } }
 }

@@ -87,9 +87,9 @@ impl ScriptField {
                 TableKey::Index(index) => index.to_string(),
             };
             if !PARTS.contains(&key.as_str()) {
-                let message = format!("the field {owner} is declared with {key}, which means nothing");
+                let message = format!("field {owner}: unknown key `{key}`");
                 return Err(Error::not_found("field", &key, PARTS, message).help(format!(
-                    "it may have {}; a table as the default is {{ default = {{ ... }} }}",
+                    "the allowed keys are {}; for a table as the default, write {{ default = {{ ... }} }}",
                     PARTS.join(", ")
                 )));
             }
@@ -98,26 +98,28 @@ impl ScriptField {
         let sort = match (read::<String>(&owner, table, "type")?, &default) {
             (None, Some(default)) => ValueSort::of(default),
             (None, None) => {
-                return Err(Error::argument(format!("the field {owner} has neither a default nor a type"))
-                    .help("write { default = ... }, or { type = \"number\" } where it must be given"));
+                return Err(Error::argument(format!("field {owner}: missing default or type"))
+                    .help("write { default = ... }, or { type = \"number\" } for a required field"));
             }
             (Some(name), _) => {
                 let known = ValueSort::ALL.iter().find(|(known, _)| *known == name);
                 known.map(|(_, sort)| *sort).ok_or_else(|| {
                     let names = ValueSort::ALL.map(|(name, _)| name);
-                    let message = format!("the field {owner} is of type {name}, which there is not");
+                    let message = format!("field {owner}: unknown type `{name}`");
                     Error::not_found("type", &name, names, message)
-                        .help(format!("it may be {}", names.join(", ")))
+                        .help(format!("the allowed types are {}", names.join(", ")))
                 })?
             }
         };
         let (min, max) = (read(&owner, table, "min")?, read(&owner, table, "max")?);
         let choices: Vec<String> = read(&owner, table, "choices")?.unwrap_or_default();
         if sort != ValueSort::Number && (min.is_some() || max.is_some()) {
-            return Err(Error::argument(format!("the field {owner} is no number, so it has no min or max")));
+            return Err(Error::argument(format!(
+                "field {owner} is not a number, so it cannot have min or max"
+            )));
         }
         if sort != ValueSort::Text && table.get("choices").is_some() {
-            return Err(Error::argument(format!("the field {owner} is no string, so it has no choices")));
+            return Err(Error::argument(format!("field {owner} is not a string, so it cannot have choices")));
         }
         let text = |part: &str| read::<String>(&owner, table, part);
         let (unit, doc) = (text("unit")?, text("doc")?.unwrap_or_default());
@@ -199,6 +201,7 @@ impl ScriptField {
             unit: self.unit.as_ref().map(|unit| Cow::Owned(unit.to_string())),
             fields: Vec::new(),
             default: self.default.as_ref().map_or_else(String::new, Value::to_string),
+            former: Vec::new(),
         }
     }
 }
@@ -243,26 +246,20 @@ mod tests {
     fn a_declaration_that_means_nothing_is_refused() {
         let number = Value::Number(4.0);
         for (declared, message) in [
-            (table(&[]), "the field lantern.height has neither a default nor a type"),
-            (
-                table(&[("defualt", number.clone())]),
-                "the field lantern.height is declared with defualt, which means nothing",
-            ),
+            (table(&[]), "field lantern.height: missing default or type"),
+            (table(&[("defualt", number.clone())]), "field lantern.height: unknown key `defualt`"),
             (
                 table(&[("default", number.clone()), ("min", Value::Number(5.0))]),
                 "lantern: height must be 5 or more, not 4",
             ),
-            (
-                table(&[("type", Value::Text("numbr".into()))]),
-                "the field lantern.height is of type numbr, which there is not",
-            ),
+            (table(&[("type", Value::Text("numbr".into()))]), "field lantern.height: unknown type `numbr`"),
             (
                 table(&[("default", Value::Boolean(true)), ("min", number.clone())]),
-                "the field lantern.height is no number, so it has no min or max",
+                "field lantern.height is not a number, so it cannot have min or max",
             ),
             (
                 table(&[("default", number), ("choices", table(&[]))]),
-                "the field lantern.height is no string, so it has no choices",
+                "field lantern.height is not a string, so it cannot have choices",
             ),
         ] {
             let error = ScriptField::declare("lantern", "height", &declared).expect_err(message);

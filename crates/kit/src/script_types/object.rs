@@ -144,7 +144,7 @@ fn swap(object: &mut dyn Object, shared: &mut Drawing) {
 }
 
 fn none_held() -> Error {
-    Error::internal("the object holds no such object")
+    Error::internal("unknown child object")
 }
 
 impl Object for ScriptObject {

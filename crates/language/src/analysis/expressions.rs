@@ -144,8 +144,8 @@ impl Walk<'_> {
     /// Refuses weak tables, because their content depends on the time of garbage collection.
     fn refuse_weak(&mut self, token: &TokenReference, name: &str) {
         if name == "__mode" {
-            let error = Error::script("what a weak table holds is not certain");
-            self.problem(token, error.help("leave __mode out: memory is given back when the run ends"));
+            let error = Error::script("the content of a weak table is not deterministic");
+            self.problem(token, error.help("remove __mode: memory is freed when the run ends"));
         }
     }
 

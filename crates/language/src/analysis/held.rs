@@ -94,7 +94,7 @@ impl CallCheck<'_> {
         };
         let Some(table) = table else { return };
         let names_a_field = table.fields().iter().any(|field| match field {
-            Field::NameKey { key, .. } => kind.fields.iter().any(|known| known.name == text_of(key)),
+            Field::NameKey { key, .. } => kind.fields.iter().any(|known| known.is_called(&text_of(key))),
             _ => false,
         });
         // A single table may be the value of the first field.
@@ -125,9 +125,9 @@ impl CallCheck<'_> {
         for field in table.fields() {
             let Field::NameKey { key, value, .. } = field else { continue };
             let name = text_of(key);
-            let Some(known) = fields.iter().find(|known| known.name == name) else {
+            let Some(known) = fields.iter().find(|known| known.is_called(&name)) else {
                 let names: Vec<&str> = fields.iter().map(|known| &*known.name).collect();
-                let message = format!("{owner} has no field called {name}");
+                let message = format!("unknown field `{name}` in {owner}");
                 let error = Error::not_found("field", &name, names.iter().copied(), message);
                 self.problem(key, error.help(format!("it has {}", names.join(", "))));
                 continue;
@@ -262,7 +262,7 @@ mod tests {
         ("function() end", Literal::Function),
     ];
 
-    /// Returns a literal that fits the argument, and one that does not, if there are any.
+    /// Returns a literal that fits the argument, and one that does not, if use any.
     fn values(argument: &Argument) -> (Option<&'static str>, Option<&'static str>) {
         let registry = burgeon_objects::registry();
         let ast = full_moon::parse("").expect("nothing");
@@ -366,7 +366,7 @@ mod tests {
         ] {
             let found = messages(script);
             assert!(
-                found.iter().all(|text| text.contains("turtle has no method or field called jump")),
+                found.iter().all(|text| text.contains("unknown method or field `jump` of turtle")),
                 "{script}: {found:?}"
             );
         }

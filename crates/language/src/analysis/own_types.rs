@@ -195,13 +195,13 @@ impl CallCheck<'_> {
         let Some(script) = ScriptType::of(kind) else { return };
         let kind_name = &kind.name;
         let error = if self.role == FunctionRole::Reading {
-            Error::scope(format!("{kind_name}: a function that reads assigns {text}"))
-                .help("put it among the changes of the type, which interpretations may call")
+            Error::scope(format!("{kind_name}: a read method assigns {text}"))
+                .help("move it to the changes of the type, which interpretations can call")
         } else if self.role != FunctionRole::Changing || script.state.get(&text).is_some() {
             return;
         } else if script.fields.iter().any(|field| *field.name == *text) {
-            Error::scope(format!("{text} is a field of {kind_name}, which is given when one is made"))
-                .help("keep what changes in its state")
+            Error::scope(format!("{text} is a field of {kind_name}, which only the constructor sets"))
+                .help("keep changing values in the state")
         } else if self.registry.kinds().any(|other| {
             ScriptType::of(other).is_some_and(|it| {
                 it.above.iter().any(|above| **above == **kind_name) && it.state.get(&text).is_some()
@@ -209,10 +209,10 @@ impl CallCheck<'_> {
         }) {
             return;
         } else {
-            let error = Error::scope(format!("{kind_name} has no state called {text}"));
+            let error = Error::scope(format!("{kind_name}: unknown state variable `{text}`"));
             match value {
                 Inference::Object(kind) => error.help(format!(
-                    "declare what it draws with: state = {{ {text} = {}() }}, and call its methods: self.{text}:...",
+                    "declare the child object: state = {{ {text} = {}() }}, and call its methods: self.{text}:...",
                     kind.name
                 )),
                 _ => error.help(format!("declare it: state = {{ {text} = ... }}")),

@@ -38,7 +38,7 @@ pub fn sql_parameters(sql: &str) -> Result<Vec<&str>> {
                     quote.len()
                 } else {
                     return Err(Error::argument(format!("{quote} in a query has no name")).help(
-                        "a parameter is $ and a name, such as $id; its value is that of the module's parameter",
+                        "a parameter is $ and a name, such as $id; its value is the value of the module's parameter",
                     ));
                 }
             }

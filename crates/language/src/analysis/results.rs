@@ -141,13 +141,13 @@ impl CallCheck<'_> {
                 };
                 let full = format!("{}:{text}", kind.name);
                 if method.call.changes() && matches!(self.role, FunctionRole::Rule | FunctionRole::Guard) {
-                    let message = format!("{full} changes the object, so a rule cannot call it");
+                    let message = format!("{full} is a write method, so a rule cannot call it");
                     let help =
                         "use an interpretation rule: system:interpret(pattern, function(this, ...) ... end)";
                     self.problem(name, Error::scope(message).help(help));
                 } else if method.call.changes() && self.role == FunctionRole::Reading {
-                    let message = format!("{full} changes the object, and a function that reads does not");
-                    let help = "put it among the changes of the type";
+                    let message = format!("{full} is a write method, so a read method cannot call it");
+                    let help = "move it to the changes of the type";
                     self.problem(name, Error::scope(message).help(help));
                 }
                 if text == "as" {
@@ -162,7 +162,7 @@ impl CallCheck<'_> {
                 let given = self.rule(&text, &expressions_of(args), kind.as_ref());
                 let Some(method) = SYSTEM.find(&text) else {
                     let known = SYSTEM.part_names();
-                    let message = format!("a system has no method called {text}");
+                    let message = format!("unknown method `{text}` of a system");
                     let error = Error::not_found("method", &text, known.iter().copied(), message);
                     self.problem(name, error.help(format!("it has {}", known.join(", "))));
                     return Inference::Unknown;

@@ -125,8 +125,8 @@ impl ScriptReader {
         // A thread that has already ended needs no globals.
         let _ = self.globals.send(globals.clone());
         self.analysis.recv_timeout(PATIENCE).unwrap_or_else(|_| {
-            let error = Error::limit(Limit::Time, format!("reading {} takes too long", self.file))
-                .help("nest strings such as `a {`b`}` less deeply, or divide the file");
+            let error = Error::limit(Limit::Time, format!("analysing {} takes too long", self.file))
+                .help("nest strings such as `a {`b`}` less deeply, or split the file");
             unread(&self.text, vec![error])
         })
     }
@@ -142,8 +142,8 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
     let Some(code) = compile(text) else { return unread(text, Vec::new()) };
     let refuse = |line: usize| {
         let place = SourcePlace { file: file.to_owned(), line };
-        let error = Error::syntax("this part of Luau's syntax is not known to Burgeon")
-            .help("write it in another way; attributes in brackets, such as @[native], are not needed");
+        let error = Error::syntax("Burgeon does not support this Luau syntax")
+            .help("write it differently; attributes in brackets, such as @[native], are not needed");
         unread(text, vec![error.at(Some(place))])
     };
     let ast = match full_moon::parse(text) {

@@ -11,15 +11,15 @@ use full_moon::tokenizer::{Position, TokenType};
 pub(super) fn instead_of(name: &str) -> Option<&'static str> {
     Some(match name {
         "io" | "os" | "package" | "dofile" | "loadfile" => {
-            "scripts reach no files, clock or programs; other scripts in the folder come in with require"
+            "scripts cannot use files, the clock or programs; load other scripts of the folder with require"
         }
-        "loadstring" | "load" => "scripts do not compile text; a successor may be given as a string",
+        "loadstring" | "load" => "scripts cannot compile text; a successor can be a string",
         "_G" | "getfenv" | "setfenv" | "shared" => {
-            "there are no globals to change; pass values on as parameters or with require"
+            "globals cannot be changed; pass values as parameters or with require"
         }
-        "debug" | "newproxy" | "collectgarbage" | "gcinfo" => "a script does without it",
-        "math.random" => "write random() or random(low, high), which follow the seed and the module",
-        "math.randomseed" => "give the seed with --seed, or a system its own: lsystem { seed = 7 }",
+        "debug" | "newproxy" | "collectgarbage" | "gcinfo" => "remove it",
+        "math.random" => "write random() or random(low, high), which depend on the seed and the module",
+        "math.randomseed" => "set the seed with --seed, or for one system: lsystem { seed = 7 }",
         "math.noise" => "write noise(x, y, z)",
         _ => return None,
     })

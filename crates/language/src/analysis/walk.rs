@@ -266,8 +266,8 @@ impl<'a> Walk<'a> {
         let function = self.functions.len() - 1;
         let text = text_of(name);
         if text.starts_with("__") {
-            let error = Error::script(format!("a variable cannot be called {text}"));
-            self.problem(name, error.help("names that begin with two underscores are Burgeon's own"));
+            let error = Error::script(format!("a variable cannot be named {text}"));
+            self.problem(name, error.help("names that begin with two underscores are reserved"));
         }
         self.variables.push(Variable {
             name: text,
@@ -318,14 +318,14 @@ impl<'a> Walk<'a> {
         let found = self.find(&name).map(|variable| (variable.id, variable.function));
         let Some((id, owner)) = found else {
             if self.globals.names.contains(&name) {
-                let error = Error::scope(format!("{name} is Burgeon's own and cannot be assigned"));
+                let error = Error::scope(format!("cannot assign {name}: it is built in"));
                 self.problem(token, error.help("choose another name: local ..."));
                 return;
             }
-            let error = Error::scope(format!("{name} is assigned, but it is no local variable"));
+            let error = Error::scope(format!("cannot assign {name}: it is not a local variable"));
             self.problem(token, match rule {
-                Some(_) => error.help("a rule writes only its own locals; declare it inside: local ..., or use an interpretation rule to change the object"),
-                None => error.help(format!("scripts have no globals of their own; write: local {name} = ...")),
+                Some(_) => error.help("a rule can assign only its own locals; declare it inside: local ..., or use an interpretation rule to change the object"),
+                None => error.help(format!("scripts cannot define globals; write local {name} = ...")),
             });
             return;
         };
@@ -342,15 +342,15 @@ impl<'a> Walk<'a> {
                 };
                 let help = match self.functions[rule].role {
                     FunctionRole::Interpretation => {
-                        "it changes only this; keep what must be remembered in a parameter of a module"
+                        "it can change only `this`; keep values in a parameter of a module"
                     }
                     _ => {
-                        "carry it in a parameter of a module; to change the object, use an interpretation rule"
+                        "pass it in a parameter of a module; to change the object, use an interpretation rule"
                     }
                 };
                 self.problem(
                     token,
-                    Error::scope(format!("{what} assigns {name}, a variable from outside it")).help(help),
+                    Error::scope(format!("{what} assigns {name}, a variable declared outside")).help(help),
                 );
             }
             return;

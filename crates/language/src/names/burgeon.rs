@@ -17,40 +17,37 @@ pub(super) fn names() -> Vec<Name> {
     names.extend([
         Name::global(
             "module",
-            "Declares modules with this name and these parameters, and gives the function that makes them. A parameter \
-             whose name ends with ? may be left out.",
+            "Declares a module and returns its constructor. A parameter whose name ends with ? is optional.",
         )
         .form([argument("name", "string"), argument("...", "string")], "(...any) -> Module"),
         Name::global(
             "random",
-            "A random number of the module that is rewritten or drawn: between `a` (0 unless given) and `b` (1 unless given), \
-             which are given together.",
+            "Returns a random number between `a` (0 unless given) and `b` (1 unless given), which depends on the seed and the current module. Pass both bounds or none.",
         )
         .form([argument("a", "number?"), argument("b", "number?")], "number")
         .pure(),
         Name::global(
             "warn",
-            "Adds a warning to the run: what is wrong, and what to do about it. Only the top level of a script and its functions \
-             can warn, not rules.",
+            "Adds a warning to the run, with the problem and its remedy. Only the top level of a script and its functions can warn, not rules.",
         )
         .form([argument("text", "string"), argument("help", "string?")], "()"),
-        Name::global("require", "What another file of the script returns, or of a package: require(\"@castle/towers\"). Each is run once.")
+        Name::global("require", "Returns the result of another file of the script or of a package: require(\"@castle/towers\"). Each file runs once.")
             .form([argument("name", "string")], "any"),
         Name::global(
             "api",
-            "What scripts can rely on: the version of these names, and whether a name is among them.",
+            "The version of the script API, and a test for its names.",
         )
-        .fields([Field::new("version", "string", "The version of the script API, such as \"1.0.0\".")])
+        .fields([Field::new("version", "string", "The version of the script API, such as \"1.1.0\".")])
         .functions([Name::function(
             "has",
-            "Whether there is such a name, such as \"terrain\" or \"extruder.bend\", or such a package, as \"@castle\".",
+            "Tests whether a name exists, such as \"terrain\" or \"extruder.bend\", or a package, such as \"@castle\".",
         )
         .form([argument("name", "string")], "boolean")
         .pure()])
         .pure(),
         Name::global(
             "lod",
-            "The level of detail of the run: 0 ground plans, 1 blocks, 2 roofs, 3 everything.",
+            "The level of detail of the run: 0 footprints, 1 blocks, 2 roofs, 3 full detail.",
         )
         .luau("number"),
         Name::return_value(
@@ -61,36 +58,35 @@ pub(super) fn names() -> Vec<Name> {
         Name::return_value(
             "feature",
             "Feature",
-            "A feature of a data file: its attributes by name, and these, which win over attributes.",
+            "A feature of a data file: its attributes by name, and these fields, which override attributes of the same name.",
         )
         .fields([
-            Field::new("id", "string", "What tells it from all others."),
+            Field::new("id", "string", "The unique id."),
             Field::new(
                 "geometry",
                 "Geometry",
-                "Where it is; what a geometry has is told of under geometry.",
+                "The geometry; see `geometry`.",
             ),
-            Field::new("layer", "string", "The name of its layer."),
-            Field::new("[string]", "any", "Its attributes, by name."),
+            Field::new("layer", "string", "The name of the layer."),
+            Field::new("[string]", "any", "The attributes, by name."),
         ]),
         Name::global(
             "geometry",
-            "The geometry of a well-known text such as \"POLYGON ((0 0, 4 0, 4 3, 0 0))\", of a feature, or of a table \
-             with rings or points; what it has is told of under the type geometry.",
+            "Creates a geometry from well-known text such as \"POLYGON ((0 0, 4 0, 4 3, 0 0))\", a feature, or a table with rings or points; see the type geometry.",
         )
         .form([argument("text", "string | Geometry | { any }")], "Geometry")
         .pure(),
-        Name::global("point", "A point: where it is to the east, `x` (m), and to the north, `y` (m), and its height `z` (m); or a vector.")
+        Name::global("point", "Creates a point from its coordinates: east `x` (m), north `y` (m) and height `z` (m); or from a vector.")
             .form([argument("x", "number"), argument("y", "number"), argument("z", "number?")], "Geometry")
             .form([argument("place", "Vector | Geometry")], "Geometry")
             .pure(),
-        Name::global("line", "A line through points (m): a list of them, or one after the other.")
+        Name::global("line", "Creates a line through points (m), given as a list or as separate arguments.")
             .form([argument("points", "{ any }")], "Geometry")
             .form([argument("...", "Vector | Geometry")], "Geometry")
             .pure(),
         Name::global(
             "polygon",
-            "A polygon: the points of its outer ring (m), or a list of rings, of which the others are holes.",
+            "Creates a polygon from the points of its outer ring (m), or from a list of rings: the outer ring and the holes.",
         )
         .form([argument("rings", "{ any } | Geometry")], "Geometry")
         .form([argument("...", "Vector | Geometry")], "Geometry")
@@ -109,33 +105,19 @@ fn options(luau: &str, fields: impl Into<Vec<Field>>) -> Argument {
 
 /// Declaration of a script parameter.
 pub static PARAM: LazyLock<Name> = LazyLock::new(|| {
-    Name::global(
-        "param",
-        "Declares a value that people may change without editing the script, and gives the one that it has in this run.",
-    )
-    .form(
+    Name::global("param", "Declares a script parameter and returns its value for this run.").form(
         [
             argument("name", "string"),
             options(
                 "{ ... }",
                 [
-                    field(
-                        "default",
-                        "number | boolean | string",
-                        "",
-                        "The value if nobody says another; it must be given.",
-                    ),
-                    field("min", "number?", "nil", "The least value."),
-                    field("max", "number?", "nil", "The greatest value."),
-                    field(
-                        "step",
-                        "number?",
-                        "nil",
-                        "How far values are from one another, counted from the least one.",
-                    ),
-                    field("choices", "{ string }?", "nil", "The texts to choose from."),
-                    field("unit", "string", "\"\"", "The unit, for people."),
-                    field("text", "string", "\"\"", "What it does, for people."),
+                    field("default", "number | boolean | string", "", "Default value; required."),
+                    field("min", "number?", "nil", "Minimum value."),
+                    field("max", "number?", "nil", "Maximum value."),
+                    field("step", "number?", "nil", "Step between values, from the minimum."),
+                    field("choices", "{ string }?", "nil", "Allowed strings."),
+                    field("unit", "string", "\"\"", "Display unit."),
+                    field("doc", "string", "\"\"", "Description for users.").renamed_from("text", "1.1"),
                 ],
             ),
         ],
@@ -145,35 +127,25 @@ pub static PARAM: LazyLock<Name> = LazyLock::new(|| {
 
 /// Constructor of systems.
 pub static LSYSTEM: LazyLock<Name> = LazyLock::new(|| {
-    Name::global("lsystem", "Makes a system of rules; what it has is told of under system.").form(
+    Name::global("lsystem", "Creates a system; see `system`.").form(
         [options(
             "{ ... }?",
             [
-                field(
-                    "object",
-                    "any",
-                    "nil",
-                    "What the chains draw with: an object, or the constructor of one.",
-                ),
+                field("object", "any", "nil", "The object that the chains draw with, or its constructor."),
                 field(
                     "interpret",
                     "\"last\"?",
                     "nil",
-                    "With \"last\", only the last chain is interpreted, and not that of every step.",
+                    "With \"last\", only the last chain is interpreted instead of the chain of every step.",
                 ),
                 field("max_depth", "number?", "100", "Maximum number of decompositions one after another."),
                 field(
                     "city",
                     "string?",
                     "nil",
-                    "What its chains are in a city model, such as \"Road\"; houses are known without.",
+                    "CityJSON class of the chains, such as \"Road\"; buildings have a class by default.",
                 ),
-                field(
-                    "seed",
-                    "number?",
-                    "nil",
-                    "What its random numbers come from, in place of the run's seed.",
-                ),
+                field("seed", "number?", "nil", "Seed of the random numbers, instead of the run's seed."),
             ],
         )],
         "System<T>",
@@ -185,39 +157,39 @@ pub static OBJECT: LazyLock<Name> = LazyLock::new(|| {
     let functions = "{ [string]: (self: any, ...any) -> any }?";
     let hook = "((self: any) -> ())?";
     let fields = [
-        field("doc", "string?", "nil", "What it is; the first line is a summary."),
+        field("doc", "string?", "nil", "Description; the first line is a summary."),
         field(
             "extends",
             "((...any) -> any)?",
             "nil",
-            "The constructor of the type whose fields, methods and drawing it has, too.",
+            "Constructor of the base type, whose fields, methods and drawing are inherited.",
         ),
         field(
             "fields",
             "{ [string]: any }?",
             "nil",
-            "What its constructor takes, each as { default =, type =, min =, max =, choices =, unit =, doc = }.",
+            "Fields of the constructor, each as { default =, type =, min =, max =, choices =, unit =, doc = }.",
         ),
         field(
             "state",
             "{ [string]: any }?",
             "nil",
-            "What its functions may assign, with the values that every pass begins with; objects draw into its drawing.",
+            "State variables that write methods can assign, with their values at the beginning of every pass; child objects draw into the drawing.",
         ),
-        field("reads", functions, "nil", "Functions that rules may call, too."),
+        field("reads", functions, "nil", "Read methods, which rules can call."),
         field(
             "changes",
             functions,
             "nil",
-            "Functions that only interpretations may call; without a result they give the object.",
+            "Write methods, which only interpretations can call; without a result they return the object.",
         ),
         field("begin", hook, "nil", "Runs before a chain is interpreted."),
-        field("push", hook, "nil", "Runs where a branch opens."),
-        field("pop", hook, "nil", "Runs where a branch closes."),
-        field("finish", hook, "nil", "Runs after a chain was interpreted."),
+        field("push", hook, "nil", "Runs when a branch opens."),
+        field("pop", hook, "nil", "Runs when a branch closes."),
+        field("finish", hook, "nil", "Runs after a chain is interpreted."),
     ];
     let declaration = Argument { fields: fields.into(), ..argument("declaration", "{ ... }") };
-    Name::global("object", "Declares a type of object, and gives the function that makes objects of it.")
+    Name::global("object", "Declares an object type and returns its constructor.")
         .form([argument("name", "string"), declaration], "(fields: { ... }?) -> any")
 });
 
@@ -225,11 +197,11 @@ pub static OBJECT: LazyLock<Name> = LazyLock::new(|| {
 pub static EXTEND: LazyLock<Name> = LazyLock::new(|| {
     let functions = "{ [string]: (self: any, ...any) -> any }?";
     let fields = [
-        field("reads", functions, "nil", "Functions that rules may call, too."),
-        field("changes", functions, "nil", "Functions that only interpretations may call."),
+        field("reads", functions, "nil", "Read methods, which rules can call."),
+        field("changes", functions, "nil", "Write methods, which only interpretations can call."),
     ];
     let declaration = Argument { fields: fields.into(), ..argument("declaration", "{ ... }") };
-    Name::global("extend", "Adds functions to a type of object, for the scripts of this run.")
+    Name::global("extend", "Adds methods to an object type for this run.")
         .form([argument("constructor", "(...any) -> any"), declaration], "()")
 });
 
@@ -237,41 +209,42 @@ pub static EXTEND: LazyLock<Name> = LazyLock::new(|| {
 pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
     let pattern = || argument("pattern", "string");
     let successor = || argument("successor", "((this: T, ...any) -> ...Module) | string");
-    Name::return_value("system", "System<T>", "A system of rules, as lsystem gives it; T is the type of its object.")
-        .functions([
-            Name::function(
-                "axiom",
-                "Sets what the chain begins as, or the function that makes the chain of each feature of a source.",
-            )
-            .form([argument("...", "Module")], "System<T>")
-            .form(
-                [argument("source", "Layer"), argument("chain", "(feature: Feature) -> ...Module")],
-                "System<T>",
-            ),
-            Name::function(
-                "rule",
-                "Adds a rule: what replaces a module that the pattern describes.",
-            )
+    Name::return_value(
+        "system",
+        "System<T>",
+        "A system of rules, created by lsystem; T is the type of its object.",
+    )
+    .functions([
+        Name::function(
+            "axiom",
+            "Sets the initial chain, or the function that returns the chain of each feature of a source.",
+        )
+        .form([argument("...", "Module")], "System<T>")
+        .form(
+            [argument("source", "Layer"), argument("chain", "(feature: Feature) -> ...Module")],
+            "System<T>",
+        ),
+        Name::function("rule", "Adds a rule: the successor of a module that matches the pattern.")
             .form([pattern(), successor()], "System<T>")
             .form([pattern(), options("{ ... }", RULE.fields.clone()), successor()], "System<T>"),
-            Name::function(
-                "decompose",
-                "Adds a decomposition rule, which applies repeatedly after the axiom and after each step.",
-            )
-            .form([pattern(), successor()], "System<T>")
-            .form([pattern(), options("{ ... }", RULE.fields.clone()), successor()], "System<T>"),
-            Name::function("interpret", "Adds an interpretation: what is drawn for a module.")
-                .form([pattern(), argument("draw", "(this: T, ...any) -> ...any")], "System<T>"),
-            Name::function("ignore", "Names modules that matching of contexts passes over.")
-                .form([argument("...", "string")], "System<T>"),
-            Name::function("consider", "Names the only modules that matching of contexts sees.")
-                .form([argument("...", "string")], "System<T>"),
-            Name::function(
-                "derive",
-                "Applies the rules step by step, to the end where no number of steps is given.",
-            )
-            .form([argument("steps", "number?")], "Derived"),
-        ])
+        Name::function(
+            "decompose",
+            "Adds a decomposition rule, which applies repeatedly after the axiom and after each step.",
+        )
+        .form([pattern(), successor()], "System<T>")
+        .form([pattern(), options("{ ... }", RULE.fields.clone()), successor()], "System<T>"),
+        Name::function("interpret", "Adds an interpretation: the function that draws a module.")
+            .form([pattern(), argument("draw", "(this: T, ...any) -> ...any")], "System<T>"),
+        Name::function("ignore", "Sets modules that context matching ignores.")
+            .form([argument("...", "string")], "System<T>"),
+        Name::function("consider", "Sets the only modules that context matching considers.")
+            .form([argument("...", "string")], "System<T>"),
+        Name::function(
+            "derive",
+            "Applies the rules step by step; without a number of steps, until no rule applies.",
+        )
+        .form([argument("steps", "number?")], "Derived"),
+    ])
 });
 
 /// Options of a rule.
@@ -286,13 +259,13 @@ pub static RULE: LazyLock<Name> = LazyLock::new(|| {
             "weight",
             "number?",
             "nil",
-            "How often it is drawn, to the weights of the other rules that apply; never, if it is 0.",
+            "Relative probability among the rules that apply; never chosen if 0.",
         ),
         field(
             "when",
             "((this: T, ...any) -> boolean)?",
             "nil",
-            "The guard: the rule applies only where this function returns true.",
+            "The guard: the rule applies only if this function returns true.",
         ),
     ])
 });
@@ -302,20 +275,20 @@ pub static DERIVED: LazyLock<Name> = LazyLock::new(|| {
     Name::return_value(
         "derived",
         "Derived",
-        "A derived system, as system:derive gives it, which is also a model.",
+        "A derived system, returned by system:derive, which is also a model.",
     )
     .extends("Model")
     .fields([
-        Field::new("objects", "{ any }", "The objects that the chains have drawn with."),
+        Field::new("objects", "{ any }", "The objects that the chains drew with."),
         Field::new("chains", "{ string }", "The chains as text."),
-        Field::new("steps", "number", "How many steps there were."),
-        Field::new("modules", "number", "How many modules the chains have."),
+        Field::new("steps", "number", "Number of steps."),
+        Field::new("modules", "number", "Number of modules in the chains."),
     ])
 });
 
 /// Loading of features, with the options that select them.
 pub static SOURCE: LazyLock<Name> = LazyLock::new(|| {
-    Name::global("source", "The features of a data file, or of a list; what it has is told of under layer.")
+    Name::global("source", "Loads the features of a data file, or of a list; see `layer`.")
         .form(
             [
                 argument("what", "string | { any }"),
@@ -327,7 +300,7 @@ pub static SOURCE: LazyLock<Name> = LazyLock::new(|| {
                             "tags",
                             "{ [string]: any }?",
                             "nil",
-                            "What tags of OpenStreetMap are: true for any value but no, \"*\" for any, false for none, a text, or a list of texts. All of them hold; of a list of such tables, one holds.",
+                            "OpenStreetMap tags: true for any value except no, \"*\" for any value, false for a missing tag, a string, or a list of strings. All tags must match; of a list of such tables, one must match.",
                         ),
                         field(
                             "within",
@@ -335,8 +308,8 @@ pub static SOURCE: LazyLock<Name> = LazyLock::new(|| {
                             "nil",
                             "West, south, east and north of a box that features touch, in the coordinates of the file.",
                         ),
-                        field("limit", "number?", "nil", "At most as many features."),
-                        field("id", "string?", "nil", "The attribute that tells features apart."),
+                        field("limit", "number?", "nil", "Maximum number of features."),
+                        field("id", "string?", "nil", "Name of the id attribute."),
                         field(
                             "kind",
                             "string?",
@@ -347,19 +320,19 @@ pub static SOURCE: LazyLock<Name> = LazyLock::new(|| {
                             "crs",
                             "number?",
                             "nil",
-                            "The EPSG code of the coordinates, in place of the file's.",
+                            "The EPSG code of the coordinates, instead of the file's.",
                         ),
                         field(
                             "layer",
                             "string?",
                             "nil",
-                            "The layer, if its name does not stand behind a colon.",
+                            "The layer, if its name does not follow a colon.",
                         ),
                         field(
                             "table",
                             "string?",
                             "nil",
-                            "What query calls it, in place of its layer's name.",
+                            "Name of the table in query, instead of the layer's name.",
                         ),
                     ],
                 ),
@@ -373,7 +346,7 @@ pub static LAYER: LazyLock<Name> = LazyLock::new(|| {
     Name::return_value(
         "layer",
         "Layer",
-        "Features, as source gives them: for index, feature in it do, and #it.",
+        "Features, returned by source: for index, feature in it do, and #it.",
     )
     .items("Feature")
     .fields([
@@ -381,7 +354,7 @@ pub static LAYER: LazyLock<Name> = LazyLock::new(|| {
         metres("bounds", "{ min: { number }, max: { number } }?", "The corners of the box around them (m)."),
         Field::new("layer", "string?", "The name of the layer."),
         Field::new("crs", "string?", "The coordinate system of the file."),
-        metres("origin", "{ number }?", "Where the run's origin is in its projection (m)."),
+        metres("origin", "{ number }?", "The position of the run's origin in its projection (m)."),
     ])
 });
 
@@ -391,11 +364,7 @@ static QUERY: LazyLock<Name> = LazyLock::new(|| {
     let values = || argument("values", "{ [string]: any }?");
     Name::global(
         "query",
-        "Queries the sources that the script has loaded, as tables named as their layers, and the modules of chains, as tables \
-         named as they are, in SQL; the name of a table alone asks for all its rows. With what makes a \
-         module it stands for a module for each row, with the columns as parameters, which take its place before the next \
-         step begins; without, it gives the rows. $name in the text is a value of that name, or else the parameter of the \
-         rule that is called so.",
+        "Runs an SQL query; each source is a table named after its layer, and the modules of chains are tables named after the module. The name of a table alone selects all its rows. With a module constructor, query returns a placeholder, which is replaced by a module for each row, with the columns as parameters, before the next step begins; otherwise it returns the rows. $name in the text is the value of that name, or otherwise the parameter of the rule with that name.",
     )
     .form([sql(), argument("module", "(...any) -> Module"), values()], "Module")
     .form([sql(), values()], "{ { [string]: any } }")
@@ -406,8 +375,7 @@ static QUERY: LazyLock<Name> = LazyLock::new(|| {
 static FRAGMENT: LazyLock<Name> = LazyLock::new(|| {
     Name::global(
         "fragment",
-        "Stands for a module for each part of what is to its left, whose place they take before the next step begins, \
-         with its parameters: a collection's geometries, a polygon's rings, a line's segments, a segment's points.",
+        "Returns a placeholder, which is replaced by a module for each part of the module to its left, with its parameters, before the next step begins: a collection's geometries, a polygon's rings, a line's segments, a segment's points. The module to the left is removed.",
     )
     .form([argument("module", "(...any) -> Module")], "Module")
     .pure()
@@ -419,7 +387,7 @@ pub static VECTOR: LazyLock<Name> = LazyLock::new(|| {
     Name::return_value(
         "vector",
         "Vector",
-        "Three numbers that never change, as vec gives them: +, - and * with vectors and lists, * and / with numbers.",
+        "Three constant numbers, created by vec: +, - and * with vectors and lists, * and / with numbers.",
     )
     .instead("{ number }")
     .items("number")
@@ -431,17 +399,18 @@ pub static VECTOR: LazyLock<Name> = LazyLock::new(|| {
         Operator { name: "unm", other: "", returns: "Vector" },
     ])
     .fields([
-        metres("x", "number", "To the east (m)."),
-        metres("y", "number", "To the north (m)."),
-        metres("z", "number", "Upwards (m)."),
+        metres("x", "number", "East coordinate (m)."),
+        metres("y", "number", "North coordinate (m)."),
+        metres("z", "number", "Height (m)."),
     ])
     .functions([
-        Name::function("dot", "The sum of the products of their numbers.").form([other()], "number"),
-        Name::function("cross", "The vector that is upright on both.").form([other()], "Vector"),
-        Name::function("length", "How long it is (m).").form([], "number"),
-        Name::function("unit", "The vector with length 1; a zero vector stays.").form([], "Vector"),
-        Name::function("distance", "How far they are apart (m).").form([other()], "number"),
-        Name::function("lerp", "From one to the other as t goes from 0 to 1.")
+        Name::function("dot", "Returns the dot product with another vector.").form([other()], "number"),
+        Name::function("cross", "Returns the cross product with another vector.").form([other()], "Vector"),
+        Name::function("length", "Returns the length (m).").form([], "number"),
+        Name::function("unit", "Returns the vector with length 1; a zero vector stays unchanged.")
+            .form([], "Vector"),
+        Name::function("distance", "Returns the distance to another vector (m).").form([other()], "number"),
+        Name::function("lerp", "Interpolates linearly to another vector as t goes from 0 to 1.")
             .form([other(), argument("t", "number")], "Vector"),
     ])
 });

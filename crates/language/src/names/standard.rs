@@ -38,7 +38,8 @@ fn curves(lines: &[&'static str]) -> Vec<Name> {
     let names = within.filter_map(|line| line.strip_prefix("  ")?.split_once(" = curve(\""));
     let names = names.filter_map(|(_, rest)| Some(rest.split_once('"')?.0));
     let curve = |name| {
-        let function = Name::function(name, "A curve from 0 to 1, as t goes from 0 to 1.");
+        let function =
+            Name::function(name, "Returns the value of an easing curve from 0 to 1, as t goes from 0 to 1.");
         function.form([argument("t", "number")], "number").pure()
     };
     names.map(curve).collect()
@@ -96,7 +97,7 @@ fn module(line: &'static str) -> Option<Name> {
         None => parameters.into_iter().collect(),
     };
     let parameters: Vec<Argument> = parameters.into_iter().map(parameter_argument).collect();
-    let doc = format!("Calls {kind}:{method} where it is interpreted.");
+    let doc = format!("Interpreted as a call of {kind}:{method}.");
     let name = Name::new(name, NameKind::Module { kind, method }, "").form(parameters, "Module");
     Some(Name { doc: doc.into(), ..name })
 }
@@ -125,9 +126,9 @@ mod tests {
         assert_eq!(told("hsv").as_deref(), Some(expected));
         let expected = "(...any) -> Vector: Creates a vector from three numbers, or from a list of them; omitted numbers at the end are 0.";
         assert_eq!(told("vec").as_deref(), Some(expected));
-        let expected = "(length: any?) -> Module: Calls turtle:forward where it is interpreted.";
+        let expected = "(length: any?) -> Module: Interpreted as a call of turtle:forward.";
         assert_eq!(told("F").as_deref(), Some(expected));
-        let expected = "(model: any, scale: any?) -> Module: Calls turtle:place where it is interpreted.";
+        let expected = "(model: any, scale: any?) -> Module: Interpreted as a call of turtle:place.";
         assert_eq!(told("Place").as_deref(), Some(expected));
         for inner in ["made", "vectors", "smooth", "curve", "hash", "turtle_module", "names"] {
             assert_eq!(told(inner), None);

@@ -34,7 +34,7 @@ impl VariationAxis {
         let help = "write a range such as 1..16, or numbers such as 3,7,12";
         let number = |text: &str| {
             let parsed = text.trim().parse::<u64>();
-            parsed.map_err(|_| Error::argument(format!("{:?} is no seed", text.trim())).help(help))
+            parsed.map_err(|_| Error::argument(format!("invalid seed {:?}", text.trim())).help(help))
         };
         let mut seeds = Vec::new();
         for item in text.split(',') {
@@ -46,7 +46,7 @@ impl VariationAxis {
                 return Err(Error::argument(format!("the range {from}..{to} is empty"))
                     .help(format!("write {to}..{from}")));
             }
-            check_count((to - from).saturating_add(1) as f64 + seeds.len() as f64, "take fewer seeds")?;
+            check_count((to - from).saturating_add(1) as f64 + seeds.len() as f64, "use fewer seeds")?;
             seeds.extend(from..=to);
         }
         Ok(Self::Seeds(seeds))
@@ -92,9 +92,9 @@ impl VariationAxis {
 
 fn list(text: &str, form: &str) -> Result<Vec<String>> {
     let values: Vec<String> = text.split(',').map(|value| value.trim().to_owned()).collect();
-    check_count(values.len() as f64, "take fewer values")?;
+    check_count(values.len() as f64, "use fewer values")?;
     if values.iter().any(String::is_empty) {
-        return Err(Error::argument(format!("{text:?} leaves a value empty")).help(form));
+        return Err(Error::argument(format!("{text:?} has an empty value")).help(form));
     }
     Ok(values)
 }
@@ -109,12 +109,12 @@ fn range(low: &str, high: &str) -> Result<Vec<String>> {
     let (high, step) = high.split_once(':').unwrap_or((high, "1"));
     let number = |text: &str, what: &str| match text.trim().parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
-        _ => Err(Error::argument(format!("{:?} is no number for the {what} of a range", text.trim()))
+        _ => Err(Error::argument(format!("{:?} is not a number for the {what} of a range", text.trim()))
             .help("write LOW..HIGH:STEP, such as 0..90:10")),
     };
     let (low, high, step) = (number(low, "beginning")?, number(high, "end")?, number(step, "step")?);
     if step <= 0.0 {
-        return Err(Error::argument(format!("the step {step} does not lead from {low} to {high}"))
+        return Err(Error::argument(format!("the step {step} cannot reach {high} from {low}"))
             .help("give a step above 0"));
     }
     if low > high {
@@ -124,7 +124,7 @@ fn range(low: &str, high: &str) -> Result<Vec<String>> {
     }
     // Include the last value even if a rounding error exceeds the range.
     let count = ((high - low) / step + 1e-9).floor() + 1.0;
-    check_count(count, "take a larger step: LOW..HIGH:STEP")?;
+    check_count(count, "use a larger step: LOW..HIGH:STEP")?;
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 256")]
     let count = count as usize;
     Ok((0..count).map(|i| Value::Number(rounded(low + i as f64 * step)).to_string()).collect())
@@ -139,12 +139,10 @@ fn rounded(number: f64) -> f64 {
 pub(super) fn check_count(count: f64, help: &str) -> Result<()> {
     if count > MOST as f64 {
         let many = if count < 1e9 { format!("{count} variations") } else { "so many variations".to_owned() };
-        return Err(
-            Error::limit(Limit::Size, format!("{many} are more than {MOST}, the most at once")).help(help)
-        );
+        return Err(Error::limit(Limit::Size, format!("{many} exceed the maximum of {MOST}")).help(help));
     }
     if count < 1.0 {
-        return Err(Error::argument("there is nothing to vary").help("give a seed or a value"));
+        return Err(Error::argument("nothing to vary").help("give a seed or a value"));
     }
     Ok(())
 }
@@ -192,39 +190,39 @@ mod tests {
           help: write a range such as 1..16, or numbers such as 3,7,12
         "#);
         insta::assert_snapshot!(said(VariationAxis::seeds("1..257")), @r"
-        257 variations are more than 256, the most at once
-          help: take fewer seeds
+        257 variations exceed the maximum of 256
+          help: use fewer seeds
         ");
         insta::assert_snapshot!(said(VariationAxis::seeds("0..18446744073709551615")), @r"
-        so many variations are more than 256, the most at once
-          help: take fewer seeds
+        so many variations exceed the maximum of 256
+          help: use fewer seeds
         ");
         insta::assert_snapshot!(said(VariationAxis::sweep("x=9..1")), @r"
         the range 9..1 is empty
           help: write 1..9
         ");
         insta::assert_snapshot!(said(VariationAxis::sweep("x=1..9:0")), @r"
-        the step 0 does not lead from 1 to 9
+        the step 0 cannot reach 9 from 1
           help: give a step above 0
         ");
         insta::assert_snapshot!(said(VariationAxis::sweep("x=1..9:-1")), @r"
-        the step -1 does not lead from 1 to 9
+        the step -1 cannot reach 9 from 1
           help: give a step above 0
         ");
         insta::assert_snapshot!(said(VariationAxis::sweep("x=1..")), @r#"
-        "" is no number for the end of a range
+        "" is not a number for the end of a range
           help: write LOW..HIGH:STEP, such as 0..90:10
         "#);
         insta::assert_snapshot!(said(VariationAxis::sweep("x=..5")), @r#"
-        "" is no number for the beginning of a range
+        "" is not a number for the beginning of a range
           help: write LOW..HIGH:STEP, such as 0..90:10
         "#);
         insta::assert_snapshot!(said(VariationAxis::sweep("x=0..1e9")), @r"
-        so many variations are more than 256, the most at once
-          help: take a larger step: LOW..HIGH:STEP
+        so many variations exceed the maximum of 256
+          help: use a larger step: LOW..HIGH:STEP
         ");
         insta::assert_snapshot!(said(VariationAxis::sweep("x=0..nan")), @r#"
-        "nan" is no number for the end of a range
+        "nan" is not a number for the end of a range
           help: write LOW..HIGH:STEP, such as 0..90:10
         "#);
         insta::assert_snapshot!(said(VariationAxis::sweep("x=")), @r"
@@ -232,7 +230,7 @@ mod tests {
           help: write NAME=LOW..HIGH:STEP, such as twist=0..90:10, or NAME=A,B,C
         ");
         insta::assert_snapshot!(said(VariationAxis::sweep("x=a,,b")), @r#"
-        "a,,b" leaves a value empty
+        "a,,b" has an empty value
           help: write NAME=LOW..HIGH:STEP, such as twist=0..90:10, or NAME=A,B,C
         "#);
         insta::assert_snapshot!(said(VariationAxis::sweep("=1,2")), @r"

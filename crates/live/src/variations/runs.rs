@@ -113,7 +113,7 @@ impl Variations {
                     .collect::<Result<_>>()?
             }
         };
-        axis::check_count(plans.len() as f64, "take fewer of them")?;
+        axis::check_count(plans.len() as f64, "use fewer of them")?;
         let script = script.to_path_buf();
         Ok(Self { stop: Arc::default(), script, options, plans, ran: AtomicUsize::new(0) })
     }
@@ -189,7 +189,7 @@ impl Variations {
         let run = run?;
         if run.systems.is_empty() {
             let script = self.script.display();
-            return Err(Error::script(format!("{script} makes nothing to show, for it derives no system"))
+            return Err(Error::script(format!("{script} derives no system, so there is nothing to render"))
                 .help("end it with system:derive()"));
         }
         let modules = run.systems.iter().map(|system| system.modules()).sum();
@@ -307,8 +307,8 @@ fn every_value(param: &Param) -> Result<Vec<String>> {
     match &param.control {
         Control::Choice(choices) => Ok(choices.clone()),
         Control::Switch => Ok(vec!["false".to_owned(), "true".to_owned()]),
-        _ => Err(Error::argument(format!("param {} has no list of choices", param.name))
-            .help(format!("say which values: {}=LOW..HIGH:STEP or {}=A,B,C", param.name, param.name))),
+        _ => Err(Error::argument(format!("param {} has no choices", param.name))
+            .help(format!("specify the values: {}=LOW..HIGH:STEP or {}=A,B,C", param.name, param.name))),
     }
 }
 

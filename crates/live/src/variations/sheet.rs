@@ -73,7 +73,7 @@ impl SheetLayout {
                     Picture::LARGEST
                 ),
             )
-            .help("take smaller cells, --size WIDTHxHEIGHT, or fewer of them"));
+            .help("use smaller cells, --size WIDTHxHEIGHT, or fewer of them"));
         }
         Ok(Self { columns, rows, cell, size, margin, letters })
     }

@@ -96,7 +96,7 @@ impl ServerState {
     fn open(&self, file: &str, line: usize) -> Result<()> {
         let Some(editor) = &self.editor else {
             return Err(
-                Error::usage("no editor was named").help("start with --editor 'code -g {file}:{line}'")
+                Error::usage("no editor was specified").help("start with --editor 'code -g {file}:{line}'")
             );
         };
         editor.open(&self.own_file(file)?, line.max(1))

@@ -84,9 +84,9 @@ fn nothing(run: &Run, limit: Option<usize>) -> String {
     } else if run.systems.is_empty() {
         "the script derives no system: end it with system:derive()".to_owned()
     } else if at_limit {
-        format!("nothing is drawn after {after}: look at a later one")
+        format!("nothing is drawn after {after}: show a later one")
     } else if modules == 0 {
-        format!("no module is left after {after}: let the rules end in modules that are drawn")
+        format!("the chain is empty after {after}: keep modules that are drawn")
     } else if let Some(warning) = run.emptiness() {
         let message = warning.message();
         warning.remedy().map_or_else(|| message.to_owned(), |remedy| format!("{message}: {remedy}"))
@@ -94,10 +94,10 @@ fn nothing(run: &Run, limit: Option<usize>) -> String {
         let counts = run.systems.iter().flat_map(|system| trace::symbols(system));
         let most = counts.max_by_key(|symbol| symbol.count).map_or_else(String::new, |symbol| symbol.name);
         let who = match modules {
-            1 => "the only module draws nothing".to_owned(),
-            _ => format!("none of the {modules} modules draws anything"),
+            1 => "the only module is not drawn".to_owned(),
+            _ => format!("none of the {modules} modules is drawn"),
         };
-        format!("{who}: give them an interpretation, system:interpret(\"{most}\", function(this) ... end)")
+        format!("{who}: add system:interpret(\"{most}\", function(this) ... end)")
     }
 }
 

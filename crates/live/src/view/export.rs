@@ -95,7 +95,7 @@ pub(super) fn picture(query: &str) -> Result<Picture> {
             "width" => picture.width = pixels,
             "height" => picture.height = pixels,
             _ => {
-                return Err(Error::argument(format!("a picture has no {name:?}"))
+                return Err(Error::argument(format!("unknown field {name:?} of an image"))
                     .help("it has azimuth, elevation, width and height"));
             }
         }

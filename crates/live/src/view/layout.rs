@@ -19,7 +19,7 @@ pub(super) struct Indices<'a> {
 impl Indices<'_> {
     /// Returns the triangle of the scene that a page has picked. Fails if the document has no such triangle.
     pub(super) fn triangle(&self, pick: &PickCommand) -> Result<trace::Pick> {
-        let gone = || Error::unavailable("there is no such triangle; this page may show an older model");
+        let gone = || Error::unavailable("unknown triangle; the live view may show an older model");
         let shows = |instance: &usize| -> bool {
             let known = self.layout.places.get(*instance).copied().flatten();
             let mesh = self.layout.meshes.get(self.scene.instances[*instance].mesh).copied().flatten();

@@ -120,7 +120,7 @@ fn listen(port: Option<u16>) -> Result<TcpListener> {
     };
     if error.kind() != ErrorKind::AddrInUse {
         return Err(Error::system(format!("cannot listen on port {first}: {error}"))
-            .help("choose another one: --port N, or 0 for any that is free"));
+            .help("choose another one: --port N, or 0 for a free port"));
     }
     let next = (first.saturating_add(1)..=first.saturating_add(TRIES)).find_map(|port| bind(port).ok());
     match (port, next) {
@@ -129,7 +129,7 @@ fn listen(port: Option<u16>) -> Result<TcpListener> {
             let free =
                 next.and_then(|listener| listener.local_addr().ok()).map_or(0, |address| address.port());
             Err(Error::system(format!("port {first} is in use"))
-                .help(format!("another server may be running; to use another port: --port {free}")))
+                .help(format!("another server may be running; use another port: --port {free}")))
         }
     }
 }

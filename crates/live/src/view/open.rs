@@ -54,7 +54,7 @@ impl Editor {
         }
         if words.first().is_none_or(|program| program.is_empty()) {
             return Err(
-                Error::usage("--editor names no program").help("such as --editor 'code -g {file}:{line}'")
+                Error::usage("--editor contains no program").help("such as --editor 'code -g {file}:{line}'")
             );
         }
         if !words.iter().any(|word| word.contains("{file}")) {
@@ -76,7 +76,7 @@ impl Editor {
         let Some((program, arguments)) = words.split_first() else { return Ok(()) };
         start(Command::new(program).args(arguments)).map_err(|error| {
             Error::system(format!("cannot start the editor {program}: {error}"))
-                .help("name a program that a shell would find: --editor 'code -g {file}:{line}'")
+                .help("specify a program in PATH: --editor 'code -g {file}:{line}'")
         })
     }
 }

@@ -70,7 +70,7 @@ impl Request {
                 Value::Number(_) | Value::Bool(_) => Some(value.to_string()),
                 _ => {
                     return Err(Error::argument(format!(
-                        "the value of {name} must be text, a number or a switch"
+                        "the value of {name} must be a string, a number or a boolean"
                     )));
                 }
             };
@@ -81,7 +81,7 @@ impl Request {
                 }
                 (Some(_), None, Some(params)) => {
                     let names = params.iter().map(|param| param.name.as_str());
-                    let message = format!("the script has no parameter called {name}");
+                    let message = format!("unknown parameter `{name}`");
                     return Err(Error::not_found("parameter", name, names, message));
                 }
                 _ => {}
@@ -207,7 +207,7 @@ pub(super) fn seed(value: &Value) -> Result<u64> {
         Value::String(text) => text.trim().parse().ok(),
         other => other.as_u64(),
     };
-    seed.ok_or_else(|| Error::argument(format!("a seed is a whole number from 0 to {}", u64::MAX)))
+    seed.ok_or_else(|| Error::argument(format!("a seed is an integer from 0 to {}", u64::MAX)))
 }
 
 #[cfg(test)]
@@ -225,7 +225,7 @@ mod tests {
             default: Setting::Number(default),
             control: Control::Number { min: Some(1.0), max: Some(max), step: Some(1.0) },
             unit: String::new(),
-            text: String::new(),
+            doc: String::new(),
             own: true,
         }
     }

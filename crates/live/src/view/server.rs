@@ -44,7 +44,7 @@ struct RequestGuard(Arc<Stop>);
 
 impl Drop for RequestGuard {
     fn drop(&mut self) {
-        self.0.stop(Error::cancellation("nobody waits for it any more"));
+        self.0.stop(Error::cancellation("cancelled"));
     }
 }
 
@@ -92,7 +92,7 @@ async fn route(site: &Arc<Site>, request: Request, known: impl FnOnce()) -> Resp
         single_header(headers, &header::HOST).unwrap_or(None),
         single_header(headers, &header::ORIGIN).unwrap_or(Some("")),
     ) {
-        return plain(StatusCode::FORBIDDEN, "this server answers only pages of its own");
+        return plain(StatusCode::FORBIDDEN, "this server answers only requests of its own pages");
     }
     let path = request.uri().path().to_owned();
     let (token, inner) = match path.strip_prefix('/').unwrap_or("").split_once('/') {
@@ -113,7 +113,7 @@ async fn route(site: &Arc<Site>, request: Request, known: impl FnOnce()) -> Resp
     }
     known();
     if request.method() != Method::GET {
-        let refused = plain(StatusCode::METHOD_NOT_ALLOWED, "only GET is answered");
+        let refused = plain(StatusCode::METHOD_NOT_ALLOWED, "only GET is supported");
         return ([(header::ALLOW, "GET")], refused).into_response();
     }
     match inner {
@@ -187,9 +187,7 @@ async fn measured_model(site: &Arc<Site>, name: &str) -> Response {
             ([(header::CONTENT_TYPE, kind), (header::CACHE_CONTROL, FOR_EVER)], bytes).into_response()
         }
         Some(Err(error)) => plain_text(StatusCode::UNPROCESSABLE_ENTITY, error.to_string()),
-        None => {
-            plain(StatusCode::INTERNAL_SERVER_ERROR, "the model ended early: this is a mistake in Burgeon")
-        }
+        None => plain(StatusCode::INTERNAL_SERVER_ERROR, "the model ended early: this is a bug in Burgeon"),
     }
 }
 
@@ -205,7 +203,7 @@ async fn save(site: &Arc<Site>, name: &str, query: &str) -> Response {
         Err(error) => return refuse(error.to_string()),
     };
     let Some(shown) = site.state.lock().shown.clone() else {
-        return plain(StatusCode::CONFLICT, "there is no model yet");
+        return plain(StatusCode::CONFLICT, "no model yet");
     };
     match site.export(move |stop| export::download(&shown.run.scene, &name, &picture, stop)).await {
         Some(Ok(download)) => {
@@ -217,9 +215,7 @@ async fn save(site: &Arc<Site>, name: &str, query: &str) -> Response {
             (headers, download.bytes).into_response()
         }
         Some(Err(error)) => plain_text(StatusCode::UNPROCESSABLE_ENTITY, error.to_string()),
-        None => {
-            plain(StatusCode::INTERNAL_SERVER_ERROR, "the export ended early: this is a mistake in Burgeon")
-        }
+        None => plain(StatusCode::INTERNAL_SERVER_ERROR, "the export ended early: this is a bug in Burgeon"),
     }
 }
 
@@ -247,7 +243,7 @@ fn disposition(name: &str) -> HeaderValue {
 }
 
 fn missing() -> Response {
-    plain(StatusCode::NOT_FOUND, "there is nothing here")
+    plain(StatusCode::NOT_FOUND, "page not found")
 }
 
 fn plain(status: StatusCode, text: &'static str) -> Response {

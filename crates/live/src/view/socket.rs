@@ -95,7 +95,7 @@ async fn answer(
         Ok(Some(text)) => send(socket, text).await,
         Ok(None) => true,
         Err(_) => {
-            let error = Error::internal("internal error; this is a mistake in Burgeon");
+            let error = Error::internal("internal error; this is a bug in Burgeon");
             send(socket, Event::rejection(None, &error).to_text().into()).await
         }
     }

@@ -41,8 +41,9 @@ impl Token {
     /// Creates a token of 128 random bits. Fails if the system does not provide random numbers.
     pub fn random() -> Result<Self> {
         let mut bytes = [0; LENGTH];
-        getrandom::fill(&mut bytes)
-            .map_err(|error| Error::system(format!("the system gives no random numbers: {error}")))?;
+        getrandom::fill(&mut bytes).map_err(|error| {
+            Error::system(format!("the operating system provides no random numbers: {error}"))
+        })?;
         Ok(Self(hexadecimal(&bytes)))
     }
 

@@ -53,7 +53,7 @@ fn find(state: &ServerState, own: &Presets, name: &str) -> Result<Preset> {
     let of_packages = state.package_presets.lock().recover();
     let Some((_, path)) = of_packages.iter().find(|(known, _)| known == package) else {
         let known = of_packages.iter().map(|(known, _)| known.as_str());
-        let message = format!("no package called {package} has presets");
+        let message = format!("no package named `{package}` has presets");
         return Err(Error::not_found("package", package, known, message));
     };
     let preset = Presets::read_file(path)?.get(inner)?.clone().of_package(package);
@@ -85,8 +85,8 @@ pub(super) fn preset(state: &ServerState, action: &str, name: &str, replace: boo
     let mut known = state.presets.lock().recover();
     let done = match action {
         "save" | "delete" if of_package(name).is_some() => {
-            Err(Error::argument(format!("{name} is a preset of a package, which is changed there"))
-                .help("save it under a name of your own"))
+            Err(Error::argument(format!("{name} is a preset of a package and can only be changed there"))
+                .help("save it under another name"))
         }
         "save" => save(state, name, replace).map(Some),
         "delete" => Presets::remove(&state.script, name).map(Some),
@@ -140,8 +140,8 @@ pub(super) fn presets_changed(state: &ServerState) {
 /// Saves the values that are set and used, and the seed.
 fn save(state: &ServerState, name: &str, replace: bool) -> Result<Presets> {
     if !replace && Presets::read(&state.script)?.names().any(|known| known == name) {
-        return Err(Error::argument(format!("there is a preset called {name} already"))
-            .help("choose another name, or say that it is to be replaced"));
+        return Err(Error::argument(format!("preset `{name}` already exists"))
+            .help("choose another name, or confirm the replacement"));
     }
     let preset = {
         let inner = state.lock();
@@ -185,7 +185,7 @@ pub(super) fn variations(
             && Param::find(params, name)?.is_none()
         {
             let names = params.iter().map(|param| param.name.as_str());
-            let message = format!("the script has no parameter called {name}");
+            let message = format!("unknown parameter `{name}`");
             return Err(Error::not_found("parameter", name, names, message));
         }
         Variations::new(&state.script, &options, &over)

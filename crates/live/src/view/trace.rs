@@ -87,7 +87,7 @@ pub(super) fn highlight(state: &ServerState, id: u64, file: &str, line: usize) -
         let lines = std::fs::read_to_string(&path).map_or(0, |text| text.lines().count());
         if !(1..=lines).contains(&line) {
             let number = if lines == 1 { "1 line".to_owned() } else { format!("{lines} lines") };
-            let message = format!("{file} has {number}, so there is no line {line}");
+            let message = format!("unknown line {line}: {file} has {number}");
             return Err(Error::not_found("line", line, [], message));
         }
         let name = state.engine_name(&path);
@@ -113,17 +113,17 @@ pub(super) fn chain(state: &ServerState, id: u64, system: usize, chain: usize, m
             let ([before, at, after], of) = engine::around(derived, chain, module);
             Event::Chain { id, system, chain, module, of, text: AroundMessage { before, at, after } }
         }
-        None => rejection(id, &Error::unavailable(format!("there is no chain {chain} of system {system}"))),
+        None => rejection(id, &Error::unavailable(format!("unknown chain {chain} of system {system}"))),
     }
 }
 
 /// Returns the present model, and the options with which its script was run. Fails if the script has changed since.
 fn present(state: &ServerState) -> Result<(Arc<PresentModel>, RunOptions)> {
     let inner = state.lock();
-    let Some(shown) = inner.shown.clone() else { return Err(Error::unavailable("there is no model yet")) };
+    let Some(shown) = inner.shown.clone() else { return Err(Error::unavailable("no model yet")) };
     if inner.generation != shown.inputs.generation {
         return Err(Error::unavailable("the script has changed since this model was made")
-            .help("repair the script, so that there is a new one"));
+            .help("fix the script to get a new model"));
     }
     let mut options = job::options(state, &shown.inputs);
     options.reports.print = None;

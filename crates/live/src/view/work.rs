@@ -247,9 +247,10 @@ fn encode(run: &Run) -> Result<(ModelFile, Duration)> {
             let hash = blake3::hash(&glb).to_hex()[..32].to_owned();
             ModelFile { content: Some((hash, glb.into())), layout, note: None }
         }
-        Ok((glb, _)) => {
-            nothing(format!("the model takes {} MB, more than a page can show", glb.len() / 1_000_000))
-        }
+        Ok((glb, _)) => nothing(format!(
+            "the model has {} MB, which is too large for the live view",
+            glb.len() / 1_000_000
+        )),
         // The scene is valid, or the run would have failed, so it is too large for any file.
         Err(error) if *error.kind() == ErrorKind::Limit(Limit::Format) => nothing(error.to_string()),
         Err(error) => return Err(error),
@@ -259,7 +260,7 @@ fn encode(run: &Run) -> Result<(ModelFile, Duration)> {
 
 fn internal(panic: &(dyn std::any::Any + Send)) -> Error {
     Error::internal(format!("internal error: {}", panic_message(panic)))
-        .help("this is a mistake in Burgeon; please report it with the script")
+        .help("this is a bug in Burgeon; please report it with the script")
 }
 
 /// Stores the outcome of a run, and informs pages and the process that started the server.
@@ -281,7 +282,7 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
     match outcome {
         RunOutcome::Cancelled => inner.report_cancelled(state, job.run),
         RunOutcome::Missing => {
-            let text = format!("there is no script {} yet", state.script.display());
+            let text = format!("script not found: {}", state.script.display());
             inner.end_badly(state, job, Event::Waiting { text: text.clone() });
             notices.push(Notice::Waiting(text));
         }

@@ -3,7 +3,7 @@ local Ring = module("Ring")
 local roads = lsystem({ object = network({ streets = { { trees = 10, lamps = 25 } } }) })
 roads:axiom(Ring())
 roads:interpret("Ring", function(this)
-  this:stand(1, 0):walk(90):turn(90):walk(90):turn(90):walk(90):turn(90):walk(90)
+  this:move_to(1, 0):walk(90):turn(90):walk(90):turn(90):walk(90):turn(90):walk(90)
 end)
 local town = roads:derive().objects[1]
 print(town:size(), #town:streets(), #town:junctions(), #town:blocks(), town:measures().length)

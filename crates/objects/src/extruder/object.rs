@@ -107,13 +107,13 @@ impl Extruder {
     pub fn direction(&mut self, direction: Vector, above: Option<Vector>) -> Result<()> {
         if direction.0.length_squared() < 1e-24 {
             return Err(Error::argument("extruder:direction: direction has no length")
-                .help("give a vector that is not zero"));
+                .help("use a vector that is not zero"));
         }
         match above {
             None => self.state.frame.face(direction.0),
             Some(above) if above.0.length_squared() < 1e-24 => {
                 return Err(Error::argument("extruder:direction: above has no length")
-                    .help("give a vector that is not zero, or leave it out"));
+                    .help("use a vector that is not zero, or omit it"));
             }
             Some(above) => self.state.frame.look(direction.0, above.0),
         }
@@ -261,7 +261,7 @@ fn shade(section: Section, smooth: bool) -> Section {
 fn check_resolution(along: u32, around: u32) -> Result<()> {
     for (name, count) in [("along", along), ("around", around)] {
         if count > 4096 {
-            return Err(Error::argument(format!("extruder: {name} must be at most 4096, and is {count}")));
+            return Err(Error::argument(format!("extruder: {name} must be at most 4096, not {count}")));
         }
     }
     Ok(())
@@ -318,8 +318,8 @@ impl Extruder {
     fn segment(&mut self, length: f64) -> Result<()> {
         let state = &mut self.state;
         if state.scale == DVec2::ZERO && state.taper == DVec2::ZERO {
-            let text = "extruder:extrude draws nothing where the scale is 0";
-            let help = "give a scale above 0, or go on without drawing: this:advance(length)";
+            let text = "extruder:extrude draws nothing if the scale is 0";
+            let help = "use a scale above 0, or advance without drawing: this:advance(length)";
             self.warnings.push(Warning::new(WarningKind::DrawsNothing, text).help(help).of_all());
         }
         let section = if state.around > 0 {

@@ -43,7 +43,7 @@ pub fn kind() -> &'static Arc<Kind> {
 
 fn make(options: &BorderedOptions) -> Result<Wall> {
     let Some(wall) = options.wall.clone() else {
-        return Err(Error::argument("bordered: there is no wall between the margins")
+        return Err(Error::argument("bordered: missing wall between the margins")
             .help("write bordered { wall = panel { }, left = 0.5 }"));
     };
     let columns = split(options.left, &wall, 0, options.right)?;

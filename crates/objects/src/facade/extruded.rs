@@ -47,7 +47,7 @@ pub struct ExtrudedOptions {
 /// Returns the script type of extruded walls.
 pub fn kind() -> &'static Arc<Kind> {
     static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
-        let kind = Kind::new("extruded", "A wall that stands out or lies back, with faces at its sides.")
+        let kind = Kind::new("extruded", "A wall that projects or recedes, with faces at its sides.")
             .first("wall")
             .example(include_str!("../../scripts/extruded.lua"));
         wall_kind(kind, ExtrudedOptions::fields(), |table| make(&ExtrudedOptions::from_table(table)?))
@@ -60,7 +60,7 @@ const FURTHEST: f64 = 100.0;
 
 fn make(options: &ExtrudedOptions) -> Result<Wall> {
     let Some(wall) = options.wall.clone() else {
-        return Err(Error::argument("extruded: there is no wall to extrude")
+        return Err(Error::argument("extruded: missing wall to extrude")
             .help("write extruded { wall = panel { }, depth = 0.3 }"));
     };
     if options.depth.abs() > FURTHEST {

@@ -28,7 +28,7 @@ pub fn kind() -> &'static Arc<Kind> {
     static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
         let kind = Kind::new(
             "grid",
-            "One wall, repeated in rows and columns as often as fits its preferred size best.",
+            "A wall that is repeated in rows and columns; the number of repetitions fits its preferred size best.",
         )
         .first("wall")
         .example(include_str!("../../scripts/grid.lua"));
@@ -39,9 +39,7 @@ pub fn kind() -> &'static Arc<Kind> {
 
 fn make(options: &GridOptions) -> Result<Wall> {
     let Some(wall) = options.wall.clone() else {
-        return Err(
-            Error::argument("grid: there is no wall to repeat").help("write grid { wall = panel { } }")
-        );
+        return Err(Error::argument("grid: missing wall to repeat").help("write grid { wall = panel { } }"));
     };
     let counts = [options.columns, options.rows].map(|count| count.low..=count.high);
     let sizes =

@@ -42,16 +42,16 @@ fn make(options: &ListOptions) -> Result<Wall> {
         "horizontal" => false,
         "vertical" => true,
         other => {
-            return Err(Error::argument(format!("list: direction is {other:?}"))
-                .help("there are \"horizontal\" and \"vertical\""));
+            return Err(Error::argument(format!("list: unknown direction {other:?}"))
+                .help("use \"horizontal\" or \"vertical\""));
         }
     };
     let Some(first) = options.walls.first() else {
-        return Err(Error::argument("list: there are no walls").help("write list({ panel { }, panel { } })"));
+        return Err(Error::argument("list: missing walls").help("write list({ panel { }, panel { } })"));
     };
     if options.walls.len() > MOST {
-        return Err(Error::limit(Limit::Size, format!("list: there are {} walls", options.walls.len()))
-            .help(format!("give at most {MOST}, or repeat one with grid")));
+        return Err(Error::limit(Limit::Size, format!("list: {} walls are too many", options.walls.len()))
+            .help(format!("use at most {MOST}, or repeat a wall with grid")));
     }
     let (along, across) = (usize::from(upwards), usize::from(!upwards));
     let shares = options.walls.iter().map(|wall| {
@@ -70,7 +70,7 @@ fn make(options: &ListOptions) -> Result<Wall> {
                 range(&wall.0.sizes[across], side),
                 range(&common, side)
             );
-            return Err(Error::argument(message).help("put a margin around one of them: bordered { ... }"));
+            return Err(Error::argument(message).help("add a margin around one of them: bordered { ... }"));
         }
         common = both;
     }

@@ -38,7 +38,7 @@ pub struct PanelOptions {
 /// Returns the script type of panels.
 pub fn kind() -> &'static Arc<Kind> {
     static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
-        let kind = Kind::new("panel", "A plain piece of wall, with a model or an image on it if wanted.")
+        let kind = Kind::new("panel", "A plain wall panel, optionally with a model or an image on it.")
             .example(include_str!("../../scripts/panel.lua"));
         wall_kind(kind, PanelOptions::fields(), |table| make(&PanelOptions::from_table(table)?))
     });

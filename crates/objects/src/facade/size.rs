@@ -35,9 +35,7 @@ impl Parameter for Size {
     }
 
     fn from_value(value: Value) -> Result<Self, Expectation> {
-        let what = || {
-            Expectation::new("a preferred length (m), { least, greatest } or { least, preferred, greatest }")
-        };
+        let what = || Expectation::new("a preferred length (m), { min, max } or { min, preferred, max }");
         let numbers = match &value {
             Value::Number(number) => vec![*number],
             _ => Vec::<f64>::from_value(value).map_err(|_| what())?,
@@ -164,7 +162,7 @@ impl Parameter for Count {
     }
 
     fn from_value(value: Value) -> Result<Self, Expectation> {
-        let what = || Expectation::new(format!("a whole number from 1 to {MOST}, or {{ least, greatest }}"));
+        let what = || Expectation::new(format!("an integer from 1 to {MOST}, or {{ min, max }}"));
         let numbers = match &value {
             Value::Number(_) => vec![u32::from_value(value).map_err(|_| what())?],
             _ => Vec::<u32>::from_value(value).map_err(|_| what())?,

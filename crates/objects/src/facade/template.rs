@@ -61,13 +61,11 @@ impl Template {
     fn from_table(table: &Table) -> Result<Self> {
         let options = TemplateOptions::from_table(table)?;
         let Some(wall) = options.wall.clone() else {
-            return Err(
-                Error::argument("template: there is no wall").help("write template { wall = panel { } }")
-            );
+            return Err(Error::argument("template: missing wall").help("write template { wall = panel { } }"));
         };
         if !(0.0..=1e9).contains(&options.weight) {
             return Err(Error::argument(format!("template: weight is {}", options.weight))
-                .help("give a number from 0 on"));
+                .help("use a number of at least 0"));
         }
         let material = options.material.material()?;
         let inner =
@@ -108,7 +106,7 @@ impl Facade {
 impl Facade {
     fn new(options: FacadeOptions) -> Result<Self> {
         if options.templates.is_empty() {
-            return Err(Error::argument("facade: there are no templates")
+            return Err(Error::argument("facade: missing templates")
                 .help("write facade({ template { wall = panel { } } })"));
         }
         Ok(Self(Templates(options.templates.into())))

@@ -157,9 +157,9 @@ fn what_can_never_fit_is_refused_when_it_is_made() {
     );
     assert_eq!(
         error,
-        "bordered: it can never fit: its parts are at least 4 m wide, and it must be 1 to 2 m wide"
+        "bordered: it can never fit: its parts are at least 4 m wide, but it must be 1 to 2 m wide"
     );
-    assert_eq!(refused(grid::kind(), &[]), "grid: there is no wall to repeat");
+    assert_eq!(refused(grid::kind(), &[]), "grid: missing wall to repeat");
 }
 
 fn template(keywords: &[&str], weight: f64, width: &[f64]) -> Value {

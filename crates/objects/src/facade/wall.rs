@@ -114,7 +114,7 @@ impl Wall {
         if depth > DEEPEST {
             return Err(Error::limit(
                 Limit::Size,
-                format!("{name}: more than {DEEPEST} walls are within one another"),
+                format!("{name}: walls are nested more than {DEEPEST} deep"),
             )
             .help("repeat a wall with grid or list"));
         }
@@ -124,11 +124,11 @@ impl Wall {
             let both = sizes.and(&own.sizes());
             if both.is_empty() {
                 return Err(Error::argument(format!(
-                    "{name}: it can never fit: its parts are {}, and it must be {}",
+                    "{name}: it can never fit: its parts are {}, but it must be {}",
                     range(sizes, side),
                     range(&own.sizes(), side)
                 ))
-                .help("widen what the parts or the wall itself allow"));
+                .help("allow a larger range of sizes for the parts or the wall"));
             }
             *sizes = both;
         }

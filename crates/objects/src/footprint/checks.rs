@@ -35,6 +35,6 @@ pub(super) fn check_height(what: &str, height: f64) -> Result<()> {
 
 /// Creates the error for an unknown kind.
 pub(super) fn unknown_kind(what: &str, kind: &str, known: &[&'static str]) -> Error {
-    Error::not_found("kind", kind, known.iter().copied(), format!("{what} has no kind called {kind:?}"))
-        .help(format!("there are {}", known.join(", ")))
+    Error::not_found("kind", kind, known.iter().copied(), format!("{what}: unknown kind {kind:?}"))
+        .help(format!("use {}", known.join(", ")))
 }

@@ -221,8 +221,8 @@ fn an_overhang_that_gives_way_tells_whether_a_neighbour_is_the_cause() {
     assert_eq!(notes(&[&angle]), [""; 0]);
     assert_eq!(
         notes(&[&angle, &beside]),
-        ["a smaller overhang over some edges, as a neighbour is near: 0 m in place of 0.6 m over edge 3"]
+        ["a smaller overhang over some edges, as a neighbour is near: 0 m instead of 0.6 m over edge 3"]
     );
     let within = notes(&[&recess, &ring(&[(30., 0.), (40., 0.), (40., 5.), (30., 5.)])]);
-    assert!(within.len() == 1 && within[0].contains("as there is no room: "), "{within:?}");
+    assert!(within.len() == 1 && within[0].contains("as the space is too small: "), "{within:?}");
 }

@@ -166,11 +166,11 @@ impl Footprint {
         if (1..=count).contains(&number) {
             return Ok(number - 1);
         }
-        let message = format!("footprint:{method}: there is no edge {number}");
+        let message = format!("footprint:{method}: unknown edge {number}");
         Err(Error::not_found("edge", number, [], message).help(if count == 0 {
             "the footprint has no geometry".to_owned()
         } else {
-            format!("it has the edges 1 to {count}, those of holes after those of the outer ring")
+            format!("it has the edges 1 to {count}: edges of the outer ring, followed by edges of holes")
         }))
     }
 

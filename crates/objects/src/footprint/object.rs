@@ -142,19 +142,21 @@ impl Footprint {
         let count = self.plan.given();
         match self.options.edge_keywords.0.keys().find(|number| !(1..=count).contains(*number)) {
             None => Ok(()),
-            Some(number) => Err(Error::argument(format!("footprint: edge_keywords names edge {number}"))
-                .help(format!("the geometry has the edges 1 to {count}"))),
+            Some(number) => {
+                Err(Error::argument(format!("footprint: edge_keywords refers to the unknown edge {number}"))
+                    .help(format!("the geometry has the edges 1 to {count}")))
+            }
         }
     }
     /// Fails if there is no geometry to build on, or if the building already has its roof.
     pub(super) fn check_open(&self, what: &str) -> Result<()> {
         if self.plan.polygon().is_empty() {
             return Err(Error::script(format!("footprint:{what}: the footprint has no geometry"))
-                .help("make it with one: footprint(feature.geometry)"));
+                .help("create it with one: footprint(feature.geometry)"));
         }
         if self.shell.closed {
-            return Err(Error::script(format!("footprint:{what}: the building has its roof already"))
-                .help("the roof comes last"));
+            return Err(Error::script(format!("footprint:{what}: the building already has a roof"))
+                .help("call roof last"));
         }
         Ok(())
     }

@@ -42,7 +42,9 @@ impl Parameter for EdgeKeywords {
 
     fn from_value(value: Value) -> Result<Self, Expectation> {
         let what = || {
-            Expectation::new("a table from numbers of edges to lists of words: { [2] = { \"entry door\" } }")
+            Expectation::new(
+                "a table that maps edge numbers to lists of keywords: { [2] = { \"entry door\" } }",
+            )
         };
         let Value::Table(table) = value else { return Err(what()) };
         let edge = |(key, words): &(TableKey, Value)| {

@@ -17,8 +17,8 @@ impl Footprint {
     pub(super) fn lay(&mut self, kind: &str, material: Option<MaterialOptions>) -> Result<()> {
         self.check_open("groundwork")?;
         if self.shell.begun {
-            return Err(Error::script("footprint:groundwork: the building has been begun already")
-                .help("the groundwork comes first"));
+            return Err(Error::script("footprint:groundwork: the building already has parts")
+                .help("call groundwork first"));
         }
         let (low, high) = self.plan.ground();
         let base = match kind {

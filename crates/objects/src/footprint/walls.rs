@@ -44,16 +44,14 @@ impl Walls {
             |why: &str, remedy: &str| Error::argument(format!("footprint:walls: {why}")).help(remedy);
         match (&self.bay[..], &self.photo) {
             ([], _) => Ok(None),
-            (_, None) => {
-                Err(refused("bay is of a photo, and there is none", "give photo = { texture = ... } too"))
-            }
+            (_, None) => Err(refused("bay needs a photo", "also set photo = { texture = ... }")),
             (&[width, height], Some(photo))
                 if width >= 0.1 && height >= 0.1 && !photo.texture_size.is_empty() =>
             {
                 Ok(Some(DVec2::new(width, height)))
             }
             _ => Err(refused(
-                "bay must be { width, height } in metres, at least 0.1, of a photo with a texture_size",
+                "bay must be { width, height } in metres, at least 0.1, with a photo that has a texture_size",
                 "write bay = { 2.5, 3 } and photo = { texture = ..., texture_size = { 10, 12 } }",
             )),
         }
@@ -87,11 +85,9 @@ impl Footprint {
     pub(super) fn raise(&mut self, options: &Walls) -> Result<()> {
         self.check_open("walls")?;
         let Some(Height(height)) = options.height.or(self.options.height) else {
-            return Err(Error::argument(
-                "footprint:walls: neither the walls nor the footprint have a height",
-            )
-            .help("write this:walls { height = 6 }")
-            .of_data());
+            return Err(Error::argument("footprint:walls: missing height of the walls or the footprint")
+                .help("write this:walls { height = 6 }")
+                .of_data());
         };
         check_height("footprint:walls: height", height)?;
         if !self.shell.begun {
@@ -121,10 +117,8 @@ impl Footprint {
             (None, None) => self.draw_plain(plain, from, to),
             (None, Some(photo)) => self.draw_photo(&photo.material()?, bay, plain, from, to),
             (Some(templates), None) => self.draw_facades(templates, plain, options.expand, from, to),
-            (Some(_), Some(_)) => {
-                Err(Error::argument("footprint:walls: there are both templates and a photo")
-                    .help("give one of them"))
-            }
+            (Some(_), Some(_)) => Err(Error::argument("footprint:walls: templates and photo are both set")
+                .help("remove one of them")),
         }
     }
 

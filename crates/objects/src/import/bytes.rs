@@ -25,7 +25,7 @@ impl<'a> Bytes<'a> {
             let bytes = match (&buffer.uri, own) {
                 (Some(uri), _) => address(uri, wanted)?.into(),
                 (None, Some(own)) if index == 0 => own.into(),
-                (None, _) => return Err(broken_file(wanted.name, format!("buffer {index} has no content"))),
+                (None, _) => return Err(broken_file(wanted.name, format!("buffer {index} is empty"))),
             };
             let bytes: std::borrow::Cow<'a, [u8]> = bytes;
             if (bytes.len() as u64) < buffer.byte_length.0 {
@@ -42,7 +42,7 @@ impl<'a> Bytes<'a> {
         root: &Root,
         index: Index<buffer::View>,
     ) -> Result<(&[u8], Option<usize>), String> {
-        let none = || format!("view {} lies outside of its buffer", index.value());
+        let none = || format!("view {} is outside its buffer", index.value());
         let view = root.get(index).ok_or_else(none)?;
         let buffer = self.buffers.get(view.buffer.value()).ok_or_else(none)?;
         let offset = usize::try_from(view.byte_offset.map_or(0, |offset| offset.0)).map_err(|_| none())?;
@@ -150,7 +150,7 @@ impl<'a> NumberColumns<'a> {
     fn whole(&self, index: Index<Accessor>) -> Result<Vec<u32>> {
         let (accessor, component) = self.description(index, 1)?;
         if matches!(component, ComponentType::F32 | ComponentType::I8 | ComponentType::I16) {
-            return Err(Error::data(format!("accessor {} has no whole numbers", index.value())));
+            return Err(Error::data(format!("accessor {} does not contain integers", index.value())));
         }
         let mut items = Vec::new();
         self.each(accessor, component.size(), size_of::<u32>(), |bytes| {
@@ -176,9 +176,9 @@ impl<'a> NumberColumns<'a> {
     fn description(&self, index: Index<Accessor>, count: usize) -> Result<(&'a Accessor, ComponentType)> {
         let number = index.value();
         let accessor =
-            self.root.get(index).ok_or_else(|| Error::data(format!("there is no accessor {number}")))?;
+            self.root.get(index).ok_or_else(|| Error::data(format!("missing accessor {number}")))?;
         if accessor.sparse.is_some() {
-            return Err(Error::data(format!("accessor {number} is sparse, which is not read")));
+            return Err(Error::data(format!("accessor {number} is sparse, which is not supported")));
         }
         let fits = match &accessor.type_ {
             Checked::Valid(kind) => kind.multiplicity() == count && *kind != Type::Mat2,
@@ -186,13 +186,13 @@ impl<'a> NumberColumns<'a> {
         };
         match &accessor.component_type {
             Checked::Valid(component) if fits => Ok((accessor, component.0)),
-            _ => Err(Error::data(format!("accessor {number} has items of another type than is read"))),
+            _ => Err(Error::data(format!("accessor {number} has items of an unsupported type"))),
         }
     }
 
     /// Calls `take` with the bytes of each item, and charges the budget `kept` bytes per item.
     fn each(&self, accessor: &Accessor, size: usize, kept: usize, mut take: impl FnMut(&[u8])) -> Result<()> {
-        let outside = || Error::data("an accessor reaches outside of its view");
+        let outside = || Error::data("an accessor extends outside its view");
         // Without a view, all numbers are 0, which is not a shape.
         let view = accessor.buffer_view.ok_or_else(outside)?;
         let (bytes, stride) = self.bytes.view(self.root, view).map_err(Error::data)?;
@@ -230,7 +230,7 @@ pub(super) fn address(uri: &str, wanted: &mut ImportOptions<'_>) -> Result<Vec<u
     let engine = base64::engine::general_purpose::STANDARD;
     coded
         .and_then(|coded| engine.decode(coded).ok())
-        .ok_or_else(|| broken_file(wanted.name, "it holds data that is not base64"))
+        .ok_or_else(|| broken_file(wanted.name, "it contains data that is not base64"))
 }
 
 /// Decodes the percent-encoding of a URI, such as `%20`.

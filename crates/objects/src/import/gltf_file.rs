@@ -56,7 +56,7 @@ pub(super) fn read(content: &[u8], wanted: &mut ImportOptions<'_>) -> Result<Sce
     model.nodes(&start, DAffine3::IDENTITY, 0)?;
     if model.scene.instances.is_empty() {
         return Err(Error::data(format!("the model {name} has no triangles"))
-            .help("export it with its meshes; lines, points and other scenes are not read"));
+            .help("export it with its meshes; lines, points and other scenes are not supported"));
     }
     Ok(model.scene)
 }
@@ -71,7 +71,7 @@ fn damaged_file(name: &str, budget: &Budget, error: &Error) -> Error {
 fn container(content: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
     if !content.starts_with(b"glTF") {
         let text = content.iter().find(|byte| !byte.is_ascii_whitespace());
-        return if text == Some(&b'{') { Ok((content, None)) } else { Err("it is no glTF file".into()) };
+        return if text == Some(&b'{') { Ok((content, None)) } else { Err("it is not a glTF file".into()) };
     }
     let word = |at: usize| {
         let bytes = content.get(at..at + 4).and_then(|bytes| <[u8; 4]>::try_from(bytes).ok());
@@ -95,16 +95,15 @@ fn container(content: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
         let is_chunk = |at: usize| matches!(whole.get(at + 4..at + 8), Some(b"JSON" | b"BIN\0"));
         at = if is_chunk(bare) && !is_chunk(filled) { bare } else { filled };
     }
-    Ok((json.ok_or("it has no description of itself")?, own))
+    Ok((json.ok_or("it has no JSON description")?, own))
 }
 
 fn check_extensions(root: &Root, name: &str) -> Result<()> {
     let known = |needed: &str| needed.starts_with("KHR_materials_") || needed == instances::EXTENSION;
     let unknown = root.extensions_required.iter().find(|needed| !known(needed));
     let Some(needed) = unknown else { return Ok(()) };
-    Err(Error::data(format!("the model {name} needs the extension {needed}, which is not read")).help(
-        "export it without compression of meshes and textures, and without extensions that readers must know",
-    ))
+    Err(Error::data(format!("the model {name} needs the extension {needed}, which is not supported"))
+        .help("export it without compression of meshes and textures, and without required extensions"))
 }
 
 /// Returns the nodes without parents.
@@ -142,13 +141,13 @@ impl Import<'_> {
                 return Err(broken_file(self.name, format!("it has more than {MOST_NODES} nodes")));
             }
             let Some(node) = self.root.get(*index) else {
-                return Err(broken_file(self.name, format!("there is no node {}", index.value())));
+                return Err(broken_file(self.name, format!("missing node {}", index.value())));
             };
             let here = above * transform(node);
             if !here.is_finite() {
                 return Err(broken_file(
                     self.name,
-                    format!("the place of node {} is no number", index.value()),
+                    format!("the transform of node {} is not finite", index.value()),
                 ));
             }
             if let Some(mesh) = node.mesh {
@@ -172,7 +171,7 @@ impl Import<'_> {
     fn instance(&mut self, index: Index<gltf_json::Mesh>, place: DAffine3, name: &str) -> Result<()> {
         self.columns.budget.tick()?;
         if !place.is_finite() {
-            return Err(broken_file(self.name, "the place of an instance is no number"));
+            return Err(broken_file(self.name, "the transform of an instance is not finite"));
         }
         let known = self.meshes.get(index.value()).copied();
         let mesh = match known {
@@ -182,7 +181,7 @@ impl Import<'_> {
                 self.meshes[index.value()] = Some(mesh);
                 mesh
             }
-            None => return Err(broken_file(self.name, format!("there is no mesh {}", index.value()))),
+            None => return Err(broken_file(self.name, format!("missing mesh {}", index.value()))),
         };
         let Some(mesh) = mesh else { return Ok(()) };
         let triangles = self.scene.meshes[mesh].triangles();
@@ -218,12 +217,13 @@ impl Import<'_> {
         let mut triangles = 0;
         for primitive in &described.primitives {
             self.columns.budget.check()?;
-            let look = match primitive.material {
-                Some(index) => self.materials.get(index.value()).cloned().ok_or_else(|| {
-                    broken_file(self.name, format!("there is no material {}", index.value()))
-                })?,
-                None => look::plain(),
-            };
+            let look =
+                match primitive.material {
+                    Some(index) => self.materials.get(index.value()).cloned().ok_or_else(|| {
+                        broken_file(self.name, format!("missing material {}", index.value()))
+                    })?,
+                    None => look::plain(),
+                };
             let shapes = shape::shapes(&mut self.columns, primitive, look.set).map_err(|error| {
                 let noted = error.noting(&format!("mesh {}", index.value()));
                 damaged_file(self.name, self.columns.budget, &noted)
@@ -293,13 +293,13 @@ pub(crate) fn kind() -> Kind {
 }
 
 fn load(file: &mut LoadRequest<'_>, _: &Table) -> Result<LoadedObject> {
-    let remedy = "name a .glb or .gltf file";
+    let remedy = "specify a .glb or .gltf file";
     let content = file.read(remedy)?;
     // External files are relative to the folder of the file.
     let folder = Path::new(file.name).parent().map(Path::to_path_buf).unwrap_or_default();
     let mut beside = |uri: &str| {
         let name = folder.join(uri).display().to_string();
-        file.read_beside("file of a model", &name, remedy)
+        file.read_beside("model file", &name, remedy)
     };
     let mut wanted = ImportOptions {
         name: file.name,

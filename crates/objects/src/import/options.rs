@@ -21,5 +21,5 @@ pub(super) struct ImportOptions<'a> {
 /// Creates the error for a damaged file.
 pub(super) fn broken_file(name: &str, why: impl std::fmt::Display) -> Error {
     Error::data(format!("the model {name} cannot be read: {why}"))
-        .help("export it again as glTF 2.0 (.glb), and check that it was copied whole")
+        .help("export it again as glTF 2.0 (.glb), and check that the copy is complete")
 }

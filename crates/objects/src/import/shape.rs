@@ -39,7 +39,9 @@ pub(super) fn shapes(
     let normals = attribute(Semantic::Normals).map(|normals| columns.triples(normals)).transpose()?;
     let same = |length: usize| length == positions.len();
     if !uvs.as_ref().is_none_or(|uvs| same(uvs.len())) || !normals.as_ref().is_none_or(|it| same(it.len())) {
-        return Err(Error::data("it has not as many normals or texture coordinates as points"));
+        return Err(Error::data(
+            "its number of normals or texture coordinates differs from its number of points",
+        ));
     }
     let triangles = triangles(columns, primitive, &positions)?;
     let mut shapes = Vec::new();
@@ -88,7 +90,7 @@ fn triangles(
         _ => return Ok(Vec::new()),
     };
     if let Some(odd) = (0..length).map(corner).find(|corner| *corner >= count) {
-        return Err(Error::data(format!("a triangle has point {odd}, and there are {count}")));
+        return Err(Error::data(format!("a triangle refers to point {odd} of {count}")));
     }
     let budget = columns.budget;
     let _held = budget.hold(length.saturating_mul(size_of::<[u32; 3]>()))?;
@@ -100,7 +102,10 @@ fn triangles(
         let corners = places.map(corner);
         let points = corners.map(|corner| z_up(Vec3::from(positions[corner as usize])));
         if let Some(point) = points.iter().find(|point| !point.abs().cmple(Vec3::splat(FARTHEST)).all()) {
-            return Err(Error::data(format!("a point lies at {}, {}, {}", point.x, point.y, point.z)));
+            return Err(Error::data(format!(
+                "a point has the position {}, {}, {}",
+                point.x, point.y, point.z
+            )));
         }
         // A triangle without area is invisible and has no normal.
         if area_vector(points).length_squared() > 0.0 {
@@ -177,7 +182,7 @@ impl PrimitiveColumns<'_> {
             // The v coordinate points up here, but down in a file.
             part.uvs = used().map(|point| Vec2::new(uvs[point][0], 1.0 - uvs[point][1])).collect();
             if part.uvs.iter().any(|uv| !uv.abs().cmple(Vec2::splat(FARTHEST)).all()) {
-                return Err(Error::data("a texture coordinate is no number"));
+                return Err(Error::data("a texture coordinate is not finite"));
             }
         }
         match self.normals {

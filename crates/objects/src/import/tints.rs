@@ -35,7 +35,7 @@ pub(super) fn group_by_tint(
         columns.fours(index)?.to_vec()
     };
     if colors.len() != count {
-        return Err(Error::data("it has not as many colours as points"));
+        return Err(Error::data("its number of colours differs from its number of points"));
     }
     let _held = columns.budget.hold(triangles.len() * (size_of::<[u32; 3]>() + 8))?;
     let key = |triangle: &[u32; 3], shades: f32| -> [u8; 4] {

@@ -36,8 +36,11 @@ pub(super) fn fate(fate: Fate) -> &'static str {
 /// Creates the table that describes the predicted outcome of a street.
 pub(super) fn prospect(prospect: StreetProspect) -> Value {
     let junction = prospect.junction.map_or(Value::Nil, number);
+    let outcome = Value::Text(fate(prospect.fate).into());
     named_table([
-        ("fate", Value::Text(fate(prospect.fate).into())),
+        ("outcome", outcome.clone()),
+        // Former name of the outcome.
+        ("fate", outcome),
         ("built", Value::Boolean(!matches!(prospect.fate, Fate::Refused(_)))),
         ("place", place(prospect.place)),
         ("junction", junction),
@@ -148,21 +151,21 @@ pub(super) fn misled_warning(fate: Fate, [from, end, to]: [DVec2; 3]) -> Option<
     let (text, remedy) = match fate {
         Fate::Refused(why) => {
             let remedy = match why {
-                Refusal::TooShort => "lead it farther, or give the network a smaller `min_length`",
-                Refusal::Angle => "lead it elsewhere, or give the network a smaller `min_angle`",
-                Refusal::TooNear => "lead it elsewhere, or give the network a smaller `clearance`",
-                Refusal::Corners => "lead it elsewhere, or give the network a smaller `corner`",
-                Refusal::Obstacle => "lead it around the obstacle, or leave that out",
+                Refusal::TooShort => "propose a longer street, or set a smaller `min_length`",
+                Refusal::Angle => "choose another position, or set a smaller `min_angle`",
+                Refusal::TooNear => "choose another position, or set a smaller `clearance`",
+                Refusal::Corners => "choose another position, or set a smaller `corner`",
+                Refusal::Obstacle => "go around the obstacle, or remove the obstacle",
                 Refusal::Outside => {
-                    "lead it to a place within the `limit` of the network, and within 500 km of the origin"
+                    "choose a position within the `limit` of the network and within 500 km of the origin"
                 }
             };
-            (format!("network:lead: no street leads {way}: {}", why.name()), remedy)
+            (format!("network:grow_to: no street {way}: {}", why.name()), remedy)
         }
         Fate::Shortened => {
             let end = metres(end);
-            let text = format!("network:lead: the street {way} ends at {end}, for an obstacle is in its way");
-            (text, "lead it around the obstacle, or leave that out")
+            let text = format!("network:grow_to: the street {way} ends at {end}, before an obstacle");
+            (text, "go around the obstacle, or remove the obstacle")
         }
         _ => return None,
     };
@@ -180,7 +183,7 @@ pub(super) fn dead_end_options(
         DeadEndOptions { radius: radius.unwrap_or(usual.radius), detour: detour.unwrap_or(usual.detour) };
     if !(0.0..=2000.0).contains(&options.radius) || !(1.0..=100.0).contains(&options.detour) {
         return Err(Error::argument(format!(
-            "network:{method} takes a radius from 0 to 2000, and a detour from 1 to 100"
+            "network:{method} needs a radius from 0 to 2000 and a detour from 1 to 100"
         )));
     }
     Ok(options)

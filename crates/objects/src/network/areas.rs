@@ -30,19 +30,19 @@ impl NetworkAreas {
             Ok(plan) => plan,
             Err(error) => {
                 let text =
-                    format!("network: {name}: left out an area that is no polygon: {}", error.message());
+                    format!("network: {name}: skipped an area that is not a polygon: {}", error.message());
                 let warning = Warning::new(WarningKind::Data, text);
-                self.warnings.push(warning.help("repair it, or leave it out"));
+                self.warnings.push(warning.help("repair it, or remove it"));
                 return;
             }
         };
         if let (repairs @ [_, ..], trouble) = plan.repairs() {
             let text = format!(
-                "network: {name}: an area is no simple polygon ({trouble}), so that a part of it counts: {}",
+                "network: {name}: an area is not a simple polygon ({trouble}), so only a part of it is used: {}",
                 repairs.join(", ")
             );
             let warning = Warning::new(WarningKind::Data, text);
-            self.warnings.push(warning.help("repair it, so that all of it counts"));
+            self.warnings.push(warning.help("repair it to use the whole area"));
         }
         let can_be_bridged = name == "water";
         if can_be_bridged {

@@ -41,7 +41,7 @@ impl Network {
             drawing.material(&material)
         };
         let [asphalt, paving, white] = [self.options.asphalt, self.options.paving, WHITE].map(&mut paint);
-        let ground = self.options.ground.map(&mut paint);
+        let ground = self.options.block_color.map(&mut paint);
         let inks: Vec<_> = self.options.streets.iter().map(|kind| kind.asphalt.map(&mut paint)).collect();
         let kerb = self.options.kerb;
         let of_kinds: Vec<usize> = inks.iter().map(|ink| ink.unwrap_or(asphalt)).collect();

@@ -82,10 +82,10 @@ impl Unusable {
         self.found.into_iter().map(|(what, count, street, value)| {
             let lines = if count == 1 { "line has" } else { "lines have" };
             let text = format!(
-                "network: existing: {count} {lines} no usable {what}, such as {value} of {street}: that of the kind of street is used"
+                "network: existing: {count} {lines} no usable {what}, e.g. {value} of {street}: the value of the street type is used"
             );
             Warning::new(WarningKind::Data, text)
-                .help(format!("correct the data, or give {what} = a number or another attribute"))
+                .help(format!("correct the data, or set {what} to a number or another attribute"))
         })
     }
 }
@@ -101,8 +101,8 @@ pub(super) fn add(
     for (number, lines) in (1..).zip(existing) {
         if let Some((count, first)) = &lines.lines.refused {
             let text =
-                format!("network: existing: {count} items of lines of entry {number} are no lines: {first}");
-            let help = "give lines of features, geometries or lists of two positions or more";
+                format!("network: existing: {count} items of lines of entry {number} are not lines: {first}");
+            let help = "give lines: features, geometries or lists of at least two positions";
             warnings.push(Warning::new(WarningKind::Data, text).help(help));
         }
         for (index, line) in (1..).zip(&lines.lines.lines) {
@@ -115,7 +115,7 @@ pub(super) fn add(
     }
     warnings.extend(unusable.warnings());
     if streets.is_empty() && !existing.is_empty() && warnings.is_empty() {
-        let text = "network: existing gives no line, so that no street is there";
+        let text = "network: existing contains no lines, so no street exists";
         warnings
             .push(Warning::new(WarningKind::Data, text).help("give lines: a layer of streets, not of areas"));
     }
@@ -225,7 +225,6 @@ fn losses(report: &ExistingReport) -> Option<Warning> {
         named.join(", ")
     );
     Some(Warning::new(WarningKind::Data, text).help(
-        "outside: give positions within 500 km of the origin; no length: give lines of two positions or more; \
-         network:omitted() lists all missing parts",
+        "outside: give positions within 500 km of the origin; no length: give lines of at least two positions; network:omitted() lists all missing parts",
     ))
 }

@@ -73,7 +73,7 @@ impl Parameter for StreetOptions {
             return Err(Expectation::new("a table of a street's fields: { width = 14, lanes = 2 }"));
         };
         Self::from_table(table)
-            .map_err(|error| Expectation::new(format!("a kind of street ({})", error.message())))
+            .map_err(|error| Expectation::new(format!("a street type ({})", error.message())))
     }
 
     fn into_value(self) -> Value {

@@ -71,12 +71,10 @@ impl Network {
         let height = |at: glam::DVec2| ground.height(Vector(at.extend(0.0))).ok();
         self.network.lay(self.surface_options(), slopes, height).map_err(|at| {
             Error::argument(format!(
-                "network: on: there is no ground at ({:.1}, {:.1}), where a street is",
+                "network: on: the terrain has no ground at ({:.1}, {:.1}), below a street",
                 at.x, at.y
             ))
-            .help(
-                "make the terrain greater, derive it before, or keep streets on it: network { limit = ... }",
-            )
+            .help("enlarge the terrain, derive it before, or keep streets on it: network { limit = ... }")
         })
     }
 
@@ -103,15 +101,15 @@ impl Network {
     /// Returns the warning about streets above or below the visible ground. Only a terrain that is created after the
     /// streets can match them.
     pub(super) fn hidden_warning(&self) -> Result<Option<Warning>> {
-        if self.network.size() == 0 || !self.options.on.as_ref().is_some_and(|ground| ground.is_shown()) {
+        if self.network.size() == 0 || !self.options.on.as_ref().is_some_and(|ground| ground.is_visible()) {
             return Ok(None);
         }
         let fit = self.fit()?;
         let deepest = fit.depths.iter().copied().fold(0.0, f64::max);
         Ok((deepest > OFF).then(|| {
-            let text = "network: on: the ground is shown as it was without the streets, some of which lie in it or above it";
+            let text = "network: on: the visible terrain is not adapted to the streets, so some streets are below or above the ground";
             Warning::new(WarningKind::Doubtful, text).help(
-                "give that terrain shown = false, and show another one that is like it, with under = these streets",
+                "set visible = false for that terrain, and create a second one of the same form with under = these streets",
             )
         }))
     }
@@ -129,9 +127,9 @@ impl Network {
             "tree" => VergeKind::Tree,
             "lamp" => VergeKind::Lamp,
             _ => {
-                let message = format!("there is nothing called {what:?} beside streets");
+                let message = format!("unknown object {what:?} along streets");
                 return Err(Error::not_found("thing", what, ["tree", "lamp"], message)
-                    .help("ask for \"tree\" or \"lamp\""));
+                    .help("use \"tree\" or \"lamp\""));
             }
         };
         let fit = self.fit()?;
@@ -196,13 +194,12 @@ impl GroundStreets for Network {
         let deepest = fit.depths.iter().copied().fold(0.0, f64::max);
         Ok((deep > 0).then(|| {
             let text = format!(
-                "network: {deep} of {} pieces of streets lie more than {DEEP} m above or below the ground, up to {deepest:.1} m, \
-                 so that none is steeper than max_slope = {} %",
+                "network: {deep} of {} street segments are more than {DEEP} m above or below the ground, up to {deepest:.1} m, to keep max_slope = {} %",
                 self.network.size(),
                 self.options.max_slope
             );
             Warning::new(WarningKind::Doubtful, text)
-                .help("give a greater max_slope, or keep streets off steep ground: network { obstacles = ... }")
+                .help("set a greater max_slope, or keep streets away from steep ground: network { obstacles = ... }")
         }))
     }
 }

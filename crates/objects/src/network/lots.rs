@@ -172,21 +172,18 @@ impl Omissions {
         let mut told = Vec::new();
         if self.long > 0 {
             let text = format!(
-                "network:lots: left out {} more than {} times as long as wide, up to {:.1} times",
+                "network:lots: skipped {} more than {} times as long as wide, up to {:.1} times",
                 lots(self.long),
                 options.elongation,
                 self.longest
             );
-            let help = "give a greater elongation, or all = true: they are lots whose use is \"rest\"";
+            let help = "set a greater elongation, or all = true to return them as lots with the use \"rest\"";
             told.push(Warning::new(WarningKind::Doubtful, text).help(help));
         }
         if self.blocked > 0 {
-            let text = format!(
-                "network:lots: left out {} that an obstacle or water reaches into",
-                lots(self.blocked)
-            );
-            let help = "give all = true: they are lots whose use is \"blocked\"; or blocks that end before what is in the \
-                        way: block.geometry:difference(water:buffer(0.1))";
+            let text =
+                format!("network:lots: skipped {} that overlap an obstacle or water", lots(self.blocked));
+            let help = "set all = true to return them as lots with the use \"blocked\", or cut the obstacle out of the blocks: block.geometry:difference(water:buffer(0.1))";
             told.push(Warning::new(WarningKind::Doubtful, text).help(help));
         }
         told
@@ -196,8 +193,7 @@ impl Omissions {
     fn blocks(&self, count: usize) -> Option<Warning> {
         (self.undivided > 0).then(|| {
             let text = format!(
-                "network:lots: left out {} of {count} block{}: nothing lies within their borders, or they lie more than \
-                 {:.0} km from the origin",
+                "network:lots: skipped {} of {count} block{}: they have no area inside their borders, or are more than {:.0} km from the origin",
                 self.undivided,
                 if count == 1 { "" } else { "s" },
                 FARTHEST / 1000.0
@@ -234,9 +230,9 @@ impl LotSettings {
         let known = LotPattern::ALL.iter().find(|(name, _)| *name == self.kind);
         let Some((_, pattern)) = known else {
             let names = || LotPattern::ALL.iter().map(|(name, _)| *name);
-            let message = format!("there is no kind of lots called {:?}", self.kind);
+            let message = format!("unknown kind of lots {:?}", self.kind);
             return Err(Error::not_found("kind", &self.kind, names(), message)
-                .help(format!("it is one of {}", listed(names()))));
+                .help(format!("use one of {}", listed(names()))));
         };
         let usual = LotOptions::new(self.width, self.depth);
         let options = LotOptions {
@@ -329,23 +325,21 @@ impl Network {
             told.extend(overlapping(&giving));
         }
         if records.is_empty() {
-            let help = "give a smaller width and depth, or fewer parks";
+            let help = "use a smaller width and depth, or fewer parks";
             match settings.blocks {
                 None if omissions.blocked > 0 => {
-                    let text = format!(
-                        "network:lots: an obstacle or water reaches into each of {} lots",
-                        omissions.blocked
-                    );
+                    let text =
+                        format!("network:lots: all {} lots overlap an obstacle or water", omissions.blocked);
                     return Err(
-                        Error::argument(text).help("give a smaller width and depth, or fewer obstacles")
+                        Error::argument(text).help("use a smaller width and depth, or fewer obstacles")
                     );
                 }
                 None if !blocks.is_empty() => {
                     return Err(Error::argument(without_room(&blocks, options)).help(help));
                 }
                 None => {
-                    let text = "network:lots: the streets enclose no block, so there are no lots";
-                    let help = "let streets meet, or say what to divide: blocks = { polygon }";
+                    let text = "network:lots: the streets enclose no block to divide";
+                    let help = "connect the streets, or specify the areas to divide: blocks = { polygon }";
                     told.push(Warning::new(WarningKind::Doubtful, text).help(help));
                 }
                 // A fraction of the blocks becomes parks; among few blocks, these may be all blocks.

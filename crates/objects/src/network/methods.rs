@@ -26,7 +26,7 @@ impl Network {
 
     /// Proposes a street from a junction to a position (m). The street may join other streets on its way. A warning
     /// reports a street that is refused, or that ends before an obstacle.
-    pub fn lead(&mut self, junction: u32, to: Vector, depth: u32) -> Result<()> {
+    pub fn grow_to(&mut self, junction: u32, to: Vector, depth: u32) -> Result<()> {
         let from = self.junction_id(junction)?;
         let to = to.0.truncate();
         let growth = self.network.grow(from, to, self.attributes(depth))?;
@@ -41,12 +41,12 @@ impl Network {
     /// one more. A refused street ends its path.
     pub fn walk(&mut self, length: f64) -> Result<()> {
         if length <= 0.0 {
-            return Err(Error::argument(format!("network:walk: a street of {length} m cannot be"))
-                .help("give a length above 0"));
+            return Err(Error::argument(format!("network:walk: invalid street length {length} m"))
+                .help("use a length above 0"));
         }
         if self.network.junctions().is_empty() {
             return Err(Error::argument("network:walk: the network has no junction to walk from")
-                .help("give it starts, such as network { starts = { { 0, 0 } } }"));
+                .help("set starts, such as network { starts = { { 0, 0 } } }"));
         }
         let attributes = self.attributes(self.walk.depth());
         if let Some((junction, heading, growth)) =
@@ -63,9 +63,9 @@ impl Network {
     }
 
     /// Continues the path from a junction with a `heading` (degrees from east, counter-clockwise).
-    pub fn stand(&mut self, junction: u32, heading: f64) -> Result<()> {
+    pub fn move_to(&mut self, junction: u32, heading: f64) -> Result<()> {
         let at = self.junction_id(junction)?;
-        self.walk.stand(at, heading);
+        self.walk.move_to(at, heading);
         Ok(())
     }
 
@@ -83,14 +83,14 @@ impl Network {
 
     /// Returns the junction at the end of a street that was proposed with this `heading` (degrees), if it is open for
     /// further streets, or nil if the street joined others or was refused.
-    pub fn reached(&self, junction: u32, heading: f64) -> Option<u32> {
+    pub fn open_end(&self, junction: u32, heading: f64) -> Option<u32> {
         let growth = self.growths.get(&(junction, heading.to_bits()))?;
         matches!(growth.fate, Fate::Built | Fate::Bent | Fate::Shortened).then_some(growth.end + 1)
     }
 
     /// Returns the junction at the end of a street that was proposed with this `heading` (degrees), also if it joined
     /// others, or nil if it was refused.
-    pub fn arrived(&self, junction: u32, heading: f64) -> Option<u32> {
+    pub fn end_junction(&self, junction: u32, heading: f64) -> Option<u32> {
         let growth = self.growths.get(&(junction, heading.to_bits()))?;
         (!matches!(growth.fate, Fate::Refused(_))).then_some(growth.end + 1)
     }
@@ -98,13 +98,13 @@ impl Network {
     /// Returns the outcome of a street that was proposed with this `heading` (degrees): "built", "bent", "shortened",
     /// "snapped" to a junction, or "joined" to a street. If it was refused, returns the reason: "too short", "angle",
     /// "too near", "corners", "obstacle" or "outside". If it was not proposed, returns "unknown".
-    pub fn fate(&self, junction: u32, heading: f64) -> String {
+    pub fn outcome(&self, junction: u32, heading: f64) -> String {
         let growth = self.growths.get(&(junction, heading.to_bits()));
         growth.map_or("unknown", |growth| answers::fate(growth.fate)).into()
     }
 
     /// Predicts the outcome of a street with this `heading` (degrees) and `length` (m), without building it: a table
-    /// with its `fate`, `built` (true if it would be built), the `place` (m) of its end, and the `junction` there, if
+    /// with its `outcome`, `built` (true if it would be built), the `place` (m) of its end, and the `junction` there, if
     /// any.
     pub fn probe(&self, junction: u32, heading: f64, length: f64, depth: u32) -> Result<Value> {
         let (from, to) = self.proposed_line("probe", junction, heading, length)?;

@@ -46,6 +46,13 @@ use burgeon_streets::{
     can(Show, HasLayers, Warn),
     options = NetworkOptions,
     example = include_str!("../../scripts/network.lua"),
+    renames("lead", "1.1", "grow_to"),
+    renames("stand", "1.1", "move_to"),
+    renames("fate", "1.1", "outcome"),
+    renames("reached", "1.1", "open_end"),
+    renames("arrived", "1.1", "end_junction"),
+    renames("most", "1.1", "max_segments"),
+    renames("ground", "1.1", "block_color"),
     begin = restart,
     push = open_branch,
     pop = close_branch,
@@ -81,7 +88,7 @@ impl Network {
     pub fn new(options: NetworkOptions) -> Result<Self> {
         let kinds: Vec<StreetKind> = options.streets.iter().map(StreetOptions::kind).collect();
         if kinds.is_empty() {
-            return Err(Error::argument("network: streets has no kind of street")
+            return Err(Error::argument("network: streets contains no street type")
                 .help("write streets = { { width = 20 }, { width = 14 } }"));
         }
         for (number, kind) in (1..).zip(&kinds) {
@@ -109,7 +116,7 @@ impl Network {
             bridge: options.bridge,
             shorten: options.shorten,
             square_ends: options.square_ends,
-            most: options.most as usize,
+            max_segments: options.max_segments as usize,
         };
         let NetworkAreas { areas, waters, mut warnings } = NetworkAreas::new(&options);
         let mut network =
@@ -157,8 +164,8 @@ impl Network {
         let count = self.network.junctions().len();
         match junction.checked_sub(1) {
             Some(id) if (id as usize) < count => Ok(id),
-            _ => Err(Error::argument(format!("there is no junction {junction}")).help(format!(
-                "junctions are numbered from 1 to {count}: network:reached tells where a street ends"
+            _ => Err(Error::argument(format!("unknown junction {junction}")).help(format!(
+                "junctions are numbered from 1 to {count}: network:open_end returns the junction at the end of a street"
             ))),
         }
     }
@@ -183,9 +190,9 @@ impl Network {
         let from = self.junction_id(junction)?;
         if length <= 0.0 {
             return Err(Error::argument(format!(
-                "network:{method}: a street of {length} m towards {heading} degrees cannot be"
+                "network:{method}: invalid street of {length} m with the heading {heading} degrees"
             ))
-            .help("give a finite heading, and a length above 0"));
+            .help("use a finite heading, and a length above 0"));
         }
         Ok((from, self.network.at(from) + DVec2::from_angle(heading.to_radians()) * length))
     }
@@ -194,11 +201,11 @@ impl Network {
 /// Allows other objects to take a script's network as a parameter.
 impl burgeon_kit::ObjectParameter for Network {
     const LUAU: &str = "Network";
-    const EXPECTED: &str = "a network that was derived: roads:derive().objects[1]";
+    const EXPECTED: &str = "a derived network: roads:derive().objects[1]";
 }
 
 impl std::fmt::Debug for Network {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "network of {} pieces", self.network.size())
+        write!(f, "network of {} segments", self.network.size())
     }
 }

@@ -55,7 +55,7 @@ pub struct NetworkOptions {
     pub existing: Vec<ExistingLines>,
     /// Maximum number of street segments.
     #[default(400_000)]
-    pub most: u32,
+    pub max_segments: u32,
     /// Terrain under the streets, which must already be derived.
     pub on: Option<Arc<Terrain>>,
     /// Maximum slope (%) of streets on the terrain. To keep it, streets cut into the ground or rise above it.
@@ -82,5 +82,5 @@ pub struct NetworkOptions {
     #[default(Color([0.45, 0.44, 0.42, 1.0]))]
     pub paving: Color,
     /// Colour of the blocks between the streets. If omitted, blocks are not drawn.
-    pub ground: Option<Color>,
+    pub block_color: Option<Color>,
 }

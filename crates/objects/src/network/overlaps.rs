@@ -44,24 +44,23 @@ pub(super) fn overlapping(blocks: &[&StreetBlock]) -> Option<Warning> {
         // The pairs that were not compared may overlap.
         let text =
             format!("network:lots: of blocks around one another, only {MOST_COMPARED} pairs were compared");
-        let help =
-            "divide fewer at once, and see that none lie on each other: one:intersection(other):area()";
+        let help = "divide fewer blocks at once, and check that none overlap: one:intersection(other):area()";
         return (compared > MOST_COMPARED).then(|| Warning::new(WarningKind::Doubtful, text).help(help));
     };
     let more = match count - 1 {
         0 => String::new(),
-        1 => ", and one more pair of blocks does".into(),
+        1 => ", and one more pair of blocks overlaps".into(),
         _ if count == MOST || compared > MOST_COMPARED => {
-            format!(", and so have {} more pairs of blocks at least", count - 1)
+            format!(", and at least {} more pairs of blocks overlap", count - 1)
         }
-        more => format!(", and {more} more pairs of blocks do"),
+        more => format!(", and {more} more pairs of blocks overlap"),
     };
     let text = format!(
-        "network:lots: the blocks {one:?} and {other:?} have {common:.2} m² in common{more}, so that lots overlap"
+        "network:lots: the blocks {one:?} and {other:?} overlap by {common:.2} m²{more}, so lots overlap"
     );
     Some(
         Warning::new(WarningKind::Doubtful, text)
-            .help("give blocks that are beside each other: one:difference(other)"),
+            .help("use blocks that do not overlap: one:difference(other)"),
     )
 }
 

@@ -49,14 +49,16 @@ impl Network {
     /// Returns the warning that there is no block to fill.
     fn bare_warning(&self) -> Option<Warning> {
         let is_bare =
-            self.options.ground.is_some() && self.network.size() > 0 && self.network.faces().is_empty();
+            self.options.block_color.is_some() && self.network.size() > 0 && self.network.faces().is_empty();
         is_bare.then(|| {
             let text = format!(
-                "network: {} pieces of streets enclose no block, so `ground` fills nothing",
+                "network: {} street segments enclose no block, so `block_color` fills nothing",
                 self.network.size()
             );
             Warning::new(WarningKind::DrawsNothing, text)
-                .help("let more streets meet: grow or walk farther, or join dead ends within a greater distance")
+                .help(
+                    "connect more streets: grow or walk farther, or join dead ends within a greater distance",
+                )
                 .of_pass()
         })
     }

@@ -41,21 +41,18 @@ impl ProposalTally {
         let narrow = self.refused[Refusal::Corners as usize] + self.refused[Refusal::TooShort as usize];
         let (text, help) = if size == 0 {
             let reasons: Vec<&str> = self.reasons().map(|(why, _)| why.name()).collect();
-            let text = format!(
-                "network: no street was built of {proposed} that were proposed: {}",
-                reasons.join(", ")
-            );
-            (text, "network:fate tells of each what became of it")
+            let text =
+                format!("network: none of {proposed} proposed streets was built: {}", reasons.join(", "));
+            (text, "network:outcome returns the outcome of each")
         } else if proposed >= ENOUGH && 2 * narrow > proposed {
             let refused: usize = self.refused.iter().sum();
             let reasons: Vec<String> =
                 self.reasons().map(|(why, count)| format!("{} ({count})", why.name())).collect();
             let text = format!(
-                "network: {refused} of {proposed} streets that were proposed were refused, so that growth ended with {size} \
-                 pieces: {}",
+                "network: {refused} of {proposed} proposed streets were refused, so growth ended with {size} segments: {}",
                 reasons.join(", ")
             );
-            (text, "propose longer streets, make them narrower, or give the network a smaller `corner`")
+            (text, "propose longer or narrower streets, or set a smaller `corner`")
         } else {
             return None;
         };
@@ -91,7 +88,7 @@ mod tests {
         let told = tally.warning(5).expect("a warning");
         assert_eq!(
             told.message(),
-            "network: 9 of 14 streets that were proposed were refused, so that growth ended with 5 pieces: angle (1), \
+            "network: 9 of 14 proposed streets were refused, so growth ended with 5 segments: angle (1), \
              corners (5), too short (3)"
         );
         let mut crowded = ProposalTally::default();

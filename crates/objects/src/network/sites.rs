@@ -77,19 +77,19 @@ impl Network {
         let found = self.network.sites(self.surface_options(), &options, &mut stream);
         let found = found.map_err(|error| error.about("network:sites"))?;
         if found.tried == 0 {
-            let text = "network:sites: there are no streets, so there are no sites beside them";
-            let help = "ask the network when its streets have grown: system:derive(steps).objects[1]:sites()";
+            let text = "network:sites: the network has no streets";
+            let help = "call sites after the streets have grown: system:derive(steps).objects[1]:sites()";
             defer_warning(Warning::new(WarningKind::Doubtful, text).help(help));
         } else if found.sites.is_empty() {
-            let why = ["are in a street or reach into one", "come too near another", "meet an obstacle"];
+            let why = ["overlap a street", "are too near another site", "overlap an obstacle"];
             let why = found.refused.iter().zip(why).filter(|(count, _)| **count > 0);
             let why: Vec<String> = why.map(|(count, why)| format!("{count} {why}")).collect();
             let text = format!(
-                "network:sites: none of {} places has room for a site: {}",
+                "network:sites: no room for a site at any of {} positions: {}",
                 found.tried,
                 why.join(", ")
             );
-            return Err(Error::argument(text).help("give smaller sizes, or a smaller setback"));
+            return Err(Error::argument(text).help("use smaller sizes, or a smaller setback"));
         }
         Ok(SiteRecords(found.sites.iter().map(|site| self.site_record(site)).collect()))
     }

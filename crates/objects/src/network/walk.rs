@@ -54,7 +54,7 @@ impl NetworkWalk {
     }
 
     /// Continues from a junction.
-    pub(super) fn stand(&mut self, junction: JunctionId, heading: f64) {
+    pub(super) fn move_to(&mut self, junction: JunctionId, heading: f64) {
         self.at = WalkPlace { junction, heading, depth: self.at.depth, has_ended: false };
     }
 

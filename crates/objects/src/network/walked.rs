@@ -72,10 +72,10 @@ impl WalkTally {
             if refused == 1 { "was" } else { "were" }
         );
         if self.behind > 0 {
-            text += &format!(", and {} lie beyond a refused street", self.behind);
+            text += &format!(", and {} are after a refused street", self.behind);
         }
         if self.again > 0 {
-            text += &format!(", and {} repeat a street that is already there", self.again);
+            text += &format!(", and {} repeat an existing street", self.again);
         }
         let each = reasons.iter().map(|(why, RefusedWalks { count, first: (at, heading) })| {
             let first = if *count == 1 { "at" } else { "first at" };
@@ -96,13 +96,13 @@ impl WalkTally {
 /// Returns the remedy for a reason of refusal.
 fn remedy(why: Refusal) -> &'static str {
     match why {
-        Refusal::TooShort => "walk farther at once, or give the network a smaller `min_length` or `snap`",
-        Refusal::Angle => "turn by more, or give the network a smaller `min_angle`",
-        Refusal::TooNear => "leave more room between streets, or give the network a smaller `clearance`",
+        Refusal::TooShort => "walk farther at once, or set a smaller `min_length` or `snap`",
+        Refusal::Angle => "turn by more, or set a smaller `min_angle`",
+        Refusal::TooNear => "leave more space between streets, or set a smaller `clearance`",
         Refusal::Corners => {
-            "walk farther at once, turn by more, make the `streets` narrower, or give the network a smaller `corner`"
+            "walk farther at once, turn by more, make the `streets` narrower, or set a smaller `corner`"
         }
-        Refusal::Obstacle => "walk around the obstacles, or give the network a greater `bend` or `bridge`",
-        Refusal::Outside => "walk less far, or give the network a greater `limit`",
+        Refusal::Obstacle => "walk around the obstacles, or set a greater `bend` or `bridge`",
+        Refusal::Outside => "walk less far, or set a greater `limit`",
     }
 }

@@ -52,10 +52,10 @@ impl Planet {
         let (eye, radius) = (DVec3::new(x, y, z) - self.options.position.0, self.options.radius);
         if eye.length() < radius * (1.0 - DEEP) {
             return Err(Error::argument(format!(
-                "planet: the focus ({x}, {y}, {z}) is inside the planet, {:.0} m from its middle",
+                "planet: the focus ({x}, {y}, {z}) is inside the planet, {:.0} m from its centre",
                 eye.length()
             ))
-            .help(format!("its ground is about {radius} m from its middle: look from farther out")));
+            .help(format!("its ground is about {radius} m from its centre: use a focus farther out")));
         }
         let above =
             self.globe.height(eye).map(|height| eye.length() - radius - self.globe.shown_height(height));
@@ -66,7 +66,7 @@ impl Planet {
                 self.surface_name(eye)
             ))
             .help(format!(
-                "there it is {:.1} m from the centre: add a height to this:surface(direction)",
+                "the surface there is {:.1} m from the centre: add a height to this:surface(direction)",
                 eye.length() + below
             )));
         }
@@ -119,19 +119,19 @@ impl Planet {
     pub fn new(options: PlanetOptions) -> Result<Self> {
         if !(options.radius > 0.0 && options.radius <= 1e9) {
             return Err(Error::argument(format!("planet: radius is {} m", number(options.radius)))
-                .help("give a length above 0 and up to 1e9 m"));
+                .help("use a length above 0 and up to 1e9 m"));
         }
         if options.error < 0.0 {
             return Err(Error::argument("planet: error is below 0")
-                .help("give a part of a cell's size, such as 0.05"));
+                .help("use a fraction of a cell's size, such as 0.05"));
         }
         if !(DETAIL..=DEEPEST).contains(&options.levels) {
             return Err(Error::argument(format!("planet: levels is {}", options.levels))
-                .help(format!("divide its faces from {DETAIL} to {DEEPEST} times")));
+                .help(format!("use {DETAIL} to {DEEPEST} levels")));
         }
         if !(0.0..=100.0).contains(&options.closeness) {
             return Err(Error::argument(format!("planet: closeness is {}", options.closeness))
-                .help("give a number from 0 to 100, such as 3"));
+                .help("use a number from 0 to 100, such as 3"));
         }
         if options.axis.0.length() <= 0.0 {
             return Err(Error::argument("planet: axis has no direction").help("write axis = { 0, 0, 1 }"));
@@ -182,12 +182,12 @@ impl Planet {
 fn unit_direction(direction: Vector) -> Result<DVec3> {
     direction.0.try_normalize().ok_or_else(|| {
         Error::argument("planet: the direction has no length")
-            .help("give a place seen from its middle, such as { 1, 0, 0 }")
+            .help("use a direction from the centre, such as { 1, 0, 0 }")
     })
 }
 
 fn nothing() -> Error {
-    Error::script("planet: nothing is expanded yet").help("it is from the end of the first pass on")
+    Error::script("planet: nothing is expanded yet").help("it is expanded from the end of the first pass")
 }
 
 impl std::fmt::Debug for Planet {

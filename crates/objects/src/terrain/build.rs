@@ -16,15 +16,15 @@ use burgeon_terrain::{DivisionRules, HeightSource, LevelRules, World};
 pub(super) fn world(options: &TerrainOptions) -> Result<World> {
     if !(options.size > 0.0 && options.size <= 1e9) {
         return Err(Error::argument(format!("terrain: size is {} m", number(options.size)))
-            .help("give a length above 0 and up to 1e9 m"));
+            .help("use a length above 0 and up to 1e9 m"));
     }
     if options.error.is_some_and(|error| error < 0.0) {
-        return Err(Error::argument("terrain: error is below 0").help("give metres from 0 on"));
+        return Err(Error::argument("terrain: error is below 0").help("use metres of at least 0"));
     }
     let masks = options.covers.iter().map(|cover| &cover.on);
     if masks.chain(options.plants.iter().map(|plants| &plants.on)).any(|mask| !mask.latitude.is_empty()) {
         return Err(Error::argument("terrain: flat ground has no latitude")
-            .help("tell by height or slope where something is, or make a planet"));
+            .help("use height or slope instead, or a planet"));
     }
     if options.rules.0.is_empty() && options.elevation.is_none() {
         return Err(rules::none("terrain"));
@@ -66,9 +66,9 @@ fn remap(pairs: &[Vec<f64>]) -> Result<Vec<[f64; 2]>> {
     };
     let pair = |pair: &Vec<f64>| <[f64; 2]>::try_from(pair.as_slice()).ok();
     let pairs = pairs.iter().map(pair).collect::<Option<Vec<_>>>();
-    let pairs = pairs.ok_or_else(|| wrong("remap has something that is no pair of heights".into()))?;
+    let pairs = pairs.ok_or_else(|| wrong("remap has an item that is not a pair of heights".into()))?;
     if let Some(pair) = pairs.windows(2).find(|pair| pair[0][0] >= pair[1][0]) {
-        return Err(wrong(format!("remap goes from {} to {}", pair[0][0], pair[1][0])));
+        return Err(wrong(format!("remap decreases from {} to {}", pair[0][0], pair[1][0])));
     }
     Ok(pairs)
 }
@@ -89,7 +89,7 @@ fn finer(elevation: &Elevation, corner: DVec2, size: f64) -> Result<u32> {
             let (low, high) = (elevation.low(), elevation.high());
             return Err(Error::argument(format!("terrain: the elevation has no height at ({:.1}, {:.1})", at.x, at.y)).help(
                 format!(
-                    "it reaches from ({:.1}, {:.1}) to ({:.1}, {:.1}) m: make the terrain smaller, or move it with position",
+                    "it extends from ({:.1}, {:.1}) to ({:.1}, {:.1}) m: make the terrain smaller, or move it with position",
                     low.x, low.y, high.x, high.y
                 ),
             ));

@@ -20,7 +20,7 @@ pub struct EditFile {
 impl EditFile {}
 
 const LOADER: Loader = Loader {
-    what: "file of edits",
+    what: "edits file",
     example: "edits(\"ground.json\")",
     example_with_fields: "edits(\"ground.json\")",
     several: &[],
@@ -29,8 +29,8 @@ const LOADER: Loader = Loader {
 
 fn load(file: &mut LoadRequest<'_>, _: &Table) -> Result<LoadedObject> {
     let name = file.name;
-    let text = String::from_utf8(file.read("name a .json file")?)
-        .map_err(|_| Error::data(format!("{name} is not text, so it holds no edits of a terrain")))?;
+    let text = String::from_utf8(file.read("specify a .json file")?)
+        .map_err(|_| Error::data(format!("{name} is not text, so it contains no terrain edits")))?;
     let memory = text.len();
     let object = Arc::new(EditFile { name: name.to_owned(), text: text.into() });
     Ok(LoadedObject { object, memory, warnings: Vec::new() })
@@ -42,7 +42,7 @@ impl Parameter for EditFile {
     }
 
     fn from_value(value: Value) -> Result<Self, Expectation> {
-        object(value, "edits that were kept: edits(\"ground.json\")").map(|file: Arc<Self>| (*file).clone())
+        object(value, "stored edits: edits(\"ground.json\")").map(|file: Arc<Self>| (*file).clone())
     }
 
     fn into_value(self) -> Value {

@@ -40,7 +40,7 @@ impl Parameter for GroundCover {
         let cover = Self::from_table(table)
             .map_err(|error| Expectation::new(format!("a cover ({})", error.message())))?;
         if !(0.0..=1.0).contains(&cover.amount) {
-            return Err(Expectation::new("a cover whose amount is from 0 to 1"));
+            return Err(Expectation::new("a cover with an amount from 0 to 1"));
         }
         Ok(cover)
     }

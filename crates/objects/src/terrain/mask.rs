@@ -53,13 +53,13 @@ impl Parameter for Mask {
         for (name, range) in mask.ranges() {
             if !matches!(range, [] | [_, _]) {
                 return Err(Expectation::new(format!(
-                    "a place whose {name} is a range, such as {{ 30, 45 }}"
+                    "a mask with a range for {name}, such as {{ 30, 45 }}"
                 )));
             }
         }
         if mask.scale <= 0.0 || [mask.noise, mask.patches].iter().any(|part| !(0.0..=1.0).contains(part)) {
             return Err(Expectation::new(
-                "a place whose scale is above 0, and whose noise and patches are from 0 to 1",
+                "a mask with a scale above 0, and with noise and patches from 0 to 1",
             ));
         }
         Ok(mask)
@@ -135,7 +135,7 @@ impl Mask {
             return Ok(());
         };
         let known: Vec<&str> = names().filter(|name| !name.is_empty()).collect();
-        let message = format!("{kind}: no rule makes {unknown}");
+        let message = format!("{kind}: no rule produces {unknown}");
         Err(Error::not_found("cell", unknown, known.iter().copied(), message)
             .help(format!("the cells are {}", known.join(", "))))
     }

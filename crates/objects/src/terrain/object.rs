@@ -23,6 +23,7 @@ use glam::{DVec2, DVec3};
     can(Show, Expand, Warn),
     options = TerrainOptions,
     example = include_str!("../../scripts/terrain.lua"),
+    renames("shown", "1.1", "visible"),
     begins_empty,
     begin = restart,
     seed = take_seed,
@@ -107,8 +108,10 @@ impl Terrain {
         let height = self.ground.height(at).ok_or_else(|| self.nothing(at))?;
         let sunk = self.options.water.as_ref().map(|water| water.level).filter(|level| height <= *level);
         self.drainage()?;
-        let drainage =
-            self.drainage.get_mut().ok_or_else(|| Error::internal("terrain: there are no ways down"))?;
+        let drainage = self
+            .drainage
+            .get_mut()
+            .ok_or_else(|| Error::internal("terrain: the drainage is not available"))?;
         let way = match (drainage.river(at), sunk) {
             (Ok(way), _) => way,
             // A river already runs there.
@@ -236,13 +239,13 @@ impl Terrain {
         let error = Error::script(format!("terrain: nothing is expanded at ({}, {})", at.x, at.y));
         if self.ground.heights() == 0 {
             return error.help(
-                "give it levels, or focus on a place: this:focus(x, y, view) in an interpretation rule",
+                "set levels, or focus on a position: this:focus(x, y, view) in an interpretation rule",
             );
         }
         let world = self.ground.world();
         let (low, high) = (world.corner, world.corner + world.size);
         error.help(format!(
-            "it reaches from ({}, {}) to ({}, {}) m; what is not focused on is contracted",
+            "it extends from ({}, {}) to ({}, {}) m; areas outside the focus are contracted",
             low.x, low.y, high.x, high.y
         ))
     }
@@ -258,10 +261,10 @@ impl Terrain {
         let more = (finest..=DEEPEST).find(|level| world.shows_samples(*level))? - finest;
         let help = match (&self.wanted, self.options.levels) {
             (None, Some(levels)) => format!("write levels = {} to show all of them", levels + more),
-            _ => format!("divide the nearest cells of the view {more} times more to show all of them"),
+            _ => format!("divide the nearest cells of the view {more} more times to show all of them"),
         };
         let text = format!(
-            "terrain: cells of {} m cannot show samples that are {} m apart: only height() keeps to each of them",
+            "terrain: cells of {} m cannot show samples that are {} m apart: only height() returns each of them",
             round_length(cell),
             round_length(step)
         );
@@ -321,18 +324,22 @@ fn dry(at: DVec2, under: Option<f64>) -> Warning {
     let place = format!("({:.1}, {:.1})", at.x, at.y);
     let (text, help) = match under {
         Some(under) => (
-            format!("the source {place} lies {under:.1} m under water"),
-            "give a place above the water: this:height({ x, y }) tells how high the ground is",
+            format!("the source {place} is {under:.1} m under water"),
+            "use a position above the water: this:height({ x, y }) returns the height of the ground",
         ),
-        None => (format!("the source {place} lies at the rim or at the shore"), "give a place farther up"),
+        None => (
+            format!("the source {place} is at the edge of the map or at the shore"),
+            "use a position farther up",
+        ),
     };
-    Warning::new(WarningKind::DrawsNothing, format!("terrain:river: {text}, so there is no river")).help(help)
+    Warning::new(WarningKind::DrawsNothing, format!("terrain:river: {text}, so no river is created"))
+        .help(help)
 }
 
 /// Creates the warning about a focus that replaces an earlier focus in the same pass. `kind` is the object type.
 pub(crate) fn lost_focus(kind: &str, earlier: &str) -> Warning {
-    let text = format!("{kind}:focus: this takes the place of the focus on {earlier} in the same pass");
-    Warning::new(WarningKind::NoEffect, text).help("the last focus of a pass counts: focus once")
+    let text = format!("{kind}:focus: this replaces the focus on {earlier} in the same pass");
+    Warning::new(WarningKind::NoEffect, text).help("call focus once per pass: only the last call counts")
 }
 
 /// Rounds a length (m) to three significant digits, for messages.
@@ -347,8 +354,7 @@ fn deep(at: DVec2, cut: f64) -> Warning {
         "terrain:river: at ({:.1}, {:.1}) its bed is cut {cut:.1} m deep into the ground",
         at.x, at.y
     );
-    let help = "it leaves a hollow there: begin it farther down, fill the hollow with water = { level = ... }, or lower \
-                the ground with this:cut or this:dig";
+    let help = "the source is in a hollow: start farther down, fill the hollow with water = { level = ... }, or lower the ground with this:cut or this:dig";
     Warning::new(WarningKind::Doubtful, text).help(help)
 }
 
@@ -361,7 +367,7 @@ const SHALLOW: f64 = 0.12;
 /// Allows other objects to take a script's terrain as a parameter.
 impl ObjectParameter for Terrain {
     const LUAU: &str = "Terrain";
-    const EXPECTED: &str = "a terrain that was derived: land:derive().objects[1]";
+    const EXPECTED: &str = "a derived terrain: land:derive().objects[1]";
 }
 
 impl std::fmt::Debug for Terrain {
@@ -435,7 +441,7 @@ impl Expand for Terrain {
 
 impl Terrain {
     /// Returns true if the terrain is visible.
-    pub(crate) fn is_shown(&self) -> bool {
-        self.options.shown
+    pub(crate) fn is_visible(&self) -> bool {
+        self.options.visible
     }
 }

@@ -48,9 +48,9 @@ pub struct TerrainOptions {
     /// Streets on the terrain: the ground is cut and filled to meet the edges of their sidewalks, with slopes next to
     /// them.
     pub under: Option<StreetsOnGround>,
-    /// Visible; a hidden terrain can still be queried, and streets can be laid on it.
+    /// Visible; a hidden terrain can still be queried, and streets can use it.
     #[default(true)]
-    pub shown: bool,
+    pub visible: bool,
     /// Ground covers, from bottom to top.
     pub covers: Vec<GroundCover>,
     /// Height (m) of the underside. If given, the terrain is a closed solid with sides.

@@ -54,10 +54,10 @@ impl Parameter for Plants {
             return Err(Expectation::new("plants with at least one model: { models = { tree:derive() } }"));
         }
         if plants.density <= 0.0 {
-            return Err(Expectation::new("plants whose density is above 0"));
+            return Err(Expectation::new("plants with a density above 0"));
         }
         if !matches!(plants.size.as_slice(), [low, high] if 0.0 < *low && low <= high) {
-            return Err(Expectation::new("plants whose size is { least, greatest }, above 0"));
+            return Err(Expectation::new("plants with a size { min, max } above 0"));
         }
         Ok(plants)
     }
@@ -87,11 +87,8 @@ impl Plants {
         let area: f64 = ground.tiles().iter().map(|tile| tile.bounds(world).1.powi(2)).sum();
         let count = area / (cell * cell);
         if count > MOST {
-            return Err(Error::limit(
-                Limit::Size,
-                format!("plants: up to {count:.0} models would be scattered"),
-            )
-            .help(format!("at most {MOST} are: lower the density, or show less of the terrain")));
+            return Err(Error::limit(Limit::Size, format!("plants: up to {count:.0} models are too many"))
+                .help(format!("the maximum is {MOST}: lower the density, or show less of the terrain")));
         }
         for tile in ground.tiles() {
             Stop::check_current()?;

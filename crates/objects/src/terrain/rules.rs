@@ -55,7 +55,7 @@ impl Parameter for RuleLayers {
         let layers = list.into_iter().map(layer).collect::<Result<Vec<_>, _>>()?;
         if layers[0].from != 0 || layers.windows(2).any(|pair| pair[0].from >= pair[1].from) {
             return Err(Expectation::new(
-                "a list of rules from level 0 on and then from higher levels, in order",
+                "a list of rules that starts at level 0, in ascending order of levels",
             ));
         }
         Ok(Self(layers))
@@ -78,15 +78,15 @@ fn layer(value: Value) -> Result<RuleLayer, Expectation> {
         None => Ok(None),
         Some(value) => f64::from_value(value.clone())
             .map(Some)
-            .map_err(|_| Expectation::new(format!("a list whose {name}s are numbers"))),
+            .map_err(|_| Expectation::new(format!("a list with a number for each {name}"))),
     };
     let from = table.get("from").map_or(Ok(0), |from| u32::from_value(from.clone()));
     let start = table.get("start").map(|start| String::from_value(start.clone())).transpose();
     Ok(RuleLayer {
         from: from
-            .map_err(|_| Expectation::new("a list where each from is a level: a whole number from 0"))?,
+            .map_err(|_| Expectation::new("a list with a level, an integer of at least 0, for each from"))?,
         rules: LayerRules::from_value(table.get("rules").cloned().unwrap_or(Value::Nil))?,
-        start: start.map_err(|_| Expectation::new("a list where each start is the name of a symbol"))?,
+        start: start.map_err(|_| Expectation::new("a list with the name of a symbol for each start"))?,
         height: number("height")?.unwrap_or(0.0),
         decay: number("decay")?,
     })
@@ -160,7 +160,7 @@ fn quadrants(rule: &Table, name: &str, names: &[String]) -> Result<Quadrants, Ex
             let near = nearest(text, names.iter().map(String::as_str));
             let near = near.map(|near| format!(" ({})", did_you_mean(near))).unwrap_or_default();
             Expectation::new(format!(
-                "a table with a rule for each symbol: the rule for {name} has {text}, which has none{near}"
+                "a table with a rule for each symbol: the rule for {name} has the unknown symbol {text}{near}"
             ))
         })?;
     }
@@ -176,7 +176,7 @@ fn quadrants(rule: &Table, name: &str, names: &[String]) -> Result<Quadrants, Ex
     let draws = |field: &str, default: f64| -> Result<[NumberRange; 4], Expectation> {
         let wrong = || {
             Expectation::new(format!(
-                "a table whose rule for {name} has {field} as a number, or one or a range {{ least, greatest }} for each quadrant"
+                "a table whose rule for {name} has {field} as a number, or a number or a range {{ min, max }} for each quadrant"
             ))
         };
         match rule.get(field) {
@@ -254,7 +254,7 @@ impl RuleLayers {
         let grown = self.0.iter().find_map(RuleLayer::grows);
         let warning = |decay| {
             let text = format!("{kind}: a decay of {decay} does not converge: heights grow with every level");
-            Warning::new(WarningKind::Doubtful, text).help("give a decay below 1, such as decay = 0.5")
+            Warning::new(WarningKind::Doubtful, text).help("use a decay below 1, such as decay = 0.5")
         };
         grown.map(warning).into_iter().collect()
     }
@@ -262,7 +262,7 @@ impl RuleLayers {
 
 /// Creates the error for an object of type `kind` without rules.
 pub(crate) fn none(kind: &str) -> burgeon_base::error::Error {
-    burgeon_base::error::Error::argument(format!("{kind}: there are no rules")).help(
+    burgeon_base::error::Error::argument(format!("{kind}: missing rules")).help(
         "write rules = { A = { \"A\", \"A\", \"A\", \"A\", change = { 1, -1, 0.5, -0.5 }, decay = 0.5 } }",
     )
 }
@@ -277,9 +277,9 @@ impl RuleLayer {
                 let start = match &self.start {
                     None => 0,
                     Some(start) => names.clone().position(|name| name == start).ok_or_else(|| {
-                        let message = format!("{kind}: there is no rule for {start}, the start");
+                        let message = format!("{kind}: no rule for the start symbol {start}");
                         burgeon_base::error::Error::not_found("rule", start, names.clone(), message)
-                            .help(format!("there are {}", names.clone().collect::<Vec<_>>().join(", ")))
+                            .help(format!("use {}", names.clone().collect::<Vec<_>>().join(", ")))
                     })?,
                 };
                 (DivisionRules::Table(Arc::clone(table)), start, rest)

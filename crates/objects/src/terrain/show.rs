@@ -15,7 +15,7 @@ use burgeon_terrain::{GroundCuts, GroundMesh};
 
 impl Show for Terrain {
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        if self.options.shown { self.draw(scene, name, feature) } else { Ok(()) }
+        if self.options.visible { self.draw(scene, name, feature) } else { Ok(()) }
     }
 }
 
@@ -24,8 +24,8 @@ impl Terrain {
     fn draw(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
         let ground = &self.ground;
         if ground.heights() == 0 {
-            return Err(Error::script("terrain: nothing of it is expanded").help(
-                "give it levels, or focus on a place: this:focus(x, y, view) in an interpretation rule",
+            return Err(Error::script("terrain: nothing is expanded").help(
+                "set levels, or focus on a position: this:focus(x, y, view) in an interpretation rule",
             ));
         }
         let mesh = GroundMesh::new(ground, self.error());

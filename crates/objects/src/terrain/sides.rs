@@ -10,8 +10,8 @@ use burgeon_scene::Part;
 pub(super) fn draw(rim: &[[DVec3; 2]], base: f64, part: &mut Part) -> Result<()> {
     let lowest = rim.iter().flatten().map(|at| at.z).fold(f64::INFINITY, f64::min);
     if lowest <= base {
-        return Err(Error::argument(format!("terrain: base is {base} m, above the ground at its rim"))
-            .help(format!("give a height below {lowest:.1} m")));
+        return Err(Error::argument(format!("terrain: base is {base} m, above the ground at its edge"))
+            .help(format!("use a height below {lowest:.1} m")));
     }
     let middle = rim.iter().flatten().sum::<DVec3>() / (rim.len().max(1) * 2) as f64;
     for [from, to] in rim {

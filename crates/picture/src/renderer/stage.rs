@@ -240,7 +240,7 @@ fn check(scene: &Scene) -> Result<()> {
     for (number, instance) in scene.instances.iter().enumerate() {
         if instance.mesh >= scene.meshes.len() {
             return Err(scene_error(format!(
-                "instance {number} names mesh {} of {}",
+                "instance {number} refers to mesh {} of {}",
                 instance.mesh,
                 scene.meshes.len()
             )));
@@ -249,13 +249,16 @@ fn check(scene: &Scene) -> Result<()> {
     for (number, mesh) in scene.meshes.iter().enumerate() {
         for part in &mesh.parts {
             if part.material >= scene.materials.len() {
-                let message =
-                    format!("mesh {number} names material {} of {}", part.material, scene.materials.len());
+                let message = format!(
+                    "mesh {number} refers to material {} of {}",
+                    part.material,
+                    scene.materials.len()
+                );
                 return Err(scene_error(message));
             }
             let corners = part.positions.len();
             if let Some(corner) = part.triangles.iter().flatten().find(|corner| *corner as usize >= corners) {
-                return Err(scene_error(format!("mesh {number} names corner {corner} of {corners}")));
+                return Err(scene_error(format!("mesh {number} refers to corner {corner} of {corners}")));
             }
         }
     }
@@ -264,7 +267,7 @@ fn check(scene: &Scene) -> Result<()> {
 
 fn scene_error(message: String) -> Error {
     Error::internal(message)
-        .help("count indices from 0 and add meshes, materials and corners before naming them")
+        .help("count indices from 0, and add meshes, materials and corners before referring to them")
 }
 
 #[cfg(test)]

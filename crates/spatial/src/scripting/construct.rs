@@ -24,7 +24,7 @@ pub fn constructors() -> [Constructor; 4] {
 
 /// Makes a geometry from text, a feature or a table; returns a geometry unchanged.
 fn geometry(given: &[Value]) -> Result<Value> {
-    let what = "a text such as \"POINT (1 2)\", a feature, or a table with rings or points";
+    let what = "a string such as \"POINT (1 2)\", a feature, or a table with rings or points";
     match given {
         [Value::Text(text)] => Geometry::from_wkt(text).map_err(|error| error.about("geometry"))?.answer(),
         [value @ (Value::Object(_) | Value::Table(_))] => {
@@ -62,7 +62,7 @@ fn point(given: &[Value]) -> Result<Value> {
 fn line(given: &[Value]) -> Result<Value> {
     let points = points("line", given)?;
     if points.len() < 2 {
-        return Err(Error::argument(format!("line takes 2 points or more, not {}", points.len()))
+        return Err(Error::argument(format!("line needs at least 2 points, not {}", points.len()))
             .help("write line({ { 0, 0 }, { 5, 0 } })"));
     }
     sound("line", Geometry::Line(points))

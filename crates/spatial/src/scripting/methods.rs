@@ -42,8 +42,8 @@ fn choose<T: Copy>(method: &str, field: &str, name: &str, known: &[(&'static str
     let found = known.iter().find(|(known, _)| *known == name);
     found.map(|(_, value)| *value).ok_or_else(|| {
         let names = || known.iter().map(|(name, _)| *name);
-        let message = format!("geometry:{method}: there is no {field} called {name:?}");
-        Error::not_found("option", name, names(), message).help(format!("it is one of {}", listed(names())))
+        let message = format!("geometry:{method}: unknown {field} {name:?}");
+        Error::not_found("option", name, names(), message).help(format!("use one of {}", listed(names())))
     })
 }
 

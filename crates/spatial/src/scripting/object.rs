@@ -41,14 +41,14 @@ fn fields() -> Vec<Field> {
         Field::new(
             "kind",
             "string",
-            "What it is: \"point\", \"line\", \"polygon\", \"multipoint\", \"multiline\", \"multipolygon\" or \"collection\".",
+            "Type: \"point\", \"line\", \"polygon\", \"multipoint\", \"multiline\", \"multipolygon\" or \"collection\".",
         ),
         metres(
             "rings",
             "{ { { number } } }?",
-            "Of a polygon, the outer ring, which turns left, and its holes: points { x, y, z } (m).",
+            "Rings of a polygon: the outer ring, counter-clockwise, and the holes, as lists of points { x, y, z } (m).",
         ),
-        metres("points", "{ { number } }?", "Of a line, a point or points, its points { x, y, z } (m)."),
+        metres("points", "{ { number } }?", "Points { x, y, z } (m) of a line, a point or points."),
     ]
 }
 

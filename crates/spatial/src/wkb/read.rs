@@ -23,7 +23,7 @@ impl Geometry {
     /// coordinate that is not finite.
     pub fn from_wkb(bytes: &[u8]) -> BurgeonResult<Self> {
         let geometry = read(bytes, NEAR, &Budget::default()).map_err(|why| {
-            Error::data(format!("well-known binary {why}")).help("give what ST_AsBinary gives")
+            Error::data(format!("well-known binary {why}")).help("pass the result of ST_AsBinary")
         })?;
         geometry.check().map_err(Error::of_data)?;
         Ok(geometry)
@@ -147,7 +147,7 @@ impl WkbReader<'_> {
         self.little = match self.take::<1>()? {
             [0] => false,
             [1] => true,
-            _ => return Err("has a byte order that is not known".into()),
+            _ => return Err("has an unknown byte order".into()),
         };
         let code = self.u32()?;
         let (flags, code) = (code & 0xe000_0000, code & 0x1fff_ffff);
@@ -156,7 +156,7 @@ impl WkbReader<'_> {
             self.u32()?;
         }
         if thousands > 3 || !allowed(kind) {
-            return Err(format!("has a part of type {code}, which does not belong there"));
+            return Err(format!("has a part of the wrong type {code}"));
         }
         let (z, m) =
             (flags & 0x8000_0000 != 0 || thousands & 1 != 0, flags & 0x4000_0000 != 0 || thousands & 2 != 0);
@@ -212,7 +212,7 @@ impl WkbReader<'_> {
                 })?)
             }
             7 => Geometry::Collection(self.members(|_| true, depth, Some)?),
-            kind => return Err(format!("is of type {kind}, which is not known")),
+            kind => return Err(format!("has the unknown type {kind}")),
         })
     }
 

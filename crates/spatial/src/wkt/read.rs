@@ -113,8 +113,10 @@ impl WktReader<'_> {
             }
         };
         let letter = self.text[..self.at].chars().count() + 1;
-        Error::argument(format!("no well-known text: at letter {letter} there should be {what}, not {there}"))
-            .help("write POINT (1 2), LINESTRING (0 0, 5 0) or POLYGON ((0 0, 4 0, 4 3, 0 0))")
+        Error::argument(format!(
+            "invalid well-known text: expected {what} at character {letter}, found {there}"
+        ))
+        .help("write POINT (1 2), LINESTRING (0 0, 5 0) or POLYGON ((0 0, 4 0, 4 3, 0 0))")
     }
 
     /// Opens a list; returns false if it is empty.
@@ -226,7 +228,7 @@ impl WktReader<'_> {
         }
         if !is_known(&name) {
             self.at = from;
-            return Err(self.expected("the name of a kind of geometry"));
+            return Err(self.expected("a geometry type"));
         }
         let from = self.at;
         let ordinates = match self.word().as_str() {
@@ -243,10 +245,8 @@ impl WktReader<'_> {
 
     fn geometry(&mut self, depth: usize) -> Result<Geometry> {
         if depth > DEEPEST {
-            return Err(Error::argument(format!(
-                "no well-known text: it is nested more than {DEEPEST} deep"
-            ))
-            .help("take what is inside of collections out of them"));
+            return Err(Error::argument(format!("invalid well-known text: nested more than {DEEPEST} deep"))
+                .help("flatten the collections"));
         }
         let (name, ordinates) = self.head()?;
         Ok(match name.as_str() {

@@ -176,13 +176,13 @@ impl StreetNetwork {
                 if a == b || !known.insert((strand.level, [a.min(b), a.max(b)])) {
                     continue;
                 }
-                if self.size() >= self.constraints.most {
-                    let most = self.constraints.most;
+                if self.size() >= self.constraints.max_segments {
+                    let most = self.constraints.max_segments;
                     return Err(Error::limit(
                         Limit::Size,
-                        format!("the existing streets have more than {most} pieces, which is the limit"),
+                        format!("the existing streets have more than {most} segments, which is the limit"),
                     )
-                    .help("give fewer streets, or raise the limit: network { most = ... }"));
+                    .help("omit some streets, or raise network { max_segments = ... }"));
                 }
                 let ends = [a, b].map(|end| self.junction(end));
                 let piece = self.add(ends, *attributes, *is_bridge);

@@ -84,11 +84,11 @@ impl LotOptions {
                 "area ({} m²) is less than twice min_area ({} m²), so a lot above it could not be divided",
                 self.area, self.min_area
             );
-            return Err(Error::argument(text).help("give a greater area, or a smaller min_area"));
+            return Err(Error::argument(text).help("use a greater area, or a smaller min_area"));
         }
         if self.min_width > self.width {
             let text = format!("min_width ({} m) is more than width ({} m)", self.min_width, self.width);
-            return Err(Error::argument(text).help("give a greater width, or a smaller min_width"));
+            return Err(Error::argument(text).help("use a greater width, or a smaller min_width"));
         }
         Ok(())
     }

@@ -26,7 +26,7 @@ pub struct Constraints {
     /// Set if dead ends without a turning circle have square ends instead of round ones.
     pub square_ends: bool,
     /// Maximum number of street segments.
-    pub most: usize,
+    pub max_segments: usize,
 }
 
 impl Default for Constraints {
@@ -41,7 +41,7 @@ impl Default for Constraints {
             bridge: 0.0,
             shorten: true,
             square_ends: false,
-            most: 1_000_000,
+            max_segments: 1_000_000,
         }
     }
 }
@@ -87,10 +87,9 @@ impl Constraints {
         }
         if snap > 0.0 && snap < clearance {
             return Err(Error::argument(format!(
-                "snap ({snap} m) is less than clearance ({clearance} m), so a street that ends between the two \
-                 could neither join nor stay"
+                "snap ({snap} m) is less than clearance ({clearance} m), so a street that ends between the two can neither join nor remain"
             ))
-            .help("give a greater snap, or a smaller clearance"));
+            .help("use a greater snap, or a smaller clearance"));
         }
         Ok(())
     }

@@ -44,21 +44,21 @@ impl StreetNetwork {
     /// Fails if the position is not finite, too far from the origin, or in an obstacle.
     pub fn begin(&mut self, place: DVec2) -> Result<JunctionId> {
         let Some(on_grid) = GridPlace::nearest(place) else {
-            return Err(Error::argument(format!("{place} is no place for a street"))
-                .help("places are finite, and within 500 km of the origin"));
+            return Err(Error::argument(format!("invalid street position {place}"))
+                .help("use finite positions within 500 km of the origin"));
         };
         match self.obstacles.at(place) {
             Some(area) if area.is_limit => {
-                let text = format!("a street cannot begin at {place}, for that is outside of the limit");
-                return Err(Error::argument(text).help("begin inside of it, or give a wider limit"));
+                let text = format!("street start {place} is outside the limit");
+                return Err(Error::argument(text).help("start inside the limit, or enlarge it"));
             }
             Some(area) => {
                 let (what, remedy) = if area.can_be_bridged {
-                    ("water is there", "begin beside it: bridges lead over water")
+                    ("in water", "start next to the water: bridges cross it")
                 } else {
-                    ("an obstacle is there", "begin elsewhere, or leave the obstacle out")
+                    ("in an obstacle", "start elsewhere, or remove the obstacle")
                 };
-                let text = format!("a street cannot begin at {place}, for {what}");
+                let text = format!("street start {place} is {what}");
                 return Err(Error::argument(text).help(remedy));
             }
             None => {}
@@ -93,10 +93,13 @@ impl StreetNetwork {
         to: DVec2,
         attributes: StreetAttributes,
     ) -> Result<StreetGrowth> {
-        if self.size() >= self.constraints.most {
-            let most = self.constraints.most;
-            return Err(Error::limit(Limit::Size, format!("the network has {most} pieces of streets"))
-                .help("let fewer streets grow, or raise the limit: network { most = ... }"));
+        if self.size() >= self.constraints.max_segments {
+            let most = self.constraints.max_segments;
+            return Err(Error::limit(
+                Limit::Size,
+                format!("the network has {most} street segments, which is the limit"),
+            )
+            .help("grow fewer streets, or raise network { max_segments = ... }"));
         }
         let mut looked_at = 0;
         let planned = self.plan(from, to, attributes, &mut looked_at);

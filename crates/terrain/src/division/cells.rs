@@ -71,14 +71,14 @@ impl CellSystem {
         let named = |error: Error| error.rather_at(rules.place.clone());
         if rules.has_object {
             return Err(named(
-                Error::script("a system that divides the cells of a terrain has no object")
-                    .help("leave object out: what the cells are is all that counts"),
+                Error::script("a system that divides the cells of a terrain cannot have an object")
+                    .help("remove object: only the modules of the cells are used"),
             ));
         }
         let grammar = &rules.grammar;
         if grammar.has_contexts() {
             return Err(named(
-                Error::script("the cells of a terrain have no neighbours in their chain")
+                Error::script("rules for the cells of a terrain cannot have contexts")
                     .help("write rules for single modules, without < and >"),
             ));
         }
@@ -106,8 +106,8 @@ impl CellSystem {
             }
             _ => {
                 return Err(named(
-                    Error::script("a terrain begins with one cell")
-                        .help("give its system one module without branches: cells:axiom(Hill(0, 100))"),
+                    Error::script("a terrain must begin with one cell")
+                        .help("use one module without branches as axiom: cells:axiom(Hill(0, 100))"),
                 ));
             }
         };
@@ -190,8 +190,8 @@ impl CellSystem {
                 let form = self.forms[usize::from(symbol)].map_or(0.0, |form| params[form]);
                 if !(height + form).is_finite() {
                     let module = module_brief(grammar.symbols(), &self.rules.values, symbol, params);
-                    let error = Error::script(format!("the height of {module} is no finite number"))
-                        .help("give each quadrant a height in metres");
+                    let error = Error::script(format!("the height of {module} is not finite"))
+                        .help("set a height in metres for each quadrant");
                     return Err(self.blame(error, *rule));
                 }
                 let (column, row) = (x * 2 + i64::from(ordinal & 1 == 1), y * 2 + i64::from(ordinal > 1));
@@ -236,8 +236,8 @@ impl CellSystem {
             1 => "one module or a branch".to_owned(),
             count => format!("{count} modules"),
         };
-        let error = Error::script(format!("a cell becomes {count}, where it has four quadrants"))
-            .help("return four modules: north-west, north-east, south-west and south-east; or no value, to leave the cell as it is");
+        let error = Error::script(format!("a cell must be replaced by four quadrants, not by {count}"))
+            .help("return four modules: north-west, north-east, south-west and south-east; or no value to keep the cell unchanged");
         self.blame(error, rule).module(module, step)
     }
 
@@ -250,6 +250,6 @@ impl CellSystem {
 }
 
 fn no_height(name: &str) -> Error {
-    Error::script(format!("{name} is no cell of a terrain: it has no parameter called {HEIGHT}"))
-        .help(format!("declare it with one: module(\"{name}\", \"{HEIGHT}\", ...)"))
+    Error::script(format!("module {name} cannot be a terrain cell: missing parameter `{HEIGHT}`"))
+        .help(format!("add it: module(\"{name}\", \"{HEIGHT}\", ...)"))
 }

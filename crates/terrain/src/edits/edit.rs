@@ -136,22 +136,22 @@ impl Edit {
             }
         };
         if points.iter().chain(&sizes).any(|number| !number.is_finite()) {
-            return Some("a number of it is not finite");
+            return Some("a number is not finite");
         }
         if points.len() < least {
             return Some(match self {
-                Self::Flatten { .. } => "its outline has fewer than three points",
+                Self::Flatten { .. } => "the outline has fewer than three points",
                 Self::Embank { bed } | Self::Excavate { bed } if bed.is_area => {
-                    "its outline has fewer than three points"
+                    "the outline has fewer than three points"
                 }
-                _ => "its path has fewer than two points",
+                _ => "the path has fewer than two points",
             });
         }
         if sizes.iter().any(|size| *size < 0.0) {
-            return Some("its width, margin or slope is below 0");
+            return Some("the width, margin or slope is below 0");
         }
         if matches!(self, Self::Dig { width, .. } if *width == 0.0) {
-            return Some("its width is 0");
+            return Some("the width is 0");
         }
         None
     }

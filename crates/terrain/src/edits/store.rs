@@ -77,7 +77,7 @@ impl Edits {
     /// Appends an edit. Fails if the edit is invalid or its extent is outside the world.
     pub fn add(&mut self, world: &World, edit: Edit) -> Result<()> {
         if let Some(fault) = edit.fault() {
-            return Err(Error::argument(format!("the ground cannot be changed so: {fault}")));
+            return Err(Error::argument(format!("invalid terrain edit: {fault}")));
         }
         let (low, high) = edit.bounds();
         let (corner, far) = (world.corner, world.corner + world.size);
@@ -87,7 +87,7 @@ impl Edits {
                 number(low.x),
                 number(low.y)
             ))
-            .help(format!("it reaches from ({}, {}) to ({}, {}) m", corner.x, corner.y, far.x, far.y)));
+            .help(format!("it extends from ({}, {}) to ({}, {}) m", corner.x, corner.y, far.x, far.y)));
         }
         let cell = smallest(world, low, high);
         let mut hasher = FxHasher::default();
@@ -166,20 +166,23 @@ impl Edits {
     /// ```
     pub fn from_json(text: &str, name: &str, world: &World) -> Result<Self> {
         let file: EditsFile = serde_json::from_str(text).map_err(|error| {
-            Error::data(format!("{name} holds no edits of a terrain: {error}"))
-                .help("such a file is written by burgeon run --edits FILE")
+            Error::data(format!("{name} contains no terrain edits: {error}"))
+                .help("write such a file with burgeon run --edits FILE")
         })?;
         if file.format != FORMAT {
-            return Err(Error::data(format!("{name} is of the kind {:?}, not {FORMAT:?}", file.format)));
+            return Err(Error::data(format!("{name} has the format {:?}, not {FORMAT:?}", file.format)));
         }
         let here = WorldStamp::of(world);
         if file.world != here {
             let shown = |stamp: &WorldStamp| {
-                let key = stamp.key.as_ref().map(|key| format!(", drawn from {key}")).unwrap_or_default();
+                let key = stamp.key.as_ref().map(|key| format!(", seeded by {key}")).unwrap_or_default();
                 format!("{} m from ({}, {}) on{key}", stamp.size, stamp.corner[0], stamp.corner[1])
             };
-            return Err(Error::data(format!("{name} holds edits of another world: {}", shown(&file.world)))
-                .help(format!("this one is {}", shown(&here))));
+            return Err(Error::data(format!(
+                "{name} contains edits of another world: {}",
+                shown(&file.world)
+            ))
+            .help(format!("this one is {}", shown(&here))));
         }
         let mut kept: Vec<EditRecord> = file.cells.into_values().flatten().collect();
         kept.sort_by_key(|kept| kept.order);

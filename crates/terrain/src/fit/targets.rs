@@ -34,7 +34,7 @@ impl Target {
             .help(format!("it has {}", across * across)));
         }
         if heights.iter().any(|height| !height.is_finite()) {
-            return Err(Error::argument("a target has a height that is no finite number")
+            return Err(Error::argument("a target has a height that is not finite")
                 .help("fill the gaps of the height map first"));
         }
         Ok(Self { across, heights })
@@ -47,8 +47,10 @@ impl Target {
         let names = || NAMED.iter().map(|(name, _)| *name);
         let Some((_, height)) = NAMED.iter().find(|(known, _)| *known == name) else {
             let all = names().collect::<Vec<_>>().join(", ");
-            let message = format!("there is no target {name}");
-            return Err(Error::not_found("target", name, names(), message).help(format!("there are {all}")));
+            let message = format!("unknown target `{name}`");
+            return Err(
+                Error::not_found("target", name, names(), message).help(format!("the targets are {all}"))
+            );
         };
         let middle = |cell: usize| (number(cell) + 0.5) / number(ACROSS);
         let heights =
@@ -76,7 +78,7 @@ impl Target {
             return Err(Error::argument(format!(
                 "{count} heights are not {columns} columns and {rows} rows"
             ))
-            .help("give as many heights as there are cells"));
+            .help("give one height per cell"));
         }
         check_across(across)?;
         let (east, south) = (weights(columns, across), weights(rows, across));
@@ -127,7 +129,7 @@ fn check_across(across: usize) -> Result<()> {
         return Ok(());
     }
     Err(Error::argument(format!("a target of {across} cells across cannot be divided into quadrants"))
-        .help("its cells across are a power of two from 2 to 2048"))
+        .help("the number of cells across must be a power of two from 2 to 2048"))
 }
 
 /// Returns the error between two maps, as defined by [`Target::error`].

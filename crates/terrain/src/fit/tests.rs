@@ -78,9 +78,9 @@ fn what_is_no_height_map_is_refused() {
         "a target of 3 cells across cannot be divided into quadrants"
     );
     assert_eq!(told(Target::new(2, vec![0.0; 3])), "3 heights do not fill a target of 2 cells across");
-    assert_eq!(told(Target::new(2, vec![f64::NAN; 4])), "a target has a height that is no finite number");
+    assert_eq!(told(Target::new(2, vec![f64::NAN; 4])), "a target has a height that is not finite");
     assert_eq!(told(Target::resample(2, 3, &[0.0; 5], 2)), "5 heights are not 2 columns and 3 rows");
-    assert_eq!(told(Target::named("hil")), "there is no target hil");
+    assert_eq!(told(Target::named("hil")), "unknown target `hil`");
     assert_eq!(
         told(Target::resample(1, 1, &[0.0], 0)),
         "a target of 0 cells across cannot be divided into quadrants"

@@ -79,11 +79,8 @@ impl Tree {
         if !may || far() || sight.is_hidden(radius, leaf) {
             self.leaves.push(leaf);
             if (self.leaves.len() as u64) << (2 * DETAIL) > MOST_HEIGHTS {
-                return Err(Error::limit(
-                    Limit::Size,
-                    format!("planet: that would be more than {MOST_HEIGHTS} heights"),
-                )
-                .help("lower closeness or levels: most of it is far away"));
+                return Err(Error::limit(Limit::Size, format!("planet: more than {MOST_HEIGHTS} heights"))
+                    .help("use a lower closeness or fewer levels: most of the planet is far away"));
             }
             return Ok(Link::Leaf(self.leaves.len() - 1));
         }

@@ -71,7 +71,7 @@ impl View {
                 number(eye.x),
                 number(eye.y)
             ))
-            .help(format!("it reaches from ({}, {}) to ({}, {}) m", low.x, low.y, high.x, high.y)));
+            .help(format!("it extends from ({}, {}) to ({}, {}) m", low.x, low.y, high.x, high.y)));
         }
         let level = self.level(world)?;
         let across = World::across(level);
@@ -118,7 +118,7 @@ impl View {
                 "view: cells of {} m do not divide a world of {} m",
                 self.cell, world.size
             ))
-            .help(format!("halve its size again and again; the nearest such size is {near} m")));
+            .help(format!("use the world's size divided by a power of two; the nearest is {near} m")));
         }
         let deepest = self.rings.iter().map(|ring| ring.levels).max().unwrap_or(0);
         if whole as u32 + deepest > DEEPEST {
@@ -126,7 +126,7 @@ impl View {
                 Limit::Size,
                 format!("view: cells are divided {} times in all", whole as u32 + deepest),
             )
-            .help(format!("divide them at most {DEEPEST} times")));
+            .help(format!("the maximum is {DEEPEST}")));
         }
         Ok(whole as u32)
     }
@@ -138,11 +138,8 @@ pub(crate) fn too_many(heights: u64) -> Error {
     let bytes = heights as f64 * 8.0;
     let units = [("PB", 1e15), ("TB", 1e12), ("GB", 1e9), ("MB", 1e6)];
     let (unit, size) = units.into_iter().find(|(_, size)| bytes >= *size).unwrap_or(("bytes", 1.0));
-    Error::limit(
-        Limit::Size,
-        format!("terrain: that would be {heights} heights, which take {:.1} {unit}", bytes / size),
-    )
-    .help(format!("at most {MOST_HEIGHTS} are expanded at once: use fewer levels, or focus on a part"))
+    Error::limit(Limit::Size, format!("terrain: {heights} heights need {:.1} {unit}", bytes / size))
+        .help(format!("the maximum is {MOST_HEIGHTS} heights: use fewer levels, or focus on a part"))
 }
 
 impl ViewCells {

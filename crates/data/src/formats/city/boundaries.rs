@@ -55,10 +55,8 @@ impl CityVertices {
     }
 
     fn place(&self, number: usize) -> std::result::Result<DVec3, String> {
-        let place = self
-            .places
-            .get(number)
-            .ok_or_else(|| format!("names the vertex {number}, which the file does not have"))?;
+        let place =
+            self.places.get(number).ok_or_else(|| format!("refers to the missing vertex {number}"))?;
         let [x, y, z] = place[..] else { return Err(format!("has a vertex of {} numbers", place.len())) };
         let place = DVec3::new(x, y, z);
         Ok(match &self.transform {
@@ -108,7 +106,7 @@ pub(super) fn add_geometry(
                 let lines: SurfaceRings = serde_json::from_str(text).map_err(wrong)?;
                 Ok((vec![lines], Vec::new()))
             }
-            other => Err(format!("has a geometry of type \"{}\", which is not known", shown(other))),
+            other => Err(format!("has a geometry of unknown type \"{}\"", shown(other))),
         }
     };
     let (surfaces, points) = match read() {

@@ -145,7 +145,7 @@ impl CityJson {
     ) -> Result<()> {
         let name = &self.file.name;
         let text = std::str::from_utf8(bytes).map_err(|_| {
-            Error::data(format!("{name} is not UTF-8, as CityJSON has to be"))
+            Error::data(format!("{name} is not UTF-8, which CityJSON requires"))
                 .help("convert it: iconv -f ENCODING -t UTF-8 IN > OUT.city.json")
         })?;
         let text = text.trim_start_matches('\u{feff}');
@@ -209,7 +209,7 @@ impl LayeredFile for CityJson {
             _ => format!("{}:{}", self.file.name, shown(layer)),
         };
         let none = Error::data("the layer has no coordinate system")
-            .help("name its EPSG code: source(file, { crs = 3067 })");
+            .help("specify its EPSG code: source(file, { crs = 3067 })");
         let mut table = FeatureTable::new(layer, &label, Err(none), wanted);
         let mut types = TextTypes::default();
         self.each(wanted, |document| read_document(document, layer, &mut table, &mut types, wanted))?;
@@ -260,8 +260,8 @@ fn read_document(
 fn system_named(name: &str) -> Result<Crs> {
     let code = name.rsplit(['/', ':']).next().and_then(|code| code.parse().ok());
     let code: u32 = code.ok_or_else(|| {
-        Error::data(format!("the coordinate system \"{}\" is not known", shown(name)))
-            .help("name its EPSG code: source(file, { crs = 3067 })")
+        Error::data(format!("unknown coordinate system \"{}\"", shown(name)))
+            .help("specify its EPSG code: source(file, { crs = 3067 })")
     })?;
     Crs::epsg(code).or_else(|_| Crs::epsg(horizontal(code)))
 }

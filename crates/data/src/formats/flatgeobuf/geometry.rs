@@ -45,8 +45,8 @@ pub(super) fn read(
                 read(&part.map_err(broken)?, inner, budget, depth + 1, parts)?;
             }
         }
-        8..=14 => return Err("is a curve, which is not read".to_owned()),
-        kind => return Err(format!("has a geometry of type {kind}, which is not known")),
+        8..=14 => return Err("is a curve, which is not supported".to_owned()),
+        kind => return Err(format!("has a geometry of unknown type {kind}")),
     }
     Ok(())
 }
@@ -56,7 +56,7 @@ fn points(table: &BufferTable<'_>, budget: &Budget) -> Result<Vec<DVec3>, String
     let broken = |why: BufferDamage| format!("has a geometry that {why}");
     let (places, heights) = (table.list(1, 8).map_err(broken)?, table.list(2, 8).map_err(broken)?);
     if !places.len().is_multiple_of(16) || !(heights.is_empty() || heights.len() * 2 == places.len()) {
-        return Err("has points that lack a coordinate".to_owned());
+        return Err("has points with a missing coordinate".to_owned());
     }
     budget.take(places.len() * 3 / 2).map_err(|error| error.message().to_owned())?;
     let mut heights = doubles(heights);
@@ -81,9 +81,9 @@ fn lists(table: &BufferTable<'_>, budget: &Budget) -> Result<Vec<Vec<DVec3>>, St
     let mut begin = 0;
     for end in ends.as_chunks().0 {
         let end = u32::from_le_bytes(*end) as usize;
-        let list = all.get(begin..end).ok_or("has parts that end where they cannot")?;
+        let list = all.get(begin..end).ok_or("has parts with invalid ends")?;
         lists.push(list.to_vec());
         begin = end;
     }
-    if begin < all.len() { Err("has points that belong to no part".to_owned()) } else { Ok(lists) }
+    if begin < all.len() { Err("has points outside its parts".to_owned()) } else { Ok(lists) }
 }

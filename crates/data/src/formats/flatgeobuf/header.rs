@@ -78,7 +78,7 @@ pub(super) fn columns(table: &BufferTable<'_>, number: usize) -> Result<Vec<Colu
 
 /// Returns the coordinate system that a table describes, or the reason why it is unknown.
 fn system(table: Option<BufferTable<'_>>) -> Result<Checked<Crs>, BufferDamage> {
-    let remedy = "name its EPSG code: source(file, { crs = 3067 })";
+    let remedy = "specify its EPSG code: source(file, { crs = 3067 })";
     let none = Err(Error::data("the layer has no coordinate system").help(remedy));
     let Some(table) = table else { return Ok(none) };
     let organization = table.text(0)?.unwrap_or_default();
@@ -93,7 +93,7 @@ fn system(table: Option<BufferTable<'_>>) -> Result<Checked<Crs>, BufferDamage> 
         1.. if organization.is_empty() || organization.eq_ignore_ascii_case("epsg") => Crs::epsg(code),
         _ => {
             let name = shown(&name);
-            Err(Error::data(format!("the layer's coordinate system \"{name}\" is none of EPSG's"))
+            Err(Error::data(format!("the layer's coordinate system \"{name}\" is not an EPSG system"))
                 .help(remedy))
         }
     })

@@ -91,7 +91,7 @@ impl Levels {
         while let Some((level, first)) = stack.pop() {
             let Some([begin, end]) = self.0.get(level).copied() else { continue };
             if !(begin..end).contains(&first) {
-                return Err(damaged("its index leads to where there is nothing"));
+                return Err(damaged("its index refers to missing data"));
             }
             budget.check()?;
             file.seek(SeekFrom::Start(at + first * ENTRY)).map_err(cannot)?;
@@ -108,7 +108,7 @@ impl Levels {
                 }
             }
             if found.len() as u64 > self.count() {
-                return Err(damaged("its index leads to the same features again and again"));
+                return Err(damaged("its index refers repeatedly to the same features"));
             }
         }
         found.sort_unstable();

@@ -51,11 +51,8 @@ impl FlatGeobuf {
         let mut head = [0; 12];
         file.read_exact(&mut head).map_err(cannot)?;
         if !head.starts_with(MAGIC) {
-            return Err(Error::data(format!(
-                "{name} is a FlatGeobuf of version {}, which is not read",
-                head[3]
-            ))
-            .help("write it anew: ogr2ogr out.fgb FILE"));
+            return Err(Error::data(format!("{name} is a FlatGeobuf of unsupported version {}", head[3]))
+                .help("re-export it: ogr2ogr out.fgb FILE"));
         }
         let (_, size) = head.split_at(8);
         let size = u64::from(u32::from_le_bytes([size[0], size[1], size[2], size[3]]));
@@ -99,7 +96,7 @@ impl FlatGeobuf {
                 let mut reader = self.reader(self.features);
                 for (number, to) in found {
                     let at = self.features.checked_add(to).filter(|at| *at < self.end);
-                    let at = at.ok_or_else(|| damage_error("its index leads beyond its end"))?;
+                    let at = at.ok_or_else(|| damage_error("its index refers to data after its end"))?;
                     reader.seek_relative_to(at)?;
                     self.feature(&mut reader, (number, None), &mut table, wanted)?;
                     if table.is_full() {
@@ -124,7 +121,10 @@ impl FlatGeobuf {
                     let entry = BoxEntry::read(&mut leaves.file);
                     let entry = entry.map_err(|error| damage_error(&self.name, &error.to_string()))?;
                     if self.features.checked_add(entry.to) != Some(reader.at) {
-                        return Err(damage_error(&self.name, "its index leads to where no feature begins"));
+                        return Err(damage_error(
+                            &self.name,
+                            "its index refers to an invalid feature position",
+                        ));
                     }
                     Some(entry)
                 }
@@ -135,7 +135,7 @@ impl FlatGeobuf {
         }
         let count = self.header.count;
         if count > 0 && number != count && !table.is_full() {
-            let has = format!("it has {number} features, and says that it has {count}");
+            let has = format!("it has {number} features, but declares {count}");
             return Err(damage_error(&self.name, &has));
         }
         Ok(())
@@ -184,7 +184,7 @@ impl FlatGeobuf {
         // The error may be an exceeded time limit instead of an invalid feature.
         wanted.budget.check()?;
         let error = Error::data(format!("feature {id} of {} {why}", self.name))
-            .help("the file is damaged, or holds what is not read; write it anew: ogr2ogr -nlt CONVERT_TO_LINEAR out.fgb FILE");
+            .help("the file is damaged, or its content is not supported; re-export it: ogr2ogr -nlt CONVERT_TO_LINEAR out.fgb FILE");
         table.refuse_at(id, error, bounds)
     }
 
@@ -204,7 +204,7 @@ impl FlatGeobuf {
             if let Some(place) =
                 parts.iter().flat_map(Geometry::points).find(|place| !lies([place.x, place.y], bounds))
             {
-                return Err(format!("lies at {}, {}, which is not where the file has it", place.x, place.y));
+                return Err(format!("is at {}, {}, which differs from the file's index", place.x, place.y));
             }
         }
         Ok(parts)
@@ -223,7 +223,7 @@ impl FlatGeobuf {
         let (mut attributes, mut key) = (Vec::new(), None);
         while !values.0.is_empty() {
             let number = usize::from(u16::from_le_bytes(values.take()?));
-            let column = known.get(number).ok_or("has a value of a column that there is not")?;
+            let column = known.get(number).ok_or("has a value of an unknown column")?;
             let Some(value) = values.value(column, table)? else { continue };
             if column.is_key || (key.is_none() && column.name.eq_ignore_ascii_case("id")) {
                 key = Some(value.text()).filter(|key| !key.is_empty());
@@ -241,7 +241,7 @@ type PropertyList = (Vec<(usize, Attribute)>, Option<String>);
 /// Returns the error for damaged bytes.
 fn damage_error(name: &str, why: &str) -> Error {
     Error::data(format!("{name} cannot be read: {why}"))
-        .help("the file is damaged or cut short; get it again")
+        .help("the file is damaged or cut short; download it again")
 }
 
 /// Returns true if a position is within bounds; also for NaN, which is reported elsewhere.
@@ -365,7 +365,7 @@ impl<'a> PropertyBytes<'a> {
                 return Ok(Some(table.text(&text)));
             }
             14 => return self.bytes().map(|_| None),
-            _ => return Err("has a column of a type that is not known"),
+            _ => return Err("has a column of unknown type"),
         };
         Ok(number.is_finite().then_some(Attribute::Number(number)))
     }

@@ -158,22 +158,22 @@ fn systems_that_are_missing_or_not_known_and_empty_layers_are_told() {
     ];
     insta::assert_snapshot!(all.join("\n\n"), @r#"
     the layer has no coordinate system
-      help: name its EPSG code: source(file, { crs = 3067 })
+      help: specify its EPSG code: source(file, { crs = 3067 })
 
-    the layer's coordinate system "local grid" is none of EPSG's
-      help: name its EPSG code: source(file, { crs = 3067 })
+    the layer's coordinate system "local grid" is not an EPSG system
+      help: specify its EPSG code: source(file, { crs = 3067 })
 
-    the coordinate system EPSG:12 is not known
-      help: name the right one: source(file, { crs = 4326 }), or convert the file to EPSG:4326
+    unknown coordinate system EPSG:12
+      help: specify the correct one: source(file, { crs = 4326 }), or convert the file to EPSG:4326
 
     town.fgb has no features
       help: check the file: burgeon sources FILE
 
-    town.fgb is a FlatGeobuf of version 2, which is not read
-      help: write it anew: ogr2ogr out.fgb FILE
+    town.fgb is a FlatGeobuf of unsupported version 2
+      help: re-export it: ogr2ogr out.fgb FILE
 
     town.fgb cannot be read: it has a header of 292 bytes
-      help: the file is damaged or cut short; get it again
+      help: the file is damaged or cut short; download it again
     "#);
     let crs = SourceOptions { crs: Some(3067), ..SourceOptions::default() };
     let table = read(&made(GeometryType::Point, &["POINT(385400 6671500)"], options(0)), &crs).unwrap();

@@ -60,7 +60,7 @@ impl GeoPackage {
             Err(rusqlite::Error::SqliteFailure(_, Some(text))) if text.starts_with("no such table") => {
                 // A GeoPackage without features, such as one of tables or images, needs no geometry columns.
                 if !text.contains("gpkg_geometry_columns") {
-                    return Err(Error::data(format!("{name} is an SQLite database, but no GeoPackage"))
+                    return Err(Error::data(format!("{name} is an SQLite database, but not a GeoPackage"))
                         .help("a GeoPackage has the tables gpkg_contents and gpkg_geometry_columns"));
                 }
                 Vec::new()
@@ -90,7 +90,7 @@ impl GeoPackage {
         let name = self.name.clone();
         let error = |error: rusqlite::Error| read_error(&name, &error);
         let Some(position) = self.layers.iter().position(|known| known.table == layer) else {
-            return Err(Error::not_found("layer", layer, [], format!("{name} has no layer called {layer}")));
+            return Err(Error::not_found("layer", layer, [], format!("{name}: no layer named `{layer}`")));
         };
         let described = self.layers.swap_remove(position);
         let label = format!("{name}:{}", shown(layer));
@@ -113,8 +113,9 @@ impl GeoPackage {
             let key = row.get_ref(0).ok().and_then(id_text).unwrap_or_else(|| count.to_string());
             let id = id.and_then(|id| id_text(row.get_ref(id + 2).ok()?)).unwrap_or_else(|| key.clone());
             let wrong = |why: &str| {
-                Error::data(format!("the geometry of feature {} of {label} {why}", shown(&id)))
-                    .help("points, lines, polygons, curves, surfaces and collections of these are read")
+                Error::data(format!("the geometry of feature {} of {label} {why}", shown(&id))).help(
+                    "supported types are points, lines, polygons, curves, surfaces and collections of these",
+                )
             };
             let parts = match row.get_ref(1).map_err(error)? {
                 ValueRef::Null => Vec::new(),
@@ -129,7 +130,7 @@ impl GeoPackage {
                     }
                 },
                 _ => {
-                    let error = wrong("is no geometry of a GeoPackage");
+                    let error = wrong("is not a GeoPackage geometry");
                     table.refuse(id, error)?;
                     continue;
                 }
@@ -235,7 +236,7 @@ fn system(connection: &Connection, number: i64) -> rusqlite::Result<Result<Crs>>
             |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)),
         )
         .optional()?;
-    let remedy = "name its EPSG code: source(file, { crs = 3067 })";
+    let remedy = "specify its EPSG code: source(file, { crs = 3067 })";
     Ok(match found {
         _ if number == 0 || number == -1 => {
             Err(Error::data("the layer has no coordinate system").help(remedy))
@@ -245,11 +246,14 @@ fn system(connection: &Connection, number: i64) -> rusqlite::Result<Result<Crs>>
         }
         Some((name, ..)) => {
             let name = name.unwrap_or_default();
-            Err(Error::data(format!("the layer's coordinate system \"{}\" is none of EPSG's", shown(&name)))
-                .help(remedy))
+            Err(Error::data(format!(
+                "the layer's coordinate system \"{}\" is not an EPSG system",
+                shown(&name)
+            ))
+            .help(remedy))
         }
         None => {
-            Err(Error::data(format!("the layer's coordinate system {number} is not described in the file"))
+            Err(Error::data(format!("the file does not describe the layer's coordinate system {number}"))
                 .help(remedy))
         }
     })

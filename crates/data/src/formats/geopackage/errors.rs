@@ -8,7 +8,7 @@ fn error_text(error: &rusqlite::Error) -> String {
     match error {
         rusqlite::Error::SqliteFailure(_, Some(text)) => text.clone(),
         rusqlite::Error::SqlInputError { msg, .. } => msg.clone(),
-        rusqlite::Error::MultipleStatement => "it holds more than one statement".to_owned(),
+        rusqlite::Error::MultipleStatement => "it contains more than one statement".to_owned(),
         other => other.to_string(),
     }
 }
@@ -16,7 +16,7 @@ fn error_text(error: &rusqlite::Error) -> String {
 /// Returns the error for a file called `name` that cannot be read.
 pub(super) fn read_error(name: &str, error: &rusqlite::Error) -> Error {
     Error::data(format!("cannot read {name}: {}", error_text(error)))
-        .help("the file is damaged or cut short; get it again")
+        .help("the file is damaged or cut short; download it again")
 }
 
 /// Returns the error of a query; it refers to the condition, if there is one.

@@ -29,7 +29,7 @@ impl PrivateCopy {
         }
         if before.iter().flatten().any(|stamp| stamp.length > 4 * COPIED) {
             return Err(Error::unavailable(format!(
-                "the log beside {shown} is too large to be recovered in a copy"
+                "the log next to {shown} is too large to recover it in a copy"
             ))
             .help("open the file once in the program that wrote it, and run again")
             .into());
@@ -37,7 +37,7 @@ impl PrivateCopy {
         let copy = Self::new()?;
         let cannot = |error: std::io::Error| {
             StateFailure::Final(Error::system(format!("cannot recover {shown} in a private copy: {error}")).help(
-                "make room in the folder for temporary files, or open the file once in the program that wrote it",
+                "free space in the folder for temporary files, or open the file once in the program that wrote it",
             ))
         };
         let write = |from: &Path, to: &Path| {
@@ -64,7 +64,7 @@ impl PrivateCopy {
         std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
         builder.create(&folder).map_err(|error| {
             Error::system(format!("cannot make a folder for temporary files: {error}"))
-                .help("make room in it, or name another: TMPDIR=FOLDER")
+                .help("free space in it, or specify another: TMPDIR=FOLDER")
         })?;
         Ok(Self(folder))
     }

@@ -230,8 +230,8 @@ fn a_locked_package_is_waited_for_within_the_time_limit() {
     let error = batches(&path, &within(Duration::from_millis(200))).unwrap_err();
     assert!(begin.elapsed() < Duration::from_secs(1));
     insta::assert_snapshot!(error, @"
-    reading took longer than 0.2 s (town.gpkg is locked by another program)
-      help: read a part, or raise the limit: --time-limit SECONDS
+    reading exceeded the time limit of 0.2 s (another program has locked town.gpkg)
+      help: read a part of the data, or raise the limit: --time-limit SECONDS
     ");
     assert_eq!(batches(&path, &within(Duration::from_secs(30))).unwrap(), [1]);
     drop(writer);
@@ -296,8 +296,8 @@ fn a_large_package_is_read_in_place_and_a_change_meanwhile_is_no_second_state() 
             written.unwrap();
             let error = batches(&path, &budget).unwrap_err();
             insta::assert_snapshot!(error, @"
-            town.gpkg was changed by another program while it was read
-              help: save and close it there, and run again
+            another program changed town.gpkg while Burgeon read it
+              help: save and close the file there, and run again
             ");
         }
         assert_eq!(batches(&path, &within(Duration::from_secs(60))).unwrap(), [1]);

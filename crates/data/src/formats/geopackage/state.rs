@@ -85,13 +85,13 @@ impl PackageState {
                 Err(StateFailure::Final(error)) => return Err(error),
                 Err(StateFailure::Busy) => {}
             }
-            budget.check().map_err(|over| over.noting(&format!("{shown} is locked by another program")))?;
+            budget.check().map_err(|over| over.noting(&format!("another program has locked {shown}")))?;
             if begin.elapsed() > PATIENCE {
                 return Err(Error::unavailable(format!(
-                    "{shown} is locked by another program, which has been writing it for {} s",
+                    "another program has locked {shown} and has been writing it for {} s",
                     PATIENCE.as_secs()
                 ))
-                .help("save and close it there, and run again"));
+                .help("save and close the file there, and run again"));
             }
             std::thread::sleep(PAUSE);
         }
@@ -167,8 +167,8 @@ fn data_version(connection: &Connection) -> rusqlite::Result<i64> {
 }
 
 fn change_error(shown: &str) -> Error {
-    Error::unavailable(format!("{shown} was changed by another program while it was read"))
-        .help("save and close it there, and run again")
+    Error::unavailable(format!("another program changed {shown} while Burgeon read it"))
+        .help("save and close the file there, and run again")
 }
 
 /// SQLite error, by its remedy.
@@ -216,7 +216,7 @@ struct Attempt<'a> {
 impl Attempt<'_> {
     fn state(&self) -> std::result::Result<PackageState, StateFailure> {
         let Some(stamp) = PackageStamp::of(self.path) else {
-            return Err(Error::file(self.path, format!("cannot read {}: it has gone", self.shown))
+            return Err(Error::file(self.path, format!("cannot read {}: the file was removed", self.shown))
                 .help("check the path")
                 .into());
         };
@@ -275,10 +275,12 @@ impl Attempt<'_> {
                     Some(_) if stamp.length <= COPIED => self.read_recovered(suffix),
                     Some(_) => Err(StateFailure::Final(
                         Error::unavailable(format!(
-                            "a program that wrote {} has ended in the middle of a change",
+                            "a program that wrote {} ended during a change",
                             self.shown
                         ))
-                        .help("open the file once in that program, so that it takes the change back, and run again"),
+                        .help(
+                            "open the file once in that program, which then undoes the change, and run again",
+                        ),
                     )),
                     // The writer has just closed the database.
                     None if logged => Err(StateFailure::Busy),

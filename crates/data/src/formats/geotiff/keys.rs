@@ -8,8 +8,7 @@ use crate::heights::names::tiff_key as keys;
 use burgeon_base::error::{Error, Result};
 
 /// Remedy for a coordinate system that cannot be used.
-const NAME_IT: &str = "name its EPSG code: elevation(file, { crs = 3067 }), or convert the file: \
-                       gdalwarp -t_srs EPSG:4326 IN OUT.tif";
+const NAME_IT: &str = "specify its EPSG code: elevation(file, { crs = 3067 }), or convert the file: gdalwarp -t_srs EPSG:4326 IN OUT.tif";
 
 /// Numeric GeoTIFF keys.
 pub(super) struct GeoKeys {
@@ -49,8 +48,7 @@ impl GeoKeys {
                 .map(Some)
                 .map_err(|error| Error::data(format!("{name}: {}", error.message())).help(NAME_IT)),
             _ => {
-                Err(Error::data(format!("{name} has a coordinate system that is none of EPSG's"))
-                    .help(NAME_IT))
+                Err(Error::data(format!("{name} has a coordinate system without an EPSG code")).help(NAME_IT))
             }
         }
     }

@@ -39,7 +39,7 @@ impl Meaning {
             return Err(Error::data(format!(
                 "{name} has heights with the scale {scale} and the offset {offset}"
             ))
-            .help("write them as metres: gdal_translate -unscale IN OUT.tif"));
+            .help("convert them to metres: gdal_translate -unscale IN OUT.tif"));
         }
         let unit = match keys.get(keys::VERTICAL_UNIT).filter(|unit| !matches!(*unit, 0 | keys::OWN)) {
             None => match item(&metadata, "unittype").filter(|unit| !unit.is_empty()) {
@@ -136,8 +136,7 @@ fn unit_named(unit: &str, name: &str) -> Result<f64> {
 }
 
 fn unit_error(unit: &str, name: &str) -> Error {
-    Error::data(format!("{name} has heights in a unit that is not known ({unit})"))
-        .help("convert it to metres")
+    Error::data(format!("{name} has heights in an unknown unit ({unit})")).help("convert it to metres")
 }
 
 #[cfg(test)]

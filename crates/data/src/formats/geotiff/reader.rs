@@ -43,8 +43,11 @@ pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<RasterHeader<'a
     check_size(name, columns, rows)?;
     let color = tiff.colortype().map_err(tiff_error)?;
     if color.num_samples() != 1 {
-        return Err(Error::data(format!("{name} has {} bands, where heights are one", color.num_samples()))
-            .help("take out the one of heights: gdal_translate -b 1 IN OUT.tif"));
+        return Err(Error::data(format!(
+            "{name} has {} bands, but heights need one band",
+            color.num_samples()
+        ))
+        .help("extract the band of heights: gdal_translate -b 1 IN OUT.tif"));
     }
     check_whole(&mut tiff, bytes, name)?;
     check_parts(&mut tiff, bytes, name, usize::from(color.bit_depth()).div_ceil(8))?;
@@ -112,7 +115,7 @@ fn check_whole(tiff: &mut Tiff<'_>, bytes: &[u8], name: &str) -> Result<()> {
         let (end, length) = (ends.max().unwrap_or(0), bytes.len());
         if end > length as u64 {
             return Err(Error::data(format!("{name} is cut short: it has {length} of {end} bytes"))
-                .help("get it again"));
+                .help("download it again"));
         }
     }
     Ok(())
@@ -125,7 +128,9 @@ fn check_parts(tiff: &mut Tiff<'_>, bytes: &[u8], name: &str, sample: usize) -> 
     let (width, height) = tiff.chunk_dimensions();
     let [width, height] = [width, height].map(|side| side as usize);
     if width == 0 || height == 0 {
-        return Err(Error::data(format!("{name} has strips or tiles without extent")).help("get it again"));
+        return Err(
+            Error::data(format!("{name} has strips or tiles without extent")).help("download it again")
+        );
     }
     let tag = match tiff.get_chunk_type() {
         ChunkType::Strip => Tag::StripByteCounts,
@@ -221,7 +226,7 @@ fn take_out_masked(
     if is_read {
         return Ok(());
     }
-    Err(Error::data(format!("{name} has a mask that is damaged, or in a compression that is not read"))
+    Err(Error::data(format!("{name} has a mask that is damaged or has an unsupported compression"))
         .help("write the mask as a value: gdalwarp -dstnodata -9999 IN OUT.tif, or compress it with Deflate"))
 }
 
@@ -239,12 +244,12 @@ fn numbers(values: DecodingResult, meaning: &Meaning, name: &str) -> Result<Vec<
         DecodingResult::U32(values) => all(&values, meaning),
         DecodingResult::U8(_) | DecodingResult::I8(_) => {
             return Err(Error::data(format!(
-                "{name} has samples of 8 bits, whose 256 levels would make steps"
+                "{name} has samples of 8 bits: 256 levels are too coarse for heights"
             ))
             .help("export it with 16 bits or floats"));
         }
         _ => {
-            return Err(Error::data(format!("{name} has samples of a type that is not read"))
+            return Err(Error::data(format!("{name} has samples of an unsupported type"))
                 .help("convert it: gdal_translate -ot Float32 IN OUT.tif"));
         }
     })
@@ -263,8 +268,8 @@ fn grid(tiff: &mut Tiff<'_>, name: &str, is_point: bool) -> Result<Option<Sample
         ([dx, dy, ..], [column, row, _, x, y, ..], _) => ([x - column * dx, y + row * dy], [*dx, *dy]),
         (_, _, [a, b, _, x, c, d, _, y, ..]) => {
             if *b != 0.0 || *c != 0.0 {
-                return Err(Error::data(format!("{name} is turned: its columns do not run north"))
-                    .help("straighten it: gdalwarp IN OUT.tif"));
+                return Err(Error::data(format!("{name} is rotated: its columns do not point north"))
+                    .help("resample it: gdalwarp IN OUT.tif"));
             }
             ([*x, *y], [*a, -*d])
         }
@@ -277,18 +282,18 @@ fn grid(tiff: &mut Tiff<'_>, name: &str, is_point: bool) -> Result<Option<Sample
 fn tiff_error(name: &str, error: &TiffError) -> Error {
     match error {
         TiffError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
-            Error::data(format!("{name} is cut short")).help("get it again")
+            Error::data(format!("{name} is cut short")).help("download it again")
         }
         TiffError::LimitsExceeded => {
             Error::limit(Limit::Size, format!("{name} has a strip or a tag that is too large"))
                 .help("write it with tiles: gdal_translate -co TILED=YES IN OUT.tif")
         }
-        TiffError::UnsupportedError(_) => Error::data(format!("{name} is a TIFF of a kind that is not read"))
+        TiffError::UnsupportedError(_) => Error::data(format!("{name}: unsupported TIFF variant"))
             .help("convert it: gdal_translate -ot Float32 -co COMPRESS=DEFLATE IN OUT.tif"),
         _ => damage_error(name),
     }
 }
 
 fn damage_error(name: &str) -> Error {
-    Error::data(format!("{name} is a damaged TIFF")).help("get it again")
+    Error::data(format!("{name}: damaged TIFF file")).help("download it again")
 }

@@ -70,8 +70,9 @@ impl FeatureBuilder {
         let has_shape = !object.shape.is_empty() || object.parts.iter().any(|part| !part.shape.is_empty());
         let id = object.id.clone().unwrap_or_else(|| self.number.to_string());
         let refuse = |builder: &mut Self, why: &str| {
-            let error = Error::data(format!("feature {} of {} {why}", shown(&id), builder.label))
-                .help("points, curves, polygons, surfaces, solids and collections of these are read");
+            let error = Error::data(format!("feature {} of {} {why}", shown(&id), builder.label)).help(
+                "supported types are points, curves, polygons, surfaces, solids and collections of these",
+            );
             builder.table.refuse(id.clone(), error)
         };
         if let (false, Some(why)) = (has_shape, &wrong) {

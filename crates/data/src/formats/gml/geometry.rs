@@ -189,7 +189,7 @@ impl GeometryReader<'_> {
                 each(GmlPiece::Surface(self.rings(&context)?))?;
             }
             name if solids == Solids::Refused && SOLIDS.contains(&name) => {
-                return wrong("is a solid, of which no footprint is told");
+                return wrong("is a solid without a footprint");
             }
             _ => {
                 let depth = self.xml.depth;
@@ -244,7 +244,7 @@ impl GeometryReader<'_> {
                 self.arcs(element, &given, context)?
             }
             "Ring" | "Curve" | "CompositeCurve" | "OrientableCurve" => self.chain(context)?,
-            name => return wrong(format!("has a curve that is a {}, which is not read", shown(name))),
+            name => return wrong(format!("has a curve of unsupported type {}", shown(name))),
         };
         if element.attribute("orientation") == Some("-") {
             places.reverse();
@@ -274,7 +274,7 @@ impl GeometryReader<'_> {
 
     fn arcs(&self, element: &Element, given: &[DVec3], context: &GmlContext) -> GeometryResult<Vec<DVec3>> {
         if given.len() < 3 || given.len().is_multiple_of(2) {
-            return wrong(format!("has a curve that is an {} of {} places", element.name, given.len()));
+            return wrong(format!("has a curve that is an {} of {} positions", element.name, given.len()));
         }
         let near = NEAR / context.usable_system().map_or(1.0, |system| system.crs.metres());
         let room = |count: usize| self.budget.take(count * 24);
@@ -309,12 +309,12 @@ impl GeometryReader<'_> {
                         false => numbers.len().min(3),
                     };
                     if dimension < 2 {
-                        return wrong("has a place of fewer than two numbers");
+                        return wrong("has a position of fewer than two numbers");
                     }
                     if many && !numbers.len().is_multiple_of(dimension) {
                         let count = numbers.len();
                         return wrong(format!(
-                            "has a list of {count} numbers, which are no places of {dimension}"
+                            "has a list of {count} numbers, which is not a multiple of the dimension {dimension}"
                         ));
                     }
                     let chunks = numbers.chunks_exact(if many { dimension } else { numbers.len() });
@@ -333,11 +333,11 @@ impl GeometryReader<'_> {
                         self.end(at)?;
                         let number = self.xml.text().parse::<f64>();
                         place.push(number.or_else(|_| {
-                            wrong(format!("has a coordinate {} that is no number", shown(&axis.name)))
+                            wrong(format!("has a coordinate {} that is not a number", shown(&axis.name)))
                         })?);
                     }
                     if place.len() < 2 {
-                        return wrong("has a place of fewer than two numbers");
+                        return wrong("has a position of fewer than two numbers");
                     }
                     places.push(east_first(&place, &inside));
                 }
@@ -353,7 +353,7 @@ impl GeometryReader<'_> {
     fn end(&mut self, depth: usize) -> GeometryResult<()> {
         match self.xml.next()? {
             XmlPiece::End if self.xml.depth < depth => Ok(()),
-            _ => wrong("has an element where numbers should be"),
+            _ => wrong("has an element instead of numbers"),
         }
     }
 }
@@ -411,7 +411,7 @@ fn east_first(place: &[f64], context: &GmlContext) -> DVec3 {
 }
 
 fn number(text: &str) -> GeometryResult<f64> {
-    text.parse().or_else(|_| wrong(format!("has \"{}\" where a number should be", shown(text))))
+    text.parse().or_else(|_| wrong(format!("has \"{}\" instead of a number", shown(text))))
 }
 
 /// Parses numbers separated by white space.
@@ -433,7 +433,7 @@ fn tuples(text: &str, element: &Element) -> GeometryResult<Vec<Vec<f64>>> {
             mark => number(&text.trim().replace(mark, ".")),
         });
         let numbers: Vec<f64> = numbers.collect::<GeometryResult<_>>()?;
-        if numbers.len() < 2 { wrong("has a place of fewer than two numbers") } else { Ok(numbers) }
+        if numbers.len() < 2 { wrong("has a position of fewer than two numbers") } else { Ok(numbers) }
     });
     places.collect()
 }

@@ -54,9 +54,8 @@ impl GmlFile {
         })?;
         if types.is_empty() {
             let what = found.root(wanted)?;
-            return Err(Error::data(format!("{name} is XML ({what}), but has no features of GML")).help(
-                "they stand in elements called featureMember, featureMembers, member or cityObjectMember; for another format: \
-                 ogr2ogr out.gpkg FILE",
+            return Err(Error::data(format!("{name} is XML ({what}), but contains no GML features")).help(
+                "features are in elements named featureMember, featureMembers, member or cityObjectMember; convert another format: ogr2ogr out.gpkg FILE",
             ));
         }
         found.types = types;
@@ -128,7 +127,7 @@ impl LayeredFile for GmlFile {
         let label =
             if self.types.len() > 1 { format!("{}:{}", self.name, shown(layer)) } else { self.name.clone() };
         let none = Error::data("the layer has no coordinate system")
-            .help("name its EPSG code: source(file, { crs = 3067 })");
+            .help("specify its EPSG code: source(file, { crs = 3067 })");
         let table = FeatureTable::new(layer, &label, Err(none), wanted);
         let budget = Arc::clone(&wanted.budget);
         let types = TextTypes::default();
@@ -225,7 +224,7 @@ impl FeatureBuilder {
         let shown_id = id.clone().unwrap_or_else(|| self.number.to_string());
         let refuse = |builder: &mut Self, why: &str| {
             let error = Error::data(format!("feature {} of {} {why}", shown(&shown_id), builder.label))
-                .help("points, curves, polygons, surfaces and collections of these are read");
+                .help("supported types are points, curves, polygons, surfaces and collections of these");
             builder.table.refuse(shown_id.clone(), error)
         };
         if let (true, Some(why)) = (found.parts.is_empty(), &found.wrong) {

@@ -26,8 +26,8 @@ impl NamedSystem {
         let part = if is_compound { parts[1] } else { name };
         let (code, by_registry) = code(part.trim()).unwrap_or((None, false));
         let code = forced.or(code).ok_or_else(|| {
-            Error::data(format!("the coordinate system \"{}\" is not known", shown(name)))
-                .help("name its EPSG code: source(file, { crs = 3067 })")
+            Error::data(format!("unknown coordinate system \"{}\"", shown(name)))
+                .help("specify its EPSG code: source(file, { crs = 3067 })")
         })?;
         let crs = Crs::epsg(code)?;
         let north_first = by_registry

@@ -171,7 +171,7 @@ fn attributes_are_simple_elements_and_ids_are_those_of_the_file() {
     let error = plain(&text).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "town.gml has several layers\n  help: name one behind a colon: \"town.gml:Tree\"; it has Tree, Road"
+        "town.gml has several layers\n  help: specify one after a colon: \"town.gml:Tree\"; it has Tree, Road"
     );
     let table =
         read(text.as_bytes(), &SourceOptions { layer: Some("Tree".into()), ..SourceOptions::default() })
@@ -227,15 +227,15 @@ fn what_is_wrong_is_said_of_its_feature_or_of_the_file() {
     assert_eq!(table.features.len(), 2);
     let told: Vec<&str> = table.refused.iter().map(|(_, error)| error.message()).collect();
     insta::assert_snapshot!(told.join("\n"), @r#"
-    feature h.1 of town.gml has "x" where a number should be
-    feature h.1 of town.gml has a place of fewer than two numbers
-    feature h.1 of town.gml has an element where numbers should be
-    feature h.1 of town.gml has a place of fewer than two numbers
+    feature h.1 of town.gml has "x" instead of a number
+    feature h.1 of town.gml has a position of fewer than two numbers
+    feature h.1 of town.gml has an element instead of numbers
+    feature h.1 of town.gml has a position of fewer than two numbers
     feature h.1 of town.gml has a polygon without an outer ring
-    feature h.1 of town.gml has a curve that is a Clothoid, which is not read
-    feature h.1 of town.gml is a solid, of which no footprint is told
+    feature h.1 of town.gml has a curve of unsupported type Clothoid
+    feature h.1 of town.gml is a solid without a footprint
     feature h.1 of town.gml is in EPSG:3067, and others are in EPSG:25832
-    feature h.1 of town.gml has a list of 4 numbers, which are no places of 3
+    feature h.1 of town.gml has a list of 4 numbers, which is not a multiple of the dimension 3
     "#);
     let told =
         |text: &str| plain(text).and_then(|table| Layer::new(table, &mut None)).unwrap_err().to_string();
@@ -258,37 +258,37 @@ fn what_is_wrong_is_said_of_its_feature_or_of_the_file() {
     ];
     insta::assert_snapshot!(all.join("\n\n"), @r##"
     town.gml cannot be read: at byte 358: syntax error: tag not closed: `>` not found before end of input
-      help: the file is damaged or cut short; get it again
+      help: the file is damaged or cut short; download it again
 
     town.gml cannot be read: it ends within an element
-      help: the file is damaged or cut short; get it again
+      help: the file is damaged or cut short; download it again
 
     town.gml cannot be read: at byte 319: ill-formed document: expected `</t:shape>`, but `</t:form>` was found
-      help: the file is damaged or cut short; get it again
+      help: the file is damaged or cut short; download it again
 
-    town.gml cannot be read: it declares entities of its own, which are not followed
-      help: the file is damaged or cut short; get it again
+    town.gml cannot be read: it declares its own entities, which are not supported
+      help: the file is damaged or cut short; download it again
 
-    town.gml cannot be read: it names the entity a, which is not known
-      help: the file is damaged or cut short; get it again
+    town.gml cannot be read: it uses the unknown entity a
+      help: the file is damaged or cut short; download it again
 
     town.gml cannot be read: its elements are nested more than 100 deep
-      help: the file is damaged or cut short; get it again
+      help: the file is damaged or cut short; download it again
 
-    town.gml is written in shift_jis, which is not read
-      help: convert it: iconv -f ENCODING -t UTF-8 IN > OUT.gml, and mend its first line
+    town.gml has the encoding shift_jis, which is not supported
+      help: convert it: iconv -f ENCODING -t UTF-8 IN > OUT.gml, and correct its first line
 
-    town.gml is XML (svg), but has no features of GML
-      help: they stand in elements called featureMember, featureMembers, member or cityObjectMember; for another format: ogr2ogr out.gpkg FILE
+    town.gml is XML (svg), but contains no GML features
+      help: features are in elements named featureMember, featureMembers, member or cityObjectMember; convert another format: ogr2ogr out.gpkg FILE
 
-    town.gml is XML (FeatureCollection), but has no features of GML
-      help: they stand in elements called featureMember, featureMembers, member or cityObjectMember; for another format: ogr2ogr out.gpkg FILE
+    town.gml is XML (FeatureCollection), but contains no GML features
+      help: features are in elements named featureMember, featureMembers, member or cityObjectMember; convert another format: ogr2ogr out.gpkg FILE
 
     the layer has no coordinate system
-      help: name its EPSG code: source(file, { crs = 3067 })
+      help: specify its EPSG code: source(file, { crs = 3067 })
 
-    the coordinate system "#mine" is not known
-      help: name its EPSG code: source(file, { crs = 3067 })
+    unknown coordinate system "#mine"
+      help: specify its EPSG code: source(file, { crs = 3067 })
 
     town.gml has no features with a geometry
       help: check the file: burgeon sources FILE

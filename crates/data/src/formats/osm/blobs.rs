@@ -86,7 +86,7 @@ impl BlobFile {
 
     /// Locks the file for one reader at a time.
     fn file(&self) -> Result<MutexGuard<'_, File>> {
-        let file = self.file.as_ref().ok_or_else(|| Error::internal("a block is not there"))?;
+        let file = self.file.as_ref().ok_or_else(|| Error::internal("a block is missing"))?;
         Ok(file.lock().recover())
     }
 
@@ -98,7 +98,7 @@ impl BlobFile {
     /// Returns the error for damaged bytes.
     pub(super) fn damage_error(&self, why: &str) -> Error {
         Error::data(format!("{} cannot be read: {why}", self.name))
-            .help("the file is damaged or cut short; get it again")
+            .help("the file is damaged or cut short; download it again")
     }
 
     /// Reads the header of the blob at `at`; returns its type, the start of its content, and its size. Returns `None`
@@ -132,7 +132,7 @@ impl BlobFile {
         let begin = at + 4 + length as u64;
         let size = size.and_then(|size| usize::try_from(size).ok()).filter(|size| *size <= LARGEST);
         let Some(size) = size else {
-            return Err(self.damage_error(&format!("the blob at byte {at} has no size that can be")));
+            return Err(self.damage_error(&format!("the blob at byte {at} has an invalid size")));
         };
         if end - begin < size as u64 {
             return Err(self.damage_error(&format!("the blob at byte {at} is cut short")));
@@ -173,8 +173,8 @@ impl BlobFile {
         }
         let wrong = |why: WireDamage| self.damage_error(&format!("the blob at byte {} {why}", blob.at));
         let (content, size) = self.content(&packed).map_err(wrong)?.map_err(|packing| {
-            Error::data(format!("{} is packed by {packing}, which is not read", self.name))
-                .help("pack it anew: osmium cat IN.osm.pbf -o OUT.osm.pbf -f pbf,pbf_compression=zlib")
+            Error::data(format!("{} is compressed with {packing}, which is not supported", self.name))
+                .help("re-export it: osmium cat IN.osm.pbf -o OUT.osm.pbf -f pbf,pbf_compression=zlib")
         })?;
         let _held = budget.hold(size * (AROUND + 1))?;
         let bytes = match content {
@@ -208,14 +208,14 @@ impl BlobFile {
                 _ => {}
             }
         }
-        let content = content.ok_or("holds nothing")?;
+        let content = content.ok_or("is empty")?;
         let size = match content {
             BlobContent::Plain(bytes) => bytes.len(),
             BlobContent::Deflated(packed) => {
                 let size =
-                    size.and_then(|size| usize::try_from(size).ok()).ok_or("does not tell its size")?;
+                    size.and_then(|size| usize::try_from(size).ok()).ok_or("does not declare its size")?;
                 if size > LARGEST || !can_hold(packed.len(), DEFLATED, size) {
-                    return Err("claims to be larger than it can be");
+                    return Err("declares more than the maximum size");
                 }
                 size
             }
@@ -229,14 +229,14 @@ impl BlobFile {
             let field = field.and_then(|(number, field)| if number == 4 { field.bytes() } else { Ok(&[]) });
             let needed = field.map_err(|why| self.damage_error(&format!("its header {why}")))?;
             if needed == b"HistoricalInformation" {
-                return Err(Error::data(format!("{} holds the history of its features", self.name))
-                    .help("take out the present: osmium time-filter IN.osh.pbf -o OUT.osm.pbf"));
+                return Err(Error::data(format!("{} contains the history of its features", self.name))
+                    .help("extract the present state: osmium time-filter IN.osh.pbf -o OUT.osm.pbf"));
             }
             if !needed.is_empty() && !KNOWN.iter().any(|known| known.as_bytes() == needed) {
                 let needed = String::from_utf8_lossy(needed);
                 let needed = burgeon_base::text::shown(&needed);
-                return Err(Error::data(format!("{} needs \"{needed}\", which is not known", self.name))
-                    .help("write it anew: osmium cat IN.osm.pbf -o OUT.osm.pbf"));
+                return Err(Error::data(format!("{} needs \"{needed}\", which is not supported", self.name))
+                    .help("re-export it: osmium cat IN.osm.pbf -o OUT.osm.pbf"));
             }
         }
         Ok(())

@@ -80,7 +80,7 @@ impl<'a> OsmBlock<'a> {
 
     /// Returns the string with an index.
     pub(super) fn string(&self, number: usize) -> Result<&'a [u8], WireDamage> {
-        self.strings.get(number).copied().ok_or("names a text that it does not have")
+        self.strings.get(number).copied().ok_or("refers to a missing string")
     }
 
     /// Returns for each string its index in `words` plus 1; 0 if it is not in `words`.
@@ -167,7 +167,7 @@ impl<'a> OsmBlock<'a> {
         tags.clear();
         while let Some(id) = ids.next()? {
             let (Some(north), Some(east)) = (north.next()?, east.next()?) else {
-                return Err("has fewer places than nodes");
+                return Err("has fewer positions than nodes");
             };
             if wanted == WantedTags::All {
                 tags.clear();

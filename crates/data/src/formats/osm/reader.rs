@@ -43,7 +43,7 @@ impl OsmFile {
             return Ok(Self { blobs, name: file.name, stem });
         }
         let stem = stem.strip_suffix(".osm").map_or_else(|| stem.clone(), str::to_owned);
-        let (file, _, name) = file.on_disk("extract of OpenStreetMap")?;
+        let (file, _, name) = file.on_disk("OpenStreetMap extract")?;
         Ok(Self { blobs: BlobFile::open(file, &name, &wanted.budget)?, name, stem })
     }
 
@@ -55,8 +55,8 @@ impl OsmFile {
         let layer = match &wanted.layer {
             Some(layer) => Some(ReadyLayer::of_name(layer).ok_or_else(|| {
                 let names = || LAYERS.iter().map(|layer| layer.name);
-                let message = format!("{} has no layer called {}", self.name, shown(layer));
-                let help = format!("it has {}; or choose by tags: {EXAMPLE}", listed(names()));
+                let message = format!("{}: no layer named `{}`", self.name, shown(layer));
+                let help = format!("it has {}; or select by tags: {EXAMPLE}", listed(names()));
                 Error::not_found("layer", layer, names(), message).help(help)
             })?),
             None => None,
@@ -64,11 +64,11 @@ impl OsmFile {
         if layer.is_none() && wanted.tags.is_none() {
             let names = listed(LAYERS.iter().map(|layer| layer.name));
             let help = format!(
-                "name a layer: \"{}:buildings\"; it has {names}; or choose by tags: {EXAMPLE}",
+                "specify a layer: \"{}:buildings\"; it has {names}; or select by tags: {EXAMPLE}",
                 self.name
             );
             return Err(Error::argument(format!(
-                "{} is an extract of OpenStreetMap, of which a layer is read",
+                "{} is an OpenStreetMap extract, which needs a layer",
                 self.name
             ))
             .help(help));
@@ -200,7 +200,7 @@ impl OsmFile {
                     let error = Error::data(format!("{id} of {} {why}", table.shown));
                     table.refuse_at(
                         id,
-                        error.help("get an extract that reaches farther, or mend it in OpenStreetMap"),
+                        error.help("download a larger extract, or fix it in OpenStreetMap"),
                         bounds,
                     )?;
                     continue;
@@ -225,11 +225,12 @@ impl OsmFile {
         let shown = table.shown.clone();
         if cut > 0 {
             let lines = if cut == 1 { "line ends" } else { "lines end" };
-            table.notes.push(format!("{shown}: {cut} {lines} where the extract does"));
+            table.notes.push(format!("{shown}: {cut} {lines} at the boundary of the extract"));
         }
         if let Some((count, first)) = unread {
-            let values = if count == 1 { "tag is no number and was" } else { "tags are no numbers and were" };
-            table.notes.push(format!("{shown}: {count} {values} left out, such as {first}"));
+            let values =
+                if count == 1 { "tag is not a number and was" } else { "tags are not numbers and were" };
+            table.notes.push(format!("{shown}: {count} {values} skipped, e.g. {first}"));
         }
         Ok(())
     }

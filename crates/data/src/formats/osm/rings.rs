@@ -114,7 +114,7 @@ impl Graph {
             let count = rest.iter().take_while(|edge| self.from[**edge] == from).count();
             let (here, after) = rest.split_at(count);
             if !count.is_multiple_of(2) {
-                return Err(format!("has a border that ends at {}", place_text(self.places[from])));
+                return Err(format!("has an open boundary, which ends at {}", place_text(self.places[from])));
             }
             // A walk leaves a position by the next half-edge to the right, so the face to its left stays the same.
             for (at, edge) in here.iter().enumerate() {
@@ -142,7 +142,7 @@ impl Graph {
                 // Collinear segments overlap if each begins before the other one ends.
                 let along = sides == [0; 4] && a.max(c) < b.min(d);
                 if crosses || along {
-                    return Err(format!("has borders that cross near {}", place_text(*c)));
+                    return Err(format!("has boundaries that cross near {}", place_text(*c)));
                 }
             }
         }
@@ -262,7 +262,7 @@ impl Graph {
             }
             match around {
                 Some(index) => polygons[index].push(hole),
-                None => return Err(format!("has a hole outside of it, at {}", place_text(at))),
+                None => return Err(format!("has a hole outside its area, at {}", place_text(at))),
             }
         }
         if polygons.is_empty() { Err("has no area".to_owned()) } else { Ok(polygons) }
@@ -363,11 +363,11 @@ mod tests {
     #[test]
     fn what_is_no_border_is_refused_with_the_place() {
         let open: &[[i64; 2]] = &[[0, 0], [10, 0], [10, 10]];
-        assert_eq!(areas(&[open]).unwrap_err(), "has a border that ends at 0, 0");
+        assert_eq!(areas(&[open]).unwrap_err(), "has an open boundary, which ends at 0, 0");
         let crossing: &[[i64; 2]] = &[[5, 5], [15, 5], [15, 15], [5, 15], [5, 5]];
-        assert!(areas(&[SQUARE, crossing]).unwrap_err().starts_with("has borders that cross near "));
+        assert!(areas(&[SQUARE, crossing]).unwrap_err().starts_with("has boundaries that cross near "));
         let along: &[[i64; 2]] = &[[0, 0], [5, 0], [5, -5], [0, -5], [0, 0]];
-        assert!(areas(&[SQUARE, along]).unwrap_err().starts_with("has borders that cross near "));
+        assert!(areas(&[SQUARE, along]).unwrap_err().starts_with("has boundaries that cross near "));
         for nothing in [&[] as &[[i64; 2]], &[[1, 1]], &[[1, 1], [1, 1]], &[[0, 0], [1, 0], [0, 0]]] {
             assert_eq!(areas(&[nothing]).unwrap_err(), "has no area");
         }

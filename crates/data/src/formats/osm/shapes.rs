@@ -84,7 +84,7 @@ pub(super) fn build(
         OsmShape::Ways(members) => {
             let mut borders = Vec::with_capacity(members.len());
             for way in members {
-                let nodes = ways.get(way).ok_or_else(|| format!("lacks way/{way}, which is a part of it"))?;
+                let nodes = ways.get(way).ok_or_else(|| format!("lacks its part way/{way}"))?;
                 borders.push(all_places(nodes, places)?);
             }
             Ok((polygons(rings::assemble(borders.iter().map(Vec::as_slice), budget)?), false))
@@ -138,7 +138,7 @@ fn lines(nodes: &[i64], places: &FxHashMap<i64, Place>) -> BuildResult {
         parts.extend(Geometry::line(run.into_iter().map(Place::degrees).collect()));
     }
     match (parts.is_empty(), lacking) {
-        (true, 0) => Err("has fewer than two places".to_owned()),
+        (true, 0) => Err("has fewer than two positions".to_owned()),
         (true, count) => Err(format!("lacks {count} of its {} nodes", nodes.len())),
         (false, count) => Ok((parts, count > 0)),
     }

@@ -106,14 +106,14 @@ fn layers_have_what_their_tags_say_under_plain_names() {
     let refused: Vec<&str> = table.refused.iter().map(|(_, error)| error.message()).collect();
     insta::assert_snapshot!(refused.join("\n"), @r"
     way/12 of town.osm.pbf:buildings lacks 1 of its 5 nodes
-    relation/6 of town.osm.pbf:buildings lacks way/77, which is a part of it
+    relation/6 of town.osm.pbf:buildings lacks its part way/77
     relation/7 of town.osm.pbf:buildings has no area
     ");
     let roads = town().read(layer("roads")).unwrap();
     assert_eq!(ids(&roads), "way/10 way/10.2 way/11");
     insta::assert_snapshot!(roads.notes.join("\n"), @r#"
-    town.osm.pbf:roads: 1 line ends where the extract does
-    town.osm.pbf:roads: 1 tag is no number and was left out, such as width = "wide" of way/10
+    town.osm.pbf:roads: 1 line ends at the boundary of the extract
+    town.osm.pbf:roads: 1 tag is not a number and was skipped, e.g. width = "wide" of way/10
     "#);
     let trees = town().read(layer("trees")).unwrap();
     assert_eq!(
@@ -156,26 +156,26 @@ fn tags_choose_and_kind_decides_what_closed_ways_are() {
     ];
     let told: Vec<String> = errors.into_iter().map(|error| error.unwrap_err().to_string()).collect();
     insta::assert_snapshot!(told.join("\n\n"), @r#"
-    town.osm.pbf is an extract of OpenStreetMap, of which a layer is read
-      help: name a layer: "town.osm.pbf:buildings"; it has buildings, building_parts, roads, railways, squares, water, waterways, coastlines, green, landuse, trees, tree_rows, barriers, furniture; or choose by tags: source("town.osm.pbf", { tags = { building = true } })
+    town.osm.pbf is an OpenStreetMap extract, which needs a layer
+      help: specify a layer: "town.osm.pbf:buildings"; it has buildings, building_parts, roads, railways, squares, water, waterways, coastlines, green, landuse, trees, tree_rows, barriers, furniture; or select by tags: source("town.osm.pbf", { tags = { building = true } })
 
-    town.osm.pbf has no layer called building
+    town.osm.pbf: no layer named `building`
       help: did you mean buildings?
 
-    no feature of town.osm.pbf has such tags
-      help: look up how mappers tag it: https://wiki.openstreetmap.org/wiki/Map_features
+    no feature of town.osm.pbf has these tags
+      help: look up the tags: https://wiki.openstreetmap.org/wiki/Map_features
 
     where "a > 1" of town.osm.pbf:roads: no such column: a
       help: write an SQL condition on the layer's columns, such as where = "height > 10"
 
-    town.osm.pbf:roads has geometries of kind line, none of kind point
-      help: name another layer, or leave kind out
+    town.osm.pbf:roads has only geometries of kind line, not of kind point
+      help: specify another layer, or remove kind
 
     town.osm.pbf:water has no features
       help: check the file: burgeon sources FILE
 
     no feature of town.osm.pbf:roads touches within = { 26, 60, 27, 61 }
-      help: it is { west, south, east, north } in the coordinates of the file, which burgeon sources FILE lists
+      help: within is { west, south, east, north } in the coordinates of the file; run burgeon sources FILE to list them
     "#);
 }
 
@@ -235,34 +235,34 @@ fn bombs_and_what_is_not_known_are_refused_with_the_remedy() {
     ];
     insta::assert_snapshot!(all.join("\n\n"), @r#"
     town.osm.pbf cannot be read: the blob at byte 64 cannot be unpacked
-      help: the file is damaged or cut short; get it again
+      help: the file is damaged or cut short; download it again
 
-    town.osm.pbf cannot be read: the blob at byte 62 claims to be larger than it can be
-      help: the file is damaged or cut short; get it again
+    town.osm.pbf cannot be read: the blob at byte 62 declares more than the maximum size
+      help: the file is damaged or cut short; download it again
 
-    town.osm.pbf cannot be read: the blob at byte 64 claims to be larger than it can be
-      help: the file is damaged or cut short; get it again
+    town.osm.pbf cannot be read: the blob at byte 64 declares more than the maximum size
+      help: the file is damaged or cut short; download it again
 
     town.osm.pbf cannot be read: the blob at byte 47 has a header of 4294967295 bytes
-      help: the file is damaged or cut short; get it again
+      help: the file is damaged or cut short; download it again
 
-    town.osm.pbf cannot be read: the blob at byte 47 has no size that can be
-      help: the file is damaged or cut short; get it again
+    town.osm.pbf cannot be read: the blob at byte 47 has an invalid size
+      help: the file is damaged or cut short; download it again
 
-    town.osm.pbf is packed by Zstandard, which is not read
-      help: pack it anew: osmium cat IN.osm.pbf -o OUT.osm.pbf -f pbf,pbf_compression=zlib
+    town.osm.pbf is compressed with Zstandard, which is not supported
+      help: re-export it: osmium cat IN.osm.pbf -o OUT.osm.pbf -f pbf,pbf_compression=zlib
 
-    town.osm.pbf holds the history of its features
-      help: take out the present: osmium time-filter IN.osh.pbf -o OUT.osm.pbf
+    town.osm.pbf contains the history of its features
+      help: extract the present state: osmium time-filter IN.osh.pbf -o OUT.osm.pbf
 
-    town.osm.pbf needs "Locations\u{1b}", which is not known
-      help: write it anew: osmium cat IN.osm.pbf -o OUT.osm.pbf
+    town.osm.pbf needs "Locations\u{1b}", which is not supported
+      help: re-export it: osmium cat IN.osm.pbf -o OUT.osm.pbf
 
     town.osm.pbf cannot be read: its header ends too early
-      help: the file is damaged or cut short; get it again
+      help: the file is damaged or cut short; download it again
 
-    town.osm.pbf is a binary file of no format that is known
-      help: data files are GeoJSON, GeoPackage, FlatGeobuf, Shapefile, CSV, GML, CityGML, CityJSON, KML, GPX, .osm and .osm.pbf; convert it: ogr2ogr out.gpkg FILE
+    town.osm.pbf is a binary file of unknown format
+      help: supported formats are GeoJSON, GeoPackage, FlatGeobuf, Shapefile, CSV, GML, CityGML, CityJSON, KML, GPX, .osm and .osm.pbf; convert it: ogr2ogr out.gpkg FILE
     "#);
     let wanted =
         SourceOptions { budget: Budget::within(Duration::from_secs(60), 1 << 20), ..layer("buildings") };
@@ -291,7 +291,7 @@ fn places_that_cannot_be_and_ways_of_one_node_are_refused_or_left_out() {
     let table = extract.read(layer("buildings")).unwrap();
     assert_eq!((ids(&table).as_str(), table.refused.len()), ("way/1 way/1.2", 4));
     let roads = extract.read(layer("roads")).unwrap_err();
-    assert_eq!(roads.message(), "way/5 of town.osm.pbf:roads has fewer than two places");
+    assert_eq!(roads.message(), "way/5 of town.osm.pbf:roads has fewer than two positions");
 }
 
 #[test]

@@ -21,7 +21,7 @@ impl<'a> WireField<'a> {
     pub(super) fn bytes(self) -> Result<&'a [u8], WireDamage> {
         match self {
             Self::Bytes(bytes) => Ok(bytes),
-            Self::Number(_) => Err("has a number where a message should be"),
+            Self::Number(_) => Err("has a number instead of a message"),
         }
     }
 
@@ -29,7 +29,7 @@ impl<'a> WireField<'a> {
     pub(super) fn number(self) -> Result<u64, WireDamage> {
         match self {
             Self::Number(number) => Ok(number),
-            Self::Bytes(_) => Err("has a message where a number should be"),
+            Self::Bytes(_) => Err("has a message instead of a number"),
         }
     }
 }
@@ -62,7 +62,7 @@ impl<'a> WireFields<'a> {
                 WireField::Bytes(self.take(length)?)
             }
             5 => WireField::Bytes(self.take(4)?),
-            _ => return Err("has a field of a type that is not known"),
+            _ => return Err("has a field of unknown type"),
         };
         Ok((key >> 3, field))
     }

@@ -24,7 +24,7 @@ pub(super) fn blocks(file: &DataFile, budget: &Arc<Budget>) -> Result<Vec<Vec<u8
     let mut xml = Xml::new(&file.content, &file.name, budget)?;
     match xml.next()? {
         XmlPiece::Start(root) if root.name == "osm" => {}
-        _ => return Err(Error::data(format!("{} is no extract of OpenStreetMap", file.name))),
+        _ => return Err(Error::data(format!("{} is not an OpenStreetMap extract", file.name))),
     }
     let mut blocks = Vec::new();
     let mut block = BlockWriter::default();
@@ -107,7 +107,7 @@ fn whole(element: &Element, name: &str, file: &str) -> Result<i64> {
     let text = element.attribute(name).unwrap_or_default();
     text.trim().parse().map_err(|_| {
         Error::data(format!("{file} cannot be read: a {} has the {name} \"{}\"", element.name, shown(text)))
-            .help("the file is damaged; get it again")
+            .help("the file is damaged; download it again")
     })
 }
 
@@ -116,7 +116,7 @@ fn degrees(element: &Element, name: &str, file: &str) -> Result<i64> {
     let text = element.attribute(name).unwrap_or_default().trim();
     exact(text).or_else(|| nearest(text)).ok_or_else(|| {
         Error::data(format!("{file} cannot be read: a node has the {name} \"{}\"", shown(text)))
-            .help("the file is damaged; get it again")
+            .help("the file is damaged; download it again")
     })
 }
 

@@ -144,7 +144,7 @@ impl DbfReader {
     ) -> Result<Self> {
         let damaged = |why: &str| {
             Error::data(format!("{name} cannot be read: {why}"))
-                .help("the file is damaged or cut short; get it again")
+                .help("the file is damaged or cut short; download it again")
         };
         let mut file = BufReader::with_capacity(1 << 16, file);
         let mut head = [0; 32];
@@ -152,7 +152,7 @@ impl DbfReader {
         let left = u32::from_le_bytes([head[4], head[5], head[6], head[7]]);
         let [header, size] = [8, 10].map(|at| usize::from(u16::from_le_bytes([head[at], head[at + 1]])));
         let encoding = TextEncoding::of_name(cpg, head[29]).map_err(|named| {
-            Error::data(format!("{name} has texts in {}, which is not read", shown(&named)))
+            Error::data(format!("{name} has texts in {}, which is not supported", shown(&named)))
                 .help("convert it: ogr2ogr -lco ENCODING=UTF-8 OUT.shp IN.shp, or to a GeoPackage: ogr2ogr out.gpkg IN.shp")
         })?;
         let mut rest = vec![0; header.saturating_sub(32)];
@@ -177,7 +177,7 @@ impl DbfReader {
             let place = at..at + usize::from(field[16]) + upper;
             at = place.end;
             if place.end > size {
-                return Err(damaged("its columns are longer than its rows"));
+                return Err(damaged("its columns are together longer than its rows"));
             }
             if matches!(field[11], b'M' | b'G' | b'P') {
                 found.left_out.push(title.into_owned());

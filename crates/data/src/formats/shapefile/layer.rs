@@ -25,14 +25,16 @@ impl ShapeFiles {
     pub(super) fn read(&self, label: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
         let damaged = |why: &str| {
             Error::data(format!("{label} cannot be read: {why}"))
-                .help("the file is damaged or cut short; get it again")
+                .help("the file is damaged or cut short; download it again")
         };
         let crs = match &self.prj {
             _ if wanted.crs.is_some() => Err(Error::data("")),
             Some(Ok(text)) => crs_of_text(text, label, NAME_IT),
             Some(Err(error)) => Err(error.clone()),
-            None => Err(Error::data(format!("{label} has no .prj file, which tells its coordinate system"))
-                .help("name its EPSG code: source(file, { crs = 3067 })")),
+            None => {
+                Err(Error::data(format!("{label} has no .prj file, so its coordinate system is unknown"))
+                    .help("specify its EPSG code: source(file, { crs = 3067 })"))
+            }
         };
         let mut table = FeatureTable::new(&self.layer, label, crs, wanted);
         let cannot = |error: std::io::Error| damaged(&error.to_string());
@@ -67,8 +69,9 @@ impl ShapeFiles {
                 Ok(parts) => table.push_identified(id, parts, attributes)?,
                 Err(why) => {
                     let error = Error::data(format!("record {} of {label} {why}", shapes.number));
-                    let error =
-                        error.help("points, lines and polygons are read; repair it: ogr2ogr out.gpkg FILE");
+                    let error = error.help(
+                        "supported types are points, lines and polygons; repair it: ogr2ogr out.gpkg FILE",
+                    );
                     table.refuse_at(shapes.number.to_string(), error, bounds)?;
                 }
             }
@@ -82,30 +85,30 @@ impl ShapeFiles {
             } else {
                 "features are marked as deleted and were"
             };
-            table.notes.push(format!("{label}: {deleted} {are} left out"));
+            table.notes.push(format!("{label}: {deleted} {are} skipped"));
         }
         if without > 0 {
             let (lacks, what) =
                 ("its .dbf file is cut short", if without == 1 { "feature has" } else { "features have" });
-            table.notes.push(format!("{label}: {without} {what} no attributes, since {lacks}"));
+            table.notes.push(format!("{label}: {without} {what} no attributes, because {lacks}"));
         }
         if let Some(rows) = rows {
             if let Some((count, first)) = rows.unread {
                 let values = if count == 1 {
-                    "value is no number and no date and was"
+                    "value is neither a number nor a date and was"
                 } else {
-                    "values are no numbers and no dates and were"
+                    "values are neither numbers nor dates and were"
                 };
-                table.notes.push(format!("{label}: {count} {values} left out, such as {first}"));
+                table.notes.push(format!("{label}: {count} {values} skipped, e.g. {first}"));
             }
             if rows.guessed {
                 table.notes.push(format!(
-                    "{label} does not tell the encoding of its texts, which were read as Windows-1252 (Latin-1); a .cpg file beside it tells it"
+                    "{label} does not declare the encoding of its texts, which were read as Windows-1252 (Latin-1); declare it in a .cpg file next to it"
                 ));
             }
             if let Some(first) = rows.left_out.first() {
                 table.notes.push(format!(
-                    "{label}: the column {first} was left out, since its values are memos in another file"
+                    "{label}: the column {first} was skipped, because its values are memos in another file"
                 ));
             }
         }

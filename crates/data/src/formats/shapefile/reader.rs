@@ -61,14 +61,13 @@ impl Shapefile {
 
 /// Returns the text of a `.prj` file; an error if it cannot be read, which matters only if the text is needed.
 fn prj_text(file: &DataFile) -> Result<String> {
-    let remedy = "a .prj file is the text of one coordinate system; write it anew, or name the EPSG code: \
-                  source(file, { crs = 3067 })";
+    let remedy = "a .prj file contains the text of one coordinate system; re-export it, or specify the EPSG code: source(file, { crs = 3067 })";
     text(file, remedy)
 }
 
 /// Returns the name of an encoding in a `.cpg` file.
 fn cpg_text(file: &DataFile) -> Result<String> {
-    text(file, "a .cpg file holds the name of an encoding, such as UTF-8; write it anew, or remove it")
+    text(file, "a .cpg file contains the name of an encoding, such as UTF-8; rewrite it, or remove it")
 }
 
 fn text(file: &DataFile, remedy: &str) -> Result<String> {
@@ -87,7 +86,7 @@ impl LayeredFile for Shapefile {
 
     fn read(&self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
         let found = self.layers.iter().find(|known| known.layer == layer);
-        let found = found.ok_or_else(|| Error::internal("a layer that was listed is not there"))?;
+        let found = found.ok_or_else(|| Error::internal("a listed layer is missing"))?;
         match self.layers.len() {
             1 => found.read(&self.name, wanted),
             _ => found.read(&format!("{}:{}", self.name, shown(layer)), wanted),

@@ -48,7 +48,7 @@ impl ShapeReader {
         let mut header = [0; 100];
         file.read_exact(&mut header).map_err(|_| "its header is cut short".to_owned())?;
         if header[..4] != MAGIC || whole(&header, 28) != Some(1000) {
-            return Err("it does not begin as a shapefile does".to_owned());
+            return Err("it does not begin like a shapefile".to_owned());
         }
         Ok(Self { file, number: 0, record: Vec::new() })
     }
@@ -111,11 +111,8 @@ fn shape(bytes: &[u8], budget: &Budget) -> Result<ShapeResult> {
         return Ok(Ok(vec![Geometry::point(DVec3::new(x, y, plain(z)))]));
     }
     if !matches!(base, 3 | 5 | 8) {
-        let what = if kind == 31 {
-            "is a multipatch, a surface in space"
-        } else {
-            "has a shape of a type that is not known"
-        };
+        let what =
+            if kind == 31 { "is a multipatch, a surface in space" } else { "has a shape of unknown type" };
         return Ok(Err(format!("{what} ({kind})")));
     }
     let (starts, count, first) = if base == 8 {

@@ -134,7 +134,7 @@ fn lines_points_and_measures_are_read() {
     let table = written(&[("a.shp", &multipatch), ("a.prj", UTM.as_bytes())]).unwrap();
     insta::assert_snapshot!(table.refused[0].1.to_string(), @r#"
     record 1 of a.shp is a multipatch, a surface in space (31)
-      help: points, lines and polygons are read; repair it: ogr2ogr out.gpkg FILE
+      help: supported types are points, lines and polygons; repair it: ogr2ogr out.gpkg FILE
     "#);
 }
 
@@ -171,10 +171,10 @@ fn values_have_the_types_of_their_columns_and_the_letters_of_their_code_page() {
     name = Text("b"), old = Boolean(false)
     "#);
     insta::assert_snapshot!(table.notes.join("\n"), @r#"
-    a.shp: 1 feature is marked as deleted and was left out
-    a.shp: 1 feature has no attributes, since its .dbf file is cut short
-    a.shp: 2 values are no numbers and no dates and were left out, such as height = "tall"
-    a.shp: the column note was left out, since its values are memos in another file
+    a.shp: 1 feature is marked as deleted and was skipped
+    a.shp: 1 feature has no attributes, because its .dbf file is cut short
+    a.shp: 2 values are neither numbers nor dates and were skipped, e.g. height = "tall"
+    a.shp: the column note was skipped, because its values are memos in another file
     "#);
     let text = |table: &FeatureTable| format!("{:?}", table.features[0].attributes[0].1);
     assert_eq!(text(&told(0, "1250").unwrap()), "Text(\"Straße\")");
@@ -186,7 +186,7 @@ fn values_have_the_types_of_their_columns_and_the_letters_of_their_code_page() {
     );
     assert_eq!(
         told(0, "Shift_JIS").unwrap_err().message(),
-        "a.dbf has texts in Shift_JIS, which is not read"
+        "a.dbf has texts in Shift_JIS, which is not supported"
     );
 }
 
@@ -232,7 +232,7 @@ fn a_coordinate_system_is_found_by_its_parameters_and_told_if_it_is_not() {
     };
     assert_eq!(zone_3("GCS_Campo_Inchauspe", "D_Campo_Inchauspe", "Argentina_Zone_3"), "EPSG:22193");
     let told = zone_3("GCS_Pampa_del_Castillo", "D_Pampa_del_Castillo", "Pampa_del_Castillo_Argentina_3");
-    assert!(told.contains("which is none of EPSG's"), "{told}");
+    assert!(told.contains("unknown coordinate system"), "{told}");
     let wgs_72 = "\"WGS_1972\",6378135.0,298.26";
     assert_eq!(crs(&old("GCS_WGS_1972", "D_WGS_1972", wgs_72)), "EPSG:4322");
     assert_eq!(crs(&old("GCS_WGS_1972_BE", "D_WGS_1972_BE", wgs_72)), "EPSG:4324");
@@ -243,8 +243,8 @@ fn a_coordinate_system_is_found_by_its_parameters_and_told_if_it_is_not() {
     assert_eq!(crs(&projected(name, &nad, "Transverse_Mercator", maine)), "EPSG:26984");
     let odd = tm35.replace("27.0", "27.3");
     let told = crs(&projected("Odd_Zone", etrs, "Transverse_Mercator", &odd));
-    assert!(told.contains("\"Odd_Zone\", which is none of EPSG's that are known"), "{told}");
-    assert!(crs("nonsense").contains("which is none of EPSG's"), "{}", crs("nonsense"));
+    assert!(told.contains("unknown coordinate system \"Odd_Zone\""), "{told}");
+    assert!(crs("nonsense").contains("unknown coordinate system"), "{}", crs("nonsense"));
     assert!(written(&[("a.shp", &point)]).unwrap().crs.unwrap_err().message().contains("has no .prj file"));
 }
 

@@ -394,10 +394,11 @@ impl Flusher for Applier {
         // A call that runs immediately is not recorded, so it is counted here.
         self.flushed = (entry, so_far + called + 1);
         if self.flushed.1 > MOST_CALLS {
-            let message =
-                format!("one application of an interpretation rule calls more than {MOST_CALLS} methods");
+            let message = format!(
+                "one application of an interpretation rule calls more than {MOST_CALLS} methods, which is the limit"
+            );
             return Err(Error::limit(Limit::Size, message)
-                .help("look for a loop that never ends, or let more modules draw the parts"));
+                .help("look for an endless loop, or let more modules draw the parts"));
         }
         self.read(entry, called)?;
         self.waits = true;

@@ -238,7 +238,7 @@ impl InterpretationPass {
             let mut flusher = machine.current.flusher.borrow_mut();
             match flusher.as_deref_mut().and_then(applier) {
                 Some(applier) => act(applier),
-                None => Err(Error::internal("nothing is being interpreted")),
+                None => Err(Error::internal("no interpretation is running")),
             }
         };
         let (calls, numbers, counts) = prelude.recorded().map_err(lua)?;

@@ -45,8 +45,9 @@ impl Fragmentation {
             param += params.len();
             let (geometry, parts) = self.parts(params, at, values).ok_or_else(|| {
                 let left = module_brief(symbols, values, *left, params);
-                Error::argument(format!("{left}, whose parts it is to make, has no geometry"))
-                    .help("give the module to its left a geometry, such as Outline(lot:exterior_ring(), id)")
+                Error::argument(format!("{left} to its left has no geometry to divide")).help(
+                    "pass a geometry to the module to its left, such as Outline(lot:exterior_ring(), id)",
+                )
             })?;
             let fit = self.fit((*left, geometry, symbol), symbols)?;
             for (ordinal, part) in parts.iter().enumerate() {
@@ -99,12 +100,12 @@ impl Fragmentation {
         let is_geometry: Vec<bool> = (0..names.len()).map(|place| place == key.1).collect();
         let found = fit(&names, &is_geometry, target).map_err(|missing| {
             Error::argument(format!(
-                "{}, whose parts it is to make, has nothing for {} of {}",
+                "{} to its left has no parameter {} of {}",
                 left.usage(),
                 listed(&missing),
                 target.usage()
             ))
-            .help("parameters go over by name: call them alike in both modules, or let them be left out: \"name?\"")
+            .help("parameters are copied by name: use the same names in both modules, or make them optional: \"name?\"")
         })?;
         let found: ParameterPlaces = found.into();
         self.fits.insert(key, Rc::clone(&found));
@@ -115,7 +116,7 @@ impl Fragmentation {
     pub(super) fn warnings(&self) -> impl Iterator<Item = (Mark, String)> + '_ {
         let mut told = FxHashSet::default();
         let first = self.whole.iter().filter(move |at| told.insert(at.module));
-        first.map(|at| (*at, "a point has no parts, so it stays as it is".to_owned()))
+        first.map(|at| (*at, "a point has no parts, so it stays unchanged".to_owned()))
     }
 }
 

@@ -94,8 +94,8 @@ impl RowModules {
         let names: Vec<&str> = rows.names.iter().map(|name| &**name).collect();
         let columns = fit(&names, &rows.geometries(), target).map_err(|missing| {
             let (missing, first) = (listed(&missing), missing[0]);
-            Error::argument(format!("its rows have nothing for {missing} of {}", target.usage())).help(format!(
-                "they have {}: give a column that name, as in select ... as {first}, or let it be left out: module(\"{}\", ... \"{first}?\")",
+            Error::argument(format!("the rows have no column for parameter {missing} of {}", target.usage())).help(format!(
+                "the columns are {}: rename a column, as in select ... as {first}, or make the parameter optional: module(\"{}\", ... \"{first}?\")",
                 listed(&names),
                 target.name
             ))
@@ -107,12 +107,12 @@ impl RowModules {
                 if parameter < target.required && matches!(value, Value::Nil) {
                     let name = &target.parameters[parameter];
                     return Err(Error::argument(format!(
-                        "{name} is NULL in row {}, and {} must have it",
+                        "{name} is NULL in row {}, but {} requires it",
                         number + 1,
                         target.name
                     ))
                     .help(format!(
-                        "leave such rows out, where {name} is not null, or give them a value: coalesce({name}, 0) as {name}"
+                        "exclude such rows, where {name} is not null, or set a value: coalesce({name}, 0) as {name}"
                     ))
                     .of_data());
                 }

@@ -103,7 +103,7 @@ impl Resolver<'_> {
     fn text(&self, at: Mark, index: usize) -> Result<Arc<str>> {
         match self.value(at, index) {
             Value::Text(text) => Ok(text),
-            _ => Err(Error::internal("a module that stands for others has lost what it stands for")),
+            _ => Err(Error::internal("bug in Burgeon: a placeholder module has no value")),
         }
     }
 
@@ -235,10 +235,10 @@ impl Resolver<'_> {
             if made.chain.symbols.len() > limit {
                 let error = Error::limit(
                     Limit::Modules,
-                    format!("the chain grows past {} modules in step {}", grouped(limit), self.step),
+                    format!("the chain exceeds {} modules in step {}", grouped(limit), self.step),
                 );
                 let error = error.help(
-                    "ask for fewer rows: where ..., or limit 1000; or raise the limit: --module-limit N",
+                    "select fewer rows: where ..., or limit 1000; or raise the limit: --module-limit N",
                 );
                 return Err(self.blame(*site.fragments.last().unwrap_or(&site.at), error));
             }

@@ -35,8 +35,8 @@ pub(super) fn sites(chain: &Chain, arities: &[u8]) -> Result<Vec<PendingSite>, (
             }
             FRAGMENT => {
                 let Some((left, number)) = &mut last else {
-                    let error = Error::argument("there is no module to its left on its branch")
-                        .help("fragment(Part) stands right behind the module whose parts it makes: return Outline(ring), fragment(Part)");
+                    let error = Error::argument("fragment needs a module to its left on its branch")
+                        .help("write fragment(Part) directly after the module that it divides: return Outline(ring), fragment(Part)");
                     return Err((here, error));
                 };
                 let site = *number.get_or_insert_with(|| {

@@ -188,7 +188,7 @@ impl SystemDeclaration {
                 && object.kind().name != expected.kind().name
             {
                 return Err(Error::argument(format!(
-                    "feature {id} got a {} where the system's object is a {}",
+                    "feature {id} has a {}, but the system's object is a {}",
                     object.kind().name,
                     expected.kind().name
                 )));
@@ -293,8 +293,10 @@ impl Builder<'_> {
                     Ok(value) => value.describe().to_owned(),
                     Err(_) => format!("a {}", item.type_name()),
                 };
-                return Err(Error::argument(format!("an axiom is made of modules, but one item is {what}"))
-                    .help("write system:axiom(A(1), { B() })"));
+                return Err(Error::argument(format!(
+                    "an axiom must contain only modules, but one item is {what}"
+                ))
+                .help("write system:axiom(A(1), { B() })"));
             };
             let is_module = self
                 .machine
@@ -308,7 +310,7 @@ impl Builder<'_> {
                         Limit::Size,
                         format!("branches are nested more than {DEEPEST} deep, or a branch contains itself"),
                     )
-                    .help("let a rule make the rest: each step adds to what is there"));
+                    .help("use a rule to add the rest step by step"));
                 }
                 let inner: Vec<LuaValue> = table
                     .sequence_values()

@@ -28,7 +28,7 @@ impl SystemDeclaration {
         if is_source {
             let (Some(LuaValue::Function(function)), 2) = (arguments.get(1).cloned(), arguments.len()) else {
                 return Err(Error::argument(
-                    "axiom(source, function) takes a function that makes each feature's chain",
+                    "axiom(source, function) needs a function that returns each feature's chain",
                 ));
             };
             self.axiom = Some(DeclaredAxiom::Source(arguments.swap_remove(0), function));
@@ -48,14 +48,14 @@ impl SystemDeclaration {
         let method = phase.method();
         let usage = format!("write system:{method}(\"A(x)\", function(this, x) return ... end)");
         let Some(LuaValue::String(text)) = arguments.first().cloned() else {
-            return Err(Error::argument("a rule begins with a pattern").help(usage));
+            return Err(Error::argument("the first argument of a rule must be a pattern").help(usage));
         };
         if self.rules.len() == MOST_RULES {
             return Err(Error::limit(
                 Limit::Size,
-                format!("a system has at most {} rules", grouped(MOST_RULES)),
+                format!("a system can have at most {} rules", grouped(MOST_RULES)),
             )
-            .help("let one rule stand for many: carry what tells them apart in a parameter"));
+            .help("join rules into one, and distinguish the cases by a parameter"));
         }
         let scope = library.scope_at(lua);
         let pattern = Pattern::parse_in(&text.to_string_lossy(), &library.symbols.borrow(), &scope)?;
@@ -65,7 +65,7 @@ impl SystemDeclaration {
             (3, Some(LuaValue::Table(options))) => Some(options.clone()),
             (3, _) => {
                 return Err(named(
-                    Error::argument("the options of a rule are a table").help("write { weight = 2 }"),
+                    Error::argument("the options of a rule must be a table").help("write { weight = 2 }"),
                 ));
             }
             (2, _) => None,
@@ -121,16 +121,18 @@ impl SystemDeclaration {
     ) -> Result<()> {
         let usage = "write system:interpret(\"A(x)\", function(this, x) ... end)";
         let LuaValue::String(text) = pattern else {
-            return Err(Error::argument("an interpretation begins with a pattern").help(usage));
+            return Err(
+                Error::argument("the first argument of an interpretation must be a pattern").help(usage)
+            );
         };
         let symbols = library.symbols.borrow();
         let pattern = Pattern::parse_in(&text.to_string_lossy(), &symbols, &library.scope_at(lua))?;
         drop(symbols);
         let name = pattern.text.clone();
         if !pattern.left.is_empty() || !pattern.right.is_empty() {
-            return Err(Error::argument("an interpretation has no contexts")
+            return Err(Error::argument("an interpretation cannot have contexts")
                 .rule(&name)
-                .help("contexts are for rules; carry what is needed in a parameter of the module"));
+                .help("only rules have contexts; pass the value in a parameter of the module"));
         }
         let LuaValue::Function(rule) = rule else {
             return Err(Error::argument("an interpretation needs a function").rule(&name).help(usage));
@@ -142,9 +144,9 @@ impl SystemDeclaration {
             self.interpretations.iter().find(|known| known.pattern.predecessor.symbol == item.symbol)
         {
             let line = known.place.as_ref().map_or(String::new(), |place| format!(" in line {}", place.line));
-            return Err(Error::script(format!("{name} is interpreted already{line}"))
+            return Err(Error::script(format!("{name} is already interpreted{line}"))
                 .rule(&name)
-                .help("a module has one interpretation; join the two functions"));
+                .help("a module can have only one interpretation; join the two functions"));
         }
         let machine = library.machine()?;
         let line = begin_of(&rule).and_then(|(file, line)| {
@@ -162,15 +164,15 @@ impl SystemDeclaration {
 
 /// Returns the warning for an interpretation that returns modules.
 pub(crate) fn returns_modules() -> Warning {
-    Warning::new(WarningKind::ReturnedModules, "an interpretation returns modules, and nobody takes them")
-        .help("return them from a rule, system:rule(pattern, function); an interpretation calls methods of this")
+    Warning::new(WarningKind::ReturnedModules, "modules returned by an interpretation are ignored")
+        .help("return them from a rule, system:rule(pattern, function); an interpretation only calls methods of `this`")
 }
 
 /// Returns the warning for an interpretation that returns a `value`, given as text, other than a module.
 pub(crate) fn returns_value(value: &str) -> Warning {
-    let text = format!("an interpretation returns {value}, and nobody takes it");
+    let text = format!("{value} returned by an interpretation is ignored");
     Warning::new(WarningKind::NoEffect, text)
-        .help("an interpretation calls methods of this, and returns nothing")
+        .help("an interpretation only calls methods of `this`; return nothing")
 }
 
 /// Returns the file and the first line of a script function.
@@ -195,8 +197,10 @@ fn rule_options(options: &Table) -> Result<(Option<f64>, Option<Function>)> {
             ("weight", value) => match to_value(&value, false)? {
                 Value::Number(number) if number >= 0.0 && number.is_finite() => weight = Some(number),
                 other => {
-                    return Err(Error::argument(format!("weight must be a number from 0, not {other}"))
-                        .help("a rule of weight 0 is never chosen"));
+                    return Err(Error::argument(format!(
+                        "weight must be a number of at least 0, not {other}"
+                    ))
+                    .help("a rule with weight 0 is never chosen"));
                 }
             },
             ("when", LuaValue::Function(function)) => guard = Some(function),
@@ -205,7 +209,7 @@ fn rule_options(options: &Table) -> Result<(Option<f64>, Option<Function>)> {
                     .help("write { when = function(this, x) return x > 0 end }"));
             }
             (other, _) => {
-                let message = format!("a rule has no option called {other}");
+                let message = format!("unknown option `{other}` of a rule");
                 return Err(Error::not_found("option", other, RULE.part_names(), message)
                     .help(format!("it has {}", RULE.part_names().join(" and "))));
             }
@@ -222,10 +226,8 @@ fn check_parameters(function: &Function, pattern: &Pattern, what: &str) -> Resul
     if taken > given {
         let formals = std::iter::once("this").chain(pattern.formals.iter().map(String::as_str));
         let formals: Vec<&str> = formals.collect();
-        return Err(Error::argument(format!(
-            "{what} takes {taken} parameters, but the pattern gives {given}"
-        ))
-        .help(format!("write function({})", formals.join(", "))));
+        return Err(Error::argument(format!("{what} has {taken} parameters, but the pattern has {given}"))
+            .help(format!("write function({})", formals.join(", "))));
     }
     Ok(())
 }
@@ -247,7 +249,7 @@ fn check_open(queries: &[QueryCall], file: &str, pattern: &Pattern, symbols: &Sy
     let error = Error::not_found("parameter", name, names, format!("${name} of the query has no value"));
     let place = SourcePlace { file: file.to_owned(), line };
     Err(error.at(Some(place)).help(format!(
-        "it is no parameter of the rule's pattern; name it there, or give it a value: query(sql, {{ {name} = ... }})"
+        "the rule's pattern has no parameter of this name; add it there, or pass a value: query(sql, {{ {name} = ... }})"
     )))
 }
 
@@ -269,7 +271,7 @@ fn compile_successor(
     let mut text = "\n".repeat(line.saturating_sub(1));
     for name in names {
         let symbol = symbols.find_in(name, scope).map_err(|error| {
-            let help = "let a function make it, by a constructor that the package gives: function(this) return stone(1) end";
+            let help = "return it from a function, with a constructor of the package: function(this) return stone(1) end";
             Error::of(error.kind().clone(), error.message()).help(help)
         })?;
         let owner = symbols.owner(symbol).filter(|owner| scope.package.as_deref() != Some(*owner));

@@ -62,14 +62,14 @@ impl SystemHandle {
                 }
                 ("interpret", _) => {
                     return Err(Error::argument("lsystem: interpret must be \"last\"")
-                        .help("leave it out to interpret after every step"));
+                        .help("omit it to interpret after every step"));
                 }
                 ("city", value) => match to_value(&value, false)? {
                     Value::Text(class) => {
                         system.city =
                             Some(CityClass::of(&class).map_err(|error| error.about("lsystem: city"))?);
                     }
-                    _ => return Err(Error::argument("lsystem: city must be a text, such as \"Road\"")),
+                    _ => return Err(Error::argument("lsystem: city must be a string, such as \"Road\"")),
                 },
                 #[allow(
                     clippy::cast_possible_truncation,
@@ -91,11 +91,11 @@ impl SystemHandle {
                     Value::Number(seed) if seed.fract() == 0.0 && (0.0..9e15).contains(&seed) => {
                         system.seed = Some(seed as u64);
                     }
-                    _ => return Err(Error::argument("lsystem: seed must be a whole number from 0")),
+                    _ => return Err(Error::argument("lsystem: seed must be an integer of at least 0")),
                 },
                 (other, _) => {
                     let known = LSYSTEM.part_names();
-                    let message = format!("lsystem has no field called {other}");
+                    let message = format!("unknown field `{other}` in lsystem");
                     return Err(Error::not_found("field", other, known.iter().copied(), message)
                         .help(format!("it has {}", known.join(", "))));
                 }
@@ -140,8 +140,8 @@ impl SystemHandle {
 
 /// Returns the error for an action that the function of an axiom may not do.
 fn in_axiom(what: &str) -> Error {
-    Error::scope(format!("{what} belongs outside of the function that makes each feature's chain"))
-        .help("put it before derive, and let the function use it")
+    Error::scope(format!("{what} cannot be called in the function that returns each feature's chain"))
+        .help("call it before derive, and use the result in the function")
 }
 
 /// Returns the object of a system, given as an object or as a constructor that is called without fields.
@@ -175,8 +175,8 @@ impl UserData for SystemHandle {
                 if system.axiom.is_some() && system.axiom_is_new.get() {
                     let earlier =
                         system.axiom_place.as_ref().map_or_else(String::new, |at| format!(" in {at}"));
-                    let text = format!("this axiom replaces the axiom{earlier}, which is never derived");
-                    let help = "give the system one axiom of all modules, or derive it before the next axiom";
+                    let text = format!("this axiom replaces the axiom{earlier}, which was never derived");
+                    let help = "set one axiom with all modules, or derive the system before the next axiom";
                     machine.warn(Warning::new(WarningKind::NoEffect, text).help(help));
                 }
                 system.axiom_place = place;
@@ -237,8 +237,10 @@ impl UserData for SystemHandle {
                 }
                 other => {
                     return Err(mlua::Error::external(
-                        Error::argument(format!("derive takes a whole number of steps from 0, not {other}"))
-                            .help("leave it out to derive until no rule applies"),
+                        Error::argument(format!(
+                            "derive needs an integer number of steps of at least 0, not {other}"
+                        ))
+                        .help("omit it to derive until no rule applies"),
                     ));
                 }
             };
@@ -250,12 +252,12 @@ impl UserData for SystemHandle {
         });
         methods.add_meta_function("__newindex", |_, (_, name): (LuaValue, String)| -> mlua::Result<()> {
             Err(mlua::Error::external(
-                Error::script(format!("a system has no field {name} to assign"))
-                    .help("its object, interpret and seed are given to lsystem"),
+                Error::script(format!("cannot assign `{name}` of a system"))
+                    .help("pass object, interpret and seed to lsystem"),
             ))
         });
         methods.add_meta_function("__index", |_, (_, name): (LuaValue, String)| -> mlua::Result<()> {
-            let message = format!("a system has no method called {name}");
+            let message = format!("unknown method `{name}` of a system");
             let known = SYSTEM.part_names();
             let error = Error::not_found("method", &name, known.iter().copied(), message);
             Err(mlua::Error::external(error.help(format!("it has {}", known.join(", ")))))
@@ -287,7 +289,7 @@ fn named_symbols(library: &Library, lua: &Lua, names: &MultiValue) -> Result<Vec
                 }
             }
             _ => {
-                return Err(Error::argument("ignore and consider take names of modules")
+                return Err(Error::argument("the arguments of ignore and consider must be names of modules")
                     .help("write ignore(\"Turn\")"));
             }
         }

@@ -31,12 +31,12 @@ impl SystemDeclaration {
     /// Warns about interpretations that never run, and rules that never apply.
     pub(crate) fn tell_forestalled(&self, machine: &Machine, grammar: &Grammar) {
         if let (None, Some(first)) = (&self.object, self.interpretations.first()) {
-            let text = "the system has no object, so its interpretations are never run";
+            let text = "the system has no object, so its interpretations never run";
             let warning = Warning::new(WarningKind::NoObject, text);
             let warning = warning.rule(format!("{} (interpretation)", first.pattern.text));
             let warning = warning.at(first.place.clone());
             machine.warn(match object_of_system(&machine.library.registry.borrow()) {
-                Some(object) => warning.help(format!("give it one, such as lsystem({{ {object} }})")),
+                Some(object) => warning.help(format!("set an object, such as lsystem({{ {object} }})")),
                 None => warning,
             });
         }
@@ -65,7 +65,7 @@ impl SystemDeclaration {
                     ),
                     _ => (
                         format!("{name} is ignored, so this context never occurs"),
-                        "take it out of system:ignore(...), or out of the context".to_owned(),
+                        "remove it from system:ignore(...), or from the context".to_owned(),
                     ),
                 };
                 warn(Warning::new(WarningKind::ImpossibleContext, text).help(help));
@@ -80,10 +80,12 @@ impl SystemDeclaration {
                 let text = format!("this rule is never applied: {name}{place} {what}");
                 let help = match earlier.weight {
                     None if earlier.guarded => {
-                        "join the two rules, or give one of them another guard, or both a weight"
+                        "join the two rules, change the guard of one, or set a weight for both"
                     }
-                    Some(_) => "give both rules a weight: { weight = 1 }",
-                    None => "give the earlier rule a guard, or both a weight, or put this one before it",
+                    Some(_) => "set a weight for both rules: { weight = 1 }",
+                    None => {
+                        "add a guard to the earlier rule, set a weight for both, or put this rule before it"
+                    }
                 };
                 warn(Warning::new(WarningKind::UnreachableRule, text).help(help));
             }
@@ -133,11 +135,11 @@ impl SystemDeclaration {
         });
         if let Some(hidden) = hidden {
             let text = format!(
-                "{} stands in the place of the standard library's {}, so the {kind} draws nothing for it",
+                "{} replaces the standard library's {}, so the {kind} draws nothing for it",
                 signature.usage(),
                 symbols.signature(hidden.symbol).usage()
             );
-            let help = format!("interpret it, {interpret}, or give it another name");
+            let help = format!("interpret it, {interpret}, or rename it");
             return Some(Warning::new(WarningKind::HiddenModule, text).help(help).at(place));
         }
         // Without interpretations, an object draws only modules of the standard library, if it draws any.
@@ -150,13 +152,13 @@ impl SystemDeclaration {
             return None;
         }
         if let Some(known) = standard.iter().find(|known| known.symbol == symbol) {
-            let text = format!("the standard library draws {name} with a {}, and this is none", known.kind);
+            let text = format!("the standard library draws {name} only with a {}", known.kind);
             return Some(
                 Warning::new(WarningKind::UndrawnModule, text).help(interpret).at(self.place.clone()),
             );
         }
-        let text = format!("{name} has neither a rule nor an interpretation, so it is drawn nowhere");
-        let help = format!("{interpret}; if it is only a mark, say so: system:ignore(\"{name}\")");
+        let text = format!("{name} has neither a rule nor an interpretation, so it is never drawn");
+        let help = format!("{interpret}; if it is only a mark, ignore it: system:ignore(\"{name}\")");
         Some(
             Warning::new(WarningKind::UndrawnModule, text)
                 .help(help)
@@ -297,9 +299,9 @@ pub(crate) fn tell_unseen(machine: &Machine, returns: bool) {
     let derived = |number: usize| done.get(number).and_then(|derived| derived.as_ref().ok());
     for system in systems.iter() {
         for (what, place) in system.late.borrow().iter() {
-            let text = format!("this {what} comes after derive, so it has no effect");
+            let text = format!("{what} has no effect after derive");
             let warning = Warning::new(WarningKind::LateDeclaration, text).at(place.clone());
-            machine.warn(warning.help("put it before system:derive()"));
+            machine.warn(warning.help("call it before system:derive()"));
         }
         if !machine.session.options.check {
             tell_derived_twice(machine, system, derived);
@@ -315,7 +317,7 @@ pub(crate) fn tell_unseen(machine: &Machine, returns: bool) {
     }
     let first = systems.iter().find(|system| system.axiom.is_some() && !system.given.get());
     if let (true, Some(system), false) = (done.is_empty(), first, returns) {
-        let warning = Warning::new(WarningKind::NotDerived, "no system is derived, so nothing is made");
+        let warning = Warning::new(WarningKind::NotDerived, "no system is derived, so the model is empty");
         machine.warn(warning.at(system.place.clone()).help("end the script with system:derive()"));
     }
 }
@@ -341,9 +343,11 @@ fn tell_derived_twice<'a>(
         if let Some(earlier) = seen {
             let line = |place: &SourcePlace| format!(" after the time in {place}");
             let earlier = earlier.place.as_ref().map(line).unwrap_or_default();
-            let text = format!("the system is derived again{earlier}, and both models stay");
+            let text = format!("the system is derived again{earlier}, and both models are kept");
             let warning = Warning::new(WarningKind::DerivedTwice, text).at(derivation.place.clone());
-            machine.warn(warning.help("derive it once; what another system places is not shown by itself"));
+            machine.warn(
+                warning.help("derive it once; a model that another system places is not shown separately"),
+            );
         }
         seen.get_or_insert(derivation);
     }

@@ -91,11 +91,8 @@ pub(in crate::machine) fn claim(
             let mut named: Vec<String> =
                 named.map(|owner| format!("this:{}(...)", qualified_name(owner, name))).collect();
             named.sort();
-            Err(Error::argument(format!(
-                "{name} is a method that {} have added to {kind}",
-                all.join(" and ")
-            ))
-            .help(format!("say which one: {}", named.join(" or "))))
+            Err(Error::argument(format!("{name} is a method of {kind} added by {}", all.join(" and ")))
+                .help(format!("specify one: {}", named.join(" or "))))
         }
     }
 }
@@ -117,11 +114,14 @@ pub(in crate::machine) fn extend_type(
         _ => None,
     };
     let kind = kind.ok_or_else(|| {
-        Error::argument(format!("extend takes a type of object first, not a {}", constructor.type_name()))
-            .help(&usage)
+        Error::argument(format!(
+            "the first argument of extend must be an object type, not a {}",
+            constructor.type_name()
+        ))
+        .help(&usage)
     })?;
     let LuaValue::Table(declared) = declared else {
-        return Err(Error::argument("extend takes a table after the type").help(usage));
+        return Err(Error::argument("the second argument of extend must be a table").help(usage));
     };
     refuse_unknown("extend", declared, &EXTEND.part_names())?;
     let mut parts = ScriptTypeParts::default();
@@ -136,8 +136,8 @@ pub(in crate::machine) fn extend_type(
         for known in &parts.functions {
             let is_there = methods.raw_get::<LuaValue>(known.name.as_str())? != LuaValue::Nil;
             if is_there && !is_added_by_others(machine, &kind.name, owner, &known.name) {
-                let text = format!("{} has a method called {} already", kind.name, known.name);
-                return Err(mlua::Error::external(Error::argument(text).help("give this one another name")));
+                let text = format!("{} already has a method `{}`", kind.name, known.name);
+                return Err(mlua::Error::external(Error::argument(text).help("rename this one")));
             }
             let into = if known.role == Role::Read { &reads } else { &changes };
             into.raw_set(known.name.as_str(), &known.function)?;

@@ -64,14 +64,14 @@ impl Objects {
 /// Converts a panic to an error, so that a faulty object type outside of Burgeon affects only its own chain.
 fn guarded<T>(act: impl FnOnce() -> Result<T>) -> Result<T> {
     std::panic::catch_unwind(std::panic::AssertUnwindSafe(act)).unwrap_or_else(|panic| {
-        Err(Error::internal(format!("the type of object panicked: {}", panic_message(&*panic)))
-            .help("the mistake is in the type, not in the script; tell whoever made it")
+        Err(Error::internal(format!("the object type panicked: {}", panic_message(&*panic)))
+            .help("this is a bug in the type, not in the script; report it to its author")
             .of_data())
     })
 }
 
 fn no_object() -> Error {
-    Error::script("the system has no object").help("give it one: lsystem({ object = ... })")
+    Error::script("the system has no object").help("set one: lsystem({ object = ... })")
 }
 
 /// Read-only script value for an object.
@@ -104,7 +104,7 @@ impl UserData for ObjectHandle {
                 let (kind, name) = (this.0.kind().name.clone(), name.to_string().unwrap_or_default());
                 Err(mlua::Error::external(
                     Error::script(format!("{name} of a {kind} cannot be assigned"))
-                        .help(format!("its fields are given when it is made: {kind} {{ {name} = ... }}")),
+                        .help(format!("set fields in the constructor: {kind} {{ {name} = ... }}")),
                 ))
             },
         );
@@ -198,7 +198,7 @@ impl DerivedHandle {
                 Ok(LuaValue::Table(table))
             }
             _ => {
-                let message = format!("a derived system has no field called {name}");
+                let message = format!("unknown field `{name}` of a derived system");
                 let known = DERIVED.part_names();
                 let error = Error::not_found("field", name, known.iter().copied(), message);
                 Err(mlua::Error::external(error.help(format!("it has {}", known.join(", ")))))

@@ -65,8 +65,8 @@ pub(in crate::machine) fn constructor(machine: &Machine, kind: &Arc<Kind>) -> ml
     let library = std::rc::Rc::clone(&machine.library);
     let constructor = match &kind.construct {
         Construct::Given => return Ok(None),
-        Construct::Fields(make) => {
-            let (kind, make) = (Arc::clone(kind), Arc::clone(make));
+        Construct::Fields(_) => {
+            let kind = Arc::clone(kind);
             let session = Arc::clone(&machine.session);
             lua.create_function(move |lua, given: MultiValue| {
                 let table = constructor_fields(&kind, given).map_err(mlua::Error::external)?;
@@ -74,8 +74,11 @@ pub(in crate::machine) fn constructor(machine: &Machine, kind: &Arc<Kind>) -> ml
                     let name = format!("{}.{}", kind.name, deprecation.name);
                     session.use_deprecated(&name, deprecation, Machine::place(lua));
                 }
+                let table = session
+                    .replace_former_names(&kind.name, &kind.fields, &table, Machine::place(lua))
+                    .map_err(mlua::Error::external)?;
                 // A faulty value of one feature may be correct in another.
-                let mut object = make(&table).map_err(|error| mlua::Error::external(error.of_data()))?;
+                let mut object = kind.make(&table).map_err(|error| mlua::Error::external(error.of_data()))?;
                 for warning in object.take_warnings() {
                     library.machine().map_err(mlua::Error::external)?.warn(warning);
                 }
@@ -101,7 +104,7 @@ pub(in crate::machine) fn constructor(machine: &Machine, kind: &Arc<Kind>) -> ml
                         }
                     };
                     if kind.fields.is_empty() && !fields.entries.is_empty() {
-                        return Err(Error::argument(format!("{} takes no options", kind.name))
+                        return Err(Error::argument(format!("{} does not accept options", kind.name))
                             .help(format!("write {}", loader.example)));
                     }
                     let asker = Machine::asker(lua, &session);
@@ -131,7 +134,7 @@ fn file_names(kind: &Kind, loader: &Loader, files: LuaValue) -> Result<Vec<Strin
         _ => None,
     });
     names.collect::<Option<Vec<_>>>().filter(|names| !names.is_empty()).ok_or_else(|| {
-        Error::argument(format!("{} takes the name of a file, or a list of such names", kind.name))
+        Error::argument(format!("{} needs a file name, or a list of file names", kind.name))
             .help(format!("write {}", loader.example))
     })
 }
@@ -166,7 +169,7 @@ fn constructor_fields(kind: &Kind, given: MultiValue) -> Result<Arc<ValueTable>>
         (LuaValue::Nil, LuaValue::Nil) => true,
         (LuaValue::Table(table), LuaValue::Nil) => {
             table.pairs::<LuaValue, LuaValue>().flatten().any(|(key, _)| {
-                kind.fields.iter().any(|field| matches!(&key, LuaValue::String(key) if *key == *field.name))
+                matches!(&key, LuaValue::String(key) if kind.fields.iter().any(|it| it.is_called(&key.to_string_lossy())))
             })
         }
         _ => false,
@@ -176,7 +179,7 @@ fn constructor_fields(kind: &Kind, given: MultiValue) -> Result<Arc<ValueTable>>
     }
     let mut table = ValueTable::clone(&*named_fields(&kind.name, two)?);
     if table.get(first).is_some() {
-        return Err(Error::argument(format!("{} is given its {first} twice", kind.name)));
+        return Err(Error::argument(format!("{}: `{first}` was set twice", kind.name)));
     }
     table.entries.push((TableKey::Name(first.into()), to_field(&one)?));
     Ok(Arc::new(table))

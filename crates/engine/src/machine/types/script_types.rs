@@ -80,8 +80,8 @@ impl ScriptTypeEntry {
         for field in &entry.declaration.fields {
             let held = entry.declaration.held.iter().any(|(held, _)| *held == field.name);
             if held || state.get(&field.name).is_some() {
-                let text = format!("{} is a field of {name} and a part of its state", field.name);
-                return Err(Error::argument(text).help("give one of them another name"));
+                let text = format!("`{}` is both a field and a state variable of {name}", field.name);
+                return Err(Error::argument(text).help("rename one of them"));
             }
         }
         entry.declaration.state = Arc::new(state);
@@ -173,10 +173,10 @@ impl ScriptTypeParts {
                     .any(|known| known.name == name && known.role != role && known.role != Role::Hook)
                 {
                     return Err(Error::argument(format!(
-                        "{name} stands among the reads and the changes of {}",
+                        "{name} is in both reads and changes of {}",
                         what("").trim_start_matches(" of ")
                     ))
-                    .help("a function either reads or changes the object"));
+                    .help("a method is either a read method or a write method"));
                 }
                 self.contested.remove(&name);
                 let function = ScriptFunction { name, doc, function, role };
@@ -274,10 +274,10 @@ pub(in crate::machine) fn declare_type(
     machine.library.at_top_level("object")?;
     let usage = "write object(\"lantern\", { changes = { lamp = function(self) ... end } })";
     let LuaValue::String(name) = name else {
-        return Err(Error::argument("object begins with the name of the type").help(usage));
+        return Err(Error::argument("the first argument of object must be the type name").help(usage));
     };
     let LuaValue::Table(declared) = declared else {
-        return Err(Error::argument("object takes a table after the name").help(usage));
+        return Err(Error::argument("the second argument of object must be a table").help(usage));
     };
     let name = name.to_string_lossy();
     check_name(&name)?;
@@ -302,8 +302,8 @@ fn check_name(name: &str) -> Result<()> {
     let is_name = name.starts_with(|c: char| c.is_ascii_lowercase())
         && name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_');
     if !is_name {
-        return Err(Error::argument(format!("{name:?} is no name for a type of object"))
-            .help("write it with small letters, digits and _, such as \"street_lamp\""));
+        return Err(Error::argument(format!("{name:?} is not a valid name of an object type"))
+            .help("use lowercase letters, digits and _, such as \"street_lamp\""));
     }
     Ok(())
 }
@@ -313,9 +313,9 @@ pub(super) fn refuse_unknown(what: &str, table: &Table, known: &[&'static str]) 
     for pair in table.pairs::<LuaValue, LuaValue>() {
         let key = pair.map_err(internal)?.0.to_string().unwrap_or_default();
         if !known.contains(&key.as_str()) {
-            let message = format!("{what} has no part called {key}");
+            let message = format!("unknown part `{key}` of {what}");
             return Err(Error::not_found("part", &key, known.iter().copied(), message)
-                .help(format!("it may have {}", known.join(", "))));
+                .help(format!("the allowed parts are {}", known.join(", "))));
         }
     }
     Ok(())
@@ -372,7 +372,7 @@ fn replace<T>(list: &mut Vec<T>, inherited: usize, item: T, same: impl Fn(&T, &T
 
 fn named_part(error: Error, name: &str, part: &str) -> Error {
     Error::argument(format!("{part} of the state of {name}: {}", error.message()))
-        .help("state is numbers, booleans, strings, tables of these, and objects")
+        .help("a state variable is a number, a boolean, a string, a table of these, or an object")
 }
 
 fn not_a_type(machine: &Machine, name: &str) -> Error {

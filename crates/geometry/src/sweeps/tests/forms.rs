@@ -398,8 +398,8 @@ fn what_cannot_be_swept_is_refused_and_leaves_the_part_as_it_was() {
       help: put a station of scale 0 between them, or twist by 180 degrees instead of scaling by -1
     ");
     insta::assert_snapshot!(refuse(&tower(&[(0., 1., 1., 0.), (1., 1., 1., 0.), (1., 1., 1., 1.), (2., 1., 1., 1.)])), @r"
-    the outlines at stations 2 and 3 are at one place and cross
-      help: leave some length between the stations, or end the run there and begin a new one
+    the outlines at stations 2 and 3 are at the same position and cross
+      help: increase the length between the stations, or end the run there and begin a new one
     ");
     let aside = [(1., 0.), (2., 0.), (2., 1.), (1., 1.)].map(|(x, y)| DVec2::new(x, y));
     let aside = Section::polygon(&Rings(vec![aside.to_vec()])).expect("a square");
@@ -407,15 +407,15 @@ fn what_cannot_be_swept_is_refused_and_leaves_the_part_as_it_was() {
     let error = sweep(&mut Part::default(), &aside, &grown, &SweepOptions::default()).expect_err("refused");
     insta::assert_snapshot!(error, @r"
     between stations 2 and 3 the face after point 1 has no area
-      help: leave some length between the stations, or centre the cross-section differently
+      help: increase the length between the stations, or centre the cross-section differently
     ");
     let mut back = Frame::default();
     back.forward(1.0);
     let there = Station::new(back, 1.0);
     back.turn(PI);
     insta::assert_snapshot!(refuse(&[tower(&[(0., 1., 1., 0.)])[0], there, Station::new(back, 1.0)]), @r"
-    the way turns back on itself at station 2
-      help: turn in several steps with some length between them, or begin a new run
+    the path turns back on itself at station 2
+      help: turn in several steps with a length between them, or begin a new run
     ");
 }
 

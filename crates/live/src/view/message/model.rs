@@ -193,7 +193,7 @@ impl ParamMessage {
                 Control::Text => ControlMessage::Text,
             },
             unit: param.unit.clone(),
-            text: param.text.clone(),
+            text: param.doc.clone(),
         }
     }
 }

@@ -45,7 +45,7 @@ impl Footprint {
             note(what, why);
         }
         if made.cover.hipped {
-            note(format!("hips in place of gables of a {} roof", options.kind), String::new());
+            note(format!("hips instead of gables of a {} roof", options.kind), String::new());
         }
         // A neighbour is the cause if an edge would have a larger overhang without neighbours.
         let is_limited = !made.cover.tight.is_empty() && reach.iter().any(|reach| *reach < furthest);
@@ -54,7 +54,7 @@ impl Footprint {
         let is_beside = |edge: &usize| alone.as_ref().is_some_and(|alone| has_more(alone, *edge));
         let (beside, within): (Vec<usize>, Vec<usize>) =
             made.cover.tight.iter().partition(|edge| is_beside(edge));
-        for (edges, cause) in [(beside, "a neighbour is near"), (within, "there is no room")] {
+        for (edges, cause) in [(beside, "a neighbour is near"), (within, "the space is too small")] {
             if !edges.is_empty() {
                 let why = overhang_text(&edges, &made.cover.overhangs, options.overhang, &self.plan);
                 note(format!("a smaller overhang over some edges, as {cause}"), why);
@@ -129,5 +129,5 @@ fn overhang_text(edges: &[usize], overhangs: &[f64], overhang: f64, plan: &Plan)
     let more = edges.len() - named.len();
     let more = if more > 0 { format!(" and {more} more") } else { String::new() };
     let word = if edges.len() == 1 { "edge" } else { "edges" };
-    format!("{range} m in place of {overhang} m over {word} {}{more}", named.join(", "))
+    format!("{range} m instead of {overhang} m over {word} {}{more}", named.join(", "))
 }

@@ -96,11 +96,13 @@ impl RoofDetail {
     pub(super) fn check(&self) -> Result<()> {
         let what = "a detail of footprint:roof";
         if self.model.is_none() {
-            return Err(Error::argument(format!("{what} has no model")).help("give it what derive returned"));
+            return Err(
+                Error::argument(format!("{what} has no model")).help("set it to the result of derive")
+            );
         }
         if !PLACES.contains(&self.on.as_str()) {
-            return Err(Error::argument(format!("{what} stands on {:?}", self.on))
-                .help(format!("there are {}", PLACES.join(", "))));
+            return Err(Error::argument(format!("{what}: unknown place {:?}", self.on))
+                .help(format!("use {}", PLACES.join(", "))));
         }
         let positive = [("every", self.every.unwrap_or(1.0)), ("scale", self.scale)];
         if let Some((name, number)) = positive.into_iter().find(|(_, number)| !(1e-3..=1e4).contains(number))

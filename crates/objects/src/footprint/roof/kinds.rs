@@ -53,13 +53,15 @@ pub(super) fn shape(options: &Roof) -> Result<RoofShape> {
         None if options.slab > 0.0 => Eaves::Slab,
         None => Eaves::Closed,
         Some(eaves) => {
-            let message = format!("footprint:roof: eaves has no kind called {eaves:?}");
+            let message = format!("footprint:roof: unknown kind of eaves {eaves:?}");
             let error = Error::not_found("kind", eaves, EAVES, message);
-            return Err(error.help(format!("there are {}", EAVES.join(", "))));
+            return Err(error.help(format!("use {}", EAVES.join(", "))));
         }
     };
     if eaves == Eaves::Closed && options.slab > 0.0 {
-        return Err(Error::argument("footprint:roof: closed eaves have no slab").help("use eaves = \"slab\""));
+        return Err(
+            Error::argument("footprint:roof: closed eaves cannot have a slab").help("use eaves = \"slab\"")
+        );
     }
     let juts_out = options.overhang > 0.0;
     // Eaves without thickness would be as thin as paper, so they get a default thickness.

@@ -61,7 +61,7 @@ pub(super) fn cover(
     let deck = RoofShape { surface: RoofSurface::Flat(None), slab: 0.0, ..flush };
     let cover = make(&deck, &Support::new(walls, base))
         .unwrap_or_else(|_| RoofCover { patches: vec![level(walls, true)], ..RoofCover::default() });
-    RoofReplacement { cover, replaced: Some((format!("a flat roof in place of a {kind} roof"), why)) }
+    RoofReplacement { cover, replaced: Some((format!("a flat roof instead of a {kind} roof"), why)) }
 }
 
 /// Returns simpler outlines inside the outline of the walls. They keep at least the distance by which simplification

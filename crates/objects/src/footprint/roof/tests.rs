@@ -72,7 +72,7 @@ fn a_roof_that_fails_is_replaced_over_a_simpler_outline_then_by_a_deck() {
     for (least, what) in [
         (7, None),
         (6, Some("a hip roof over an outline simplified to 0.2 m")),
-        (4, Some("a flat roof in place of a hip roof")),
+        (4, Some("a flat roof instead of a hip roof")),
     ] {
         let mut make = |shape: &RoofShape, support: &Support<'_>| {
             let refused = support.walls[0].len() > least && matches!(shape.surface, RoofSurface::Sloped(..));

@@ -3,8 +3,8 @@ local Tip = module("Tip")
 local roads = lsystem({ object = network({}) })
 roads:axiom(Tip())
 roads:rule("Tip", function(this)
-  local junction = this:arrived(1, 0)
-  print(this:fate(1, 0), junction, this:probe(1, 90, 60, 0).fate)
+  local junction = this:end_junction(1, 0)
+  print(this:outcome(1, 0), junction, this:probe(1, 90, 60, 0).outcome)
   if junction then
     print(this:place(junction), this:degree(junction), #this:places())
   end
