@@ -145,6 +145,16 @@ mod tests {
     }
 
     #[test]
+    fn a_page_offers_the_formats_of_a_scene_and_sends_its_camera_for_renders() {
+        let offered = downloads();
+        let extensions: Vec<&str> = offered.iter().map(|format| format.extension).collect();
+        assert!(extensions.contains(&"glb") && !extensions.contains(&"gpkg"), "{extensions:?}");
+        let pictures = offered.iter().filter(|format| format.picture).map(|format| format.extension);
+        let expected: &[&str] = if burgeon_export::PNG.file.check().is_ok() { &["png"] } else { &[] };
+        assert_eq!(pictures.collect::<Vec<_>>(), expected);
+    }
+
+    #[test]
     fn a_query_wishes_a_picture_of_at_most_the_largest_size() {
         let wished = picture("azimuth=-30&elevation=95.5&width=99999&height=0").unwrap();
         assert_eq!((wished.azimuth, wished.elevation), (Some(330.0), Some(90.0)));
