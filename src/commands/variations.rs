@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-use burgeon::export::{self, Format};
+use burgeon::export::{self, Format, PNG};
 use burgeon::picture::{Picture, Quality};
 use burgeon::scene::image;
 use burgeon::variations::{Framing, SheetLayout, Variation, VariationAxis, Variations, sheet};
@@ -31,8 +31,8 @@ pub(crate) struct VariationsCommand {
     #[arg(long, value_name = "NAME=VALUES", value_parser = sweep, group = "over")]
     sweep: Option<VariationAxis>,
 
-    /// Contact sheet, a .png file
-    #[arg(short, long, value_name = "FILE", value_parser = output, required = true)]
+    /// File of the contact sheet
+    #[arg(short, long, value_name = "FILE", value_parser = output, required = true, help = output_help())]
     output: PathBuf,
 
     /// Number of variations in a row [default: automatic]
@@ -203,12 +203,16 @@ fn sweep(text: &str) -> Result<VariationAxis, String> {
     VariationAxis::sweep(text).map_err(|error| error.to_string())
 }
 
+fn output_help() -> String {
+    format!("Contact sheet, a .{} file", PNG.extension())
+}
+
 fn output(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
-    match Format::of(&path) {
-        Ok(Format::Png) => Ok(path),
-        _ => Err("a contact sheet is an image: specify a .png file".to_owned()),
+    if Format::of(&path).is_ok_and(|format| *format == PNG) {
+        return Ok(path);
     }
+    Err(format!("a contact sheet is an image: specify a .{} file", PNG.extension()))
 }
 
 fn columns(text: &str) -> Result<usize, String> {

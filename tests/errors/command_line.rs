@@ -1,5 +1,7 @@
 //! Commands and their flags.
 
+use burgeon::export::heights::HEIGHT_FORMATS;
+use burgeon::export::{FORMATS, extension_list};
 use insta::assert_snapshot;
 
 use crate::support::{Folder, HEAD, assert_decent};
@@ -11,6 +13,15 @@ s:derive(3)
 
 fn folder() -> Folder {
     Folder::new().with("s.lua", format!("{HEAD}{SCRIPT}"))
+}
+
+/// Replaces the lists of all formats, so that snapshots stay when a table of formats grows.
+fn without_formats(text: &str) -> String {
+    let lists = [
+        (extension_list(&FORMATS, "or"), extension_list(&FORMATS, "and"), "FORMATS"),
+        (extension_list(&HEIGHT_FORMATS, "or"), extension_list(&HEIGHT_FORMATS, "and"), "HEIGHT FORMATS"),
+    ];
+    lists.iter().fold(text.to_owned(), |text, (one, all, name)| text.replace(one, name).replace(all, name))
 }
 
 /// Returns the error message for a wrong command line.
@@ -262,9 +273,9 @@ fn a_wrong_command_line_is_status_2_and_says_what_is_right() {
 
     For more information, try '--help'.
     ");
-    assert_snapshot!(wrong(&["run", "s.lua", "-o", "model.xyz"]), @r"
+    assert_snapshot!(without_formats(&wrong(&["run", "s.lua", "-o", "model.xyz"])), @r"
     error: invalid value 'model.xyz' for '--output <FILE>': cannot write model.xyz: unknown file extension .xyz
-      help: supported formats are .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson and .gpkg
+      help: supported formats are FORMATS
 
     For more information, try '--help'.
     ");
@@ -274,9 +285,21 @@ fn a_wrong_command_line_is_status_2_and_says_what_is_right() {
 
     For more information, try '--help'.
     ");
-    assert_snapshot!(wrong(&["run", "s.lua", "-o", "model"]), @r"
+    assert_snapshot!(without_formats(&wrong(&["run", "s.lua", "-o", "model"])), @r"
     error: invalid value 'model' for '--output <FILE>': cannot write model: missing file extension
-      help: supported formats are .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson and .gpkg
+      help: supported formats are FORMATS
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["run", "s.lua", "--heights", "a.tof"]), @r"
+    error: invalid value 'a.tof' for '--heights <FILE>': cannot write a.tof: unknown file extension .tof
+      help: did you mean .tif?
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(without_formats(&wrong(&["run", "s.lua", "--heights", "a.glb"])), @r"
+    error: invalid value 'a.glb' for '--heights <FILE>': cannot write a.glb: unknown file extension .glb
+      help: supported formats are HEIGHT FORMATS
 
     For more information, try '--help'.
     ");
@@ -288,6 +311,16 @@ fn a_wrong_command_line_is_status_2_and_says_what_is_right() {
 
     For more information, try '--help'.
     ");
+}
+
+#[test]
+fn the_long_help_lists_the_formats_with_their_titles() {
+    let help = Folder::new().burgeon(&["run", "--help"]).done().stdout;
+    let models = FORMATS.iter().map(|format| &format.file);
+    for format in models.chain(HEIGHT_FORMATS.iter().map(|format| &format.file)) {
+        let line = format!("  {:<11} {}\n", format!(".{}", format.extension()), format.title);
+        assert!(help.contains(&line), "{line}{help}");
+    }
 }
 
 #[test]
@@ -320,7 +353,7 @@ fn help_reads_well() {
       burgeon live tree.lua
       burgeon run tree.lua -o tree.glb
     "#);
-    assert_snapshot!(Folder::new().burgeon(&["run", "-h"]).done().stdout, @r#"
+    assert_snapshot!(without_formats(&Folder::new().burgeon(&["run", "-h"]).done().stdout), @r#"
     Runs a script and writes what it makes
 
     Usage: burgeon run [OPTIONS] <SCRIPT>
@@ -343,10 +376,10 @@ fn help_reads_well() {
           --threads <N>         Number of threads; does not affect the result [default: number of cores]
           --stdlib <FILE>       Replaces the built-in standard library by this file
           --json                Prints machine-readable JSON instead of text
-      -o, --output <FILE>       Writes the model to this file; the extension selects the format: .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson or .gpkg. May be repeated
+      -o, --output <FILE>       Writes the model to this file; the extension selects the format: FORMATS. May be repeated
           --metadata[=<NAMES>]  Includes ids and attributes of features in .glb and .gltf files: the attributes that the script names, or =NAMES, or all with ='*'
           --chain <FILE>        Writes the final chains as text, one per line; - is standard output, or the JSON document with --json
-          --heights <FILE>      Writes the heights of the terrain as a height map: .png, .asc, .tif, .r32 or .r64
+          --heights <FILE>      Writes the heights of the terrain as a height map: HEIGHT FORMATS
           --edits <FILE>        Writes the terrain edits, for edits(FILE) in a script
           --tiles <FOLDER>      Writes a .glb file for each tile of the terrain to this folder
           --report <FILE>       Writes a JSON report of skipped and simplified features; - is standard output

@@ -438,7 +438,6 @@ fn edits_are_kept_in_a_file_and_are_those_of_one_world() {
         &["run", "d.lua"][..],
         &["run", "f.lua", "--seed", "3"],
         &["run", "e.lua", "--heights", "e.asc"],
-        &["run", "a.lua", "--heights", "a.glb"],
         &["run", "a.lua", "--edits", "a.lua"],
     ] {
         text += &folder.refuses(arguments);
@@ -455,8 +454,6 @@ fn edits_are_kept_in_a_file_and_are_those_of_one_world() {
       help: this one is 1024 m from (-512, -512) on, seeded by 1d0b14e4db018fed
     error: the script has no terrain whose heights or edits to write
       help: write lsystem({ object = terrain({ ... }) }):derive()
-    error: cannot write a.glb: unknown file extension of a height map
-      help: supported formats are .png, .asc, .tif, .r32 and .r64
     error: the edits would overwrite the script a.lua
       help: specify another file: --edits ground.json, or - for standard output
     "##);

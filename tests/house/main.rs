@@ -1,8 +1,9 @@
 //! Architecture tests: dependencies between crates, entries in each Cargo.toml, names that crates may use,
-//! and crates that may print.
+//! crates that may print, and tables that are the only place of their facts.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
 
+mod formats;
 mod front_pages;
 mod names;
 mod rooms;

@@ -16,7 +16,7 @@ export class Glb {
   /** `file` is an ArrayBuffer. Fails with a text for people if it is no such file. */
   constructor(file) {
     const head = new DataView(file);
-    if (file.byteLength < 20 || head.getUint32(0, true) !== 0x46546c67) throw new Error('the model is not a .glb file');
+    if (file.byteLength < 20 || head.getUint32(0, true) !== 0x46546c67) throw new Error('the model is not binary glTF');
     const length = head.getUint32(12, true);
     this.json = JSON.parse(new TextDecoder().decode(new Uint8Array(file, 20, length)));
     this.file = file;

@@ -31,7 +31,7 @@ export class Loading {
     let [model, keep] = [new Model(), null];
     const measured = this.stage.mode === 'uv';
     if (message.url) {
-      const url = measured ? message.url.replace(/\.glb$/, '.uv.glb') : message.url;
+      const url = measured ? message.url.replace(/\.\w+$/, '.uv$&') : message.url;
       const file = await this.#fetch(url, this.#abort.signal);
       if (mine !== this.#newest) return null;
       const glb = new Glb(file);

@@ -1,155 +1,155 @@
-//! Export formats of a scene.
+//! Descriptions of file formats, and the choice of a format by the name of a file.
 
+use std::path::{Path, PathBuf};
+
+use super::facts::Export;
+use super::files::Files;
 use burgeon_base::error::{Error, Result};
-use burgeon_scene::image;
-use std::path::Path;
 
-/// File format of an export.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
-    /// glTF 2.0 in one binary file, textures included.
-    Glb,
-    /// glTF 2.0 as readable JSON, with a `.bin` file and the textures next to it.
-    Gltf,
-    /// Wavefront OBJ, with a `.mtl` file and the textures next to it. Instances become copies.
-    Obj,
-    /// Render of the scene.
-    Png,
-    /// Drawing to scale: a plan, or an elevation of a thin upright model.
-    Svg,
-    /// X3D 3.3 in XML, with the textures next to it.
-    X3d,
-    /// CityJSON 2.0: buildings with their surfaces, and other city objects.
-    CityJson,
-    /// GeoJSON: the modules of the final chains that have a geometry, in degrees.
-    GeoJson,
-    /// GeoPackage of the same modules, with a layer for each symbol.
-    GeoPackage,
+/// Properties of every file format.
+#[derive(Debug, Clone, Copy)]
+pub struct FileFormat {
+    /// Extensions in lower case and without a dot; texts show the first one.
+    pub extensions: &'static [&'static str],
+    /// Name and properties for users, such as "glTF 2.0, one file".
+    pub title: &'static str,
+    /// Path of the second file that a file of the format can have, such as `a.bin` for `a.gltf`.
+    pub companion: Option<fn(&Path) -> PathBuf>,
+    /// Function that fails if this program was built without the format.
+    pub check: fn() -> Result<()>,
 }
 
-impl Format {
-    /// All formats, in the order in which messages list them.
-    pub const ALL: [Self; 9] = [
-        Self::Glb,
-        Self::Gltf,
-        Self::Obj,
-        Self::Png,
-        Self::Svg,
-        Self::X3d,
-        Self::CityJson,
-        Self::GeoJson,
-        Self::GeoPackage,
-    ];
+/// Format of a model: a row of [`FORMATS`](super::FORMATS).
+///
+/// Formats with the same extension are equal.
+#[derive(Debug, Clone, Copy)]
+pub struct Format {
+    /// Extension, title and files.
+    pub file: FileFormat,
+    /// Media type of the file on the web.
+    pub media_type: &'static str,
+    /// Parts of a run that the file describes.
+    pub needs: &'static [Need],
+    /// Set if the file can include ids and attributes of features ([`SceneFacts::metadata`](super::SceneFacts)).
+    pub has_metadata: bool,
+    /// Set if copies of textures are written next to the file.
+    pub has_textures: bool,
+    /// Function that writes an export to a future file.
+    pub write: fn(&Export<'_>, &Path, &mut Files) -> Result<()>,
+}
 
-    /// Formats that need only the scene and no facts about the run.
-    pub const OF_SCENES: [Self; 6] = [Self::Glb, Self::Gltf, Self::Obj, Self::Png, Self::Svg, Self::X3d];
+/// Part of a run that a format describes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Need {
+    /// Scene. Without it the format describes no drawing.
+    Scene,
+    /// Camera and size of a render.
+    Picture,
+    /// Attributes of features.
+    Attributes,
+    /// Layers of modules that have a geometry.
+    Layers,
+}
 
+impl FileFormat {
     /// Returns the extension, in lower case and without a dot.
-    pub const fn extension(self) -> &'static str {
-        match self {
-            Self::Glb => "glb",
-            Self::Gltf => "gltf",
-            Self::Obj => "obj",
-            Self::Png => "png",
-            Self::Svg => "svg",
-            Self::X3d => "x3d",
-            Self::CityJson => "city.json",
-            Self::GeoJson => "geojson",
-            Self::GeoPackage => "gpkg",
+    pub const fn extension(&self) -> &'static str {
+        match self.extensions {
+            [first, ..] => first,
+            [] => "",
         }
-    }
-
-    /// Lists the extensions of all formats, with `word` before the last one: ".glb, .gltf and .obj".
-    ///
-    /// ```
-    /// use burgeon_export::Format;
-    ///
-    /// assert!(Format::extension_list("or").ends_with(".geojson or .gpkg"));
-    /// ```
-    pub fn extension_list(word: &str) -> String {
-        let [others @ .., last] = Self::ALL.map(|format| format!(".{}", format.extension()));
-        format!("{} {word} {last}", others.join(", "))
-    }
-
-    /// Returns true if the format stores layers of modules and nothing of the scene.
-    pub fn has_layers(self) -> bool {
-        matches!(self, Self::GeoJson | Self::GeoPackage)
     }
 
     /// Fails if this program was built without the format.
-    pub fn check(self) -> Result<()> {
-        match self {
-            Self::Png => image::check(),
-            Self::GeoPackage => burgeon_data::check_geopackage(),
-            _ => Ok(()),
-        }
+    pub fn check(&self) -> Result<()> {
+        (self.check)()
     }
 
-    /// Returns the format that the extension of `path` names, in upper or lower case.
-    ///
-    /// Fails on an unknown or missing extension; the error lists the known ones.
-    ///
-    /// ```
-    /// use burgeon_export::Format;
-    /// use std::path::Path;
-    ///
-    /// assert_eq!(Format::of(Path::new("out/Town.GLB"))?, Format::Glb);
-    /// assert_eq!(Format::of(Path::new("town.city.json"))?, Format::CityJson);
-    /// let error = Format::of(Path::new("town.blend")).expect_err("no such format");
-    /// assert!(error.to_string().contains("gltf"), "{error}");
-    /// # Ok::<(), burgeon_base::error::Error>(())
-    /// ```
-    pub fn of(path: &Path) -> Result<Self> {
-        let known = format!("supported formats are {}", Self::extension_list("and"));
-        let Some(extension) = path.extension() else {
-            let message = format!("cannot write {}: missing file extension", path.display());
-            return Err(Error::usage(message).help(known));
-        };
-        let extension = extension.to_string_lossy();
-        let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-        let ends = |format: &Self| {
-            name.strip_suffix(format.extension()).is_some_and(|stem| stem.len() > 1 && stem.ends_with('.'))
-        };
-        if let Some(format) = Self::ALL.into_iter().find(ends) {
-            return Ok(format);
-        }
-        let message = format!("cannot write {}: unknown file extension .{extension}", path.display());
-        let extensions = Self::ALL.map(|format| format!(".{}", format.extension()));
-        let meant = extensions.iter().map(String::as_str);
-        Err(Error::not_found("format", format!(".{extension}"), meant, message).help(known))
+    /// Returns the path of the second file that the file at `path` can have.
+    pub fn companion(&self, path: &Path) -> Option<PathBuf> {
+        self.companion.map(|companion| companion(path))
+    }
+
+    /// Returns the part of a file name before the extension, in upper or lower case. `None` if the name has another
+    /// extension or no such part.
+    pub fn stem<'a>(&self, name: &'a str) -> Option<&'a str> {
+        self.extensions.iter().find_map(|extension| {
+            let (stem, end) = name.split_at_checked(name.len().checked_sub(extension.len())?)?;
+            let stem = stem.strip_suffix('.').filter(|_| end.eq_ignore_ascii_case(extension))?;
+            (!stem.is_empty()).then_some(stem)
+        })
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_extension_picks_the_format_in_any_case() {
-        assert_eq!(Format::of(Path::new("out/a.b/tower.GLB")).unwrap(), Format::Glb);
-        for format in Format::ALL {
-            assert_eq!(Format::of(Path::new(&format!("x.{}", format.extension()))).unwrap(), format);
-            assert!(Format::of(Path::new(&format!("x{}", format.extension()))).is_err());
-        }
+impl Format {
+    /// Returns the extension, in lower case and without a dot.
+    pub const fn extension(&self) -> &'static str {
+        self.file.extension()
     }
 
-    #[test]
-    fn an_unknown_extension_is_refused_with_a_suggestion() {
-        insta::assert_snapshot!(Format::of(Path::new("a/tower.gtlf")).unwrap_err(), @r"
-        cannot write a/tower.gtlf: unknown file extension .gtlf
-          help: did you mean .gltf?
-        ");
-        insta::assert_snapshot!(Format::of(Path::new("tower.step")).unwrap_err(), @r"
-        cannot write tower.step: unknown file extension .step
-          help: supported formats are .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson and .gpkg
-        ");
+    /// Returns true if the format describes this part of a run.
+    pub fn needs(&self, need: Need) -> bool {
+        self.needs.contains(&need)
     }
 
-    #[test]
-    fn a_missing_extension_is_refused() {
-        insta::assert_snapshot!(Format::of(Path::new("a.b/tower")).unwrap_err(), @r"
-        cannot write a.b/tower: missing file extension
-          help: supported formats are .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson and .gpkg
-        ");
+    /// Returns true if a scene and a camera are enough for the format.
+    pub fn is_of_scenes(&self) -> bool {
+        self.needs.iter().all(|need| matches!(need, Need::Scene | Need::Picture))
     }
+}
+
+impl PartialEq for Format {
+    fn eq(&self, other: &Self) -> bool {
+        self.extension() == other.extension()
+    }
+}
+
+impl Eq for Format {}
+
+impl AsRef<FileFormat> for Format {
+    fn as_ref(&self) -> &FileFormat {
+        &self.file
+    }
+}
+
+/// Accepts a format that every build of the program has.
+pub(super) fn always() -> Result<()> {
+    Ok(())
+}
+
+/// Lists the extensions of `formats`, with `word` before the last one: ".glb, .gltf and .obj".
+pub fn extension_list<'a, F: AsRef<FileFormat> + 'a>(
+    formats: impl IntoIterator<Item = &'a F>,
+    word: &str,
+) -> String {
+    let extensions: Vec<String> = formats.into_iter().map(dotted).collect();
+    match extensions.as_slice() {
+        [others @ .., last] if !others.is_empty() => format!("{} {word} {last}", others.join(", ")),
+        few => few.concat(),
+    }
+}
+
+/// Returns the format of `formats` that the extension of `path` names, in upper or lower case.
+///
+/// Fails on an unknown or missing extension; the error lists the known ones.
+pub(super) fn find<'a, F: AsRef<FileFormat>>(formats: &'a [F], path: &Path) -> Result<&'a F> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    if let Some(format) = formats.iter().find(|format| (*format).as_ref().stem(&name).is_some()) {
+        return Ok(format);
+    }
+    let known = format!("supported formats are {}", extension_list(formats, "and"));
+    let Some(extension) = path.extension() else {
+        let message = format!("cannot write {}: missing file extension", path.display());
+        return Err(Error::usage(message).help(known));
+    };
+    let extension = extension.to_string_lossy();
+    let message = format!("cannot write {}: unknown file extension .{extension}", path.display());
+    let extensions: Vec<String> = formats.iter().map(dotted).collect();
+    let meant = extensions.iter().map(String::as_str);
+    Err(Error::not_found("format", format!(".{extension}"), meant, message).help(known))
+}
+
+/// Returns the extension of `format` with its dot.
+fn dotted<F: AsRef<FileFormat>>(format: &F) -> String {
+    format!(".{}", format.as_ref().extension())
 }

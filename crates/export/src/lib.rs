@@ -1,7 +1,7 @@
 //! Export: writes a scene as a model, a render or a drawing that other programs open.
 //!
 //! Input: a [`Scene`] in metres, z up. Output: one file, or several files that belong together, in the format of the
-//! path's extension ([`Format`]). The crate never changes the scene and never leaves incomplete files: everything is
+//! path's extension, from the table [`FORMATS`]. The crate never changes the scene and never leaves incomplete files: everything is
 //! written next to the path under temporary names ([`Files`]) and published when all of it is complete. The same scene
 //! results in the same bytes.
 //!
@@ -22,9 +22,12 @@ mod decompose;
 mod facts;
 mod files;
 mod format;
+mod formats;
 pub mod gltf;
 pub mod heights;
+mod layers;
 pub mod obj;
+mod render;
 pub mod svg;
 mod target;
 mod temporary;
@@ -36,15 +39,15 @@ mod samples;
 
 pub use facts::{Export, SceneFacts, SystemFacts};
 pub use files::{Files, Out, Stoppable};
-pub use format::Format;
+pub use format::{FileFormat, Format, Need, extension_list};
+pub use formats::{FORMATS, GLB, PNG};
+pub use render::png;
 pub use temporary::abandon;
 
 use burgeon_base::error::Result;
-use burgeon_base::stop::Stop;
-use burgeon_data::output;
-use burgeon_picture::{Picture, render_within};
+use burgeon_picture::Picture;
 use burgeon_scene::Scene;
-use std::io::{self, Write};
+use std::io;
 use std::path::Path;
 
 /// Writes `scene` to `path` in the format of its extension; only `.png` uses `picture`.
@@ -93,32 +96,8 @@ impl Files {
     /// or if a point is outside the domain of the format's projection.
     pub fn export(&mut self, export: &Export<'_>, path: &Path) -> Result<()> {
         let format = Format::of(path)?;
-        format.check()?;
-        let Export { scene, picture, facts } = export;
-        match format {
-            Format::Glb => gltf::write_glb(scene, facts, path, self),
-            Format::Gltf => gltf::write_gltf(scene, facts, path, self),
-            Format::Obj => obj::write(scene, facts, path, self),
-            Format::X3d => x3d::write(scene, facts, path, self),
-            Format::CityJson => city::write(export, path, self),
-            Format::Png => {
-                let png = png(scene, picture, &self.stop())?;
-                self.write(path, |out| out.write_all(&png))
-            }
-            Format::Svg => {
-                let drawing = svg::svg(scene, &self.stop())?;
-                self.write(path, |out| out.write_all(drawing.as_bytes()))
-            }
-            Format::GeoJson => {
-                let mut text = Vec::new();
-                output::write_geojson(facts.layers, facts.frame, &mut text)?;
-                self.write(path, |out| out.write_all(&text))
-            }
-            Format::GeoPackage => {
-                let package = burgeon_data::write_geopackage(facts.layers, facts.frame, &self.stop())?;
-                self.write(path, |out| out.write_all(&package))
-            }
-        }
+        format.file.check()?;
+        (format.write)(export, path, self)
     }
 }
 
@@ -180,22 +159,6 @@ fn uri(name: &str) -> String {
     uri
 }
 
-/// Renders `scene` as a PNG file. Fails as [`burgeon_picture::render`] does.
-///
-/// ```
-/// use burgeon_base::Stop;
-/// use burgeon_picture::{Picture, Quality};
-/// use burgeon_scene::{Scene, image};
-///
-/// let picture = Picture { width: 8, height: 6, quality: Quality::Draft, ..Picture::default() };
-/// let png = burgeon_export::png(&Scene::default(), &picture, &Stop::default())?;
-/// assert_eq!(image::decode(&png)?.height(), 6);
-/// # Ok::<(), burgeon_base::Error>(())
-/// ```
-pub fn png(scene: &Scene, picture: &Picture, stop: &Stop) -> Result<Vec<u8>> {
-    burgeon_scene::image::encode(&render_within(scene, None, picture, stop)?)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -208,7 +171,7 @@ mod tests {
         let samples = samples::all(temporary.path());
         assert_eq!(samples.len(), 16);
         for (name, scene) in &samples {
-            for format in Format::ALL.into_iter().filter(|format| *format != Format::Png) {
+            for format in FORMATS.iter().filter(|format| **format != PNG) {
                 let path = folder.join(format!("{name}.{}", format.extension()));
                 check_files([path.as_path()]).unwrap();
                 write(scene, &path, &Picture::default()).unwrap();

@@ -4,21 +4,22 @@
 //! either: y is up here, as in glTF. Materials have the classic lighting parameters and, for programs that support
 //! them, the physically based `Pr` and `Pm`.
 
-use super::SceneFacts;
 use super::check::{SceneCheck, check, shown_parts, triangles};
 use super::color::{fraction, srgb};
+use super::facts::Export;
 use super::files::Files;
 use super::stem;
 use super::texture::Images;
 use burgeon_base::error::Result;
 use burgeon_data::ReferenceFrame;
-use burgeon_scene::{Instance, Material, Part, Scene};
+use burgeon_scene::{Instance, Material, Part};
 use glam::{DMat3, DVec3};
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Writes an `.obj` file to `path`, with its `.mtl` file and copies of the textures next to it.
-pub(super) fn write(scene: &Scene, facts: &SceneFacts<'_>, path: &Path, files: &mut Files) -> Result<()> {
+pub(super) fn write(export: &Export<'_>, path: &Path, files: &mut Files) -> Result<()> {
+    let Export { scene, facts, .. } = export;
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
     let copies: Vec<String> =
@@ -27,7 +28,7 @@ pub(super) fn write(scene: &Scene, facts: &SceneFacts<'_>, path: &Path, files: &
         files.copy(&path.with_file_name(name), &file.bytes)?;
     }
     let names = material_names(&scene.materials);
-    let library = word(&format!("{}.mtl", stem(path)), "materials.mtl");
+    let library = library_name(path);
     files.write(&path.with_file_name(&library), |out| {
         writeln!(out, "{}", heading())?;
         for (i, material) in scene.materials.iter().enumerate().filter(|(i, _)| checked.materials[*i]) {
@@ -37,6 +38,15 @@ pub(super) fn write(scene: &Scene, facts: &SceneFacts<'_>, path: &Path, files: &
         Ok(())
     })?;
     files.write(path, |out| write_objects(&checked, facts.frame, &names, &library, out))
+}
+
+/// Returns the path of the materials of the `.obj` file at `path`.
+pub(super) fn library_path(path: &Path) -> PathBuf {
+    path.with_file_name(library_name(path))
+}
+
+fn library_name(path: &Path) -> String {
+    word(&format!("{}.mtl", stem(path)), "materials.mtl")
 }
 
 fn heading() -> String {
@@ -203,7 +213,7 @@ fn word(name: &str, other: &str) -> String {
 mod tests {
     use super::super::samples;
     use super::*;
-    use std::path::Path;
+    use burgeon_scene::Scene;
 
     /// Content of an OBJ file: the points, the triangles with the indices of their normals, and the text.
     struct ObjContent {

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use crate::commands::report;
+use burgeon::export::PNG;
 use burgeon::geometry::face;
 use burgeon::kit::ScriptExample;
 use burgeon::objects::EXAMPLES;
@@ -29,7 +30,7 @@ pub(super) fn example_of(name: &str) -> Option<&'static ScriptExample> {
 
 /// Returns the path of an example's picture, relative to the folder of the pages.
 pub(super) fn file_of(example: &ScriptExample) -> String {
-    format!("pictures/{}.png", example.name.replace('/', "-"))
+    format!("pictures/{}.{}", example.name.replace('/', "-"), PNG.extension())
 }
 
 /// Draws the pictures in `folder`, the folder of the pages, that are missing or whose scripts have changed.
@@ -55,7 +56,7 @@ pub(super) fn draw(folder: &Path) -> Result<()> {
     // Pictures without an example are deleted.
     for entry in std::fs::read_dir(&pictures).into_iter().flatten().flatten() {
         let name = entry.file_name().to_string_lossy().into_owned();
-        if name.ends_with(".png")
+        if PNG.file.stem(&name).is_some()
             && !EXAMPLES.iter().any(|example| file_of(example).ends_with(&format!("/{name}")))
         {
             std::fs::remove_file(entry.path()).map_err(|error| {

@@ -1,14 +1,15 @@
 //! Command `run`.
 
 use std::path::PathBuf;
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 use std::time::Instant;
 
 use super::{parts, watch};
 use crate::commands::progress::ProgressDisplay;
 use crate::commands::report;
 use crate::commands::shared::{PictureFlags, ScriptFlags, end_on_interrupt, size};
-use burgeon::export::Format;
+use burgeon::export::heights::{HEIGHT_FORMATS, HeightFormat};
+use burgeon::export::{FORMATS, FileFormat, Format, GLB, Need, extension_list};
 use burgeon::presets::Presets;
 use burgeon::results::layers;
 use burgeon::script::{Param, Preset, RunOptions, Session};
@@ -22,29 +23,28 @@ pub(crate) struct RunCommand {
     pub(super) script: ScriptFlags,
 
     /// Files of the model
-    #[arg(short, long, value_name = "FILE", value_parser = output, help = output_help())]
+    #[arg(short, long, value_name = "FILE", value_parser = output, help = output_help(), long_help = output_list())]
     pub(super) output: Vec<PathBuf>,
 
-    /// Includes ids and attributes of features in .glb and .gltf files: the attributes that the script names, or =NAMES, or
-    /// all with ='*'
+    /// Attributes of features to include
     #[arg(long, value_name = "NAMES", num_args = 0..=1, require_equals = true, value_delimiter = ',')]
-    #[arg(default_missing_value = "")]
+    #[arg(default_missing_value = "", help = metadata_help())]
     pub(super) metadata: Option<Vec<String>>,
 
     /// Writes the final chains as text, one per line; - is standard output, or the JSON document with --json
     #[arg(long, value_name = "FILE")]
     pub(super) chain: Option<PathBuf>,
 
-    /// Writes the heights of the terrain as a height map: .png, .asc, .tif, .r32 or .r64
-    #[arg(long, value_name = "FILE")]
+    /// File of the heights of the terrain
+    #[arg(long, value_name = "FILE", value_parser = heights, help = heights_help(), long_help = heights_list())]
     pub(super) heights: Option<PathBuf>,
 
     /// Writes the terrain edits, for edits(FILE) in a script
     #[arg(long, value_name = "FILE")]
     pub(super) edits: Option<PathBuf>,
 
-    /// Writes a .glb file for each tile of the terrain to this folder
-    #[arg(long, value_name = "FOLDER")]
+    /// Folder of the tiles of the terrain
+    #[arg(long, value_name = "FOLDER", help = tiles_help())]
     pub(super) tiles: Option<PathBuf>,
 
     /// Writes a JSON report of skipped and simplified features; - is standard output
@@ -72,13 +72,44 @@ pub(crate) struct RunCommand {
     save_preset: Option<String>,
 }
 
-/// Returns the help of `--output`, with the available formats.
-fn output_help() -> &'static str {
-    static HELP: LazyLock<String> = LazyLock::new(|| {
-        let formats = Format::extension_list("or");
-        format!("Writes the model to this file; the extension selects the format: {formats}. May be repeated")
-    });
-    &HELP
+fn output_help() -> String {
+    let formats = extension_list(&FORMATS, "or");
+    format!("Writes the model to this file; the extension selects the format: {formats}. May be repeated")
+}
+
+fn output_list() -> String {
+    let formats = format_list(FORMATS.iter().map(|format| &format.file));
+    format!("Writes the model to this file; the extension selects the format. May be repeated\n\n{formats}")
+}
+
+fn metadata_help() -> String {
+    let formats = extension_list(FORMATS.iter().filter(|format| format.has_metadata), "and");
+    format!(
+        "Includes ids and attributes of features in {formats} files: the attributes that the script names, or =NAMES, or \
+         all with ='*'"
+    )
+}
+
+fn heights_help() -> String {
+    let formats = extension_list(&HEIGHT_FORMATS, "or");
+    format!("Writes the heights of the terrain as a height map: {formats}")
+}
+
+fn heights_list() -> String {
+    let formats = format_list(HEIGHT_FORMATS.iter().map(|format| &format.file));
+    format!(
+        "Writes the heights of the terrain as a height map; the extension selects the format\n\n{formats}"
+    )
+}
+
+fn tiles_help() -> String {
+    format!("Writes a .{} file for each tile of the terrain to this folder", GLB.extension())
+}
+
+/// Lists `formats`, one per line.
+fn format_list<'a>(formats: impl Iterator<Item = &'a FileFormat>) -> String {
+    let line = |format: &FileFormat| format!("  {:<11} {}", format!(".{}", format.extension()), format.title);
+    formats.map(line).collect::<Vec<_>>().join("\n")
 }
 
 impl RunCommand {
@@ -114,7 +145,7 @@ impl RunCommand {
 
     /// Returns the options of the run.
     pub(super) fn options(&self) -> Result<RunOptions> {
-        let records = self.metadata.is_some() || self.writes(|format| format == Format::CityJson);
+        let records = self.metadata.is_some() || self.writes(Need::Attributes);
         let mut options = self.script.options()?;
         options.reports.records = records;
         options.limits.whole_program = true;
@@ -161,7 +192,7 @@ impl RunCommand {
     /// Adds warnings about files without content. In strict mode such a run fails.
     fn warn_of_nothing(&self, session: &Session, run: &mut burgeon::Run) -> Result<()> {
         let is_bare = || layers(session, &run.systems).iter().all(|layer| layer.records.is_empty());
-        if self.writes(Format::has_layers) && is_bare() {
+        if self.writes(Need::Layers) && is_bare() {
             let text = "no layers to write: no module of the final chains has a geometry";
             let warning = Warning::new(WarningKind::EmptyModel, text)
                 .at(run.systems.first().and_then(|system| system.place.clone()))
@@ -174,8 +205,7 @@ impl RunCommand {
         }
         let known = run.warnings.iter().any(|warning| warning.kind() == WarningKind::EmptyModel);
         let places = run.systems.first().map(|system| (system.place.clone(), system.caller.clone()));
-        let (Some((place, caller)), false) = (places, known || !self.writes(|format| !format.has_layers()))
-        else {
+        let (Some((place, caller)), false) = (places, known || !self.writes(Need::Scene)) else {
             return Ok(());
         };
         if run.scene.triangles() > 0 || session.options.steps.is_some() || session.options.part.is_some() {
@@ -193,9 +223,9 @@ impl RunCommand {
         Ok(())
     }
 
-    /// Returns true if the command writes a file of a matching format.
-    pub(super) fn writes(&self, is_such: impl Fn(Format) -> bool) -> bool {
-        self.output.iter().any(|output| Format::of(output).is_ok_and(&is_such))
+    /// Returns true if an output has a format with this need.
+    pub(super) fn writes(&self, need: Need) -> bool {
+        self.output.iter().any(|output| Format::of(output).is_ok_and(|format| format.needs(need)))
     }
 
     /// Saves the parameters and the seed of this run as a preset.
@@ -218,4 +248,9 @@ impl RunCommand {
 fn output(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     Format::of(&path).map(|_| path).map_err(|error| error.to_string())
+}
+
+fn heights(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    HeightFormat::of(&path).map(|_| path).map_err(|error| error.to_string())
 }

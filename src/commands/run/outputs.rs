@@ -3,7 +3,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use burgeon::export::{self, Export, Files, Format, SceneFacts, SystemFacts, heights::HeightMap};
+use burgeon::export::heights::{self, HeightFormat, HeightMap};
+use burgeon::export::{Export, Files, Format, GLB, Need, SceneFacts, SystemFacts};
 use burgeon::kit::declare::as_ref;
 use burgeon::objects::Terrain;
 use burgeon::picture::Picture;
@@ -21,23 +22,23 @@ const STANDARD: &str = "-";
 impl RunCommand {
     /// Fails, before any work, if an output file could not be written.
     pub(super) fn check_files(&self) -> Result<()> {
-        self.output.iter().try_for_each(|output| Format::of(output)?.check())?;
+        self.output.iter().try_for_each(|output| Format::of(output)?.file.check())?;
         self.check_text(self.chain.as_deref(), "chain", "the chains", "chains.txt")?;
         self.check_text(self.report.as_deref(), "report", "the report", "report.json")?;
         self.check_text(self.heights.as_deref(), "heights", "the heights", "heights.tif")?;
         self.check_text(self.edits.as_deref(), "edits", "the edits", "ground.json")?;
-        self.heights.as_deref().map_or(Ok(()), export::heights::check_name)?;
+        let heights = self.heights.as_deref().map(HeightFormat::of).transpose()?;
+        heights.map_or(Ok(()), |format| format.file.check())?;
         if self.script.json && self.report.as_deref() == Some(Path::new(STANDARD)) {
             return Err(Error::usage("standard output cannot take both a report and the JSON document")
                 .help("specify a file: --report report.json; the document contains the counts"));
         }
-        let beside = self.output.iter().filter_map(|output| match Format::of(output) {
-            Ok(Format::Gltf) => Some(output.with_extension("bin")),
-            Ok(Format::Obj) => Some(output.with_extension("mtl")),
-            _ => None,
-        });
-        let beside: Vec<_> = beside.collect();
-        let tile = self.tiles.as_ref().map(|folder| folder.join("0_0_0.glb"));
+        let beside = self.output.iter().filter_map(|output| Format::of(output).ok()?.file.companion(output));
+        let projection = heights.zip(self.heights.as_deref());
+        let projection = projection.and_then(|(format, path)| format.file.companion(path));
+        let beside: Vec<_> = beside.chain(projection).collect();
+        let tile =
+            self.tiles.as_ref().map(|folder| folder.join(tile_name(TilePlace { level: 0, x: 0, y: 0 })));
         let mut files = Files::default();
         self.tiles.as_deref().map_or(Ok(()), |folder| files.folder(folder))?;
         let all = self.output.iter().chain(&beside).chain(&tile).map(|path| path.as_path());
@@ -93,7 +94,7 @@ impl RunCommand {
         if let Some(path) = &self.heights {
             let GroundMap { columns, rows, corner, step, heights } = terrain(run)?.map()?;
             let map = HeightMap { columns, rows, corner, step, heights, frame: run.service().cloned() };
-            export::heights::write(&map, path, &mut files)?;
+            heights::write(&map, path, &mut files)?;
         }
         if let Some(path) = &self.edits {
             let text = terrain(run)?.edits_json();
@@ -102,7 +103,7 @@ impl RunCommand {
         let picture = self.picture.picture(self.size);
         let (systems, layers) = (
             systems(run),
-            if self.writes(Format::has_layers) { layers(session, &run.systems) } else { Vec::new() },
+            if self.writes(Need::Layers) { layers(session, &run.systems) } else { Vec::new() },
         );
         let metadata =
             self.metadata.as_ref().map(|names| attributes(session, names, &systems)).transpose()?;
@@ -114,9 +115,8 @@ impl RunCommand {
             metadata: metadata.as_deref(),
         };
         // Copies of textures are written last, so that their names differ from all other names.
-        let has_copies = |output: &&std::path::PathBuf| {
-            matches!(Format::of(output), Ok(Format::Gltf | Format::Obj | Format::X3d))
-        };
+        let has_copies =
+            |output: &&std::path::PathBuf| Format::of(output).is_ok_and(|format| format.has_textures);
         let (last, first): (Vec<_>, Vec<_>) = self.output.iter().partition(has_copies);
         for output in first.into_iter().chain(last) {
             files.export(&Export { scene: &run.scene, picture: &picture, facts }, output)?;
@@ -178,9 +178,14 @@ fn write_tiles(run: &burgeon::Run, folder: &Path, files: &mut Files) -> Result<(
         let TilePlace { level, x, y } = tile.place;
         let name = format!("{level}/{x}/{y}");
         let scene = run.scene.only(|instance| instance.name.rsplit(' ').next() == Some(name.as_str()));
-        files.scene(&scene, &folder.join(format!("{level}_{x}_{y}.glb")), &Picture::default())?;
+        files.scene(&scene, &folder.join(tile_name(tile.place)), &Picture::default())?;
     }
     Ok(())
+}
+
+/// Returns the file name of the tile at `place`.
+fn tile_name(TilePlace { level, x, y }: TilePlace) -> String {
+    format!("{level}_{x}_{y}.{}", GLB.extension())
 }
 
 /// Returns the terrain of a run. Fails unless there is exactly one.

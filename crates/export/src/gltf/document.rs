@@ -1,6 +1,6 @@
 //! Writes a scene as a document and its arrays as the binary part.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::body::Body;
 use super::description::{Description, use_extension};
@@ -12,7 +12,7 @@ use crate::check::{SceneCheck, check};
 use crate::decompose::{Y_UP_AXES, y_up};
 use crate::files::Files;
 use crate::texture::Images;
-use crate::{SceneFacts, stem, uri};
+use crate::{Export, SceneFacts, stem, uri};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::stop::Stop;
 use burgeon_scene::{Scene, ScenePackage};
@@ -87,37 +87,41 @@ fn bytes(scene: &Scene, arrays: Arrays, stop: &Stop) -> Result<(Vec<u8>, Layout)
 }
 
 /// Writes one `.glb` file to `path`.
-pub(crate) fn write_glb(scene: &Scene, facts: &SceneFacts<'_>, path: &Path, files: &mut Files) -> Result<()> {
-    let checked = check(scene)?;
+pub(crate) fn write_glb(export: &Export<'_>, path: &Path, files: &mut Files) -> Result<()> {
+    let checked = check(export.scene)?;
     let images = Images::load(&checked)?;
     let stop = files.stop();
-    let document = Document::new(&checked, facts, &images, &Textures::Embedded, Arrays::default(), &stop)?;
+    let document =
+        Document::new(&checked, &export.facts, &images, &Textures::Embedded, Arrays::default(), &stop)?;
     let head = document.head()?;
     files.write(path, |out| document.body.write(head, out, &stop))
 }
 
 /// Writes a `.gltf` file to `path`, with a `.bin` file and copies of the textures next to it.
-pub(crate) fn write_gltf(
-    scene: &Scene,
-    facts: &SceneFacts<'_>,
-    path: &Path,
-    files: &mut Files,
-) -> Result<()> {
-    let checked = check(scene)?;
+pub(crate) fn write_gltf(export: &Export<'_>, path: &Path, files: &mut Files) -> Result<()> {
+    let checked = check(export.scene)?;
     let images = Images::load(&checked)?;
     let names = images.copy_names(path, files);
     for (name, file) in names.iter().zip(&images.files) {
         files.copy(&path.with_file_name(name), &file.bytes)?;
     }
     let stop = files.stop();
-    let mut document =
-        Document::new(&checked, facts, &images, &Textures::Beside(names), Arrays::default(), &stop)?;
+    let textures = Textures::Beside(names);
+    let mut document = Document::new(&checked, &export.facts, &images, &textures, Arrays::default(), &stop)?;
     if let Some(buffer) = document.description.root.buffers.first_mut() {
-        let name = format!("{}.bin", stem(path));
-        buffer.uri = Some(uri(&name));
-        files.write(&path.with_file_name(&name), |out| document.body.write(Vec::new(), out, &stop))?;
+        buffer.uri = Some(uri(&buffer_name(path)));
+        files.write(&buffer_path(path), |out| document.body.write(Vec::new(), out, &stop))?;
     }
     files.write(path, |out| document.description.write_pretty(out))
+}
+
+/// Returns the path of the arrays of the `.gltf` file at `path`.
+pub(crate) fn buffer_path(path: &Path) -> PathBuf {
+    path.with_file_name(buffer_name(path))
+}
+
+fn buffer_name(path: &Path) -> String {
+    format!("{}.bin", stem(path))
 }
 
 /// Returns the extras of the asset: the packages that the scene was made with, and its location on the earth. Empty if

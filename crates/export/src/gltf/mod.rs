@@ -22,5 +22,5 @@ mod tests;
 mod weld;
 
 pub use document::{Layout, glb, glb_for_viewer, glb_with_texture_coordinates};
-pub(super) use document::{write_glb, write_gltf};
+pub(super) use document::{buffer_path, write_glb, write_gltf};
 pub use place::InstancePlace;

@@ -1,51 +1,13 @@
 //! Writes height maps in the format of a file name.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::Path;
 
-use super::height_map::{HeightMap, narrow};
-use super::packed;
-use crate::{Files, Out};
+use super::formats::{HEIGHT_FORMATS, HeightFormat};
+use super::height_map::HeightMap;
+use crate::{Files, extension_list};
 use burgeon_base::error::{Error, Result};
 use burgeon_data::ReferenceFrame;
-
-/// Marker of a missing height in an ASCII grid.
-const MISSING: &str = "-9999";
-
-/// Formats of height maps.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum HeightFormat {
-    Png,
-    Ascii,
-    GeoTiff,
-    Raw32,
-    Raw64,
-}
-
-impl HeightFormat {
-    /// Returns the format that the extension of `path` names. Fails if the program was built without it.
-    fn of(path: &Path) -> Result<Self> {
-        let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-        let format = match &*extension {
-            "png" => Self::Png,
-            "asc" => Self::Ascii,
-            "tif" | "tiff" => Self::GeoTiff,
-            "r32" | "f32" => Self::Raw32,
-            "r64" | "f64" => Self::Raw64,
-            _ => {
-                return Err(Error::usage(format!(
-                    "cannot write {}: unknown file extension of a height map",
-                    path.display()
-                ))
-                .help("supported formats are .png, .asc, .tif, .r32 and .r64"));
-            }
-        };
-        if matches!(format, Self::Png | Self::GeoTiff) {
-            packed::check()?;
-        }
-        Ok(format)
-    }
-}
 
 /// Writes `map` to the future file `path`, in the format of its extension.
 ///
@@ -69,30 +31,18 @@ impl HeightFormat {
 /// ```
 pub fn write(map: &HeightMap, path: &Path, files: &mut Files) -> Result<()> {
     let format = HeightFormat::of(path)?;
+    format.file.check()?;
     check(map, format).map_err(|error| error.about(&format!("cannot write {}", path.display())))?;
-    let text =
-        map.frame.as_ref().filter(|_| needs_text(map, format)).and_then(ReferenceFrame::well_known_text);
-    if let Some(text) = text {
-        files.write(&path.with_extension("prj"), |out| writeln!(out, "{text}"))?;
+    if let Some(companion) = format.file.companion(path).filter(|_| !(format.has_projection)(map))
+        && let Some(text) = map.frame.as_ref().and_then(ReferenceFrame::well_known_text)
+    {
+        files.write(&companion, |out| writeln!(out, "{text}"))?;
     }
-    files.write(path, |out| match format {
-        HeightFormat::Png => packed::write_png(map, out),
-        HeightFormat::Ascii => write_ascii(map, out),
-        HeightFormat::GeoTiff => packed::write_tiff(map, out),
-        HeightFormat::Raw32 => {
-            map.heights.iter().try_for_each(|height| out.write_all(&narrow(*height).to_le_bytes()))
-        }
-        HeightFormat::Raw64 => map.heights.iter().try_for_each(|height| out.write_all(&height.to_le_bytes())),
-    })
-}
-
-/// Fails if the extension of a file is not a height map format.
-pub fn check_name(path: &Path) -> Result<()> {
-    HeightFormat::of(path).map(|_| ())
+    files.write(path, |out| (format.write)(map, out))
 }
 
 /// Checks that `map` can be written in `format`.
-fn check(map: &HeightMap, format: HeightFormat) -> Result<()> {
+fn check(map: &HeightMap, format: &HeightFormat) -> Result<()> {
     let (columns, rows) = (map.columns, map.rows);
     let fits = columns.checked_mul(rows) == Some(map.heights.len());
     if !fits || columns < 2 || rows < 2 {
@@ -117,38 +67,18 @@ fn check(map: &HeightMap, format: HeightFormat) -> Result<()> {
         ))
         .help("give finite heights"));
     }
-    if format == HeightFormat::Png && map.heights.iter().any(|height| height.is_nan()) {
-        return Err(Error::argument("a PNG cannot have missing heights").help("write a GeoTIFF: .tif"));
+    let extension = format.file.extension();
+    if !format.has_gaps && map.heights.iter().any(|height| height.is_nan()) {
+        let others = extension_list(HEIGHT_FORMATS.iter().filter(|other| other.has_gaps), "or");
+        return Err(Error::argument(format!("a .{extension} file cannot leave heights out"))
+            .help(format!("write one of the formats {others}")));
     }
-    if matches!(format, HeightFormat::Raw32 | HeightFormat::Raw64) && columns != rows {
-        return Err(Error::argument(format!("raw floats must be square, not {columns} x {rows}"))
-            .help("make it square, or write a GeoTIFF: .tif"));
-    }
-    Ok(())
-}
-
-/// Returns true if a `.prj` file must contain the projection. ASCII grids cannot store one, and GeoTIFFs only store an
-/// EPSG code or a projection around a centre.
-fn needs_text(map: &HeightMap, format: HeightFormat) -> bool {
-    let is_told = map.frame.as_ref().is_some_and(|frame| frame.epsg.is_some() || frame.middle.is_some());
-    format == HeightFormat::Ascii || format == HeightFormat::GeoTiff && !is_told
-}
-
-fn write_ascii(map: &HeightMap, out: &mut Out) -> io::Result<()> {
-    let corner = map.projected_corner();
-    writeln!(out, "ncols {}\nnrows {}", map.columns, map.rows)?;
-    writeln!(out, "xllcorner {}\nyllcorner {}\ncellsize {}", corner.x, corner.y, map.step)?;
-    writeln!(out, "NODATA_value {MISSING}")?;
-    for row in map.heights.chunks_exact(map.columns) {
-        for (column, height) in row.iter().enumerate() {
-            let space = if column > 0 { " " } else { "" };
-            if height.is_nan() {
-                write!(out, "{space}{MISSING}")?;
-            } else {
-                write!(out, "{space}{}", narrow(*height))?;
-            }
-        }
-        writeln!(out)?;
+    if !format.has_size && columns != rows {
+        let others = extension_list(HEIGHT_FORMATS.iter().filter(|other| other.has_size), "or");
+        return Err(Error::argument(format!(
+            "a .{extension} file stores no width, and {columns} x {rows} is not square"
+        ))
+        .help(format!("make it square, or write one of the formats {others}")));
     }
     Ok(())
 }
@@ -256,10 +186,10 @@ mod tests {
             error.message().replace(&folder.path().display().to_string(), "FOLDER")
         };
         let mut hills = map(9, None);
-        insta::assert_snapshot!(told(&hills, "a.r32"), @"cannot write FOLDER/a.r32: raw floats must be square, not 12 x 9");
-        insta::assert_snapshot!(told(&hills, "a.obj"), @"cannot write FOLDER/a.obj: unknown file extension of a height map");
+        insta::assert_snapshot!(told(&hills, "a.r32"), @"cannot write FOLDER/a.r32: a .r32 file stores no width, and 12 x 9 is not square");
+        insta::assert_snapshot!(told(&hills, "a.obj"), @"cannot write FOLDER/a.obj: unknown file extension .obj");
         hills.heights[13] = f64::NAN;
-        insta::assert_snapshot!(told(&hills, "a.png"), @"cannot write FOLDER/a.png: a PNG cannot have missing heights");
+        insta::assert_snapshot!(told(&hills, "a.png"), @"cannot write FOLDER/a.png: a .png file cannot leave heights out");
         hills.heights[13] = f64::INFINITY;
         insta::assert_snapshot!(told(&hills, "a.tif"), @"cannot write FOLDER/a.tif: the height in row 2, column 2 is infinite");
         hills.heights.pop();

@@ -1,11 +1,15 @@
 //! Writes a drawing of a scene.
 
-use std::fmt::Write;
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::Path;
 
 use super::faces::{Palette, VisibleFaces};
 use super::view::DrawingSide;
 use super::{outline, sheets};
+use crate::Export;
 use crate::check::{SceneCheck, check};
+use crate::files::Files;
 use crate::texture::Images;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::stop::Stop;
@@ -48,6 +52,12 @@ pub fn svg(scene: &Scene, stop: &Stop) -> Result<String> {
     stop.check()?;
     let palette = Palette::new(&scene.materials, &images)?;
     document(&checked, view, &faces, &palette, stop)
+}
+
+/// Writes a drawing to `path`.
+pub(crate) fn write(export: &Export<'_>, path: &Path, files: &mut Files) -> Result<()> {
+    let drawing = svg(export.scene, &files.stop())?;
+    files.write(path, |out| out.write_all(drawing.as_bytes()))
 }
 
 /// Area and size of the paper, in metres of the drawing's coordinates with y downwards.

@@ -12,3 +12,4 @@ mod sheets;
 mod view;
 
 pub use drawing::svg;
+pub(super) use drawing::write;

@@ -8,12 +8,12 @@ use super::super::check::{SceneCheck, check, shown_parts};
 use super::super::decompose::{Steps, decompose, y_up};
 use super::super::files::Files;
 use super::super::texture::Images;
-use super::super::{SceneFacts, stem, uri};
+use super::super::{Export, stem, uri};
 use super::shape::{self, LookReference, Looks, numbers, title, write_feature};
 use super::xml::{escape_list_item, identifier};
 use burgeon_base::error::Result;
 use burgeon_data::ReferenceFrame;
-use burgeon_scene::{Instance, Scene, ScenePackage};
+use burgeon_scene::{Instance, ScenePackage};
 use glam::{DAffine3, DQuat, DVec3};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
@@ -65,7 +65,8 @@ struct DocumentPlan<'a> {
 }
 
 /// Writes an `.x3d` file to `path`, and copies of the textures next to it.
-pub(crate) fn write(scene: &Scene, facts: &SceneFacts<'_>, path: &Path, files: &mut Files) -> Result<()> {
+pub(crate) fn write(export: &Export<'_>, path: &Path, files: &mut Files) -> Result<()> {
+    let Export { scene, facts, .. } = export;
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
     let names = images.copy_names(path, files);

@@ -16,6 +16,7 @@ mod prefetch;
 mod rewriter;
 mod value;
 mod values;
+mod vector;
 
 pub use argument::Argument;
 pub use capability::{
@@ -29,8 +30,9 @@ pub use kind::{Call, Construct, Field, Kind, KindDeclaration, Make, Method, Read
 pub use loading::{LoadRequest, LoadServices, LoadedObject, Loader, Resources};
 pub use model::Model;
 pub use object::Object;
-pub use parameter::{Answer, AxisScale, Expectation, ObjectParameter, Parameter, Vector, object};
+pub use parameter::{Answer, Expectation, ObjectParameter, Parameter, object};
 pub use prefetch::{BeginPrefetch, Prefetch};
 pub use rewriter::{RewriteOutcome, Rewriter, RuleSet, System};
 pub use value::{Table, TableKey, Value, is_keyword};
 pub use values::Values;
+pub use vector::{AxisScale, Vector};

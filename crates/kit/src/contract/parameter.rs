@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::{Field, Object, ObjectContent, Table, TableKey, Value};
+use crate::{Field, Object, Table, TableKey, Value};
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
 use burgeon_rewriting::ColumnValue;
@@ -409,110 +409,9 @@ fn list(values: impl Iterator<Item = Value>) -> Value {
     Value::Table(Arc::new(Table { class: None, entries }))
 }
 
-/// Two or three numbers, as a list or with the names x, y and z. Two numbers have the z value 0.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Vector(pub DVec3);
-
-/// A scale for each axis, or one scale for all axes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AxisScale(pub DVec3);
-
-impl Default for AxisScale {
-    fn default() -> Self {
-        Self(DVec3::ONE)
-    }
-}
-
-impl Parameter for AxisScale {
-    fn luau() -> String {
-        "number | Vector".into()
-    }
-
-    fn from_value(value: Value) -> Result<Self, Expectation> {
-        match value {
-            Value::Number(_) => f64::from_value(value).map(|scale| Self(DVec3::splat(scale))),
-            value => {
-                let found = Vector::from_value(value.clone());
-                found.map(|Vector(scale)| Self(scale)).map_err(|_| {
-                    Expectation::new("a number, or a vector with a scale for each axis").found(&value)
-                })
-            }
-        }
-    }
-
-    fn into_value(self) -> Value {
-        Vector(self.0).into_value()
-    }
-}
-
-impl Parameter for Vector {
-    fn luau() -> String {
-        "Vector".into()
-    }
-
-    fn from_value(value: Value) -> Result<Self, Expectation> {
-        let what = || Expectation::new("a vector: { x, y, z } or vec(x, y, z)");
-        if let Value::Object(object) = &value
-            && let Some(position) = object.capability::<dyn ObjectContent>().and_then(|it| it.position())
-        {
-            return Ok(Self(position));
-        }
-        let Value::Table(table) = value else { return Err(what()) };
-        let mut parts = table.list();
-        if parts.is_empty() {
-            parts = ["x", "y", "z"].iter().filter_map(|name| table.get(name).cloned()).collect();
-        }
-        let number = |part: Value| match part {
-            Value::Number(number) if !number.is_finite() => {
-                Err(Expectation::new("a vector of finite numbers").found(&Value::Table(Arc::clone(&table))))
-            }
-            part => f64::from_value(part).map_err(|_| what()),
-        };
-        let numbers: Vec<f64> = parts.into_iter().map(number).collect::<Result<_, _>>()?;
-        match numbers.as_slice() {
-            [x, y] => Ok(Self(DVec3::new(*x, *y, 0.0))),
-            [x, y, z] => Ok(Self(DVec3::new(*x, *y, *z))),
-            _ => Err(what()),
-        }
-    }
-
-    fn into_value(self) -> Value {
-        let entries = [("x", self.0.x), ("y", self.0.y), ("z", self.0.z)];
-        let entries = entries.map(|(name, part)| (TableKey::Name(name.into()), Value::Number(part))).to_vec();
-        Value::Table(Arc::new(Table { class: Some("vec".into()), entries }))
-    }
-
-    fn written(self) -> String {
-        format!("vec({}, {}, {})", self.0.x, self.0.y, self.0.z)
-    }
-}
-
-impl Parameter for DVec3 {
-    fn luau() -> String {
-        Vector::luau()
-    }
-
-    fn from_value(value: Value) -> Result<Self, Expectation> {
-        Vector::from_value(value).map(|vector| vector.0)
-    }
-
-    fn into_value(self) -> Value {
-        Vector(self).into_value()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_scale_is_one_number_or_one_for_each_axis() {
-        let axes = Vector(DVec3::new(2.0, 3.0, 4.0)).into_value();
-        assert_eq!(AxisScale::from_value(Value::Number(2.0)).ok(), Some(AxisScale(DVec3::splat(2.0))));
-        assert_eq!(AxisScale::from_value(axes).ok(), Some(AxisScale(DVec3::new(2.0, 3.0, 4.0))));
-        assert!(AxisScale::from_value(Value::Text("large".into())).is_err());
-        assert_eq!(AxisScale::default(), AxisScale(DVec3::ONE));
-    }
 
     #[test]
     fn an_optional_number_may_be_left_out_of_a_column() {

@@ -1,4 +1,4 @@
-//! Download of the present model as a file, in any format that `run` writes.
+//! Download of the present model as a file, in the formats of a scene.
 
 use std::fs::{self, File};
 use std::io::{BufReader, Cursor};
@@ -7,9 +7,10 @@ use std::sync::Arc;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
+use super::message::FormatMessage;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::stop::Stop;
-use burgeon_export::{Files, Format};
+use burgeon_export::{FORMATS, Files, Format, Need};
 use burgeon_picture::Picture;
 use burgeon_scene::Scene;
 
@@ -22,6 +23,17 @@ pub(super) struct Download {
     pub name: String,
     pub media_type: &'static str,
     pub bytes: Vec<u8>,
+}
+
+/// Returns the formats that a page offers: those of a scene that this program was built with.
+pub(super) fn downloads() -> Vec<FormatMessage> {
+    let formats = FORMATS.iter().filter(|format| format.is_of_scenes() && format.file.check().is_ok());
+    let message = |format: &Format| FormatMessage {
+        extension: format.extension(),
+        title: format.file.title,
+        picture: format.needs(Need::Picture),
+    };
+    formats.map(message).collect()
 }
 
 /// Returns the result of `make`, which runs in a separate thread pool. Runs in progress share the global pool and must
@@ -38,7 +50,7 @@ pub(super) fn run_separately<T: Send>(make: impl FnOnce() -> T + Send) -> T {
 pub(super) fn download(scene: &Scene, name: &str, picture: &Picture, stop: &Arc<Stop>) -> Result<Download> {
     stop.check()?;
     let format = Format::of(name.as_ref())?;
-    let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
+    let stem = format.file.stem(name).unwrap_or(name);
     // The parts of a model refer to each other by the stem.
     let stem: String =
         stem.chars().map(|it| if it.is_alphanumeric() || "-_. ()".contains(it) { it } else { '_' }).collect();
@@ -57,7 +69,7 @@ pub(super) fn download(scene: &Scene, name: &str, picture: &Picture, stop: &Arc<
     }
     files.sort();
     if let [(_, path)] = &files[..] {
-        return Ok(Download { name, media_type: media_type(format), bytes: fs::read(path).map_err(failed)? });
+        return Ok(Download { name, media_type: format.media_type, bytes: fs::read(path).map_err(failed)? });
     }
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default()
@@ -103,20 +115,6 @@ pub(super) fn picture(query: &str) -> Result<Picture> {
     Ok(picture)
 }
 
-fn media_type(format: Format) -> &'static str {
-    match format {
-        Format::Glb => "model/gltf-binary",
-        Format::Gltf => "model/gltf+json",
-        Format::Obj => "model/obj",
-        Format::Png => "image/png",
-        Format::Svg => "image/svg+xml",
-        Format::X3d => "model/x3d+xml",
-        Format::CityJson => "application/city+json",
-        Format::GeoJson => "application/geo+json",
-        Format::GeoPackage => "application/geopackage+sqlite3",
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -144,6 +142,16 @@ mod tests {
         rayon::join(|| (), || ());
         (0..busy).for_each(|_| ended.send(()).unwrap());
         assert!(export.join().unwrap().into_iter().all(|ended| ended));
+    }
+
+    #[test]
+    fn a_page_offers_the_formats_of_a_scene_and_sends_its_camera_for_renders() {
+        let offered = downloads();
+        let extensions: Vec<&str> = offered.iter().map(|format| format.extension).collect();
+        assert!(extensions.contains(&"glb") && !extensions.contains(&"gpkg"), "{extensions:?}");
+        let pictures = offered.iter().filter(|format| format.picture).map(|format| format.extension);
+        let expected: &[&str] = if burgeon_export::PNG.file.check().is_ok() { &["png"] } else { &[] };
+        assert_eq!(pictures.collect::<Vec<_>>(), expected);
     }
 
     #[test]

@@ -33,6 +33,7 @@ mod state;
 mod token;
 mod tools;
 mod trace;
+mod urls;
 mod work;
 
 pub use live::Live;

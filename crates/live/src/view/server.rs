@@ -17,16 +17,14 @@ use super::export;
 use super::page;
 use super::socket;
 use super::state::ServerState;
+use super::urls::{MODEL, PICTURE, measured_hash, model_url};
 use burgeon_base::error::Error;
 use burgeon_base::stop::Stop;
-use burgeon_export::gltf;
+use burgeon_export::{Format, gltf};
 
 /// Content security policy: only content of this server. Textures inside models are read from the browser's memory.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; \
                       connect-src 'self' blob: data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
-
-/// File name suffix of a model with all its texture coordinates.
-const MEASURED: &str = ".uv.glb";
 
 const FOR_EVER: &str = "private, max-age=31536000, immutable";
 const NEVER: &str = "no-store";
@@ -124,13 +122,11 @@ async fn route(site: &Arc<Site>, request: Request, known: impl FnOnce()) -> Resp
         Some("viewer.css") => page::STYLE.answer(headers),
         Some("socket") => open_socket(site, request).await,
         Some(inner) => match inner.split_once('/') {
-            Some(("model", name)) if name.ends_with(MEASURED) => measured_model(site, name).await,
-            Some(("model", name)) => {
-                content_file(name, ".glb", "model/gltf-binary", |hash| site.state.model(hash))
-            }
-            Some(("picture", name)) => {
-                content_file(name, ".png", "image/png", |hash| site.state.picture(hash))
-            }
+            Some(("model", name)) => match measured_hash(name) {
+                Some(hash) => measured_model(site, hash).await,
+                None => content_file(name, &MODEL, |hash| site.state.model(hash)),
+            },
+            Some(("picture", name)) => content_file(name, &PICTURE, |hash| site.state.picture(hash)),
             Some(("export", name)) if !name.contains('/') => {
                 let query = request.uri().query().unwrap_or("").to_owned();
                 save(site, name, &query).await
@@ -162,30 +158,26 @@ async fn open_socket(site: &Arc<Site>, request: Request) -> Response {
 }
 
 /// Responds with a file whose name is a hash of its content.
-fn content_file(
-    name: &str,
-    ending: &str,
-    kind: &'static str,
-    find: impl Fn(&str) -> Option<Bytes>,
-) -> Response {
-    match name.strip_suffix(ending).and_then(find) {
-        Some(bytes) => {
-            ([(header::CONTENT_TYPE, kind), (header::CACHE_CONTROL, FOR_EVER)], bytes).into_response()
-        }
+fn content_file(name: &str, format: &Format, find: impl Fn(&str) -> Option<Bytes>) -> Response {
+    match format.file.stem(name).and_then(find) {
+        Some(bytes) => content_response(format, bytes),
         None => missing(),
     }
 }
 
+/// Responds with content that never changes.
+fn content_response(format: &Format, bytes: impl Into<Body>) -> Response {
+    let headers = [(header::CONTENT_TYPE, format.media_type), (header::CACHE_CONTROL, FOR_EVER)];
+    (headers, bytes.into()).into_response()
+}
+
 /// Encodes the present model as [`gltf::glb_with_texture_coordinates`] does. Few pages request it.
-async fn measured_model(site: &Arc<Site>, name: &str) -> Response {
+async fn measured_model(site: &Arc<Site>, hash: &str) -> Response {
     let shown = site.state.lock().shown.clone();
-    let url = name.strip_suffix(MEASURED).map(|hash| format!("model/{hash}.glb"));
+    let url = Some(model_url(hash));
     let Some(shown) = shown.filter(|shown| shown.message.url == url) else { return missing() };
     match site.export(move |stop| gltf::glb_with_texture_coordinates(&shown.run.scene, stop)).await {
-        Some(Ok(bytes)) => {
-            let kind = "model/gltf-binary";
-            ([(header::CONTENT_TYPE, kind), (header::CACHE_CONTROL, FOR_EVER)], bytes).into_response()
-        }
+        Some(Ok(bytes)) => content_response(&MODEL, bytes),
         Some(Err(error)) => plain_text(StatusCode::UNPROCESSABLE_ENTITY, error.to_string()),
         None => plain(StatusCode::INTERNAL_SERVER_ERROR, "the model ended early: this is a bug in Burgeon"),
     }
@@ -194,8 +186,7 @@ async fn measured_model(site: &Arc<Site>, name: &str) -> Response {
 async fn save(site: &Arc<Site>, name: &str, query: &str) -> Response {
     let refuse = |text: String| plain_text(StatusCode::BAD_REQUEST, text);
     let Some(name) = decode_name(name) else { return missing() };
-    let format = burgeon_export::Format::of(name.as_ref());
-    if !format.is_ok_and(|format| burgeon_export::Format::OF_SCENES.contains(&format)) {
+    if !Format::of(name.as_ref()).is_ok_and(Format::is_of_scenes) {
         return missing();
     }
     let picture = match export::picture(query) {

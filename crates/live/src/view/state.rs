@@ -13,14 +13,14 @@ use tokio::sync::broadcast;
 use super::message::{Cause, Event, Hello, ModelMessage};
 use super::open::Editor;
 use super::request::{Inputs, Request};
-use super::{Notice, Settings};
+use super::urls::picture_url;
+use super::{Notice, Settings, export};
 use burgeon_base::error::{Error, SourcePlace};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::Warning;
 use burgeon_engine::run::Run;
 use burgeon_engine::script::{Param, RunOptions, Session};
-use burgeon_export::Format;
 use burgeon_export::gltf::Layout;
 
 /// Maximum number of messages that wait for a page. A slower page receives the present state instead.
@@ -244,7 +244,7 @@ impl ServerState {
             script: self.script_name(),
             path: self.script.display().to_string(),
             editor: self.editor.is_some(),
-            formats: Format::OF_SCENES.map(Format::extension).to_vec(),
+            formats: export::downloads(),
             presets,
             stale: inner.stale.map(|since| since.elapsed().as_secs_f64()),
         }
@@ -323,7 +323,7 @@ impl ServerState {
         if inner.pictures.len() > PICTURES {
             inner.pictures.pop_front();
         }
-        format!("picture/{hash}.png")
+        picture_url(&hash)
     }
 
     /// Cancels the variations in progress, which are no longer needed.

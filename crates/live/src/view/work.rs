@@ -13,6 +13,7 @@ use super::job::{PROBLEMS, RunJob, options};
 use super::message::{Cause, Event, ModelMessage, ParamMessage};
 use super::request::Inputs;
 use super::state::{ActiveRun, LiveState, PresentModel, ServerState};
+use super::urls::model_url;
 use super::{Notice, describe};
 use crate::presets::Presets;
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
@@ -221,7 +222,7 @@ fn attempt(state: &ServerState, job: &RunJob, kept: &mut Option<Arc<Session>>) -
         let (file, time) = file?;
         message.nothing = file.note.clone().or(message.nothing);
         if let Some((hash, bytes)) = &file.content {
-            message.url = Some(format!("model/{hash}.glb"));
+            message.url = Some(model_url(hash));
             message.bytes = bytes.len();
         }
         message.times.encode = describe::ms(time);

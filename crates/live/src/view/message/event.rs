@@ -151,12 +151,23 @@ pub struct Hello {
     pub path: String,
     /// Set if `open` opens an editor.
     pub editor: bool,
-    /// Extensions of the formats of `export/`.
-    pub formats: Vec<&'static str>,
+    /// Formats of `export/`.
+    pub formats: Vec<FormatMessage>,
     /// Names of the presets.
     pub presets: Vec<String>,
     /// Time (s) for which the shown model has been out of date, if it is.
     pub stale: Option<f64>,
+}
+
+/// Format of a download.
+#[derive(Debug, Clone, Serialize)]
+pub struct FormatMessage {
+    /// Extension without a dot.
+    pub extension: &'static str,
+    /// Title for users.
+    pub title: &'static str,
+    /// Set if the camera and the size of the view belong to the request.
+    pub picture: bool,
 }
 
 impl Event {

@@ -13,7 +13,7 @@ mod origin;
 
 pub use cause::Cause;
 pub use command::{PageCommand, PickCommand, read};
-pub use event::{Event, Hello};
+pub use event::{Event, FormatMessage, Hello};
 pub use model::{
     Bounds, ControlMessage, CountMessage, ModelMessage, ParamMessage, RuleMessage, SystemMessage,
     TimesMessage, json,

@@ -13,7 +13,7 @@ pub struct ModelMessage {
     pub run: u64,
     /// Cause of the run.
     pub cause: Cause,
-    /// URL of the `.glb` file; `None` if the model is empty or too large.
+    /// URL of the binary glTF file; `None` if the model is empty or too large.
     pub url: Option<String>,
     /// Size of the file (bytes).
     pub bytes: usize,

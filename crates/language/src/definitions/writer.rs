@@ -1,118 +1,33 @@
-//! Definition file for editors: the scripting API in the syntax of Luau's type checker.
-//!
-//! If Luau's types cannot express a type, the file declares `any`, so valid scripts have no type errors. The types of
-//! arguments are wider than the types of results, because Luau compares the types of lists and tables exactly.
+//! Declarations of types, functions and values.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
-use burgeon_kit::{Argument, Construct, Expand, Field, Kind, Method, Registry, Show, is_keyword};
+use burgeon_kit::{Construct, Expand, Kind, Method, Registry, Show};
 
-use crate::form::{is_name, may_be_left_out};
-use crate::luau_type::LuauType;
-use crate::names::{Name, NameKind, OBJECT, Operator, names};
-use crate::notation::{capital, is_plain, key, merge, module_form, optional, with_parameters};
+use crate::names::{Name, Operator};
+use crate::notation::{capital, key, merge, module_form, with_parameters};
 use crate::script_types::{members, plain_name};
 
-/// Definitions for editors.
-#[derive(Debug, Clone)]
-pub struct Definitions {
-    /// Content of the definition file.
-    pub luau: String,
-    /// Documentation by the symbol that an editor looks up, such as `@burgeon/global/lerp`.
-    pub docs: BTreeMap<String, String>,
-}
-
-/// Creates the definitions of the types in `registry` and of the language.
-pub fn definitions(registry: &Registry) -> Definitions {
-    let mut writer = Writer::default();
-    for kind in registry.kinds().filter(|kind| kind.script.is_none()) {
-        writer.types.insert(kind.luau());
-        writer.types.extend(kind.family.as_ref().map(ToString::to_string));
-    }
-    writer.types.extend(names().iter().filter(|name| name.sort == NameKind::Given).map(type_name));
-    writer.types.extend(["Module", "Object", "ScriptObject"].map(str::to_owned));
-    for kind in registry.kinds().filter(|kind| kind.script.is_some()) {
-        let mut own = kind.luau();
-        // A script may declare a type whose Luau name is already used by Burgeon.
-        while !writer.types.insert(own.clone()) {
-            own.push_str("Type");
-        }
-        writer.classes.insert(kind.name.to_string(), own);
-    }
-    let mut body = String::new();
-    for name in names().iter().filter(|name| name.sort == NameKind::Given) {
-        writer.declare_returned(&mut body, name);
-    }
-    let mut families: Vec<&str> = registry.kinds().filter_map(|kind| kind.family.as_deref()).collect();
-    families.sort_unstable();
-    families.dedup();
-    for family in families {
-        let _ = writeln!(body, "declare class {family} extends Object end\n");
-    }
-    for kind in registry.kinds() {
-        writer.kind(&mut body, kind);
-    }
-    // A derived system extends the model class, which must be declared first.
-    let late: Vec<&Name> = names().iter().filter(|name| !name.extends.is_empty()).collect();
-    late.into_iter().for_each(|name| writer.class(&mut body, &name.luau, name, &name.extends));
-    for name in names() {
-        match name.sort {
-            NameKind::Given | NameKind::Function | NameKind::Luau => {}
-            NameKind::Module { kind, method } => {
-                let method = registry.get(kind).and_then(|kind| kind.method(method));
-                writer.module(&mut body, name, method);
-            }
-            NameKind::Global if name.name == OBJECT.name => writer.declaring(&mut body, name, registry),
-            NameKind::Global => match generic_returns(name) {
-                Some(generic) => writer.object_function(&mut body, name, generic, registry),
-                None => writer.global(&mut body, name),
-            },
-        }
-    }
-    let mut luau = String::from(
-        "-- What Burgeon's scripts can use, for luau-lsp with Luau's new type solver. Written by: burgeon api --luau\n\n\
-         -- A module, as the functions that module gives make it.\nexport type Module = any\n\n\
-         declare class Object end\n\n\
-         -- An object of a type that a script declares: what it has is known to that script alone.\n\
-         declare class ScriptObject extends Object\n  [string]: any\nend\n\n",
-    );
-    for (alias, stands_for) in &writer.aliases {
-        let _ = writeln!(luau, "export type {alias} = {stands_for}\n");
-    }
-    for unknown in writer.unknown.difference(&writer.types) {
-        if !writer.aliases.contains_key(unknown) {
-            let _ = writeln!(luau, "export type {unknown} = any\n");
-        }
-    }
-    Definitions { luau: luau + body.trim_end() + "\n", docs: writer.docs }
-}
-
 /// Returns the Luau type of the values that a name describes: `Vector` for vector.
-fn type_name(name: &Name) -> String {
+pub(super) fn type_name(name: &Name) -> String {
     Kind::new(name.name.clone(), "").luau()
 }
 
-/// Returns the generic type that a function returns, without its type parameter: `System`.
-fn generic_returns(name: &Name) -> Option<&str> {
-    let mut returns = name.forms.iter().map(|form| form.returns.as_str());
-    let generic = returns.find(|returns| names().iter().any(|it| it.is_generic() && it.luau == *returns))?;
-    generic.strip_suffix("<T>")
-}
-
+/// Writer of declarations.
 #[derive(Default)]
-struct Writer {
+pub(super) struct Writer {
     /// Names of declared types.
-    types: BTreeSet<String>,
+    pub(super) types: BTreeSet<String>,
     /// Names of used types.
-    unknown: BTreeSet<String>,
+    pub(super) unknown: BTreeSet<String>,
     /// Named tables of fields, and types that are accepted instead of another type.
-    aliases: BTreeMap<String, String>,
-    docs: BTreeMap<String, String>,
+    pub(super) aliases: BTreeMap<String, String>,
+    pub(super) docs: BTreeMap<String, String>,
     /// Name of the next table of named fields.
-    options: String,
+    pub(super) options: String,
     /// Class names of the types that scripts declare, by type name.
-    classes: BTreeMap<String, String>,
+    pub(super) classes: BTreeMap<String, String>,
 }
 
 impl Writer {
@@ -123,7 +38,7 @@ impl Writer {
     }
 
     /// Declares the type of a returned value: a class if it has methods, otherwise a table or an alias.
-    fn declare_returned(&mut self, out: &mut String, name: &Name) {
+    pub(super) fn declare_returned(&mut self, out: &mut String, name: &Name) {
         let own = type_name(name);
         if !name.instead.is_empty() {
             // A list with items of a type that Luau cannot infer is a list of `any`.
@@ -166,7 +81,7 @@ impl Writer {
         out.push_str("}\n\n");
     }
 
-    fn class(&mut self, out: &mut String, own: &str, name: &Name, extends: &str) {
+    pub(super) fn class(&mut self, out: &mut String, own: &str, name: &Name, extends: &str) {
         self.doc(out, &format!("globaltype/{own}"), &name.doc, "");
         let _ = writeln!(out, "declare class {own} extends {extends}");
         for field in &name.fields {
@@ -209,7 +124,7 @@ impl Writer {
         out.push_str("}\n\n");
     }
 
-    fn kind(&mut self, out: &mut String, kind: &Kind) {
+    pub(super) fn kind(&mut self, out: &mut String, kind: &Kind) {
         let own = self.class_name(kind);
         self.doc(out, &format!("globaltype/{own}"), &kind.doc, "");
         let _ = writeln!(out, "declare class {own} extends {}", kind.family.as_deref().unwrap_or("Object"));
@@ -251,58 +166,7 @@ impl Writer {
         }
     }
 
-    /// Returns the arguments of a type's constructor; `None` if scripts cannot construct the type.
-    fn constructor(&mut self, kind: &Kind) -> Option<String> {
-        let options = format!("{}Options", self.class_name(kind));
-        if !kind.fields.is_empty() && !matches!(kind.construct, Construct::Given) {
-            let table = self.table(&kind.fields);
-            self.aliases.insert(options.clone(), table);
-        }
-        Some(match (&kind.construct, &kind.first) {
-            (Construct::Given, _) => return None,
-            (Construct::File(loader), _) => {
-                let file = if loader.several.is_empty() { "string" } else { "string | { string }" };
-                match kind.fields.is_empty() {
-                    true => format!("file: {file}"),
-                    false => format!("file: {file}, options: {options}?"),
-                }
-            }
-            // The first argument is either the options table or the value of the field. Luau infers neither from a
-            // union.
-            (Construct::Fields(_), Some(first)) => format!("{first}: any, options: {options}?"),
-            (Construct::Fields(_), None) => format!("options: {options}?"),
-        })
-    }
-
-    /// Returns a table type whose fields are all optional.
-    fn table(&mut self, fields: &[Field]) -> String {
-        let mut table = String::from("{\n");
-        for field in fields {
-            let luau = self.argument_type(field.luau.trim_end_matches('?'), &field.fields);
-            let doc = field.doc.split_whitespace().collect::<Vec<_>>().join(" ");
-            let _ = writeln!(table, "  --- {doc}\n  read {}: {},", key(&field.name), optional(&luau));
-            for former in &field.former {
-                let doc = format!("Deprecated since {}: use {}.", former.since, former.instead);
-                let _ = writeln!(table, "  --- {doc}\n  read {}: {},", key(&former.name), optional(&luau));
-            }
-        }
-        table + "}"
-    }
-
-    fn arguments(&mut self, arguments: &[Argument], of_object: bool) -> String {
-        let mut list: Vec<String> = if of_object { vec!["self".to_owned()] } else { Vec::new() };
-        for argument in arguments {
-            let luau = self.argument_type(&argument.luau, &argument.fields);
-            let left_out = may_be_left_out(&argument.luau) && !may_be_left_out(&luau);
-            // Keywords of Luau cannot be names.
-            let more = if is_keyword(&argument.name) { "_" } else { "" };
-            let optional = if left_out { "?" } else { "" };
-            list.push(format!("{}{more}: {luau}{optional}", argument.name));
-        }
-        list.join(", ")
-    }
-
-    fn module(&mut self, out: &mut String, name: &Name, method: Option<&Method>) {
+    pub(super) fn module(&mut self, out: &mut String, name: &Name, method: Option<&Method>) {
         let doc = method.map_or(String::new(), |method| format!("{} ", method.doc)) + &name.doc;
         self.doc(out, &format!("global/{}", name.name), &doc, "");
         let form = module_form(name, method);
@@ -312,7 +176,13 @@ impl Writer {
 
     /// Declares a function whose generic result depends on the type of the object, which is passed as an object or as
     /// its constructor.
-    fn object_function(&mut self, out: &mut String, name: &Name, generic: &str, registry: &Registry) {
+    pub(super) fn object_function(
+        &mut self,
+        out: &mut String,
+        name: &Name,
+        generic: &str,
+        registry: &Registry,
+    ) {
         let given = |of: &str| format!("{generic}<{of}>");
         self.doc(out, &format!("global/{}", name.name), &name.doc, "");
         let _ = writeln!(out, "declare {}:", name.name);
@@ -345,12 +215,12 @@ impl Writer {
     }
 
     /// Returns the Luau class name of a type.
-    fn class_name(&self, kind: &Kind) -> String {
+    pub(super) fn class_name(&self, kind: &Kind) -> String {
         self.classes.get(&*kind.name).cloned().unwrap_or_else(|| kind.luau())
     }
 
     /// Declares the function that declares object types, with an overload for each known type name.
-    fn declaring(&mut self, out: &mut String, name: &Name, registry: &Registry) {
+    pub(super) fn declaring(&mut self, out: &mut String, name: &Name, registry: &Registry) {
         let scripts: Vec<_> = registry.kinds().filter(|kind| kind.script.is_some()).collect();
         let is_alone =
             |kind: &Kind| scripts.iter().filter(|other| plain_name(other) == plain_name(kind)).count() == 1;
@@ -377,7 +247,7 @@ impl Writer {
         let _ = writeln!(out, "  & ((name: string, declaration: any) -> ((fields: any?) -> ScriptObject))\n");
     }
 
-    fn global(&mut self, out: &mut String, name: &Name) {
+    pub(super) fn global(&mut self, out: &mut String, name: &Name) {
         self.doc(out, &format!("global/{}", name.name), &name.doc, "");
         let default = name.options().find(|field| field.name == "default");
         if let (Some(_), [form]) = (default, &name.forms[..]) {
@@ -425,101 +295,5 @@ impl Writer {
             let arguments: Vec<String> = names.iter().map(|name| format!("{name}: any")).collect();
             let _ = writeln!(out, "declare function {}({}): any\n", name.name, arguments.join(", "));
         }
-    }
-
-    /// Returns the Luau type of a value that a script receives.
-    fn got(&mut self, luau: &str) -> String {
-        let found = LuauType::read(luau);
-        if found == LuauType::Any {
-            return if luau.contains('<') { luau.to_owned() } else { "any".to_owned() };
-        }
-        self.type_text(&found, false)
-    }
-
-    /// Returns the Luau type of a value that a script passes. `fields` are the fields of a table of named fields.
-    fn argument_type(&mut self, luau: &str, fields: &[Field]) -> String {
-        let name = luau.trim_end_matches('?');
-        if !fields.is_empty() && is_name(name) {
-            if !self.aliases.contains_key(name) {
-                // The placeholder stops the recursion for types that contain themselves.
-                self.aliases.insert(name.to_owned(), String::new());
-                let table = self.table(fields);
-                self.aliases.insert(name.to_owned(), table);
-            }
-            // Luau rejects a table in a variable that omits a field of the type.
-            return "any".to_owned();
-        }
-        if !fields.is_empty() && matches!(name, "{ [string]: any }" | "{ ... }") {
-            let mark = if luau.ends_with('?') { "?" } else { "" };
-            let (options, table) = (self.options.clone(), self.table(fields));
-            self.aliases.insert(options.clone(), table);
-            return options + mark;
-        }
-        self.type_text(&LuauType::read(luau), true)
-    }
-
-    fn type_text(&mut self, of: &LuauType, taken: bool) -> String {
-        match of {
-            LuauType::Any => "any".to_owned(),
-            LuauType::Nil => "nil".to_owned(),
-            LuauType::Text(text) => format!("\"{text}\""),
-            LuauType::Function(text) => text.clone(),
-            LuauType::Named(name)
-                if matches!(&**name, "number" | "string" | "boolean" | "never" | "buffer") =>
-            {
-                name.clone()
-            }
-            LuauType::Named(name) => {
-                let like = format!("{name}Like");
-                if taken && self.aliases.contains_key(&like) {
-                    return like;
-                }
-                self.unknown.insert(name.clone());
-                name.clone()
-            }
-            LuauType::Union(of) => {
-                let is_optional = of.contains(&LuauType::Nil);
-                let some = of.iter().filter(|of| **of != LuauType::Nil);
-                let some: Vec<String> = some.map(|of| self.type_text(of, taken)).collect();
-                match (&some[..], is_optional) {
-                    ([one], true) if !one.contains("->") => format!("{one}?"),
-                    (_, true) => format!("({})?", some.join(" | ")),
-                    (_, false) => some.join(" | "),
-                }
-            }
-            // Luau gives a list of tables its own type and accepts it as no other type.
-            LuauType::List(item) if taken && !is_plain(item) => "any".to_owned(),
-            LuauType::List(item) => format!("{{ {} }}", self.type_text(item, taken)),
-            LuauType::Map => "any".to_owned(),
-            LuauType::Table(fields) => {
-                let read = if taken { "read " } else { "" };
-                let fields: Vec<String> = fields
-                    .iter()
-                    .map(|(name, of)| format!("{read}{name}: {}", self.type_text(of, taken)))
-                    .collect();
-                format!("{{ {} }}", fields.join(", "))
-            }
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn everything_is_declared_once_and_keeps_to_the_names_of_luau() {
-        let definitions = definitions(&burgeon_objects::registry());
-        let mut declared = BTreeSet::new();
-        for line in definitions.luau.lines() {
-            assert!(!line.contains(" end:"), "{line}");
-            let words: Vec<&str> = line.split([' ', '(', '<', ':']).collect();
-            if let [_, what @ ("class" | "function" | "type"), name, ..] = &words[..]
-                && !line.starts_with(' ')
-            {
-                assert!(declared.insert((*what == "function", *name)), "{name}");
-            }
-        }
-        assert!(declared.len() > 80, "{}", declared.len());
     }
 }
