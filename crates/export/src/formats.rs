@@ -235,20 +235,20 @@ mod tests {
     #[test]
     fn an_unknown_extension_is_refused_with_a_suggestion() {
         insta::assert_snapshot!(Format::of(Path::new("a/tower.gtlf")).unwrap_err(), @r"
-        cannot write a/tower.gtlf: .gtlf is not a format
+        cannot write a/tower.gtlf: unknown file extension .gtlf
           help: did you mean .gltf?
         ");
         insta::assert_snapshot!(find(&FORMATS[..3], Path::new("tower.step")).unwrap_err(), @r"
-        cannot write tower.step: .step is not a format
-          help: the formats are .glb, .gltf and .obj
+        cannot write tower.step: unknown file extension .step
+          help: supported formats are .glb, .gltf and .obj
         ");
     }
 
     #[test]
     fn a_missing_extension_is_refused() {
         insta::assert_snapshot!(find(&FORMATS[..1], Path::new("a.b/tower")).unwrap_err(), @r"
-        cannot write a.b/tower: its name does not end in a format
-          help: the formats are .glb
+        cannot write a.b/tower: missing file extension
+          help: supported formats are .glb
         ");
     }
 }
