@@ -21,4 +21,6 @@ mod properties;
 mod queries;
 mod results;
 mod scripts;
+mod steps;
 mod stochastic;
+mod streams;

@@ -38,6 +38,8 @@ pub(super) struct DerivationState<'a> {
     features: Option<RefCell<RowFeatures>>,
     /// Number of states of the chain that were published.
     published: u32,
+    /// Set if an interpretation rule has read the number of the step in the last pass.
+    reads_step: bool,
     /// Writer of checkpoints, if later runs can continue from them.
     checkpoints: Option<CheckpointWriter>,
 }
@@ -91,17 +93,20 @@ pub(super) fn derive(
         steps: Vec::new(),
         features: records.then(|| RefCell::new(RowFeatures::new(chain.symbols.len()))),
         published: 0,
+        reads_step: false,
         checkpoints,
     };
     let view = leader.machine.current.chains_derived.borrow().with_begun(plan.system, grammar.symbols());
     session.show_chains(view);
     let derived =
         burgeon_rewriting::derive(&phases(&state), &mut state, Arc::new(chain), begin, derivation.limit)?;
+    // If the last pass reads the number of the step, the derivation continues with the same chain to its last step.
+    let steps_made = if state.reads_step { derivation.limit } else { derived.steps };
     let later = state.later;
     state.first.retain(|warning| later.iter().all(|other| !other.says_the_same(warning)));
     Ok(DerivationResults {
         chain: derived.chain,
-        steps_made: derived.steps,
+        steps_made,
         times: state.times,
         rules: reports(plan, state.stepper.uses(), &state.interpretations),
         warnings: state.first.into_iter().chain(later).collect(),
@@ -167,9 +172,11 @@ impl Phase<DerivationState<'_>> for Rewrite {
             state.steps.push(Step { number, chain: before, applied, answers: Vec::new(), asked });
         }
         state.previous = Some(chain);
-        // A step that could repeat forever without a difference does not count.
+        // A step that could repeat forever without a difference does not count. A function that reads the number of the
+        // step can make a difference in a later step.
         let repeats = !outcome.changed && state.derivation.draws_afresh && !plan.steps.grammar.draws_random();
-        Ok(PhaseOutcome { chain: Arc::new(outcome.chain), settled: !outcome.ran || repeats })
+        let settled = (!outcome.ran || repeats) && !outcome.reads_step && !state.reads_step;
+        Ok(PhaseOutcome { chain: Arc::new(outcome.chain), settled })
     }
 }
 
@@ -257,7 +264,11 @@ impl Phase<DerivationState<'_>> for Interpret {
         state.later.retain(|warning| !warning.is_of_pass());
         let failed = state.failed().len();
         let uses = &mut state.interpretations;
-        InterpretationPass::pass(state.leader, plan, &chain, step, uses, &mut state.later)?;
+        // If only the last pass runs, the chain stays the same from `step` to the last step.
+        let last_only = state.derivation.last_only && plan.bounded;
+        let number = if last_only { state.derivation.limit } else { step };
+        state.reads_step =
+            InterpretationPass::pass(state.leader, plan, &chain, (step, number), uses, &mut state.later)?;
         plan.expand(&state.rewriter, &mut state.later)?;
         if state.failed().len() > failed {
             state.publish(&chain);

@@ -17,6 +17,8 @@ pub(crate) struct DerivationPlan {
     pub steps: Arc<StepPlan>,
     pub interpretations: Interpretations,
     pub objects: Option<Arc<Objects>>,
+    /// Set if the number of steps is given, which `step()` requires.
+    pub bounded: bool,
     /// Set if the time of each interpretation rule is measured.
     pub profiled: bool,
 }
@@ -97,6 +99,7 @@ impl Derivation {
         let is_part = options.part.is_some();
         let forgiving = (axiom.given > 1 || is_part) && !options.strict;
         let objects = (!objects.is_empty()).then(|| Arc::new(Objects::new(objects, forgiving)));
+        let limit = [steps, options.steps].into_iter().flatten().min();
         let plan = Arc::new(DerivationPlan {
             system: index,
             steps: Arc::new(StepPlan {
@@ -110,11 +113,11 @@ impl Derivation {
             }),
             interpretations: system.interpretations(&machine.library),
             objects,
+            bounded: limit.is_some(),
             profiled: options.reports.profile,
         });
         let declared = system.prepare(machine)?;
         system.tell_forestalled(machine, &plan.steps.grammar);
-        let limit = [steps, options.steps].into_iter().flatten().min().unwrap_or(usize::MAX);
         let draws_afresh = system.draws_afresh();
         Ok(Self {
             axiom,
@@ -127,7 +130,7 @@ impl Derivation {
             last_only: system.shows_last_only(),
             draws_afresh,
             draws: draws_afresh && system.object.is_some(),
-            limit: if options.check { 0 } else { limit },
+            limit: if options.check { 0 } else { limit.unwrap_or(usize::MAX) },
         })
     }
 }

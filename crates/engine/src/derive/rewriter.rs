@@ -51,6 +51,7 @@ impl<'a> SystemRewriter<'a> {
             }),
             interpretations: Interpretations::default(),
             objects: None,
+            bounded: true,
             profiled: false,
         });
         let declared = self.leader.machine.library.systems.borrow()[index].prepare(self.leader.machine)?;
