@@ -86,6 +86,6 @@ fn named(key: ModuleKey, parts: &MultiValue) -> Result<ModuleKey, usize> {
 /// Writes the next numbers of a stream into its buffer.
 fn write_numbers(buffer: &Buffer, stream: &mut Stream) {
     for place in 1..=NUMBERS {
-        buffer.write_bytes(place * 8, &stream.uniform().to_ne_bytes());
+        buffer.write_bytes(place * 8, &stream.uniform().to_le_bytes());
     }
 }
