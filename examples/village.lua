@@ -6,8 +6,7 @@ local storey = param(
   { default = 1, min = 0.5, max = 2, step = 0.1, doc = "heights, as multiples of the data's" }
 )
 local pitch = param("pitch", { default = 42, min = 10, max = 60, unit = "deg", doc = "slope of the roofs" })
-local eaves =
-  param("eaves", { default = 0.5, min = 0, max = 1.2, unit = "m", doc = "overhang of the roofs" })
+local eaves = param("eaves", { default = 0.5, min = 0, max = 1.2, unit = "m", doc = "overhang of the roofs" })
 local trees = param("trees", { default = true, doc = "whether trees are shown" })
 
 local walls = {

@@ -6,7 +6,6 @@ local build = require("templates/build")
 local nature = require("templates/nature")
 local quarters = require("templates/quarters")
 local roads = require("templates/roads")
-local skyline = require("templates/skyline")
 
 local file =
   param("file", { default = "quarter/roads.geojson", doc = "The streets; for a layer of it, FILE:LAYER" })
@@ -149,7 +148,7 @@ for _, lot in
     all = true,
   })
 do
-  local draw = skyline.stream(lot.id, 11)
+  local draw = stream("house", lot.id)
   local before = #houses
   if lot.use == "building" then
     for number, part in lot.terrace or {} do
@@ -168,7 +167,7 @@ end
 for _, building in known do
   local levels = tonumber(building.floors or building.levels or building["building:levels"])
     or (tonumber(building.height) or 9) / 3
-  local draw = skyline.stream(building.id, 11)
+  local draw = stream("house", building.id)
   local use = building.use or building.building or ""
   local style = if use == "church"
       or use == "cathedral"

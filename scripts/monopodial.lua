@@ -1,8 +1,7 @@
 --!strict
 -- A monopodial tree, after Honda's rules: The Algorithmic Beauty of Plants, figure 2.6. The apex grows straight; its
 -- branches divide alternately to the left and to the right, in horizontal planes.
-local years =
-  param("years", { default = 11, min = 1, max = 12, step = 1, doc = "How often the apices grow" })
+local years = param("years", { default = 11, min = 1, max = 12, step = 1, doc = "How often the apices grow" })
 local trunk =
   param("trunk", { default = 0.91, min = 0.7, max = 1, doc = "Length of an internode by the one before" })
 local branch =

@@ -6,7 +6,6 @@ local build = require("templates/build")
 local nature = require("templates/nature")
 local quarters = require("templates/quarters")
 local roads = require("templates/roads")
-local skyline = require("templates/skyline")
 
 local extent = param("extent", { default = 165, min = 110, max = 400, unit = "m", doc = "From the middle" })
 local wall_height = param("wall", { default = 7, min = 0, max = 14, unit = "m", doc = "0 for no wall" })
@@ -139,7 +138,7 @@ for _, lot in
   })
 do
   if lot.use == "building" then
-    local draw = skyline.stream(lot.id, 11)
+    local draw = stream("house", lot.id)
     local before = #houses
     for number, part in lot.terrace or {} do
       if part:area() > 26 then
@@ -214,7 +213,7 @@ do
     is_free = is_free and not site.geometry:intersects(block.geometry)
   end
   if is_free then
-    local draw = skyline.stream(site.id, 11)
+    local draw = stream("house", site.id)
     table.insert(houses, {
       id = site.id,
       geometry = site.geometry,

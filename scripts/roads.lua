@@ -7,8 +7,7 @@ local pattern = param("pattern", {
   default = "organic",
   choices = { "organic", "raster", "radial", "contours", "population", "districts", "centres" },
 })
-local extent =
-  param("extent", { default = 1000, min = 150, max = 5000, unit = "m", doc = "From the middle" })
+local extent = param("extent", { default = 1000, min = 150, max = 5000, unit = "m", doc = "From the middle" })
 local dead_ends = param("dead_ends", { default = "keep", choices = { "keep", "remove" } })
 
 -- Hills for the contour pattern.

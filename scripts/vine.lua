@@ -6,8 +6,7 @@ local days =
   param("days", { default = 72, min = 1, max = 140, step = 1, unit = "days", doc = "Steps of growth" })
 local shoots =
   param("shoots", { default = 4, min = 1, max = 8, step = 1, doc = "Shoots at the foot of each pillar" })
-local stride =
-  param("stride", { default = 0.11, min = 0.05, max = 0.2, unit = "m", doc = "Growth in a day" })
+local stride = param("stride", { default = 0.11, min = 0.05, max = 0.2, unit = "m", doc = "Growth in a day" })
 local branching =
   param("branching", { default = 0.055, min = 0, max = 0.4, doc = "Chance of a branch in a day" })
 local stone = param("stone", { default = "#c9b79a", doc = "Colour of the portal" })

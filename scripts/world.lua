@@ -2,8 +2,7 @@
 -- Part of a world as large as the earth: only the view from one position is expanded, with full detail nearby. The
 -- rules change with the level: continents, then mountains and plains, then single slopes.
 local east = param("east", { default = 15000, min = 0, max = 33000, unit = "km", doc = "Where one stands" })
-local north =
-  param("north", { default = 21000, min = 0, max = 33000, unit = "km", doc = "Where one stands" })
+local north = param("north", { default = 21000, min = 0, max = 33000, unit = "km", doc = "Where one stands" })
 local size = 512 * 2 ^ 16
 
 -- A range of changes for each quadrant.

@@ -2,8 +2,7 @@
 -- Parts of facades: walls and roofs by style, and windows, doors and balconies along a wall.
 local details = {}
 
-details.storey =
-  param("storey", { default = 3, min = 2.4, max = 5, unit = "m", doc = "How high a floor is" })
+details.storey = param("storey", { default = 3, min = 2.4, max = 5, unit = "m", doc = "How high a floor is" })
 
 type Style = {
   wall: string,

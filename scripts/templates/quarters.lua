@@ -66,7 +66,7 @@ local BY_DEPTH, FALLOFF = 0.75, 0.5
 local function row(lots: { any }, low: number, high: number, look: string, style: string): ({ any }, { any })
   local features, empty = {}, {}
   for _, lot in lots do
-    local draw = skyline.stream(lot.id, 7)
+    local draw = stream("row", lot.id)
     local share = BY_DEPTH * FALLOFF ^ (lot.street_depth or 0) + (1 - BY_DEPTH) * draw()
     local height = 3.1 * math.floor((low + (high - low) * share) / 3.1 + 0.5)
     local before = #features
@@ -96,7 +96,7 @@ end
 local function flats(lots: { any }): ({ any }, { any })
   local features, empty = {}, {}
   for _, lot in lots do
-    local draw = skyline.stream(lot.id, 5)
+    local draw = stream("flats", lot.id)
     local building = skyline.building(lot, {
       by = { noise = 0.4, depth = 0.6 },
       low = 11,
@@ -388,7 +388,7 @@ function quarters.distant(buildings: { any })
   local system = lsystem({ object = footprint, interpret = "last" })
   system:axiom(source(buildings), function(feature: any)
     local look: string = feature.look
-    local draw = skyline.stream(feature.lot.id, 3)
+    local draw = stream("tint", feature.lot.id)
     local tint: any = one(LOOKS[look].tints, draw())
     return footprint(feature.geometry, { attributes = quarters.attributes(feature) }),
       Block(feature.geometry, look, tint, feature.height, feature.tier == tops[feature.lot.id])

@@ -1,29 +1,9 @@
 --!strict
 -- Heights and plans of buildings: heights by the depth of the street, by noise, by the distance to centres or by a
 -- mix; detached houses below a height, and skyscrapers among the highest buildings; plans inside their lot. A lot is
--- a result of network:lots or network:sites. Random numbers depend on the id of the lot and a seed, so buildings are
--- independent.
+-- a result of network:lots or network:sites. Random numbers come from streams with the id of the lot as a key, so
+-- buildings are independent.
 local skyline = {}
-
--- The random numbers (0 to 1) of a name: a function that returns the next number.
-function skyline.stream(name: string, seed: number?): () -> number
-  local state = bit32.bxor(2166136261, (seed or 0) * 40503)
-  for place = 1, #name do
-    -- Halves, so that products are exact.
-    state = bit32.bxor(state, string.byte(name, place))
-    local low, high = bit32.band(state, 0xFFFF), bit32.rshift(state, 16)
-    state = bit32.band(low * 16777619 % 4294967296 + bit32.lshift(high * 403 % 65536, 16), 0xFFFFFFFF)
-  end
-  if state == 0 then
-    state = 1
-  end
-  return function()
-    state = bit32.bxor(state, bit32.lshift(state, 13))
-    state = bit32.bxor(state, bit32.rshift(state, 17))
-    state = bit32.bxor(state, bit32.lshift(state, 5))
-    return state / 4294967296
-  end
-end
 
 export type Heights = {
   -- The criterion: "depth" of the street, "noise", "centres", "presets", or a mix: { depth = 0.7, noise = 0.3 }.
@@ -112,7 +92,7 @@ end
 
 -- The height of a building on a lot, its kind, and its preferred width and depth.
 function skyline.building(lot: any, options: Heights?, drawn: (() -> number)?): Building
-  local draw = drawn or skyline.stream(lot.id)
+  local draw = drawn or stream("skyline", lot.id)
   local of: any = table.clone(USUAL :: any)
   for name, value in (options or {}) :: any do
     if (USUAL :: any)[name] == nil then
@@ -364,7 +344,7 @@ end
 
 -- The parts of a building on a lot, from bottom to top; none if the lot has no room for it. They are inside the lot.
 function skyline.plan(lot: any, building: Building, options: Plans?, drawn: (() -> number)?): { Tier }
-  local next = drawn or skyline.stream(lot.id .. " plan")
+  local next = drawn or stream("skyline plan", lot.id)
   local of: Plans = options or {}
   local front, side = of.front or 2, of.side or 1.5
   local draw, other = next(), next()
@@ -463,7 +443,7 @@ end
 function skyline.buildings(lots: { any }, heights: Heights?, plans: Plans?, seed: number?): ({ any }, { any })
   local features, empty = {}, {}
   for _, lot in lots do
-    local draw = skyline.stream(lot.id, seed)
+    local draw = stream("skyline", lot.id, seed or 0)
     local building = skyline.building(lot, heights, draw)
     local parts = skyline.features(lot, building, skyline.plan(lot, building, plans, draw))
     table.move(parts, 1, #parts, #features + 1, features)

@@ -42,6 +42,7 @@ mod scope;
 mod setup;
 mod shared_values;
 mod stores;
+mod streams;
 mod streets_on_ground;
 mod successors;
 mod support;

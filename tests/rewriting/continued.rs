@@ -31,7 +31,7 @@ fn write(name: &str, text: &str) -> PathBuf {
 }
 
 /// Scripts of the kinds that can be continued, with the number of steps of their longest run.
-const SCRIPTS: [(&str, &str); 6] = [
+const SCRIPTS: [(&str, &str); 9] = [
     (
         "numbers.lua",
         "local A, B = module('A', 'x'), module('B', 'x')
@@ -83,6 +83,33 @@ const SCRIPTS: [(&str, &str); 6] = [
          second:axiom(A(count))
          second:rule('A(x)', function(this, x) return A(x + count), B(count) end)
          second:derive(6)",
+    ),
+    (
+        "steps.lua",
+        "local A, B = module('A', 'n'), module('B', 'n')
+         local s = lsystem {}
+         s:axiom(A(0))
+         s:rule('A(n)', { when = function() return step() % 4 == 3 end }, function() return B(step()), A(step()) end)
+         s:rule('B(n)', function(this, n) if step() > 6 then return B(n + step() / 10) end end)
+         s:derive(12)",
+    ),
+    (
+        "drawn_steps.lua",
+        "local A = module('A')
+         local s = lsystem { object = extruder() }
+         s:axiom(A())
+         s:rule('A', { when = function(this) return this:position().z > 90 end }, [[ return nil ]])
+         s:interpret('A', function(this) this:extrude(1 + step()) end)
+         s:derive(12)",
+    ),
+    (
+        "streams.lua",
+        "local A, B = module('A', 'n'), module('B', 'u')
+         local s = lsystem { object = extruder() }
+         s:axiom(A(stream('first')()))
+         s:rule('A(n)', function(this, n) return B(stream('b')()), A(random() + stream('a', step())()) end)
+         s:interpret('B(u)', function(this, u) this:extrude(u + stream('draws')(1, 2)) end)
+         s:derive(12)",
     ),
     (
         "ends.lua",

@@ -22,4 +22,6 @@ mod properties;
 mod queries;
 mod results;
 mod scripts;
+mod steps;
 mod stochastic;
+mod streams;

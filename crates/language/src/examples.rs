@@ -49,6 +49,8 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "rgb" shows "rgb";
     "rule" shows "rule" "system:rule";
     "source" shows "source";
+    "step" shows "step";
+    "stream" shows "stream";
     "system" shows "system" "system:axiom" "system:ignore" "system:interpret" "system:derive";
     "vec" shows "vec";
     "vector" shows "vector" "vector:dot" "vector:cross" "vector:length" "vector:unit" "vector:distance"

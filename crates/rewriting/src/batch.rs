@@ -9,6 +9,7 @@ use crate::matching::{Bindings, ContextMatcher};
 use crate::output::Output;
 use crate::plan::StepPlan;
 use crate::rules::{Applications, RuleFailure, Rules};
+use crate::step_number::StepNumber;
 use crate::successors::{ModuleOrder, Successors};
 use crate::text::module_brief;
 use burgeon_base::error::{Error, Result};
@@ -52,7 +53,7 @@ pub(crate) struct Batch<'a> {
     pub plan: &'a StepPlan,
     pub chain: &'a Chain,
     pub links: &'a Links,
-    pub step: usize,
+    pub step: &'a StepNumber,
 }
 
 impl Batch<'_> {
@@ -74,7 +75,7 @@ impl Batch<'_> {
 
     /// Gathers the arguments, chains and keys of the applications `members` of `rule`.
     pub(crate) fn gather<'s>(
-        &self,
+        &'s self,
         rule: u16,
         members: &[u32],
         scratch: &'s mut Scratch,
@@ -107,6 +108,7 @@ impl Batch<'_> {
             keys: &scratch.keys,
             places: &scratch.places,
             weighted: declared.weight.is_some(),
+            step: self.step,
         }
     }
 
@@ -212,7 +214,7 @@ impl Batch<'_> {
         let params = &self.chain.params[active.param as usize..][..arity];
         let module = module_brief(grammar.symbols(), self.rules.parameters(), symbol, params);
         let error = failure.error.at(declared.place.clone()).rule(&declared.pattern.text);
-        (index, error.module(module, self.step))
+        (index, error.module(module, self.step.number()))
     }
 }
 

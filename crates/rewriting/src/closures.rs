@@ -5,17 +5,19 @@ use std::sync::Arc;
 
 use crate::chain::{CLOSE, Chain, DEEPEST, END, OPEN, Symbol};
 use crate::grammar::{Grammar, MOST_RULES, Rule};
-use crate::key::ModuleKey;
+use crate::key::{KeyPart, ModuleKey};
 use crate::pattern::Pattern;
 use crate::phases::{Phase, PhaseOutcome, Phases, derive};
 use crate::plan::StepPlan;
 use crate::rules::{Applications, RuleFailure, Rules};
 use crate::step::{NoHelpers, Stepper};
+use crate::step_number::StepNumber;
 use crate::successors::Successors;
 use crate::symbols::{Signature, Symbols};
 use crate::text::{PlainNumbers, chain_text};
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::random::Stream;
 
 type SuccessorClosure = Box<dyn Fn(&AppliedModule<'_>, &mut Successors)>;
 type GuardClosure = Box<dyn Fn(&AppliedModule<'_>) -> bool>;
@@ -26,6 +28,7 @@ pub struct AppliedModule<'a> {
     /// Arguments that the pattern names, in its order: first the left context, then the module, then the right context.
     pub arguments: &'a [f64],
     key: ModuleKey,
+    step: &'a StepNumber,
     drawn: Cell<usize>,
 }
 
@@ -38,6 +41,18 @@ impl AppliedModule<'_> {
         }
         self.drawn.set(self.drawn.get() + 1);
         stream.uniform()
+    }
+
+    /// Returns the random numbers of `parts`, a name and further keys, for this module. They do not depend on
+    /// [`AppliedModule::random`], nor change its numbers.
+    pub fn stream(&self, parts: &[KeyPart<'_>]) -> Stream {
+        parts.iter().fold(self.key, |key, part| key.named(*part)).stream()
+    }
+
+    /// Returns the number of the step that is running, from 1. A derivation does not end while a rule reads it, because
+    /// a later step may change the chain.
+    pub fn step(&self) -> usize {
+        self.step.read()
     }
 }
 
@@ -255,7 +270,7 @@ impl ClosureSystem {
         Ok(Chain { keys: keys.collect(), symbols: made.symbols, params: made.params, marks: Vec::new() })
     }
 
-    /// Derives a chain by at most `steps` steps; stops early if no rule applies.
+    /// Derives a chain by at most `steps` steps; stops early if no rule applies and no guard reads the number of the step.
     pub fn derive(&self, mut chain: Chain, steps: usize) -> Result<Chain> {
         let grammar = Grammar::new(Arc::new(self.symbols.clone()), self.rules.clone(), &self.ignored, true);
         chain.mark(BATCH, grammar.arities());
@@ -295,7 +310,7 @@ impl Phase<Stepper> for RewritePhase<'_> {
     fn run(&self, stepper: &mut Stepper, chain: Arc<Chain>, step: usize) -> Result<PhaseOutcome> {
         let outcome = stepper.step(self.0, &NoHelpers, &Stop::new(), &chain, step)?;
         stepper.reuse(chain);
-        Ok(PhaseOutcome { chain: Arc::new(outcome.chain), settled: !outcome.ran })
+        Ok(PhaseOutcome { chain: Arc::new(outcome.chain), settled: !outcome.ran && !outcome.reads_step })
     }
 }
 
@@ -306,6 +321,7 @@ impl ClosureSystem {
         (0..applications.count).map(move |application| AppliedModule {
             arguments: &applications.arguments[application * arity..][..arity],
             key: applications.keys.get(application).copied().unwrap_or_default(),
+            step: applications.step,
             drawn: Cell::new(usize::from(applications.weighted)),
         })
     }

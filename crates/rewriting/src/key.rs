@@ -57,11 +57,38 @@ impl ModuleKey {
         Self(mix(self.0 ^ 0xBE51)).child(place)
     }
 
+    /// Returns the key of a named stream of this key: `part` is its name. A further call adds a further key, and gives an
+    /// independent stream.
+    #[must_use]
+    pub fn named(self, part: KeyPart<'_>) -> Self {
+        let with = |key: u64, bits: u64| mix(mix(key).wrapping_add(bits));
+        Self(match part {
+            KeyPart::Number(number) => with(self.0 ^ 0x57EA, (number + 0.0).to_bits()),
+            KeyPart::Boolean(value) => with(self.0 ^ 0x57EB, u64::from(value)),
+            KeyPart::Text(text) => {
+                text.chunks(8).fold(with(self.0 ^ 0x57EC, text.len() as u64), |key, chunk| {
+                    with(key, chunk.iter().rev().fold(0, |bits, byte| bits << 8 | u64::from(*byte)))
+                })
+            }
+        })
+    }
+
     /// Returns the key of the random numbers of an interpretation rule.
     #[must_use]
     pub fn interpretation(self) -> Self {
         Self(mix(self.0 ^ 0x1D7E))
     }
+}
+
+/// Part of the key of a named stream.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum KeyPart<'a> {
+    /// A number; 0 and -0 are the same part.
+    Number(f64),
+    /// A text.
+    Text(&'a [u8]),
+    /// A truth value.
+    Boolean(bool),
 }
 
 const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
@@ -80,8 +107,12 @@ fn mix(state: u64) -> u64 {
 mod tests {
     use super::*;
 
+    fn text(text: &str) -> KeyPart<'_> {
+        KeyPart::Text(text.as_bytes())
+    }
+
     #[test]
-    fn a_stream_depends_on_the_seed_the_ordinal_and_the_feature() {
+    fn a_stream_depends_on_the_seed_the_ordinal_the_feature_and_the_name() {
         let root = ModuleKey::seed(1);
         let keys = [
             root,
@@ -94,10 +125,43 @@ mod tests {
             root.at_place(1),
             root.feature("a"),
             root.feature("b"),
+            root.named(text("a")),
+            root.named(text("b")),
+            root.named(text("ab")),
+            root.named(text("a")).named(text("b")),
+            root.named(text("b")).named(text("a")),
+            root.named(text("a")).named(text("1")),
+            root.named(text("a")).named(text("")),
+            root.named(text("a")).named(KeyPart::Number(1.0)),
+            root.named(text("a")).named(KeyPart::Number(2.0)),
+            root.named(text("a")).named(KeyPart::Boolean(true)),
+            root.named(text("a windowsill")),
+            root.named(text("a windowsill\0")),
+            root.child(0).named(text("a")),
+            root.named(text("a")).child(0),
         ];
         let mut first: Vec<u64> = keys.iter().map(|key| key.stream().uniform().to_bits()).collect();
         first.sort_unstable();
         first.dedup();
         assert_eq!(first.len(), keys.len());
+    }
+
+    #[test]
+    fn the_first_numbers_of_streams_with_neighbouring_keys_are_independent() {
+        let first = |x: f64, y: f64| {
+            let place = ModuleKey::seed(3).named(text("place"));
+            place.named(KeyPart::Number(x)).named(KeyPart::Number(y)).stream().uniform()
+        };
+        let mut cells = [0_u32; 100];
+        for x in 0..200 {
+            for y in 0..200 {
+                let (x, y) = (f64::from(x), f64::from(y));
+                let cell = (first(x, y) * 10.0) as usize * 10 + (first(x + 1.0, y) * 10.0) as usize;
+                cells[cell] += 1;
+            }
+        }
+        let chi: f64 = cells.iter().map(|count| (f64::from(*count) - 400.0).powi(2) / 400.0).sum();
+        assert!(chi < 148.2, "chi-square {chi} with 99 degrees of freedom");
+        assert_eq!(first(0.0, 0.0).to_bits(), first(-0.0, 0.0).to_bits());
     }
 }

@@ -10,7 +10,9 @@
 //! - A [`Stepper`] performs steps: it chooses the rule of each module, applies the rules in batches, and splices the
 //!   [`Successors`] into the next chain. [`Helpers`] are threads that process pieces of a step.
 //! - [`derive()`] runs [`Phase`]s, of which rewriting is one, until nothing can change.
-//! - Random numbers come from the [`ModuleKey`] of a module, which depends only on the seed and the lineage.
+//! - Random numbers come from the [`ModuleKey`] of a module, which depends only on the seed and the lineage. A named
+//!   stream of a module also depends on its [`KeyPart`]s.
+//! - Functions of rules can read the [`StepNumber`] of the step that is running.
 //! - A [`ClosureSystem`] is a whole system whose rules are closures.
 //!
 //! Lindenmayer's algae, whose lengths are the Fibonacci numbers:
@@ -58,6 +60,7 @@ mod plan;
 mod rules;
 mod splice;
 mod step;
+mod step_number;
 mod successors;
 mod symbols;
 mod text;
@@ -70,7 +73,7 @@ pub use closures::{AppliedModule, ClosureSystem};
 pub use column_value::ColumnValue;
 pub use failed_chains::FailedChains;
 pub use grammar::{Choice, Grammar, MOST_RULES, Rule};
-pub use key::ModuleKey;
+pub use key::{KeyPart, ModuleKey};
 pub use links::Links;
 pub use matching::{Bindings, ContextMatcher};
 pub use pattern::{Context, Item, Pattern};
@@ -78,6 +81,7 @@ pub use phases::{DerivedChain, Phase, PhaseOutcome, Phases, derive};
 pub use plan::StepPlan;
 pub use rules::{Applications, RuleFailure, Rules};
 pub use step::{Helpers, NoHelpers, StepOutcome, StepWork, Stepper};
+pub use step_number::StepNumber;
 pub use successors::{ReturnShape, Successors};
 pub use symbols::{FIRST_SYMBOL, NameScope, PLACEHOLDERS, Signature, Symbols, placeholder};
 pub use text::{PlainNumbers, ShowParameters, chain_text, module_brief, module_text, write_chains};

@@ -1,6 +1,7 @@
 //! Functions of rules, which are called for batches of modules.
 
 use crate::key::ModuleKey;
+use crate::step_number::StepNumber;
 use crate::successors::Successors;
 use crate::text::{PlainNumbers, ShowParameters};
 use burgeon_base::error::{Error, Result};
@@ -23,6 +24,8 @@ pub struct Applications<'a> {
     pub places: &'a [u32],
     /// Set if the choice among weighted rules has consumed the first number of each stream.
     pub weighted: bool,
+    /// Number of the step that is running.
+    pub step: &'a StepNumber,
 }
 
 /// Failure of a function.

@@ -9,6 +9,7 @@ use crate::links::Links;
 use crate::output::Output;
 use crate::plan::StepPlan;
 use crate::rules::Rules;
+use crate::step_number::StepNumber;
 use crate::uses::Use;
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, Limit, Result};
@@ -21,7 +22,7 @@ pub struct StepWork {
     plan: Arc<StepPlan>,
     chain: Arc<Chain>,
     links: Links,
-    step: usize,
+    step: StepNumber,
     pieces: Vec<ChainPiece>,
     next: AtomicUsize,
     /// First piece that failed; later pieces are not started.
@@ -40,7 +41,7 @@ impl StepWork {
             return false;
         }
         let batch =
-            Batch { rules, plan: &self.plan, chain: &self.chain, links: &self.links, step: self.step };
+            Batch { rules, plan: &self.plan, chain: &self.chain, links: &self.links, step: &self.step };
         let spare = self.spare.lock().recover().pop().unwrap_or_default();
         let result = stop.check().and_then(|()| batch.rewrite(self.pieces[index], scratch, spare));
         if result.is_err() {
@@ -98,6 +99,8 @@ pub struct StepOutcome {
     pub ran: bool,
     /// Set if any rule that ran replaced or erased its module.
     pub changed: bool,
+    /// Set if a function of a rule has read the number of the step.
+    pub reads_step: bool,
     /// For each symbol of the previous chain, the rule that ran or [`NO_RULE`](crate::NO_RULE), and the number of its
     /// successors; empty if the plan is not traced.
     pub applied: Vec<(u16, u32)>,
@@ -160,7 +163,7 @@ impl Stepper {
             plan: Arc::clone(&self.plan),
             chain: Arc::clone(chain),
             links: std::mem::take(&mut self.links),
-            step,
+            step: StepNumber::new(step),
             pieces,
             next: AtomicUsize::new(0),
             failed: AtomicUsize::new(usize::MAX),
@@ -175,9 +178,10 @@ impl Stepper {
         }
         let work = reclaim(work);
         let StepTotals { ran, changed, applied } = result?;
+        let reads_step = work.step.is_read();
         self.links = work.links;
         self.outputs = work.spare.into_inner().recover();
-        Ok(StepOutcome { chain: std::mem::take(&mut self.spare), ran, changed, applied })
+        Ok(StepOutcome { chain: std::mem::take(&mut self.spare), ran, changed, reads_step, applied })
     }
 
     /// Takes back a chain that is no longer needed, to reuse its memory.
@@ -230,7 +234,7 @@ impl Stepper {
             output.clear();
             work.spare.lock().recover().push(output);
             if made.symbols.len() > self.plan.limit {
-                return Err(self.limit_error(&growth, work.step));
+                return Err(self.limit_error(&growth, work.step.number()));
             }
         }
         Ok(StepTotals { ran, changed, applied })

@@ -85,6 +85,8 @@ impl RunProgress {
 struct ScriptFacts {
     /// Set if a file may draw random numbers.
     randoms: AtomicBool,
+    /// Set if a file may read the number of the step.
+    steps: AtomicBool,
     /// Set if a file may distinguish a new table from an existing one.
     inspects_tables: AtomicBool,
     /// Set if a file may set metatables.
@@ -316,6 +318,11 @@ impl Session {
         self.facts.randoms.load(Ordering::Acquire)
     }
 
+    /// Returns true if a script file may read the number of the step.
+    pub(crate) fn reads_step(&self) -> bool {
+        self.facts.steps.load(Ordering::Acquire)
+    }
+
     /// Returns true if a script file may distinguish a new table from an existing one.
     pub(crate) fn inspects_tables(&self) -> bool {
         self.facts.inspects_tables.load(Ordering::Acquire)
@@ -409,6 +416,7 @@ impl Session {
     /// Records the facts that the analysis found.
     pub(crate) fn note(&self, analysis: &Analysis) {
         self.facts.randoms.fetch_or(analysis.random, Ordering::AcqRel);
+        self.facts.steps.fetch_or(analysis.reads_step, Ordering::AcqRel);
         self.facts.metatables.fetch_or(has_metatables(&analysis.text), Ordering::AcqRel);
         self.facts.inspects_tables.fetch_or(inspects_tables(&analysis.text), Ordering::AcqRel);
     }

@@ -108,6 +108,10 @@ fn inputs(session: &Session, derivation: &Derivation, derived: &[Arc<DerivedSyst
     let options = &session.options;
     let _ = writeln!(text, "{:?} {:?}", session.script(), options.registry);
     let _ = writeln!(text, "{} {} {:?}", options.seed, options.lod, options.part);
+    // A function that reads the number of the step fails in a derivation without a given number of steps.
+    if session.reads_step() {
+        let _ = writeln!(text, "{}", derivation.plan.bounded);
+    }
     for param in session.params() {
         let _ = writeln!(text, "{param:?}");
     }

@@ -3,17 +3,21 @@
 use crate::machine::{Machine, SystemFunctions, read_column, write_column};
 use burgeon_base::error::Result;
 use burgeon_rewriting::{Applications, RuleFailure, Rules, ShowParameters, Successors};
+use mlua::{FromLuaMulti, Function};
 
 /// Rule functions of a system in a virtual machine.
 pub(super) struct LuaRules<'a> {
     pub machine: &'a Machine,
     pub declared: &'a SystemFunctions,
+    /// Set if the number of steps is given.
+    pub bounded: bool,
 }
 
 impl LuaRules<'_> {
     /// Passes arguments, places, chains and random keys of a batch of applications to the machine.
     fn prepare(&self, applications: &Applications<'_>) -> Result<()> {
         let current = &self.machine.current;
+        current.begin_step(applications.step.number(), self.bounded);
         if !applications.places.is_empty() {
             current.places.replace(applications.places.to_vec());
         }
@@ -50,6 +54,19 @@ impl LuaRules<'_> {
         write_column(buffer.map_err(|error| self.machine.translate(error))?, &column)
     }
 
+    /// Calls a driver of a rule or guard for all applications.
+    fn call<R: FromLuaMulti>(
+        &self,
+        driver: &Function,
+        applications: &Applications<'_>,
+    ) -> Result<R, RuleFailure> {
+        let called = self.machine.call(driver, applications.count);
+        if self.machine.current.has_read_step() {
+            applications.step.note_read();
+        }
+        called.map_err(|error| self.failure(error))
+    }
+
     /// Returns the failure with the index of the application that failed.
     fn failure(&self, error: mlua::Error) -> RuleFailure {
         let prelude = self.machine.prelude();
@@ -71,8 +88,7 @@ impl Rules for LuaRules<'_> {
         }
         current.drawn.set(0);
         let driver = &self.declared.drivers[usize::from(applications.rule)];
-        let (modules, bytes): (usize, usize) =
-            self.machine.call(driver, applications.count).map_err(|error| self.failure(error))?;
+        let (modules, bytes): (usize, usize) = self.call(driver, applications)?;
         made.draws = made.draws.max(current.drawn.get());
         let (symbols, params, order, items) = prelude.outputs().map_err(lua)?;
         read_column(symbols, modules, &mut made.symbols)?;
@@ -88,7 +104,7 @@ impl Rules for LuaRules<'_> {
         let counts = self.machine.prelude().counts(applications.count * 4);
         let counts = counts.map_err(|error| self.machine.translate(error))?;
         let Some(guard) = &self.declared.guards[usize::from(applications.rule)] else { return Ok(()) };
-        let asked = self.machine.call::<()>(guard, applications.count).map_err(|error| self.failure(error));
+        let asked = self.call::<()>(guard, applications);
         // Guard results before the failure remain valid.
         read_column(counts, applications.count, holds)?;
         asked

@@ -40,6 +40,10 @@ pub(super) struct DerivationState<'a> {
     features: Option<RefCell<RowFeatures>>,
     /// Number of states of the chain that were published.
     published: u32,
+    /// Set if an interpretation rule has read the number of the step in the last pass.
+    reads_step: bool,
+    /// Set if a decomposition has read the number of the step.
+    decomposition_reads_step: bool,
     /// Writer of checkpoints, if later runs can continue from them.
     checkpoints: Option<CheckpointWriter>,
 }
@@ -94,6 +98,8 @@ pub(super) fn derive(
         steps: Vec::new(),
         features: records.then(|| RefCell::new(RowFeatures::new(chain.symbols.len()))),
         published: 0,
+        reads_step: false,
+        decomposition_reads_step: false,
         checkpoints,
     };
     let view = leader.machine.current.chains_derived.borrow().with_begun(plan.system, grammar.symbols());
@@ -105,12 +111,14 @@ pub(super) fn derive(
         begin,
         derivation.limit,
     )?;
+    // If the last pass reads the number of the step, the derivation continues with the same chain to its last step.
+    let steps_made = if state.reads_step { derivation.limit } else { derived.steps };
     let uses = state.uses();
     let later = state.later;
     state.first.retain(|warning| later.iter().all(|other| !other.says_the_same(warning)));
     Ok(DerivationResults {
         chain: derived.chain,
-        steps_made: derived.steps,
+        steps_made,
         times: state.times,
         rules: reports(plan, &uses, &state.interpretations),
         warnings: state.first.into_iter().chain(later).collect(),
@@ -178,9 +186,12 @@ impl Phase<DerivationState<'_>> for Rewrite {
         state.times.rewriting += begin.elapsed();
         state.record(&chain, &mut outcome, number);
         state.previous = Some(chain);
-        // A step that could repeat forever without a difference does not count.
+        // A step that could repeat forever without a difference does not count. A function that reads the number of the
+        // step can make a difference in a later step.
         let repeats = !outcome.changed && state.derivation.draws_afresh && !plan.steps.grammar.draws_random();
-        Ok(PhaseOutcome { chain: Arc::new(outcome.chain), settled: !outcome.ran || repeats })
+        let reads_step = outcome.reads_step || state.reads_step || state.decomposition_reads_step;
+        let settled = (!outcome.ran || repeats) && !reads_step;
+        Ok(PhaseOutcome { chain: Arc::new(outcome.chain), settled })
     }
 }
 
@@ -206,6 +217,7 @@ impl Phase<DerivationState<'_>> for Decompose {
             }
             let mut outcome = step(state.leader, plan, &mut decomposer, declared, &chain, number)?;
             state.times.rewriting += begin.elapsed();
+            state.decomposition_reads_step |= outcome.reads_step;
             if !outcome.changed {
                 break;
             }
@@ -338,7 +350,11 @@ impl Phase<DerivationState<'_>> for Interpret {
         state.later.retain(|warning| !warning.is_of_pass());
         let failed = state.failed().len();
         let uses = &mut state.interpretations;
-        InterpretationPass::pass(state.leader, plan, &chain, step, uses, &mut state.later)?;
+        // If only the last pass runs, the chain stays the same from `step` to the last step.
+        let last_only = state.derivation.last_only && plan.bounded;
+        let number = if last_only { state.derivation.limit } else { step };
+        state.reads_step =
+            InterpretationPass::pass(state.leader, plan, &chain, (step, number), uses, &mut state.later)?;
         plan.expand(&state.rewriter, &mut state.later)?;
         if state.failed().len() > failed {
             state.publish(&chain);

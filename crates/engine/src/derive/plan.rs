@@ -26,6 +26,8 @@ pub(crate) struct DerivationPlan {
     pub decomposition: Option<Decomposition>,
     pub interpretations: Interpretations,
     pub objects: Option<Arc<Objects>>,
+    /// Set if the number of steps is given, which `step()` requires.
+    pub bounded: bool,
     /// Set if the time of each interpretation rule is measured.
     pub profiled: bool,
 }
@@ -106,6 +108,7 @@ impl Derivation {
         let is_part = options.part.is_some();
         let forgiving = (axiom.given > 1 || is_part) && !options.strict;
         let objects = (!objects.is_empty()).then(|| Arc::new(Objects::new(objects, forgiving)));
+        let limit = [steps, options.steps].into_iter().flatten().min();
         let step_plan = |grammar| {
             Arc::new(StepPlan {
                 grammar,
@@ -131,11 +134,11 @@ impl Derivation {
             decomposition,
             interpretations: system.interpretations(&machine.library),
             objects,
+            bounded: limit.is_some(),
             profiled: options.reports.profile,
         });
         let declared = system.prepare(machine)?;
         system.tell_forestalled(machine, &plan.steps.grammar);
-        let limit = [steps, options.steps].into_iter().flatten().min().unwrap_or(usize::MAX);
         let draws_afresh = system.draws_afresh();
         Ok(Self {
             axiom,
@@ -148,7 +151,7 @@ impl Derivation {
             last_only: system.shows_last_only(),
             draws_afresh,
             draws: draws_afresh && system.object.is_some(),
-            limit: if options.check { 0 } else { limit },
+            limit: if options.check { 0 } else { limit.unwrap_or(usize::MAX) },
         })
     }
 }

@@ -52,6 +52,7 @@ impl<'a> SystemRewriter<'a> {
             decomposition: None,
             interpretations: Interpretations::default(),
             objects: None,
+            bounded: true,
             profiled: false,
         });
         let declared = self.leader.machine.library.systems.borrow()[index].prepare(self.leader.machine)?;

@@ -274,7 +274,7 @@ fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<R
                 machine.enter(plan.system)?;
                 machine.current.objects.replace(plan.objects.clone());
                 machine.refresh();
-                let rules = LuaRules { machine, declared };
+                let rules = LuaRules { machine, declared, bounded: plan.bounded };
                 while work.work(&rules, &machine.session.stop, &mut scratch) {}
                 machine.current.objects.replace(None);
             }

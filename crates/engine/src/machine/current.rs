@@ -30,6 +30,16 @@ pub(crate) trait Flusher: std::any::Any {
     fn lost(&mut self, entry: usize, value: Option<&str>);
 }
 
+/// Step for which rules or interpretation rules run.
+#[derive(Clone, Copy)]
+struct RunningStep {
+    number: usize,
+    /// Set if the number of steps is given, which `step()` requires.
+    bounded: bool,
+    /// Set if a function has read the number.
+    read: bool,
+}
+
 /// State of the current rewriting or interpretation.
 pub(crate) struct WorkState {
     pub session: Arc<Session>,
@@ -47,6 +57,8 @@ pub(crate) struct WorkState {
     pub used: Cell<usize>,
     /// Maximum number of random numbers that one recent application has drawn.
     pub drawn: Cell<usize>,
+    /// Step for which rules run, if any have run.
+    step: Cell<Option<RunningStep>>,
     /// Type of `this`; Lua refers to its methods by number.
     pub kind: RefCell<Option<Arc<Kind>>>,
     /// Shapes of prepared results, by number.
@@ -71,6 +83,7 @@ impl WorkState {
             places: RefCell::default(),
             used: Cell::new(0),
             drawn: Cell::new(0),
+            step: Cell::new(None),
             kind: RefCell::default(),
             shapes: RefCell::default(),
             flusher: RefCell::default(),
@@ -92,14 +105,43 @@ impl WorkState {
 
     /// Draws number `index` of an application's random stream.
     pub(crate) fn draw(&self, application: usize, index: usize) -> Result<f64> {
-        let keys = self.keys.borrow();
-        let key = keys.get(application).ok_or_else(|| Error::scope("random is not available here"))?;
-        let mut stream = key.stream();
+        let mut stream = self.key(Some(application))?.stream();
         for _ in 0..self.used.get() + index {
             stream.uniform();
         }
         self.drawn.set(self.drawn.get().max(index + 1));
         Ok(stream.uniform())
+    }
+
+    /// Returns the key of an application's random stream, or that of the top level for `None`.
+    pub(crate) fn key(&self, application: Option<usize>) -> Result<ModuleKey> {
+        let Some(application) = application else { return Ok(ModuleKey::seed(self.session.options.seed)) };
+        let key = self.keys.borrow().get(application).copied();
+        key.ok_or_else(|| Error::scope("random numbers are not available here"))
+    }
+
+    /// Sets the number of the step for the next calls. `bounded` is set if the number of steps is given.
+    pub(crate) fn begin_step(&self, number: usize, bounded: bool) {
+        self.step.set(Some(RunningStep { number, bounded, read: false }));
+    }
+
+    /// Returns the number of the step for a function of the script. Fails if the derivation runs until nothing changes,
+    /// because a function that reads the number can always change something.
+    pub(crate) fn read_step(&self) -> Result<usize> {
+        let step = self.step.get().ok_or_else(|| Error::scope("no step is running"))?;
+        if !step.bounded {
+            return Err(Error::scope(
+                "step() needs a number of steps, but this derivation runs until nothing changes",
+            )
+            .help("pass a number to derive: system:derive(20), or set --steps 20"));
+        }
+        self.step.set(Some(RunningStep { read: true, ..step }));
+        Ok(step.number)
+    }
+
+    /// Returns true if a function has read the number of the step since [`WorkState::begin_step`].
+    pub(crate) fn has_read_step(&self) -> bool {
+        self.step.get().is_some_and(|step| step.read)
     }
 
     /// Returns the chain being interpreted, or the chain of an application in the batch.

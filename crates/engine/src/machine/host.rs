@@ -38,6 +38,7 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<WorkState>, library: &Rc<Library
     add_applications(lua, &host, current)?;
     add_methods(lua, &host, current, library)?;
     add_script_objects(lua, &host, current, library)?;
+    super::streams::add_streams(lua, &host, current)?;
     super::questions::add_questions(lua, &host, current, library)?;
     Ok(host)
 }

@@ -18,6 +18,7 @@ mod prelude;
 mod protected;
 mod questions;
 mod require;
+mod streams;
 mod system;
 mod table_classes;
 mod types;

@@ -51,7 +51,8 @@ pub trait Rewriter {
     /// Returns the axiom of system `index`.
     fn axiom(&self, index: usize) -> Result<Chain>;
 
-    /// Applies the rules of system `index` once to a marked `chain`; `step` is the number of the step for messages.
+    /// Applies the rules of system `index` once to a marked `chain`; `step` is the number of the step, from 1, for its
+    /// functions and for messages.
     fn rewrite(&self, index: usize, chain: Chain, step: usize) -> Result<RewriteOutcome>;
 
     /// Takes back a chain that is no longer needed, to reuse its memory.

@@ -136,6 +136,7 @@ impl Walk<'_> {
                 function: self.functions.len() - 1,
                 module: None,
                 fresh: false,
+                stream: false,
                 feature: false,
                 receiver: true,
             });

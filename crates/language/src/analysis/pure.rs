@@ -40,12 +40,38 @@ impl Walk<'_> {
         (variable.fresh && !self.fact(variable.id).assigned).then_some(variable.function)
     }
 
+    /// Returns true if `name` is the function that creates random streams.
+    fn is_stream(&self, name: &TokenReference) -> bool {
+        let text = text_of(name);
+        text == "stream" && self.find(&text).is_none()
+    }
+
+    /// Returns true if an expression creates a random stream.
+    pub(super) fn is_new_stream(&self, expression: &Expression) -> bool {
+        let Expression::FunctionCall(call) = expression else { return false };
+        let Prefix::Name(name) = call.prefix() else { return false };
+        let suffixes: Vec<&Suffix> = call.suffixes().collect();
+        matches!(suffixes.as_slice(), [Suffix::Call(Call::AnonymousCall(_))]) && self.is_stream(name)
+    }
+
+    /// Returns the function that created the random stream in a variable, if the variable always contains that stream.
+    /// A number of the stream changes the stream.
+    fn own_stream(&self, name: &TokenReference) -> Option<usize> {
+        let variable = self.find(&text_of(name))?;
+        (variable.stream && !self.fact(variable.id).assigned).then_some(variable.function)
+    }
+
     /// Records a function call.
     pub(super) fn record_call(&mut self, call: &FunctionCall) {
         let suffixes: Vec<&Suffix> = call.suffixes().collect();
         let Prefix::Name(name) = call.prefix() else { return self.impure_from(1) };
         match suffixes.as_slice() {
             [Suffix::Call(Call::AnonymousCall(_))] if self.is_pure(name) => {}
+            [Suffix::Call(Call::AnonymousCall(_))] => {
+                self.impure_from(self.own_stream(name).map_or(1, |owner| owner + 1));
+            }
+            [Suffix::Call(Call::AnonymousCall(_)), Suffix::Call(Call::AnonymousCall(_))]
+                if self.is_stream(name) => {}
             [Suffix::Index(Index::Dot { name: field, .. }), Suffix::Call(Call::AnonymousCall(arguments))]
                 if self.find(&text_of(name)).is_none() =>
             {
@@ -120,7 +146,8 @@ mod tests {
 
     /// Returns true if the function in the last line is pure.
     fn pure(script: &str) -> bool {
-        let names = ["math", "table", "string", "random", "footprint", "pairs", "source", "param", "pcall"];
+        let names =
+            ["math", "table", "string", "random", "footprint", "pairs", "source", "param", "pcall", "stream"];
         let names = names.map(str::to_owned).to_vec();
         let value_methods = std::iter::once("area".to_owned()).collect();
         let globals =
@@ -140,6 +167,8 @@ mod tests {
             "return f.geometry:area()",
             "return half(f.height)",
             "return random()",
+            "return stream(\"a\", f.id)()",
+            "local r = stream(\"a\", f.id) return r() + r(1, 2)",
         ] {
             let script = format!(
                 "local s = source({{}})\nlocal function half(x) return x / 2 end\ns:axiom(s, function(f) {body} end)"
@@ -168,9 +197,13 @@ mod tests {
             "local g = helper g()",
             "param(\"x\", {})",
             "function list.x() end",
+            "return shared()",
+            "local r = stream(\"a\") r = shared return r()",
+            "local stream = helper return stream(\"a\")()",
+            "return stream(\"a\", f.id)()()",
         ] {
             let script = format!(
-                "local s, count, list = source({{}}), 0, {{}}\nlocal function helper(x) count = x end\ns:axiom(s, function(f) {body} end)"
+                "local s, count, list, shared = source({{}}), 0, {{}}, stream(\"shared\")\nlocal function helper(x) count = x end\ns:axiom(s, function(f) {body} end)"
             );
             assert!(!pure(&script), "{body}");
         }

@@ -28,8 +28,10 @@ pub struct Analysis {
     pub code: Option<Vec<u8>>,
     /// Errors, sorted by line.
     pub problems: Vec<Error>,
-    /// Set if the script uses the name `random`.
+    /// Set if the script uses the name `random`, or the global `stream`.
     pub random: bool,
+    /// Set if the script uses the global `step`.
+    pub reads_step: bool,
     /// Lines on which pure functions begin.
     pub pure: Vec<usize>,
     /// Lines on which functions begin that do not read their first parameter, a rule's `this`.
@@ -134,7 +136,7 @@ impl ScriptReader {
 
 /// Returns the analysis of a script that must not run.
 fn unread(text: &str, problems: Vec<Error>) -> Analysis {
-    Analysis { text: text.to_owned(), problems, random: true, ..Analysis::default() }
+    Analysis { text: text.to_owned(), problems, random: true, reads_step: true, ..Analysis::default() }
 }
 
 fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -> Analysis {
@@ -161,6 +163,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         mut edits,
         mut problems,
         random,
+        reads_step,
         pure,
         mut blind,
         guards,
@@ -203,6 +206,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         code,
         problems,
         random,
+        reads_step,
         pure,
         blind,
         guards,

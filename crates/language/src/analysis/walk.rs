@@ -81,6 +81,8 @@ pub(super) struct Variable {
     pub(super) module: Option<Signature>,
     /// Set if the initial value is a new table.
     pub(super) fresh: bool,
+    /// Set if the initial value is a new random stream.
+    pub(super) stream: bool,
     /// Set for the argument of an axiom's function.
     pub(super) feature: bool,
     /// Set for the first parameter of its function.
@@ -104,6 +106,7 @@ pub(super) struct Walk<'a> {
     pub(super) edits: Vec<TextEdit>,
     pub(super) problems: Vec<Error>,
     pub(super) random: bool,
+    pub(super) reads_step: bool,
     /// Rule whose functions are being walked.
     pub(super) rule: Option<String>,
     /// Set if the next function belongs to an axiom.
@@ -165,6 +168,7 @@ impl<'a> Walk<'a> {
             edits: Vec::new(),
             problems: Vec::new(),
             random: false,
+            reads_step: false,
             rule: None,
             axiom: false,
             pure: BTreeMap::new(),
@@ -249,12 +253,14 @@ impl<'a> Walk<'a> {
     ) {
         self.expressions(values);
         let values: Vec<&Expression> = values.iter().collect();
+        let streams: Vec<bool> = values.iter().map(|value| self.is_new_stream(value)).collect();
         for (index, name) in names.iter().enumerate() {
             let id = self.declare(name, end_of(statement).map(|end| end.bytes()));
             let module = values.get(index).and_then(|value| declared_module(value));
             if let Some(variable) = self.variables.last_mut().filter(|variable| variable.id == id) {
                 variable.module = module;
                 variable.fresh = matches!(values.get(index), Some(Expression::TableConstructor(_)));
+                variable.stream = streams.get(index).copied().unwrap_or_default();
             }
         }
     }
@@ -275,6 +281,7 @@ impl<'a> Walk<'a> {
             function,
             module: None,
             fresh: false,
+            stream: false,
             feature: false,
             receiver: false,
         });
@@ -373,6 +380,8 @@ impl<'a> Walk<'a> {
             }
             return;
         }
+        self.random |= name == "stream";
+        self.reads_step |= name == "step";
         if self.globals.names.contains(&name) {
             if self.globals.deprecated.contains_key(&name) {
                 let line = token.start_position().map_or(1, |position| position.line());

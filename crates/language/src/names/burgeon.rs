@@ -27,6 +27,25 @@ pub(super) fn names() -> Vec<Name> {
         .form([argument("a", "number?"), argument("b", "number?")], "number")
         .pure(),
         Name::global(
+            "stream",
+            "Creates a named stream of random numbers: a function that is called as `random` is. The numbers depend only on \
+             `name`, on the further keys (numbers, strings and booleans), and on the module that is rewritten or drawn, or at \
+             the top level on the seed of the run. They do not depend on other random numbers, and do not change them.",
+        )
+        .form(
+            [argument("name", "string"), argument("...", "number | string | boolean")],
+            "(number?, number?) -> number",
+        )
+        .pure(),
+        Name::global(
+            "step",
+            "Returns the number of the derivation step that is running, from 1; in an interpretation, the number of the step \
+             that made the chain, and 0 for the axiom. A derivation whose functions call it needs a number of steps, and makes \
+             all of them.",
+        )
+        .form([], "number")
+        .pure(),
+        Name::global(
             "warn",
             "Adds a warning to the run, with the problem and its remedy. Only the top level of a script and its functions can warn, not rules.",
         )

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use super::Applier;
@@ -61,6 +61,10 @@ pub(crate) struct InterpretationPass {
     pub plan: Arc<DerivationPlan>,
     pub chain: Arc<Chain>,
     pub step: usize,
+    /// Number that `step()` returns.
+    number: usize,
+    /// Set if an interpretation rule has read that number.
+    reads_step: AtomicBool,
     /// Start of each piece of whole chains, and the end of the last piece.
     pieces: Vec<Mark>,
     next: AtomicUsize,
@@ -71,16 +75,16 @@ pub(crate) struct InterpretationPass {
 }
 
 impl InterpretationPass {
-    /// Interprets `chain` after `step` steps. Adds the work of each rule to `uses`, and the warnings of the
-    /// objects to `said`.
+    /// Interprets `chain` after `step` steps, where `step()` returns `number`. Adds the work of each rule to `uses`,
+    /// and the warnings of the objects to `said`. Returns true if an interpretation rule has read `number`.
     pub(crate) fn pass(
         LeadingMachine { machine, threads }: LeadingMachine<'_>,
         plan: &Arc<DerivationPlan>,
         chain: &Arc<Chain>,
-        step: usize,
+        (step, number): (usize, usize),
         uses: &mut [Use],
         said: &mut Vec<Warning>,
-    ) -> Result<()> {
+    ) -> Result<bool> {
         let starts = chain.starts(plan.steps.grammar.arities());
         let many = plan.steps.chains >= 4 * DEALT;
         let size = if many { plan.steps.batch.min(chain.symbols.len() / DEALT) } else { plan.steps.batch };
@@ -99,6 +103,8 @@ impl InterpretationPass {
             plan: Arc::clone(plan),
             chain: Arc::clone(chain),
             step,
+            number,
+            reads_step: AtomicBool::new(false),
             pieces,
             next: AtomicUsize::new(0),
             triangles: AtomicUsize::new(0),
@@ -115,7 +121,7 @@ impl InterpretationPass {
         said.extend(done.notices.into_list(of_symbol));
         match done.failure.into_inner().recover() {
             Some((_, error)) => Err(error),
-            None => Ok(()),
+            None => Ok(done.reads_step.into_inner()),
         }
     }
 
@@ -142,7 +148,9 @@ impl InterpretationPass {
     fn piece(self: &Arc<Self>, machine: &Machine, begin: Mark, end: Mark) -> Result<()> {
         let applier = Applier::new(Arc::clone(self), machine, begin)?;
         machine.current.flusher.replace(Some(Box::new(applier)));
+        machine.current.begin_step(self.number, self.plan.bounded);
         let result = self.run(machine, begin, end);
+        self.reads_step.fetch_or(machine.current.has_read_step(), Ordering::Relaxed);
         machine.current.flusher.replace(None);
         result
     }

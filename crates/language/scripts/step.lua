@@ -1,0 +1,11 @@
+-- A stack of slabs: the slab of every third step is wide.
+local Top, Slab = module("Top"), module("Slab", "width")
+local stack = lsystem({ object = extruder({ sides = 8 }) })
+stack:axiom(Top())
+stack:rule("Top", function()
+  return Slab(if step() % 3 == 0 then 1.4 else 0.8), Top()
+end)
+stack:interpret("Slab(width)", function(this, width)
+  this:scale(width):extrude(0.5)
+end)
+stack:derive(9)
