@@ -167,12 +167,12 @@ fn a_stream_takes_no_bounds_or_two_numbers() {
 fn a_guard_draws_from_no_stream() {
     assert_snapshot!(
         refused_rules("s:rule(\"A(x)\", { when = function(this, x)\n  return stream(\"a\")() > 0.5\nend }, function() return B() end)"),
-        @r"
+        @r#"
         error: s.lua:4: rule A(x): a guard draws no random numbers
           | return stream("a")() > 0.5
           module: A(1), step 1
           help: draw in the successor, or give the rules weights: { weight = 2 }
-        "
+        "#
     );
     assert_snapshot!(
         refused_rules("local r = stream(\"a\")\ns:rule(\"A(x)\", { when = function(this, x)\n  return r() > 0.5\nend }, function() return B() end)"),
