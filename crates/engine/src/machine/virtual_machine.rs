@@ -82,7 +82,10 @@ impl Machine {
                 collected: Cell::new(0),
             }))
         };
-        let machine = build()
+        let machine = build();
+        // A run that is stopped while a machine starts ends with the reason, such as the time limit.
+        session.stop.check()?;
+        let machine = machine
             .map_err(|error| Error::internal(format!("the virtual machine did not start: {error}")))?;
         machine.library.set_machine(&machine);
         machine.prelude.keep_features(&machine.lua).map_err(|error| machine.translate(error))?;
