@@ -15,6 +15,7 @@ mod part;
 pub(crate) mod paths;
 mod positions;
 mod preset;
+mod queries;
 mod scripts;
 mod session;
 mod stamps;

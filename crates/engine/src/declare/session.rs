@@ -7,21 +7,20 @@ use std::sync::{Arc, Mutex, OnceLock};
 use std::time::Duration;
 
 use super::api::api_version;
-use super::data::{Data, ModuleRows};
+use super::data::Data;
 use super::deprecations::Deprecations;
 use super::options::RunOptions;
 use super::param::Param;
 use super::positions::RandomPositions;
 use super::scripts::{ScriptFiles, SourceFile, own_params, read_stdlib, unreadable};
 use super::types::DeclaredTypes;
-use crate::questions::RowSource;
-use crate::questions::{AskedRows, ChainView, Question, RowCache};
+use crate::questions::{ChainView, RowCache};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::stop::Stop;
 use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, Warnings};
-use burgeon_kit::{QueryRows, Values};
+use burgeon_kit::Values;
 use burgeon_language::CallForm;
 use burgeon_language::analysis::{
     Analysis, CheckedFile, QueryCall, call_problems, has_metatables, inspects_tables,
@@ -114,9 +113,9 @@ pub struct Session {
     /// Results of SQL queries.
     pub(crate) rows: RowCache,
     /// Chains that queries of rules and interpretations see.
-    chains: Mutex<Arc<ChainView>>,
+    pub(super) chains: Mutex<Arc<ChainView>>,
     /// Symbols of the modules that queries have named.
-    asked: Mutex<FxHashSet<Symbol>>,
+    pub(super) asked: Mutex<FxHashSet<Symbol>>,
     /// Positions in the random stream of the top level.
     pub(crate) drawn: RandomPositions,
     /// Object types that scripts have declared, and methods that they have added to others.
@@ -439,69 +438,6 @@ impl Session {
     /// Returns true if chains may contain placeholder modules.
     pub(crate) fn has_pending(&self) -> bool {
         self.pending.load(Ordering::Acquire)
-    }
-
-    /// Sets the chains that queries of rules and interpretations see. No query may be running.
-    pub(crate) fn show_chains(&self, view: ChainView) {
-        *self.chains.lock().recover() = Arc::new(view);
-        self.rows.forget_views();
-    }
-
-    /// Returns the rows of a query of a rule or an interpretation; equal while they are cached.
-    pub(crate) fn ask(&self, question: &Question) -> Result<Arc<QueryRows>> {
-        let view = Arc::clone(&self.chains.lock().recover());
-        self.ask_about(question, &view, false)
-    }
-
-    /// Returns the rows of a query about a state of the chains. The rows are cached, until the end of the run
-    /// if `stays` is set.
-    pub(crate) fn ask_about(
-        &self,
-        question: &Question,
-        view: &ChainView,
-        stays: bool,
-    ) -> Result<Arc<QueryRows>> {
-        let words = self.rows.words(&question.statement(), |sql| self.table_words(sql));
-        let modules = view.find_modules(&words, question.scope());
-        if !modules.is_empty() {
-            self.asked.lock().recover().extend(modules.iter().map(|module| module.symbol));
-        }
-        let own = ModuleRows { session: self, view, modules: &modules };
-        let source: &dyn RowSource = self.options.inputs.rows.as_deref().unwrap_or(&own);
-        let asked = AskedRows {
-            source,
-            most: self.options.limits.modules,
-            view: if modules.is_empty() { 0 } else { view.number() },
-            stays,
-        };
-        let rows = self.rows.ask(question, &asked);
-        self.stop.check()?;
-        rows
-    }
-
-    /// Reports whether a query has named modules with a symbol.
-    pub(crate) fn has_asked(&self, symbol: Symbol) -> bool {
-        self.asked.lock().recover().contains(&symbol)
-    }
-
-    /// Returns the words that may name tables in the queries of all rules, as far as static analysis finds
-    /// the SQL texts.
-    pub(crate) fn queried_words(&self) -> BTreeSet<String> {
-        let scripts = self.script_files();
-        let queries = scripts.read.values().flat_map(|source| source.analysis.queries.values().flatten());
-        let words = queries.flat_map(|query| self.table_words(&query.sql));
-        // The last part of a qualified name is the module.
-        words.filter_map(|word| Some(word.rsplit('.').next()?.to_owned())).collect()
-    }
-
-    /// Returns the words of an SQL text that may name tables.
-    fn table_words(&self, sql: &str) -> Vec<String> {
-        self.options.registry.sources().map(|sources| sources.table_words(sql)).unwrap_or_default()
-    }
-
-    /// Returns the data file in `folder` whose name is most similar to `wanted`.
-    pub(super) fn nearest_file(&self, folder: &Path, wanted: &str) -> Option<String> {
-        self.options.registry.sources()?.nearest_file(folder, wanted)
     }
 
     /// Keeps the values that `params` refers to until the end of the run.

@@ -10,6 +10,7 @@ mod convert;
 mod current;
 mod driver;
 mod freeze;
+mod globals;
 mod host;
 mod library;
 mod messages;
