@@ -53,6 +53,10 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
       rule(pattern: string, options: { ... }, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
           Adds a rule: the successor of a module that matches the pattern.
           Its fields: burgeon api system:rule
+      decompose(pattern: string, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
+      decompose(pattern: string, options: { ... }, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
+          Adds a decomposition rule, which applies repeatedly after the axiom and after each step.
+          Its fields: burgeon api system:decompose
       interpret(pattern: string, draw: (this: T, ...any) -> ...any) -> System<T>
           Adds an interpretation: the function that draws a module.
       ignore(...string) -> System<T>
@@ -184,17 +188,17 @@ fn a_field_or_a_method_is_told_by_itself() {
       print(lerp(2, 6, 0.5))
       print(lerp(vec(0, 0, 0), vec(4, 2, 0), 0.5))
     "#);
-    assert_snapshot!(api(&["F"]), @r#"
+    assert_snapshot!(api(&["F"]), @r"
     F(length: number? = turtle.step) -> Module
       Moves forward by `length` (m, turtle.step unless given) and draws a branch. Within a polygon, only
-      moves. Calls turtle:forward where it is interpreted.
+      moves. Interpreted as a call of turtle:forward.
 
     Example
       -- A line, a gap, and another line.
       local line = lsystem({ object = turtle({ step = 2 }) })
       line:axiom(F(), G(0.5), F(1))
       line:derive()
-    "#);
+    ");
 }
 
 #[test]

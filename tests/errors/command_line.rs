@@ -164,7 +164,7 @@ fn a_check_finds_what_only_a_run_meets_and_a_quick_one_derives_nothing() {
     assert_eq!(folder.refuses(&["check", "s.lua"]), folder.refuses(&["run", "s.lua"]));
     let said = folder.burgeon(&["check", "s.lua", "--quick"]).done();
     assert_snapshot!(said.stderr, @r"
-    s.lua is fine
+    s.lua: no problems
       n = 3 m  how far
     ");
     let document = folder.burgeon(&["check", "s.lua", "--quick", "--json", "--set", "n=4"]).done().json();
@@ -383,6 +383,7 @@ fn help_reads_well() {
           --edits <FILE>        Writes the terrain edits, for edits(FILE) in a script
           --tiles <FOLDER>      Writes a .glb file for each tile of the terrain to this folder
           --report <FILE>       Writes a JSON report of skipped and simplified features; - is standard output
+          --parts <N>           Writes the model in N parts, one after another: FILE-1 to FILE-N. Memory is that of one part
           --watch               Runs and writes again on every save, until interrupted
           --save-preset <NAME>  Saves the seed and the given values as a preset, if the run succeeds
       -h, --help                Print help (see more with '--help')

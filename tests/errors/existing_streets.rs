@@ -69,7 +69,7 @@ fn existing_streets_that_cannot_be_are_told() {
     let told = warned(&[&grown(named, "this:grow(1, 180, 90, 0)")]);
     for expected in [
         "s.lua:2: network: existing: 0.0 of 90.0 m of streets are missing in the network: High Street at 0.0, 0.0 (0.00 m, no length)",
-        "s.lua:2: network: existing: 1 line has no usable width, such as \"broad\" of High Street",
+        "s.lua:2: network: existing: 1 line has no usable width, e.g. \"broad\" of High Street",
     ] {
         assert!(told.contains(expected), "{told}");
     }

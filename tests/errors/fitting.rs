@@ -162,7 +162,7 @@ fn a_target_or_a_file_that_cannot_be_is_refused_before_the_search() {
     ");
     assert_snapshot!(folder.refuses(&["fit", "heights.tif", "-o", "rules.lua"]), @r"
     error: unknown target `heights.tif`
-      help: use hill, ridge, crater, plain, mountains
+      help: the targets are hill, ridge, crater, plain, mountains
     ");
     assert_snapshot!(folder.refuses(&["fit", "hill", "-o", "no/rules.lua"]), @r"
     error: cannot write no/rules.lua: folder not found: no

@@ -61,7 +61,7 @@ fn what_is_kept_and_drawn_later_is_bounded_too() {
         "while true do this:note(\"more\") end",
     ] {
         let text = stopped_within(&drawn("turtle", body, ""), "4");
-        let is_limit = ["calls more than 16777216 methods", "time", "64 MB of memory"];
+        let is_limit = ["calls more than 16777216 methods", "time", "memory limit of 64 MB"];
         let is_limit = is_limit.iter().any(|limit| text.contains(limit));
         assert!(is_limit, "{body}: {text}");
     }

@@ -168,12 +168,12 @@ fn the_time_limit_is_kept_with_helpers_too() {
 
 #[test]
 fn a_table_that_grows_is_stopped_at_the_memory_limit() {
-    assert_snapshot!(greedy("s:rule(\"A(x)\", function(this, x)\n  local t = {}\n  while true do\n    table.insert(t, {})\n  end\nend)"), @r#"
-    error: s.lua:6: rule A(x): the script exceeds the memory limit of 64 MB
+    assert_snapshot!(greedy("s:rule(\"A(x)\", function(this, x)\n  local t = {}\n  while true do\n    table.insert(t, {})\n  end\nend)"), @r"
+    error: s.lua:6: rule A(x): the run exceeds the memory limit of 64 MB
       | table.insert(t, {})
       module: A(1), step 1
-      help: look for a growing table or string, or raise the limit: --memory-limit MEGABYTES
-    "#);
+      help: look for a growing table, string or report, or raise the limit: --memory-limit MEGABYTES
+    ");
 }
 
 #[test]
@@ -206,7 +206,7 @@ fn the_memory_limit_is_kept_everywhere() {
         let said = greedy(place);
         assert!(
             said.starts_with("error: s.lua:4: ")
-                && said.contains("more than 64 MB of memory")
+                && said.contains("memory limit of 64 MB")
                 && said.contains("--memory-limit"),
             "{place}: {said}"
         );

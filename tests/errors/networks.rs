@@ -363,7 +363,7 @@ fn highways_that_do_not_arrive_are_told() {
     let told = with_roads(&towns("", "")).burgeon(&["run", "s.lua", "--strict"]).done().stderr;
     assert!(!told.contains("warning"), "{told}");
     assert_snapshot!(refused_by_roads(&towns("", "steps = 12,")), @r"
-    error: s.lua:2: roads.grow: the highway from centre 1 to centre 2, 1200 m, takes 15 steps or more, and use 12; give more, or centres that are nearer
+    error: s.lua:2: roads.grow: the highway from centre 1 to centre 2, 1200 m, takes 15 steps or more, and there are 12; give more, or centres that are nearer
       | roads.grow({ pattern = roads.raster(), network = {  }, centres = { { -600, 0 }, { 600, 0 } }, steps = 12,
     ");
     let lake = "obstacles = { { { -100, -900 }, { 100, -900 }, { 100, 900 }, { -100, 900 } } }";

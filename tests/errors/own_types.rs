@@ -102,7 +102,7 @@ fn a_check_knows_what_the_functions_of_a_type_may_do() {
       help: it has as, lit, light, height, kind, lit, mast, regular, star, rectangle, polygon, direction, resolution, scale, taper, bend, twist, caps, smooth, extrude, advance, shift, jump, turn, pitch, roll, color, material, mesh, place, position, heading, distance, open_edges, note, detail
     "##);
     // A type that inherits from the allowed parts are methods that the base type lacks.
-    assert_snapshot!(of("changes = { go = function(self) self:draw_top() end } })\nobject(\"third\", { extends = other, changes = { draw_top = function(self) end }"), @"s.lua is fine");
+    assert_snapshot!(of("changes = { go = function(self) self:draw_top() end } })\nobject(\"third\", { extends = other, changes = { draw_top = function(self) end }"), @"s.lua: no problems");
 }
 
 #[test]
@@ -157,12 +157,12 @@ fn the_types_of_a_script_are_told_like_those_that_come_with_burgeon() {
       How high it is.
       Read method: rules and interpretations can call it.
     "##);
-    assert_snapshot!(told(&["s.lua", "lamp:as"]), @r##"
+    assert_snapshot!(told(&["s.lua", "lamp:as"]), @r"
     lamp:as(constructor: any) -> any
-      The object as the type that `constructor` makes sees it, which its own extends: a function that
-      says anew what that type's does can call it so, such as self:as(lantern):lamp(1).
+      Returns the object as its base type with this `constructor`: a method that overrides a method of
+      the base type can call the original with it, such as self:as(lantern):lamp(1).
       Read method: rules and interpretations can call it.
-    "##);
+    ");
     assert_snapshot!(told(&["empty.lua"]), @r##"
     empty.lua neither declares nor extends an object type
     "##);

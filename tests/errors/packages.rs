@@ -255,7 +255,7 @@ fn packages_that_cannot_be_used_end_a_run_that_uses_them() {
       help: remove one of mods/castle and mods/masonry
     "#);
     insta::assert_snapshot!(refused(&castle("").with("mods/castle/mod.toml", "name = \"castle\"\nversion = \"1.0.0\"\napi = \"1.99\"")), @r#"
-    error: mods/castle/mod.toml:3: the package castle needs version ^1.99 of the script API, but this is 1.0.0
+    error: mods/castle/mod.toml:3: the package castle needs version ^1.99 of the script API, but this is 1.1.0
       | api = "1.99"
       help: use a Burgeon with that version, or a castle for this version
     "#);
@@ -348,7 +348,7 @@ fn scripts_ask_what_there_is() {
     let asks = "print(api.version)\n\
                 for _, name in { \"lsystem\", \"extruder\", \"extruder.bend\", \"extruder:bend\", \"turtle.step\", \"math.floor\", \"system.rule\", \"@castle\", \"extruder.bnd\", \"nothing\", \"@nothing\", \"math.random\" } do print(name, api.has(name)) end";
     insta::assert_snapshot!(prints(&castle("").with("s.lua", asks), &[]), @r"
-    1.0.0
+    1.1.0
     lsystem	true
     extruder	true
     extruder.bend	true

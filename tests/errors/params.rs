@@ -146,7 +146,7 @@ fn a_declaration_is_checked() {
     assert_snapshot!(refused("param(\"a\", { default = 30, max = 10 })\n"), @r#"
     error: s.lua:1: the default of param a is 30, out of its range
       | param("a", { default = 30, max = 10 })
-      help: it ends at 10
+      help: the maximum is 10
     "#);
     assert_snapshot!(refused("param(\"a\", { default = 3, unit = 4 })\n"), @r#"
     error: s.lua:1: param a: unit must be a string, not 4

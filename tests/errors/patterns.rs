@@ -120,7 +120,7 @@ fn a_malformed_pattern_shows_the_place() {
         A((x)
           ^
       | s:rule("A((x)", function() return B() end)
-      help: a parameter's expected name
+      help: expected a parameter's name
     "#);
     assert_snapshot!(pattern("A(x) > B [ B"), @r#"
     error: s.lua:3: malformed pattern: unexpected '[' at character 10
@@ -323,7 +323,7 @@ fn a_module_is_declared_once_and_with_names() {
       help: write "y?"
     "#);
     assert_snapshot!(refused("local A = module(\"A\", \"a b\")\n"), @r#"
-    error: s.lua:1: "a b" cannot be the name of a parameter of A
+    error: s.lua:1: invalid parameter name "a b" of A
       | local A = module("A", "a b")
       help: a name is a letter followed by letters, digits and underscores
     "#);

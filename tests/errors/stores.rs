@@ -205,7 +205,7 @@ fn every_store_that_a_script_grows_ends_at_the_memory_limit() {
         let shown: String = told.chars().take(600).collect();
         eprintln!("{}: {peak} MB, {base} without, {:.1} s", store.name, begin.elapsed().as_secs_f64());
         let is_told = told.starts_with("error: ")
-            && told.contains("64 MB of memory")
+            && told.contains("memory limit of 64 MB")
             && told.contains("--memory-limit");
         if code != 1 || !is_told || is_over(peak) {
             wrong += &format!("\n{}: status {code}, {peak} MB, {base} without: {shown}", store.name);

@@ -242,7 +242,7 @@ fn functions_of_packages_draw_from_streams_of_the_module_that_calls_them() {
         .with("mods/castle/towers.lua", package);
     let said = folder.burgeon(&["run", "s.lua", "--chain", "-"]).done();
     let heights: Vec<&str> = said.stdout.trim().split(") ").collect();
-    assert!(heights.iter().all(|module| module.contains(", true")), "{heights:?}");
+    assert!(heights.iter().all(|module| module.contains(",true")), "{heights:?}");
     assert!(heights.len() == 2 && heights[0] != heights[1], "{heights:?}");
     assert!(said.stderr.contains("true"), "{}", said.stderr);
 }

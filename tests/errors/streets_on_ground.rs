@@ -14,7 +14,7 @@ local Tip = module("Tip", "junction", "heading", "depth")
 local function land(roads)
   return lsystem({{
     object = terrain({{
-      size = 640, levels = 7, error = 0.1, decay = 40, under = roads, shown = roads ~= nil,
+      size = 640, levels = 7, error = 0.1, decay = 40, under = roads, visible = roads ~= nil,
       rules = {{ A = {{ "A", "A", "A", "A", change = {{ {{ -1, 1 }}, {{ -1, 1 }}, {{ -1, 1 }}, {{ -1, 1 }} }}, decay = 0.5 }} }},
     }}),
     seed = {seed},

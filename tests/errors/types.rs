@@ -7,7 +7,7 @@ use crate::support::{refused, stopped};
 #[test]
 fn a_declaration_that_means_nothing_is_refused() {
     assert_snapshot!(refused("object(\"lamp\", { chnages = {} })"), @r#"
-    error: s.lua:1: object unknown part `chnages` of lamp
+    error: s.lua:1: unknown part `chnages` of object lamp
       | object("lamp", { chnages = {} })
       help: did you mean changes?
     "#);
@@ -126,7 +126,7 @@ fn a_constructor_takes_what_was_declared() {
       | lamp({ sides = "many" })
     "#);
     assert_snapshot!(refused("local lamp = object(\"lamp\", { fields = { height = { type = \"number\" } } })\nlamp()"), @r"
-    error: missing field `s.lua:2: lamp: height`
+    error: s.lua:2: lamp: missing field `height`
       | lamp()
       help: write lamp { height = ... }
     ");

@@ -395,13 +395,13 @@ fn a_parameter_that_is_declared_twice() {
     ]), @r#"
     local a = param("n", { default = 1 })
     local b = param("n", { default = 2, min = 0 })
-    warning: s.lua:2: the parameter n is already in s.lua:1, and users see only that declaration
+    warning: s.lua:2: the parameter n is already declared in s.lua:1, and users see only that declaration
       | local b = param("n", { default = 2, min = 0 })
       help: declare it once and reuse its value, or rename this one
 
     local a = param("n", { default = 1 })
     local b = param("n", { default = 1 })
-    warning: s.lua:2: the parameter n is already in s.lua:1, and users see only that declaration
+    warning: s.lua:2: the parameter n is already declared in s.lua:1, and users see only that declaration
       | local b = param("n", { default = 1 })
       help: declare it once and reuse its value, or rename this one
     "#);

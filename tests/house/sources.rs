@@ -183,10 +183,13 @@ fn import(tokens: &[&str], at: &mut usize, before: &[String], is_public: bool, f
             Some("{") => {
                 *at += 1;
                 while tokens.get(*at).is_some_and(|token| *token != "}") {
-                    if tokens[*at] == "," {
-                        *at += 1;
-                    } else {
+                    let before = *at;
+                    if tokens[*at] != "," {
                         import(tokens, at, &path, is_public, found);
+                    }
+                    // Words in a string can look like an import, such as "use network { max_segments = 5 }".
+                    if *at == before {
+                        *at += 1;
                     }
                 }
                 *at += 1;

@@ -80,7 +80,7 @@ fn a_line_shows_what_it_made_and_the_profile_names_the_lines() {
     assert_eq!(all, model["triangles"].as_u64().unwrap());
     let nothing = ask(&mut page, json!({ "type": "highlight", "id": 6, "file": "s.lua", "line": 1 }));
     assert_eq!((&nothing["modules"], &nothing["ranges"]), (&json!(0), &json!([])));
-    for (line, says) in [(0, "7 lines"), (8, "no line 8"), (4_000_000_000_u64, "7 lines")] {
+    for (line, says) in [(0, "7 lines"), (8, "unknown line 8"), (4_000_000_000_u64, "7 lines")] {
         let lit = ask(&mut page, json!({ "type": "highlight", "id": 6, "file": "s.lua", "line": line }));
         assert!(lit["text"].as_str().unwrap().contains(says), "{lit}");
     }

@@ -187,7 +187,7 @@ fn what_cannot_come_apart_or_be_asked_is_told_with_its_line() {
         (
             "s:axiom(query(\"select id from plan\", Shape))\ns:derive()",
             "the rows have no column for parameter geom",
-            "they have id",
+            "the columns are id",
         ),
         (
             "s:axiom(query(\"select null as geom\", Shape))\ns:derive()",

@@ -299,7 +299,7 @@ fn what_is_wrong_is_told_with_the_line_and_the_remedy() {
         (
             rule(r#"query("n", Named)"#),
             "the rows have no column for parameter name and odd of Named(name, odd, half?)",
-            "they have n",
+            "the columns are n",
         ),
         (
             rule(r#"query("half", Item)"#),

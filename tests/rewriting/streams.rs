@@ -124,7 +124,7 @@ fn a_long_stream_is_uniform_and_scales_as_random_does() {
          s:derive(0)",
     );
     let values = chains[0].trim_start_matches("A(").trim_end_matches(')');
-    let values: Vec<&str> = values.split(", ").collect();
+    let values: Vec<&str> = values.split(',').collect();
     assert!(values[0].parse::<f64>().expect("a number") < 27.9, "chi-square {}", values[0]);
     assert_eq!(&values[1..], ["true", "true"]);
 }
@@ -147,7 +147,7 @@ const ROWS: &str = "local A, B = module('A', 'n', 'u'), module('B', 'n', 'u')
     s:rule('A(n, u)', { when = function(this, n) return n > 0 end }, function(this, n, u)
       return B(n, drawn('b', n, u > 0.5)), { A(n - 1, random()) }, A(n - 1, drawn('a'))
     end)
-    s:rule('B(n, u)', { weight = 2 }, [[ return B(n, drawn('kept') + stream('string')()) ]])
+    s:rule('B(n, u)', { weight = 2 }, [[ return B(n, stream('kept')() + stream('string')()) ]])
     s:rule('B(n, u)', { weight = 1 }, function() end)
     s:interpret('B(n, u)', function(this, n, u)
       local r = stream('draws', n)

@@ -6,7 +6,7 @@ use super::entry::{Entry, EntryGroup, Member, MemberKind};
 use burgeon::language::CallForm;
 
 /// Counts.
-const COUNTS: [&str; 31] = [
+const COUNTS: [&str; 32] = [
     "derived.modules",
     "derived.steps",
     "extruder.along",
@@ -23,6 +23,7 @@ const COUNTS: [&str; 31] = [
     "geometry:offset.quadrant_segments",
     "grid.columns",
     "grid.rows",
+    "lsystem.max_depth",
     "network.existing.depth",
     "network.existing.lanes",
     "network.max_segments",
@@ -41,7 +42,7 @@ const COUNTS: [&str; 31] = [
 ];
 
 /// Fractions, probabilities, weights and factors.
-const FACTORS: [&str; 50] = [
+const FACTORS: [&str; 51] = [
     ".amount",
     ".metallic",
     ".noise",
@@ -84,6 +85,7 @@ const FACTORS: [&str; 50] = [
     "planet.closeness",
     "planet.error",
     "rule.weight",
+    "system:decompose.weight",
     "system:rule.weight",
     "template.weight",
     "terrain.plants.size",
@@ -135,7 +137,7 @@ const NUMBERS: [&str; 36] = [
 ];
 
 /// Values in any unit that the script or the file uses.
-const ANY: [&str; 15] = [
+const ANY: [&str; 16] = [
     "elevation.bounds",
     "lerp a",
     "lerp b",
@@ -150,6 +152,7 @@ const ANY: [&str; 15] = [
     "remap low",
     "remap to",
     "remap x",
+    "stream ...",
     "source.within",
 ];
 

@@ -42,11 +42,11 @@ impl RunCommand {
     }
 }
 
-/// Returns the name of the file of part `number` of `count`: `town-03.glb` for `town.glb`; `-` is standard output.
+/// Returns the name of the file of part `number` of `count`, with the number before the extensions; `-` is standard output.
 fn part_file(path: &Path, number: u32, count: u32) -> PathBuf {
     let (Some(name), false) = (path.file_name(), path == Path::new("-")) else { return path.to_owned() };
     let (name, digits) = (name.to_string_lossy(), count.to_string().len());
-    // Extensions can have two parts, such as .city.json.
+    // Extensions can have several parts.
     let dot = name.char_indices().skip(1).find(|(_, letter)| *letter == '.');
     let (stem, extensions) = name.split_at(dot.map_or(name.len(), |(at, _)| at));
     path.with_file_name(format!("{stem}-{number:0digits$}{extensions}"))

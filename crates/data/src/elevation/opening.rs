@@ -184,11 +184,11 @@ fn with_bytes<T>(
     let meta = path.metadata().map_err(cannot)?;
     if meta.is_dir() {
         return Err(
-            Error::file(path, format!("{name} is a folder")).help("specify a file of heights in the folder")
+            Error::file(path, format!("{name} is a folder")).help("specify a height file in the folder")
         );
     }
     if !meta.is_file() {
-        return Err(Error::file(path, format!("{name} is not a file")).help("specify a file of heights"));
+        return Err(Error::file(path, format!("{name} is not a file")).help("specify a height file"));
     }
     if meta.len() > LARGEST {
         let most = LARGEST / 1_000_000;

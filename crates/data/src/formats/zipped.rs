@@ -24,7 +24,7 @@ pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str, wanted: &HeightOptions) -
         (Some(tile), 0) => tile,
         (None, _) => {
             return Err(Error::data(format!("{name} contains no .hgt file"))
-                .help("unpack it, and specify the file of heights itself"));
+                .help("unpack it, and specify the height file itself"));
         }
         (Some(_), more) => {
             return Err(Error::data(format!("{name} contains {} .hgt files", more + 1))

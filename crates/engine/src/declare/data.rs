@@ -105,7 +105,7 @@ impl Data {
         fields: &Table,
     ) -> Result<LoadedObject> {
         let Some(name) = names.first().filter(|_| names.iter().all(|name| !name.is_empty())) else {
-            return Err(Error::argument(format!("{kind} needs the name of a file"))
+            return Err(Error::argument(format!("{kind} needs a file name"))
                 .help(format!("write {}", loader.example)));
         };
         let alone = if names.len() == 1 { session.package_file(loader.what, name, asker) } else { None };

@@ -146,7 +146,7 @@ fn find(session: &Session, asker: Option<&Package>, what: &'static str, name: &s
     if !inside {
         return Err(outside());
     }
-    let error = Error::not_found(what, name, near.as_deref(), format!("there is no {what} {name}"));
+    let error = Error::not_found(what, name, near.as_deref(), format!("{what} not found: {name}"));
     Err(session.propose_packages(name, error).help(match session.data_roots().is_empty() {
         true => "it is looked for from the script's folder; other folders are given with --data FOLDER",
         false => "it is looked for from the script's folder and from those given with --data",

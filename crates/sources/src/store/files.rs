@@ -26,9 +26,7 @@ pub(super) fn read(
         && tags.is_none();
     wanted.layer = wanted.layer.or_else(|| layer.map(str::to_owned));
     if name.is_empty() {
-        return Err(
-            Error::argument("source needs the name of a file").help("write source(\"village.geojson\")")
-        );
+        return Err(Error::argument("source needs a file name").help("write source(\"village.geojson\")"));
     }
     let path = request.resources.find("data file", name)?;
     for beside in companions(&path) {

@@ -28,7 +28,7 @@ pub(super) fn parse_options(options: &Table) -> Result<(SourceOptions, Option<St
                 Ok(*number as u32)
             }
             other => {
-                Err(Error::argument(format!("source: {name} must be a whole number from 0, not {other}"))
+                Err(Error::argument(format!("source: {name} must be an integer of at least 0, not {other}"))
                     .help(format!("write {{ {name} = {example} }}")))
             }
         };

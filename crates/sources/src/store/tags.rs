@@ -61,6 +61,6 @@ fn test(key: &str, value: &Value) -> Result<TagTest> {
 fn wrong(message: String) -> Error {
     Error::argument(format!("source: {message}")).help(
         "write { tags = { building = true, [\"roof:shape\"] = { \"gabled\", \"hipped\" } } }: true for any value but no, \
-         \"*\" for any, false for none, a text, or a list of texts; a list of such tables for one or another",
+         \"*\" for any, false for none, a text, or a list of strings; a list of such tables for one or another",
     )
 }

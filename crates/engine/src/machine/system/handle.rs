@@ -80,7 +80,7 @@ impl SystemHandle {
                     Value::Number(depth) if depth.fract() == 0.0 && (1.0..1e6).contains(&depth) => {
                         system.max_depth = depth as usize;
                     }
-                    _ => return Err(Error::argument("lsystem: max_depth must be a whole number from 1")),
+                    _ => return Err(Error::argument("lsystem: max_depth must be an integer of at least 1")),
                 },
                 #[allow(
                     clippy::cast_possible_truncation,
