@@ -376,7 +376,7 @@ mod tests {
             let layer = Layer::new(table(code, &[[x, y]]), &mut None);
             layer.err().map(|error| error.message().to_owned()).unwrap_or_default()
         };
-        assert!(told(4326, 385_423.0, 6_671_463.0).contains("no longitude and latitude"));
+        assert!(told(4326, 385_423.0, 6_671_463.0).contains("not a valid longitude and latitude"));
         assert!(told(4326, f64::NAN, 1.0).contains("not a finite number"));
         assert!(told(3067, f64::INFINITY, 1.0).contains("not a finite number"));
         assert!(told(12, 1.0, 1.0).contains("EPSG:12 is not known"));

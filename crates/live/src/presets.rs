@@ -419,7 +419,7 @@ mod tests {
           help: write { "seed": 0, "params": {} }
         "#);
         insta::assert_snapshot!(refused("{ \"tall\": {\n\"sed\": 3 } }"), @r"
-        FOLDER/tower.presets.json:2: preset unknown field `sed` in tall
+        FOLDER/tower.presets.json:2: unknown field `sed` in preset tall
           help: did you mean seed?
         ");
         insta::assert_snapshot!(refused("{ \"tall\": {\n\"floors\": 3 } }"), @r"

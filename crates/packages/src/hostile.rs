@@ -69,7 +69,10 @@ fn a_zip_is_installed_whole_from_its_root_or_from_its_only_folder() {
         assert_eq!(all(&mods), ["castle", "castle/a", "castle/a/b.lua", "castle/mod.toml"]);
         // The package is only replaced if requested, and the replaced version is reported.
         let said = install(&zip, &mods, false, |_| Ok(())).unwrap_err().to_string();
-        assert!(said.contains("there is a package castle 1.0.0 in ") && said.contains("--replace"), "{said}");
+        assert!(
+            said.contains("a package castle 1.0.0 already exists in ") && said.contains("--replace"),
+            "{said}"
+        );
         std::fs::write(mods.join("castle/old.lua"), "").unwrap();
         std::fs::write(&zip, zip_of(&[(&a, &MOD.replace("1.0.0", "2.0.0"))])).unwrap();
         let made = install(&zip, &mods, true, |_| Ok(())).unwrap();

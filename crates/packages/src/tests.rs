@@ -91,7 +91,7 @@ fn of_one_name_the_one_beside_the_script_counts_and_the_others_are_told() {
     // The user's folder is shared by all scripts, so other versions in it cause no warning.
     let warnings: Vec<String> = packages.warnings.iter().map(ToString::to_string).collect();
     insta::assert_snapshot!(warnings.join("\n").replace(&folder.path().display().to_string(), "FOLDER"), @r"
-    ignored FOLDER/given/castle/mod.toml:1: castle 2.0.0 in FOLDER/given/castle: castle takes precedence 1.0.0 in FOLDER/mods/castle
+    FOLDER/given/castle/mod.toml:1: ignored castle 2.0.0 in FOLDER/given/castle: castle 1.0.0 in FOLDER/mods/castle takes precedence
       help: remove one of them
     ");
 }
@@ -402,7 +402,7 @@ fn a_mod_toml_is_refused_with_its_line() {
       help: write [depends] and below it masonry = "1.0"
     mod.toml:5: depends: masonry must be a string in quotes, not a number
       help: write "1.0"
-    mod.toml:5: invalid package name depends: "../masonry"
+    mod.toml:5: depends: invalid package name "../masonry"
       help: write [depends] and below it masonry = "1.0"
     mod.toml:5: invalid version requirement "newest": unexpected character 'n' while parsing major version number
       help: write "1.2" for 1.2.0 to 2.0.0 (exclusive); ">=1.2, <1.5"; or "*" for all

@@ -276,22 +276,22 @@ fn every_form_of_well_known_text_is_read() {
     let disc = Geometry::from_wkt("CURVEPOLYGON (CIRCULARSTRING (0 0, 4 0, 0 0))").expect("a disc");
     assert!((disc.area() - 4.0 * std::f64::consts::PI).abs() < 0.1);
     for (text, why) in [
-        ("", "at letter 1 there should be the name of a kind of geometry, not its end"),
-        ("CIRCLE (1 2)", "at letter 1 there should be the name of a kind of geometry, not \"CIRCLE\""),
+        ("", "expected a geometry type at character 1, found its end"),
+        ("CIRCLE (1 2)", "expected a geometry type at character 1, found \"CIRCLE\""),
         (
             "LINESTRING (1 2)",
-            "at letter 17 there should be a second point in the line before this, not its end",
+            "expected a second point in the line before this at character 17, found its end",
         ),
         (
             "POLYGON ((0 0, 1 1))",
-            "at letter 21 there should be a third point in the ring before this, not its end",
+            "expected a third point in the ring before this at character 21, found its end",
         ),
-        ("POINT Z (1 2)", "at letter 13 there should be a point of 3 numbers, not \")\""),
-        ("POINT (1 2) x", "at letter 13 there should be the end, not \"x\""),
-        ("LINESTRING (1 2; 3 4)", "at letter 16 there should be a number, not \";\""),
+        ("POINT Z (1 2)", "expected a point of 3 numbers at character 13, found \")\""),
+        ("POINT (1 2) x", "expected the end at character 13, found \"x\""),
+        ("LINESTRING (1 2; 3 4)", "expected a number at character 16, found \";\""),
     ] {
         let error = Geometry::from_wkt(text).expect_err("no geometry");
-        assert_eq!(error.message(), format!("no well-known text: {why}"), "{text}");
+        assert_eq!(error.message(), format!("invalid well-known text: {why}"), "{text}");
         assert!(error.remedy().is_some());
     }
 }

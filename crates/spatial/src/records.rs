@@ -29,8 +29,8 @@ impl RecordTable {
     /// Returns a copy with only the columns whose names are in `names`.
     ///
     /// ```
-    /// use burgeon_data::Attribute;
-    /// use burgeon_data::output::{Record, RecordTable};
+    /// use burgeon_kit::Attribute;
+    /// use burgeon_spatial::{Record, RecordTable};
     ///
     /// let values = vec![(0, Attribute::Text("oak".into())), (1, Attribute::Number(12.0))];
     /// let records = vec![Record { values, ..Record::default() }];

@@ -130,7 +130,7 @@ fn a_zip_gives_its_one_tile() {
     assert_eq!((packed.heights, packed.grid), (plain.heights, plain.grid));
     for (files, why) in [
         (&[("a.txt", b"x".as_slice())][..], "contains no .hgt file"),
-        (&[("a.hgt", b"x"), ("b.hgt", b"x")], "holds 2 .hgt files"),
+        (&[("a.hgt", b"x"), ("b.hgt", b"x")], "contains 2 .hgt files"),
         (&[("a.hgt", b"")], "is empty"),
         (&[("a.hgt", b"xyz")], "is not square"),
     ] {
@@ -301,7 +301,9 @@ fn scale_and_offset_of_the_band_make_heights_of_its_samples() {
             heights(&metadata(&[item("SCALE", wrong)])).unwrap_err().message().contains("with the scale")
         );
     }
-    assert!(heights(&metadata(&[item("UNITTYPE", "furlong")])).unwrap_err().message().contains("a unit"));
+    assert!(
+        heights(&metadata(&[item("UNITTYPE", "furlong")])).unwrap_err().message().contains("unknown unit")
+    );
 }
 
 #[test]

@@ -77,7 +77,7 @@ fn delimited_text_has_geometries_in_well_known_text_binary_and_geojson() {
     "#);
     let open = read("a.csv", "lon,lat,name\n1,2,\"a\n3,4,b\n").err().unwrap();
     insta::assert_snapshot!(open, @r#"
-    a.csv cannot be read: a string in quotes begins in line 2 and does not end
+    a.csv cannot be read: a text in quotes begins in line 2 and does not end
       help: the file is cut short, or has a single quote (") in a text
     "#);
     let latin = read_as("a.csv", b"lon,lat,name\n1,2,H\xe4user\n", &SourceOptions::default()).unwrap();

@@ -60,7 +60,7 @@ impl Plan {
     /// // It crosses itself where x is 6: what is on the right of that is a loop of its own.
     /// let ring = [(0.0, 0.0), (8.0, 4.0), (8.0, 2.0), (0.0, 6.0)].map(|(x, y)| DVec3::new(x, y, 0.0));
     /// let plan = Plan::new(&Rings(vec![ring.to_vec()]))?;
-    /// assert_eq!(plan.repairs().0, ["loops of the outer ring left out"]);
+    /// assert_eq!(plan.repairs().0, ["loops of the outer ring removed"]);
     /// assert!((plan.polygon().area() - 18.0).abs() < 1e-6);
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```

@@ -182,7 +182,7 @@ mod tests {
           help: write 1..16
         ");
         insta::assert_snapshot!(said(VariationAxis::seeds("1..")), @r#"
-        "" is no seed
+        invalid seed ""
           help: write a range such as 1..16, or numbers such as 3,7,12
         "#);
         insta::assert_snapshot!(said(VariationAxis::seeds("-3")), @r#"

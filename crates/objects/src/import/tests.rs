@@ -164,7 +164,7 @@ fn numbers_that_cannot_be_are_refused() {
     let circle = r#""nodes":[{"children":[1]},{"children":[1]}],"scenes":[{"nodes":[0]}]"#;
     assert!(refused(triangle(POINTS, [0, 1, 2], circle)).contains("nested more than 64 deep"));
     let none = r#""nodes":[{"mesh":7}],"scenes":[{"nodes":[0]}]"#;
-    assert!(refused(triangle(POINTS, [0, 1, 2], none)).contains("no mesh 7"));
+    assert!(refused(triangle(POINTS, [0, 1, 2], none)).contains("missing mesh 7"));
     let text = String::from_utf8(triangle(POINTS, [0, 1, 2], NODES)).unwrap();
     let long =
         text.replace(r#""componentType":5126,"count":3"#, r#""componentType":5126,"count":4000000000"#);
@@ -424,7 +424,7 @@ fn many_primitives_over_one_list_of_points_keep_to_the_limits() {
     let room = [part.positions.capacity(), part.normals.capacity(), part.uvs.capacity()];
     assert_eq!(room, [part.positions.len(); 3]);
     let all = model(3000, false);
-    assert!(told(&all, 60.0, 100_000_000, usize::MAX).contains("100 MB of memory"));
+    assert!(told(&all, 60.0, 100_000_000, usize::MAX).contains("memory limit of 100 MB"));
     assert!(told(&all, 60.0, usize::MAX, 20_000).contains("more than 20000 triangles"));
-    assert!(told(&all, 0.05, usize::MAX, usize::MAX).contains("longer than 0.05 s"));
+    assert!(told(&all, 0.05, usize::MAX, usize::MAX).contains("time limit of 0.05 s"));
 }

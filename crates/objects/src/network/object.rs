@@ -37,7 +37,7 @@ use burgeon_streets::{
 /// // A street 120 m long to the east, from junction 1 at the origin.
 /// network.grow(1, 0.0, 120.0, 0)?;
 /// network.end()?;
-/// assert_eq!((network.fate(1, 0.0), network.size()), ("built".to_owned(), 1));
+/// assert_eq!((network.outcome(1, 0.0), network.size()), ("built".to_owned(), 1));
 /// assert_eq!(network.distance(Vector(DVec3::new(60.0, 9.0, 0.0))), 9.0);
 /// # Ok::<(), burgeon_base::Error>(())
 /// ```

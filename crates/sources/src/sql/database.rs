@@ -39,7 +39,7 @@ static MEMORIES: AtomicUsize = AtomicUsize::new(0);
 /// ```
 /// use std::sync::Arc;
 /// use burgeon_base::Budget;
-/// use burgeon_sources::{Cell, Database};
+/// use burgeon_sources::sql::{Cell, Database};
 ///
 /// let database = Database::new(None)?;
 /// let sql = "SELECT ST_Area(ST_Buffer(ST_MakePoint(0, 0), $r)) > 3 AS large, $r * 2 AS width";

@@ -29,7 +29,7 @@ impl Geometry {
     /// assert_eq!(lawn.area(), 60.0);
     /// assert!(Geometry::from_wkt("MULTIPOINT EMPTY")?.is_empty());
     /// let error = Geometry::from_wkt("POINT (1)").expect_err("no point");
-    /// assert_eq!(error.message(), "no well-known text: at letter 9 there should be a number, not \")\"");
+    /// assert_eq!(error.message(), "invalid well-known text: expected a number at character 9, found \")\"");
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     pub fn from_wkt(text: &str) -> Result<Self> {

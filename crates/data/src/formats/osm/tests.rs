@@ -269,7 +269,7 @@ fn bombs_and_what_is_not_known_are_refused_with_the_remedy() {
     let error = read(&data(deflated(&zeros, zeros.len())), wanted).unwrap_err();
     assert!(error.message().contains("memory"), "{error}");
     let late = SourceOptions { budget: Budget::within(Duration::ZERO, 1 << 30), ..layer("buildings") };
-    assert!(read(&town().bytes(), late).unwrap_err().message().contains("longer"));
+    assert!(read(&town().bytes(), late).unwrap_err().message().contains("time limit"));
 }
 
 #[test]

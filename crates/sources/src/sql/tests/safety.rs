@@ -197,7 +197,7 @@ fn errors_tell_the_place_and_what_there_is() {
       help: check the statement; the book's page on SQL tells what functions take
 
     SELECT ST_GeomFromText('POINT(1') AS g
-    -> SQL, line 1, column 8: ST_GeomFromText: no well-known text: at letter 8 there should be a number, not its end
+    -> SQL, line 1, column 8: ST_GeomFromText: invalid well-known text: expected a number at character 8, found its end
       help: check the statement; the book's page on SQL tells what functions take
 
     SELECT ST_X(geom) FROM houses
@@ -205,7 +205,7 @@ fn errors_tell_the_place_and_what_there_is() {
       help: check the statement; the book's page on SQL tells what functions take
 
     SELECT ST_Area(name) FROM houses WHERE name IS NOT NULL
-    -> SQL, line 1, column 8: ST_Area: no well-known text: at letter 1 there should be the name of a kind of geometry, not "house"
+    -> SQL, line 1, column 8: ST_Area: invalid well-known text: expected a geometry type at character 1, found "house"
       help: check the statement; the book's page on SQL tells what functions take
 
     SELECT ST_Intersects(geom, 3) FROM houses
