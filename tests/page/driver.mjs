@@ -19,7 +19,7 @@ const require = createRequire(join(resolve(process.env.PLAYWRIGHT ?? root), "pac
 const { chromium } = require("playwright-core");
 
 /** A tower of blocks with parameters of several kinds. */
-export const BLOCKS = `local count = param("count", { default = 3, min = 1, max = 12, step = 1, text = "Blocks of the tower" })
+export const BLOCKS = `local count = param("count", { default = 3, min = 1, max = 12, step = 1, doc = "Blocks of the tower" })
 local color = param("color", { default = "#b0413e" })
 local hollow = param("hollow", { default = false })
 local style = param("style", { default = "plain", choices = { "plain", "fluted" } })

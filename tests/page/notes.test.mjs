@@ -106,7 +106,7 @@ test("a line is looked for in the script, and one that is not there leaves no ma
       );
     };
     await says("13", "blocks.lua:13.*3 modules");
-    await says("900", "no line 900");
+    await says("900", "unknown line 900");
     // It is told once, beside the field.
     assert.ok(await seen(page, "toast").isHidden());
     await says("99999999999999999999", "no line 99999999999999999999");

@@ -163,14 +163,15 @@ fn example_in(list: &[ScriptExample], name: &str) -> String {
 /// Returns the script that shows a field or a method of a type: its own, or the type's if it calls the method. A former
 /// name has the script of the present name.
 fn example_of_member(kind: &Kind, member: &Member) -> String {
-    let shown = |name: &str| {
+    let example = |name: &str| {
         let lists = [objects::EXAMPLES, objects::PLAIN_EXAMPLES];
-        lists.into_iter().map(|list| example_in(list, name)).find(|found| !found.is_empty())
+        let full = format!("{}{}{name}", kind.name, member.what.separator());
+        let own = lists.into_iter().map(|list| example_in(list, &full)).find(|found| !found.is_empty());
+        let calls = member.what != MemberKind::Field && kind.example.contains(&format!(":{name}("));
+        own.or_else(|| calls.then(|| kind.example.to_string()))
     };
-    let calls = member.what != MemberKind::Field && kind.example.contains(&format!(":{}(", member.name));
-    let of_present = || shown(&format!("{}:{}", kind.name, kind.deprecation(&member.name)?.instead));
-    let own = shown(&member.full_name(&kind.name));
-    own.or_else(|| calls.then(|| kind.example.to_string())).or_else(of_present).unwrap_or_default()
+    let of_present = || example(&kind.deprecation(&member.name)?.instead);
+    example(&member.name).or_else(of_present).unwrap_or_default()
 }
 
 /// Returns the deprecation notice of a name, which follows its description.

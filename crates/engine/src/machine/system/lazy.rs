@@ -136,11 +136,11 @@ pub(super) fn is_feature(metatable: &Table) -> bool {
     matches!(metatable.raw_get(key(LAYER)), Ok(LuaValue::UserData(_)))
 }
 
+/// Names and values of the fields of a feature.
+type FeatureFields = Vec<(TableKey, Value)>;
+
 /// Returns the geometry and the other fields of the feature of a lazy table; `None` for any other table.
-pub(crate) fn feature_of(
-    table: &Table,
-    metatable: &Table,
-) -> Option<(Arc<dyn Object>, Vec<(TableKey, Value)>)> {
+pub(crate) fn feature_of(table: &Table, metatable: &Table) -> Option<(Arc<dyn Object>, FeatureFields)> {
     let held: UserDataRef<LayerHandle> = metatable.raw_get(key(LAYER)).ok()?;
     let index: usize = table.raw_get(key(NUMBER)).ok()?;
     let names = held.layer.attribute_names();
@@ -148,7 +148,7 @@ pub(crate) fn feature_of(
     let name = |name: &str| TableKey::Name(name.into());
     let own = held.layer.attributes(index).iter().map(|(index, value)| (&names[*index], value));
     let own = own.filter(|(name, _)| !matches!(name.as_str(), "id" | "layer" | "geometry"));
-    let mut fields: Vec<(TableKey, Value)> = own
+    let mut fields: FeatureFields = own
         .map(|(key, value)| {
             let value = match value {
                 Attribute::Boolean(value) => Value::Boolean(*value),
