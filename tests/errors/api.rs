@@ -88,8 +88,8 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
       where: string?
           An SQL condition on attributes.
       tags: { [string]: any }?
-          What tags of OpenStreetMap are: true for any value but no, "*" for any, false for none, a
-          text, or a list of strings. All of them hold; of a list of such tables, one holds.
+          OpenStreetMap tags: true for any value except no, "*" for any value, false for a missing tag,
+          a string, or a list of strings. All tags must match; of a list of such tables, one must match.
       within: { number }?
           West, south, east and north of a box that features touch, in the coordinates of the file.
       limit: number?

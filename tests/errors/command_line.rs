@@ -325,7 +325,7 @@ fn the_long_help_lists_the_formats_with_their_titles() {
 
 #[test]
 fn help_reads_well() {
-    assert_snapshot!(Folder::new().burgeon(&["--help"]).done().stdout, @r#"
+    assert_snapshot!(Folder::new().burgeon(&["--help"]).done().stdout, @r"
     Procedural modelling by rewriting: rules in Lua, geometry in Rust.
 
     Usage: burgeon <COMMAND>
@@ -348,11 +348,11 @@ fn help_reads_well() {
       -h, --help     Print help
       -V, --version  Print version
 
-    To begin:
+    Getting started:
       burgeon new tree
       burgeon live tree.lua
       burgeon run tree.lua -o tree.glb
-    "#);
+    ");
     assert_snapshot!(without_formats(&Folder::new().burgeon(&["run", "-h"]).done().stdout), @r#"
     Runs a script and writes what it makes
 

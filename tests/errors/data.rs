@@ -124,14 +124,14 @@ fn a_data_file_that_is_missing_or_lies_outside_is_told() {
       help: it is looked for from the script's folder; other folders are given with --data FOLDER
     "#);
     assert_snapshot!(told(r#"source("")"#), @r#"
-    error: in/s.lua:2: source needs the name of a file
+    error: in/s.lua:2: source needs a file name
       | source("")
       help: write source("village.geojson")
     "#);
     assert_snapshot!(told(r#"source("folder")"#), @r#"
     error: in/s.lua:2: folder is a folder
       | source("folder")
-      help: specify a .geojson, .gpkg, .fgb, .shp, .csv, .gml, .kml, .gpx, .city.json or .osm.pbf file in it
+      help: specify a .geojson, .gpkg, .fgb, .shp, .csv, .gml, .kml, .gpx, .city.json or .osm.pbf file in the folder
     "#);
     assert_snapshot!(told(r#"source("../outside.geojson")"#), @r#"
     error: in/s.lua:2: the data file ../outside.geojson lies outside the script's folder
@@ -367,7 +367,7 @@ fn options_of_a_source_are_checked() {
       help: write source("village.geojson") or source({ { id = "a", ... }, ... })
     "#);
     assert_snapshot!(told(r#"local f = source("village.geojson").feature"#), @r#"
-    error: in/s.lua:2: a unknown field `feature` in source
+    error: in/s.lua:2: a source has no field called feature
       | local f = source("village.geojson").feature
       help: did you mean features?
     "#);

@@ -115,7 +115,7 @@ fn what_is_made_of_a_file_alone_takes_no_options() {
 #[test]
 fn a_file_of_heights_that_is_missing_or_lies_outside_is_told() {
     assert_snapshot!(told(r#"elevation("N43E008.hgt")"#), @r#"
-    error: in/s.lua:2: there is no height file N43E008.hgt
+    error: in/s.lua:2: height file not found: N43E008.hgt
       | elevation("N43E008.hgt")
       help: it is looked for from the script's folder; other folders are given with --data FOLDER
     "#);

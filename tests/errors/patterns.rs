@@ -155,14 +155,14 @@ fn a_malformed_pattern_shows_the_place() {
         A(1)
           ^
       | s:rule("A(1)", function() return B() end)
-      help: a parameter's expected name
+      help: expected a parameter's name
     "#);
     assert_snapshot!(pattern("B < A(x) é"), @r#"
     error: s.lua:3: malformed pattern: unexpected 'é' at character 10
         B < A(x) é
                  ^
       | s:rule("B < A(x) é", function() return B() end)
-      help: a module's expected name
+      help: expected a module's name
     "#);
 }
 
