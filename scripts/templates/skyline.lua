@@ -65,7 +65,7 @@ local USUAL = {
   tower = 2.6,
 }
 
-local RULES: { [string]: (lot: any, of: any, draw: () -> number) -> number } = {}
+local RULES: { [string]: (lot: any, of: any, draw: (number?, number?) -> number) -> number } = {}
 
 -- From 0, the minimum, to 1, the maximum.
 function RULES.depth(lot, of)
@@ -91,7 +91,7 @@ function RULES.presets(_, of, draw)
 end
 
 -- The height of a building on a lot, its kind, and its preferred width and depth.
-function skyline.building(lot: any, options: Heights?, drawn: (() -> number)?): Building
+function skyline.building(lot: any, options: Heights?, drawn: ((number?, number?) -> number)?): Building
   local draw = drawn or stream("skyline", lot.id)
   local of: any = table.clone(USUAL :: any)
   for name, value in (options or {}) :: any do
@@ -343,7 +343,12 @@ function skyline.row(lot: any, depth: number, gap: number?): any
 end
 
 -- The parts of a building on a lot, from bottom to top; none if the lot has no room for it. They are inside the lot.
-function skyline.plan(lot: any, building: Building, options: Plans?, drawn: (() -> number)?): { Tier }
+function skyline.plan(
+  lot: any,
+  building: Building,
+  options: Plans?,
+  drawn: ((number?, number?) -> number)?
+): { Tier }
   local next = drawn or stream("skyline plan", lot.id)
   local of: Plans = options or {}
   local front, side = of.front or 2, of.side or 1.5
