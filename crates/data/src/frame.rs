@@ -379,8 +379,8 @@ mod tests {
         assert!(told(4326, 385_423.0, 6_671_463.0).contains("not a valid longitude and latitude"));
         assert!(told(4326, f64::NAN, 1.0).contains("not a finite number"));
         assert!(told(3067, f64::INFINITY, 1.0).contains("not a finite number"));
-        assert!(told(12, 1.0, 1.0).contains("EPSG:12 is not known"));
+        assert!(told(12, 1.0, 1.0).contains("unknown coordinate system EPSG:12"));
         assert!(told(4978, 1.0, 1.0).contains("cannot be used"));
-        assert!(told(99_999, 1.0, 1.0).contains("EPSG:99999 is not known"));
+        assert!(told(99_999, 1.0, 1.0).contains("unknown coordinate system EPSG:99999"));
     }
 }

@@ -423,7 +423,7 @@ mod tests {
           help: did you mean seed?
         ");
         insta::assert_snapshot!(refused("{ \"tall\": {\n\"floors\": 3 } }"), @r"
-        FOLDER/tower.presets.json:2: preset unknown field `floors` in tall
+        FOLDER/tower.presets.json:2: unknown field `floors` in preset tall
           help: a preset has a seed and params; put parameters into params
         ");
         insta::assert_snapshot!(refused("{ \"tall\": { \"seed\": -1 } }"), @r"

@@ -186,7 +186,7 @@ mod tests {
           help: write a range such as 1..16, or numbers such as 3,7,12
         "#);
         insta::assert_snapshot!(said(VariationAxis::seeds("-3")), @r#"
-        "-3" is no seed
+        invalid seed "-3"
           help: write a range such as 1..16, or numbers such as 3,7,12
         "#);
         insta::assert_snapshot!(said(VariationAxis::seeds("1..257")), @r"
