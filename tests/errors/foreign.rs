@@ -228,6 +228,18 @@ fn package(count: usize) -> Vec<u8> {
 }
 
 #[test]
+fn a_query_of_a_box_of_a_geopackage_reads_the_box_only() {
+    let script = "local some = source(\"a.gpkg\", { within = { 385430, 6671460, 385439.5, 6671470 } })
+        local count = query(\"select count(*) as n from a\")[1].n
+        assert(#some == 10 and count == 10, `{#some} features, {count} rows`)";
+    let folder = Folder::new().with("a.gpkg", package(100)).with("s.lua", script);
+    folder.burgeon(&["run", "s.lua"]).done();
+    let whole = script.replace("{ within = { 385430, 6671460, 385439.5, 6671470 } }", "{}");
+    let folder = folder.with("s.lua", whole.replace("== 10", "== 100"));
+    folder.burgeon(&["run", "s.lua"]).done();
+}
+
+#[test]
 fn a_condition_ends_with_its_time_and_takes_no_more_memory_than_it_may() {
     let folder = Folder::new().with("a.gpkg", package(2000));
     let endless = "WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c";

@@ -58,7 +58,7 @@ s:derive(0)"
     let made = run(&script(3));
     assert_eq!(all_chains(&made), "F F F N(4)\n");
     let [warning] = made.warnings.as_slice() else { panic!("{:?}", made.warnings) };
-    assert_eq!(warning.message(), "the decomposition has not ended at depth 3, and goes no deeper");
+    assert_eq!(warning.message(), "decomposition stopped at the maximum depth 3, but the rule still applies");
     assert_eq!(warning.place().map(|place| place.line), Some(4));
     let text = warning.to_string();
     assert!(

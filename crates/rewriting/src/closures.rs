@@ -46,7 +46,7 @@ impl AppliedModule<'_> {
     /// Returns the random numbers of `parts`, a name and further keys, for this module. They do not depend on
     /// [`AppliedModule::random`], nor change its numbers.
     pub fn stream(&self, parts: &[KeyPart<'_>]) -> Stream {
-        parts.iter().fold(self.key, |key, part| key.named(*part)).stream()
+        parts.iter().fold(self.key, |key, part| key.substream(*part)).stream()
     }
 
     /// Returns the number of the step that is running, from 1. A derivation does not end while a rule reads it, because

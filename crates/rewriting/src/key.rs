@@ -57,10 +57,10 @@ impl ModuleKey {
         Self(mix(self.0 ^ 0xBE51)).child(place)
     }
 
-    /// Returns the key of a named stream of this key: `part` is its name. A further call adds a further key, and gives an
-    /// independent stream.
+    /// Returns the key of the substream with the name `part`. Substreams with different names are independent, and can
+    /// have substreams of their own.
     #[must_use]
-    pub fn named(self, part: KeyPart<'_>) -> Self {
+    pub fn substream(self, part: KeyPart<'_>) -> Self {
         let with = |key: u64, bits: u64| mix(mix(key).wrapping_add(bits));
         Self(match part {
             KeyPart::Number(number) => with(self.0 ^ 0x57EA, (number + 0.0).to_bits()),
@@ -125,20 +125,20 @@ mod tests {
             root.at_place(1),
             root.feature("a"),
             root.feature("b"),
-            root.named(text("a")),
-            root.named(text("b")),
-            root.named(text("ab")),
-            root.named(text("a")).named(text("b")),
-            root.named(text("b")).named(text("a")),
-            root.named(text("a")).named(text("1")),
-            root.named(text("a")).named(text("")),
-            root.named(text("a")).named(KeyPart::Number(1.0)),
-            root.named(text("a")).named(KeyPart::Number(2.0)),
-            root.named(text("a")).named(KeyPart::Boolean(true)),
-            root.named(text("a windowsill")),
-            root.named(text("a windowsill\0")),
-            root.child(0).named(text("a")),
-            root.named(text("a")).child(0),
+            root.substream(text("a")),
+            root.substream(text("b")),
+            root.substream(text("ab")),
+            root.substream(text("a")).substream(text("b")),
+            root.substream(text("b")).substream(text("a")),
+            root.substream(text("a")).substream(text("1")),
+            root.substream(text("a")).substream(text("")),
+            root.substream(text("a")).substream(KeyPart::Number(1.0)),
+            root.substream(text("a")).substream(KeyPart::Number(2.0)),
+            root.substream(text("a")).substream(KeyPart::Boolean(true)),
+            root.substream(text("a windowsill")),
+            root.substream(text("a windowsill\0")),
+            root.child(0).substream(text("a")),
+            root.substream(text("a")).child(0),
         ];
         let mut first: Vec<u64> = keys.iter().map(|key| key.stream().uniform().to_bits()).collect();
         first.sort_unstable();
@@ -149,8 +149,8 @@ mod tests {
     #[test]
     fn the_first_numbers_of_streams_with_neighbouring_keys_are_independent() {
         let first = |x: f64, y: f64| {
-            let place = ModuleKey::seed(3).named(text("place"));
-            place.named(KeyPart::Number(x)).named(KeyPart::Number(y)).stream().uniform()
+            let place = ModuleKey::seed(3).substream(text("place"));
+            place.substream(KeyPart::Number(x)).substream(KeyPart::Number(y)).stream().uniform()
         };
         let mut cells = [0_u32; 100];
         for x in 0..200 {

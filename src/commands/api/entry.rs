@@ -170,7 +170,8 @@ fn example_of_member(kind: &Kind, member: &Member) -> String {
         let calls = member.what != MemberKind::Field && kind.example.contains(&format!(":{name}("));
         own.or_else(|| calls.then(|| kind.example.to_string()))
     };
-    let of_present = || example(&kind.deprecation(&member.name)?.instead);
+    // The replacement is qualified by the type: network:grow_to.
+    let of_present = || example(kind.deprecation(&member.name)?.instead.rsplit([':', '.']).next()?);
     example(&member.name).or_else(of_present).unwrap_or_default()
 }
 

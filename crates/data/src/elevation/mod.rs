@@ -7,6 +7,8 @@
 
 mod fill;
 mod format;
+#[cfg(test)]
+mod geotiff_tests;
 mod holes;
 #[cfg(test)]
 mod hostile;

@@ -254,7 +254,8 @@ fn warn_of_depth(
         (*other == symbol)
             .then(|| module_brief(grammar.symbols(), &session.values, symbol, &chain.params[begin..param]))
     });
-    let text = format!("the decomposition has not ended at depth {}, and goes no deeper", rules.max_depth);
+    let text =
+        format!("decomposition stopped at the maximum depth {}, but the rule still applies", rules.max_depth);
     let warning = Warning::new(WarningKind::Depth, text)
         .at(rule.place.clone())
         .rule(&rule.pattern.text)

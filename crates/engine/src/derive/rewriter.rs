@@ -79,9 +79,11 @@ impl Rewriter for SystemRewriter<'_> {
         let systems = self.leader.machine.library.systems.borrow();
         let system = &systems[index];
         if system.has_rules_in(RulePhase::Decomposition) {
-            return Err(Error::script("an object that applies the rules of a system has no decompositions")
-                .at(system.place.clone())
-                .help("declare the rules with system:rule"));
+            return Err(Error::script(
+                "an object applies the rules of this system, which must not have decomposition rules",
+            )
+            .at(system.place.clone())
+            .help("declare the rules with system:rule"));
         }
         let rules = Arc::new(RuleSet {
             grammar: system.grammar(

@@ -74,7 +74,7 @@ impl Library {
                     param.name = format!("{package}.{name}");
                     param.package = Some(package);
                 }
-                match library.given(&param) {
+                match library.param_value(&param) {
                     Ok(value) => param.value = value,
                     Err(error) => session.forgive(&param.name, error).map_err(mlua::Error::external)?,
                 }

@@ -151,7 +151,7 @@ impl Library {
     }
 
     /// Returns the value of a parameter for this run, from options, preset or default.
-    pub(super) fn given(&self, param: &Param) -> Result<Setting> {
+    pub(super) fn param_value(&self, param: &Param) -> Result<Setting> {
         let machine = self.machine()?;
         let session = &machine.session;
         let values = &session.options.params;

@@ -29,12 +29,12 @@ pub(super) fn add_streams(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> m
         "stream",
         lua.create_function(move |_, (numbers, application, keys): (Buffer, Option<usize>, MultiValue)| {
             let key = state.key(application).map_err(mlua::Error::external)?;
-            let named = match named(key, &keys) {
-                Ok(named) => named,
+            let key = match stream_key(key, &keys) {
+                Ok(key) => key,
                 Err(unusable) => return Ok(Some(unusable)),
             };
-            numbers.write_bytes(0, &named.0.to_le_bytes());
-            write_numbers(&numbers, &mut named.stream());
+            numbers.write_bytes(0, &key.0.to_le_bytes());
+            write_numbers(&numbers, &mut key.stream());
             Ok(None)
         })?,
     )?;
@@ -62,7 +62,7 @@ pub(super) fn add_streams(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> m
 }
 
 /// Returns the key of a named stream of `key`, or the index of the first part that cannot be a key, from 1.
-fn named(key: ModuleKey, parts: &MultiValue) -> Result<ModuleKey, usize> {
+fn stream_key(key: ModuleKey, parts: &MultiValue) -> Result<ModuleKey, usize> {
     let first = parts.front().and_then(LuaValue::as_string);
     if first.is_none_or(|name| name.as_bytes().is_empty()) {
         return Err(1);
@@ -71,11 +71,11 @@ fn named(key: ModuleKey, parts: &MultiValue) -> Result<ModuleKey, usize> {
         let part = match part {
             _ if index > MOST_KEYS => None,
             #[allow(clippy::cast_precision_loss, reason = "Luau's integers are exact in an f64")]
-            LuaValue::Integer(number) => Some(key.named(KeyPart::Number(*number as f64))),
-            LuaValue::Number(number) if number.is_finite() => Some(key.named(KeyPart::Number(*number))),
-            LuaValue::Boolean(value) => Some(key.named(KeyPart::Boolean(*value))),
+            LuaValue::Integer(number) => Some(key.substream(KeyPart::Number(*number as f64))),
+            LuaValue::Number(number) if number.is_finite() => Some(key.substream(KeyPart::Number(*number))),
+            LuaValue::Boolean(value) => Some(key.substream(KeyPart::Boolean(*value))),
             LuaValue::String(text) if text.as_bytes().len() <= LONGEST => {
-                Some(key.named(KeyPart::Text(&text.as_bytes())))
+                Some(key.substream(KeyPart::Text(&text.as_bytes())))
             }
             _ => None,
         };

@@ -157,7 +157,7 @@ pub static LSYSTEM: LazyLock<Name> = LazyLock::new(|| {
                     "nil",
                     "With \"last\", only the last chain is interpreted instead of the chain of every step.",
                 ),
-                field("max_depth", "number?", "100", "Maximum number of decompositions one after another."),
+                field("max_depth", "number?", "100", "Maximum depth of decompositions: the number of times that their rules apply in one step."),
                 field(
                     "city",
                     "string?",

@@ -12,6 +12,8 @@ mod odd;
 mod plans;
 #[cfg(feature = "postgis")]
 mod postgis;
+#[cfg(feature = "postgis")]
+mod postgis_connections;
 mod safety;
 mod same;
 #[cfg(feature = "postgis")]

@@ -98,7 +98,7 @@ impl SourceStore for DataStore {
 
     #[cfg(not(feature = "data"))]
     fn rows(&self, _: &SourceRequest<'_>, _: &SourceQuery<'_>) -> Result<QueryRows> {
-        Err(Error::unavailable("this program was built without databases")
+        Err(Error::unavailable("this program was built without database support")
             .help("build it with the feature data"))
     }
 

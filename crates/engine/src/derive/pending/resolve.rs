@@ -103,7 +103,7 @@ impl Resolver<'_> {
     fn text(&self, at: Mark, index: usize) -> Result<Arc<str>> {
         match self.value(at, index) {
             Value::Text(text) => Ok(text),
-            _ => Err(Error::internal("bug in Burgeon: a placeholder module has no value")),
+            _ => Err(Error::internal("a placeholder module has no value")),
         }
     }
 
