@@ -12,8 +12,6 @@ pub enum WarningKind {
     UndrawnModule,
     /// A module of the standard library that the script redeclares, so that it is not drawn.
     HiddenModule,
-    /// An interpretation that returns modules.
-    ReturnedModules,
     /// Interpretations of a system without an object.
     NoObject,
     /// A declaration after the derivation, which it cannot affect.
@@ -61,7 +59,6 @@ impl WarningKind {
             Self::EmptyModel => "warning.empty-model",
             Self::UndrawnModule => "warning.undrawn-module",
             Self::HiddenModule => "warning.hidden-module",
-            Self::ReturnedModules => "warning.returned-modules",
             Self::NoObject => "warning.no-object",
             Self::LateDeclaration => "warning.late-declaration",
             Self::UnreachableRule => "warning.unreachable-rule",

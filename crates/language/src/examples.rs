@@ -24,6 +24,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "decompose" shows "system:decompose";
     "derived" shows "derived";
     "ease" shows "ease" "ease.in" "ease.out" "ease.inout" "ease.smooth" "ease.sine" "ease.back";
+    "expect" shows "expect";
     "extend" shows "extend";
     "feature" shows "feature";
     "fragment" shows "fragment";

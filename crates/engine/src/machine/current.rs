@@ -25,9 +25,18 @@ pub(crate) trait Flusher: std::any::Any {
     /// Adds warnings of the chain's object.
     fn warn(&mut self, said: Vec<Warning>);
 
-    /// Records that the interpretation rule of `entry` has returned a `value`, given as text, or modules if
-    /// `None`.
-    fn lost(&mut self, entry: usize, value: Option<&str>);
+    /// Records that the interpretation rule of `entry` has returned a `value`, given as text.
+    fn lost(&mut self, entry: usize, value: &str);
+
+    /// Returns the parameters of the context modules of interpretation rule `rule` around the module of `entry`; `None` if
+    /// the contexts do not match.
+    fn context(&self, entry: usize, rule: u16) -> Option<Vec<f64>>;
+
+    /// Records that an interpretation rule has returned a module that nothing draws.
+    fn undrawn(&self, symbol: Symbol);
+
+    /// Records that `entry` has returned a `module`, given as text, to which `rule` does not apply any more.
+    fn too_deep(&mut self, entry: usize, rule: u16, module: &str, max_depth: usize);
 }
 
 /// Step for which rules or interpretation rules run.
@@ -111,6 +120,14 @@ impl WorkState {
         }
         self.drawn.set(self.drawn.get().max(index + 1));
         Ok(stream.uniform())
+    }
+
+    /// Adds the key of a module that the interpretation rule with key `parent` has returned. Returns its index.
+    pub(crate) fn child_key(&self, parent: usize, ordinal: usize) -> Result<usize> {
+        let key = self.key(Some(parent))?.child(ordinal);
+        let mut keys = self.keys.borrow_mut();
+        keys.push(key);
+        Ok(keys.len() - 1)
     }
 
     /// Returns the key of an application's random stream, or that of the top level for `None`.

@@ -174,9 +174,6 @@ impl Walk<'_> {
                     *known = None;
                 }
             }
-            if let Some(line) = function.loses {
-                self.lost.insert(begin.line(), line);
-            }
             let form = (!is_method).then(|| signature(body));
             let known = self.signatures.entry(begin.line()).or_insert_with(|| form.clone());
             if known.as_ref().map(ToString::to_string) != form.as_ref().map(ToString::to_string) {
@@ -196,12 +193,6 @@ impl Walk<'_> {
 
     pub(super) fn returns(&mut self, token: &TokenReference, values: &Punctuated<Expression>) {
         let role = self.functions.last().map_or(FunctionRole::Script, |function| function.role);
-        if role == FunctionRole::Interpretation && values.iter().any(|value| self.makes_modules(value)) {
-            let line = token.start_position().map(|position| position.line());
-            if let Some(function) = self.functions.last_mut() {
-                function.loses = function.loses.or(line);
-            }
-        }
         if role != FunctionRole::Rule {
             return self.expressions(values);
         }
@@ -223,21 +214,6 @@ impl Walk<'_> {
             if let Some(function) = self.functions.last_mut().filter(|it| !it.shapes.contains(&list)) {
                 function.shapes.push(list);
             }
-        }
-    }
-
-    /// Returns true if the syntax shows that `value` is a module or a branch of modules.
-    fn makes_modules(&self, value: &Expression) -> bool {
-        match value {
-            Expression::FunctionCall(call) => match (call.prefix(), call.suffixes().count()) {
-                (Prefix::Name(name), 1) => self.module(name).is_some(),
-                _ => false,
-            },
-            Expression::TableConstructor(table) => match table.fields().iter().next() {
-                Some(Field::NoKey(first)) => self.makes_modules(first),
-                _ => false,
-            },
-            _ => false,
         }
     }
 

@@ -39,8 +39,6 @@ pub struct Analysis {
     /// Text of a rule's guard without comments and line breaks, by the line on which the guard begins. Lines with
     /// guards of different texts are omitted.
     pub guards: BTreeMap<usize, String>,
-    /// Line on which an interpretation returns modules, by the line on which the interpretation begins.
-    pub lost: BTreeMap<usize, usize>,
     /// Detected queries of a rule's function, by the line on which the function begins.
     pub queries: BTreeMap<usize, Vec<QueryCall>>,
     /// Deprecated names that the script uses, with their lines.
@@ -167,7 +165,6 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         pure,
         mut blind,
         guards,
-        lost,
         queries,
         signatures,
         begins,
@@ -210,7 +207,6 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         pure,
         blind,
         guards,
-        lost,
         queries,
         signatures,
         ast,

@@ -51,15 +51,13 @@ pub(super) struct Function {
     pub(super) pure: bool,
     /// Set if the function reads its first parameter.
     pub(super) asks: bool,
-    /// Line of the first return of modules by an interpretation, which are ignored.
-    pub(super) loses: Option<usize>,
     /// Detected queries.
     pub(super) queries: Vec<QueryCall>,
 }
 
 impl Function {
     pub(super) fn new(role: FunctionRole, rule: Option<String>) -> Self {
-        Self { role, rule, shapes: Vec::new(), pure: true, asks: false, loses: None, queries: Vec::new() }
+        Self { role, rule, shapes: Vec::new(), pure: true, asks: false, queries: Vec::new() }
     }
 }
 
@@ -117,8 +115,6 @@ pub(super) struct Walk<'a> {
     pub(super) blind: BTreeMap<usize, bool>,
     /// Text of the guard that begins on a line, by line; `None` if guards on the line differ.
     pub(super) guards: BTreeMap<usize, Option<String>>,
-    /// Line on which an interpretation returns modules, by the line on which it begins.
-    pub(super) lost: BTreeMap<usize, usize>,
     /// Signature of the function that begins on a line, by line; `None` if signatures on the line differ.
     pub(super) signatures: BTreeMap<usize, Option<CallForm>>,
     /// Queries of a rule's function, by the line on which the function begins.
@@ -174,7 +170,6 @@ impl<'a> Walk<'a> {
             pure: BTreeMap::new(),
             blind: BTreeMap::new(),
             guards: BTreeMap::new(),
-            lost: BTreeMap::new(),
             signatures: BTreeMap::new(),
             queries: BTreeMap::new(),
             begins: Vec::new(),

@@ -50,6 +50,13 @@ pub(super) fn names() -> Vec<Name> {
             "Adds a warning to the run, with the problem and its remedy. Only the top level of a script and its functions can warn, not rules.",
         )
         .form([argument("text", "string"), argument("help", "string?")], "()"),
+        Name::global(
+            "expect",
+            "Checks a known result of the script, such as a number of modules: the run fails if `actual` and `expected` differ, \
+             numbers by more than `tolerance` (0 unless given). It checks only runs with the script's own values: with another \
+             seed, number of steps or parameter value, it does nothing.",
+        )
+        .form([argument("actual", "any"), argument("expected", "any"), argument("tolerance", "number?")], "()"),
         Name::global("require", "Returns the result of another file of the script or of a package: require(\"@castle/towers\"). Each file runs once.")
             .form([argument("name", "string")], "any"),
         Name::global(
@@ -157,7 +164,7 @@ pub static LSYSTEM: LazyLock<Name> = LazyLock::new(|| {
                     "nil",
                     "With \"last\", only the last chain is interpreted instead of the chain of every step.",
                 ),
-                field("max_depth", "number?", "100", "Maximum depth of decompositions: the number of times that their rules apply in one step."),
+                field("max_depth", "number?", "100", "Maximum depth of decompositions and of interpretations that return modules: the number of times that their rules apply one after another."),
                 field(
                     "city",
                     "string?",
@@ -228,6 +235,7 @@ pub static EXTEND: LazyLock<Name> = LazyLock::new(|| {
 pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
     let pattern = || argument("pattern", "string");
     let successor = || argument("successor", "((this: T, ...any) -> ...Module) | string");
+    let draw = || argument("draw", "(this: T, ...any) -> ...any");
     Name::return_value(
         "system",
         "System<T>",
@@ -252,8 +260,14 @@ pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
         )
         .form([pattern(), successor()], "System<T>")
         .form([pattern(), options("{ ... }", RULE.fields.clone()), successor()], "System<T>"),
-        Name::function("interpret", "Adds an interpretation: the function that draws a module.")
-            .form([pattern(), argument("draw", "(this: T, ...any) -> ...any")], "System<T>"),
+        Name::function(
+            "interpret",
+            "Adds an interpretation: the function that draws a module. It calls methods of `this`, and may return modules, which \
+             are interpreted in its place; the chain does not change. Interpretations of one module are chosen as rules are: by \
+             contexts in the chain, guards and weights.",
+        )
+        .form([pattern(), draw()], "System<T>")
+        .form([pattern(), options("{ ... }", RULE.fields.clone()), draw()], "System<T>"),
         Name::function("ignore", "Sets modules that context matching ignores.")
             .form([argument("...", "string")], "System<T>"),
         Name::function("consider", "Sets the only modules that context matching considers.")
@@ -271,7 +285,7 @@ pub static RULE: LazyLock<Name> = LazyLock::new(|| {
     Name::return_value(
         "rule",
         "{ ... }",
-        "Options of system:rule and system:decompose, between pattern and successor.",
+        "Options of system:rule, system:decompose and system:interpret, between pattern and function.",
     )
     .fields([
         field(
@@ -302,6 +316,11 @@ pub static DERIVED: LazyLock<Name> = LazyLock::new(|| {
         Field::new("chains", "{ string }", "The chains as text."),
         Field::new("steps", "number", "Number of steps."),
         Field::new("modules", "number", "Number of modules in the chains."),
+        Field::new(
+            "counts",
+            "{ [string]: number }",
+            "Number of modules of each name in the chains, such as derived.counts.F.",
+        ),
     ])
 });
 

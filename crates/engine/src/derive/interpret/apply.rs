@@ -7,12 +7,12 @@ use mlua::Buffer;
 
 use super::InterpretationPass;
 use super::notices::ObjectNotice;
-use crate::machine::{Flusher, Machine, Objects, read_column, returns_modules, returns_value};
+use crate::machine::{CLOSE_CALL, Flusher, Machine, OPEN_CALL, Objects, read_column, returns_value};
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
-use burgeon_base::warning::Warning;
+use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::{Call, Capability, Kind, Object, Value, Values, Warn};
-use burgeon_rewriting::{CLOSE, END, Mark, OPEN, module_brief};
+use burgeon_rewriting::{CLOSE, END, Mark, OPEN, Symbol, module_brief};
 
 /// Progress of applying one piece of the chains.
 pub(crate) struct Applier {
@@ -304,9 +304,17 @@ impl Applier {
         }
         while self.call_at < end {
             let method = self.calls[self.call_at];
-            let count = self.kind.methods[usize::from(method)].arguments.len();
+            let count = self.argument_count(method);
             let numbers = self.number_at..self.number_at + count;
-            if let Err(error) = self.call(object, method, &self.numbers[numbers]) {
+            let called = match method {
+                OPEN_CALL => {
+                    object.push();
+                    Ok(())
+                }
+                CLOSE_CALL => object.pop(),
+                method => self.call(object, method, &self.numbers[numbers]),
+            };
+            if let Err(error) = called {
                 self.failed = Some((self.next, self.applied));
                 return Err(error);
             }
@@ -321,7 +329,13 @@ impl Applier {
     /// Returns the total number of arguments of these recorded calls.
     fn arguments_of(&self, calls: std::ops::Range<usize>) -> usize {
         let calls = self.calls.get(calls).unwrap_or_default();
-        calls.iter().map(|call| self.kind.methods[usize::from(*call)].arguments.len()).sum()
+        calls.iter().map(|call| self.argument_count(*call)).sum()
+    }
+
+    /// Returns the number of arguments of a recorded call; brackets have none.
+    #[inline]
+    fn argument_count(&self, call: u16) -> usize {
+        self.kind.methods.get(usize::from(call)).map_or(0, |method| method.arguments.len())
     }
 
     fn count(&mut self) -> Result<()> {
@@ -416,13 +430,32 @@ impl Flusher for Applier {
         self.note(said, None);
     }
 
-    fn lost(&mut self, entry: usize, value: Option<&str>) {
-        let Some(module) = self.entries.get(entry).copied() else { return };
-        let interpretations = &self.pass.plan.interpretations;
-        let id = interpretations.by_symbol[usize::from(self.pass.chain.symbols[module.0])];
-        if interpretations.list.get(usize::from(id)).is_some_and(|known| !known.loses) {
-            let warning = value.map_or_else(returns_modules, returns_value);
-            self.notices.push(ObjectNotice { warning, module, call: None });
+    fn lost(&mut self, entry: usize, value: &str) {
+        if let Some(module) = self.entries.get(entry).copied() {
+            self.notices.push(ObjectNotice { warning: returns_value(value), module, call: None });
         }
+    }
+
+    fn context(&self, entry: usize, rule: u16) -> Option<Vec<f64>> {
+        let (module, _) = *self.entries.get(entry)?;
+        self.pass.context(rule, module)
+    }
+
+    fn undrawn(&self, symbol: Symbol) {
+        self.pass.note_undrawn(symbol);
+    }
+
+    fn too_deep(&mut self, entry: usize, rule: u16, module: &str, max_depth: usize) {
+        let Some(at) = self.entries.get(entry).copied() else { return };
+        let text = format!(
+            "interpretation stopped at the maximum depth {max_depth}, but the rule returns more modules"
+        );
+        let mut warning = Warning::new(WarningKind::Depth, text)
+            .help("end it with a guard or a counter, or raise the limit: lsystem({ max_depth = 1000 })")
+            .module(module, self.pass.step);
+        if let Some(known) = self.pass.plan.interpretations.list.get(usize::from(rule)) {
+            warning = warning.at(known.place.clone()).rule(format!("{} (interpretation)", known.name));
+        }
+        self.notices.push(ObjectNotice { warning, module: at, call: None });
     }
 }

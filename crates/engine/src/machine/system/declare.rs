@@ -19,6 +19,7 @@ use burgeon_rewriting::{MOST_RULES, NameScope, Pattern, Rule, Symbols};
 
 use super::{
     DeclaredAxiom, DeclaredInterpretation, DeclaredRule, RulePhase, SourceHandle, SystemDeclaration,
+    is_unconditional,
 };
 
 impl SystemDeclaration {
@@ -116,11 +117,10 @@ impl SystemDeclaration {
         &mut self,
         library: &Library,
         lua: &Lua,
-        pattern: &LuaValue,
-        rule: LuaValue,
+        mut arguments: Vec<LuaValue>,
     ) -> Result<()> {
         let usage = "write system:interpret(\"A(x)\", function(this, x) ... end)";
-        let LuaValue::String(text) = pattern else {
+        let Some(LuaValue::String(text)) = arguments.first() else {
             return Err(
                 Error::argument("the first argument of an interpretation must be a pattern").help(usage)
             );
@@ -129,50 +129,52 @@ impl SystemDeclaration {
         let pattern = Pattern::parse_in(&text.to_string_lossy(), &symbols, &library.scope_at(lua))?;
         drop(symbols);
         let name = pattern.text.clone();
-        if !pattern.left.is_empty() || !pattern.right.is_empty() {
-            return Err(Error::argument("an interpretation cannot have contexts")
-                .rule(&name)
-                .help("only rules have contexts; pass the value in a parameter of the module"));
-        }
-        let LuaValue::Function(rule) = rule else {
-            return Err(Error::argument("an interpretation needs a function").rule(&name).help(usage));
+        let named = |error: Error| error.rule(&name);
+        let (weight, guard) = match (arguments.len(), arguments.get(1)) {
+            (3, Some(LuaValue::Table(options))) => rule_options(options).map_err(named)?,
+            (3, _) => {
+                let error = Error::argument("the options of an interpretation must be a table");
+                return Err(named(error.help("write { weight = 2 }")));
+            }
+            (1 | 2, _) => (None, None),
+            (count, _) => {
+                let error = Error::argument(format!("interpret takes 2 or 3 arguments, not {count}"));
+                return Err(named(error.help(usage)));
+            }
         };
-        check_parameters(&rule, &pattern, "the interpretation").map_err(|error| error.rule(&name))?;
-        check_queries(library, &rule, &pattern).map_err(|error| error.rule(&name))?;
-        let item = pattern.predecessor;
-        if let Some(known) =
-            self.interpretations.iter().find(|known| known.pattern.predecessor.symbol == item.symbol)
+        let (1.., Some(LuaValue::Function(function))) = (arguments.len() - 1, arguments.pop()) else {
+            return Err(named(Error::argument("an interpretation needs a function").help(usage)));
+        };
+        for (function, what) in std::iter::once((&function, "the interpretation"))
+            .chain(guard.as_ref().map(|guard| (guard, "the guard")))
         {
+            check_parameters(function, &pattern, what).map_err(named)?;
+            check_queries(library, function, &pattern).map_err(named)?;
+        }
+        let rule = Rule::new(pattern, weight, guard.is_some(), Machine::place(lua));
+        let symbol = rule.pattern.predecessor.symbol;
+        let earlier = self.interpretations.iter().map(|known| &known.rule);
+        let mut earlier = earlier.filter(|known| known.pattern.predecessor.symbol == symbol);
+        if let Some(known) = earlier.find(|known| is_unconditional(known)) {
             let line = known.place.as_ref().map_or(String::new(), |place| format!(" in line {}", place.line));
-            return Err(Error::script(format!("{name} is already interpreted{line}"))
-                .rule(&name)
-                .help("a module can have only one interpretation; join the two functions"));
+            return Err(named(Error::script(format!("{name} is already interpreted{line}"))).help(
+                "join the two functions, or declare an interpretation with contexts, a guard or a weight first",
+            ));
         }
-        let machine = library.machine()?;
-        let line = begin_of(&rule).and_then(|(file, line)| {
-            Some(SourcePlace { line: machine.session.loses_modules(&file, line)?, file })
-        });
-        let loses = line.is_some();
-        if loses {
-            machine.warn(returns_modules().at(line).rule(format!("{name} (interpretation)")));
+        if self.interpretations.len() >= MOST_RULES / 2 {
+            let limit = grouped(MOST_RULES / 2);
+            return Err(Error::limit(Limit::Size, format!("a system has at most {limit} interpretations"))
+                .help("use parameters of modules instead of many interpretations"));
         }
-        let place = Machine::place(lua);
-        self.interpretations.push(DeclaredInterpretation { pattern, rule, place, loses });
+        self.interpretations.push(DeclaredInterpretation { rule, guard, function });
         Ok(())
     }
-}
-
-/// Returns the warning for an interpretation that returns modules.
-pub(crate) fn returns_modules() -> Warning {
-    Warning::new(WarningKind::ReturnedModules, "modules returned by an interpretation are ignored")
-        .help("return them from a rule, system:rule(pattern, function); an interpretation only calls methods of `this`")
 }
 
 /// Returns the warning for an interpretation that returns a `value`, given as text, other than a module.
 pub(crate) fn returns_value(value: &str) -> Warning {
     let text = format!("{value} returned by an interpretation is ignored");
-    Warning::new(WarningKind::NoEffect, text)
-        .help("an interpretation only calls methods of `this`; return nothing")
+    Warning::new(WarningKind::NoEffect, text).help("an interpretation returns modules or nothing")
 }
 
 /// Returns the file and the first line of a script function.

@@ -194,16 +194,14 @@ impl UserData for SystemHandle {
             };
             methods.add_function(phase.method(), declared);
         }
-        methods.add_function(
-            "interpret",
-            |lua, (this, pattern, rule): (UserDataRef<Self>, LuaValue, LuaValue)| {
-                let library = Rc::clone(&this.library);
-                this.declare(lua, "interpretation", |system| {
-                    system.add_interpretation(&library, lua, &pattern, rule)
-                })?;
-                Ok(this.again())
-            },
-        );
+        methods.add_function("interpret", |lua, (this, arguments): (UserDataRef<Self>, MultiValue)| {
+            let arguments: Vec<LuaValue> = arguments.into_iter().collect();
+            let library = Rc::clone(&this.library);
+            this.declare(lua, "interpretation", |system| {
+                system.add_interpretation(&library, lua, arguments)
+            })?;
+            Ok(this.again())
+        });
         methods.add_function("ignore", |lua, (this, names): (UserDataRef<Self>, MultiValue)| {
             let library = Rc::clone(&this.library);
             this.declare(lua, "ignore", |system| {
