@@ -189,6 +189,7 @@ impl Phase<DerivationState<'_>> for Rewrite {
         let begin = Instant::now();
         state.times.read += chain.symbols.len();
         let mut outcome = step(state.leader, plan, &mut state.stepper, declared, &chain, number)?;
+        plan.set_places(None);
         state.times.rewriting += begin.elapsed();
         state.record(&chain, &mut outcome, number);
         state.previous = Some(chain);
@@ -221,7 +222,11 @@ impl Phase<DerivationState<'_>> for Decompose {
                 warn_of_depth(state, rules, &chain, number)?;
                 break;
             }
+            if rules.asks && plan.objects.is_some() {
+                Interpret.run(state, Arc::clone(&chain), number)?;
+            }
             let mut outcome = step(state.leader, plan, &mut decomposer, declared, &chain, number)?;
+            plan.set_places(None);
             state.times.rewriting += begin.elapsed();
             state.decomposition_reads_step |= outcome.reads_step;
             if !outcome.changed {

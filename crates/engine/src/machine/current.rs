@@ -3,6 +3,7 @@
 use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
+use super::module_places::ModulePlaces;
 use crate::declare::Session;
 use crate::machine::types::Objects;
 use crate::questions::ChainView;
@@ -60,8 +61,10 @@ pub(crate) struct WorkState {
     pub chains: RefCell<Vec<u32>>,
     /// Random key of each application in the batch.
     pub keys: RefCell<Vec<ModuleKey>>,
-    /// Index in the chain of each application in the batch, if queries are recorded.
+    /// Index in the chain of each application in the batch, if queries are recorded or places are known.
     pub places: RefCell<Vec<u32>>,
+    /// Places of the object at modules of the chain, if the last pass has noted them.
+    pub located: RefCell<Option<Arc<ModulePlaces>>>,
     /// Number of random numbers that the weighted choice has already used.
     pub used: Cell<usize>,
     /// Maximum number of random numbers that one recent application has drawn.
@@ -90,6 +93,7 @@ impl WorkState {
             chains: RefCell::default(),
             keys: RefCell::default(),
             places: RefCell::default(),
+            located: RefCell::default(),
             used: Cell::new(0),
             drawn: Cell::new(0),
             step: Cell::new(None),
@@ -211,6 +215,20 @@ impl WorkState {
         }
     }
 
+    /// Returns the answer of a read method at the module of an application, if it depends on the place and that is known.
+    fn answer_at(&self, application: usize, method: &str) -> Option<Value> {
+        let located = self.located.borrow();
+        let located = located.as_ref().filter(|_| self.flusher.borrow().is_none())?;
+        let module = *self.places.borrow().get(application)?;
+        located.get(module)?.answer(method)
+    }
+
+    /// Returns the index in the chain of an application, if queries of rules are recorded.
+    pub(crate) fn noted_place(&self, application: usize) -> Option<usize> {
+        self.session.options.reports.trace.filter(|traced| traced.chain.is_some())?;
+        self.places.borrow().get(application).map(|place| *place as usize)
+    }
+
     /// Calls a method of `this`, or of its child object at `slot`, immediately. `place` is the line of the
     /// call.
     pub(crate) fn call(
@@ -234,6 +252,10 @@ impl WorkState {
         };
         match &kind.methods.get(method).ok_or_else(missing)?.call {
             Call::Read(read) => {
+                if let (None, Some(answer)) = (slot, self.answer_at(application, &kind.methods[method].name))
+                {
+                    return Ok(answer);
+                }
                 take_deferred();
                 let answer = objects.read(chain, |object| match slot {
                     None => read(object, arguments),

@@ -285,14 +285,14 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Li
                     let answer = read(&*handle.0, &given).map_err(mlua::Error::external)?;
                     let machine = owner.machine().map_err(mlua::Error::external)?;
                     take_deferred().into_iter().for_each(|warning| machine.warn(warning));
-                    let place = guard.and_then(|guard| state.places.borrow().get(guard).copied());
+                    let place = guard.and_then(|guard| state.noted_place(guard));
                     if let Some(place) =
                         place.filter(|_| handle.0.kind().has_capability::<dyn ObjectContent>())
                     {
                         let given: Vec<String> = given.iter().map(Value::to_string).collect();
                         let this = Value::Object(Arc::clone(&handle.0));
                         let text = format!("{this}:{}({}): {answer}", method.name, given.join(", "));
-                        state.session.rows.note_answer(place as usize, text);
+                        state.session.rows.note_answer(place, text);
                     }
                     // The complete result stays alive, so a collection would free nothing of it.
                     let is_long = matches!(&answer, Value::Table(table) if table.entries.len() > LONG);

@@ -11,7 +11,7 @@ use crate::machine::{CLOSE_CALL, Flusher, Machine, OPEN_CALL, Objects, read_colu
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_kit::{Call, Capability, Kind, Object, Value, Values, Warn};
+use burgeon_kit::{Call, Capability, Kind, Locate, Object, Place, Value, Values, Warn};
 use burgeon_rewriting::{CLOSE, END, Mark, OPEN, Symbol, module_brief};
 
 /// Progress of applying one piece of the chains.
@@ -56,6 +56,9 @@ pub(crate) struct Applier {
     /// Set while a call of the script waits for the recorded calls before it. A run that then reaches its
     /// time limit reports the line of that call.
     waits: bool,
+    locate: Option<Capability<dyn Locate>>,
+    /// Places of the object at modules whose rules read them.
+    places: Vec<(u32, Place)>,
 }
 
 /// Number of symbols between two checks for cancellation.
@@ -87,7 +90,6 @@ impl Applier {
             pass,
             objects,
             warn: kind.capability::<dyn Warn>(),
-            kind,
             buffers: [calls, numbers, counts],
             position: begin.module,
             param: begin.param,
@@ -107,6 +109,9 @@ impl Applier {
             flushed: (0, 0),
             notices: Vec::new(),
             waits: false,
+            locate: kind.capability::<dyn Locate>(),
+            kind,
+            places: Vec::new(),
         })
     }
 
@@ -224,6 +229,7 @@ impl Applier {
             if self.symbols(&pass, object, failed, module)? == ApplyEnd::End {
                 return Ok(ApplyEnd::End);
             }
+            self.locate(&pass, object, self.position);
             self.stop.check()?;
             let begin = pass.plan.profiled.then(Instant::now);
             let applied = self.calls(&pass, object, failed);
@@ -261,6 +267,7 @@ impl Applier {
             if self.position.is_multiple_of(STRETCH) {
                 self.stop.check()?;
             }
+            self.locate(pass, object, self.position);
             match symbol {
                 _ if failed => {}
                 OPEN => object.push(),
@@ -287,6 +294,26 @@ impl Applier {
             }
         }
         Ok(ApplyEnd::Last)
+    }
+
+    /// Notes the place of the object at a module whose rules read it.
+    #[inline]
+    fn locate(&mut self, pass: &InterpretationPass, object: &dyn Object, module: usize) {
+        let located = &pass.plan.located;
+        if located.is_empty() || !located.get(usize::from(pass.chain.symbols[module])).is_some_and(|it| *it) {
+            return;
+        }
+        let module = u32::try_from(module).unwrap_or(u32::MAX);
+        if let Some(object) = self.locate.and_then(|locate| locate.of(object))
+            && self.places.last().is_none_or(|(last, _)| *last != module)
+        {
+            self.places.push((module, object.place()));
+        }
+    }
+
+    /// Takes the noted places.
+    pub(crate) fn take_places(&mut self) -> Vec<(u32, Place)> {
+        std::mem::take(&mut self.places)
     }
 
     /// Applies the calls of the entry `next` that have been read.

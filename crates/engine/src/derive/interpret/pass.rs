@@ -10,11 +10,12 @@ use super::Applier;
 use super::notices::{Notices, ObjectNotice};
 use crate::derive::plan::DerivationPlan;
 use crate::derive::threads::{LeadingMachine, ThreadJob};
-use crate::machine::{Flusher, Machine, write_column};
+use crate::machine::{Flusher, Machine, ModulePlaces, write_column};
 use crate::results::Use;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::Warning;
+use burgeon_kit::Place;
 use burgeon_rewriting::{
     Bindings, CLOSE, Chain, ContextMatcher, END, Links, Mark, ModuleKey, OPEN, Symbol, module_brief,
 };
@@ -79,6 +80,7 @@ pub(crate) struct InterpretationPass {
     /// Neighbours in the chain, if an interpretation rule has contexts.
     links: Links,
     undrawn: Mutex<BTreeSet<Symbol>>,
+    places: Mutex<Vec<(u32, Place)>>,
 }
 
 /// Result of an interpretation pass.
@@ -133,6 +135,7 @@ impl InterpretationPass {
             notices: Notices::default(),
             links,
             undrawn: Mutex::default(),
+            places: Mutex::default(),
         });
         threads.hand_out(machine, count, 2, || ThreadJob::Interpret(Arc::downgrade(&interpreting)))?;
         while interpreting.work(machine) {}
@@ -143,10 +146,14 @@ impl InterpretationPass {
         said.extend(done.notices.into_list(of_symbol));
         match done.failure.into_inner().recover() {
             Some((_, error)) => Err(error),
-            None => Ok(PassOutcome {
-                reads_step: done.reads_step.into_inner(),
-                undrawn: done.undrawn.into_inner().recover(),
-            }),
+            None => {
+                let places = done.places.into_inner().recover();
+                plan.set_places((!plan.located.is_empty()).then(|| ModulePlaces::new(places)));
+                Ok(PassOutcome {
+                    reads_step: done.reads_step.into_inner(),
+                    undrawn: done.undrawn.into_inner().recover(),
+                })
+            }
         }
     }
 
@@ -176,7 +183,12 @@ impl InterpretationPass {
         machine.current.begin_step(self.number, self.plan.bounded);
         let result = self.run(machine, begin, end);
         self.reads_step.fetch_or(machine.current.has_read_step(), Ordering::Relaxed);
-        machine.current.flusher.replace(None);
+        let flusher = machine.current.flusher.replace(None);
+        if let Some(applier) =
+            flusher.and_then(|flusher| (flusher as Box<dyn std::any::Any>).downcast::<Applier>().ok())
+        {
+            self.places.lock().recover().append(&mut { *applier }.take_places());
+        }
         result
     }
 

@@ -10,7 +10,7 @@ use crate::machine::library::Library;
 use crate::machine::questions::argument_places;
 use crate::machine::types::methods_key;
 use burgeon_base::error::{Result, SourcePlace};
-use burgeon_kit::Object;
+use burgeon_kit::{Locate, Object};
 use burgeon_rewriting::{FIRST_SYMBOL, Grammar, Rule, Symbol, Symbols};
 use burgeon_scene::CityClass;
 use mlua::{Function, Table, Value as LuaValue};
@@ -123,6 +123,25 @@ impl SystemDeclaration {
         let empties = |object: &Arc<dyn Object>| object.kind().begins_empty && !object.expands();
         self.last_only
             || (self.object.as_ref().is_some_and(empties) && !self.rules.iter().any(|rule| rule.asks))
+    }
+
+    /// Returns true if a rule of `phase` may use `this`.
+    pub(crate) fn asks_in(&self, phase: RulePhase) -> bool {
+        self.rules.iter().any(|declared| declared.phase == phase && declared.asks)
+    }
+
+    /// Returns for each of `symbols` symbols whether its rules may read where the object is; empty if none does, or if the
+    /// object has no place.
+    pub(crate) fn located(&self, symbols: usize) -> Vec<bool> {
+        let moves = |object: &Arc<dyn Object>| object.kind().has_capability::<dyn Locate>();
+        if !self.object.as_ref().is_some_and(moves) || !self.rules.iter().any(|declared| declared.asks) {
+            return Vec::new();
+        }
+        let mut located = vec![false; symbols];
+        for declared in self.rules.iter().filter(|declared| declared.asks) {
+            located[usize::from(declared.rule.pattern.predecessor.symbol)] = true;
+        }
+        located
     }
 
     /// Returns true if a rule applies in `phase`.
