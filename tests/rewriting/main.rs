@@ -24,6 +24,7 @@ mod queries;
 mod results;
 mod returned_modules;
 mod scripts;
+mod sequences;
 mod steps;
 mod stochastic;
 mod streams;

@@ -49,6 +49,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "require" shows "require";
     "rgb" shows "rgb";
     "rule" shows "rule" "system:rule";
+    "sequence" shows "sequence";
     "source" shows "source";
     "step" shows "step";
     "stream" shows "stream";

@@ -83,6 +83,8 @@ pub(crate) struct Prelude {
     pub globals: Table,
     /// Returns the current phase: 0 top level, 1 rule, 2 guard, 3 interpretation.
     pub phase: Function,
+    /// `(value)`: returns the list of modules for which a value stands, or nil.
+    pub elements: Function,
     /// `(value)`: returns true for a module made outside of rules.
     pub is_module: Function,
     points: Function,
@@ -125,6 +127,7 @@ impl Prelude {
             forget_values: table.get("forget_values")?,
             globals: table.get("globals")?,
             phase: table.get("phase")?,
+            elements: table.get("elements")?,
             is_module: table.get("is_module")?,
             points: table.get("points")?,
             unread: table.get("unread")?,

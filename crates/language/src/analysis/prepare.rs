@@ -2,7 +2,7 @@
 
 use full_moon::ast::luau::TypeSpecifier;
 use full_moon::ast::punctuated::Punctuated;
-use full_moon::ast::{Call, Expression, Field, FunctionArgs, FunctionBody, Parameter, Prefix, Suffix};
+use full_moon::ast::{Call, Expression, Field, FunctionArgs, FunctionBody, Parameter, Prefix, Suffix, Var};
 use full_moon::node::Node;
 use full_moon::tokenizer::{StringLiteralQuoteType, TokenReference, TokenType};
 use std::sync::atomic::Ordering;
@@ -174,6 +174,9 @@ impl Walk<'_> {
                     *known = None;
                 }
             }
+            if let Some(line) = function.filled {
+                self.filled.insert(begin.line(), line);
+            }
             let form = (!is_method).then(|| signature(body));
             let known = self.signatures.entry(begin.line()).or_insert_with(|| form.clone());
             if known.as_ref().map(ToString::to_string) != form.as_ref().map(ToString::to_string) {
@@ -197,6 +200,12 @@ impl Walk<'_> {
             return self.expressions(values);
         }
         self.expressions(values);
+        if let Some(Expression::Var(Var::Name(name))) = values.iter().next().filter(|_| values.len() == 1)
+            && self.find(&text_of(name)).is_some_and(|it| it.fresh && it.function + 1 == self.functions.len())
+            && let Some(function) = self.functions.last_mut()
+        {
+            function.filled = function.filled.or(token.start_position().map(|position| position.line()));
+        }
         let (Some(begin), Some(end)) = (token.end_position(), values.iter().last().and_then(end_of)) else {
             return;
         };

@@ -39,6 +39,8 @@ pub struct Analysis {
     /// Text of a rule's guard without comments and line breaks, by the line on which the guard begins. Lines with
     /// guards of different texts are omitted.
     pub guards: BTreeMap<usize, String>,
+    /// Line on which a rule returns only a table that it has filled, by the line on which its function begins.
+    pub filled: BTreeMap<usize, usize>,
     /// Detected queries of a rule's function, by the line on which the function begins.
     pub queries: BTreeMap<usize, Vec<QueryCall>>,
     /// Deprecated names that the script uses, with their lines.
@@ -165,6 +167,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         pure,
         mut blind,
         guards,
+        filled,
         queries,
         signatures,
         begins,
@@ -207,6 +210,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         pure,
         blind,
         guards,
+        filled,
         queries,
         signatures,
         ast,

@@ -51,13 +51,15 @@ pub(super) struct Function {
     pub(super) pure: bool,
     /// Set if the function reads its first parameter.
     pub(super) asks: bool,
+    /// Line of the first return of nothing but a table that the function has filled.
+    pub(super) filled: Option<usize>,
     /// Detected queries.
     pub(super) queries: Vec<QueryCall>,
 }
 
 impl Function {
     pub(super) fn new(role: FunctionRole, rule: Option<String>) -> Self {
-        Self { role, rule, shapes: Vec::new(), pure: true, asks: false, queries: Vec::new() }
+        Self { role, rule, shapes: Vec::new(), pure: true, asks: false, filled: None, queries: Vec::new() }
     }
 }
 
@@ -115,6 +117,8 @@ pub(super) struct Walk<'a> {
     pub(super) blind: BTreeMap<usize, bool>,
     /// Text of the guard that begins on a line, by line; `None` if guards on the line differ.
     pub(super) guards: BTreeMap<usize, Option<String>>,
+    /// Line on which a rule returns only a table that it has filled, by the line on which its function begins.
+    pub(super) filled: BTreeMap<usize, usize>,
     /// Signature of the function that begins on a line, by line; `None` if signatures on the line differ.
     pub(super) signatures: BTreeMap<usize, Option<CallForm>>,
     /// Queries of a rule's function, by the line on which the function begins.
@@ -170,6 +174,7 @@ impl<'a> Walk<'a> {
             pure: BTreeMap::new(),
             blind: BTreeMap::new(),
             guards: BTreeMap::new(),
+            filled: BTreeMap::new(),
             signatures: BTreeMap::new(),
             queries: BTreeMap::new(),
             begins: Vec::new(),

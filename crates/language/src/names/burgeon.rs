@@ -51,6 +51,13 @@ pub(super) fn names() -> Vec<Name> {
         )
         .form([argument("text", "string"), argument("help", "string?")], "()"),
         Name::global(
+            "sequence",
+            "Returns the modules of a list, for a successor, an interpretation or an axiom: a table alone is a branch. The list \
+             may have any length.",
+        )
+        .form([argument("list", "{ any }")], "Module")
+        .pure(),
+        Name::global(
             "expect",
             "Checks a known result of the script, such as a number of modules: the run fails if `actual` and `expected` differ, \
              numbers by more than `tolerance` (0 unless given). It checks only runs with the script's own values: with another \

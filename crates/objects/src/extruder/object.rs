@@ -115,7 +115,8 @@ impl Extruder {
                 return Err(Error::argument("extruder:direction: above has no length")
                     .help("use a vector that is not zero, or omit it"));
             }
-            Some(above) => self.state.frame.look(direction.0, above.0),
+            // The y axis of a section is opposite to the up direction of the frame.
+            Some(above) => self.state.frame.look(direction.0, -above.0),
         }
         Ok(())
     }

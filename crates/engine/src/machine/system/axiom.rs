@@ -298,6 +298,16 @@ impl Builder<'_> {
                 ))
                 .help("write system:axiom(A(1), { B() })"));
             };
+            let elements = self.machine.prelude().elements.call::<Option<Table>>(table);
+            let elements = elements.map_err(|error| self.machine.translate(error))?;
+            if let Some(elements) = elements.filter(|_| depth < DEEPEST) {
+                let inner: Vec<LuaValue> = elements
+                    .sequence_values()
+                    .collect::<mlua::Result<_>>()
+                    .map_err(|error| self.machine.translate(error))?;
+                self.items(&inner, key, ordinal, depth + 1)?;
+                continue;
+            }
             let is_module = self
                 .machine
                 .prelude()

@@ -87,6 +87,13 @@ impl SystemDeclaration {
                 check_parameters(&function, &pattern, "the successor").map_err(named)?;
                 check_queries(library, &function, &pattern).map_err(named)?;
                 let asks = may_ask(&session, &function);
+                if let Some((file, line)) = begin_of(&function)
+                    && let Some(line) = session.returns_filled(&file, line)
+                {
+                    library
+                        .machine()?
+                        .warn(returns_branch().at(Some(SourcePlace { file, line })).rule(&name));
+                }
                 (function, asks)
             }
             Some(LuaValue::String(body)) => {
@@ -169,6 +176,12 @@ impl SystemDeclaration {
         self.interpretations.push(DeclaredInterpretation { rule, guard, function });
         Ok(())
     }
+}
+
+/// Returns the warning for a rule that returns a table that it has filled, instead of the modules in it.
+fn returns_branch() -> Warning {
+    Warning::new(WarningKind::ReturnedList, "a table is one branch, so this rule returns a single branch")
+        .help("return the modules of a list: return sequence(list); for a branch, write return { sequence(list) }")
 }
 
 /// Returns the warning for an interpretation that returns a `value`, given as text, other than a module.
