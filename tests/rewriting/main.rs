@@ -1,6 +1,7 @@
 //! Rewriting from a script to its chains, tested against the laws of the design and the literature.
 
 mod candidates;
+mod chains_as_axioms;
 mod choice;
 mod closures;
 mod contexts;

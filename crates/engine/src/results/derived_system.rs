@@ -214,6 +214,11 @@ impl DerivedSystem {
         is(&self.uses.placed) || is(&self.uses.captured) && !is(&self.uses.inspected)
     }
 
+    /// Records that another system continues the derivation, so that this one is not shown on its own.
+    pub(crate) fn note_continued(&self) {
+        self.uses.placed.store(true, Ordering::Relaxed);
+    }
+
     /// Reports whether another system has placed it.
     pub(crate) fn has_been_placed(&self) -> bool {
         self.uses.placed.load(Ordering::Relaxed)

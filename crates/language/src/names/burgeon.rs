@@ -251,13 +251,15 @@ pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
     .functions([
         Name::function(
             "axiom",
-            "Sets the initial chain, or the function that returns the chain of each feature of a source.",
+            "Sets the initial chain, or the function that returns the chain of each feature of a source. The chains of a derived \
+             system continue its derivation with the rules of this system.",
         )
         .form([argument("...", "Module")], "System<T>")
         .form(
             [argument("source", "Layer"), argument("chain", "(feature: Feature) -> ...Module")],
             "System<T>",
-        ),
+        )
+        .form([argument("derived", "Derived")], "System<T>"),
         Name::function("rule", "Adds a rule: the successor of a module that matches the pattern.")
             .form([pattern(), successor()], "System<T>")
             .form([pattern(), options("{ ... }", RULE.fields.clone()), successor()], "System<T>"),

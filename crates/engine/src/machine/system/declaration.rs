@@ -9,6 +9,7 @@ use crate::machine::freeze::{ReachableFunction, TableFreeze, freeze};
 use crate::machine::library::Library;
 use crate::machine::questions::argument_places;
 use crate::machine::types::methods_key;
+use crate::results::DerivedSystem;
 use burgeon_base::error::{Result, SourcePlace};
 use burgeon_kit::{Locate, Object};
 use burgeon_rewriting::{FIRST_SYMBOL, Grammar, Rule, Symbol, Symbols};
@@ -64,6 +65,8 @@ pub(crate) struct DerivationRecord {
 
 pub(crate) enum DeclaredAxiom {
     Modules(Vec<LuaValue>),
+    /// Chains of a derived system, which the derivation continues.
+    Derived(Arc<DerivedSystem>),
     Source(LuaValue, Function),
 }
 

@@ -1,6 +1,7 @@
 //! Declarations of `axiom`, `rule` and `interpret`, with their checks.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use mlua::{Function, Lua, Table, Value as LuaValue};
 
@@ -9,6 +10,7 @@ use crate::declare::bytecode::compile;
 use crate::machine::Machine;
 use crate::machine::convert::to_value;
 use crate::machine::library::Library;
+use crate::machine::types::DerivedHandle;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, WarningKind};
@@ -33,6 +35,14 @@ impl SystemDeclaration {
                 ));
             };
             self.axiom = Some(DeclaredAxiom::Source(arguments.swap_remove(0), function));
+        } else if let [LuaValue::UserData(data), rest @ ..] = arguments.as_slice()
+            && let Ok(derived) = data.borrow::<DerivedHandle>()
+        {
+            if !rest.is_empty() {
+                return Err(Error::argument("an axiom of a derived system takes nothing else")
+                    .help("write system:axiom(derived), and add modules with a rule"));
+            }
+            self.axiom = Some(DeclaredAxiom::Derived(Arc::clone(&derived.0)));
         } else {
             self.axiom = Some(DeclaredAxiom::Modules(arguments));
         }
