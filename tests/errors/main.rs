@@ -9,6 +9,7 @@ mod codes;
 mod command_line;
 mod data;
 mod determinism;
+mod distributions;
 mod elevation;
 mod existing_streets;
 mod exports;

@@ -7,6 +7,7 @@ mod contexts;
 mod continued;
 mod decomposition;
 mod determinism;
+mod distributions;
 mod fragments;
 mod generate;
 mod interpretation;
