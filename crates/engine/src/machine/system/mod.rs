@@ -8,8 +8,10 @@ mod declaration;
 mod declare;
 mod handle;
 mod lazy;
+mod module_string;
 mod selection;
 mod source;
+mod strings;
 mod unseen;
 
 pub(crate) use axiom::Axiom;
@@ -18,5 +20,6 @@ pub(crate) use declaration::{Interpretations, RulePhase, SystemDeclaration, Syst
 pub(crate) use declare::{returns_modules, returns_value};
 pub(crate) use handle::SystemHandle;
 pub(crate) use lazy::{EagerMark, UNREAD, feature_of, install as install_lazy};
+pub(super) use module_string::undeclared;
 pub(crate) use source::SourceHandle;
 pub(crate) use unseen::tell_unseen;
