@@ -45,6 +45,7 @@ mod shared_values;
 mod stores;
 mod streams;
 mod streets_on_ground;
+mod strings;
 mod successors;
 mod support;
 mod syntax;

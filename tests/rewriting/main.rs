@@ -26,3 +26,4 @@ mod scripts;
 mod steps;
 mod stochastic;
 mod streams;
+mod strings;

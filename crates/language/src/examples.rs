@@ -18,6 +18,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "Turn" shows "Turn" "Left" "Right";
     "TurnAround" shows "TurnAround";
     "Width" shows "Width";
+    "abop" shows "abop";
     "api" shows "api" "api.has";
     "beta" shows "beta";
     "binomial" shows "binomial";

@@ -120,7 +120,7 @@ pub(super) fn lua_body(
                 lua.push_str(&format!("{name}({}), ", arguments.unwrap_or_default()));
             }
             StringItem::Unknown { text, .. } | StringItem::Separator(text) => {
-                return Err(unknown(text, &split()));
+                return Err(unknown(text, &split(), ", or write the successor as a body of Lua with return"));
             }
         }
     }
@@ -136,12 +136,11 @@ pub(super) fn lua_body(
     })
 }
 
-/// Returns a pattern in which turtle symbols, digits and joined letters are the names of modules; `None` if a part of it
-/// is no module.
-pub(super) fn pattern_names(text: &str, symbols: &Symbols, scope: &NameScope) -> Option<String> {
-    let items = StringReader { text, at: 0, symbols, scope }.items().ok()?;
+/// Returns a pattern in which turtle symbols, digits and joined letters are the names of modules.
+pub(super) fn pattern_names(text: &str, symbols: &Symbols, scope: &NameScope) -> Result<String> {
+    let items = StringReader { text, at: 0, symbols, scope }.items()?;
     let mut names = String::new();
-    for item in items {
+    for item in &items {
         match item {
             StringItem::Break => {}
             StringItem::Open => names.push_str("[ "),
@@ -151,20 +150,30 @@ pub(super) fn pattern_names(text: &str, symbols: &Symbols, scope: &NameScope) ->
             StringItem::Module { name, arguments: Some(arguments), .. } => {
                 names.push_str(&format!("{name}({arguments}) "));
             }
-            StringItem::Unknown { .. } => return None,
+            StringItem::Unknown { text, .. } => return Err(unknown(text, &shown(&items), "")),
         }
     }
-    Some(names.trim_end().to_owned())
+    Ok(names.trim_end().to_owned())
 }
 
-/// Returns the names of the modules in a string such as `+-F`; `None` if a part of it is no module.
-pub(super) fn string_names(text: &str, symbols: &Symbols, scope: &NameScope) -> Option<Vec<String>> {
-    let items = StringReader { text, at: 0, symbols, scope }.items().ok()?;
+/// Returns the names of the modules in a string such as `+-F`.
+pub(super) fn string_names(text: &str, symbols: &Symbols, scope: &NameScope) -> Result<Vec<String>> {
+    let items = StringReader { text, at: 0, symbols, scope }.items()?;
+    let split = shown(&items);
     let names = items.into_iter().map(|item| match item {
-        StringItem::Module { name, arguments: None, .. } => Some(name),
-        _ => None,
+        StringItem::Module { name, arguments: None, .. } => Ok(name),
+        StringItem::Unknown { text, .. } => Err(unknown(text, &split, "")),
+        _ => Err(Error::argument(format!("read as {split}: only modules without brackets can be listed"))
+            .help("write their names or symbols, such as \"+-F\"")),
     });
     names.collect()
+}
+
+/// Returns true if a text contains symbols that are no names, and so can only be a string of modules.
+pub(super) fn has_symbols(text: &str) -> bool {
+    // The name of a module of a package can contain a hyphen and a full stop.
+    let can_be_name = |symbol: &str| symbol == "f" || symbol == "." || symbol == "-" && text.contains('.');
+    TURTLE.iter().any(|(symbol, _)| text.contains(symbol) && !can_be_name(symbol))
 }
 
 /// Returns the signatures of the letters and digits in patterns and strings that are no modules, in the order in which
@@ -282,14 +291,14 @@ fn shown(items: &[StringItem]) -> String {
     shorten(&texts.collect::<Vec<_>>().join(" "), SHOWN).into_owned()
 }
 
-/// Returns the error for a character of a string that is no module.
-fn unknown(text: &str, split: &str) -> Error {
+/// Returns the error for a character of a string that is no module, with another remedy for letters.
+fn unknown(text: &str, split: &str, other: &str) -> Error {
     let error = Error::script(format!("read as {split}: {text} is no module"));
     match letter_name(text) {
-        Some(name) => error.help(format!(
-            "declare it, local {name} = module(\"{name}\"), or write the successor as a body of Lua with return"
-        )),
-        None => error.help(format!("the symbols of the turtle are {LISTED}; all others are names of modules")),
+        Some(name) => error.help(format!("declare it: local {name} = module(\"{name}\"){other}")),
+        None => {
+            error.help(format!("the symbols of the turtle are {LISTED}; all others are names of modules"))
+        }
     }
 }
 

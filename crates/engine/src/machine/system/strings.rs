@@ -5,18 +5,22 @@ use std::collections::BTreeSet;
 use mlua::{Function, Lua, MultiValue, Value as LuaValue};
 
 use super::declare::check_open;
-use super::module_string::{is_lua, lua_body, pattern_names, string_names};
+use super::module_string::{has_symbols, is_lua, lua_body, pattern_names, string_names};
 use crate::declare::bytecode::compile;
 use crate::machine::Machine;
 use crate::machine::library::Library;
-use burgeon_base::error::{Error, Result, SourcePlace};
+use burgeon_base::error::{Error, ErrorKind, Result, SourcePlace};
 use burgeon_language::analysis::{QueryCall, analyse, split_line};
 use burgeon_rewriting::{NameScope, Pattern, Symbol, Symbols};
 
 /// Parses a pattern, in which turtle symbols and digits can stand for modules, and letters can be joined.
 pub(super) fn parse_pattern(text: &str, symbols: &Symbols, scope: &NameScope) -> Result<Pattern> {
     Pattern::parse_in(text, symbols, scope).or_else(|error| {
-        let Some(names) = pattern_names(text, symbols, scope) else { return Err(error) };
+        let names = match pattern_names(text, symbols, scope) {
+            Err(unknown) if has_symbols(text) => return Err(unknown),
+            Err(_) => return Err(error),
+            Ok(names) => names,
+        };
         let pattern = Pattern::parse_in(&names, symbols, scope)?;
         Ok(Pattern { text: text.split_whitespace().collect::<Vec<_>>().join(" "), ..pattern })
     })
@@ -28,7 +32,8 @@ pub(super) fn word_symbols(word: &str, symbols: &Symbols, scope: &NameScope) -> 
         Ok(symbol) => return Ok(vec![symbol]),
         Err(error) => error,
     };
-    let names = string_names(word, symbols, scope).ok_or(error)?;
+    let names =
+        string_names(word, symbols, scope).map_err(|told| if has_symbols(word) { told } else { error })?;
     names.iter().map(|name| symbols.find_in(name, scope)).collect()
 }
 
@@ -47,7 +52,8 @@ pub(super) fn compile_successor(
     let line = marked.unwrap_or(line);
     let symbols = library.symbols.borrow();
     let translated;
-    let body = if is_lua(body) {
+    let is_string = !is_lua(body);
+    let body = if !is_string {
         body
     } else {
         let place = SourcePlace { file: file.to_owned(), line };
@@ -63,7 +69,11 @@ pub(super) fn compile_successor(
     let analysis = analyse(file, &text, compile, &library.globals());
     machine.session.note(&analysis);
     if !analysis.problems.is_empty() {
-        return Err(Error::several(analysis.problems));
+        let problems = analysis.problems.into_iter();
+        return Err(Error::several(match is_string {
+            true => problems.map(without_locals).collect(),
+            false => problems.collect(),
+        }));
     }
     let queries: Vec<QueryCall> = analysis.queries.values().flatten().cloned().collect();
     check_open(&queries, file, pattern, &library.symbols.borrow())?;
@@ -93,11 +103,24 @@ pub(super) fn string_axiom(library: &Library, lua: &Lua, text: &str) -> Result<V
     let analysis = analyse(file, &script, compile, &library.globals());
     machine.session.note(&analysis);
     if !analysis.problems.is_empty() {
-        return Err(Error::several(analysis.problems));
+        return Err(Error::several(analysis.problems.into_iter().map(without_locals).collect()));
     }
     let chunk = machine.load(file, &analysis.text)?;
     let modules: MultiValue = chunk.call(()).map_err(|error| machine.translate(error))?;
     Ok(modules.into_iter().collect())
+}
+
+/// Names what the arguments of a string can use, in an error for an unknown name.
+fn without_locals(error: Error) -> Error {
+    match error.kind() {
+        ErrorKind::NotFound { what: "name", suggestion: None, .. } => {
+            let place = error.place().cloned();
+            Error::of(error.kind().clone(), error.message()).at(place).help(
+                "a string knows the parameters of the pattern and the names of all scripts; write a function to use others",
+            )
+        }
+        _ => error,
+    }
 }
 
 /// Returns Lua text that declares the modules in `body` as locals.
