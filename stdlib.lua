@@ -403,10 +403,15 @@ local function abop(plant: { [string]: any }): System<any>
     if type(key) ~= "string" then
       refuse(`a key of abop is {describe(key)}, not the pattern of a rule`, ABOP_USAGE)
     elseif not table.find(ABOP_OPTIONS, key) then
-      if string.find(key, "^%l%l[%l_]*$") and #undeclared_letters({ key }, {}) > 0 then
+      -- A rule rewrites one module, so a word without contexts is its name.
+      local word = string.match(string.gsub(key, "%b()", ""), "^%s*([%a_][%w_]+)%s*$")
+      if word and #undeclared_letters({ word }, {}) > 0 then
+        local is_option = word == key and string.find(key, "^[%l_]+$")
         refuse(
-          `abop has no option {key}`,
-          `it has {table.concat(ABOP_OPTIONS, ", ")}; other keys are patterns of rules`
+          if is_option then `abop has no option {key}` else `{word} in abop is neither a letter nor a module`,
+          if is_option
+            then `it has {table.concat(ABOP_OPTIONS, ", ")}; other keys are patterns of rules`
+            else `declare it before: local {word} = module("{word}")`
         )
       end
       table.insert(patterns, key)
@@ -425,17 +430,16 @@ local function abop(plant: { [string]: any }): System<any>
       table.insert(texts, text)
     end)
   end
-  local passed: { string } = {}
   for _, option in { "ignore", "consider" } do
     local names = plant[option]
     for _, name in if type(names) == "table" then names else { names } do
       if type(name) ~= "string" then
         refuse(`{option} of abop is {describe(name)}`, `write {option} = "+-F"`)
       end
-      table.insert(passed, name)
+      table.insert(texts, name)
     end
   end
-  for _, letter in undeclared_letters(patterns, table.move(passed, 1, #passed, #texts + 1, table.clone(texts))) do
+  for _, letter in undeclared_letters(patterns, texts) do
     module(table.unpack(letter))
   end
   local object = plant.object

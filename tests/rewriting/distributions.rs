@@ -1,6 +1,6 @@
 //! Random numbers of common distributions: moments, frequencies, limits, and the same numbers everywhere.
 
-use super::scripts::{all_chains, chain, divided, run_with};
+use super::scripts::{all_chains, chain, divided, run_with, words};
 use burgeon::script::RunOptions;
 
 /// Returns `count` values of an expression, 200 for each module.
@@ -172,6 +172,16 @@ fn values_are_chosen_in_proportion_to_their_weights() {
          s:derive(0)",
     );
     assert_eq!(text, "A(\"only\",true,2)");
+    let text = chain(
+        "local s = lsystem {}
+         s:axiom(string.rep('F', 60))
+         s:rule('F', function() return choose({ F(1), G(2) }), choose({ Left, Right })(3) end)
+         s:derive(1)",
+    );
+    let drawn = words(&text);
+    let share = |name: &str| drawn.iter().filter(|word| *word == name).count();
+    assert_eq!((share("F(1)") + share("G(2)"), share("Left(3)") + share("Right(3)")), (60, 60));
+    assert!(share("F(1)") > 15 && share("G(2)") > 15 && share("Left(3)") > 15 && share("Right(3)") > 15);
 }
 
 /// Returns the values of a list of expressions, as modules `B`.

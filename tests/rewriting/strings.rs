@@ -161,8 +161,8 @@ fn a_string_is_the_same_rule_as_its_lua() {
             "return A(x, 3), Down(10), Up(), RollRight(), RollLeft(), TurnAround(), Level(), F(1)",
         ),
         (
-            "#(0.2)!(x/9){f.f(2).}@O(x);(2)F\u{2212}F A(x, n)",
-            "return Width(0.2), Width(x / 9), BeginPolygon(), G(), Point(), G(2), Point(), EndPolygon(), Sphere(x), Paint(2), F(), Right(), F(), A(x, n)",
+            "#(0.2)!(x/9){.f.+f(2).}@O(x);(2)F\u{2212}F A(x, n)",
+            "return Width(0.2), Width(x / 9), BeginPolygon(), Point(), G(), Point(), Left(), G(2), Point(), EndPolygon(), Sphere(x), Paint(2), F(), Right(), F(), A(x, n)",
         ),
     ] {
         check_equal(declared, "A(2, 4), A(1, 3)", "A(x, n)", string, lua);

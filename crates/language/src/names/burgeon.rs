@@ -153,7 +153,11 @@ fn distribution(
 ) -> Name {
     let stream = ("r", "((number?, number?) -> number)?");
     let arguments = arguments.iter().chain([&stream]).map(|(name, luau)| argument(name, luau));
-    Name::global(name, doc).form(arguments.collect::<Vec<_>>(), returns).pure()
+    let doc = format!(
+        "{doc} The numbers come from the current module, as those of `random` do, or from the random stream `r`."
+    );
+    let name = Name::global(name, "").form(arguments.collect::<Vec<_>>(), returns).pure();
+    Name { doc: doc.into(), ..name }
 }
 
 fn metres(name: &'static str, luau: &str, doc: &'static str) -> Field {

@@ -70,12 +70,13 @@ pub(super) fn is_lua(text: &str) -> bool {
     found.any(|(at, word)| !text[..at].ends_with(is_word) && !text[at + word.len()..].starts_with(is_word))
 }
 
-/// Returns the body of a Lua function that returns the modules of a string. `formals` are the names of its parameters.
+/// Returns the body of a Lua function that returns the modules of a string. `formals` are the names of its parameters, or
+/// `None` for an axiom.
 pub(super) fn lua_body(
     text: &str,
     symbols: &Symbols,
     scope: &NameScope,
-    formals: &[String],
+    formals: Option<&[String]>,
 ) -> Result<String> {
     if ERASING.contains(&text.trim()) {
         return Ok("return nil".to_owned());
@@ -100,7 +101,7 @@ pub(super) fn lua_body(
                 lua.push_str("}, ");
             }
             StringItem::Module { text, name, arguments } => {
-                if formals.contains(name) {
+                if formals.is_some_and(|formals| formals.contains(name)) {
                     return Err(Error::argument(format!("read as {}: {name} is also a parameter", split()))
                         .help("give the parameter of the pattern another name"));
                 }
@@ -110,9 +111,8 @@ pub(super) fn lua_body(
                     let example =
                         format!("{text}({})", signature.parameters[..signature.required].join(", "));
                     return Err(Error::argument(format!(
-                        "read as {}: {text} is {usage}, which has {}",
-                        split(),
-                        signature.count()
+                        "read as {}: {text} has no arguments, but it was declared as {usage}",
+                        split()
                     ))
                     .help(format!("write its arguments in brackets, such as {example}")));
                 }
@@ -120,7 +120,8 @@ pub(super) fn lua_body(
                 lua.push_str(&format!("{name}({}), ", arguments.unwrap_or_default()));
             }
             StringItem::Unknown { text, .. } | StringItem::Separator(text) => {
-                return Err(unknown(text, &split(), ", or write the successor as a body of Lua with return"));
+                let other = formals.map_or("", |_| ", or write the successor as a body of Lua with return");
+                return Err(unknown(text, &split(), other));
             }
         }
     }
@@ -297,7 +298,7 @@ fn unknown(text: &str, split: &str, other: &str) -> Error {
     match letter_name(text) {
         Some(name) => error.help(format!("declare it: local {name} = module(\"{name}\"){other}")),
         None => {
-            error.help(format!("the symbols of the turtle are {LISTED}; all others are names of modules"))
+            error.help(format!("the symbols of the turtle are {LISTED}; declare modules with letters{other}"))
         }
     }
 }

@@ -58,7 +58,7 @@ pub(super) fn compile_successor(
     } else {
         let place = SourcePlace { file: file.to_owned(), line };
         translated =
-            lua_body(body, &symbols, scope, &pattern.formals).map_err(|error| error.at(Some(place)))?;
+            lua_body(body, &symbols, scope, Some(&pattern.formals)).map_err(|error| error.at(Some(place)))?;
         &translated
     };
     let mut text = "\n".repeat(line.saturating_sub(1));
@@ -92,7 +92,7 @@ pub(super) fn string_axiom(library: &Library, lua: &Lua, text: &str) -> Result<V
     let (file, line) = place.as_ref().map_or(("axiom", 1), |place| (place.file.as_str(), place.line));
     let scope = library.scope_at(lua);
     let symbols = library.symbols.borrow();
-    let body = lua_body(text, &symbols, &scope, &[])?;
+    let body = lua_body(text, &symbols, &scope, None)?;
     if body == "return nil" {
         return Ok(Vec::new());
     }
