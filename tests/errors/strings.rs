@@ -241,6 +241,9 @@ fn an_error_in_a_long_string_has_its_own_line() {
         "local s = lsystem()\ns:axiom(\"F\")\ns:rule(\"F\", [[\n  F[+F]\n  F(1, 2)\n]])\ns:derive(1)\n",
     );
     assert!(said.contains("s.lua:5: rule F: F has 0 to 1 parameters, not 2"), "{said}");
+    let said =
+        refused("local s = lsystem()\ns:axiom(\"F\")\ns:rule(\"F\", [[\n  F[+F]\n  F%\n]])\ns:derive(1)\n");
+    assert!(said.contains("s.lua:5: rule F: read as F [ + F ] F %: % is no module"), "{said}");
 }
 
 #[test]

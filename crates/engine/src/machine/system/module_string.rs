@@ -1,6 +1,6 @@
 //! L-systems as printed in books: strings of letters such as `F[+F]F`, read as modules, and as Lua.
 
-use burgeon_base::error::{Error, Result, shorten};
+use burgeon_base::error::{Error, Result, SourcePlace, shorten};
 use burgeon_rewriting::{NameScope, Signature, Symbols};
 
 /// Turtle symbols of *The Algorithmic Beauty of Plants* and cpfg, with the modules of the standard library.
@@ -71,70 +71,91 @@ pub(super) fn is_lua(text: &str) -> bool {
 }
 
 /// Returns the body of a Lua function that returns the modules of a string. `formals` are the names of its parameters, or
-/// `None` for an axiom.
+/// `None` for an axiom. The string begins at `place`, if that is known.
 pub(super) fn lua_body(
     text: &str,
     symbols: &Symbols,
     scope: &NameScope,
     formals: Option<&[String]>,
+    place: Option<SourcePlace>,
 ) -> Result<String> {
     if ERASING.contains(&text.trim()) {
         return Ok("return nil".to_owned());
     }
     let items = StringReader { text, at: 0, symbols, scope }.items()?;
-    let split = || shown(&items);
+    let mut place = place;
     let (mut depth, mut values) = (0usize, 0usize);
     let mut lua = String::new();
     for item in &items {
+        if let Some(error) = mistake(item, &items, symbols, scope, formals) {
+            return Err(error.at(place));
+        }
+        values += usize::from(depth == 0);
         match item {
-            StringItem::Break => lua.push('\n'),
+            StringItem::Break => {
+                place = place.map(|place| SourcePlace { line: place.line + 1, ..place });
+                lua.push('\n');
+            }
             StringItem::Open => {
-                values += usize::from(depth == 0);
                 depth += 1;
                 lua.push_str("{ ");
             }
             StringItem::Close => {
                 depth = depth.checked_sub(1).ok_or_else(|| {
-                    Error::syntax(format!("read as {}: a ] closes no branch", split()))
+                    Error::syntax(format!("read as {}: a ] closes no branch", shown(&items)))
                         .help("remove it, or open the branch with [")
+                        .at(place.clone())
                 })?;
                 lua.push_str("}, ");
             }
-            StringItem::Module { text, name, arguments } => {
-                if formals.is_some_and(|formals| formals.contains(name)) {
-                    return Err(Error::argument(format!("read as {}: {name} is also a parameter", split()))
-                        .help("give the parameter of the pattern another name"));
-                }
-                let signature = symbols.signature(symbols.find_in(name, scope)?);
-                if arguments.is_none() && signature.required > 0 {
-                    let usage = signature.usage();
-                    let example =
-                        format!("{text}({})", signature.parameters[..signature.required].join(", "));
-                    return Err(Error::argument(format!(
-                        "read as {}: {text} has no arguments, but it was declared as {usage}",
-                        split()
-                    ))
-                    .help(format!("write its arguments in brackets, such as {example}")));
-                }
-                values += usize::from(depth == 0);
+            StringItem::Module { name, arguments, .. } => {
                 lua.push_str(&format!("{name}({}), ", arguments.unwrap_or_default()));
             }
-            StringItem::Unknown { text, .. } | StringItem::Separator(text) => {
-                let other = formals.map_or("", |_| ", or write the successor as a body of Lua with return");
-                return Err(unknown(text, &split(), other));
-            }
+            StringItem::Unknown { .. } | StringItem::Separator(_) => {}
         }
     }
     if depth > 0 {
-        return Err(
-            Error::syntax(format!("read as {}: a branch is not closed", split())).help("close it with ]")
-        );
+        let error = Error::syntax(format!("read as {}: a branch is not closed", shown(&items)));
+        return Err(error.help("close it with ]"));
     }
     let list = lua.trim_end_matches([',', ' ', '\n']);
     Ok(match values > MOST_VALUES {
         true => format!("return table.unpack({{ {list} }})"),
         false => format!("return {list}"),
     })
+}
+
+/// Returns the error for an item of a string that is no module, or whose arguments are missing.
+fn mistake(
+    item: &StringItem,
+    items: &[StringItem],
+    symbols: &Symbols,
+    scope: &NameScope,
+    formals: Option<&[String]>,
+) -> Option<Error> {
+    match item {
+        StringItem::Module { name, .. } if formals.is_some_and(|formals| formals.contains(name)) => {
+            let error = Error::argument(format!("read as {}: {name} is also a parameter", shown(items)));
+            Some(error.help("give the parameter of the pattern another name"))
+        }
+        StringItem::Module { text, name, arguments: None } => {
+            let signature = symbols.signature(symbols.find_in(name, scope).ok()?);
+            (signature.required > 0).then(|| {
+                let example = format!("{text}({})", signature.parameters[..signature.required].join(", "));
+                Error::argument(format!(
+                    "read as {}: {text} has no arguments, but it was declared as {}",
+                    shown(items),
+                    signature.usage()
+                ))
+                .help(format!("write its arguments in brackets, such as {example}"))
+            })
+        }
+        StringItem::Unknown { text, .. } | StringItem::Separator(text) => {
+            let other = formals.map_or("", |_| ", or write the successor as a body of Lua with return");
+            Some(unknown(text, &shown(items), other))
+        }
+        _ => None,
+    }
 }
 
 /// Returns a pattern in which turtle symbols, digits and joined letters are the names of modules.

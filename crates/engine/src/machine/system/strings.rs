@@ -21,7 +21,10 @@ pub(super) fn parse_pattern(text: &str, symbols: &Symbols, scope: &NameScope) ->
             Err(_) => return Err(error),
             Ok(names) => names,
         };
-        let pattern = Pattern::parse_in(&names, symbols, scope)?;
+        let pattern = match Pattern::parse_in(&names, symbols, scope) {
+            Err(_) if !has_symbols(text) => return Err(error),
+            pattern => pattern?,
+        };
         Ok(Pattern { text: text.split_whitespace().collect::<Vec<_>>().join(" "), ..pattern })
     })
 }
@@ -57,8 +60,8 @@ pub(super) fn compile_successor(
         body
     } else {
         let place = SourcePlace { file: file.to_owned(), line };
-        translated =
-            lua_body(body, &symbols, scope, Some(&pattern.formals)).map_err(|error| error.at(Some(place)))?;
+        translated = lua_body(body, &symbols, scope, Some(&pattern.formals), Some(place.clone()))
+            .map_err(|error| error.at(Some(place)))?;
         &translated
     };
     let mut text = "\n".repeat(line.saturating_sub(1));
@@ -92,7 +95,7 @@ pub(super) fn string_axiom(library: &Library, lua: &Lua, text: &str) -> Result<V
     let (file, line) = place.as_ref().map_or(("axiom", 1), |place| (place.file.as_str(), place.line));
     let scope = library.scope_at(lua);
     let symbols = library.symbols.borrow();
-    let body = lua_body(text, &symbols, &scope, None)?;
+    let body = lua_body(text, &symbols, &scope, None, None)?;
     if body == "return nil" {
         return Ok(Vec::new());
     }
