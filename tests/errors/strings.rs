@@ -41,22 +41,22 @@ fn an_error_says_how_a_string_was_split() {
           help: declare it: local o = module("o"), or write the successor as a body of Lua with return
         s:rule("F", "F%F")
           rule F: read as F % F: % is no module
-          help: the symbols of the turtle are F G f + - & ^ \ / | $ ! # { } . ; , ~ @O @v [ ]; all others are names of modules
+          help: the symbols of the turtle are F G f + - & ^ \ / | $ ! # { } . ; , ~ @O @v [ ]; declare modules with letters, or write the successor as a body of Lua with return
         s:rule("F", "F = 2")
           rule F: read as F = 2: = is no module
-          help: the symbols of the turtle are F G f + - & ^ \ / | $ ! # { } . ; , ~ @O @v [ ]; all others are names of modules
+          help: the symbols of the turtle are F G f + - & ^ \ / | $ ! # { } . ; , ~ @O @v [ ]; declare modules with letters, or write the successor as a body of Lua with return
         s:rule("F", "local x = 1")
           rule F: read as l o c a l x = 1: l is no module
           help: declare it: local l = module("l"), or write the successor as a body of Lua with return
         s:rule("F", "F*")
           rule F: read as F *: * is no module
-          help: the symbols of the turtle are F G f + - & ^ \ / | $ ! # { } . ; , ~ @O @v [ ]; all others are names of modules
+          help: the symbols of the turtle are F G f + - & ^ \ / | $ ! # { } . ; , ~ @O @v [ ]; declare modules with letters, or write the successor as a body of Lua with return
         s:rule("F", "F7")
           rule F: read as F 7: 7 is no module
           help: declare it: local _7 = module("_7"), or write the successor as a body of Lua with return
         s:rule("F", "F < B")
           rule F: read as F < B: < is no module
-          help: the symbols of the turtle are F G f + - & ^ \ / | $ ! # { } . ; , ~ @O @v [ ]; all others are names of modules
+          help: the symbols of the turtle are F G f + - & ^ \ / | $ ! # { } . ; , ~ @O @v [ ]; declare modules with letters, or write the successor as a body of Lua with return
         s:rule("F", "F[+F")
           rule F: read as F [ + F: a branch is not closed
           help: close it with ]
@@ -89,10 +89,10 @@ fn an_error_says_what_is_wrong_with_the_arguments_of_a_string() {
           rule F: F has 0 to 1 parameters, not 2
           help: it was declared as F(length?)
         s:rule("F", "QB")
-          rule F: read as Q B: Q is Q(n), which has 1 parameter
+          rule F: read as Q B: Q has no arguments, but it was declared as Q(n)
           help: write its arguments in brackets, such as Q(n)
         s:rule("F", "F!F")
-          rule F: read as F ! F: ! is Width(width), which has 1 parameter
+          rule F: read as F ! F: ! has no arguments, but it was declared as Width(width)
           help: write its arguments in brackets, such as !(width)
         s:rule("F", "B(1)")
           rule F: B has no parameters, not 1
@@ -128,12 +128,12 @@ fn axioms_and_patterns_are_read_alike() {
     ]), @r#"
         s:axiom("FoF")
           read as F o F: o is no module
-          help: declare it: local o = module("o"), or write the successor as a body of Lua with return
+          help: declare it: local o = module("o")
         s:axiom("F[F")
           read as F [ F: a branch is not closed
           help: close it with ]
         s:axiom("Q")
-          read as Q: Q is Q(n), which has 1 parameter
+          read as Q: Q has no arguments, but it was declared as Q(n)
           help: write its arguments in brackets, such as Q(n)
         s:axiom("F(x)")
           unknown name x
@@ -197,9 +197,18 @@ fn abop_refuses_what_it_does_not_know() {
         abop({ axiom = "F", angel = 25 })
           abop has no option angel
           help: it has axiom, angle, step, width, ignore, consider, object; other keys are patterns of rules
+        abop({ axiom = "F", Leaf = "F" })
+          Leaf in abop is neither a letter nor a module
+          help: declare it before: local Leaf = module("Leaf")
+        abop({ axiom = "F", ["Leaf(x)"] = "F" })
+          Leaf in abop is neither a letter nor a module
+          help: declare it before: local Leaf = module("Leaf")
         abop({ axiom = "F", "F" })
           a key of abop is the number 1, not the pattern of a rule
           help: write abop({ axiom = "X", X = "F[+X]F[-X]+X", F = "FF", angle = 25.7 })
+        abop({ axiom = "F(1" })
+          the arguments of F in "F(1" are not closed
+          help: close them with )
         abop({ axiom = "F", F = 3 })
           the successor of F in abop is the number 3
           help: write a string, a list of strings, or a list of weights and strings: { { 2, "F" }, { 1, "FF" } }
@@ -225,9 +234,9 @@ fn abop_refuses_what_it_does_not_know() {
           help: give it to the object: object = turtle({ angle = 25.7 })
         abop({ axiom = "F", F = "F%" }):derive(1)
           rule F: read as F %: % is no module
-          help: the symbols of the turtle are F G f + - & ^ \ / | $ ! # { } . ; , ~ @O @v [ ]; all others are names of modules
+          help: the symbols of the turtle are F G f + - & ^ \ / | $ ! # { } . ; , ~ @O @v [ ]; declare modules with letters, or write the successor as a body of Lua with return
         abop({ axiom = "Q" }):derive(1)
-          read as Q: Q is Q(n), which has 1 parameter
+          read as Q: Q has no arguments, but it was declared as Q(n)
           help: write its arguments in brackets, such as Q(n)
         abop({ axiom = "F", ["F < "] = "F" }):derive(1)
           malformed pattern "F <": missing predecessor
