@@ -126,7 +126,7 @@ fn check_equal(declarations: &str, axiom: &str, pattern: &str, string: &str, lua
     let script = |successor: &str| {
         format!(
             "{declarations}
-             local s = lsystem {{ object = turtle() }}
+             local s = lsystem {{ object = turtle {{ palette = {{ 'red', 'tan' }} }} }}
              s:axiom({axiom})
              s:rule(\"{pattern}\", {successor})
              s:derive(5)"
