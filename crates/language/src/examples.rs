@@ -18,7 +18,11 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "Turn" shows "Turn" "Left" "Right";
     "TurnAround" shows "TurnAround";
     "Width" shows "Width";
+    "abop" shows "abop";
     "api" shows "api" "api.has";
+    "beta" shows "beta";
+    "binomial" shows "binomial";
+    "choose" shows "choose";
     "color" shows "color";
     "consider" shows "system:consider";
     "decompose" shows "system:decompose";
@@ -38,9 +42,11 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "mix" shows "mix";
     "module" shows "module";
     "noise" shows "noise";
+    "normal" shows "normal";
     "object" shows "object";
     "param" shows "param";
     "point" shows "point";
+    "poisson" shows "poisson";
     "polygon" shows "polygon";
     "prototype" shows "prototype";
     "query" shows "query";

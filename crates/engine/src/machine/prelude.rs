@@ -11,7 +11,7 @@ use crate::machine::types::POINTS;
 use burgeon_rewriting::Successors;
 
 /// Parts of the prelude: one chunk of Luau, in which each part uses the locals of the parts before it.
-const PARTS: [&str; 13] = [
+const PARTS: [&str; 14] = [
     include_str!("prelude/batch.luau"),
     include_str!("prelude/constructors.luau"),
     include_str!("prelude/successors.luau"),
@@ -23,6 +23,7 @@ const PARTS: [&str; 13] = [
     include_str!("prelude/interpretation.luau"),
     include_str!("prelude/questions.luau"),
     include_str!("prelude/randoms.luau"),
+    include_str!("prelude/distributions.luau"),
     include_str!("prelude/globals.luau"),
     include_str!("prelude/exports.luau"),
 ];

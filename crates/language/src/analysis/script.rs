@@ -28,7 +28,7 @@ pub struct Analysis {
     pub code: Option<Vec<u8>>,
     /// Errors, sorted by line.
     pub problems: Vec<Error>,
-    /// Set if the script uses the name `random`, or the global `stream`.
+    /// Set if the script uses the name `random`, the global `stream` or a distribution.
     pub random: bool,
     /// Set if the script uses the global `step`.
     pub reads_step: bool,

@@ -9,6 +9,7 @@ use full_moon::tokenizer::TokenReference;
 
 use super::blocks::ScopeWalk;
 use super::globals::Globals;
+use super::pure::stream_argument;
 use super::syntax::{declared_module, end_of, first_position, instead_of, text_of};
 use crate::CallForm;
 use burgeon_base::error::{Error, SourcePlace};
@@ -380,7 +381,7 @@ impl<'a> Walk<'a> {
             }
             return;
         }
-        self.random |= name == "stream";
+        self.random |= name == "stream" || stream_argument(&name).is_some();
         self.reads_step |= name == "step";
         if self.globals.names.contains(&name) {
             if self.globals.deprecated.contains_key(&name) {

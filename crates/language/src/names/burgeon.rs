@@ -37,6 +37,36 @@ pub(super) fn names() -> Vec<Name> {
             "(number?, number?) -> number",
         )
         .pure(),
+        distribution(
+            "normal",
+            "Returns a random number with a normal distribution, by its mean and standard deviation.",
+            &[("mean", "number"), ("deviation", "number")],
+            "number",
+        ),
+        distribution(
+            "poisson",
+            "Returns a random count with a Poisson distribution, by its mean: the number of independent events.",
+            &[("mean", "number")],
+            "number",
+        ),
+        distribution(
+            "binomial",
+            "Returns a random count with a binomial distribution: the number of successes in `n` trials with probability `p`.",
+            &[("n", "number"), ("p", "number")],
+            "number",
+        ),
+        distribution(
+            "beta",
+            "Returns a random number between 0 and 1 with a beta distribution, by its shapes: the mean is a / (a + b).",
+            &[("a", "number"), ("b", "number")],
+            "number",
+        ),
+        distribution(
+            "choose",
+            "Returns a random value of a list. All values are equally likely, unless a list has the weight of each value.",
+            &[("list", "{ any }"), ("weights", "({ number } | ((number?, number?) -> number))?")],
+            "any",
+        ),
         Name::global(
             "step",
             "Returns the number of the derivation step that is running, from 1; in an interpretation, the number of the step \
@@ -126,6 +156,22 @@ pub(super) fn names() -> Vec<Name> {
         .pure(),
     ]);
     names
+}
+
+/// Creates a random distribution with these arguments, and a random stream as the last argument.
+fn distribution(
+    name: &'static str,
+    doc: &'static str,
+    arguments: &[(&'static str, &str)],
+    returns: &str,
+) -> Name {
+    let stream = ("r", "((number?, number?) -> number)?");
+    let arguments = arguments.iter().chain([&stream]).map(|(name, luau)| argument(name, luau));
+    let doc = format!(
+        "{doc} The numbers come from the current module, as those of `random` do, or from the random stream `r`."
+    );
+    let name = Name::global(name, "").form(arguments.collect::<Vec<_>>(), returns).pure();
+    Name { doc: doc.into(), ..name }
 }
 
 fn metres(name: &'static str, luau: &str, doc: &'static str) -> Field {
@@ -251,16 +297,17 @@ pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
     .functions([
         Name::function(
             "axiom",
-            "Sets the initial chain, or the function that returns the chain of each feature of a source. The chains of a derived \
-             system continue its derivation with the rules of this system.",
+            "Sets the initial chain, as modules or as a string such as \"F-F-F-F\", or the function that returns the chain of each \
+             feature of a source. The chains of a derived system continue its derivation with the rules of this system.",
         )
         .form([argument("...", "Module")], "System<T>")
+        .form([argument("modules", "string")], "System<T>")
         .form(
             [argument("source", "Layer"), argument("chain", "(feature: Feature) -> ...Module")],
             "System<T>",
         )
         .form([argument("derived", "Derived")], "System<T>"),
-        Name::function("rule", "Adds a rule: the successor of a module that matches the pattern.")
+        Name::function("rule", "Adds a rule: the successor of a module that matches the pattern. A string with the word return is the body of a Lua function; others are modules such as \"F[+F]F(x / 2)\".")
             .form([pattern(), successor()], "System<T>")
             .form([pattern(), options("{ ... }", RULE.fields.clone()), successor()], "System<T>"),
         Name::function(

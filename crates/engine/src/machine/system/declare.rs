@@ -1,12 +1,10 @@
 //! Declarations of `axiom`, `rule` and `interpret`, with their checks.
 
-use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use mlua::{Function, Lua, Table, Value as LuaValue};
 
 use crate::declare::Session;
-use crate::declare::bytecode::compile;
 use crate::machine::Machine;
 use crate::machine::convert::to_value;
 use crate::machine::library::Library;
@@ -16,16 +14,22 @@ use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::Value;
 use burgeon_language::RULE;
-use burgeon_language::analysis::{QueryCall, analyse, split_line};
-use burgeon_rewriting::{MOST_RULES, NameScope, Pattern, Rule, Symbols};
+use burgeon_language::analysis::QueryCall;
+use burgeon_rewriting::{MOST_RULES, Pattern, Rule, Symbols};
 
+use super::strings::{compile_successor, parse_pattern, string_axiom};
 use super::{
     DeclaredAxiom, DeclaredInterpretation, DeclaredRule, RulePhase, SourceHandle, SystemDeclaration,
     is_unconditional,
 };
 
 impl SystemDeclaration {
-    pub(super) fn set_axiom(&mut self, mut arguments: Vec<LuaValue>) -> Result<()> {
+    pub(super) fn set_axiom(
+        &mut self,
+        library: &Library,
+        lua: &Lua,
+        mut arguments: Vec<LuaValue>,
+    ) -> Result<()> {
         let is_source =
             matches!(arguments.first(), Some(LuaValue::UserData(data)) if data.is::<SourceHandle>());
         if is_source {
@@ -43,6 +47,9 @@ impl SystemDeclaration {
                     .help("write system:axiom(derived), and add modules with a rule"));
             }
             self.axiom = Some(DeclaredAxiom::Derived(Arc::clone(&derived.0)));
+        } else if let [LuaValue::String(text)] = arguments.as_slice() {
+            let modules = string_axiom(library, lua, &text.to_string_lossy())?;
+            self.axiom = Some(DeclaredAxiom::Modules(modules));
         } else {
             self.axiom = Some(DeclaredAxiom::Modules(arguments));
         }
@@ -69,7 +76,7 @@ impl SystemDeclaration {
             .help("join rules into one, and distinguish the cases by a parameter"));
         }
         let scope = library.scope_at(lua);
-        let pattern = Pattern::parse_in(&text.to_string_lossy(), &library.symbols.borrow(), &scope)?;
+        let pattern = parse_pattern(&text.to_string_lossy(), &library.symbols.borrow(), &scope)?;
         let name = pattern.text.clone();
         let named = |error: Error| error.rule(&name);
         let options = match (arguments.len(), arguments.get(1)) {
@@ -143,7 +150,7 @@ impl SystemDeclaration {
             );
         };
         let symbols = library.symbols.borrow();
-        let pattern = Pattern::parse_in(&text.to_string_lossy(), &symbols, &library.scope_at(lua))?;
+        let pattern = parse_pattern(&text.to_string_lossy(), &symbols, &library.scope_at(lua))?;
         drop(symbols);
         let name = pattern.text.clone();
         let named = |error: Error| error.rule(&name);
@@ -265,7 +272,12 @@ fn check_queries(library: &Library, function: &Function, pattern: &Pattern) -> R
 }
 
 /// Refuses the first SQL parameter of `queries`, in the file `file`, that is not an argument of `pattern`.
-fn check_open(queries: &[QueryCall], file: &str, pattern: &Pattern, symbols: &Symbols) -> Result<()> {
+pub(super) fn check_open(
+    queries: &[QueryCall],
+    file: &str,
+    pattern: &Pattern,
+    symbols: &Symbols,
+) -> Result<()> {
     let arguments = pattern.arguments(symbols);
     let mut open = queries.iter().flat_map(|query| query.open.iter().map(move |name| (query.line, name)));
     let is_unknown = |name: &str| !arguments.iter().any(|(_, argument)| *argument == name);
@@ -276,61 +288,4 @@ fn check_open(queries: &[QueryCall], file: &str, pattern: &Pattern, symbols: &Sy
     Err(error.at(Some(place)).help(format!(
         "the rule's pattern has no parameter of this name; add it there, or pass a value: query(sql, {{ {name} = ... }})"
     )))
-}
-
-/// Compiles a successor given as a string of Lua, with the formal parameters, `this` and all modules in
-/// scope. Also returns whether the successor may use `this`.
-fn compile_successor(
-    library: &Library,
-    scope: &NameScope,
-    pattern: &Pattern,
-    body: &str,
-    place: Option<&SourcePlace>,
-) -> Result<(Function, bool)> {
-    let machine = library.machine()?;
-    let (marked, body) = split_line(body);
-    let (file, line) = place.map_or(("rule", 1), |place| (place.file.as_str(), place.line));
-    let line = marked.unwrap_or(line);
-    let symbols = library.symbols.borrow();
-    let names: BTreeSet<&str> = symbols.names().filter(|name| mentions(body, name)).collect();
-    let mut text = "\n".repeat(line.saturating_sub(1));
-    for name in names {
-        let symbol = symbols.find_in(name, scope).map_err(|error| {
-            let help = "return it from a function, with a constructor of the package: function(this) return stone(1) end";
-            Error::of(error.kind().clone(), error.message()).help(help)
-        })?;
-        let owner = symbols.owner(symbol).filter(|owner| scope.package.as_deref() != Some(*owner));
-        let owner = owner.map_or_else(String::new, |owner| format!("{owner}."));
-        let signature = symbols.signature(symbol);
-        let parameters: String = signature
-            .parameters
-            .iter()
-            .enumerate()
-            .map(|(index, name)| format!(", \"{name}{}\"", if index < signature.required { "" } else { "?" }))
-            .collect();
-        // The analysis reads the signature from this call, which declares the same module again.
-        text.push_str(&format!("local {name} = module(\"{owner}{name}\"{parameters}) "));
-    }
-    let formals: String = pattern.formals.iter().map(|formal| format!(", {formal}")).collect();
-    text.push_str(&format!("lsystem:rule(\"\", function(this{formals}) {body}\nend)"));
-    drop(symbols);
-    let analysis = analyse(file, &text, compile, &library.globals());
-    machine.session.note(&analysis);
-    if !analysis.problems.is_empty() {
-        return Err(Error::several(analysis.problems));
-    }
-    let queries: Vec<QueryCall> = analysis.queries.values().flatten().cloned().collect();
-    check_open(&queries, file, pattern, &library.symbols.borrow())?;
-    let text = analysis.text.replacen("lsystem:rule(\"\", ", "return (", 1);
-    let chunk = machine.load(file, &text)?;
-    let successor: Function = chunk.call(()).map_err(|error| machine.translate(error))?;
-    let begin = successor.info().line_defined;
-    Ok((successor, !begin.is_some_and(|line| analysis.blind.contains(&line))))
-}
-
-/// Returns true if `text` contains `name` as a whole word.
-fn mentions(text: &str, name: &str) -> bool {
-    let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    text.match_indices(name)
-        .any(|(at, _)| !text[..at].ends_with(is_word) && !text[at + name.len()..].starts_with(is_word))
 }

@@ -9,8 +9,10 @@ mod declare;
 mod handle;
 mod interpretations;
 mod lazy;
+mod module_string;
 mod selection;
 mod source;
+mod strings;
 mod unseen;
 
 pub(crate) use axiom::Axiom;
@@ -21,5 +23,6 @@ pub(crate) use handle::SystemHandle;
 pub(crate) use interpretations::Interpretations;
 pub(super) use interpretations::{DeclaredInterpretation, is_unconditional};
 pub(crate) use lazy::{EagerMark, UNREAD, feature_of, install as install_lazy};
+pub(super) use module_string::undeclared;
 pub(crate) use source::SourceHandle;
 pub(crate) use unseen::tell_unseen;
