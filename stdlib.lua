@@ -2,6 +2,8 @@
 -- Burgeon's standard library: the names of every script besides Luau's own. It returns a table of these names.
 
 local describe_plain: (value: any) -> string, refuse_plain: (message: string) -> never = __describe, __refuse
+-- The letters in patterns and strings that are no modules: their names with parameters.
+local undeclared_letters: (patterns: { string }, strings: { string }) -> { { string } } = __letters
 
 -- Raises an error at the line of the script that caused it. The cause can be in the data.
 local function refuse(message: string, remedy: string?)
@@ -356,6 +358,122 @@ local function prototype(object: any): Derived
   return system:derive(0)
 end
 
+-- L-systems as books print them.
+
+local ABOP_OPTIONS = { "axiom", "angle", "step", "width", "ignore", "consider", "object" }
+local OF_TURTLE = { "angle", "step", "width" }
+local ABOP_USAGE = `write abop(\{ axiom = "X", X = "F[+X]F[-X]+X", F = "FF", angle = 25.7 })`
+
+-- Adds the successors of a value of `abop`, each as { weight, text }; the weight of a single successor is nil.
+local function add_successors(pattern: string, value: any, add: (weight: number?, text: string) -> ())
+  if type(value) == "string" then
+    return add(nil, value)
+  elseif type(value) ~= "table" or #value == 0 then
+    refuse(
+      `the successor of {pattern} in abop is {describe(value)}`,
+      `write a string, a list of strings, or a list of weights and strings: \{ \{ 2, "F" }, \{ 1, "FF" } }`
+    )
+  end
+  for index, item in value :: { any } do
+    local weight, text: any = 1, item
+    if type(item) == "table" then
+      weight, text = item[1], item[2]
+    end
+    if type(weight) ~= "number" or not (weight >= 0 and weight < math.huge) or type(text) ~= "string" then
+      refuse(
+        `successor {index} of {pattern} in abop is neither a string nor a weight with a string`,
+        `write \{ "F[+F]F", "F[-F]F" } or \{ \{ 2, "F" }, \{ 1, "FF" } }`
+      )
+    end
+    add(weight, text)
+  end
+end
+
+--- Creates a system as books print it: `axiom` and rules are strings, and each other key is the pattern of a rule. The
+--- options are `angle` (degrees), `step` (m) and `width` (m) of the turtle, or another `object`, and `ignore` and
+--- `consider`. A list of strings is a random choice, and can have weights: { { 2, "F" }, { 1, "FF" } }.
+local function abop(plant: { [string]: any }): System<any>
+  if type(plant) ~= "table" then
+    refuse(`abop takes a table, not {describe(plant)}`, ABOP_USAGE)
+  elseif type(plant.axiom) ~= "string" then
+    refuse(`axiom of abop is {describe(plant.axiom)}, not a string`, ABOP_USAGE)
+  end
+  local patterns: { string }, texts: { string } = {}, { plant.axiom }
+  for key in plant :: { [any]: any } do
+    if type(key) ~= "string" then
+      refuse(`a key of abop is {describe(key)}, not the pattern of a rule`, ABOP_USAGE)
+    elseif not table.find(ABOP_OPTIONS, key) then
+      -- A rule rewrites one module, so a word without contexts is its name.
+      local word = string.match(string.gsub(key, "%b()", ""), "^%s*([%a_][%w_]+)%s*$")
+      if word and #undeclared_letters({ word }, {}) > 0 then
+        local is_option = word == key and string.find(key, "^[%l_]+$")
+        refuse(
+          if is_option then `abop has no option {key}` else `{word} in abop is neither a letter nor a module`,
+          if is_option
+            then `it has {table.concat(ABOP_OPTIONS, ", ")}; other keys are patterns of rules`
+            else `declare it before: local {word} = module("{word}")`
+        )
+      end
+      table.insert(patterns, key)
+    end
+  end
+  -- Keys have no order of their own, so rules with longer contexts come first, as in the literature.
+  local function context(pattern: string): number
+    return #string.gsub(string.gsub(pattern, "%b()", ""), "%s", "")
+  end
+  table.sort(patterns, function(a: string, b: string)
+    local long, short = context(a), context(b)
+    return if long == short then a < b else long > short
+  end)
+  for _, pattern in patterns do
+    add_successors(pattern, plant[pattern], function(_, text)
+      table.insert(texts, text)
+    end)
+  end
+  for _, option in { "ignore", "consider" } do
+    local names = plant[option]
+    for _, name in if type(names) == "table" then names else { names } do
+      if type(name) ~= "string" then
+        refuse(`{option} of abop is {describe(name)}`, `write {option} = "+-F"`)
+      end
+      table.insert(texts, name)
+    end
+  end
+  for _, letter in undeclared_letters(patterns, texts) do
+    module(table.unpack(letter))
+  end
+  local object = plant.object
+  local fields: { [string]: any } = {}
+  for _, option in OF_TURTLE do
+    fields[option] = plant[option]
+  end
+  if object == nil then
+    object = turtle(fields)
+  elseif next(fields) then
+    refuse(
+      `abop has an object, so {next(fields)} has no effect`,
+      `give it to the object: object = turtle(\{ angle = 25.7 })`
+    )
+  end
+  local system = lsystem({ object = object })
+  for _, option in { "ignore", "consider" } do
+    local names = plant[option]
+    for _, name in if type(names) == "table" then names else { names } do
+      system[option](system, name)
+    end
+  end
+  for _, pattern in patterns do
+    add_successors(pattern, plant[pattern], function(weight, text)
+      if weight then
+        system:rule(pattern, { weight = weight }, text)
+      else
+        system:rule(pattern, text)
+      end
+    end)
+  end
+  return system:axiom(plant.axiom)
+end
+
 -- The turtle's modules --------------------------------------------------------------------------------------
 -- The symbols of The Algorithmic Beauty of Plants, for every system whose object is a turtle. Lengths are in metres,
 -- angles in degrees. An omitted value is the turtle's own step, angle or width.
@@ -413,5 +531,6 @@ names.hsv = hsv
 names.rgb = rgb
 names.mix = mix
 names.prototype = prototype
+names.abop = abop
 table.freeze(Vec)
 return names

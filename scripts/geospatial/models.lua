@@ -78,7 +78,7 @@ models.furniture = {
 function models.stand(this: any, place: any, code: number, direction: number)
   local angle = math.rad(direction)
   this:jump(place:place() + vec(0, 0, 0.15))
-  this:direction({ 0, 0, 1 }, { math.sin(angle), -math.cos(angle), 0 }):place(models.furniture[code])
+  this:direction({ 0, 0, 1 }, { -math.sin(angle), math.cos(angle), 0 }):place(models.furniture[code])
 end
 
 -- A tree of 1 m height with a crown of 0.5 m radius. Its height scales each instance.

@@ -42,44 +42,47 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
       print(galaxy.kind, star.kind, star.planets)
     ");
     assert_snapshot!(api(&["system"]), @r#"
-    system
-      A system of rules, created by lsystem; T is the type of its object.
+        system
+          A system of rules, created by lsystem; T is the type of its object.
 
-    Methods
-      axiom(...Module) -> System<T>
-      axiom(source: Layer, chain: (feature: Feature) -> ...Module) -> System<T>
-          Sets the initial chain, or the function that returns the chain of each feature of a source.
-      rule(pattern: string, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
-      rule(pattern: string, options: { ... }, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
-          Adds a rule: the successor of a module that matches the pattern.
-          Its fields: burgeon api system:rule
-      decompose(pattern: string, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
-      decompose(pattern: string, options: { ... }, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
-          Adds a decomposition rule, which applies repeatedly after the axiom and after each step.
-          Its fields: burgeon api system:decompose
-      interpret(pattern: string, draw: (this: T, ...any) -> ...any) -> System<T>
-          Adds an interpretation: the function that draws a module.
-      ignore(...string) -> System<T>
-          Sets modules that context matching ignores.
-      consider(...string) -> System<T>
-          Sets the only modules that context matching considers.
-      derive(steps: number?) -> Derived
-          Applies the rules step by step; without a number of steps, until no rule applies.
+        Methods
+          axiom(...Module) -> System<T>
+          axiom(modules: string) -> System<T>
+          axiom(source: Layer, chain: (feature: Feature) -> ...Module) -> System<T>
+              Sets the initial chain, as modules or as a string such as "F-F-F-F", or the function that
+              returns the chain of each feature of a source.
+          rule(pattern: string, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
+          rule(pattern: string, options: { ... }, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
+              Adds a rule: the successor of a module that matches the pattern. A string with the word return
+              is the body of a Lua function; others are modules such as "F[+F]F(x / 2)".
+              Its fields: burgeon api system:rule
+          decompose(pattern: string, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
+          decompose(pattern: string, options: { ... }, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
+              Adds a decomposition rule, which applies repeatedly after the axiom and after each step.
+              Its fields: burgeon api system:decompose
+          interpret(pattern: string, draw: (this: T, ...any) -> ...any) -> System<T>
+              Adds an interpretation: the function that draws a module.
+          ignore(...string) -> System<T>
+              Sets modules that context matching ignores.
+          consider(...string) -> System<T>
+              Sets the only modules that context matching considers.
+          derive(steps: number?) -> Derived
+              Applies the rules step by step; without a number of steps, until no rule applies.
 
-    Example
-      -- All methods of a system, with context-sensitive rules.
-      local Signal, Wait = module("Signal"), module("Wait")
-      local row = lsystem({ object = turtle() })
-      row:axiom(Signal(), Turn(5), Wait(), Turn(5), Wait())
-      row:ignore("Turn")
-      row:rule("Signal < Wait", function()
-        return Signal()
-      end)
-      row:interpret("Signal", function(this)
-        this:forward(1)
-      end)
-      row:derive(2)
-    "#);
+        Example
+          -- All methods of a system, with context-sensitive rules.
+          local Signal, Wait = module("Signal"), module("Wait")
+          local row = lsystem({ object = turtle() })
+          row:axiom(Signal(), Turn(5), Wait(), Turn(5), Wait())
+          row:ignore("Turn")
+          row:rule("Signal < Wait", function()
+            return Signal()
+          end)
+          row:interpret("Signal", function(this)
+            this:forward(1)
+          end)
+          row:derive(2)
+        "#);
     assert_snapshot!(api(&["source"]), @r#"
     source(what: string | { any }, options: { ... }?) -> Layer
       Loads the features of a data file, or of a list; see `layer`.

@@ -16,44 +16,45 @@ const HEAD: &str = r#"
 "#;
 
 #[test]
-fn a_rule_reads_its_object_as_the_pass_before_left_it() {
+fn a_rule_reads_the_place_of_its_module() {
     let text = chain(&format!(
         "{HEAD}
-        s:axiom(Ask(), F(1), F(2))
+        s:axiom(F(1), Ask(), F(2), Ask())
         s:rule(\"Ask\", function(this) return place(this) end)
         s:rule(\"F(l)\", function(this, l) return F(l * 10) end)
         s:derive(1)"
     ));
-    // Before the first step, the whole axiom was interpreted, not only the part before the module.
-    assert_eq!(text, "Say(0,0,3) F(10) F(20)");
+    // The places are those in the axiom, before the first step.
+    assert_eq!(text, "F(10) Say(0,0,1) F(20) Say(0,0,3)");
 }
 
 #[test]
 fn each_step_sees_the_pass_over_the_chain_of_the_step_before() {
     let text = chain(&format!(
         "{HEAD}
-        s:axiom(Wait(3), F(1))
+        s:axiom(F(1), Wait(3))
         s:rule(\"Wait(n)\", function(this, n) if n > 0 then return place(this), Wait(n - 1) end end)
         s:rule(\"F(l)\", function(this, l) return F(l * 2) end)
         s:derive(3)"
     ));
-    assert_eq!(text, "Say(0,0,1) Say(0,0,2) Say(0,0,4) Wait(0) F(8)");
+    assert_eq!(text, "F(8) Say(0,0,1) Say(0,0,2) Say(0,0,4) Wait(0)");
 }
 
 #[test]
 fn guards_read_the_object_too() {
     let text = chain(&format!(
         "{HEAD}
-        s:axiom(Ask(), F(1))
+        s:axiom(F(1), Ask(), F(1))
         s:rule(\"Ask\", {{ when = function(this) return this:position().z >= 4 end }}, function(this) return place(this) end)
         s:rule(\"F(l)\", {{ when = function(this, l) return this:position().z < 6 end }}, function(this, l) return F(l * 2) end)
         s:derive(10)"
     ));
-    assert_eq!(text, "Say(0,0,4) F(8)");
+    // The first F is always at 0, the last one ends when it begins above 6.
+    assert_eq!(text, "F(1024) Say(0,0,4) F(8)");
 }
 
 #[test]
-fn however_a_rule_gets_at_its_object_it_sees_the_pass_before() {
+fn however_a_rule_gets_at_its_object_it_reads_the_place() {
     let mut wrong = Vec::new();
     for rule in [
         "s:rule(\"Ask\", function(this) return place(this) end)",
@@ -67,8 +68,8 @@ fn however_a_rule_gets_at_its_object_it_sees_the_pass_before() {
         "s:rule(\"Ask\", { when = place }, function(this) return place(this) end)",
         "s:rule(\"Ask\", { when = function(...) return (...):position().z == 3 end }, function() return Say(0, 0, 3) end)",
     ] {
-        let text = chain(&format!("{HEAD} s:axiom(Ask(), F(3)) {rule} s:derive(1)"));
-        if text != "Say(0,0,3) F(3)" {
+        let text = chain(&format!("{HEAD} s:axiom(F(3), Ask()) {rule} s:derive(1)"));
+        if text != "F(3) Say(0,0,3)" {
             wrong.push(format!("{rule}: {text}"));
         }
     }
@@ -103,9 +104,9 @@ fn a_branch_pushes_and_pops_the_frame() {
         ("{ T(180) }, F(3)", 3),
     ] {
         let text = chain(&format!(
-            "{HEAD} s:axiom(Ask(), {axiom}) s:rule(\"Ask\", function(this) return place(this) end) s:derive(1)"
+            "{HEAD} s:axiom({axiom}, Ask()) s:rule(\"Ask\", function(this) return place(this) end) s:derive(1)"
         ));
-        assert!(text.starts_with(&format!("Say(0,0,{expected}) ")), "{axiom}: {text}");
+        assert!(text.ends_with(&format!(" Say(0,0,{expected})")), "{axiom}: {text}");
     }
 }
 
@@ -206,13 +207,13 @@ fn every_chain_has_an_object_of_its_own() {
     let script = format!(
         "{HEAD}
         s:axiom(source {{ {{ z = 10 }}, {{ z = 20 }}, {{ z = 30 }} }}, function(feature)
-          return turtle {{ position = {{ 0, 0, feature.z }}, width = 0.01 }}, Ask(), F(feature.z / 10), {{ F(100) }}
+          return turtle {{ position = {{ 0, 0, feature.z }}, width = 0.01 }}, F(feature.z / 10), {{ F(100) }}, Ask()
         end)
         s:rule(\"Ask\", function(this) return place(this) end)
         s:derive(1)"
     );
     let expected =
-        ["Say(0,0,11) F(1) [ F(100) ]", "Say(0,0,22) F(2) [ F(100) ]", "Say(0,0,33) F(3) [ F(100) ]"];
+        ["F(1) [ F(100) ] Say(0,0,11)", "F(2) [ F(100) ] Say(0,0,22)", "F(3) [ F(100) ] Say(0,0,33)"];
     for (threads, batch) in [(1, 4096), (1, 1), (2, 1), (7, 2)] {
         let run = run_with(&script, divided(threads, batch));
         assert_eq!(lines(&run), expected, "{threads} threads and batches of {batch}");
@@ -224,11 +225,11 @@ fn every_chain_has_an_object_of_its_own() {
 fn a_chain_without_its_own_object_gets_a_copy_of_the_systems() {
     let text = lines(&run(&format!(
         "{HEAD}
-        s:axiom(source {{ {{ n = 1 }}, {{ n = 2 }} }}, function(feature) return Ask(), F(feature.n) end)
+        s:axiom(source {{ {{ n = 1 }}, {{ n = 2 }} }}, function(feature) return F(feature.n), Ask() end)
         s:rule(\"Ask\", function(this) return place(this) end)
         s:derive(1)"
     )));
-    assert_eq!(text, ["Say(0,0,1) F(1)", "Say(0,0,2) F(2)"]);
+    assert_eq!(text, ["F(1) Say(0,0,1)", "F(2) Say(0,0,2)"]);
 }
 
 #[test]
@@ -275,4 +276,71 @@ fn interpretations_that_call_a_changing_method_from_a_rule_are_refused() {
         told.contains("interpretation rule") && told.contains("rule F(l)") && told.contains("main.lua:"),
         "{told}"
     );
+}
+
+#[test]
+fn two_tips_read_their_own_places() {
+    let text = chain(&format!(
+        "{HEAD}
+        s:axiom({{ F(1), Ask() }}, {{ T(90), F(2), {{ F(3), Ask() }}, Ask() }}, Ask())
+        s:rule(\"Ask\", function(this) return place(this) end)
+        s:derive(1)"
+    ));
+    assert_eq!(text, "[ F(1) Say(0,0,1) ] [ T(90) F(2) [ F(3) Say(-5,0,0) ] Say(-2,0,0) ] Say(0,0,0)");
+}
+
+#[test]
+fn branches_are_pruned_by_their_places() {
+    let script = format!(
+        "{HEAD}
+        local Tip = module(\"Tip\")
+        s:axiom(Tip())
+        s:rule(\"Tip\", {{ when = function(this) return this:position().z > 2.5 end }}, function() return nil end)
+        s:rule(\"Tip\", function() return {{ T(20), F(1), Tip() }}, {{ T(-20), F(1), Tip() }} end)
+        s:derive(9)"
+    );
+    let expected = chain(&script);
+    /// Returns the number of segments that a tip at this height and angle (degrees) makes in `steps` steps.
+    fn segments(height: f64, angle: f64, steps: usize) -> usize {
+        if steps == 0 || height > 2.5 {
+            return 0;
+        }
+        let side = |angle: f64| 1 + segments(height + angle.to_radians().cos(), angle, steps - 1);
+        side(angle + 20.0) + side(angle - 20.0)
+    }
+    assert_eq!(expected.matches('F').count(), segments(0.0, 0.0, 9), "{expected}");
+    assert!(expected.matches("Tip").count() < 300);
+    for (threads, batch) in [(1, 1), (2, 1), (3, 5)] {
+        assert_eq!(lines(&run_with(&script, divided(threads, batch))), [expected.clone()]);
+    }
+}
+
+#[test]
+fn decompositions_and_types_of_scripts_read_places_too() {
+    let text = chain(
+        "local walker = object(\"walker\", {
+            extends = turtle,
+            reads = { height = function(self) return self:position().z end },
+        })
+        local Ask, Say = module(\"Ask\", \"n\"), module(\"Say\", \"z\", \"n\")
+        local s = lsystem { object = walker { step = 1 } }
+        s:axiom(F(2), Ask(1), F(3), Ask(2))
+        s:decompose(\"Ask(n)\", { when = function(this, n) return n > 1 end }, function(this, n) return Say(this:height(), n), F(1), Ask(n - 1) end)
+        s:rule(\"Ask(n)\", function(this, n) return Say(this:position().z, n) end)
+        s:derive(1)",
+    );
+    assert_eq!(text, "F(2) Say(2,1) F(3) Say(5,2) F(1) Say(6,1)");
+}
+
+#[test]
+fn an_extruder_has_a_place_too() {
+    let text = chain(
+        "local Box, Ask, Say = module(\"Box\", \"h\"), module(\"Ask\"), module(\"Say\", \"z\")
+        local s = lsystem { object = extruder }
+        s:axiom(Ask(), Box(2), Ask(), Box(3), Ask())
+        s:interpret(\"Box(h)\", function(this, h) this:extrude(h) end)
+        s:rule(\"Ask\", function(this) return Say(this:position().z) end)
+        s:derive(1)",
+    );
+    assert_eq!(text, "Say(0) Box(2) Say(2) Box(3) Say(5)");
 }

@@ -1,12 +1,15 @@
 //! Rewriting from a script to its chains, tested against the laws of the design and the literature.
 
 mod candidates;
+mod chains_as_axioms;
 mod choice;
 mod closures;
 mod contexts;
 mod continued;
 mod decomposition;
 mod determinism;
+mod distributions;
+mod expectations;
 mod fragments;
 mod generate;
 mod interpretation;
@@ -21,7 +24,10 @@ mod passes;
 mod properties;
 mod queries;
 mod results;
+mod returned_modules;
 mod scripts;
+mod sequences;
 mod steps;
 mod stochastic;
 mod streams;
+mod strings;

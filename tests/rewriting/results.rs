@@ -45,12 +45,14 @@ fn script(rule: &str) -> String {
     format!("{HEAD}\n s:axiom(C(), A(), C())\n {rule}\n s:derive(1)")
 }
 
-/// Returns the body as an inline function, as a function in a variable, and as a string of Lua.
+/// Returns the body as an inline function, as a function in a variable, and as a string of Lua. A string without `return`
+/// would be a string of modules.
 fn bodies(body: &str) -> [String; 3] {
+    let end = if body.contains("return") { "" } else { " return" };
     [
         format!("s:rule(\"A\", function(this) {body} end)"),
         format!("local function f(this) {body} end\n s:rule(\"A\", f)"),
-        format!("s:rule(\"A\", [==[ {body} ]==])"),
+        format!("s:rule(\"A\", [==[ {body}{end} ]==])"),
     ]
 }
 

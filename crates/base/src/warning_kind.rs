@@ -12,8 +12,8 @@ pub enum WarningKind {
     UndrawnModule,
     /// A module of the standard library that the script redeclares, so that it is not drawn.
     HiddenModule,
-    /// An interpretation that returns modules.
-    ReturnedModules,
+    /// A rule that returns a list as one branch.
+    ReturnedList,
     /// Interpretations of a system without an object.
     NoObject,
     /// A declaration after the derivation, which it cannot affect.
@@ -61,7 +61,7 @@ impl WarningKind {
             Self::EmptyModel => "warning.empty-model",
             Self::UndrawnModule => "warning.undrawn-module",
             Self::HiddenModule => "warning.hidden-module",
-            Self::ReturnedModules => "warning.returned-modules",
+            Self::ReturnedList => "warning.returned-list",
             Self::NoObject => "warning.no-object",
             Self::LateDeclaration => "warning.late-declaration",
             Self::UnreachableRule => "warning.unreachable-rule",

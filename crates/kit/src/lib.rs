@@ -26,8 +26,8 @@ pub use contract::declare;
 pub use contract::{
     Answer, Argument, AxisScale, BeginPrefetch, Call, Capabilities, Capability, Construct, Constructor,
     Deprecation, Draw, Drawing, Expand, Expectation, Field, Gather, HasLayers, Kind, KindDeclaration,
-    LevelOfDetail, LoadRequest, LoadServices, LoadedObject, Loader, Make, Method, Model, Object,
-    ObjectContent, ObjectParameter, Parameter, Prefetch, ReadCall, Report, Resources, RewriteOutcome,
+    LevelOfDetail, LoadRequest, LoadServices, LoadedObject, Loader, Locate, Make, Method, Model, Object,
+    ObjectContent, ObjectParameter, Parameter, Place, Prefetch, ReadCall, Report, Resources, RewriteOutcome,
     Rewriter, RuleSet, Show, System, Table, TableKey, Value, Values, Vector, Warn, Write, WriteNumbers,
     is_keyword, object,
 };

@@ -18,12 +18,17 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "Turn" shows "Turn" "Left" "Right";
     "TurnAround" shows "TurnAround";
     "Width" shows "Width";
+    "abop" shows "abop";
     "api" shows "api" "api.has";
+    "beta" shows "beta";
+    "binomial" shows "binomial";
+    "choose" shows "choose";
     "color" shows "color";
     "consider" shows "system:consider";
     "decompose" shows "system:decompose";
     "derived" shows "derived";
     "ease" shows "ease" "ease.in" "ease.out" "ease.inout" "ease.smooth" "ease.sine" "ease.back";
+    "expect" shows "expect";
     "extend" shows "extend";
     "feature" shows "feature";
     "fragment" shows "fragment";
@@ -37,9 +42,11 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "mix" shows "mix";
     "module" shows "module";
     "noise" shows "noise";
+    "normal" shows "normal";
     "object" shows "object";
     "param" shows "param";
     "point" shows "point";
+    "poisson" shows "poisson";
     "polygon" shows "polygon";
     "prototype" shows "prototype";
     "query" shows "query";
@@ -48,6 +55,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "require" shows "require";
     "rgb" shows "rgb";
     "rule" shows "rule" "system:rule";
+    "sequence" shows "sequence";
     "source" shows "source";
     "step" shows "step";
     "stream" shows "stream";

@@ -9,7 +9,7 @@ use super::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use super::surface::plain_material;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Frame, Strand, face, sphere};
-use burgeon_kit::{AxisScale, Color, Drawing, Model, Vector, fields, methods, object};
+use burgeon_kit::{AxisScale, Color, Drawing, Locate, Model, Place, Vector, fields, methods, object};
 use burgeon_scene::Material;
 
 /// Fields of `turtle { ... }`.
@@ -74,6 +74,7 @@ pub struct TurtleOptions {
     options = TurtleOptions,
     example = include_str!("../scripts/turtle.lua"),
     draws,
+    can(Locate),
     begins_empty,
     begin = restart,
     push = open_branch,
@@ -326,6 +327,13 @@ impl Turtle {
     /// Returns the distance (m) from a position to the nearest point of the drawn model.
     pub fn distance(&self, place: Vector) -> f64 {
         self.drawing.distance(place.0 - self.drawing.origin())
+    }
+}
+
+impl Locate for Turtle {
+    fn place(&self) -> Place {
+        let Frame { heading, left, up, .. } = self.state.frame;
+        Place { position: self.position(), heading, left, up }
     }
 }
 

@@ -111,11 +111,18 @@ impl Signature {
     /// Formats the number of parameters.
     pub fn count(&self) -> String {
         match (self.required, self.arity()) {
-            (_, 0) => "no parameters".to_owned(),
-            (1, 1) => "1 parameter".to_owned(),
-            (least, most) if least == most => format!("{most} parameters"),
-            (least, most) => format!("{least} to {most} parameters"),
+            (least, most) if least < most => format!("{least} to {most} parameters"),
+            (_, arity) => counted(arity),
         }
+    }
+}
+
+/// Formats a number of parameters.
+pub(crate) fn counted(count: usize) -> String {
+    match count {
+        0 => "no parameters".to_owned(),
+        1 => "1 parameter".to_owned(),
+        count => format!("{count} parameters"),
     }
 }
 

@@ -137,14 +137,27 @@ const NUMBERS: [&str; 36] = [
 ];
 
 /// Values in any unit that the script or the file uses.
-const ANY: [&str; 16] = [
+const ANY: [&str; 29] = [
+    "beta a",
+    "beta b",
+    "beta r",
+    "binomial n",
+    "binomial p",
+    "binomial r",
+    "choose r",
+    "choose weights",
     "elevation.bounds",
     "lerp a",
     "lerp b",
+    "normal deviation",
+    "normal mean",
+    "normal r",
     "param.default",
     "param.max",
     "param.min",
     "param.step",
+    "poisson mean",
+    "poisson r",
     "random a",
     "random b",
     "remap from",

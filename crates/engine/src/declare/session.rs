@@ -343,10 +343,10 @@ impl Session {
         self.source_called(file)?.analysis.guards.get(&line).cloned()
     }
 
-    /// Returns the line at which the interpretation that begins at `line` returns modules, if static analysis
-    /// finds one.
-    pub(crate) fn loses_modules(&self, file: &str, line: usize) -> Option<usize> {
-        self.source_called(file)?.analysis.lost.get(&line).copied()
+    /// Returns the line at which the rule function that begins at `line` returns only a table that it has filled, if static
+    /// analysis finds one.
+    pub(crate) fn returns_filled(&self, file: &str, line: usize) -> Option<usize> {
+        self.source_called(file)?.analysis.filled.get(&line).copied()
     }
 
     /// Returns the signature of the function that begins at a line of a file, if it is the only function

@@ -18,9 +18,8 @@ impl LuaRules<'_> {
     fn prepare(&self, applications: &Applications<'_>) -> Result<()> {
         let current = &self.machine.current;
         current.begin_step(applications.step.number(), self.bounded);
-        if !applications.places.is_empty() {
-            current.places.replace(applications.places.to_vec());
-        }
+        current.places.borrow_mut().clear();
+        current.places.borrow_mut().extend_from_slice(applications.places);
         if !applications.chains.is_empty() {
             let mut chains = current.chains.borrow_mut();
             chains.clear();

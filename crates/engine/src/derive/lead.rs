@@ -38,8 +38,8 @@ fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -
     for warning in grown.warnings {
         session.warn(warning.at(place.clone()).called_at(caller.clone()));
     }
-    let undrawn =
-        machine.library.systems.borrow()[plan.system].undrawn(&machine.library, &grown.chain.symbols);
+    let symbols = grown.chain.symbols.iter().chain(&grown.undrawn).copied();
+    let undrawn = machine.library.systems.borrow()[plan.system].undrawn(&machine.library, symbols);
     let city = machine.library.systems.borrow()[plan.system].city;
     drop(declared);
     machine.current.objects.replace(None);

@@ -2,11 +2,12 @@
 //! interpreting.
 
 use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::Instant;
 
 use super::checkpoints::CheckpointWriter;
-use super::interpret::InterpretationPass;
+use super::interpret::{InterpretationPass, PassOutcome};
 use super::pending::{Resolution, resolve};
 use super::plan::{Decomposition, Derivation, DerivationPlan};
 use super::rewriter::SystemRewriter;
@@ -17,7 +18,9 @@ use crate::machine::Driver as _;
 use crate::results::{RowFeatures, RuleName, RuleReport, Step, Times};
 use burgeon_base::error::Result;
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_rewriting::{Chain, Phase, PhaseOutcome, Phases, StepOutcome, Stepper, Use, module_brief};
+use burgeon_rewriting::{
+    Chain, Phase, PhaseOutcome, Phases, StepOutcome, Stepper, Symbol, Use, module_brief,
+};
 
 /// State of a derivation, shared by its phases.
 pub(super) struct DerivationState<'a> {
@@ -40,8 +43,8 @@ pub(super) struct DerivationState<'a> {
     features: Option<RefCell<RowFeatures>>,
     /// Number of states of the chain that were published.
     published: u32,
-    /// Set if an interpretation rule has read the number of the step in the last pass.
-    reads_step: bool,
+    /// Result of the last pass.
+    pass: PassOutcome,
     /// Set if a decomposition has read the number of the step.
     decomposition_reads_step: bool,
     /// Writer of checkpoints, if later runs can continue from them.
@@ -59,6 +62,8 @@ pub(super) struct DerivationResults {
     /// Steps of the lineage, if it is traced.
     pub steps: Vec<Step>,
     pub features: Option<RowFeatures>,
+    /// Symbols of modules that the last pass returned and could not draw.
+    pub undrawn: BTreeSet<Symbol>,
 }
 
 /// Derives the axiom `chain` in the phases of its system.
@@ -98,7 +103,7 @@ pub(super) fn derive(
         steps: Vec::new(),
         features: records.then(|| RefCell::new(RowFeatures::new(chain.symbols.len()))),
         published: 0,
-        reads_step: false,
+        pass: PassOutcome::default(),
         decomposition_reads_step: false,
         checkpoints,
     };
@@ -112,7 +117,7 @@ pub(super) fn derive(
         derivation.limit,
     )?;
     // If the last pass reads the number of the step, the derivation continues with the same chain to its last step.
-    let steps_made = if state.reads_step { derivation.limit } else { derived.steps };
+    let steps_made = if state.pass.reads_step { derivation.limit } else { derived.steps };
     let uses = state.uses();
     let later = state.later;
     state.first.retain(|warning| later.iter().all(|other| !other.says_the_same(warning)));
@@ -124,6 +129,7 @@ pub(super) fn derive(
         warnings: state.first.into_iter().chain(later).collect(),
         steps: state.steps,
         features: state.features.map(RefCell::into_inner),
+        undrawn: state.pass.undrawn,
     })
 }
 
@@ -183,13 +189,14 @@ impl Phase<DerivationState<'_>> for Rewrite {
         let begin = Instant::now();
         state.times.read += chain.symbols.len();
         let mut outcome = step(state.leader, plan, &mut state.stepper, declared, &chain, number)?;
+        plan.set_places(None);
         state.times.rewriting += begin.elapsed();
         state.record(&chain, &mut outcome, number);
         state.previous = Some(chain);
         // A step that could repeat forever without a difference does not count. A function that reads the number of the
         // step can make a difference in a later step.
         let repeats = !outcome.changed && state.derivation.draws_afresh && !plan.steps.grammar.draws_random();
-        let reads_step = outcome.reads_step || state.reads_step || state.decomposition_reads_step;
+        let reads_step = outcome.reads_step || state.pass.reads_step || state.decomposition_reads_step;
         let settled = (!outcome.ran || repeats) && !reads_step;
         Ok(PhaseOutcome { chain: Arc::new(outcome.chain), settled })
     }
@@ -215,7 +222,11 @@ impl Phase<DerivationState<'_>> for Decompose {
                 warn_of_depth(state, rules, &chain, number)?;
                 break;
             }
+            if rules.asks && plan.objects.is_some() {
+                Interpret.run(state, Arc::clone(&chain), number)?;
+            }
             let mut outcome = step(state.leader, plan, &mut decomposer, declared, &chain, number)?;
+            plan.set_places(None);
             state.times.rewriting += begin.elapsed();
             state.decomposition_reads_step |= outcome.reads_step;
             if !outcome.changed {
@@ -354,7 +365,7 @@ impl Phase<DerivationState<'_>> for Interpret {
         // If only the last pass runs, the chain stays the same from `step` to the last step.
         let last_only = state.derivation.last_only && plan.bounded;
         let number = if last_only { state.derivation.limit } else { step };
-        state.reads_step =
+        state.pass =
             InterpretationPass::pass(state.leader, plan, &chain, (step, number), uses, &mut state.later)?;
         plan.expand(&state.rewriter, &mut state.later)?;
         if state.failed().len() > failed {
@@ -420,8 +431,9 @@ fn reports(plan: &DerivationPlan, rules: &[Use], interpretations: &[Use]) -> Vec
         interprets: false,
         done: *done,
     });
+    let interpretations = plan.interpretations.list.iter().zip(interpretations);
     let interpretations =
-        plan.interpretations.list.iter().zip(interpretations).map(|(known, done)| RuleReport {
+        interpretations.filter(|(known, _)| !known.is_choice).map(|(known, done)| RuleReport {
             name: RuleName { text: known.name.clone(), place: known.place.clone() },
             interprets: true,
             done: *done,

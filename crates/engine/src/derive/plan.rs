@@ -1,11 +1,12 @@
 //! Plan of a derivation, made before the first step.
 
-use std::sync::Arc;
+use std::sync::{Arc, RwLock};
 
 use super::rewriter::SystemRewriter;
 use crate::declare::TraceRequest;
-use crate::machine::{Axiom, Interpretations, Machine, Objects, RulePhase, SystemFunctions};
+use crate::machine::{Axiom, Interpretations, Machine, ModulePlaces, Objects, RulePhase, SystemFunctions};
 use burgeon_base::error::{Result, SourcePlace};
+use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::Warning;
 use burgeon_rewriting::{ModuleKey, StepPlan};
 
@@ -14,6 +15,8 @@ pub(crate) struct Decomposition {
     pub steps: Arc<StepPlan>,
     /// Maximum number of times that the rules apply one after another.
     pub max_depth: usize,
+    /// Set if a rule may use `this`.
+    pub asks: bool,
 }
 
 /// Constant data of a derivation, shared by all threads.
@@ -30,9 +33,23 @@ pub(crate) struct DerivationPlan {
     pub bounded: bool,
     /// Set if the time of each interpretation rule is measured.
     pub profiled: bool,
+    /// Set for each symbol whose rules read where the object is; empty if there is none.
+    pub located: Vec<bool>,
+    /// Places of modules in the present chain, if a pass has noted them.
+    pub(super) places: RwLock<Option<Arc<ModulePlaces>>>,
 }
 
 impl DerivationPlan {
+    /// Returns the places of modules in the present chain, if a pass has noted them.
+    pub(super) fn places(&self) -> Option<Arc<ModulePlaces>> {
+        self.places.read().recover().clone()
+    }
+
+    /// Sets the places of modules in the present chain, or `None` for another chain.
+    pub(super) fn set_places(&self, places: Option<ModulePlaces>) {
+        *self.places.write().recover() = places.map(Arc::new);
+    }
+
     /// Marks self-expanding objects as checked only.
     pub(super) fn sketch(&self) -> Result<()> {
         let Some(objects) = &self.objects else { return Ok(()) };
@@ -109,6 +126,7 @@ impl Derivation {
         let forgiving = (axiom.given > 1 || is_part) && !options.strict;
         let objects = (!objects.is_empty()).then(|| Arc::new(Objects::new(objects, forgiving)));
         let limit = [steps, options.steps].into_iter().flatten().min();
+        let located = system.located(grammar.arities().len());
         let step_plan = |grammar| {
             Arc::new(StepPlan {
                 grammar,
@@ -117,7 +135,7 @@ impl Derivation {
                 batch: options.batch.max(1),
                 limit: options.limits.modules,
                 traced: traced.is_some() || options.reports.records,
-                notes_places: traced.is_some_and(|traced| traced.chain.is_some()),
+                notes_places: !located.is_empty() || traced.is_some_and(|traced| traced.chain.is_some()),
             })
         };
         let decomposition = system.has_rules_in(RulePhase::Decomposition).then(|| Decomposition {
@@ -127,6 +145,7 @@ impl Derivation {
                 RulePhase::Decomposition,
             )),
             max_depth: system.max_depth,
+            asks: system.asks_in(RulePhase::Decomposition),
         });
         let plan = Arc::new(DerivationPlan {
             system: index,
@@ -136,6 +155,8 @@ impl Derivation {
             objects,
             bounded: limit.is_some(),
             profiled: options.reports.profile,
+            places: RwLock::default(),
+            located,
         });
         let declared = system.prepare(machine)?;
         system.tell_forestalled(machine, &plan.steps.grammar);

@@ -1,7 +1,7 @@
 //! Applies the rules of a script's systems for self-expanding objects.
 
 use std::cell::{RefCell, RefMut};
-use std::sync::Arc;
+use std::sync::{Arc, RwLock};
 
 use rustc_hash::FxHashMap;
 
@@ -54,6 +54,8 @@ impl<'a> SystemRewriter<'a> {
             objects: None,
             bounded: true,
             profiled: false,
+            located: Vec::new(),
+            places: RwLock::default(),
         });
         let declared = self.leader.machine.library.systems.borrow()[index].prepare(self.leader.machine)?;
         Ok(Ready { declared, stepper: Stepper::new(Arc::clone(&plan.steps)), plan })

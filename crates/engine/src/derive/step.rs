@@ -41,6 +41,7 @@ pub(super) fn step(
     machine.enter(plan.system)?;
     machine.refresh();
     machine.current.objects.replace(plan.objects.clone());
+    machine.current.located.replace(plan.places());
     let rules = LuaRules { machine, declared, bounded: plan.bounded };
     let helpers = MachineHelpers { leader, plan };
     stepper.step(&rules, &helpers, &machine.session.stop, chain, number)

@@ -273,10 +273,12 @@ fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<R
                 let declared = prepared(machine, &mut known, plan.system)?;
                 machine.enter(plan.system)?;
                 machine.current.objects.replace(plan.objects.clone());
+                machine.current.located.replace(plan.places());
                 machine.refresh();
                 let rules = LuaRules { machine, declared, bounded: plan.bounded };
                 while work.work(&rules, &machine.session.stop, &mut scratch) {}
                 machine.current.objects.replace(None);
+                machine.current.located.replace(None);
             }
             ThreadJob::Prefetch(prefetch) => {
                 if let Some(prefetch) = prefetch.upgrade() {

@@ -3,6 +3,7 @@
 use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
+use super::module_places::ModulePlaces;
 use crate::declare::Session;
 use crate::machine::types::Objects;
 use crate::questions::ChainView;
@@ -25,9 +26,18 @@ pub(crate) trait Flusher: std::any::Any {
     /// Adds warnings of the chain's object.
     fn warn(&mut self, said: Vec<Warning>);
 
-    /// Records that the interpretation rule of `entry` has returned a `value`, given as text, or modules if
-    /// `None`.
-    fn lost(&mut self, entry: usize, value: Option<&str>);
+    /// Records that the interpretation rule of `entry` has returned a `value`, given as text.
+    fn lost(&mut self, entry: usize, value: &str);
+
+    /// Returns the parameters of the context modules of interpretation rule `rule` around the module of `entry`; `None` if
+    /// the contexts do not match.
+    fn context(&self, entry: usize, rule: u16) -> Option<Vec<f64>>;
+
+    /// Records that an interpretation rule has returned a module that nothing draws.
+    fn undrawn(&self, symbol: Symbol);
+
+    /// Records that `entry` has returned a `module`, given as text, to which `rule` does not apply any more.
+    fn too_deep(&mut self, entry: usize, rule: u16, module: &str, max_depth: usize);
 }
 
 /// Step for which rules or interpretation rules run.
@@ -51,8 +61,10 @@ pub(crate) struct WorkState {
     pub chains: RefCell<Vec<u32>>,
     /// Random key of each application in the batch.
     pub keys: RefCell<Vec<ModuleKey>>,
-    /// Index in the chain of each application in the batch, if queries are recorded.
+    /// Index in the chain of each application in the batch, if queries are recorded or places are known.
     pub places: RefCell<Vec<u32>>,
+    /// Places of the object at modules of the chain, if the last pass has noted them.
+    pub located: RefCell<Option<Arc<ModulePlaces>>>,
     /// Number of random numbers that the weighted choice has already used.
     pub used: Cell<usize>,
     /// Maximum number of random numbers that one recent application has drawn.
@@ -81,6 +93,7 @@ impl WorkState {
             chains: RefCell::default(),
             keys: RefCell::default(),
             places: RefCell::default(),
+            located: RefCell::default(),
             used: Cell::new(0),
             drawn: Cell::new(0),
             step: Cell::new(None),
@@ -111,6 +124,14 @@ impl WorkState {
         }
         self.drawn.set(self.drawn.get().max(index + 1));
         Ok(stream.uniform())
+    }
+
+    /// Adds the key of a module that the interpretation rule with key `parent` has returned. Returns its index.
+    pub(crate) fn child_key(&self, parent: usize, ordinal: usize) -> Result<usize> {
+        let key = self.key(Some(parent))?.child(ordinal);
+        let mut keys = self.keys.borrow_mut();
+        keys.push(key);
+        Ok(keys.len() - 1)
     }
 
     /// Returns the key of an application's random stream, or that of the top level for `None`.
@@ -194,6 +215,20 @@ impl WorkState {
         }
     }
 
+    /// Returns the answer of a read method at the module of an application, if it depends on the place and that is known.
+    fn answer_at(&self, application: usize, method: &str) -> Option<Value> {
+        let located = self.located.borrow();
+        let located = located.as_ref().filter(|_| self.flusher.borrow().is_none())?;
+        let module = *self.places.borrow().get(application)?;
+        located.get(module)?.answer(method)
+    }
+
+    /// Returns the index in the chain of an application, if queries of rules are recorded.
+    pub(crate) fn noted_place(&self, application: usize) -> Option<usize> {
+        self.session.options.reports.trace.filter(|traced| traced.chain.is_some())?;
+        self.places.borrow().get(application).map(|place| *place as usize)
+    }
+
     /// Calls a method of `this`, or of its child object at `slot`, immediately. `place` is the line of the
     /// call.
     pub(crate) fn call(
@@ -217,6 +252,10 @@ impl WorkState {
         };
         match &kind.methods.get(method).ok_or_else(missing)?.call {
             Call::Read(read) => {
+                if let (None, Some(answer)) = (slot, self.answer_at(application, &kind.methods[method].name))
+                {
+                    return Ok(answer);
+                }
                 take_deferred();
                 let answer = objects.read(chain, |object| match slot {
                     None => read(object, arguments),

@@ -6,6 +6,7 @@ use mlua::{Function, MultiValue, Table, Value as LuaValue, Variadic};
 
 use super::Machine;
 use super::convert::to_lua;
+use super::expectation::expect;
 use super::library::Library;
 use super::messages::{print, script_warning};
 use super::require::require;
@@ -30,6 +31,15 @@ impl Library {
                 let warning = script_warning(&text, &help).map_err(mlua::Error::external)?;
                 library.machine().map_err(mlua::Error::external)?.warn(warning);
                 Ok(())
+            })?,
+        )?;
+        let library = std::rc::Rc::clone(&machine.library);
+        globals.raw_set(
+            "expect",
+            lua.create_function(move |_, values: (LuaValue, LuaValue, LuaValue)| {
+                library.at_top_level("expect").map_err(mlua::Error::external)?;
+                let machine = library.machine().map_err(mlua::Error::external)?;
+                expect(&machine.session.options, &values).map_err(mlua::Error::external)
             })?,
         )?;
         let library = std::rc::Rc::clone(&machine.library);

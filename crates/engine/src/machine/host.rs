@@ -3,18 +3,19 @@
 use std::rc::Rc;
 use std::sync::Arc;
 
-use mlua::{Lua, LuaString, MultiValue, Table, Value as LuaValue};
+use mlua::{Buffer, Lua, LuaString, MultiValue, Table, Value as LuaValue, Variadic};
 
 use super::current::WorkState;
 use super::native;
 use crate::machine::convert::{to_argument, to_lua, to_value};
 use crate::machine::library::Library;
 use crate::machine::types::{ObjectHandle, claim};
-use burgeon_base::error::{Error, Limit, SourcePlace};
+use crate::machine::write_column;
+use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::warning::take_deferred;
 use burgeon_kit::declare::as_ref;
 use burgeon_kit::{Call, Draw, ObjectContent, ScriptObject, Value};
-use burgeon_rewriting::{ColumnValue, DEEPEST, module_text};
+use burgeon_rewriting::{CLOSE, ColumnValue, DEEPEST, OPEN, module_brief, module_text};
 
 /// Number of entries from which the conversion of a result pauses garbage collection.
 const LONG: usize = 256;
@@ -36,6 +37,7 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<WorkState>, library: &Rc<Library
     add_values(lua, &host, current, library)?;
     add_tables(lua, &host)?;
     add_applications(lua, &host, current)?;
+    add_returned_modules(lua, &host, current, library)?;
     add_methods(lua, &host, current, library)?;
     add_script_objects(lua, &host, current, library)?;
     super::streams::add_streams(lua, &host, current)?;
@@ -178,14 +180,69 @@ fn add_applications(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::R
     let state = Rc::clone(current);
     host.set(
         "lost",
-        lua.create_function(move |_, (entry, value): (usize, Option<String>)| {
+        lua.create_function(move |_, (entry, value): (usize, String)| {
             if let Some(flusher) = state.flusher.borrow_mut().as_mut() {
-                flusher.lost(entry, value.as_deref());
+                flusher.lost(entry, &value);
+            }
+            Ok(())
+        })?,
+    )
+}
+
+/// Adds the functions for modules that interpretations return.
+fn add_returned_modules(
+    lua: &Lua,
+    host: &Table,
+    current: &Rc<WorkState>,
+    library: &Rc<Library>,
+) -> mlua::Result<()> {
+    host.set("open", OPEN)?;
+    host.set("close", CLOSE)?;
+    let state = Rc::clone(current);
+    host.set(
+        "child_key",
+        lua.create_function(move |_, (parent, ordinal): (usize, usize)| {
+            state.child_key(parent, ordinal).map_err(mlua::Error::external)
+        })?,
+    )?;
+    let state = Rc::clone(current);
+    host.set(
+        "context",
+        lua.create_function(move |_, (entry, rule, into): (usize, u16, Buffer)| {
+            let flusher = state.flusher.borrow();
+            let Some(params) = flusher.as_ref().and_then(|flusher| flusher.context(entry, rule)) else {
+                return Ok(false);
+            };
+            write_column(into, &params).map_err(mlua::Error::external)?;
+            Ok(true)
+        })?,
+    )?;
+    let state = Rc::clone(current);
+    host.set(
+        "undrawn",
+        lua.create_function(move |_, symbol: u16| {
+            if let Some(flusher) = state.flusher.borrow().as_ref() {
+                flusher.undrawn(symbol);
             }
             Ok(())
         })?,
     )?;
-    Ok(())
+    let (state, owner) = (Rc::clone(current), Rc::clone(library));
+    host.set(
+        "too_deep",
+        lua.create_function(
+            move |_, (entry, rule, symbol, depth, params): (usize, u16, u16, usize, Variadic<LuaValue>)| {
+                let pack = |value: &LuaValue| Ok(state.session.values.pack(to_value(value, false)?));
+                let params: Vec<f64> =
+                    params.iter().map(pack).collect::<Result<_>>().map_err(mlua::Error::external)?;
+                let module = module_brief(&owner.symbols.borrow(), &*state.session.values, symbol, &params);
+                if let Some(flusher) = state.flusher.borrow_mut().as_mut() {
+                    flusher.too_deep(entry, rule, &module, depth);
+                }
+                Ok(())
+            },
+        )?,
+    )
 }
 
 /// Adds the functions that call methods of objects.
@@ -228,14 +285,14 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Li
                     let answer = read(&*handle.0, &given).map_err(mlua::Error::external)?;
                     let machine = owner.machine().map_err(mlua::Error::external)?;
                     take_deferred().into_iter().for_each(|warning| machine.warn(warning));
-                    let place = guard.and_then(|guard| state.places.borrow().get(guard).copied());
+                    let place = guard.and_then(|guard| state.noted_place(guard));
                     if let Some(place) =
                         place.filter(|_| handle.0.kind().has_capability::<dyn ObjectContent>())
                     {
                         let given: Vec<String> = given.iter().map(Value::to_string).collect();
                         let this = Value::Object(Arc::clone(&handle.0));
                         let text = format!("{this}:{}({}): {answer}", method.name, given.join(", "));
-                        state.session.rows.note_answer(place as usize, text);
+                        state.session.rows.note_answer(place, text);
                     }
                     // The complete result stays alive, so a collection would free nothing of it.
                     let is_long = matches!(&answer, Value::Table(table) if table.entries.len() > LONG);

@@ -8,7 +8,7 @@ use std::sync::{Arc, LazyLock};
 use mlua::{Function, Lua, Table, Value as LuaValue, Variadic};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::system::{EagerMark, SystemDeclaration, install_lazy};
+use super::system::{EagerMark, SystemDeclaration, install_lazy, undeclared};
 use super::table_classes::declare_class;
 use super::types::{Extension, ScriptTypeEntry, install_functions, install_kind};
 use super::{Machine, compile, native};
@@ -247,7 +247,7 @@ impl Library {
             globals.raw_set(name, value).map_err(|error| machine.translate(error))?;
         }
         self.standard_chunk.replace(Some(chunk));
-        for name in ["__interpretation", "__class", "__refuse", "__describe"] {
+        for name in ["__interpretation", "__class", "__letters", "__refuse", "__describe"] {
             globals.raw_set(name, LuaValue::Nil).map_err(|error| machine.translate(error))?;
         }
         self.note_names(machine.lua());
@@ -358,6 +358,22 @@ impl Library {
                 })?;
                 library.standard.borrow_mut().push(StandardInterpretation { kind, symbol, method });
                 Ok(())
+            })?,
+        )?;
+        let library = std::rc::Rc::clone(&machine.library);
+        globals.raw_set(
+            "__letters",
+            lua.create_function(move |lua, (patterns, strings): (Vec<String>, Vec<String>)| {
+                let scope = library.scope_at(lua);
+                let letters = undeclared(&patterns, &strings, &library.symbols.borrow(), &scope);
+                let lists = letters.map_err(mlua::Error::external)?.into_iter().map(|letter| {
+                    let required = letter.required;
+                    let parameters = letter.parameters.into_iter().enumerate();
+                    let parameters =
+                        parameters.map(|(index, name)| if index < required { name } else { name + "?" });
+                    std::iter::once(letter.name).chain(parameters).collect::<Vec<String>>()
+                });
+                Ok(lists.collect::<Vec<_>>())
             })?,
         )?;
         globals.raw_set(

@@ -11,7 +11,7 @@ use crate::machine::types::POINTS;
 use burgeon_rewriting::Successors;
 
 /// Parts of the prelude: one chunk of Luau, in which each part uses the locals of the parts before it.
-const PARTS: [&str; 13] = [
+const PARTS: [&str; 14] = [
     include_str!("prelude/batch.luau"),
     include_str!("prelude/constructors.luau"),
     include_str!("prelude/successors.luau"),
@@ -23,9 +23,14 @@ const PARTS: [&str; 13] = [
     include_str!("prelude/interpretation.luau"),
     include_str!("prelude/questions.luau"),
     include_str!("prelude/randoms.luau"),
+    include_str!("prelude/distributions.luau"),
     include_str!("prelude/globals.luau"),
     include_str!("prelude/exports.luau"),
 ];
+
+/// Recorded calls that stand for the brackets of a branch that an interpretation returned, instead of methods.
+pub(crate) const OPEN_CALL: u16 = u16::MAX - 1;
+pub(crate) const CLOSE_CALL: u16 = u16::MAX - 2;
 
 /// Bytecode of the expanded parts, compiled once for all machines.
 static COMPILED: LazyLock<Vec<u8>> = LazyLock::new(|| super::compile(&expand(&with_words(&PARTS.concat()))));
@@ -41,19 +46,27 @@ pub(crate) struct Prelude {
     pub driver: Function,
     /// `(guard, arity, places)`: returns a function that evaluates the guard for a batch.
     pub guard_driver: Function,
+    /// `(rules, standards, max_depth)`: removes the interpretation rules of the last system, and sets the rule and the
+    /// method of the standard library of each symbol, and the maximum depth of interpretations that return modules.
+    pub interpretations: Function,
     /// `(id, rule, arity, places)`: sets an interpretation rule.
     pub interpreter: Function,
+    /// `(id, symbol, arity, candidates, most)`: sets the candidates of a symbol, whose contexts have at most `most`
+    /// parameters.
+    pub candidates: Function,
     /// `(method, name, arity, kind)`: returns a method that records its calls.
     pub recorder: Function,
     /// `(method, name, changes, kind)`: returns a method that runs immediately.
     pub direct: Function,
-    /// `(count)`: interprets a batch; returns the numbers of calls and arguments recorded last.
+    /// `(count)`: interprets a batch; returns the numbers of calls and arguments recorded last, and the number of times
+    /// that rules have run in addition to those of the entries, by rule.
     pub interpret: Function,
     /// `(entry, call)`: runs an interpretation rule again, and raises an error at one of its recorded calls.
     pub relive: Function,
     /// Ends a batch that failed.
     pub finish: Function,
-    /// Returns the current application.
+    /// Returns the current application, the number of its modules and of its calls, and the interpretation rule that
+    /// runs if it is not that of the entry, or -1.
     pub at: Function,
     /// `(object, kind, type)`: sets `this`, the name of its type, and the type itself if the script declared
     /// it.
@@ -67,12 +80,12 @@ pub(crate) struct Prelude {
     pub hooks: Function,
     /// Drops cached parameters.
     pub forget_values: Function,
-    /// Drops the interpretation rules of the last system.
-    pub fresh_interpreters: Function,
     /// Globals of scripts.
     pub globals: Table,
     /// Returns the current phase: 0 top level, 1 rule, 2 guard, 3 interpretation.
     pub phase: Function,
+    /// `(value)`: returns the list of modules for which a value stands, or nil.
+    pub elements: Function,
     /// `(value)`: returns true for a module made outside of rules.
     pub is_module: Function,
     points: Function,
@@ -99,7 +112,9 @@ impl Prelude {
             pending: table.get("pending")?,
             driver: table.get("driver")?,
             guard_driver: table.get("guard_driver")?,
+            interpretations: table.get("interpretations")?,
             interpreter: table.get("interpreter")?,
+            candidates: table.get("candidates")?,
             recorder: table.get("recorder")?,
             direct: table.get("direct")?,
             interpret: table.get("interpret")?,
@@ -111,9 +126,9 @@ impl Prelude {
             extension: table.get("extension")?,
             hooks: table.get("hooks")?,
             forget_values: table.get("forget_values")?,
-            fresh_interpreters: table.get("fresh_interpreters")?,
             globals: table.get("globals")?,
             phase: table.get("phase")?,
+            elements: table.get("elements")?,
             is_module: table.get("is_module")?,
             points: table.get("points")?,
             unread: table.get("unread")?,
@@ -171,6 +186,8 @@ fn with_words(template: &str) -> String {
         ("@ORDERED", Successors::ORDERED),
         ("@OPEN_ITEM", Successors::OPEN_ITEM),
         ("@CLOSE_ITEM", Successors::CLOSE_ITEM),
+        ("@OPEN_CALL", u32::from(OPEN_CALL)),
+        ("@CLOSE_CALL", u32::from(CLOSE_CALL)),
     ]
     .into_iter()
     .fold(template.to_owned(), |text, (name, word)| text.replace(name, &word.to_string()))

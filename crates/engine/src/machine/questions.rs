@@ -67,8 +67,8 @@ pub(super) fn add_questions(
                     false => state.session.ask(&question),
                 };
                 let rows = rows.map_err(mlua::Error::external)?;
-                if let Some(place) = asker.and_then(|asker| state.places.borrow().get(asker).copied()) {
-                    state.session.rows.note(place as usize, &question, rows.len());
+                if let Some(place) = asker.and_then(|asker| state.noted_place(asker)) {
+                    state.session.rows.note(place, &question, rows.len());
                 }
                 let mut tables = tables.borrow_mut();
                 if rows.is_empty() {

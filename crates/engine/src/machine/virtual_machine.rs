@@ -150,8 +150,8 @@ impl Machine {
     }
 
     /// Returns the application at which a batch failed, the number of modules it had made, and the number of
-    /// calls it had recorded.
-    pub(crate) fn failed_at(&self) -> Option<(usize, f64, usize)> {
+    /// calls it had recorded, and the interpretation rule that ran if it was not that of the entry, or -1.
+    pub(crate) fn failed_at(&self) -> Option<(usize, f64, usize, i32)> {
         self.guard.despite_stop(|| self.prelude.at.call(()).ok())
     }
 

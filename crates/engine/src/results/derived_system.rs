@@ -12,7 +12,7 @@ use burgeon_base::error::{Result, SourcePlace};
 use burgeon_base::warning::Warning;
 use burgeon_kit::Values;
 use burgeon_kit::{Model, Object};
-use burgeon_rewriting::{Chain, Symbol, Symbols, Use, chain_text, write_chains};
+use burgeon_rewriting::{Chain, FIRST_SYMBOL, Symbol, Symbols, Use, chain_text, write_chains};
 use burgeon_scene::{CityClass, Origin, Scene};
 use burgeon_spatial::RecordTable;
 
@@ -106,6 +106,15 @@ impl DerivedSystem {
     /// Returns the number of modules in all chains, without brackets.
     pub fn modules(&self) -> usize {
         self.modules
+    }
+
+    /// Returns the number of modules of each declared name in all chains.
+    pub(crate) fn counts(&self) -> Vec<(&str, usize)> {
+        self.uses.read.store(true, Ordering::Relaxed);
+        let mut counts = vec![0; self.symbols.arities().len()];
+        self.chain.symbols.iter().for_each(|symbol| counts[usize::from(*symbol)] += 1);
+        let declared = (FIRST_SYMBOL..).zip(counts.into_iter().skip(usize::from(FIRST_SYMBOL)));
+        declared.map(|(symbol, count)| (self.symbols.display_name(symbol), count)).collect()
     }
 
     /// Drops the chains at the indices `chains`, which are ascending. Queries still see them.
@@ -203,6 +212,11 @@ impl DerivedSystem {
     pub fn is_placed(&self) -> bool {
         let is = |use_of_it: &AtomicBool| use_of_it.load(Ordering::Relaxed);
         is(&self.uses.placed) || is(&self.uses.captured) && !is(&self.uses.inspected)
+    }
+
+    /// Records that another system continues the derivation, so that this one is not shown on its own.
+    pub(crate) fn note_continued(&self) {
+        self.uses.placed.store(true, Ordering::Relaxed);
     }
 
     /// Reports whether another system has placed it.

@@ -10,8 +10,8 @@ use burgeon_scene::Scene;
 
 /// Returns true if the warning explains why modules are not visible.
 pub(crate) fn tells_of_emptiness(warning: &Warning) -> bool {
-    use WarningKind::{DrawsNothing, HiddenModule, ReturnedModules, UndrawnModule};
-    matches!(warning.kind(), DrawsNothing | HiddenModule | ReturnedModules | UndrawnModule)
+    use WarningKind::{DrawsNothing, HiddenModule, UndrawnModule};
+    matches!(warning.kind(), DrawsNothing | HiddenModule | UndrawnModule)
 }
 
 /// Returns the warning for an empty model, if a system has drawing objects. `warnings` are the existing

@@ -6,7 +6,7 @@ use burgeon_kit::{Attribute, FeatureSource, Table, TableKey, Value};
 use burgeon_spatial::{Record, RecordTable};
 
 /// Features of the chains of a system, one per chain.
-#[derive(Default)]
+#[derive(Default, Clone)]
 pub(crate) enum SourceFeatures {
     /// No features, or the run does not request them.
     #[default]

@@ -2,7 +2,7 @@
 
 use full_moon::ast::luau::TypeSpecifier;
 use full_moon::ast::punctuated::Punctuated;
-use full_moon::ast::{Call, Expression, Field, FunctionArgs, FunctionBody, Parameter, Prefix, Suffix};
+use full_moon::ast::{Call, Expression, Field, FunctionArgs, FunctionBody, Parameter, Prefix, Suffix, Var};
 use full_moon::node::Node;
 use full_moon::tokenizer::{StringLiteralQuoteType, TokenReference, TokenType};
 use std::sync::atomic::Ordering;
@@ -174,8 +174,8 @@ impl Walk<'_> {
                     *known = None;
                 }
             }
-            if let Some(line) = function.loses {
-                self.lost.insert(begin.line(), line);
+            if let Some(line) = function.filled {
+                self.filled.insert(begin.line(), line);
             }
             let form = (!is_method).then(|| signature(body));
             let known = self.signatures.entry(begin.line()).or_insert_with(|| form.clone());
@@ -196,16 +196,16 @@ impl Walk<'_> {
 
     pub(super) fn returns(&mut self, token: &TokenReference, values: &Punctuated<Expression>) {
         let role = self.functions.last().map_or(FunctionRole::Script, |function| function.role);
-        if role == FunctionRole::Interpretation && values.iter().any(|value| self.makes_modules(value)) {
-            let line = token.start_position().map(|position| position.line());
-            if let Some(function) = self.functions.last_mut() {
-                function.loses = function.loses.or(line);
-            }
-        }
         if role != FunctionRole::Rule {
             return self.expressions(values);
         }
         self.expressions(values);
+        if let Some(Expression::Var(Var::Name(name))) = values.iter().next().filter(|_| values.len() == 1)
+            && self.find(&text_of(name)).is_some_and(|it| it.fresh && it.function + 1 == self.functions.len())
+            && let Some(function) = self.functions.last_mut()
+        {
+            function.filled = function.filled.or(token.start_position().map(|position| position.line()));
+        }
         let (Some(begin), Some(end)) = (token.end_position(), values.iter().last().and_then(end_of)) else {
             return;
         };
@@ -223,21 +223,6 @@ impl Walk<'_> {
             if let Some(function) = self.functions.last_mut().filter(|it| !it.shapes.contains(&list)) {
                 function.shapes.push(list);
             }
-        }
-    }
-
-    /// Returns true if the syntax shows that `value` is a module or a branch of modules.
-    fn makes_modules(&self, value: &Expression) -> bool {
-        match value {
-            Expression::FunctionCall(call) => match (call.prefix(), call.suffixes().count()) {
-                (Prefix::Name(name), 1) => self.module(name).is_some(),
-                _ => false,
-            },
-            Expression::TableConstructor(table) => match table.fields().iter().next() {
-                Some(Field::NoKey(first)) => self.makes_modules(first),
-                _ => false,
-            },
-            _ => false,
         }
     }
 

@@ -14,6 +14,15 @@ use super::syntax::text_of;
 use super::walk::Walk;
 use crate::{Effect, is_pure_function, library_effect};
 
+/// Returns the first position of a random stream among the arguments of a distribution.
+pub(super) fn stream_argument(name: &str) -> Option<usize> {
+    match name {
+        "poisson" | "choose" => Some(1),
+        "normal" | "binomial" | "beta" => Some(2),
+        _ => None,
+    }
+}
+
 /// Returns true if a script sets metatables, so that even reading a table may have side effects.
 pub fn has_metatables(text: &str) -> bool {
     text.contains("setmetatable")
@@ -66,7 +75,9 @@ impl Walk<'_> {
         let suffixes: Vec<&Suffix> = call.suffixes().collect();
         let Prefix::Name(name) = call.prefix() else { return self.impure_from(1) };
         match suffixes.as_slice() {
-            [Suffix::Call(Call::AnonymousCall(_))] if self.is_pure(name) => {}
+            [Suffix::Call(Call::AnonymousCall(arguments))] if self.is_pure(name) => {
+                self.record_streams(&text_of(name), arguments);
+            }
             [Suffix::Call(Call::AnonymousCall(_))] => {
                 self.impure_from(self.own_stream(name).map_or(1, |owner| owner + 1));
             }
@@ -82,6 +93,28 @@ impl Walk<'_> {
                     && fields.iter().all(|field| matches!(field, Suffix::Index(_)))
                     && self.find(&text_of(name)).is_some_and(|variable| variable.feature) => {}
             _ => self.impure_from(1),
+        }
+    }
+
+    /// Records the random streams from which a distribution draws.
+    fn record_streams(&mut self, name: &str, arguments: &FunctionArgs) {
+        let Some(first) = stream_argument(name) else { return };
+        let FunctionArgs::Parentheses { arguments, .. } = arguments else { return };
+        for (index, argument) in arguments.iter().enumerate() {
+            match argument {
+                Expression::FunctionCall(_) if self.is_new_stream(argument) => {}
+                // The results of the last call can include a stream.
+                Expression::FunctionCall(_) if index < first && index + 1 < arguments.len() => {}
+                Expression::FunctionCall(_) => self.impure_from(1),
+                Expression::Var(Var::Name(name)) if index >= first => {
+                    self.impure_from(self.own_stream(name).map_or(1, |owner| owner + 1));
+                }
+                Expression::TableConstructor(_) => {}
+                Expression::Symbol(symbol) if text_of(symbol) != "..." => {}
+                _ if index >= first => self.impure_from(1),
+                Expression::Symbol(_) => self.impure_from(1),
+                _ => {}
+            }
         }
     }
 
@@ -146,8 +179,21 @@ mod tests {
 
     /// Returns true if the function in the last line is pure.
     fn pure(script: &str) -> bool {
-        let names =
-            ["math", "table", "string", "random", "footprint", "pairs", "source", "param", "pcall", "stream"];
+        let names = [
+            "math",
+            "table",
+            "string",
+            "random",
+            "footprint",
+            "pairs",
+            "source",
+            "param",
+            "pcall",
+            "stream",
+            "normal",
+            "poisson",
+            "choose",
+        ];
         let names = names.map(str::to_owned).to_vec();
         let value_methods = std::iter::once("area".to_owned()).collect();
         let globals =
@@ -169,6 +215,9 @@ mod tests {
             "return random()",
             "return stream(\"a\", f.id)()",
             "local r = stream(\"a\", f.id) return r() + r(1, 2)",
+            "return normal(f.mean, 2)",
+            "local r = stream(\"a\", f.id) return normal(0, 1, r) + poisson(3, r)",
+            "return choose({ 1, 2 }, { 3, 4 }, stream(\"a\")) + choose({ 1 }, nil)",
         ] {
             let script = format!(
                 "local s = source({{}})\nlocal function half(x) return x / 2 end\ns:axiom(s, function(f) {body} end)"
@@ -201,6 +250,12 @@ mod tests {
             "local r = stream(\"a\") r = shared return r()",
             "local stream = helper return stream(\"a\")()",
             "return stream(\"a\", f.id)()()",
+            "return normal(0, 1, shared)",
+            "return poisson(1, shared)",
+            "return choose({ 1, 2 }, shared)",
+            "return choose({ 1, 2 }, { 1, 2 }, shared)",
+            "return normal(0, helper(1))",
+            "return normal(0, 1, list.stream)",
         ] {
             let script = format!(
                 "local s, count, list, shared = source({{}}), 0, {{}}, stream(\"shared\")\nlocal function helper(x) count = x end\ns:axiom(s, function(f) {body} end)"

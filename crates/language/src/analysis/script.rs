@@ -28,7 +28,7 @@ pub struct Analysis {
     pub code: Option<Vec<u8>>,
     /// Errors, sorted by line.
     pub problems: Vec<Error>,
-    /// Set if the script uses the name `random`, or the global `stream`.
+    /// Set if the script uses the name `random`, the global `stream` or a distribution.
     pub random: bool,
     /// Set if the script uses the global `step`.
     pub reads_step: bool,
@@ -39,8 +39,8 @@ pub struct Analysis {
     /// Text of a rule's guard without comments and line breaks, by the line on which the guard begins. Lines with
     /// guards of different texts are omitted.
     pub guards: BTreeMap<usize, String>,
-    /// Line on which an interpretation returns modules, by the line on which the interpretation begins.
-    pub lost: BTreeMap<usize, usize>,
+    /// Line on which a rule returns only a table that it has filled, by the line on which its function begins.
+    pub filled: BTreeMap<usize, usize>,
     /// Detected queries of a rule's function, by the line on which the function begins.
     pub queries: BTreeMap<usize, Vec<QueryCall>>,
     /// Deprecated names that the script uses, with their lines.
@@ -167,7 +167,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         pure,
         mut blind,
         guards,
-        lost,
+        filled,
         queries,
         signatures,
         begins,
@@ -210,7 +210,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         pure,
         blind,
         guards,
-        lost,
+        filled,
         queries,
         signatures,
         ast,

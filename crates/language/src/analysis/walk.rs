@@ -9,6 +9,7 @@ use full_moon::tokenizer::TokenReference;
 
 use super::blocks::ScopeWalk;
 use super::globals::Globals;
+use super::pure::stream_argument;
 use super::syntax::{declared_module, end_of, first_position, instead_of, text_of};
 use crate::CallForm;
 use burgeon_base::error::{Error, SourcePlace};
@@ -51,15 +52,15 @@ pub(super) struct Function {
     pub(super) pure: bool,
     /// Set if the function reads its first parameter.
     pub(super) asks: bool,
-    /// Line of the first return of modules by an interpretation, which are ignored.
-    pub(super) loses: Option<usize>,
+    /// Line of the first return of nothing but a table that the function has filled.
+    pub(super) filled: Option<usize>,
     /// Detected queries.
     pub(super) queries: Vec<QueryCall>,
 }
 
 impl Function {
     pub(super) fn new(role: FunctionRole, rule: Option<String>) -> Self {
-        Self { role, rule, shapes: Vec::new(), pure: true, asks: false, loses: None, queries: Vec::new() }
+        Self { role, rule, shapes: Vec::new(), pure: true, asks: false, filled: None, queries: Vec::new() }
     }
 }
 
@@ -117,8 +118,8 @@ pub(super) struct Walk<'a> {
     pub(super) blind: BTreeMap<usize, bool>,
     /// Text of the guard that begins on a line, by line; `None` if guards on the line differ.
     pub(super) guards: BTreeMap<usize, Option<String>>,
-    /// Line on which an interpretation returns modules, by the line on which it begins.
-    pub(super) lost: BTreeMap<usize, usize>,
+    /// Line on which a rule returns only a table that it has filled, by the line on which its function begins.
+    pub(super) filled: BTreeMap<usize, usize>,
     /// Signature of the function that begins on a line, by line; `None` if signatures on the line differ.
     pub(super) signatures: BTreeMap<usize, Option<CallForm>>,
     /// Queries of a rule's function, by the line on which the function begins.
@@ -174,7 +175,7 @@ impl<'a> Walk<'a> {
             pure: BTreeMap::new(),
             blind: BTreeMap::new(),
             guards: BTreeMap::new(),
-            lost: BTreeMap::new(),
+            filled: BTreeMap::new(),
             signatures: BTreeMap::new(),
             queries: BTreeMap::new(),
             begins: Vec::new(),
@@ -380,7 +381,7 @@ impl<'a> Walk<'a> {
             }
             return;
         }
-        self.random |= name == "stream";
+        self.random |= name == "stream" || stream_argument(&name).is_some();
         self.reads_step |= name == "step";
         if self.globals.names.contains(&name) {
             if self.globals.deprecated.contains_key(&name) {

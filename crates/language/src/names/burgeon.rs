@@ -37,6 +37,36 @@ pub(super) fn names() -> Vec<Name> {
             "(number?, number?) -> number",
         )
         .pure(),
+        distribution(
+            "normal",
+            "Returns a random number with a normal distribution, by its mean and standard deviation.",
+            &[("mean", "number"), ("deviation", "number")],
+            "number",
+        ),
+        distribution(
+            "poisson",
+            "Returns a random count with a Poisson distribution, by its mean: the number of independent events.",
+            &[("mean", "number")],
+            "number",
+        ),
+        distribution(
+            "binomial",
+            "Returns a random count with a binomial distribution: the number of successes in `n` trials with probability `p`.",
+            &[("n", "number"), ("p", "number")],
+            "number",
+        ),
+        distribution(
+            "beta",
+            "Returns a random number between 0 and 1 with a beta distribution, by its shapes: the mean is a / (a + b).",
+            &[("a", "number"), ("b", "number")],
+            "number",
+        ),
+        distribution(
+            "choose",
+            "Returns a random value of a list. All values are equally likely, unless a list has the weight of each value.",
+            &[("list", "{ any }"), ("weights", "({ number } | ((number?, number?) -> number))?")],
+            "any",
+        ),
         Name::global(
             "step",
             "Returns the number of the derivation step that is running, from 1; in an interpretation, the number of the step \
@@ -50,6 +80,20 @@ pub(super) fn names() -> Vec<Name> {
             "Adds a warning to the run, with the problem and its remedy. Only the top level of a script and its functions can warn, not rules.",
         )
         .form([argument("text", "string"), argument("help", "string?")], "()"),
+        Name::global(
+            "sequence",
+            "Returns the modules of a list, for a successor, an interpretation or an axiom: a table alone is a branch. The list \
+             may have any length.",
+        )
+        .form([argument("list", "{ any }")], "Module")
+        .pure(),
+        Name::global(
+            "expect",
+            "Checks a known result of the script, such as a number of modules: the run fails if `actual` and `expected` differ, \
+             numbers by more than `tolerance` (0 unless given). It checks only runs with the script's own values: with another \
+             seed, number of steps or parameter value, it does nothing.",
+        )
+        .form([argument("actual", "any"), argument("expected", "any"), argument("tolerance", "number?")], "()"),
         Name::global("require", "Returns the result of another file of the script or of a package: require(\"@castle/towers\"). Each file runs once.")
             .form([argument("name", "string")], "any"),
         Name::global(
@@ -114,6 +158,22 @@ pub(super) fn names() -> Vec<Name> {
     names
 }
 
+/// Creates a random distribution with these arguments, and a random stream as the last argument.
+fn distribution(
+    name: &'static str,
+    doc: &'static str,
+    arguments: &[(&'static str, &str)],
+    returns: &str,
+) -> Name {
+    let stream = ("r", "((number?, number?) -> number)?");
+    let arguments = arguments.iter().chain([&stream]).map(|(name, luau)| argument(name, luau));
+    let doc = format!(
+        "{doc} The numbers come from the current module, as those of `random` do, or from the random stream `r`."
+    );
+    let name = Name::global(name, "").form(arguments.collect::<Vec<_>>(), returns).pure();
+    Name { doc: doc.into(), ..name }
+}
+
 fn metres(name: &'static str, luau: &str, doc: &'static str) -> Field {
     Field { unit: Some("m".into()), ..Field::new(name, luau, doc) }
 }
@@ -157,7 +217,7 @@ pub static LSYSTEM: LazyLock<Name> = LazyLock::new(|| {
                     "nil",
                     "With \"last\", only the last chain is interpreted instead of the chain of every step.",
                 ),
-                field("max_depth", "number?", "100", "Maximum depth of decompositions: the number of times that their rules apply in one step."),
+                field("max_depth", "number?", "100", "Maximum depth of decompositions and of interpretations that return modules: the number of times that their rules apply one after another."),
                 field(
                     "city",
                     "string?",
@@ -228,6 +288,7 @@ pub static EXTEND: LazyLock<Name> = LazyLock::new(|| {
 pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
     let pattern = || argument("pattern", "string");
     let successor = || argument("successor", "((this: T, ...any) -> ...Module) | string");
+    let draw = || argument("draw", "(this: T, ...any) -> ...any");
     Name::return_value(
         "system",
         "System<T>",
@@ -236,14 +297,17 @@ pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
     .functions([
         Name::function(
             "axiom",
-            "Sets the initial chain, or the function that returns the chain of each feature of a source.",
+            "Sets the initial chain, as modules or as a string such as \"F-F-F-F\", or the function that returns the chain of each \
+             feature of a source. The chains of a derived system continue its derivation with the rules of this system.",
         )
         .form([argument("...", "Module")], "System<T>")
+        .form([argument("modules", "string")], "System<T>")
         .form(
             [argument("source", "Layer"), argument("chain", "(feature: Feature) -> ...Module")],
             "System<T>",
-        ),
-        Name::function("rule", "Adds a rule: the successor of a module that matches the pattern.")
+        )
+        .form([argument("derived", "Derived")], "System<T>"),
+        Name::function("rule", "Adds a rule: the successor of a module that matches the pattern. A string with the word return is the body of a Lua function; others are modules such as \"F[+F]F(x / 2)\".")
             .form([pattern(), successor()], "System<T>")
             .form([pattern(), options("{ ... }", RULE.fields.clone()), successor()], "System<T>"),
         Name::function(
@@ -252,8 +316,14 @@ pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
         )
         .form([pattern(), successor()], "System<T>")
         .form([pattern(), options("{ ... }", RULE.fields.clone()), successor()], "System<T>"),
-        Name::function("interpret", "Adds an interpretation: the function that draws a module.")
-            .form([pattern(), argument("draw", "(this: T, ...any) -> ...any")], "System<T>"),
+        Name::function(
+            "interpret",
+            "Adds an interpretation: the function that draws a module. It calls methods of `this`, and may return modules, which \
+             are interpreted in its place; the chain does not change. Interpretations of one module are chosen as rules are: by \
+             contexts in the chain, guards and weights.",
+        )
+        .form([pattern(), draw()], "System<T>")
+        .form([pattern(), options("{ ... }", RULE.fields.clone()), draw()], "System<T>"),
         Name::function("ignore", "Sets modules that context matching ignores.")
             .form([argument("...", "string")], "System<T>"),
         Name::function("consider", "Sets the only modules that context matching considers.")
@@ -271,7 +341,7 @@ pub static RULE: LazyLock<Name> = LazyLock::new(|| {
     Name::return_value(
         "rule",
         "{ ... }",
-        "Options of system:rule and system:decompose, between pattern and successor.",
+        "Options of system:rule, system:decompose and system:interpret, between pattern and function.",
     )
     .fields([
         field(
@@ -302,6 +372,11 @@ pub static DERIVED: LazyLock<Name> = LazyLock::new(|| {
         Field::new("chains", "{ string }", "The chains as text."),
         Field::new("steps", "number", "Number of steps."),
         Field::new("modules", "number", "Number of modules in the chains."),
+        Field::new(
+            "counts",
+            "{ [string]: number }",
+            "Number of modules of each name in the chains, such as derived.counts.F.",
+        ),
     ])
 });
 

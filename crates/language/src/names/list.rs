@@ -80,7 +80,10 @@ mod tests {
         {
             assert!(!is_pure_function(name), "{name}");
         }
-        for name in ["random", "stream", "step", "lerp", "vec", "noise", "pairs", "assert", "tostring"] {
+        for name in [
+            "random", "stream", "normal", "choose", "step", "lerp", "vec", "noise", "pairs", "assert",
+            "tostring",
+        ] {
             assert!(is_pure_function(name), "{name}");
         }
         for (library, function, effect) in [

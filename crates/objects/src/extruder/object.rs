@@ -8,8 +8,8 @@ use crate::MaterialOptions;
 use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_geometry::{Rings, Section, Segment, SweepOptions, sweep};
-use burgeon_kit::{AxisScale, Color, Drawing, Model, Vector, Warn, methods, object};
+use burgeon_geometry::{Frame, Rings, Section, Segment, SweepOptions, sweep};
+use burgeon_kit::{AxisScale, Color, Drawing, Locate, Model, Place, Vector, Warn, methods, object};
 use burgeon_spatial::Path;
 use glam::{DAffine3, DVec2, DVec3};
 use smallvec::{SmallVec, smallvec};
@@ -42,7 +42,7 @@ const CREASE: f64 = 40.0;
     options = ExtruderOptions,
     example = include_str!("../../scripts/extruder.lua"),
     draws,
-    can(Warn),
+    can(Warn, Locate),
     begins_empty,
     begin = restart,
     push = open_branch,
@@ -115,7 +115,8 @@ impl Extruder {
                 return Err(Error::argument("extruder:direction: above has no length")
                     .help("use a vector that is not zero, or omit it"));
             }
-            Some(above) => self.state.frame.look(direction.0, above.0),
+            // The y axis of a section is opposite to the up direction of the frame.
+            Some(above) => self.state.frame.look(direction.0, -above.0),
         }
         Ok(())
     }
@@ -428,6 +429,13 @@ impl Extruder {
 
     fn finish(&mut self) -> Result<()> {
         self.close()
+    }
+}
+
+impl Locate for Extruder {
+    fn place(&self) -> Place {
+        let Frame { heading, left, up, .. } = self.state.frame;
+        Place { position: self.position(), heading, left, up }
     }
 }
 

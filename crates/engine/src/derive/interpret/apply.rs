@@ -7,12 +7,12 @@ use mlua::Buffer;
 
 use super::InterpretationPass;
 use super::notices::ObjectNotice;
-use crate::machine::{Flusher, Machine, Objects, read_column, returns_modules, returns_value};
+use crate::machine::{CLOSE_CALL, Flusher, Machine, OPEN_CALL, Objects, read_column, returns_value};
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
-use burgeon_base::warning::Warning;
-use burgeon_kit::{Call, Capability, Kind, Object, Value, Values, Warn};
-use burgeon_rewriting::{CLOSE, END, Mark, OPEN, module_brief};
+use burgeon_base::warning::{Warning, WarningKind};
+use burgeon_kit::{Call, Capability, Kind, Locate, Object, Place, Value, Values, Warn};
+use burgeon_rewriting::{CLOSE, END, Mark, OPEN, Symbol, module_brief};
 
 /// Progress of applying one piece of the chains.
 pub(crate) struct Applier {
@@ -56,6 +56,9 @@ pub(crate) struct Applier {
     /// Set while a call of the script waits for the recorded calls before it. A run that then reaches its
     /// time limit reports the line of that call.
     waits: bool,
+    locate: Option<Capability<dyn Locate>>,
+    /// Places of the object at modules whose rules read them.
+    places: Vec<(u32, Place)>,
 }
 
 /// Number of symbols between two checks for cancellation.
@@ -87,7 +90,6 @@ impl Applier {
             pass,
             objects,
             warn: kind.capability::<dyn Warn>(),
-            kind,
             buffers: [calls, numbers, counts],
             position: begin.module,
             param: begin.param,
@@ -107,6 +109,9 @@ impl Applier {
             flushed: (0, 0),
             notices: Vec::new(),
             waits: false,
+            locate: kind.capability::<dyn Locate>(),
+            kind,
+            places: Vec::new(),
         })
     }
 
@@ -224,6 +229,7 @@ impl Applier {
             if self.symbols(&pass, object, failed, module)? == ApplyEnd::End {
                 return Ok(ApplyEnd::End);
             }
+            self.locate(&pass, object, self.position);
             self.stop.check()?;
             let begin = pass.plan.profiled.then(Instant::now);
             let applied = self.calls(&pass, object, failed);
@@ -261,6 +267,7 @@ impl Applier {
             if self.position.is_multiple_of(STRETCH) {
                 self.stop.check()?;
             }
+            self.locate(pass, object, self.position);
             match symbol {
                 _ if failed => {}
                 OPEN => object.push(),
@@ -289,6 +296,26 @@ impl Applier {
         Ok(ApplyEnd::Last)
     }
 
+    /// Notes the place of the object at a module whose rules read it.
+    #[inline]
+    fn locate(&mut self, pass: &InterpretationPass, object: &dyn Object, module: usize) {
+        let located = &pass.plan.located;
+        if located.is_empty() || !located.get(usize::from(pass.chain.symbols[module])).is_some_and(|it| *it) {
+            return;
+        }
+        let module = u32::try_from(module).unwrap_or(u32::MAX);
+        if let Some(object) = self.locate.and_then(|locate| locate.of(object))
+            && self.places.last().is_none_or(|(last, _)| *last != module)
+        {
+            self.places.push((module, object.place()));
+        }
+    }
+
+    /// Takes the noted places.
+    pub(crate) fn take_places(&mut self) -> Vec<(u32, Place)> {
+        std::mem::take(&mut self.places)
+    }
+
     /// Applies the calls of the entry `next` that have been read.
     #[inline]
     fn calls(&mut self, pass: &InterpretationPass, object: &mut dyn Object, failed: bool) -> Result<()> {
@@ -304,9 +331,17 @@ impl Applier {
         }
         while self.call_at < end {
             let method = self.calls[self.call_at];
-            let count = self.kind.methods[usize::from(method)].arguments.len();
+            let count = self.argument_count(method);
             let numbers = self.number_at..self.number_at + count;
-            if let Err(error) = self.call(object, method, &self.numbers[numbers]) {
+            let called = match method {
+                OPEN_CALL => {
+                    object.push();
+                    Ok(())
+                }
+                CLOSE_CALL => object.pop(),
+                method => self.call(object, method, &self.numbers[numbers]),
+            };
+            if let Err(error) = called {
                 self.failed = Some((self.next, self.applied));
                 return Err(error);
             }
@@ -321,7 +356,13 @@ impl Applier {
     /// Returns the total number of arguments of these recorded calls.
     fn arguments_of(&self, calls: std::ops::Range<usize>) -> usize {
         let calls = self.calls.get(calls).unwrap_or_default();
-        calls.iter().map(|call| self.kind.methods[usize::from(*call)].arguments.len()).sum()
+        calls.iter().map(|call| self.argument_count(*call)).sum()
+    }
+
+    /// Returns the number of arguments of a recorded call; brackets have none.
+    #[inline]
+    fn argument_count(&self, call: u16) -> usize {
+        self.kind.methods.get(usize::from(call)).map_or(0, |method| method.arguments.len())
     }
 
     fn count(&mut self) -> Result<()> {
@@ -416,13 +457,32 @@ impl Flusher for Applier {
         self.note(said, None);
     }
 
-    fn lost(&mut self, entry: usize, value: Option<&str>) {
-        let Some(module) = self.entries.get(entry).copied() else { return };
-        let interpretations = &self.pass.plan.interpretations;
-        let id = interpretations.by_symbol[usize::from(self.pass.chain.symbols[module.0])];
-        if interpretations.list.get(usize::from(id)).is_some_and(|known| !known.loses) {
-            let warning = value.map_or_else(returns_modules, returns_value);
-            self.notices.push(ObjectNotice { warning, module, call: None });
+    fn lost(&mut self, entry: usize, value: &str) {
+        if let Some(module) = self.entries.get(entry).copied() {
+            self.notices.push(ObjectNotice { warning: returns_value(value), module, call: None });
         }
+    }
+
+    fn context(&self, entry: usize, rule: u16) -> Option<Vec<f64>> {
+        let (module, _) = *self.entries.get(entry)?;
+        self.pass.context(rule, module)
+    }
+
+    fn undrawn(&self, symbol: Symbol) {
+        self.pass.note_undrawn(symbol);
+    }
+
+    fn too_deep(&mut self, entry: usize, rule: u16, module: &str, max_depth: usize) {
+        let Some(at) = self.entries.get(entry).copied() else { return };
+        let text = format!(
+            "interpretation stopped at the maximum depth {max_depth}, but the rule returns more modules"
+        );
+        let mut warning = Warning::new(WarningKind::Depth, text)
+            .help("end it with a guard or a counter, or raise the limit: lsystem({ max_depth = 1000 })")
+            .module(module, self.pass.step);
+        if let Some(known) = self.pass.plan.interpretations.list.get(usize::from(rule)) {
+            warning = warning.at(known.place.clone()).rule(format!("{} (interpretation)", known.name));
+        }
+        self.notices.push(ObjectNotice { warning, module: at, call: None });
     }
 }

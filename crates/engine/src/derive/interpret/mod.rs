@@ -9,4 +9,4 @@ mod notices;
 mod pass;
 
 pub(crate) use apply::Applier;
-pub(crate) use pass::InterpretationPass;
+pub(crate) use pass::{InterpretationPass, PassOutcome};

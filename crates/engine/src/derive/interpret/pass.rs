@@ -1,5 +1,6 @@
 //! Interpretation pass over the chains of a system.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -9,12 +10,16 @@ use super::Applier;
 use super::notices::{Notices, ObjectNotice};
 use crate::derive::plan::DerivationPlan;
 use crate::derive::threads::{LeadingMachine, ThreadJob};
-use crate::machine::{Flusher, Machine, write_column};
+use crate::machine::{Flusher, Machine, ModulePlaces, write_column};
 use crate::results::Use;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::Warning;
-use burgeon_rewriting::{CLOSE, Chain, END, Mark, ModuleKey, OPEN, Symbol, module_brief};
+use burgeon_kit::Place;
+use burgeon_rewriting::{
+    Bindings, CLOSE, Chain, ContextMatcher, END, Links, Mark, ModuleKey, OPEN, Symbol, module_brief,
+};
+use mlua::Table;
 
 /// Maximum number of entries per call into Lua.
 const ENTRIES: usize = 4096;
@@ -72,11 +77,24 @@ pub(crate) struct InterpretationPass {
     failure: Mutex<Option<(usize, Error)>>,
     uses: Mutex<Vec<Use>>,
     notices: Notices,
+    /// Neighbours in the chain, if an interpretation rule has contexts.
+    links: Links,
+    undrawn: Mutex<BTreeSet<Symbol>>,
+    places: Mutex<Vec<(u32, Place)>>,
+}
+
+/// Result of an interpretation pass.
+#[derive(Default)]
+pub(crate) struct PassOutcome {
+    /// Set if an interpretation rule has read the number of the step.
+    pub reads_step: bool,
+    /// Symbols of modules that interpretation rules returned and nothing draws.
+    pub undrawn: BTreeSet<Symbol>,
 }
 
 impl InterpretationPass {
     /// Interprets `chain` after `step` steps, where `step()` returns `number`. Adds the work of each rule to `uses`,
-    /// and the warnings of the objects to `said`. Returns true if an interpretation rule has read `number`.
+    /// and the warnings of the objects to `said`.
     pub(crate) fn pass(
         LeadingMachine { machine, threads }: LeadingMachine<'_>,
         plan: &Arc<DerivationPlan>,
@@ -84,7 +102,7 @@ impl InterpretationPass {
         (step, number): (usize, usize),
         uses: &mut [Use],
         said: &mut Vec<Warning>,
-    ) -> Result<bool> {
+    ) -> Result<PassOutcome> {
         let starts = chain.starts(plan.steps.grammar.arities());
         let many = plan.steps.chains >= 4 * DEALT;
         let size = if many { plan.steps.batch.min(chain.symbols.len() / DEALT) } else { plan.steps.batch };
@@ -96,6 +114,10 @@ impl InterpretationPass {
             }
         }
         let count = pieces.len() - 1;
+        let mut links = Links::default();
+        if let Some(grammar) = &plan.interpretations.grammar {
+            links.build(chain, grammar);
+        }
         machine.enter(plan.system)?;
         machine.refresh();
         machine.current.objects.replace(plan.objects.clone());
@@ -111,6 +133,9 @@ impl InterpretationPass {
             failure: Mutex::new(None),
             uses: Mutex::new(vec![Use::default(); uses.len()]),
             notices: Notices::default(),
+            links,
+            undrawn: Mutex::default(),
+            places: Mutex::default(),
         });
         threads.hand_out(machine, count, 2, || ThreadJob::Interpret(Arc::downgrade(&interpreting)))?;
         while interpreting.work(machine) {}
@@ -121,7 +146,14 @@ impl InterpretationPass {
         said.extend(done.notices.into_list(of_symbol));
         match done.failure.into_inner().recover() {
             Some((_, error)) => Err(error),
-            None => Ok(done.reads_step.into_inner()),
+            None => {
+                let places = done.places.into_inner().recover();
+                plan.set_places((!plan.located.is_empty()).then(|| ModulePlaces::new(places)));
+                Ok(PassOutcome {
+                    reads_step: done.reads_step.into_inner(),
+                    undrawn: done.undrawn.into_inner().recover(),
+                })
+            }
         }
     }
 
@@ -151,7 +183,12 @@ impl InterpretationPass {
         machine.current.begin_step(self.number, self.plan.bounded);
         let result = self.run(machine, begin, end);
         self.reads_step.fetch_or(machine.current.has_read_step(), Ordering::Relaxed);
-        machine.current.flusher.replace(None);
+        let flusher = machine.current.flusher.replace(None);
+        if let Some(applier) =
+            flusher.and_then(|flusher| (flusher as Box<dyn std::any::Any>).downcast::<Applier>().ok())
+        {
+            self.places.lock().recover().append(&mut { *applier }.take_places());
+        }
         result
     }
 
@@ -255,16 +292,22 @@ impl InterpretationPass {
             applier.begin_entries(entries, buffers.clone());
             Ok(())
         })?;
-        let called: usize = match machine.call::<(usize, usize)>(&prelude.interpret, ids.len()) {
-            Ok((called, _)) => called,
+        let called: usize = match machine.call::<(usize, usize, Option<Table>)>(&prelude.interpret, ids.len())
+        {
+            Ok((called, _, more)) => {
+                if let Some(more) = more {
+                    self.count_more(&more).map_err(lua)?;
+                }
+                called
+            }
             Err(error) => {
-                let (at, _, called) = machine.failed_at().unwrap_or((usize::MAX, 0.0, 0));
+                let (at, _, called, running) = machine.failed_at().unwrap_or((usize::MAX, 0.0, 0, -1));
                 // If ending the batch fails too, the machine is dropped with the run.
                 let _ = prelude.finish.call::<()>(());
                 let error = self.blame(
                     machine,
                     machine.translate(error),
-                    ids.get(at).copied(),
+                    u16::try_from(running).ok().or(ids.get(at).copied()),
                     entries.get(at).copied(),
                 );
                 let Some((module, _)) = entries.get(at).copied().filter(|_| error.is_of_data()) else {
@@ -392,6 +435,39 @@ impl InterpretationPass {
         }
     }
 
+    /// Adds the rules that have run in addition to those of entries to the work of the rules.
+    fn count_more(&self, more: &Table) -> mlua::Result<()> {
+        let mut uses = self.uses.lock().recover();
+        for pair in more.pairs::<usize, usize>() {
+            let (number, count) = pair?;
+            uses[number - 1] += Use { applied: count, ..Use::default() };
+        }
+        Ok(())
+    }
+
+    /// Returns the parameters of the context modules of interpretation rule `rule` around `module`; `None` if the contexts
+    /// do not match.
+    pub(super) fn context(&self, rule: u16, module: usize) -> Option<Vec<f64>> {
+        let grammar = self.plan.interpretations.grammar.as_ref()?;
+        let contexts = ContextMatcher { chain: &self.chain, links: &self.links, grammar };
+        if !contexts.matches(rule, module) {
+            return None;
+        }
+        let mut bindings = Bindings::default();
+        contexts.bind(rule, module, &mut bindings);
+        let items = grammar.rules()[usize::from(rule)].contexts();
+        let params = items.iter().zip(bindings).flat_map(|(item, bound)| {
+            let begin = self.links.param[bound as usize] as usize;
+            self.chain.params[begin..begin + item.bound].iter().copied()
+        });
+        Some(params.collect())
+    }
+
+    /// Records that nothing draws the modules with this symbol.
+    pub(super) fn note_undrawn(&self, symbol: Symbol) {
+        self.undrawn.lock().recover().insert(symbol);
+    }
+
     /// Adds the interpretation rule and the module to an error.
     fn blame(
         &self,
@@ -407,8 +483,8 @@ impl InterpretationPass {
             let known = id.and_then(|id| interpretations.list.get(usize::from(id)));
             return known.map_or(error.clone(), |known| error.at(known.place.clone()).rule(&known.name));
         }
-        let error = match self.interpretation_of(symbol) {
-            Some((name, place)) => error.at(place.clone()).rule(name),
+        let error = match id.and_then(|id| interpretations.list.get(usize::from(id))) {
+            Some(known) => error.at(known.place.clone()).rule(format!("{} (interpretation)", known.name)),
             None => error,
         };
         error.module(self.module_brief(machine, module, param), self.step)

@@ -7,7 +7,7 @@ use mlua::{AnyUserData, Function, MultiValue, Table, Value as LuaValue};
 use crate::machine::Machine;
 use crate::machine::convert::to_value;
 use crate::machine::types::ObjectHandle;
-use crate::results::{Remark, SourceFeatures};
+use crate::results::{DerivedSystem, Remark, SourceFeatures};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_kit::{Object, Prefetch, Value};
 use burgeon_rewriting::{CLOSE, Chain, DEEPEST, END, ModuleKey, OPEN, Symbol};
@@ -95,6 +95,9 @@ impl SystemDeclaration {
                 axiom.objects.extend(self.object.as_ref().map(|object| prepared(machine, &**object, key)));
                 axiom.features.push(None);
             }
+            Some(DeclaredAxiom::Derived(derived)) => {
+                self.continued(machine, derived, key, random, &mut axiom)
+            }
             Some(DeclaredAxiom::Source(source, function)) => {
                 let made = self.features(machine, source, function, key, random, &mut axiom);
                 // The script can continue after a failure, so the position is recorded first.
@@ -106,6 +109,53 @@ impl SystemDeclaration {
             gather(&mut axiom.objects);
         }
         Ok(axiom)
+    }
+
+    /// Makes the initial chains of the chains of a derived system, with their features and copies of their objects.
+    fn continued(
+        &self,
+        machine: &Machine,
+        derived: &DerivedSystem,
+        key: ModuleKey,
+        random: bool,
+        axiom: &mut Axiom,
+    ) {
+        derived.note_continued();
+        let arities = machine.library.symbols.borrow().arities();
+        axiom.chain = derived.chain.without_chains(&derived.left_out, &arities);
+        let stays = |index: &usize| derived.left_out.binary_search(index).is_err();
+        let kind = |object: &Arc<dyn Object>| object.kind().name.clone();
+        let mut keys = Vec::new();
+        for index in (0..derived.features.len()).filter(stays) {
+            let feature = derived.features[index].clone();
+            let key = feature.as_deref().map_or(key, |id| key.feature(id));
+            let known = derived
+                .objects
+                .get(index)
+                .filter(|known| self.object.as_ref().map(kind) == Some(kind(known)));
+            axiom
+                .objects
+                .extend(known.or(self.object.as_ref()).map(|object| prepared(machine, &**object, key)));
+            axiom.features.push(feature);
+            keys.push(key);
+        }
+        axiom.known = derived.source.clone();
+        axiom.known.drop_chains(&derived.left_out);
+        axiom.given = axiom.features.len();
+        if !random {
+            axiom.chain.keys.clear();
+        } else if axiom.chain.keys.is_empty() {
+            // No rule has used random numbers so far, so the modules are numbered in the order of each chain.
+            let mut keys = keys.into_iter();
+            let (mut key, mut ordinal) = (keys.next().unwrap_or(key), 0);
+            for symbol in &axiom.chain.symbols {
+                axiom.chain.keys.push(if *symbol > END { key.child(ordinal) } else { key });
+                ordinal += usize::from(*symbol > END);
+                if *symbol == END {
+                    (key, ordinal) = (keys.next().unwrap_or(key), 0);
+                }
+            }
+        }
     }
 
     fn features(
@@ -298,6 +348,16 @@ impl Builder<'_> {
                 ))
                 .help("write system:axiom(A(1), { B() })"));
             };
+            let elements = self.machine.prelude().elements.call::<Option<Table>>(table);
+            let elements = elements.map_err(|error| self.machine.translate(error))?;
+            if let Some(elements) = elements.filter(|_| depth < DEEPEST) {
+                let inner: Vec<LuaValue> = elements
+                    .sequence_values()
+                    .collect::<mlua::Result<_>>()
+                    .map_err(|error| self.machine.translate(error))?;
+                self.items(&inner, key, ordinal, depth + 1)?;
+                continue;
+            }
             let is_module = self
                 .machine
                 .prelude()

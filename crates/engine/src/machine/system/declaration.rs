@@ -3,18 +3,20 @@
 use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
+use super::DeclaredInterpretation;
 use crate::machine::Machine;
 use crate::machine::freeze::{ReachableFunction, TableFreeze, freeze};
 use crate::machine::library::Library;
 use crate::machine::questions::argument_places;
 use crate::machine::types::methods_key;
+use crate::results::DerivedSystem;
 use burgeon_base::error::{Result, SourcePlace};
-use burgeon_kit::{Object, ScriptType};
-use burgeon_rewriting::{CLOSE, END, FIRST_SYMBOL, Grammar, OPEN, Pattern, Rule, Symbol};
+use burgeon_kit::{Locate, Object};
+use burgeon_rewriting::{FIRST_SYMBOL, Grammar, Rule, Symbol, Symbols};
 use burgeon_scene::CityClass;
 use mlua::{Function, Table, Value as LuaValue};
 
-/// Default of the maximum depth of decompositions.
+/// Default of the maximum depth of decompositions and interpretations.
 pub(super) const MAX_DEPTH: usize = 100;
 
 /// Declaration of a system by a script.
@@ -25,7 +27,7 @@ pub(crate) struct SystemDeclaration {
     pub last_only: bool,
     /// Class of the chains as CityJSON objects.
     pub city: Option<CityClass>,
-    /// Maximum number of times that decomposition rules apply one after another.
+    /// Maximum number of times that decomposition rules, or interpretations that return modules, apply one after another.
     pub max_depth: usize,
     /// Seed of the system, if it overrides the seed of the run.
     pub seed: Option<u64>,
@@ -63,6 +65,8 @@ pub(crate) struct DerivationRecord {
 
 pub(crate) enum DeclaredAxiom {
     Modules(Vec<LuaValue>),
+    /// Chains of a derived system, which the derivation continues.
+    Derived(Arc<DerivedSystem>),
     Source(LuaValue, Function),
 }
 
@@ -99,14 +103,6 @@ pub(crate) struct DeclaredRule {
     pub(crate) asks: bool,
 }
 
-pub(crate) struct DeclaredInterpretation {
-    pub(crate) pattern: Pattern,
-    pub(crate) rule: Function,
-    pub(crate) place: Option<SourcePlace>,
-    /// Set if a warning about returned modules has been reported.
-    pub(crate) loses: bool,
-}
-
 /// Functions of a system's rules, prepared for derivation in one machine.
 pub(crate) struct SystemFunctions {
     /// Function that applies each rule to a batch.
@@ -115,32 +111,6 @@ pub(crate) struct SystemFunctions {
     pub guards: Vec<Option<Function>>,
     /// Keeps tables that the rules can reach frozen.
     _frozen: TableFreeze,
-}
-
-/// Interpretation of modules, equal in all machines.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Interpretations {
-    /// Number of the interpretation rule by symbol, from 0, or `u16::MAX`.
-    pub by_symbol: Vec<u16>,
-    /// Method of the standard library by symbol, or `u16::MAX`.
-    pub methods: Vec<u16>,
-    /// Interpretation rules by number.
-    pub list: Vec<Interpretation>,
-    /// Number of the hook that runs at the start of a chain, or `u16::MAX`.
-    pub begin: u16,
-}
-
-/// Interpretation rule, equal in all machines.
-#[derive(Debug, Clone)]
-pub(crate) struct Interpretation {
-    /// Number of parameters that the rule takes.
-    pub bound: usize,
-    /// Pattern of the rule.
-    pub name: String,
-    /// Location of the declaration.
-    pub place: Option<SourcePlace>,
-    /// Set if a warning about returned modules has been reported.
-    pub loses: bool,
 }
 
 impl SystemDeclaration {
@@ -158,69 +128,50 @@ impl SystemDeclaration {
             || (self.object.as_ref().is_some_and(empties) && !self.rules.iter().any(|rule| rule.asks))
     }
 
+    /// Returns true if a rule of `phase` may use `this`.
+    pub(crate) fn asks_in(&self, phase: RulePhase) -> bool {
+        self.rules.iter().any(|declared| declared.phase == phase && declared.asks)
+    }
+
+    /// Returns for each of `symbols` symbols whether its rules may read where the object is; empty if none does, or if the
+    /// object has no place.
+    pub(crate) fn located(&self, symbols: usize) -> Vec<bool> {
+        let moves = |object: &Arc<dyn Object>| object.kind().has_capability::<dyn Locate>();
+        if !self.object.as_ref().is_some_and(moves) || !self.rules.iter().any(|declared| declared.asks) {
+            return Vec::new();
+        }
+        let mut located = vec![false; symbols];
+        for declared in self.rules.iter().filter(|declared| declared.asks) {
+            located[usize::from(declared.rule.pattern.predecessor.symbol)] = true;
+        }
+        located
+    }
+
     /// Returns true if a rule applies in `phase`.
     pub(crate) fn has_rules_in(&self, phase: RulePhase) -> bool {
         self.rules.iter().any(|declared| declared.phase == phase)
     }
 
-    /// Returns the rules of a phase in the form that machines share. The numbers of rules are those of all phases.
-    pub(crate) fn grammar(&self, library: &Library, random: bool, phase: RulePhase) -> Grammar {
-        let symbols = Arc::new(library.symbols.borrow().clone());
-        let ignored = match &self.considered {
+    /// Returns the symbols that contexts skip.
+    pub(super) fn skipped(&self, symbols: &Symbols) -> Vec<Symbol> {
+        match &self.considered {
             Some(considered) => (FIRST_SYMBOL..)
                 .take(symbols.names().count())
                 .filter(|symbol| !considered.contains(symbol) || self.ignored.contains(symbol))
                 .collect(),
             None => self.ignored.clone(),
-        };
+        }
+    }
+
+    /// Returns the rules of a phase in the form that machines share. The numbers of rules are those of all phases.
+    pub(crate) fn grammar(&self, library: &Library, random: bool, phase: RulePhase) -> Grammar {
+        let symbols = Arc::new(library.symbols.borrow().clone());
+        let ignored = self.skipped(&symbols);
+        // Weights of interpretation rules draw from the keys of modules, too.
+        let random = random || self.interpretations.iter().any(|known| known.rule.weight.is_some());
         let rules = self.rules.iter().map(|declared| declared.rule.clone()).collect();
         let grammar = Grammar::new(symbols, rules, &ignored, random);
         grammar.with_candidates(|number| self.rules[usize::from(number)].phase == phase)
-    }
-
-    /// Returns the interpretation of modules.
-    pub(crate) fn interpretations(&self, library: &Library) -> Interpretations {
-        let symbols = library.symbols.borrow().arities().len();
-        let (mut by_symbol, mut methods) = (vec![u16::MAX; symbols], vec![u16::MAX; symbols]);
-        let mut list = Vec::new();
-        if let Some(object) = &self.object {
-            for standard in library.standard.borrow().iter().filter(|known| object.kind().is_a(&known.kind)) {
-                methods[usize::from(standard.symbol)] = u16::try_from(standard.method).unwrap_or(u16::MAX);
-            }
-            for (index, known) in (0u16..).zip(&self.interpretations) {
-                let DeclaredInterpretation { pattern, place, loses, .. } = known;
-                let item = pattern.predecessor;
-                by_symbol[usize::from(item.symbol)] = index;
-                methods[usize::from(item.symbol)] = u16::MAX;
-                list.push(Interpretation {
-                    bound: item.bound,
-                    name: pattern.text.clone(),
-                    place: place.clone(),
-                    loses: *loses,
-                });
-            }
-        }
-        let mut begin = u16::MAX;
-        if let Some(kind) = self.object.as_ref().map(|object| object.kind())
-            && let Some(script) = ScriptType::of(kind)
-        {
-            let mut add = |what: &str, bound| {
-                let number = u16::try_from(list.len()).unwrap_or(u16::MAX);
-                let (name, place) = (format!("{}: {what}", kind.name), self.place.clone());
-                list.push(Interpretation { bound, name, place, loses: false });
-                number
-            };
-            begin = add("begin", 1);
-            by_symbol[usize::from(END)] = add("finish", 1);
-            for (symbol, what, runs) in
-                [(OPEN, "push", script.branches[0]), (CLOSE, "pop", script.branches[1])]
-            {
-                if runs {
-                    by_symbol[usize::from(symbol)] = add(what, 0);
-                }
-            }
-        }
-        Interpretations { by_symbol, methods, list, begin }
     }
 
     /// Prepares `machine` for deriving this system: creates the drivers and freezes reachable tables.
@@ -255,28 +206,7 @@ impl SystemDeclaration {
         let of = kind.and_then(|kind| types.iter().find(|known| known.kind.name == kind.name));
         let name = kind.map(|kind| kind.name.to_string());
         prelude.set_this.call::<()>((this, name, of.map(|of| of.table.clone())))?;
-        prelude.fresh_interpreters.call::<()>(())?;
-        if self.object.is_some() {
-            for (index, known) in self.interpretations.iter().enumerate() {
-                let pattern = &known.pattern;
-                let places = argument_places(lua, pattern, &machine.library.symbols.borrow())?;
-                prelude.interpreter.call::<()>((index, &known.rule, pattern.predecessor.bound, places))?;
-            }
-        }
-        if let Some(of) = of {
-            let hooks: (Function, Function, Function, Function) = prelude.hooks.call(&of.table)?;
-            let mut index = self.interpretations.len();
-            let [opens, closes] = ScriptType::of(&of.kind).map_or([false; 2], |script| script.branches);
-            for (hook, bound, runs) in
-                [(hooks.0, 1, true), (hooks.1, 1, true), (hooks.2, 0, opens), (hooks.3, 0, closes)]
-            {
-                if runs {
-                    prelude.interpreter.call::<()>((index, hook, bound))?;
-                    index += 1;
-                }
-            }
-        }
-        Ok(())
+        self.enter_interpretations(machine, of)
     }
 
     fn prepare_functions(
@@ -307,11 +237,13 @@ impl SystemDeclaration {
             });
         }
         for known in self.interpretations.iter().filter(|_| self.object.is_some()) {
-            reached.push(ReachableFunction {
-                function: known.rule.clone(),
-                name: known.pattern.text.clone(),
-                place: known.place.clone(),
-            });
+            reached.extend(std::iter::once(&known.function).chain(&known.guard).map(|function| {
+                ReachableFunction {
+                    function: function.clone(),
+                    name: known.rule.pattern.text.clone(),
+                    place: known.rule.place.clone(),
+                }
+            }));
         }
         let types = machine.library.script_types.borrow();
         let functions =

@@ -1,28 +1,35 @@
 //! Declarations of `axiom`, `rule` and `interpret`, with their checks.
 
-use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use mlua::{Function, Lua, Table, Value as LuaValue};
 
 use crate::declare::Session;
-use crate::declare::bytecode::compile;
 use crate::machine::Machine;
 use crate::machine::convert::to_value;
 use crate::machine::library::Library;
+use crate::machine::types::DerivedHandle;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::Value;
 use burgeon_language::RULE;
-use burgeon_language::analysis::{QueryCall, analyse, split_line};
-use burgeon_rewriting::{MOST_RULES, NameScope, Pattern, Rule, Symbols};
+use burgeon_language::analysis::QueryCall;
+use burgeon_rewriting::{MOST_RULES, Pattern, Rule, Symbols};
 
+use super::strings::{compile_successor, parse_pattern, string_axiom};
 use super::{
     DeclaredAxiom, DeclaredInterpretation, DeclaredRule, RulePhase, SourceHandle, SystemDeclaration,
+    is_unconditional,
 };
 
 impl SystemDeclaration {
-    pub(super) fn set_axiom(&mut self, mut arguments: Vec<LuaValue>) -> Result<()> {
+    pub(super) fn set_axiom(
+        &mut self,
+        library: &Library,
+        lua: &Lua,
+        mut arguments: Vec<LuaValue>,
+    ) -> Result<()> {
         let is_source =
             matches!(arguments.first(), Some(LuaValue::UserData(data)) if data.is::<SourceHandle>());
         if is_source {
@@ -32,6 +39,17 @@ impl SystemDeclaration {
                 ));
             };
             self.axiom = Some(DeclaredAxiom::Source(arguments.swap_remove(0), function));
+        } else if let [LuaValue::UserData(data), rest @ ..] = arguments.as_slice()
+            && let Ok(derived) = data.borrow::<DerivedHandle>()
+        {
+            if !rest.is_empty() {
+                return Err(Error::argument("an axiom of a derived system takes nothing else")
+                    .help("write system:axiom(derived), and add modules with a rule"));
+            }
+            self.axiom = Some(DeclaredAxiom::Derived(Arc::clone(&derived.0)));
+        } else if let [LuaValue::String(text)] = arguments.as_slice() {
+            let modules = string_axiom(library, lua, &text.to_string_lossy())?;
+            self.axiom = Some(DeclaredAxiom::Modules(modules));
         } else {
             self.axiom = Some(DeclaredAxiom::Modules(arguments));
         }
@@ -58,7 +76,7 @@ impl SystemDeclaration {
             .help("join rules into one, and distinguish the cases by a parameter"));
         }
         let scope = library.scope_at(lua);
-        let pattern = Pattern::parse_in(&text.to_string_lossy(), &library.symbols.borrow(), &scope)?;
+        let pattern = parse_pattern(&text.to_string_lossy(), &library.symbols.borrow(), &scope)?;
         let name = pattern.text.clone();
         let named = |error: Error| error.rule(&name);
         let options = match (arguments.len(), arguments.get(1)) {
@@ -86,6 +104,13 @@ impl SystemDeclaration {
                 check_parameters(&function, &pattern, "the successor").map_err(named)?;
                 check_queries(library, &function, &pattern).map_err(named)?;
                 let asks = may_ask(&session, &function);
+                if let Some((file, line)) = begin_of(&function)
+                    && let Some(line) = session.returns_filled(&file, line)
+                {
+                    library
+                        .machine()?
+                        .warn(returns_branch().at(Some(SourcePlace { file, line })).rule(&name));
+                }
                 (function, asks)
             }
             Some(LuaValue::String(body)) => {
@@ -116,63 +141,70 @@ impl SystemDeclaration {
         &mut self,
         library: &Library,
         lua: &Lua,
-        pattern: &LuaValue,
-        rule: LuaValue,
+        mut arguments: Vec<LuaValue>,
     ) -> Result<()> {
         let usage = "write system:interpret(\"A(x)\", function(this, x) ... end)";
-        let LuaValue::String(text) = pattern else {
+        let Some(LuaValue::String(text)) = arguments.first() else {
             return Err(
                 Error::argument("the first argument of an interpretation must be a pattern").help(usage)
             );
         };
         let symbols = library.symbols.borrow();
-        let pattern = Pattern::parse_in(&text.to_string_lossy(), &symbols, &library.scope_at(lua))?;
+        let pattern = parse_pattern(&text.to_string_lossy(), &symbols, &library.scope_at(lua))?;
         drop(symbols);
         let name = pattern.text.clone();
-        if !pattern.left.is_empty() || !pattern.right.is_empty() {
-            return Err(Error::argument("an interpretation cannot have contexts")
-                .rule(&name)
-                .help("only rules have contexts; pass the value in a parameter of the module"));
-        }
-        let LuaValue::Function(rule) = rule else {
-            return Err(Error::argument("an interpretation needs a function").rule(&name).help(usage));
+        let named = |error: Error| error.rule(&name);
+        let (weight, guard) = match (arguments.len(), arguments.get(1)) {
+            (3, Some(LuaValue::Table(options))) => rule_options(options).map_err(named)?,
+            (3, _) => {
+                let error = Error::argument("the options of an interpretation must be a table");
+                return Err(named(error.help("write { weight = 2 }")));
+            }
+            (1 | 2, _) => (None, None),
+            (count, _) => {
+                let error = Error::argument(format!("interpret takes 2 or 3 arguments, not {count}"));
+                return Err(named(error.help(usage)));
+            }
         };
-        check_parameters(&rule, &pattern, "the interpretation").map_err(|error| error.rule(&name))?;
-        check_queries(library, &rule, &pattern).map_err(|error| error.rule(&name))?;
-        let item = pattern.predecessor;
-        if let Some(known) =
-            self.interpretations.iter().find(|known| known.pattern.predecessor.symbol == item.symbol)
+        let (1.., Some(LuaValue::Function(function))) = (arguments.len() - 1, arguments.pop()) else {
+            return Err(named(Error::argument("an interpretation needs a function").help(usage)));
+        };
+        for (function, what) in std::iter::once((&function, "the interpretation"))
+            .chain(guard.as_ref().map(|guard| (guard, "the guard")))
         {
+            check_parameters(function, &pattern, what).map_err(named)?;
+            check_queries(library, function, &pattern).map_err(named)?;
+        }
+        let rule = Rule::new(pattern, weight, guard.is_some(), Machine::place(lua));
+        let symbol = rule.pattern.predecessor.symbol;
+        let earlier = self.interpretations.iter().map(|known| &known.rule);
+        let mut earlier = earlier.filter(|known| known.pattern.predecessor.symbol == symbol);
+        if let Some(known) = earlier.find(|known| is_unconditional(known)) {
             let line = known.place.as_ref().map_or(String::new(), |place| format!(" in line {}", place.line));
-            return Err(Error::script(format!("{name} is already interpreted{line}"))
-                .rule(&name)
-                .help("a module can have only one interpretation; join the two functions"));
+            return Err(named(Error::script(format!("{name} is already interpreted{line}"))).help(
+                "join the two functions, or declare an interpretation with contexts, a guard or a weight first",
+            ));
         }
-        let machine = library.machine()?;
-        let line = begin_of(&rule).and_then(|(file, line)| {
-            Some(SourcePlace { line: machine.session.loses_modules(&file, line)?, file })
-        });
-        let loses = line.is_some();
-        if loses {
-            machine.warn(returns_modules().at(line).rule(format!("{name} (interpretation)")));
+        if self.interpretations.len() >= MOST_RULES / 2 {
+            let limit = grouped(MOST_RULES / 2);
+            return Err(Error::limit(Limit::Size, format!("a system has at most {limit} interpretations"))
+                .help("use parameters of modules instead of many interpretations"));
         }
-        let place = Machine::place(lua);
-        self.interpretations.push(DeclaredInterpretation { pattern, rule, place, loses });
+        self.interpretations.push(DeclaredInterpretation { rule, guard, function });
         Ok(())
     }
 }
 
-/// Returns the warning for an interpretation that returns modules.
-pub(crate) fn returns_modules() -> Warning {
-    Warning::new(WarningKind::ReturnedModules, "modules returned by an interpretation are ignored")
-        .help("return them from a rule, system:rule(pattern, function); an interpretation only calls methods of `this`")
+/// Returns the warning for a rule that returns a table that it has filled, instead of the modules in it.
+fn returns_branch() -> Warning {
+    Warning::new(WarningKind::ReturnedList, "a table is one branch, so this rule returns a single branch")
+        .help("return the modules of a list: return sequence(list); for a branch, write return { sequence(list) }")
 }
 
 /// Returns the warning for an interpretation that returns a `value`, given as text, other than a module.
 pub(crate) fn returns_value(value: &str) -> Warning {
     let text = format!("{value} returned by an interpretation is ignored");
-    Warning::new(WarningKind::NoEffect, text)
-        .help("an interpretation only calls methods of `this`; return nothing")
+    Warning::new(WarningKind::NoEffect, text).help("an interpretation returns modules or nothing")
 }
 
 /// Returns the file and the first line of a script function.
@@ -240,7 +272,12 @@ fn check_queries(library: &Library, function: &Function, pattern: &Pattern) -> R
 }
 
 /// Refuses the first SQL parameter of `queries`, in the file `file`, that is not an argument of `pattern`.
-fn check_open(queries: &[QueryCall], file: &str, pattern: &Pattern, symbols: &Symbols) -> Result<()> {
+pub(super) fn check_open(
+    queries: &[QueryCall],
+    file: &str,
+    pattern: &Pattern,
+    symbols: &Symbols,
+) -> Result<()> {
     let arguments = pattern.arguments(symbols);
     let mut open = queries.iter().flat_map(|query| query.open.iter().map(move |name| (query.line, name)));
     let is_unknown = |name: &str| !arguments.iter().any(|(_, argument)| *argument == name);
@@ -251,61 +288,4 @@ fn check_open(queries: &[QueryCall], file: &str, pattern: &Pattern, symbols: &Sy
     Err(error.at(Some(place)).help(format!(
         "the rule's pattern has no parameter of this name; add it there, or pass a value: query(sql, {{ {name} = ... }})"
     )))
-}
-
-/// Compiles a successor given as a string of Lua, with the formal parameters, `this` and all modules in
-/// scope. Also returns whether the successor may use `this`.
-fn compile_successor(
-    library: &Library,
-    scope: &NameScope,
-    pattern: &Pattern,
-    body: &str,
-    place: Option<&SourcePlace>,
-) -> Result<(Function, bool)> {
-    let machine = library.machine()?;
-    let (marked, body) = split_line(body);
-    let (file, line) = place.map_or(("rule", 1), |place| (place.file.as_str(), place.line));
-    let line = marked.unwrap_or(line);
-    let symbols = library.symbols.borrow();
-    let names: BTreeSet<&str> = symbols.names().filter(|name| mentions(body, name)).collect();
-    let mut text = "\n".repeat(line.saturating_sub(1));
-    for name in names {
-        let symbol = symbols.find_in(name, scope).map_err(|error| {
-            let help = "return it from a function, with a constructor of the package: function(this) return stone(1) end";
-            Error::of(error.kind().clone(), error.message()).help(help)
-        })?;
-        let owner = symbols.owner(symbol).filter(|owner| scope.package.as_deref() != Some(*owner));
-        let owner = owner.map_or_else(String::new, |owner| format!("{owner}."));
-        let signature = symbols.signature(symbol);
-        let parameters: String = signature
-            .parameters
-            .iter()
-            .enumerate()
-            .map(|(index, name)| format!(", \"{name}{}\"", if index < signature.required { "" } else { "?" }))
-            .collect();
-        // The analysis reads the signature from this call, which declares the same module again.
-        text.push_str(&format!("local {name} = module(\"{owner}{name}\"{parameters}) "));
-    }
-    let formals: String = pattern.formals.iter().map(|formal| format!(", {formal}")).collect();
-    text.push_str(&format!("lsystem:rule(\"\", function(this{formals}) {body}\nend)"));
-    drop(symbols);
-    let analysis = analyse(file, &text, compile, &library.globals());
-    machine.session.note(&analysis);
-    if !analysis.problems.is_empty() {
-        return Err(Error::several(analysis.problems));
-    }
-    let queries: Vec<QueryCall> = analysis.queries.values().flatten().cloned().collect();
-    check_open(&queries, file, pattern, &library.symbols.borrow())?;
-    let text = analysis.text.replacen("lsystem:rule(\"\", ", "return (", 1);
-    let chunk = machine.load(file, &text)?;
-    let successor: Function = chunk.call(()).map_err(|error| machine.translate(error))?;
-    let begin = successor.info().line_defined;
-    Ok((successor, !begin.is_some_and(|line| analysis.blind.contains(&line))))
-}
-
-/// Returns true if `text` contains `name` as a whole word.
-fn mentions(text: &str, name: &str) -> bool {
-    let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    text.match_indices(name)
-        .any(|(at, _)| !text[..at].ends_with(is_word) && !text[at + name.len()..].starts_with(is_word))
 }

@@ -19,6 +19,7 @@ use burgeon_scene::CityClass;
 
 use super::SystemDeclaration;
 use super::declaration::{MAX_DEPTH, RulePhase};
+use super::strings::word_symbols;
 
 /// Script value for a system.
 pub(crate) struct SystemHandle {
@@ -169,6 +170,7 @@ impl UserData for SystemHandle {
     fn add_methods<M: UserDataMethods<Self>>(methods: &mut M) {
         methods.add_function("axiom", |lua, (this, arguments): (UserDataRef<Self>, MultiValue)| {
             let arguments: Vec<LuaValue> = arguments.into_iter().collect();
+            let library = Rc::clone(&this.library);
             let place = Machine::place(lua);
             let machine = this.library.machine().map_err(mlua::Error::external)?;
             this.declare(lua, "axiom", |system| {
@@ -181,7 +183,7 @@ impl UserData for SystemHandle {
                 }
                 system.axiom_place = place;
                 system.axiom_is_new.set(true);
-                system.set_axiom(arguments)
+                system.set_axiom(&library, lua, arguments)
             })?;
             Ok(this.again())
         });
@@ -194,16 +196,14 @@ impl UserData for SystemHandle {
             };
             methods.add_function(phase.method(), declared);
         }
-        methods.add_function(
-            "interpret",
-            |lua, (this, pattern, rule): (UserDataRef<Self>, LuaValue, LuaValue)| {
-                let library = Rc::clone(&this.library);
-                this.declare(lua, "interpretation", |system| {
-                    system.add_interpretation(&library, lua, &pattern, rule)
-                })?;
-                Ok(this.again())
-            },
-        );
+        methods.add_function("interpret", |lua, (this, arguments): (UserDataRef<Self>, MultiValue)| {
+            let arguments: Vec<LuaValue> = arguments.into_iter().collect();
+            let library = Rc::clone(&this.library);
+            this.declare(lua, "interpretation", |system| {
+                system.add_interpretation(&library, lua, arguments)
+            })?;
+            Ok(this.again())
+        });
         methods.add_function("ignore", |lua, (this, names): (UserDataRef<Self>, MultiValue)| {
             let library = Rc::clone(&this.library);
             this.declare(lua, "ignore", |system| {
@@ -285,7 +285,7 @@ fn named_symbols(library: &Library, lua: &Lua, names: &MultiValue) -> Result<Vec
         match name {
             LuaValue::String(text) => {
                 for name in text.to_string_lossy().split_whitespace() {
-                    found.push(symbols.find_in(name, &scope)?);
+                    found.extend(word_symbols(name, &symbols, &scope)?);
                 }
             }
             _ => {

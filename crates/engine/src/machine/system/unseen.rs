@@ -33,8 +33,8 @@ impl SystemDeclaration {
         if let (None, Some(first)) = (&self.object, self.interpretations.first()) {
             let text = "the system has no object, so its interpretations never run";
             let warning = Warning::new(WarningKind::NoObject, text);
-            let warning = warning.rule(format!("{} (interpretation)", first.pattern.text));
-            let warning = warning.at(first.place.clone());
+            let warning = warning.rule(format!("{} (interpretation)", first.rule.pattern.text));
+            let warning = warning.at(first.rule.place.clone());
             machine.warn(match object_of_system(&machine.library.registry.borrow()) {
                 Some(object) => warning.help(format!("set an object, such as lsystem({{ {object} }})")),
                 None => warning,
@@ -93,8 +93,13 @@ impl SystemDeclaration {
         }
     }
 
-    /// Returns warnings about `symbols` of the final chains that this system neither draws nor uses.
-    pub(crate) fn undrawn(&self, library: &Library, symbols: &[Symbol]) -> Vec<(Symbol, Warning)> {
+    /// Returns warnings about `symbols` of the final chains and their interpretation that this system neither draws nor
+    /// uses.
+    pub(crate) fn undrawn(
+        &self,
+        library: &Library,
+        symbols: impl Iterator<Item = Symbol>,
+    ) -> Vec<(Symbol, Warning)> {
         let mut open: Vec<(Symbol, Warning)> = (FIRST_SYMBOL..)
             .take(library.symbols.borrow().names().count())
             .filter_map(|symbol| Some((symbol, self.warning_of(library, symbol)?)))
@@ -104,7 +109,7 @@ impl SystemDeclaration {
             if open.is_empty() {
                 break;
             }
-            if let Some(index) = open.iter().position(|(other, _)| other == symbol) {
+            if let Some(index) = open.iter().position(|(other, _)| *other == symbol) {
                 found.push(open.swap_remove(index));
             }
         }
@@ -119,7 +124,7 @@ impl SystemDeclaration {
         let (kind, is_a) = (&of.name, |known: &StandardInterpretation| of.is_a(&known.kind));
         let (symbols, standard) = (library.symbols.borrow(), library.standard.borrow());
         let signature = symbols.signature(symbol);
-        if self.interpretations.iter().any(|known| known.pattern.predecessor.symbol == symbol)
+        if self.interpretations.iter().any(|known| known.rule.pattern.predecessor.symbol == symbol)
             || standard.iter().any(|known| known.symbol == symbol && is_a(known))
         {
             return None;
@@ -147,7 +152,8 @@ impl SystemDeclaration {
         let is_used = !draws
             || self.ignored.contains(&symbol)
             || self.considered.as_ref().is_some_and(|considered| considered.contains(&symbol))
-            || self.rules.iter().any(|declared| names(&declared.rule.pattern, symbol));
+            || self.rules.iter().any(|declared| names(&declared.rule.pattern, symbol))
+            || self.interpretations.iter().any(|declared| names(&declared.rule.pattern, symbol));
         if is_used {
             return None;
         }

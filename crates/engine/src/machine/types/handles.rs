@@ -183,6 +183,14 @@ impl DerivedHandle {
         match name {
             "steps" => number(derived.steps),
             "modules" => number(derived.modules()),
+            "counts" => {
+                let counts = lua.create_table()?;
+                for (name, count) in derived.counts() {
+                    counts.raw_set(name, count)?;
+                }
+                counts.set_readonly(true);
+                Ok(LuaValue::Table(counts))
+            }
             "chains" => {
                 let lines = derived.read_chains();
                 let table = lua.create_sequence_from(lines.lines())?;

@@ -1,0 +1,229 @@
+//! Interpretation rules of a system: their declaration, their numbers, and their functions in a machine.
+
+use std::sync::Arc;
+
+use super::SystemDeclaration;
+use crate::machine::Machine;
+use crate::machine::library::Library;
+use crate::machine::questions::argument_places;
+use crate::machine::types::ScriptTypeEntry;
+use burgeon_base::error::SourcePlace;
+use burgeon_kit::{Object, ScriptType};
+use burgeon_rewriting::{CLOSE, END, Grammar, Item, OPEN, Pattern, Rule, Symbol};
+use mlua::{Function, Table, Value as LuaValue};
+
+/// Interpretation rule as a script declares it.
+pub(crate) struct DeclaredInterpretation {
+    pub(crate) rule: Rule,
+    pub(crate) guard: Option<Function>,
+    pub(crate) function: Function,
+}
+
+/// Interpretation of modules, equal in all machines.
+///
+/// The numbers of interpretation rules are those of their declarations. Then follow the numbers of the symbols with
+/// several candidates, and those of hooks.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Interpretations {
+    /// Number of the interpretation rule, of the candidates or of the hook by symbol, or `u16::MAX`.
+    pub by_symbol: Vec<u16>,
+    /// Method of the standard library by symbol, or `u16::MAX`.
+    pub methods: Vec<u16>,
+    /// Interpretations by number.
+    pub list: Vec<Interpretation>,
+    /// Number of the hook that runs at the start of a chain, or `u16::MAX`.
+    pub begin: u16,
+    /// Candidates of the symbols with contexts, guards or weights.
+    candidates: Vec<SymbolCandidates>,
+    /// Interpretation rules for matching contexts, if any of them has contexts.
+    pub grammar: Option<Arc<Grammar>>,
+}
+
+/// Interpretation rules of a symbol among which contexts, guards and weights choose.
+#[derive(Debug, Clone)]
+struct SymbolCandidates {
+    symbol: Symbol,
+    /// Number among the interpretations.
+    number: u16,
+    rules: Vec<u16>,
+}
+
+/// Interpretation rule or hook, equal in all machines.
+#[derive(Debug, Clone)]
+pub(crate) struct Interpretation {
+    /// Number of parameters that the rule takes from the module.
+    pub bound: usize,
+    /// Pattern of the rule.
+    pub name: String,
+    /// Location of the declaration.
+    pub place: Option<SourcePlace>,
+    /// Set if the number stands for several candidates, which are counted themselves.
+    pub is_choice: bool,
+}
+
+/// Returns true if a rule always applies to its symbol.
+pub(crate) fn is_unconditional(rule: &Rule) -> bool {
+    rule.contexts().is_empty() && rule.weight.is_none() && !rule.guarded
+}
+
+fn number(index: usize) -> u16 {
+    u16::try_from(index).unwrap_or(u16::MAX)
+}
+
+impl SystemDeclaration {
+    /// Returns the interpretation of modules.
+    pub(crate) fn interpretations(&self, library: &Library) -> Interpretations {
+        let arities = library.symbols.borrow().arities();
+        let mut found = Interpretations {
+            by_symbol: vec![u16::MAX; arities.len()],
+            methods: vec![u16::MAX; arities.len()],
+            begin: u16::MAX,
+            ..Interpretations::default()
+        };
+        let Some(object) = &self.object else { return found };
+        for standard in library.standard.borrow().iter().filter(|known| object.kind().is_a(&known.kind)) {
+            found.methods[usize::from(standard.symbol)] = number(standard.method);
+        }
+        self.add_rules(&mut found, &arities);
+        self.add_hooks(&mut found, object);
+        let rules = || self.interpretations.iter().map(|known| &known.rule);
+        if rules().any(|rule| !rule.contexts().is_empty()) {
+            let symbols = Arc::new(library.symbols.borrow().clone());
+            let ignored = self.skipped(&symbols);
+            found.grammar =
+                Some(Arc::new(Grammar::new(symbols, rules().cloned().collect(), &ignored, false)));
+        }
+        found
+    }
+
+    /// Adds the interpretation rules, and the candidates of symbols whose rule depends on the module.
+    fn add_rules(&self, found: &mut Interpretations, arities: &[u8]) {
+        let mut candidates: Vec<SymbolCandidates> = Vec::new();
+        for (index, DeclaredInterpretation { rule, .. }) in (0u16..).zip(&self.interpretations) {
+            let Rule { pattern: Pattern { predecessor, text, .. }, place, .. } = rule;
+            found.list.push(Interpretation {
+                bound: predecessor.bound,
+                name: text.clone(),
+                place: place.clone(),
+                is_choice: false,
+            });
+            let symbol = predecessor.symbol;
+            match candidates.iter_mut().find(|known| known.symbol == symbol) {
+                Some(known) => known.rules.push(index),
+                None => candidates.push(SymbolCandidates { symbol, number: index, rules: vec![index] }),
+            }
+        }
+        for mut known in candidates {
+            let (symbol, first) = (usize::from(known.symbol), usize::from(known.number));
+            found.methods[symbol] = u16::MAX;
+            if known.rules.len() > 1 || !is_unconditional(&self.interpretations[first].rule) {
+                known.number = number(found.list.len());
+                let Interpretation { name, place, .. } = found.list[first].clone();
+                let bound = usize::from(arities[symbol]);
+                found.list.push(Interpretation { bound, name, place, is_choice: true });
+                found.by_symbol[symbol] = known.number;
+                found.candidates.push(known);
+            } else {
+                found.by_symbol[symbol] = known.number;
+            }
+        }
+    }
+
+    /// Adds the hooks of the object's type.
+    fn add_hooks(&self, found: &mut Interpretations, object: &Arc<dyn Object>) {
+        let kind = object.kind();
+        let Some(script) = ScriptType::of(kind) else { return };
+        let mut add = |what: &str, bound| {
+            let (name, place) = (format!("{}: {what}", kind.name), self.place.clone());
+            found.list.push(Interpretation { bound, name, place, is_choice: false });
+            number(found.list.len() - 1)
+        };
+        let (begin, end) = (add("begin", 1), add("finish", 1));
+        let [opens, closes] = script.branches;
+        let open = if opens { add("push", 0) } else { u16::MAX };
+        let close = if closes { add("pop", 0) } else { u16::MAX };
+        found.begin = begin;
+        found.by_symbol[usize::from(END)] = end;
+        found.by_symbol[usize::from(OPEN)] = open;
+        found.by_symbol[usize::from(CLOSE)] = close;
+    }
+
+    /// Sets the interpretation rules of this system in `machine`, whose object has the type `of` if a script has
+    /// declared it.
+    pub(super) fn enter_interpretations(
+        &self,
+        machine: &Machine,
+        of: Option<&ScriptTypeEntry>,
+    ) -> mlua::Result<()> {
+        let (lua, prelude) = (machine.lua(), machine.prelude());
+        let known = self.interpretations(&machine.library);
+        let symbols = machine.library.symbols.borrow();
+        let rules = lua.create_table()?;
+        for (symbol, rule) in known.by_symbol.iter().enumerate().filter(|(_, rule)| **rule != u16::MAX) {
+            if !known.list[usize::from(*rule)].is_choice {
+                rules.raw_set(symbol, *rule)?;
+            }
+        }
+        let standards = lua.create_table()?;
+        if let Some(object) = &self.object {
+            for standard in machine.library.standard.borrow().iter() {
+                if object.kind().is_a(&standard.kind) {
+                    let entry = lua.create_table()?;
+                    entry.raw_set("method", standard.method)?;
+                    entry.raw_set("parameters", symbols.signature(standard.symbol).arity())?;
+                    entry.raw_set("arguments", object.kind().methods[standard.method].arguments.len())?;
+                    standards.raw_set(standard.symbol, entry)?;
+                }
+            }
+        }
+        prelude.interpretations.call::<()>((rules, standards, self.max_depth))?;
+        if self.object.is_none() {
+            return Ok(());
+        }
+        for (index, DeclaredInterpretation { rule, function, .. }) in self.interpretations.iter().enumerate()
+        {
+            let places = argument_places(lua, &rule.pattern, &symbols)?;
+            prelude.interpreter.call::<()>((index, function, rule.pattern.predecessor.bound, places))?;
+        }
+        for SymbolCandidates { symbol, number, rules } in &known.candidates {
+            let list = lua.create_table()?;
+            let mut most = 0;
+            for rule in rules {
+                most = most.max(self.interpretations[usize::from(*rule)].rule.arguments());
+                list.raw_push(self.candidate(machine, *rule)?)?;
+            }
+            let arity = symbols.signature(*symbol).arity();
+            prelude.candidates.call::<()>((*number, *symbol, arity, list, most))?;
+        }
+        let Some(of) = of else { return Ok(()) };
+        let (begin, end, open, close): (Function, Function, Function, Function) =
+            prelude.hooks.call(&of.table)?;
+        let of_symbol = |symbol: Symbol| known.by_symbol[usize::from(symbol)];
+        for (number, hook, bound) in [
+            (known.begin, begin, 1),
+            (of_symbol(END), end, 1),
+            (of_symbol(OPEN), open, 0),
+            (of_symbol(CLOSE), close, 0),
+        ] {
+            if number != u16::MAX {
+                prelude.interpreter.call::<()>((number, hook, bound))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns an interpretation rule for `prelude/interpretation.luau`, which chooses among candidates.
+    fn candidate(&self, machine: &Machine, number: u16) -> mlua::Result<Table> {
+        let DeclaredInterpretation { rule, guard, .. } = &self.interpretations[usize::from(number)];
+        let pattern = &rule.pattern;
+        let candidate = machine.lua().create_table()?;
+        candidate.raw_set("rule", number)?;
+        candidate.raw_set("weight", rule.weight)?;
+        candidate.raw_set("guard", guard.clone().map_or(LuaValue::Nil, LuaValue::Function))?;
+        candidate.raw_set("has_contexts", !rule.contexts().is_empty())?;
+        candidate.raw_set("count", rule.arguments())?;
+        candidate.raw_set("left", pattern.left.iter().map(|item: &Item| item.bound).sum::<usize>())?;
+        candidate.raw_set("own", pattern.predecessor.bound)?;
+        Ok(candidate)
+    }
+}

@@ -1,0 +1,49 @@
+//! Positions and axes of objects that move along a chain.
+
+use glam::DVec3;
+
+use crate::{Parameter, Value, Vector};
+
+/// Position and axes of an object at a module of its chain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    /// Position (m).
+    pub position: DVec3,
+    /// Direction of movement.
+    pub heading: DVec3,
+    /// Direction to the left.
+    pub left: DVec3,
+    /// Upward direction.
+    pub up: DVec3,
+}
+
+impl Place {
+    /// Returns the result of a read method with this name at the place; `None` if the result does not depend on it.
+    ///
+    /// ```
+    /// use burgeon_kit::{Place, Value};
+    /// use glam::DVec3;
+    ///
+    /// let place = Place { position: DVec3::ZERO, heading: DVec3::Z, left: DVec3::Y, up: DVec3::X };
+    /// assert!(matches!(place.answer("heading"), Some(Value::Table(_))));
+    /// assert!(place.answer("triangles").is_none());
+    /// ```
+    pub fn answer(&self, method: &str) -> Option<Value> {
+        let vector = match method {
+            "position" => self.position,
+            "heading" => self.heading,
+            "left" => self.left,
+            "up" => self.up,
+            _ => return None,
+        };
+        Some(Vector(vector).into_value())
+    }
+}
+
+/// Capability to move along the chain: rules that read the position or an axis read it at their module.
+///
+/// The read methods `position`, `heading`, `left` and `up` of such a type return the parts of its place.
+pub trait Locate {
+    /// Returns the current place.
+    fn place(&self) -> Place;
+}

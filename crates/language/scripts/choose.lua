@@ -1,0 +1,10 @@
+-- Blocks of three kinds: a half of them is low, and the colours come from a stream of their own.
+local Block = module("Block", "x")
+local row = lsystem({ object = extruder({ sides = 4, smooth = false }) })
+row:axiom({ Block(0) }, { Block(2) }, { Block(4) }, { Block(6) })
+row:interpret("Block(x)", function(this, x)
+  local height = choose({ 1, 3, 6 }, { 2, 1, 1 })
+  local color = choose({ "tan", "brown", "gray" }, stream("color"))
+  this:jump({ x, 0, 0 }):color(color):extrude(height)
+end)
+row:derive()

@@ -1,0 +1,12 @@
+-- Lindenmayer's algae: the numbers of cells are Fibonacci numbers.
+local A, B = module("A"), module("B")
+local algae = lsystem()
+algae:axiom(B())
+algae:rule("A", function()
+  return A(), B()
+end)
+algae:rule("B", function()
+  return A()
+end)
+local derived = algae:derive(7)
+expect(derived.counts, { A = 13, B = 8 })
