@@ -4,7 +4,7 @@
 local total = param("total", { default = 3000, min = 1, max = 20000, step = 1, doc = "Number of internodes" })
 local spread =
   param("spread", { default = 30, min = 5, max = 60, unit = "deg", doc = "Angle between two branches" })
-local weeping = param("weeping", { default = 0.05, min = 0, max = 0.4, doc = "Bending of a twig" })
+local weeping = param("weeping", { default = 0.12, min = 0, max = 0.4, doc = "Bending of a twig" })
 
 local Branch, Leaf = module("Branch", "carried"), module("Leaf")
 
@@ -25,7 +25,7 @@ birch:rule("Branch(n)", function(this, n): any
   if n < 1 then
     return nil
   elseif n == 1 then
-    return Width(0.2), F(2), Leaf()
+    return Color("#8a7a4a"), Width(0.2), F(2), Leaf()
   end
   local left = math.floor(n * share())
   local right = n - 1 - left
@@ -37,8 +37,8 @@ birch:rule("Branch(n)", function(this, n): any
     { Turn(-spread * left / n), Branch(right) }
 end)
 birch:interpret("Leaf", function(this)
-  local blade = { Turn(30), G(1), Point(), Turn(-30), G(1), Point(), Turn(-30), G(1), Point() }
-  return Color(mix("#7f9f2f", "#c9a83a", random())),
+  local blade = { Turn(30), G(2), Point(), Turn(-30), G(2), Point(), Turn(-30), G(2), Point() }
+  return Color(mix("#5f8f22", "#b8a02a", random())),
     BeginPolygon(),
     Point(),
     { table.unpack(blade) },
