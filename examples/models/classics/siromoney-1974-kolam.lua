@@ -5,7 +5,7 @@
 local steps = param("steps", { default = 3, min = 0, max = 5, step = 1, doc = "Steps" })
 local color = param("color", { default = "#c03a4f", doc = "Colour of the line" })
 
-local Loop, Arc = module("Loop"), module("Arc", "angle", "length")
+local Loop = module("Loop")
 
 local kolam =
   lsystem({ object = turtle({ angle = 45, width = 0.25, color = color, sides = 6 }), interpret = "last" })
@@ -13,13 +13,9 @@ kolam:axiom(Right(), Loop(), Right(90), Loop(), Right())
 kolam:rule("Loop", function()
   return Loop(), F(1), Loop(), Right(90), Loop(), F(1), Loop()
 end)
--- A loop is a curve of 135 degrees to the right.
-kolam:interpret("Loop", function()
-  return F(1)
-end)
 local result = kolam:derive(steps)
 
--- Four loops for one, and two edges; the line is closed.
-expect(result.counts.Loop, 2 * 4 ^ 3)
+-- Each loop becomes four, with two edges: 2 (1 + 4 + 16) pairs. The line is closed.
+expect(result.counts.F, 2 * 2 * (1 + 4 + 16))
 expect(result.objects[1]:position():length(), 0, 1e-9)
 -- Picture: --azimuth 180 --elevation 0
