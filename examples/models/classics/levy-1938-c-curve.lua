@@ -8,7 +8,7 @@ local high = param("high", { default = "#d8702f", doc = "Colour at the end" })
 local Edge = module("Edge", "index")
 
 local curve = lsystem({
-  object = turtle({ angle = 45, width = 0.4, heading = { 1, 0, 0 }, sides = 5 }),
+  object = turtle({ angle = 45, width = 0.55, heading = { 1, 0, 0 }, sides = 5 }),
   interpret = "last",
 })
 curve:axiom(Edge(0))

@@ -1,7 +1,7 @@
 --!strict
 -- A weeping birch: an internode that carries n internodes gives them to two branches, in random proportion.
 -- Source: Virtual Laboratory (cpfg), CPFG manual, WeepingBirch, University of Calgary.
-local total = param("total", { default = 3000, min = 1, max = 20000, step = 1, doc = "Number of internodes" })
+local total = param("total", { default = 1500, min = 1, max = 20000, step = 1, doc = "Number of internodes" })
 local spread =
   param("spread", { default = 30, min = 5, max = 60, unit = "deg", doc = "Angle between two branches" })
 local weeping = param("weeping", { default = 0.12, min = 0, max = 0.4, doc = "Bending of a twig" })
@@ -47,4 +47,4 @@ end)
 local tree = birch:derive()
 
 -- An internode that carries n - 1 others counts as one: there are as many internodes as the first one has to carry.
-expect(tree.counts.F, 3000)
+expect(tree.counts.F, 1500)
