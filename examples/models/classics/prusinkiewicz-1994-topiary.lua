@@ -1,0 +1,61 @@
+--!strict
+-- Synthetic topiary: an apex that leaves a box is cut, and a signal runs down from the cut to the next dormant bud,
+-- which grows out. Step by step, the branches fill the box.
+-- Source: P. Prusinkiewicz, M. James and R. Mech, Synthetic topiary, 1994; Virtual Laboratory (cpfg),
+-- Enviro-sensitive/topiary.
+local size =
+  param("size", { default = 2.6, min = 1, max = 4, unit = "m", doc = "Half of the edge of the box" })
+local angle =
+  param("angle", { default = 32, min = 10, max = 60, unit = "deg", doc = "Angle of the branches" })
+local phyllotaxis =
+  param("phyllotaxis", { default = 90, min = 0, max = 180, unit = "deg", doc = "From bud to bud" })
+
+local Apex, Cut, Signal, Bud = module("Apex"), module("Cut"), module("Signal"), module("Bud")
+local Internode = module("Internode", "length")
+
+local function is_outside(this): boolean
+  local place = this:position()
+  return place.z > 2 * size + 1 or place.z < 1 or math.abs(place.x) > size or math.abs(place.y) > size
+end
+
+local hedge = lsystem({ object = turtle({ width = 0.09, color = "#6b4f36", sides = 6 }) })
+hedge:ignore("Turn", "Roll")
+hedge:axiom(F(1), Internode(1), Apex())
+
+hedge:rule("Apex", { when = is_outside }, function()
+  return Cut()
+end)
+hedge:rule("Apex", function()
+  return Roll(phyllotaxis), Bud(), Internode(1), Apex()
+end)
+-- The cut leaves a stub of the last internode, and sends the signal down.
+hedge:rule("Internode(length) > Cut", function()
+  return Signal(), Internode(0.02)
+end)
+hedge:rule("Cut", function()
+  return nil
+end)
+hedge:rule("Internode(length) > Signal", function(this, length)
+  return Signal(), Internode(length)
+end)
+hedge:rule("Internode(length) > [Signal]", function(this, length)
+  return Signal(), Internode(length)
+end)
+hedge:rule("Signal", function()
+  return nil
+end)
+hedge:rule("Bud > Signal", function()
+  return { Turn(angle), Roll(phyllotaxis), Internode(1), Apex() }
+end)
+
+hedge:interpret("Internode(length)", function(this, length)
+  return F(length), { Color("#4f8f3c"), Sphere(0.2) }
+end)
+local result = hedge:derive()
+
+-- Each cut wakes one bud as long as a branch has one below the cut, and each woken bud ends in a cut: the signal of the
+-- last cut finds no bud, so in the end all buds have grown out, and no apex is left.
+expect(result.counts.Bud + result.counts.Apex + result.counts.Signal, 0)
+-- The branches end in the box: with the trunk, each has one stub.
+local _, stubs = result.chains[1]:gsub("Internode%(0.02%)", "")
+expect(stubs, result.counts.Turn + 1)
