@@ -1,0 +1,32 @@
+--!strict
+-- The dragon curve by edge rewriting: edges that take the left side alternate with edges that take the right side.
+-- Source: P. Prusinkiewicz and A. Lindenmayer, The Algorithmic Beauty of Plants, 1990, figure 1.10a.
+local steps = param("steps", { default = 10, min = 0, max = 13, step = 1, doc = "Steps of the derivation" })
+local size =
+  param("size", { default = 10, min = 1, max = 100, unit = "m", doc = "From one end to the other" })
+
+local LeftEdge, RightEdge = module("LeftEdge"), module("RightEdge")
+local edge = size / math.sqrt(2) ^ steps
+
+local pen = turtle({ step = edge, width = edge / 3, color = "#b8452f", sides = 4 })
+local dragon = lsystem({ object = pen, interpret = "last" })
+dragon:axiom(LeftEdge())
+dragon:rule("LeftEdge", function()
+  return LeftEdge(), Left(), RightEdge(), Left()
+end)
+dragon:rule("RightEdge", function()
+  return Right(), LeftEdge(), Right(), RightEdge()
+end)
+local function draw(this)
+  this:forward()
+end
+dragon:interpret("LeftEdge", draw)
+dragon:interpret("RightEdge", draw)
+
+local derived = dragon:derive(steps)
+-- Each step doubles the edges, and an edge is the diagonal of the two that replace it.
+expect(derived.counts.LeftEdge + derived.counts.RightEdge, 2 ^ 10)
+-- Ten eighths of a turn later, the curve ends to the left of its start.
+expect(derived.objects[1]:position():distance(vec(-10, 0, 0)), 0, 1e-9)
+
+-- Picture: --azimuth 180 --elevation 0

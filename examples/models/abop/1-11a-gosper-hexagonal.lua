@@ -1,0 +1,39 @@
+--!strict
+-- The hexagonal Gosper curve, a space-filling curve by edge rewriting on the triangular grid.
+-- Source: P. Prusinkiewicz and A. Lindenmayer, The Algorithmic Beauty of Plants, 1990, figure 1.11a.
+local steps = param("steps", { default = 4, min = 0, max = 5, step = 1, doc = "Steps of the derivation" })
+local size =
+  param("size", { default = 10, min = 1, max = 100, unit = "m", doc = "From one end to the other" })
+
+local LeftEdge, RightEdge = module("LeftEdge"), module("RightEdge")
+local SIGNS = { L = LeftEdge(), R = RightEdge(), ["+"] = Left(), ["-"] = Right() }
+local function word(signs: string)
+  local modules = {}
+  for sign in signs:gmatch(".") do
+    table.insert(modules, SIGNS[sign])
+  end
+  return table.unpack(modules)
+end
+
+local edge = size / math.sqrt(7) ^ steps
+local pen = turtle({ step = edge, angle = 60, width = edge / 3, color = "#2f6b4f", sides = 4 })
+local curve = lsystem({ object = pen, interpret = "last" })
+curve:axiom(LeftEdge())
+curve:rule("LeftEdge", function()
+  return word("L+R++R-L--LL-R+")
+end)
+curve:rule("RightEdge", function()
+  return word("-L+RR++R+L--L-R")
+end)
+local function draw(this)
+  this:forward()
+end
+curve:interpret("LeftEdge", draw)
+curve:interpret("RightEdge", draw)
+
+local derived = curve:derive(steps)
+-- Seven edges, shorter by the square root of seven, replace an edge and end where it ended.
+expect(derived.counts.LeftEdge + derived.counts.RightEdge, 7 ^ 4)
+expect(derived.objects[1]:position():length(), 10, 1e-9)
+
+-- Picture: --azimuth 180 --elevation 0
