@@ -36,7 +36,7 @@ end)
 local function disc(this)
   this:color("#5f9a3f"):begin_polygon()
   for k = 1, 8 do
-    this:pitch(45):advance(0.4):point():advance(-0.4)
+    this:pitch(45):advance(0.26):point():advance(-0.26)
   end
   this:end_polygon()
 end

@@ -39,7 +39,7 @@ tiling:rule("Z", function()
     W(),
     F(1),
     { turn(1), Z(), F(1), turn(4), X(), F(1) },
-    turn(2),
+    turn(-2),
     X(),
     F(1)
 end)

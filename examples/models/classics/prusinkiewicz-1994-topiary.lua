@@ -20,13 +20,13 @@ end
 
 local hedge = lsystem({ object = turtle({ width = 0.09, color = "#6b4f36", sides = 6 }) })
 hedge:ignore("Turn", "Roll")
-hedge:axiom(F(1), Internode(1), Apex())
+hedge:axiom(F(1), Internode(internode), Apex())
 
 hedge:rule("Apex", { when = is_outside }, function()
   return Cut()
 end)
 hedge:rule("Apex", function()
-  return Roll(phyllotaxis), Bud(), Internode(1), Apex()
+  return Roll(phyllotaxis), Bud(), Internode(internode), Apex()
 end)
 -- The cut leaves a stub of the last internode, and sends the signal down.
 hedge:rule("Internode(length) > Cut", function()
@@ -45,13 +45,27 @@ hedge:rule("Signal", function()
   return nil
 end)
 hedge:rule("Bud > Signal", function()
-  return { Turn(angle), Roll(phyllotaxis), Internode(1), Apex() }
+  return { Turn(angle), Roll(phyllotaxis), Internode(internode), Apex() }
 end)
 
 hedge:interpret("Internode(length)", function(this, length)
-  return F(length), { Color("#4f8f3c"), Sphere(0.2) }
+  return F(length), { Color("#4f8f3c"), Sphere(0.16) }
 end)
 local result = hedge:derive()
+
+-- The box, as a frame of wire.
+local frame = lsystem({
+  object = turtle({ width = 0.03, color = "#8a8a90", heading = { 1, 0, 0 }, position = { -size, -size, 1 } }),
+})
+local edges: any = { Roll(90) }
+for _ = 1, 4 do
+  local rise = { Pitch(-90), F(2 * size), Pitch(90), Turn(90), F(2 * size) }
+  table.insert(edges, rise)
+  table.insert(edges, F(2 * size))
+  table.insert(edges, Turn(90))
+end
+frame:axiom(table.unpack(edges))
+frame:derive(0)
 
 -- Each cut wakes one bud as long as a branch has one below the cut, and each woken bud ends in a cut: the signal of the
 -- last cut finds no bud, so in the end all buds have grown out, and no apex is left.

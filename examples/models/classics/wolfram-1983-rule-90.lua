@@ -8,7 +8,7 @@ local rule = param("rule", { default = 90, min = 0, max = 255, step = 1, doc = "
 local Cell = module("Cell", "state", "history")
 
 local automaton = lsystem({
-  object = turtle({ heading = { 1, 0, 0 }, width = 0.9, sides = 4, color = "#2f3f6f" }),
+  object = turtle({ heading = { 1, 0, 0 }, width = 1.3, sides = 4, color = "#2f3f6f" }),
   interpret = "last",
 })
 local row = {}

@@ -34,7 +34,7 @@ plant:interpret("Rib(piece, length)", function(this, piece, length)
     { forward, Turn(90), G(far), Point() },
     EndPolygon(),
     forward,
-    Up(-arch / PIECES),
+    Up(arch / PIECES),
     Rib(piece + 1, length)
 end)
 local result = plant:derive(leaves)
