@@ -1,8 +1,10 @@
 --!strict
 -- Synthetic topiary: an apex that leaves a box is cut, and a signal runs down from the cut to the next dormant bud,
--- which grows out. Step by step, the branches fill the box.
+-- which grows out, until no bud is left.
 -- Source: P. Prusinkiewicz, M. James and R. Mech, Synthetic topiary, 1994; Virtual Laboratory (cpfg),
 -- Enviro-sensitive/topiary.
+local internode =
+  param("internode", { default = 0.8, min = 0.7, max = 1, unit = "m", doc = "Length of an internode" })
 local size =
   param("size", { default = 2.6, min = 1, max = 4, unit = "m", doc = "Half of the edge of the box" })
 local angle =
