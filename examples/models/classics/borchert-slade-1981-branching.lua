@@ -27,7 +27,7 @@ leaf:axiom(
 local model = leaf:derive(0)
 
 local tree = lsystem({ object = turtle({ color = "#6b4f36", sides = 6, width = 0.5 }), interpret = "last" })
-tree:axiom(Shoot(2, 0), Apex(1, 2))
+tree:axiom(Shoot(5, 0), Apex(1, 2))
 tree:rule("Apex(side, l)", function(this, side, l): any
   local n, next = step(), l * vigour
   local first = { Turn(-straight * side), Shoot(next, n), Apex(-side, next) }
