@@ -56,5 +56,5 @@ local tree = plant:derive(steps)
 -- first 14 metamers are there after 256 steps, the last one in the step 14 * 17 + 13. Leaves die after 53 steps.
 expect(tree.counts.Leaf, 256 // 17)
 local alive, dead = tree.chains[1]:match("%] Pipes%((%d+),(%d+)%)")
-expect(tonumber(alive) + tonumber(dead), 14)
+expect(tonumber(alive or 0) + tonumber(dead or 0), 14)
 -- Picture: --azimuth 180 --elevation 0
