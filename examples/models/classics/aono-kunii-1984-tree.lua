@@ -21,7 +21,7 @@ local tree = lsystem({
   interpret = "last",
 })
 tree:axiom(Apex(1, 0.22))
-tree:rule("Apex(l, w)", function(this, l, w)
+tree:rule("Apex(l, w)", function(this, l: number, w: number)
   return Width(w),
     F(l),
     { Pitch(angle), Branch(l * first, w * THINNER) },
@@ -29,7 +29,7 @@ tree:rule("Apex(l, w)", function(this, l, w)
     { Pitch(fork), Branch(l * second, w * THINNER) }
 end)
 -- The branches fork in the plane that is as level as possible.
-tree:rule("Branch(l, w)", function(this, l, w)
+tree:rule("Branch(l, w)", function(this, l: number, w: number)
   return Width(w),
     F(l),
     { Left(angle), Level(), Branch(l * first, w * THINNER) },

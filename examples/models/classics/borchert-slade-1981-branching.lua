@@ -28,7 +28,7 @@ local model = leaf:derive(0)
 
 local tree = lsystem({ object = turtle({ color = "#6b4f36", sides = 6, width = 0.5 }), interpret = "last" })
 tree:axiom(Shoot(5, 0), Apex(1, 2))
-tree:rule("Apex(side, l)", function(this, side, l): any
+tree:rule("Apex(side, l)", function(this, side: number, l: number): any
   local n, next = step(), l * vigour
   local first = { Turn(-straight * side), Shoot(next, n), Apex(-side, next) }
   if random() < (2 * n + 1) / n ^ 2 then

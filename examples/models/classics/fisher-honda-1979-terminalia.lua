@@ -26,7 +26,7 @@ local function tier(side: number)
   return parts
 end
 tree:axiom(F(1.5), tier(1), F(2.2), tier(-1))
-tree:rule("Apex(l, side)", function(this, l, side)
+tree:rule("Apex(l, side)", function(this, l: number, side: number)
   return Leaves(),
     { Pitch(-fork * side), F(l * minor), Apex(l * minor, side) },
     Pitch(bend * side),

@@ -16,7 +16,7 @@ local Apex = module("Apex", "length", "width")
 
 local tree = lsystem({ object = turtle({ color = "#6b4a32", width = 0.22, sides = 5 }), interpret = "last" })
 tree:axiom(Roll(30), Pitch(3), Apex(1, 0.22))
-tree:rule("Apex(l, w)", function(this, l, w)
+tree:rule("Apex(l, w)", function(this, l: number, w: number)
   return Width(w),
     F(l),
     { Level(), Turn(angle), Apex(l * first, w * THINNER) },

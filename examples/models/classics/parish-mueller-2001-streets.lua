@@ -12,7 +12,7 @@ local Road, Bridge = module("Road", "left", "spawns"), module("Bridge", "length"
 local Shore = module("Shore")
 
 -- A river and a lake.
-local function is_water(place): boolean
+local function is_water(place: any): boolean
   local x, y = place.x / block, place.y / block
   return math.abs(y - 4.5 - 1.5 * math.sin(x / 2)) < 0.6 or (x - 10) ^ 2 + (y - 10.5) ^ 2 < 6
 end
@@ -54,7 +54,7 @@ local streets = town:derive()
 -- The water, as a map of squares.
 local Water = module("Water", "x", "y")
 local map = lsystem({ object = turtle({ color = "#8fb8d8" }) })
-local squares = {}
+local squares: any = {}
 for x = 0, blocks, 0.5 do
   for y = 0, blocks, 0.5 do
     if is_water(vec(x, y, 0) * block) then

@@ -15,7 +15,7 @@ local phyllotaxis =
 local Apex, Cut, Signal, Bud = module("Apex"), module("Cut"), module("Signal"), module("Bud")
 local Internode = module("Internode", "length")
 
-local function is_outside(this): boolean
+local function is_outside(this: any): boolean
   local place = this:position()
   return place.z > 2 * size + 1 or place.z < 1 or math.abs(place.x) > size or math.abs(place.y) > size
 end

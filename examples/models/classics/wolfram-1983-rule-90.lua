@@ -16,9 +16,12 @@ for k = -steps - 1, steps + 1 do
   table.insert(row, Cell(if k == 0 then 1 else 0, ""))
 end
 automaton:axiom(table.unpack(row))
-automaton:rule("Cell(a, x) < Cell(b, history) > Cell(c, y)", function(this, a, x, b, history, c)
-  return Cell(bit32.extract(rule, 4 * a + 2 * b + c), history .. b)
-end)
+automaton:rule(
+  "Cell(a, x) < Cell(b, history) > Cell(c, y)",
+  function(this, a: number, x: number, b: number, history: string, c: number)
+    return Cell(bit32.extract(rule, 4 * a + 2 * b + c), history .. b)
+  end
+)
 automaton:interpret("Cell(state, history)", function(this, state, history)
   local past = history .. state
   local column: any = { Right(90), Roll(45) }

@@ -11,11 +11,11 @@ local Bob, Trace = module("Bob", "angle", "speed"), module("Trace", "angle", "ag
 
 local pendulum = lsystem({ object = turtle({ heading = { 0, 0, -1 }, width = 0.02 }), interpret = "last" })
 pendulum:axiom(Bob(start, 0))
-pendulum:rule("Bob(angle, speed)", function(this, angle, speed)
+pendulum:rule("Bob(angle, speed)", function(this, angle: number, speed: number)
   local next = speed - math.deg(GRAVITY / LENGTH * math.sin(math.rad(angle))) * interval
   return Bob(angle + next * interval, next), Trace(angle, 0)
 end)
-pendulum:rule("Trace(angle, age)", function(this, angle, age)
+pendulum:rule("Trace(angle, age)", function(this, angle: number, age: number)
   return Trace(angle, age + 1)
 end)
 pendulum:interpret("Bob(angle, speed)", function(this, angle)

@@ -22,7 +22,7 @@ curve:axiom(
 curve:rule("Vertex(p) > Vertex(q)", { when = is_insertion }, function(this, p, q)
   return Vertex(p), Vertex((p + q) / 2)
 end)
-curve:rule("Vertex(p) > Vertex(q)", function(this, p, q)
+curve:rule("Vertex(p) > Vertex(q)", function(this, p: any, q: any)
   return Vertex((p + q) / 2)
 end)
 curve:rule("Vertex(p)", {
