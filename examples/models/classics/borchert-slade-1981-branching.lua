@@ -46,6 +46,6 @@ for _, name in { "Leaf", "Apex" } do
 end
 local result = tree:derive(generations)
 
--- Generation 1 and 2 always fork. From then on, the expected number grows by (n + 1)^2 / n^2: after n steps there are
+-- The generations 1 and 2 always fork. From then on, the expected number grows by (n + 1)^2 / n^2: after n steps there are
 -- 4 (n + 1)^2 / 9 shoots, of which only the last generation has an apex.
 expect(result.counts.Apex, 4 * 19 ^ 2 / 9, 80)
