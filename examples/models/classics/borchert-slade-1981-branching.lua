@@ -27,8 +27,8 @@ leaf:axiom(
 local model = leaf:derive(0)
 
 local tree = lsystem({ object = turtle({ color = "#6b4f36", sides = 6, width = 0.5 }), interpret = "last" })
-tree:axiom(Shoot(2, 0), Apex(1, 2))
-tree:rule("Apex(side, l)", function(this, side, l): any
+tree:axiom(Shoot(5, 0), Apex(1, 2))
+tree:rule("Apex(side, l)", function(this, side: number, l: number): any
   local n, next = step(), l * vigour
   local first = { Turn(-straight * side), Shoot(next, n), Apex(-side, next) }
   if random() < (2 * n + 1) / n ^ 2 then
@@ -46,6 +46,6 @@ for _, name in { "Leaf", "Apex" } do
 end
 local result = tree:derive(generations)
 
--- Generation 1 and 2 always fork. From then on, the expected number grows by (n + 1)^2 / n^2: after n steps there are
+-- The generations 1 and 2 always fork. From then on, the expected number grows by (n + 1)^2 / n^2: after n steps there are
 -- 4 (n + 1)^2 / 9 shoots, of which only the last generation has an apex.
 expect(result.counts.Apex, 4 * 19 ^ 2 / 9, 80)

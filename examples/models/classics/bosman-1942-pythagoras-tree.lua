@@ -10,7 +10,7 @@ local Square, Bud = module("Square", "side", "n"), module("Bud", "side", "n")
 local tree = lsystem({ object = turtle({}), interpret = "last" })
 tree:axiom(Square(1, 0), Bud(1, 0))
 -- The turtle walks along the left edge of a square, and then along the legs of the triangle.
-tree:rule("Bud(s, n)", function(this, s, n)
+tree:rule("Bud(s, n)", function(this, s: number, n: number)
   local left, right = s * math.cos(math.rad(angle)), s * math.sin(math.rad(angle))
   return G(s),
     Turn(angle),

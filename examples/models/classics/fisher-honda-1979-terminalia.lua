@@ -26,7 +26,7 @@ local function tier(side: number)
   return parts
 end
 tree:axiom(F(1.5), tier(1), F(2.2), tier(-1))
-tree:rule("Apex(l, side)", function(this, l, side)
+tree:rule("Apex(l, side)", function(this, l: number, side: number)
   return Leaves(),
     { Pitch(-fork * side), F(l * minor), Apex(l * minor, side) },
     Pitch(bend * side),
@@ -36,7 +36,7 @@ end)
 local function disc(this)
   this:color("#5f9a3f"):begin_polygon()
   for k = 1, 8 do
-    this:pitch(45):advance(0.4):point():advance(-0.4)
+    this:pitch(45):advance(0.26):point():advance(-0.26)
   end
   this:end_polygon()
 end

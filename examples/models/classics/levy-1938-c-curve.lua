@@ -12,7 +12,7 @@ local curve = lsystem({
   interpret = "last",
 })
 curve:axiom(Edge(0))
-curve:rule("Edge(k)", function(this, k)
+curve:rule("Edge(k)", function(this, k: number)
   return Left(), Edge(2 * k), Right(90), Edge(2 * k + 1), Left()
 end)
 curve:interpret("Edge(k)", function(this, k)

@@ -2,13 +2,13 @@
 -- The filament of Lindenmayer's first L-system: a mature cell divides into a mature and a young cell, and a young cell
 -- matures. The rows are the first stages, from top to bottom.
 -- Source: A. Lindenmayer, Mathematical models for cellular interactions in development, 1968.
-local stages = param("stages", { default = 8, min = 1, max = 12, step = 1, doc = "Number of stages" })
+local stages = param("stages", { default = 6, min = 1, max = 12, step = 1, doc = "Number of stages" })
 
 local Mature, Young = module("Mature"), module("Young")
 
 local function filament(n: number): any
   local cells = lsystem({
-    object = turtle({ position = { 0, 0, -1.6 * n }, heading = { 1, 0, 0 }, width = 0.9, sides = 12 }),
+    object = turtle({ position = { 0, 0, -1.5 * n }, heading = { 1, 0, 0 }, width = 1, sides = 12 }),
     interpret = "last",
   })
   cells:axiom(Young())

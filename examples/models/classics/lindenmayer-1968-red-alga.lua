@@ -40,7 +40,7 @@ alga:interpret("Side(angle)", function(this, a)
 end)
 local result = alga:derive(steps)
 
--- The string after eleven steps, as in the paper: branches in brackets, states as digits.
+-- The string after eleven steps, as published: branches in brackets, states as digits.
 local text = result.chains[1]:gsub("Side%(%-?%d+%)", ""):gsub("%a+%((%d)%)", "%1"):gsub("[%s]", "")
 local from, to =
   text:find("33[333333339]33[33333339]33[3333339]33[33[339]33[39]33[9]3210]33[33[39]3", 1, true)

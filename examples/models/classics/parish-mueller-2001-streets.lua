@@ -12,7 +12,7 @@ local Road, Bridge = module("Road", "left", "spawns"), module("Bridge", "length"
 local Shore = module("Shore")
 
 -- A river and a lake.
-local function is_water(place): boolean
+local function is_water(place: any): boolean
   local x, y = place.x / block, place.y / block
   return math.abs(y - 4.5 - 1.5 * math.sin(x / 2)) < 0.6 or (x - 10) ^ 2 + (y - 10.5) ^ 2 < 6
 end
@@ -50,6 +50,27 @@ town:interpret("Shore", function()
   return { Color("#3f7fb0"), Sphere(14) }
 end)
 local streets = town:derive()
+
+-- The water, as a map of squares.
+local Water = module("Water", "x", "y")
+local map = lsystem({ object = turtle({ color = "#8fb8d8" }) })
+local squares: any = {}
+for x = 0, blocks, 0.5 do
+  for y = 0, blocks, 0.5 do
+    if is_water(vec(x, y, 0) * block) then
+      table.insert(squares, Water(x, y))
+    end
+  end
+end
+map:axiom(table.unpack(squares))
+map:interpret("Water(x, y)", function(this, x, y)
+  this:begin_polygon()
+  for _, corner in { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } } do
+    this:jump(vec(x + corner[1] / 4, y + corner[2] / 4, 0) * block - vec(0, 0, 8)):point()
+  end
+  this:end_polygon()
+end)
+map:derive(0)
 
 -- The same count, line by line, without rules.
 local function count(x: number, y: number, dx: number, dy: number, spawns: boolean): (number, number)

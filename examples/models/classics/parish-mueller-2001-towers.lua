@@ -41,7 +41,7 @@ towers:rule("Mass(width, depth, height)", { weight = 1 }, function(this, width, 
     else Mass(width * 0.55, depth * setback, height - part)
   return Block(width, depth, part), narrow
 end)
-local function box(this, width, depth, height)
+local function box(this: any, width: number, depth: number, height: number)
   this:rectangle(width, depth):extrude(height)
 end
 towers:interpret("Mass(width, depth, height)", box)

@@ -3,6 +3,7 @@
 -- Source: A. Szilard, Growth functions of Lindenmayer systems, 1971.
 local stages = param("stages", { default = 6, min = 1, max = 12, step = 1, doc = "Number of stages" })
 
+local COLORS: { [string]: string } = { A = "#c03a3f", B = "#e0a83f", C = "#3f7f6a" }
 local A, B, C = module("A"), module("B"), module("C")
 
 local function filament(n: number): any
@@ -17,7 +18,7 @@ local function filament(n: number): any
   cells:rule("B", function()
     return B(), C(), C()
   end)
-  for name, color in { A = "#c03a3f", B = "#e0a83f", C = "#3f7f6a" } do
+  for name, color in COLORS do
     cells:interpret(name, function()
       return Color(color), F(0.9), G(0.1)
     end)

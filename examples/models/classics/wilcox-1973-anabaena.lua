@@ -30,16 +30,25 @@ local function grow(length: number, inhibitor: number): any
   end
   return Cell(length * growth, c)
 end
-filament:rule("Cell(k, a) < Cell(l, c) > Cell(m, b)", function(this, k, a, l, c, m, b)
-  return grow(l, c + diffusion * (a + b - 2 * c))
-end)
+filament:rule(
+  "Cell(k, a) < Cell(l, c) > Cell(m, b)",
+  function(this, k: number, a: number, l: number, c: number, m: number, b: number)
+    return grow(l, c + diffusion * (a + b - 2 * c))
+  end
+)
 -- A heterocyst holds the concentration 1.
-filament:rule("Heterocyst < Cell(l, c) > Cell(m, b)", function(this, l, c, m, b)
-  return grow(l, c + diffusion * (1 + b - 2 * c))
-end)
-filament:rule("Cell(k, a) < Cell(l, c) > Heterocyst", function(this, k, a, l, c)
-  return grow(l, c + diffusion * (a + 1 - 2 * c))
-end)
+filament:rule(
+  "Heterocyst < Cell(l, c) > Cell(m, b)",
+  function(this, l: number, c: number, m: number, b: number)
+    return grow(l, c + diffusion * (1 + b - 2 * c))
+  end
+)
+filament:rule(
+  "Cell(k, a) < Cell(l, c) > Heterocyst",
+  function(this, k: number, a: number, l: number, c: number)
+    return grow(l, c + diffusion * (a + 1 - 2 * c))
+  end
+)
 filament:interpret("Cell(length, inhibitor)", function(this, length, inhibitor)
   return Color(mix("#2f7f5f", "#cfe08a", inhibitor)), F(length - 0.1), G(0.1), Turn(5 * length)
 end)

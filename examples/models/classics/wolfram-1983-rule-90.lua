@@ -8,7 +8,7 @@ local rule = param("rule", { default = 90, min = 0, max = 255, step = 1, doc = "
 local Cell = module("Cell", "state", "history")
 
 local automaton = lsystem({
-  object = turtle({ heading = { 1, 0, 0 }, width = 0.9, sides = 4, color = "#2f3f6f" }),
+  object = turtle({ heading = { 1, 0, 0 }, width = 1.3, sides = 4, color = "#2f3f6f" }),
   interpret = "last",
 })
 local row = {}
@@ -16,9 +16,12 @@ for k = -steps - 1, steps + 1 do
   table.insert(row, Cell(if k == 0 then 1 else 0, ""))
 end
 automaton:axiom(table.unpack(row))
-automaton:rule("Cell(a, x) < Cell(b, history) > Cell(c, y)", function(this, a, x, b, history, c)
-  return Cell(bit32.extract(rule, 4 * a + 2 * b + c), history .. b)
-end)
+automaton:rule(
+  "Cell(a, x) < Cell(b, history) > Cell(c, y)",
+  function(this, a: number, x: number, b: number, history: string, c: number)
+    return Cell(bit32.extract(rule, 4 * a + 2 * b + c), history .. b)
+  end
+)
 automaton:interpret("Cell(state, history)", function(this, state, history)
   local past = history .. state
   local column: any = { Right(90), Roll(45) }

@@ -15,7 +15,7 @@ local Branch, Piece = module("Branch", "age"), module("Piece", "left")
 
 local tree = lsystem({ object = turtle({ color = "#7a5a3f", sides = 6 }), interpret = "last" })
 tree:axiom(Trunk(1 - stage))
-tree:rule("Trunk(age)", function(this, age): any
+tree:rule("Trunk(age)", function(this, age: number): any
   local parts: any = { Internode(0.1) }
   if age % stage == 0 then
     for k = 1, axes do
@@ -26,7 +26,7 @@ tree:rule("Trunk(age)", function(this, age): any
   table.insert(parts, Trunk(age + 1))
   return table.unpack(parts)
 end)
-tree:rule("Internode(width)", function(this, width)
+tree:rule("Internode(width)", function(this, width: number)
   return Internode(width + THICKENING)
 end)
 tree:rule("Branch(age)", function(this, age)

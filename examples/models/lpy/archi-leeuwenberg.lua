@@ -32,7 +32,7 @@ tree:rule("Apex(age, order)", function(this, age, order): any
   end
   return table.unpack(whorl)
 end)
-tree:rule("Internode(width)", function(this, width)
+tree:rule("Internode(width)", function(this, width: number)
   return Internode(width + THICKENING)
 end)
 tree:rule("Leaves(age, turn)", function(this, age, turn)

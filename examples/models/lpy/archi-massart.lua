@@ -15,7 +15,7 @@ local Internode, Leaves = module("Internode", "length", "width"), module("Leaves
 
 local tree = lsystem({ object = turtle({ color = "#7a5a3f", sides = 6 }), interpret = "last" })
 tree:axiom(Trunk(1 - stage))
-tree:rule("Trunk(age)", function(this, age): any
+tree:rule("Trunk(age)", function(this, age: number): any
   local parts: any = { Internode(1, 0.2), Roll(90) }
   if age % stage == 0 then
     local angle = 30 + 60 * (tiers - age / stage) / tiers
@@ -29,7 +29,7 @@ end)
 tree:rule("Branch", function()
   return Internode(0.5, 0.1), Leaves(0), Branch()
 end)
-tree:rule("Internode(length, width)", function(this, length, width)
+tree:rule("Internode(length, width)", function(this, length: number, width: number)
   return Internode(length, width + THICKENING)
 end)
 tree:rule("Leaves(age)", function(this, age)

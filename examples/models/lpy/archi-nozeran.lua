@@ -28,16 +28,16 @@ tree:rule("Trunk(age, number)", function(this, age, number): any
   table.insert(parts, Trunk(age + 1, number))
   return table.unpack(parts)
 end)
-tree:rule("Branch(age)", function(this, age)
+tree:rule("Branch(age)", function(this, age: number)
   return Pitch(0.5),
     Internode(0.3 + 0.3 / (1 + age), 0.1),
     if age % 2 == 0 then Leaves(0) else Leaves(3),
     Branch(age + 1)
 end)
-tree:rule("Internode(length, width)", function(this, length, width)
+tree:rule("Internode(length, width)", function(this, length: number, width: number)
   return Internode(length, width + THICKENING)
 end)
-tree:rule("Leaves(age)", function(this, age)
+tree:rule("Leaves(age)", function(this, age: number)
   return Leaves(age + 1)
 end)
 tree:interpret("Internode(length, width)", function(this, length, width)

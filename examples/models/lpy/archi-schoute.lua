@@ -26,7 +26,7 @@ palm:rule("Apex(left, order)", function(this, left, order): any
   local next = Apex(internodes(order + 1), order + 1)
   return Roll(90), { Pitch(angle), next }, { Roll(180), Pitch(angle), next }
 end)
-palm:rule("Internode(width)", function(this, width)
+palm:rule("Internode(width)", function(this, width: number)
   return Internode(width + THICKENING)
 end)
 palm:interpret("Internode(width)", function(this, width)

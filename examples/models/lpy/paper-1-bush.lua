@@ -13,7 +13,7 @@ local Apex, Internode = module("Apex", "age"), module("Internode", "length", "wi
 
 local bush = lsystem({ object = turtle({ color = "#7a5a3a", width = 0.4 }), interpret = "last" })
 bush:axiom(Apex(0))
-bush:rule("Internode(l, w)", function(this, l, w)
+bush:rule("Internode(l, w)", function(this, l: number, w: number)
   return Internode(l, w + thickening)
 end)
 bush:rule("Apex(age)", {

@@ -12,7 +12,7 @@ local function row(n: number): any
     interpret = "last",
   })
   system:axiom(Number(1))
-  system:rule("Number(a) < Number(b) > Number(c)", function(this, a, b)
+  system:rule("Number(a) < Number(b) > Number(c)", function(this, a: number, b: number)
     return Number(a + b)
   end)
   system:rule("Number(a) < Number(b)", function(this, a, b)

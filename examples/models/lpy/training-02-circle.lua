@@ -8,7 +8,7 @@ local Arc = module("Arc", "pieces")
 
 local circle = lsystem({ object = turtle({ width = radius * 0.06, color = "#4763b0" }) })
 circle:axiom(Arc(pieces))
-circle:decompose("Arc(n)", function(this, n)
+circle:decompose("Arc(n)", function(this, n: number)
   if n == 0 then
     return nil
   end

@@ -8,10 +8,10 @@ local LeftSide, RightSide = module("LeftSide", "length"), module("RightSide", "l
 
 local curve = lsystem({ object = turtle({ angle = 60, color = color }), interpret = "last" })
 curve:axiom(Right(90), LeftSide(1))
-curve:rule("LeftSide(x)", function(this, x)
+curve:rule("LeftSide(x)", function(this, x: number)
   return Left(), RightSide(x / 2), Right(), LeftSide(x / 2), Right(), RightSide(x / 2), Left()
 end)
-curve:rule("RightSide(x)", function(this, x)
+curve:rule("RightSide(x)", function(this, x: number)
   return Right(), LeftSide(x / 2), Left(), RightSide(x / 2), Left(), LeftSide(x / 2), Right()
 end)
 local function triangle(x: number, side: number)

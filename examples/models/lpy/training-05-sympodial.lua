@@ -11,7 +11,7 @@ local Apex, Flower = module("Apex", "length"), module("Flower")
 local plant =
   lsystem({ object = turtle({ width = 0.08, color = "#5f7f35", angle = angle }), interpret = "last" })
 plant:axiom(Apex(1))
-plant:rule("Apex(length)", function(this, length)
+plant:rule("Apex(length)", function(this, length: number)
   local next = Apex(length * shorter)
   return F(length), { Left(), Roll(25), next }, { Right(), Roll(25), next }, F(0.2), Flower()
 end)

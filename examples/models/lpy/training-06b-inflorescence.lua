@@ -35,8 +35,9 @@ plant:rule("Apex(wait, age)", function(this, wait, age)
     Roll(180),
     Apex(0, age + STEP)
 end)
-for name, organ in { Internode = Internode, Bract = Bract, Flower = Flower } do
-  plant:rule(name .. "(age)", function(this, age)
+local organs: { [string]: any } = { Internode = Internode, Bract = Bract, Flower = Flower }
+for name, organ in organs do
+  plant:rule(name .. "(age)", function(this, age: number)
     return organ(age + STEP)
   end)
 end

@@ -24,10 +24,10 @@ plant:rule("Apex(rank, wait)", function(this, rank, wait): any
   end
   return Internode(0), Apex(rank + 1, plastochron)
 end)
-plant:rule("Internode(age)", function(this, age)
+plant:rule("Internode(age)", function(this, age: number)
   return Internode(math.min(age + STEP, 1))
 end)
-plant:rule("Flower(age)", function(this, age)
+plant:rule("Flower(age)", function(this, age: number)
   return Flower(math.min(age + STEP, 1))
 end)
 plant:interpret("Internode(age)", function(this, age)

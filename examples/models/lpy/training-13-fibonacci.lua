@@ -11,7 +11,7 @@ for k = 1, length do
   chain[k] = Number(1)
 end
 row:axiom(table.unpack(chain))
-row:rule("Number(a) Number(b) < Number(c)", function(this, a, b, c)
+row:rule("Number(a) Number(b) < Number(c)", function(this, a: number, b: number, c: number)
   return Number(a + b)
 end)
 row:interpret("Number(value)", function(this, value)

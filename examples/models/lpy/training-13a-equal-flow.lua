@@ -17,13 +17,16 @@ for k = 1, cells do
   total += amount
 end
 stem:axiom(table.unpack(chain))
-stem:rule("Cell(a, i) < Cell(p, start) > Cell(b, j)", function(this, a, i, p, start, b)
-  return Cell(p + (a + b - 2 * p) * speed, start)
-end)
-stem:rule("Cell(p, start) > Cell(b, j)", function(this, p, start, b)
+stem:rule(
+  "Cell(a, i) < Cell(p, start) > Cell(b, j)",
+  function(this, a: number, i: number, p: number, start: number, b: number)
+    return Cell(p + (a + b - 2 * p) * speed, start)
+  end
+)
+stem:rule("Cell(p, start) > Cell(b, j)", function(this, p: number, start: number, b: number)
   return Cell(p + (b - p) * speed, start)
 end)
-stem:rule("Cell(a, i) < Cell(p, start)", function(this, a, i, p, start)
+stem:rule("Cell(a, i) < Cell(p, start)", function(this, a: number, i: number, p: number, start: number)
   return Cell(p + (a - p) * speed, start)
 end)
 stem:interpret("Cell(amount, start)", function(this, amount, start)

@@ -15,10 +15,10 @@ for k = 1, cells do
   chain[k] = Cell(if k == cells then SOURCE else 0.01)
 end
 stem:axiom(table.unpack(chain))
-stem:rule("Cell(a) < Cell(p) > Cell(b)", function(this, a, p, b)
+stem:rule("Cell(a) < Cell(p) > Cell(b)", function(this, a: number, p: number, b: number)
   return Cell((p + (a + b - 2 * p) * speed) * (1 - decay))
 end)
-stem:rule("Cell(p) > Cell(b)", function(this, p, b)
+stem:rule("Cell(p) > Cell(b)", function(this, p: number, b: number)
   return Cell((p + (b - p) * speed) * (1 - decay))
 end)
 stem:interpret("Cell(amount)", function(this, amount)

@@ -33,19 +33,25 @@ end)
 plant:rule("Internode(a) > Apex", function()
   return Internode(level)
 end)
-plant:rule("Internode(n) < Internode(a) > Flower", function(this, n, a)
+plant:rule("Internode(n) < Internode(a) > Flower", function(this, n: number, a: number)
   return Internode(a + (n - a) * speed)
 end)
-plant:rule("Internode(n) < Internode(a) > [Internode(k)] Internode(q)", function(this, n, a, k, q)
-  return Internode(a + (n + k + q - 3 * a) * speed)
-end)
-plant:rule("Internode(n) < Internode(a) > Internode(q)", function(this, n, a, q)
+plant:rule(
+  "Internode(n) < Internode(a) > [Internode(k)] Internode(q)",
+  function(this, n: number, a: number, k: number, q: number)
+    return Internode(a + (n + k + q - 3 * a) * speed)
+  end
+)
+plant:rule("Internode(n) < Internode(a) > Internode(q)", function(this, n: number, a: number, q: number)
   return Internode(a + (n + q - 2 * a) * speed)
 end)
-plant:rule("Root < Internode(a) > [Internode(k)] Internode(q)", function(this, a, k, q)
-  return Internode(a + (k + q - 3 * a) * speed)
-end)
-plant:rule("Root < Internode(a) > Internode(q)", function(this, a, q)
+plant:rule(
+  "Root < Internode(a) > [Internode(k)] Internode(q)",
+  function(this, a: number, k: number, q: number)
+    return Internode(a + (k + q - 3 * a) * speed)
+  end
+)
+plant:rule("Root < Internode(a) > Internode(q)", function(this, a: number, q: number)
   return Internode(a + (q - 2 * a) * speed)
 end)
 

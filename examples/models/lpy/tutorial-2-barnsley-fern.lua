@@ -11,7 +11,7 @@ local Apex = module("Apex", "size")
 
 local fern = lsystem({ object = turtle({ width = 0.006, color = "#3f8a3a", sides = 5 }), interpret = "last" })
 fern:axiom(Apex(1))
-fern:rule("Apex(s)", function(this, s)
+fern:rule("Apex(s)", function(this, s: number)
   local frond = Apex(s / ratio)
   return F(s / 5),
     Turn(-curl),

@@ -11,7 +11,7 @@ local function stage(n: number): any
     interpret = "last",
   })
   bars:axiom(F(1))
-  bars:rule("F(x)", function(this, x)
+  bars:rule("F(x)", function(this, x: number)
     return F(x / 3), G(x / 3), F(x / 3)
   end)
   return bars:derive(n)

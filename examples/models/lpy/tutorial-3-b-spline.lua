@@ -22,7 +22,7 @@ curve:axiom(
 curve:rule("Vertex(p) > Vertex(q)", { when = is_insertion }, function(this, p, q)
   return Vertex(p), Vertex((p + q) / 2)
 end)
-curve:rule("Vertex(p) > Vertex(q)", function(this, p, q)
+curve:rule("Vertex(p) > Vertex(q)", function(this, p: any, q: any)
   return Vertex((p + q) / 2)
 end)
 curve:rule("Vertex(p)", {
@@ -33,10 +33,10 @@ curve:rule("Vertex(p)", {
   return nil
 end)
 curve:interpret("Vertex(p) > Vertex(q)", function(this, p, q)
-  this:jump(p):color("#35406f"):sphere(0.035):face(q - p):color("#c0392b"):forward(p:distance(q))
+  this:jump(p):color("#c0392b"):sphere(0.025):face(q - p):forward(p:distance(q))
 end)
 curve:interpret("Vertex(p)", function(this, p)
-  this:jump(p):color("#35406f"):sphere(0.035)
+  this:jump(p):sphere(0.025)
 end)
 local result = curve:derive(rounds * degree)
 

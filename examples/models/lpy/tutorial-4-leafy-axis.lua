@@ -11,7 +11,7 @@ local Apex, Leaf, Rib = module("Apex", "n"), module("Leaf", "length"), module("R
 
 local plant = lsystem({ object = turtle({ width = 0.25, color = "#7a9a4a", sides = 8 }), interpret = "last" })
 plant:axiom(F(1), Apex(0))
-plant:rule("Apex(n)", function(this, n)
+plant:rule("Apex(n)", function(this, n: number)
   return { Up(30), Leaf(5 - n / 4) }, F(1), Roll(phyllotaxis), Apex(n + 1)
 end)
 plant:interpret("Leaf(length)", function(this, length)
@@ -34,7 +34,7 @@ plant:interpret("Rib(piece, length)", function(this, piece, length)
     { forward, Turn(90), G(far), Point() },
     EndPolygon(),
     forward,
-    Up(-arch / PIECES),
+    Up(arch / PIECES),
     Rib(piece + 1, length)
 end)
 local result = plant:derive(leaves)

@@ -16,7 +16,7 @@ fern:rule("Apex(age)", function(this, age)
   end
   return Internode(1), { Left(), Apex(0) }, { Right(), Apex(0) }, Internode(1), Apex(age)
 end)
-fern:rule("Internode(length)", function(this, length)
+fern:rule("Internode(length)", function(this, length: number)
   return Internode(length * growth)
 end)
 fern:interpret("Internode(length)", function(this, length)

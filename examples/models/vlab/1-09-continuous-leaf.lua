@@ -12,10 +12,10 @@ local Apex, Metamer, Internode =
 
 local leaf = lsystem({ object = turtle({ angle = 45, width = 0.26 }), interpret = "last" })
 leaf:axiom(Apex(0))
-leaf:rule("Apex(age)", function(this, age)
+leaf:rule("Apex(age)", function(this, age: number)
   return Apex(age + STEP)
 end)
-leaf:rule("Internode(length)", function(this, length)
+leaf:rule("Internode(length)", function(this, length: number)
   return Internode(length * growth ^ STEP)
 end)
 leaf:decompose("Apex(age)", {

@@ -7,7 +7,7 @@ local Empty, Signal = module("Empty"), module("Signal")
 
 local plant = lsystem({ object = turtle({ angle = 45, width = 0.18, sides = 12 }), interpret = "last" })
 plant:ignore("Left", "Right")
-local chain = {}
+local chain: any = {}
 for k = 1, 5 do
   table.insert(chain, Empty())
   table.insert(chain, { if k % 2 == 1 then Left() else Right(), Empty() })

@@ -10,7 +10,7 @@ local Internode = module("Internode", "florigen") -- florigen is 1 in reached in
 
 local plant = lsystem({ object = turtle({ width = 0.4, sides = 12 }), interpret = "last" })
 plant:axiom(Base(0), Internode(0), Apex(0))
-plant:rule("Base(age)", function(this, age)
+plant:rule("Base(age)", function(this, age: number)
   return Base(age + 1)
 end)
 plant:rule("Internode(florigen) < Apex(age)", function(this, florigen, age)

@@ -23,7 +23,7 @@ plant:rule("Internode(f, r) < Apex(age)", function(this, f, r, age)
   end
   return { Left(), Bud() }, Internode(0, 0), Roll(180), Apex(0)
 end)
-plant:rule("Base(age)", function(this, age)
+plant:rule("Base(age)", function(this, age: number)
   return Base(age + 1)
 end)
 plant:rule("Base(age) < Internode(f, r)", {

@@ -42,7 +42,7 @@ plant:rule("Signal(age) < Internode(order, is_reached)", {
 }, function(this, age, order)
   return Internode(order, true), Signal(0)
 end)
-plant:rule("Flower(age)", function(this, age)
+plant:rule("Flower(age)", function(this, age: number)
   return Flower(age + 1)
 end)
 plant:interpret("Internode(order, is_reached)", function(this, order, is_reached)

@@ -19,20 +19,23 @@ plant:rule("Apex(wait)", function(this, wait)
   end
   return { Left(), Pipes(1, 0), Leaf(life) }, Pipes(1, 0), F(1), Roll(180), Apex(16)
 end)
-plant:rule("Leaf(left)", function(this, left)
+plant:rule("Leaf(left)", function(this, left: number)
   return Leaf(math.max(left - 1, 0))
 end)
 plant:rule("Pipes(alive, dead) > Leaf(left)", function(this, alive, dead, left)
   return if left == 0 then Pipes(0, 1) else Pipes(alive, dead)
 end)
-plant:rule("Pipes(a, d) > [Pipes(b, e)] Pipes(c, f)", function(this, a, d, b, e, c, f)
-  return Pipes(b + c, e + f)
-end)
+plant:rule(
+  "Pipes(a, d) > [Pipes(b, e)] Pipes(c, f)",
+  function(this, a: number, d: number, b: number, e: number, c: number, f: number)
+    return Pipes(b + c, e + f)
+  end
+)
 
 plant:interpret("Pipes(alive, dead)", function(this, alive, dead)
   return Color(mix("#7a5a3a", "#6fae48", alive / (alive + dead))), Width(width * (alive + dead))
 end)
-plant:interpret("Leaf(left)", function(this, left)
+plant:interpret("Leaf(left)", function(this, left: number)
   return Color(if left > 0 then "#4fa83d" else "#a8894a"),
     F(0.4),
     {
@@ -56,5 +59,5 @@ local tree = plant:derive(steps)
 -- first 14 metamers are there after 256 steps, the last one in the step 14 * 17 + 13. Leaves die after 53 steps.
 expect(tree.counts.Leaf, 256 // 17)
 local alive, dead = tree.chains[1]:match("%] Pipes%((%d+),(%d+)%)")
-expect(tonumber(alive) + tonumber(dead), 14)
+expect(tonumber(alive or 0) :: number + tonumber(dead or 0) :: number, 14)
 -- Picture: --azimuth 180 --elevation 0

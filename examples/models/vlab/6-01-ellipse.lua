@@ -8,7 +8,7 @@ local narrow = param("narrow", { default = 2, min = 1, max = 6, doc = "Height of
 
 local Apex, Branch, Fork = module("Apex"), module("Branch"), module("Fork", "height")
 
-local function is_outside(this): boolean
+local function is_outside(this: any): boolean
   local place = this:position()
   return (narrow * place.x) ^ 2 + (place.z - half) ^ 2 > half ^ 2 + 1e-9
 end

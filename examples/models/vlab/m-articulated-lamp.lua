@@ -26,7 +26,7 @@ lamp:axiom(
 lamp:interpret("Base", function()
   return Width(1), F(0.05), Width(0.12), F(0.1)
 end)
-lamp:interpret("Link(length)", function(this, length)
+lamp:interpret("Link(length)", function(this, length: number)
   return F(length), Sphere(0.09)
 end)
 lamp:interpret("Shade", function()
@@ -35,7 +35,7 @@ end)
 local result = lamp:derive(0)
 
 -- The arms point 45 degrees back, 55 degrees forward and 40 degrees forward of the vertical.
-local function reach(f): number
+local function reach(f: (number) -> number): number
   return f(math.rad(-45)) + f(math.rad(55)) + (0.15 + 0.02 + 0.28 + 0.25) * f(math.rad(40))
 end
 local tip = result.objects[1]:position()

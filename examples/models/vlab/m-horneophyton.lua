@@ -15,7 +15,7 @@ local Apex, Sporangium = module("Apex", "length", "width"), module("Sporangium",
 
 local plant = lsystem({ object = turtle({ color = "#6f8f3f", width = 1.5 }) })
 plant:axiom(Roll(-30), Apex(10, 1.5))
-plant:rule("Apex(l, w)", function(this, l, w)
+plant:rule("Apex(l, w)", function(this, l: number, w: number)
   if step() > forks then
     return Sporangium(w)
   end

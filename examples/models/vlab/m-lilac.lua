@@ -35,7 +35,21 @@ lilac:decompose("Apex(order, i)", function(this, order, i): any
 end)
 lilac:rule(
   "Internode(o, i, p) > [Internode(o1, i1, p1)] [Internode(o2, i2, p2)] Internode(o3, i3, p3)",
-  function(this, o, i, p, o1, i1, p1, o2, i2, p2, o3, i3, p3)
+  function(
+    this,
+    o: number,
+    i: number,
+    p: number,
+    o1: number,
+    i1: number,
+    p1: number,
+    o2: number,
+    i2: number,
+    p2: number,
+    o3: number,
+    i3: number,
+    p3: number
+  )
     return Internode(o, i, p1 + p2 + p3)
   end
 )

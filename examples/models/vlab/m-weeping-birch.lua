@@ -4,7 +4,7 @@
 local total = param("total", { default = 1500, min = 1, max = 20000, step = 1, doc = "Number of internodes" })
 local spread =
   param("spread", { default = 30, min = 5, max = 60, unit = "deg", doc = "Angle between two branches" })
-local weeping = param("weeping", { default = 0.12, min = 0, max = 0.4, doc = "Bending of a twig" })
+local weeping = param("weeping", { default = 0.35, min = 0, max = 0.8, doc = "Bending of a twig" })
 
 local Branch, Leaf = module("Branch", "carried"), module("Leaf")
 

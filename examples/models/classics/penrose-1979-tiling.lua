@@ -1,6 +1,6 @@
 --!strict
 -- Penrose's tiling by two rhombs: four symbols walk along the tiles, and only the edges of the last step are drawn.
--- Source: R. Penrose, The role of aesthetics in pure and applied mathematical research, 1974; L-system in the library of
+-- Source: R. Penrose, Pentaplexity: a class of non-periodic tilings of the plane, 1979; L-system in the library of
 -- Fractint, H. Savage.
 local steps = param("steps", { default = 4, min = 1, max = 5, step = 1, doc = "Steps of division" })
 local color = param("color", { default = "#35406f", doc = "Colour of the edges" })
@@ -39,7 +39,7 @@ tiling:rule("Z", function()
     W(),
     F(1),
     { turn(1), Z(), F(1), turn(4), X(), F(1) },
-    turn(2),
+    turn(-2),
     X(),
     F(1)
 end)
