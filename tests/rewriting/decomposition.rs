@@ -109,14 +109,14 @@ fn random_system(dice: &mut Dice) -> (String, String) {
         text
     };
     let mut rules = Vec::new();
-    for number in 0..LETTERS.len() - 1 {
+    for (number, letter) in LETTERS.iter().enumerate().take(LETTERS.len() - 1) {
         for (arrow, from) in [("->", 0), ("=>", number + 1)] {
             if !dice.chance(0.6) {
                 continue;
             }
             let left = if dice.chance(0.4) { format!("{} < ", dice.pick(&LETTERS)) } else { String::new() };
             let right = if dice.chance(0.4) { format!(" > {}", dice.pick(&LETTERS)) } else { String::new() };
-            rules.push(format!("{left}{}{right} {arrow} {}", LETTERS[number], word(dice, from)));
+            rules.push(format!("{left}{letter}{right} {arrow} {}", word(dice, from)));
         }
     }
     let axiom = (0..4).map(|_| dice.pick(&LETTERS)).collect::<Vec<_>>().join(" ");

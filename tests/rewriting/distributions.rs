@@ -127,7 +127,7 @@ fn binomial_counts_have_their_probabilities_with_both_methods() {
 /// density has no poles.
 fn beta_shares(a: f64, b: f64) -> Vec<f64> {
     const STEPS: usize = 400_000;
-    let mut shares = vec![0.0; 20];
+    let mut shares = [0.0; 20];
     for step in 1..STEPS {
         // x = 1 / (1 + e^-t), so that dx = x (1 - x) dt.
         let t = (step as f64 / STEPS as f64 - 0.5) * 400.0;

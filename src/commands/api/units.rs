@@ -42,7 +42,7 @@ const COUNTS: [&str; 32] = [
 ];
 
 /// Fractions, probabilities, weights and factors.
-const FACTORS: [&str; 51] = [
+const FACTORS: [&str; 52] = [
     ".amount",
     ".metallic",
     ".noise",
@@ -86,6 +86,7 @@ const FACTORS: [&str; 51] = [
     "planet.error",
     "rule.weight",
     "system:decompose.weight",
+    "system:interpret.weight",
     "system:rule.weight",
     "template.weight",
     "terrain.plants.size",
@@ -137,7 +138,7 @@ const NUMBERS: [&str; 36] = [
 ];
 
 /// Values in any unit that the script or the file uses.
-const ANY: [&str; 29] = [
+const ANY: [&str; 30] = [
     "beta a",
     "beta b",
     "beta r",
@@ -147,6 +148,7 @@ const ANY: [&str; 29] = [
     "choose r",
     "choose weights",
     "elevation.bounds",
+    "expect tolerance",
     "lerp a",
     "lerp b",
     "normal deviation",
