@@ -33,9 +33,17 @@ fn scripts(folder: &str) -> Vec<PathBuf> {
 fn no_shipped_script_has_an_error_in_strict_mode() {
     let mut checker = checker();
     let (mut count, mut wrong) = (0, Vec::new());
-    for folder in
-        ["scripts", "scripts/templates", "scripts/templates/roads", "examples", "crates/objects/scripts"]
-    {
+    for folder in [
+        "scripts",
+        "scripts/templates",
+        "scripts/templates/roads",
+        "examples",
+        "examples/models/abop",
+        "examples/models/classics",
+        "examples/models/lpy",
+        "examples/models/vlab",
+        "crates/objects/scripts",
+    ] {
         for path in scripts(folder) {
             // The program next to it declares its object type.
             if path.ends_with("examples/beads.lua") {
