@@ -2,7 +2,7 @@
 -- A pineapple: at a divergence angle of 138.139542 degrees, each scale touches those 5, 8 and 13 scales older, so the
 -- scales are hexagons. The cylinder closes at its top, below a tuft of leaves.
 -- Source: P. Prusinkiewicz and A. Lindenmayer, The Algorithmic Beauty of Plants, 1990, section 4.2 and figure 4.11.
-local scales = param("scales", { default = 150, min = 20, max = 400, step = 1, doc = "Number of scales" })
+local scales = param("scales", { default = 90, min = 20, max = 400, step = 1, doc = "Number of scales" })
 local radius = param("radius", { default = 0.06, min = 0.01, max = 1, unit = "m", doc = "Of the fruit" })
 local DIVERGENCE = 138.139542
 
@@ -37,7 +37,7 @@ fruit:rule("Apex(n)", function(this, n: number)
     Apex(n + 1)
 end)
 fruit:interpret("Scale(size)", function(this, size)
-  this:color("#c08a34"):sphere(size * 0.55)
+  this:color("#c08a34"):sphere(size * 0.62)
   this:color("#6f7a2e"):advance(size * 0.45)
   this:sphere(size * 0.2)
 end)
@@ -50,6 +50,6 @@ fruit:interpret("Leaf(length)", function(this, length)
     EndPolygon()
 end)
 
-expect(fruit:derive(scales + 35).counts.Scale, 150)
+expect(fruit:derive(scales + 35).counts.Scale, 90)
 
 -- Picture: --azimuth 180 --elevation 10
