@@ -15,7 +15,7 @@ local function head(divergence: number, place)
   return system:derive(florets)
 end
 
--- The nearest neighbour of the last floret is a Fibonacci number of florets older, and at the golden angle only.
+-- The distance from floret 500 to the nearest older one, after Vogel's formula.
 local function gap(divergence: number)
   local nearest = math.huge
   for older = 1, 499 do
@@ -29,7 +29,7 @@ end
 for k, divergence in { 137.3, 137.5, 137.6 } do
   expect(head(divergence, vec((k - 2) * 50, 0, 0)).counts.Sphere, 500)
 end
--- Florets of one unit of area each have room if none is nearer than about the square root of pi.
+-- A step makes a floret, and florets at the golden angle have the most room.
 expect(gap(137.5) > math.max(gap(137.3), gap(137.6)), true)
 
 -- Picture: --azimuth 180 --elevation 0
