@@ -2,7 +2,7 @@
 -- Mycelis muralis: a flowering signal climbs the stem, one node per step. The apex becomes a flower and sends down a
 -- signal that releases the buds, so that the topmost branch grows first, and one at half the speed that lets the
 -- branches flower. The lower branches have more time to grow.
--- Source: P. Prusinkiewicz and A. Lindenmayer, The Algorithmic Beauty of Plants, 1990, section 3.3.3, the third model.
+-- Source: P. Prusinkiewicz and A. Lindenmayer, The Algorithmic Beauty of Plants, 1990, chapter 3, Mycelis muralis.
 local angle =
   param("angle", { default = 30, min = 10, max = 60, unit = "deg", doc = "Between stem and branches" })
 local petals = param("petals", { default = "#e8c52f", doc = "Colour of the flowers" })
@@ -15,6 +15,7 @@ local Node, Climbing, Release, Descent, Pause =
 local function stage(steps: number, x: number)
   local pen = turtle({ position = { x, 0, 0 }, width = 0.35, color = "#5d8a44", sides = 5 })
   local plant = lsystem({ object = pen, interpret = "last" })
+  -- A pause separates the two signals. If contexts did not see it, they would have the same speed.
   plant:consider("Node", "Climbing", "Release", "Descent", "Pause")
   plant:axiom(Delay(20), F(), Apex(0))
 

@@ -12,39 +12,50 @@ local notch = { length = 3, rate = 1.19 }
 -- The midrib has a segment of each step, which has grown in all later ones.
 local unit = size * (rib.rate - 1) / (rib.length * (rib.rate ^ steps - 1))
 
--- A tooth begins at time t. Its upper vein makes a segment in each of the next t steps.
-local Apex, Tooth = module("Apex", "time", "side"), module("Tooth", "time", "age", "side")
-local function vein_length(t: number, age: number): number
-  local length = 0
-  for n = 1, math.min(t, age) do
-    length += vein.length * vein.rate ^ (age - n)
-  end
-  return length * unit
-end
+local Apex, Vein = module("Apex", "time", "side"), module("Vein", "potential")
+local Part, Notch = module("Part", "length", "rate"), module("Notch", "length", "potential")
 
 local leaf = lsystem({ object = turtle({ color = "#3f7d33", roughness = 0.6 }), interpret = "last" })
-leaf:axiom({ Apex(0, 1) }, Apex(0, -1))
-leaf:rule("Apex(t, side)", function(this, t: number, side)
-  return Tooth(t, 0, side), Apex(t + 1, side)
-end)
-leaf:rule("Tooth(t, age, side)", function(this, t, age: number, side)
-  return Tooth(t, age + 1, side)
-end)
--- The vein of the tooth below is one step older.
-leaf:interpret("Tooth(t, age, side)", function(this, t: number, age: number, side: number)
-  local point = notch.length * notch.rate ^ math.clamp(t - 1, 0, age) * unit
-  return BeginPolygon(),
-    { Turn(side * angle), G(vein_length(t - 1, age + 1)), Point() },
+leaf:axiom({ BeginPolygon(), Apex(0, 1) }, BeginPolygon(), Apex(0, -1))
+-- A polygon begins at the end of a vein, and ends behind the notch at the end of the next vein.
+leaf:rule("Apex(t, side)", function(this, t: number, side: number)
+  return Point(),
+    Part(rib.length, rib.rate),
     Point(),
-    G(rib.length * rib.rate ^ age * unit),
-    Point(),
-    { Turn(side * angle), G(vein_length(t, age) + point), Point() },
-    EndPolygon()
+    { Turn(side * angle), Vein(t), Notch(notch.length, t), Point(), EndPolygon() },
+    { Turn(side * angle), Vein(t), BeginPolygon(), Point() },
+    Apex(t + 1, side)
+end)
+leaf:rule("Vein(t)", {
+  when = function(this, t)
+    return t > 0
+  end,
+}, function(this, t: number)
+  return Part(vein.length, vein.rate), Vein(t - 1)
+end)
+leaf:rule("Part(length, rate)", function(this, length: number, rate: number)
+  return Part(length * rate, rate)
+end)
+leaf:rule("Notch(length, t)", {
+  when = function(this, length, t)
+    return t > 1
+  end,
+}, function(this, length: number, t: number)
+  return Notch(length * notch.rate, t - 1)
+end)
+local function draw(this, length: number)
+  this:advance(length * unit)
+end
+leaf:interpret("Part(length, rate)", draw)
+leaf:interpret("Notch(length, t)", draw)
+-- A small tip closes the last polygon.
+leaf:interpret("Apex(t, side)", function(this, t, side: number)
+  return Point(), { Turn(side * angle), G(unit), Point() }, { G(2 * unit), Point() }, EndPolygon()
 end)
 
 local derived = leaf:derive(steps)
--- A tooth of each step on both sides, along a midrib of the given length.
-expect(derived.counts.Tooth, 2 * 25)
+-- A polygon of each step on both sides, along a midrib of the given length.
+expect(derived.counts.EndPolygon, 2 * 25)
 expect(derived.objects[1]:position().z, 1, 1e-9)
 
 -- Picture: --azimuth 180 --elevation 0
