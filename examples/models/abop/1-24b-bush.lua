@@ -1,0 +1,21 @@
+--!strict
+-- A bush by edge rewriting, with a lateral branch in the middle of a segment and a fork at its end.
+-- Source: P. Prusinkiewicz and A. Lindenmayer, The Algorithmic Beauty of Plants, 1990, figure 1.24b.
+local steps = param("steps", { default = 5, min = 1, max = 6, step = 1, doc = "Steps of the derivation" })
+local angle = param("angle", { default = 20, min = 5, max = 90, unit = "deg", doc = "Of the branches" })
+local height = param("height", { default = 2, min = 0.1, max = 20, unit = "m", doc = "Height of the plant" })
+
+local pen =
+  turtle({ step = height / 3 ^ steps, angle = angle, width = height / 420, color = "#47742f", sides = 4 })
+local bush = lsystem({ object = pen, interpret = "last" })
+bush:axiom(F())
+bush:rule("F", function()
+  return F(), { Left(), F() }, F(), { Right(), F() }, { F() }
+end)
+
+local derived = bush:derive(steps)
+-- Five segments replace a segment; two of them are outside of brackets, which leave 2^5 segments on the axis.
+expect(derived.counts.F, 5 ^ 5)
+expect(derived.objects[1]:position().z, 2 * (2 / 3) ^ 5, 1e-9)
+
+-- Picture: --azimuth 180 --elevation 0

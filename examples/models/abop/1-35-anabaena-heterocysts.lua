@@ -1,0 +1,56 @@
+--!strict
+-- Anabaena with heterocysts: cells grow and divide. A compound that suppresses heterocysts diffuses from them and
+-- decays, and a short cell with little of it becomes a heterocyst, blue. There are eleven steps between rows.
+-- Source: P. Prusinkiewicz and A. Lindenmayer, The Algorithmic Beauty of Plants, 1990, figure 1.35.
+local rows = param("rows", { default = 14, min = 3, max = 15, step = 1, doc = "Rows of the picture" })
+local HIGH = 900 -- concentration in heterocysts
+local LOW = 0.4 -- concentration below which a cell differentiates
+local LENGTH = 3.9 -- length above which a cell does not differentiate
+
+-- State 0 is a heterocyst; the longer daughter is to the left in state 1, and to the right in state 2.
+local Cell, Gap = module("Cell", "length", "state", "level"), module("Gap")
+
+local function filament(row: number)
+  local pen = turtle({ position = { 0, 0, -row * 7 }, width = 3 })
+  local system = lsystem({ object = pen, interpret = "last" })
+  system:ignore("Gap")
+  system:axiom(Right(), Cell(0, 0, HIGH), Gap(), Cell(4, 1, HIGH), Gap(), Cell(0, 0, HIGH))
+  system:rule("Cell(a, i, before) < Cell(length, state, level) > Cell(b, j, after)", {
+    when = function(this, a, i, before, length, state)
+      return state > 0
+    end,
+  }, function(this, a, i, before: number, length: number, state: number, level: number, b, j, after: number)
+    if length >= 6 then
+      local long, short = Cell(length * 2 / 3, 3 - state, level), Cell(length / 3, state, level)
+      if state == 1 then
+        return long, Gap(), short
+      end
+      return short, Gap(), long
+    elseif length > LENGTH or level > LOW then
+      return Cell(length + 0.1, state, level + 0.25 * (before + after - 3 * level))
+    end
+    return Cell(0, 0, HIGH)
+  end)
+  system:interpret("Gap", function(this)
+    this:advance(0.5)
+  end)
+  system:interpret("Cell(length, state, level)", function(this, length: number, state, level: number)
+    if state == 0 then
+      this:color("#2f5fb0"):advance(2)
+      this:sphere(2)
+      this:advance(2)
+    else
+      this:color(mix("#d5e39a", "#3f7a3a", math.min(level / HIGH * 4, 1))):forward(length)
+    end
+  end)
+  return system:derive(row * 11).counts.Cell
+end
+
+local cells = {}
+for row = 0, rows - 1 do
+  table.insert(cells, filament(row))
+end
+-- A cell of 4 grows by 0.1 in a step, so it has its length of 6 after 20 steps, and has divided after 22.
+expect({ cells[1], cells[2], cells[3] }, { 3, 3, 4 })
+
+-- Picture: --azimuth 180 --elevation 0

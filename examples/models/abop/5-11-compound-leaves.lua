@@ -1,0 +1,49 @@
+--!strict
+-- Compound leaves: a lateral apex waits before it grows like the main one, and all internodes grow at a constant rate. A
+-- longer delay makes the leaf simpler.
+-- Source: P. Prusinkiewicz and A. Lindenmayer, The Algorithmic Beauty of Plants, 1990, figure 5.11.
+local height = param("height", { default = 2, min = 0.1, max = 10, unit = "m", doc = "Length of each leaf" })
+
+-- The book makes 10, 16 and 21 steps, with details too small to see here.
+local LEAVES = {
+  { delay = 0, rate = 2, steps = 7 },
+  { delay = 1, rate = 1.5, steps = 11 },
+  { delay = 2, rate = 1.36, steps = 15 },
+}
+
+local Apex = module("Apex", "delay")
+
+for k, leaf in LEAVES do
+  -- Two internodes are made in each step and grow in all later ones: 2 (1 + r + r^2 + ...).
+  local length = 2 * (leaf.rate ^ leaf.steps - 1) / (leaf.rate - 1)
+  local place = vec(k * height * 0.8, 0, 0)
+  local system = lsystem({
+    object = turtle({ angle = 45, width = height / 150, position = place, color = "#47742f", sides = 3 }),
+    interpret = "last",
+  })
+  system:axiom(Apex(0))
+  system:rule("Apex(d)", function(this, d)
+    if d > 0 then
+      return Apex(d - 1)
+    end
+    return F(1), { Left(), Apex(leaf.delay) }, { Right(), Apex(leaf.delay) }, F(1), Apex(0)
+  end)
+  system:rule("F(a)", function(this, a)
+    return F(a * leaf.rate)
+  end)
+  system:interpret("F(a)", function(this, a)
+    this:forward(a * height / length)
+  end)
+
+  local derived = system:derive(leaf.steps)
+  expect(derived.objects[1]:position():distance(place), 2, 1e-9)
+  -- Growing apices: a(n) = a(n - 1) + 2 a(n - 1 - delay). Each makes two internodes in the next step.
+  local active, branches = { [0] = 1 }, 1
+  for n = 1, leaf.steps - 1 do
+    active[n] = active[n - 1] + 2 * (active[n - 1 - leaf.delay] or 0)
+    branches += active[n]
+  end
+  expect(derived.counts.F, 2 * branches)
+end
+
+-- Picture: --azimuth 180 --elevation 0
