@@ -42,47 +42,53 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
       print(galaxy.kind, star.kind, star.planets)
     ");
     assert_snapshot!(api(&["system"]), @r#"
-        system
-          A system of rules, created by lsystem; T is the type of its object.
+    system
+      A system of rules, created by lsystem; T is the type of its object.
 
-        Methods
-          axiom(...Module) -> System<T>
-          axiom(modules: string) -> System<T>
-          axiom(source: Layer, chain: (feature: Feature) -> ...Module) -> System<T>
-              Sets the initial chain, as modules or as a string such as "F-F-F-F", or the function that
-              returns the chain of each feature of a source.
-          rule(pattern: string, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
-          rule(pattern: string, options: { ... }, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
-              Adds a rule: the successor of a module that matches the pattern. A string with the word return
-              is the body of a Lua function; others are modules such as "F[+F]F(x / 2)".
-              Its fields: burgeon api system:rule
-          decompose(pattern: string, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
-          decompose(pattern: string, options: { ... }, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
-              Adds a decomposition rule, which applies repeatedly after the axiom and after each step.
-              Its fields: burgeon api system:decompose
-          interpret(pattern: string, draw: (this: T, ...any) -> ...any) -> System<T>
-              Adds an interpretation: the function that draws a module.
-          ignore(...string) -> System<T>
-              Sets modules that context matching ignores.
-          consider(...string) -> System<T>
-              Sets the only modules that context matching considers.
-          derive(steps: number?) -> Derived
-              Applies the rules step by step; without a number of steps, until no rule applies.
+    Methods
+      axiom(...Module) -> System<T>
+      axiom(modules: string) -> System<T>
+      axiom(source: Layer, chain: (feature: Feature) -> ...Module) -> System<T>
+      axiom(derived: Derived) -> System<T>
+          Sets the initial chain, as modules or as a string such as "F-F-F-F", or the function that
+          returns the chain of each feature of a source. The chains of a derived system continue its
+          derivation with the rules of this system.
+      rule(pattern: string, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
+      rule(pattern: string, options: { ... }, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
+          Adds a rule: the successor of a module that matches the pattern. A string with the word return
+          is the body of a Lua function; others are modules such as "F[+F]F(x / 2)".
+          Its fields: burgeon api system:rule
+      decompose(pattern: string, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
+      decompose(pattern: string, options: { ... }, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
+          Adds a decomposition rule, which applies repeatedly after the axiom and after each step.
+          Its fields: burgeon api system:decompose
+      interpret(pattern: string, draw: (this: T, ...any) -> ...any) -> System<T>
+      interpret(pattern: string, options: { ... }, draw: (this: T, ...any) -> ...any) -> System<T>
+          Adds an interpretation: the function that draws a module. It calls methods of `this`, and may
+          return modules, which are interpreted in its place; the chain does not change. Interpretations
+          of one module are chosen as rules are: by contexts in the chain, guards and weights.
+          Its fields: burgeon api system:interpret
+      ignore(...string) -> System<T>
+          Sets modules that context matching ignores.
+      consider(...string) -> System<T>
+          Sets the only modules that context matching considers.
+      derive(steps: number?) -> Derived
+          Applies the rules step by step; without a number of steps, until no rule applies.
 
-        Example
-          -- All methods of a system, with context-sensitive rules.
-          local Signal, Wait = module("Signal"), module("Wait")
-          local row = lsystem({ object = turtle() })
-          row:axiom(Signal(), Turn(5), Wait(), Turn(5), Wait())
-          row:ignore("Turn")
-          row:rule("Signal < Wait", function()
-            return Signal()
-          end)
-          row:interpret("Signal", function(this)
-            this:forward(1)
-          end)
-          row:derive(2)
-        "#);
+    Example
+      -- All methods of a system, with context-sensitive rules.
+      local Signal, Wait = module("Signal"), module("Wait")
+      local row = lsystem({ object = turtle() })
+      row:axiom(Signal(), Turn(5), Wait(), Turn(5), Wait())
+      row:ignore("Turn")
+      row:rule("Signal < Wait", function()
+        return Signal()
+      end)
+      row:interpret("Signal", function(this)
+        this:forward(1)
+      end)
+      row:derive(2)
+    "#);
     assert_snapshot!(api(&["source"]), @r#"
     source(what: string | { any }, options: { ... }?) -> Layer
       Loads the features of a data file, or of a list; see `layer`.
@@ -142,7 +148,7 @@ fn a_field_or_a_method_is_told_by_itself() {
       parts:interpret("Part", function(this)
         for number, color in { "#8a9aa8", "orange", "#7fa650", "#b0568a" } do
           local toward = 90 * (number - 1)
-          this:color(color):jump({ 0, 0, 0 }):direction({ 0, 0, 1 }, { 1, 0, 0 }):scale(0.12)
+          this:color(color):jump({ 0, 0, 0 }):direction({ 0, 0, 1 }, { -1, 0, 0 }):scale(0.12)
           this:bend(0):extrude(1):bend(90, toward):extrude(1.6)
         end
       end)

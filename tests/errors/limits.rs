@@ -179,10 +179,10 @@ fn a_table_that_grows_is_stopped_at_the_memory_limit() {
 #[test]
 fn a_string_that_doubles_is_stopped_at_the_memory_limit() {
     assert_snapshot!(greedy("s:rule(\"A(x)\", function(this, x)\n  local t = \"a\"\n  while true do t = t .. t end\nend)"), @r#"
-    error: s.lua:5: rule A(x): the script exceeds the memory limit of 64 MB
+    error: s.lua:5: rule A(x): the run exceeds the memory limit of 64 MB
       | while true do t = t .. t end
       module: A(1), step 1
-      help: look for a growing table or string, or raise the limit: --memory-limit MEGABYTES
+      help: look for a growing table, string or report, or raise the limit: --memory-limit MEGABYTES
     "#);
 }
 

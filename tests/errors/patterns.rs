@@ -245,16 +245,11 @@ fn a_rule_is_declared_with_a_pattern_options_and_a_successor() {
 }
 
 #[test]
-fn an_interpretation_has_no_context_and_a_module_has_one() {
-    assert_snapshot!(refused_rules("s:interpret(\"B < A(x)\", function(this, x) end)"), @r#"
-    error: s.lua:3: rule B < A(x): an interpretation cannot have contexts
-      | s:interpret("B < A(x)", function(this, x) end)
-      help: only rules have contexts; pass the value in a parameter of the module
-    "#);
+fn a_module_has_one_interpretation_that_always_applies() {
     assert_snapshot!(refused_rules("s:interpret(\"A(x)\", function(this, x) end)\ns:interpret(\"A(y)\", function(this, y) end)"), @r#"
     error: s.lua:4: rule A(y): A(y) is already interpreted in line 3
       | s:interpret("A(y)", function(this, y) end)
-      help: a module can have only one interpretation; join the two functions
+      help: join the two functions, or declare an interpretation with contexts, a guard or a weight first
     "#);
     assert_snapshot!(refused_rules("s:interpret(\"A(x)\", 3)"), @r#"
     error: s.lua:3: rule A(x): an interpretation needs a function

@@ -313,20 +313,20 @@ fn what_never_ends_is_stopped_wherever_it_stands() {
 #[test]
 fn what_takes_all_memory_is_stopped_wherever_it_stands() {
     assert_snapshot!(stopped("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  state = { list = {} },\n  changes = { go = function(self, n)\n    while true do\n      table.insert(self.list, string.rep(\"x\", 1e6) .. #self.list)\n    end\n  end },\n}))\n", &["--memory-limit", "100"]), @r#"
-    error: s.lua:12: rule A (interpretation): the script exceeds the memory limit of 100 MB
+    error: s.lua:12: rule A (interpretation): the run exceeds the memory limit of 100 MB
       | table.insert(self.list, string.rep("x", 1e6) .. #self.list)
       module: A, step 0
-      help: look for a growing table or string, or raise the limit: --memory-limit MEGABYTES
+      help: look for a growing table, string or report, or raise the limit: --memory-limit MEGABYTES
     "#);
     assert_snapshot!(stopped("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  state = { list = {} },\n  begin = function(self)\n    while true do\n      table.insert(self.list, string.rep(\"x\", 1e6) .. #self.list)\n    end\n  end,\n  changes = { go = function(self, n) end },\n}))\n", &["--memory-limit", "100"]), @r#"
-    error: s.lua:12: rule lamp: begin: the script exceeds the memory limit of 100 MB
+    error: s.lua:12: rule lamp: begin: the run exceeds the memory limit of 100 MB
       | table.insert(self.list, string.rep("x", 1e6) .. #self.list)
-      help: look for a growing table or string, or raise the limit: --memory-limit MEGABYTES
+      help: look for a growing table, string or report, or raise the limit: --memory-limit MEGABYTES
     "#);
     assert_snapshot!(stopped("object(\"lamp\", { doc = string.rep(\"x\", 3e8) })", &["--memory-limit", "100"]), @r#"
-    error: s.lua:1: the script exceeds the memory limit of 100 MB
+    error: s.lua:1: the run exceeds the memory limit of 100 MB
       | object("lamp", { doc = string.rep("x", 3e8) })
-      help: look for a growing table or string, or raise the limit: --memory-limit MEGABYTES
+      help: look for a growing table, string or report, or raise the limit: --memory-limit MEGABYTES
     "#);
 }
 

@@ -9,7 +9,7 @@ use super::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use super::surface::plain_material;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Frame, Strand, face, sphere};
-use burgeon_kit::{AxisScale, Color, Drawing, Locate, Model, Place, Vector, fields, methods, object};
+use burgeon_kit::{AxisScale, Color, Drawing, Locate, Model, ObjectPlace, Vector, fields, methods, object};
 use burgeon_scene::Material;
 
 /// Fields of `turtle { ... }`.
@@ -331,9 +331,9 @@ impl Turtle {
 }
 
 impl Locate for Turtle {
-    fn place(&self) -> Place {
+    fn place(&self) -> ObjectPlace {
         let Frame { heading, left, up, .. } = self.state.frame;
-        Place { position: self.position(), heading, left, up }
+        ObjectPlace { position: self.position(), heading, left, up }
     }
 }
 

@@ -251,8 +251,9 @@ impl PatternReader<'_> {
             return Err(self.error(
                 &format!("{} has {}, not {bound}", signature.name, counted(signature.arity())),
                 &format!(
-                    "it was declared as {}; write all parameters, also optional ones, or no brackets",
-                    signature.usage()
+                    "it was declared as {}; write all parameters{} or no brackets",
+                    signature.usage(),
+                    if signature.required < signature.arity() { ", also the optional ones," } else { "" }
                 ),
             ));
         }

@@ -35,6 +35,8 @@ pub(crate) struct DerivationPlan {
     pub profiled: bool,
     /// Set for each symbol whose rules read where the object is; empty if there is none.
     pub located: Vec<bool>,
+    /// Set if rules read where the object is, but the script asks for the last pass only.
+    pub skips_passes: bool,
     /// Places of modules in the present chain, if a pass has noted them.
     pub(super) places: RwLock<Option<Arc<ModulePlaces>>>,
 }
@@ -156,6 +158,7 @@ impl Derivation {
             bounded: limit.is_some(),
             profiled: options.reports.profile,
             places: RwLock::default(),
+            skips_passes: system.last_only && !located.is_empty(),
             located,
         });
         let declared = system.prepare(machine)?;

@@ -55,6 +55,7 @@ impl<'a> SystemRewriter<'a> {
             bounded: true,
             profiled: false,
             located: Vec::new(),
+            skips_passes: false,
             places: RwLock::default(),
         });
         let declared = self.leader.machine.library.systems.borrow()[index].prepare(self.leader.machine)?;

@@ -42,6 +42,7 @@ pub(super) fn step(
     machine.refresh();
     machine.current.objects.replace(plan.objects.clone());
     machine.current.located.replace(plan.places());
+    machine.current.skips_passes.set(plan.skips_passes);
     let rules = LuaRules { machine, declared, bounded: plan.bounded };
     let helpers = MachineHelpers { leader, plan };
     stepper.step(&rules, &helpers, &machine.session.stop, chain, number)

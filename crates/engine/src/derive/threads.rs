@@ -274,6 +274,7 @@ fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<R
                 machine.enter(plan.system)?;
                 machine.current.objects.replace(plan.objects.clone());
                 machine.current.located.replace(plan.places());
+                machine.current.skips_passes.set(plan.skips_passes);
                 machine.refresh();
                 let rules = LuaRules { machine, declared, bounded: plan.bounded };
                 while work.work(&rules, &machine.session.stop, &mut scratch) {}

@@ -11,7 +11,7 @@ use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::random::Stream;
 use burgeon_base::warning::{Warning, take_deferred};
 use burgeon_kit::declare::{downcast_mut, downcast_ref};
-use burgeon_kit::{Call, Kind, Object, Registry, ScriptObject, Table, Value};
+use burgeon_kit::{Call, Kind, Object, ObjectPlace, Registry, ScriptObject, Table, Value};
 use burgeon_rewriting::{ModuleKey, ReturnShape, Successors, Symbol};
 
 /// Applies recorded method calls to objects during the interpretation of a batch.
@@ -65,6 +65,8 @@ pub(crate) struct WorkState {
     pub places: RefCell<Vec<u32>>,
     /// Places of the object at modules of the chain, if the last pass has noted them.
     pub located: RefCell<Option<Arc<ModulePlaces>>>,
+    /// Set if rules read places, but the script asks for the last pass only.
+    pub skips_passes: Cell<bool>,
     /// Number of random numbers that the weighted choice has already used.
     pub used: Cell<usize>,
     /// Maximum number of random numbers that one recent application has drawn.
@@ -94,6 +96,7 @@ impl WorkState {
             keys: RefCell::default(),
             places: RefCell::default(),
             located: RefCell::default(),
+            skips_passes: Cell::new(false),
             used: Cell::new(0),
             drawn: Cell::new(0),
             step: Cell::new(None),
@@ -216,11 +219,22 @@ impl WorkState {
     }
 
     /// Returns the answer of a read method at the module of an application, if it depends on the place and that is known.
-    fn answer_at(&self, application: usize, method: &str) -> Option<Value> {
+    /// Fails if no pass has noted the places because only the last chain is interpreted.
+    fn answer_at(&self, application: usize, method: &str) -> Result<Option<Value>> {
+        if self.flusher.borrow().is_some() {
+            return Ok(None);
+        }
+        if self.skips_passes.get() && ObjectPlace::METHODS.contains(&method) {
+            let message =
+                format!("{method} is unknown in a rule, because only the last chain is interpreted");
+            return Err(
+                Error::scope(message).help("omit interpret = \"last\", so that every chain is interpreted")
+            );
+        }
         let located = self.located.borrow();
-        let located = located.as_ref().filter(|_| self.flusher.borrow().is_none())?;
-        let module = *self.places.borrow().get(application)?;
-        located.get(module)?.answer(method)
+        let module = self.places.borrow().get(application).copied();
+        let place = located.as_ref().zip(module).and_then(|(located, module)| located.get(module));
+        Ok(place.and_then(|place| place.answer(method)))
     }
 
     /// Returns the index in the chain of an application, if queries of rules are recorded.
@@ -252,7 +266,8 @@ impl WorkState {
         };
         match &kind.methods.get(method).ok_or_else(missing)?.call {
             Call::Read(read) => {
-                if let (None, Some(answer)) = (slot, self.answer_at(application, &kind.methods[method].name))
+                if slot.is_none()
+                    && let Some(answer) = self.answer_at(application, &kind.methods[method].name)?
                 {
                     return Ok(answer);
                 }

@@ -220,8 +220,8 @@ impl Machine {
             Err(reason) if out_of_memory => translated.at(exhausted).because(&reason),
             Err(reason) => translated.because(&reason),
             Ok(()) if out_of_memory => translated.at(exhausted).because(
-                &Error::limit(Limit::Memory, format!("the script exceeds the memory limit of {limit} MB"))
-                    .help("look for a growing table or string, or raise the limit: --memory-limit MEGABYTES"),
+                &Error::limit(Limit::Memory, format!("the run exceeds the memory limit of {limit} MB"))
+                    .help("look for a growing table, string or report, or raise the limit: --memory-limit MEGABYTES"),
             ),
             Ok(()) => translated,
         }

@@ -6,7 +6,7 @@ use crate::{Parameter, Value, Vector};
 
 /// Position and axes of an object at a module of its chain.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub struct ObjectPlace {
     /// Position (m).
     pub position: DVec3,
     /// Direction of movement.
@@ -17,14 +17,17 @@ pub struct Place {
     pub up: DVec3,
 }
 
-impl Place {
+impl ObjectPlace {
+    /// Names of the read methods that it answers.
+    pub const METHODS: [&str; 4] = ["position", "heading", "left", "up"];
+
     /// Returns the result of a read method with this name at the place; `None` if the result does not depend on it.
     ///
     /// ```
-    /// use burgeon_kit::{Place, Value};
+    /// use burgeon_kit::{ObjectPlace, Value};
     /// use glam::DVec3;
     ///
-    /// let place = Place { position: DVec3::ZERO, heading: DVec3::Z, left: DVec3::Y, up: DVec3::X };
+    /// let place = ObjectPlace { position: DVec3::ZERO, heading: DVec3::Z, left: DVec3::Y, up: DVec3::X };
     /// assert!(matches!(place.answer("heading"), Some(Value::Table(_))));
     /// assert!(place.answer("triangles").is_none());
     /// ```
@@ -45,5 +48,5 @@ impl Place {
 /// The read methods `position`, `heading`, `left` and `up` of such a type return the parts of its place.
 pub trait Locate {
     /// Returns the current place.
-    fn place(&self) -> Place;
+    fn place(&self) -> ObjectPlace;
 }

@@ -9,7 +9,7 @@ use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{Frame, Rings, Section, Segment, SweepOptions, sweep};
-use burgeon_kit::{AxisScale, Color, Drawing, Locate, Model, Place, Vector, Warn, methods, object};
+use burgeon_kit::{AxisScale, Color, Drawing, Locate, Model, ObjectPlace, Vector, Warn, methods, object};
 use burgeon_spatial::Path;
 use glam::{DAffine3, DVec2, DVec3};
 use smallvec::{SmallVec, smallvec};
@@ -433,9 +433,9 @@ impl Extruder {
 }
 
 impl Locate for Extruder {
-    fn place(&self) -> Place {
+    fn place(&self) -> ObjectPlace {
         let Frame { heading, left, up, .. } = self.state.frame;
-        Place { position: self.position(), heading, left, up }
+        ObjectPlace { position: self.position(), heading, left, up }
     }
 }
 

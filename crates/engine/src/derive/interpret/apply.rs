@@ -11,7 +11,7 @@ use crate::machine::{CLOSE_CALL, Flusher, Machine, OPEN_CALL, Objects, read_colu
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_kit::{Call, Capability, Kind, Locate, Object, Place, Value, Values, Warn};
+use burgeon_kit::{Call, Capability, Kind, Locate, Object, ObjectPlace, Value, Values, Warn};
 use burgeon_rewriting::{CLOSE, END, Mark, OPEN, Symbol, module_brief};
 
 /// Progress of applying one piece of the chains.
@@ -58,7 +58,7 @@ pub(crate) struct Applier {
     waits: bool,
     locate: Option<Capability<dyn Locate>>,
     /// Places of the object at modules whose rules read them.
-    places: Vec<(u32, Place)>,
+    places: Vec<(u32, ObjectPlace)>,
 }
 
 /// Number of symbols between two checks for cancellation.
@@ -312,7 +312,7 @@ impl Applier {
     }
 
     /// Takes the noted places.
-    pub(crate) fn take_places(&mut self) -> Vec<(u32, Place)> {
+    pub(crate) fn take_places(&mut self) -> Vec<(u32, ObjectPlace)> {
         std::mem::take(&mut self.places)
     }
 

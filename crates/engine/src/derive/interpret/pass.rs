@@ -15,7 +15,7 @@ use crate::results::Use;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::Warning;
-use burgeon_kit::Place;
+use burgeon_kit::ObjectPlace;
 use burgeon_rewriting::{
     Bindings, CLOSE, Chain, ContextMatcher, END, Links, Mark, ModuleKey, OPEN, Symbol, module_brief,
 };
@@ -80,7 +80,7 @@ pub(crate) struct InterpretationPass {
     /// Neighbours in the chain, if an interpretation rule has contexts.
     links: Links,
     undrawn: Mutex<BTreeSet<Symbol>>,
-    places: Mutex<Vec<(u32, Place)>>,
+    places: Mutex<Vec<(u32, ObjectPlace)>>,
 }
 
 /// Result of an interpretation pass.
