@@ -49,7 +49,7 @@ fn an_interpretation_has_the_number_of_the_step_that_made_its_chain() {
             "local A, B = module('A'), module('B')
              local s = lsystem {{ object = extruder(){object} }}
              s:axiom(A())
-             s:rule('A', function(this) local at = this:position() return A(), B() end)
+             s:rule('A', function(this) local edges = this:open_edges() return A(), B() end)
              s:interpret('A', function(this) print(step()) this:extrude(1) end)
              {end}"
         )
