@@ -66,7 +66,8 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
       interpret(pattern: string, options: { ... }, draw: (this: T, ...any) -> ...any) -> System<T>
           Adds an interpretation: the function that draws a module. It calls methods of `this`, and may
           return modules, which are interpreted in its place; the chain does not change. Interpretations
-          of one module are chosen as rules are: by contexts in the chain, guards and weights.
+          of one module are chosen as rules are: by contexts in the chain, and with the options of a
+          rule before the function, by guards and weights.
           Its fields: burgeon api system:interpret
       ignore(...string) -> System<T>
           Sets modules that context matching ignores.

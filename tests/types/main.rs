@@ -223,12 +223,12 @@ extend(extruder, {
   reads = { high = function(self) return self:position().z end },
   changes = { up = function(self, n) self:extrude(n) end },
 })
-local A = module("A")
+local A, Top = module("A"), module("Top")
 local s = lsystem({ object = extruder() })
-s:axiom(A())
-s:rule("A", function(this)
+s:axiom(A(), Top())
+s:rule("Top", function(this)
   if this:high() < 5 then
-    return A(), A()
+    return A(), Top()
   end
 end)
 s:interpret("A", function(this)
@@ -237,7 +237,7 @@ end)
 local derived = s:derive(9)
 print(derived.modules, derived.objects[1]:high())
 "#;
-    assert_eq!(printed(text, 1), ["4\t8"]);
+    assert_eq!(printed(text, 1), ["4\t6"]);
 }
 
 #[test]

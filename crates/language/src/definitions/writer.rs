@@ -112,7 +112,10 @@ impl Writer {
         let _ = writeln!(out, "export type {} = {{", name.luau);
         for function in &name.functions {
             self.doc(out, &format!("globaltype/{own}.{}", function.name), &function.doc, "  ");
-            let form = merge(&function.forms);
+            // The type of a function that may also be a table hides the types of its parameters from the checker, and
+            // interpretations seldom have options.
+            let is_drawn = function.name == "interpret";
+            let form = merge(if is_drawn { &function.forms[..1] } else { &function.forms });
             let mut arguments = vec![format!("self: {}", name.luau)];
             arguments.extend(form.arguments.iter().map(|argument| match &*argument.name {
                 "..." => format!("...{}", argument.luau),

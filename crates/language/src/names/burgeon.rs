@@ -320,7 +320,7 @@ pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
             "interpret",
             "Adds an interpretation: the function that draws a module. It calls methods of `this`, and may return modules, which \
              are interpreted in its place; the chain does not change. Interpretations of one module are chosen as rules are: by \
-             contexts in the chain, guards and weights.",
+             contexts in the chain, and with the options of a rule before the function, by guards and weights.",
         )
         .form([pattern(), draw()], "System<T>")
         .form([pattern(), options("{ ... }", RULE.fields.clone()), draw()], "System<T>"),
@@ -341,7 +341,7 @@ pub static RULE: LazyLock<Name> = LazyLock::new(|| {
     Name::return_value(
         "rule",
         "{ ... }",
-        "Options of system:rule, system:decompose and system:interpret, between pattern and function.",
+        "Options of system:rule and system:decompose, between pattern and successor, and of system:interpret.",
     )
     .fields([
         field(
