@@ -1,5 +1,7 @@
 //! Interpretation passes: law 6 of the design, and values that rules read from objects.
 
+use burgeon::script::Print;
+
 use super::scripts::{chain, divided, error, lines, run, run_with};
 
 const HEAD: &str = r#"
@@ -347,4 +349,28 @@ fn an_extruder_has_a_place_too() {
         s:derive(1)",
     );
     assert_eq!(text, "Say(0) Box(2) Say(2) Box(3) Say(5)");
+}
+
+#[test]
+fn a_decomposition_that_reads_an_object_without_a_place_adds_no_pass() {
+    let passes = |guard: &str| {
+        let script = format!(
+            "local House, Walls = module('House'), module('Walls', 'height')
+            local houses = lsystem {{ object = footprint }}
+            houses:axiom(source {{ {{ geometry = polygon({{ 0, 0 }}, {{ 8, 0 }}, {{ 8, 6 }}, {{ 0, 6 }}) }} }}, function(feature)
+                return footprint(feature.geometry), House(), Walls(1)
+            end)
+            houses:decompose('House', {{ when = function(this) return {guard} end }}, function() return Walls(3) end)
+            houses:interpret('Walls(height)', function(this, height) print(height) this:walls {{ height = height }} end)
+            houses:derive(0)"
+        );
+        let (sender, lines) = std::sync::mpsc::channel();
+        let mut options = burgeon::options();
+        options.reports.print =
+            Some(Print::new(move |line| sender.send(line.to_owned()).expect("a receiver")));
+        run_with(&script, options);
+        lines.try_iter().collect::<Vec<String>>()
+    };
+    assert_eq!(passes("true"), ["3", "1"]);
+    assert_eq!(passes("this:area() > 1"), ["3", "1"]);
 }

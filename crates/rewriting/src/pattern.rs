@@ -1,7 +1,7 @@
 //! Patterns such as `A B < S(x) > C [D] E`, and their parser.
 
 use super::chain::{DEEPEST, Symbol};
-use super::symbols::{NameScope, Symbols, counted};
+use super::symbols::{NameScope, Symbols, count_text};
 use burgeon_base::error::{Error, Result};
 
 /// Maximum number of characters of a pattern that an error shows before its position, and after it.
@@ -249,7 +249,7 @@ impl PatternReader<'_> {
         if bound != signature.arity() {
             self.at = begin;
             return Err(self.error(
-                &format!("{} has {}, not {bound}", signature.name, counted(signature.arity())),
+                &format!("{} has {}, not {bound}", signature.name, count_text(signature.arity())),
                 &format!(
                     "it was declared as {}; write all parameters{} or no brackets",
                     signature.usage(),

@@ -112,13 +112,13 @@ impl Signature {
     pub fn count(&self) -> String {
         match (self.required, self.arity()) {
             (least, most) if least < most => format!("{least} to {most} parameters"),
-            (_, arity) => counted(arity),
+            (_, arity) => count_text(arity),
         }
     }
 }
 
 /// Formats a number of parameters.
-pub(crate) fn counted(count: usize) -> String {
+pub(crate) fn count_text(count: usize) -> String {
     match count {
         0 => "no parameters".to_owned(),
         1 => "1 parameter".to_owned(),

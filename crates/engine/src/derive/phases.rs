@@ -14,10 +14,10 @@ use super::rewriter::SystemRewriter;
 use super::step::step;
 use super::threads::LeadingMachine;
 use crate::declare::TraceRequest;
-use crate::machine::Driver as _;
+use crate::machine::{Driver as _, stops_at_depth};
 use crate::results::{RowFeatures, RuleName, RuleReport, Step, Times};
 use burgeon_base::error::Result;
-use burgeon_base::warning::{Warning, WarningKind};
+use burgeon_base::warning::Warning;
 use burgeon_rewriting::{
     Chain, Phase, PhaseOutcome, Phases, StepOutcome, Stepper, Symbol, Use, module_brief,
 };
@@ -222,7 +222,8 @@ impl Phase<DerivationState<'_>> for Decompose {
                 warn_of_depth(state, rules, &chain, number)?;
                 break;
             }
-            if rules.asks && plan.objects.is_some() {
+            // A pass costs as much as drawing, so it runs only to find places.
+            if rules.asks && !plan.located.is_empty() && !plan.skips_passes {
                 Interpret.run(state, Arc::clone(&chain), number)?;
             }
             let mut outcome = step(state.leader, plan, &mut decomposer, declared, &chain, number)?;
@@ -265,12 +266,9 @@ fn warn_of_depth(
         (*other == symbol)
             .then(|| module_brief(grammar.symbols(), &session.values, symbol, &chain.params[begin..param]))
     });
-    let text =
-        format!("decomposition stopped at the maximum depth {}, but the rule still applies", rules.max_depth);
-    let warning = Warning::new(WarningKind::Depth, text)
+    let warning = stops_at_depth("decomposition", rules.max_depth, "still applies")
         .at(rule.place.clone())
-        .rule(&rule.pattern.text)
-        .help("end it with a guard or a counter, or raise the limit: lsystem({ max_depth = 1000 })");
+        .rule(&rule.pattern.text);
     session.warn(match module {
         Some(module) => warning.module(module, number),
         None => warning,

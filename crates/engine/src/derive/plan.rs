@@ -128,7 +128,7 @@ impl Derivation {
         let forgiving = (axiom.given > 1 || is_part) && !options.strict;
         let objects = (!objects.is_empty()).then(|| Arc::new(Objects::new(objects, forgiving)));
         let limit = [steps, options.steps].into_iter().flatten().min();
-        let located = system.located(grammar.arities().len());
+        let located = system.located_symbols(grammar.arities().len());
         let step_plan = |grammar| {
             Arc::new(StepPlan {
                 grammar,

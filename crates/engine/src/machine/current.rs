@@ -34,10 +34,10 @@ pub(crate) trait Flusher: std::any::Any {
     fn context(&self, entry: usize, rule: u16) -> Option<Vec<f64>>;
 
     /// Records that an interpretation rule has returned a module that nothing draws.
-    fn undrawn(&self, symbol: Symbol);
+    fn note_undrawn(&self, symbol: Symbol);
 
     /// Records that `entry` has returned a `module`, given as text, to which `rule` does not apply any more.
-    fn too_deep(&mut self, entry: usize, rule: u16, module: &str, max_depth: usize);
+    fn note_depth(&mut self, entry: usize, rule: u16, module: &str, max_depth: usize);
 }
 
 /// Step for which rules or interpretation rules run.

@@ -222,7 +222,7 @@ fn add_returned_modules(
         "undrawn",
         lua.create_function(move |_, symbol: u16| {
             if let Some(flusher) = state.flusher.borrow().as_ref() {
-                flusher.undrawn(symbol);
+                flusher.note_undrawn(symbol);
             }
             Ok(())
         })?,
@@ -237,7 +237,7 @@ fn add_returned_modules(
                     params.iter().map(pack).collect::<Result<_>>().map_err(mlua::Error::external)?;
                 let module = module_brief(&owner.symbols.borrow(), &*state.session.values, symbol, &params);
                 if let Some(flusher) = state.flusher.borrow_mut().as_mut() {
-                    flusher.too_deep(entry, rule, &module, depth);
+                    flusher.note_depth(entry, rule, &module, depth);
                 }
                 Ok(())
             },

@@ -8,7 +8,7 @@ use std::sync::{Arc, LazyLock};
 use mlua::{Function, Lua, Table, Value as LuaValue, Variadic};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::system::{EagerMark, SystemDeclaration, install_lazy, undeclared};
+use super::system::{EagerMark, SystemDeclaration, install_lazy, undeclared_letters};
 use super::table_classes::declare_class;
 use super::types::{Extension, ScriptTypeEntry, install_functions, install_kind};
 use super::{Machine, compile, native};
@@ -365,7 +365,7 @@ impl Library {
             "__letters",
             lua.create_function(move |lua, (patterns, strings): (Vec<String>, Vec<String>)| {
                 let scope = library.scope_at(lua);
-                let letters = undeclared(&patterns, &strings, &library.symbols.borrow(), &scope);
+                let letters = undeclared_letters(&patterns, &strings, &library.symbols.borrow(), &scope);
                 let lists = letters.map_err(mlua::Error::external)?.into_iter().map(|letter| {
                     let required = letter.required;
                     let parameters = letter.parameters.into_iter().enumerate();

@@ -34,7 +34,7 @@ pub(crate) use driver::Driver;
 pub(crate) use module_places::ModulePlaces;
 pub(crate) use native::native;
 pub(crate) use prelude::{CLOSE_CALL, OPEN_CALL};
-pub(crate) use system::{Axiom, Interpretations, RulePhase, SystemFunctions, returns_value};
+pub(crate) use system::{Axiom, Interpretations, RulePhase, SystemFunctions, returns_value, stops_at_depth};
 pub(crate) use types::Objects;
 pub use virtual_machine::Machine;
 pub(crate) use virtual_machine::{compile, read_column, write_column};

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 
 use burgeon_kit::{Construct, Expand, Kind, Method, Registry, Show};
 
+use crate::CallForm;
 use crate::names::{Name, Operator};
 use crate::notation::{capital, key, merge, module_form, with_parameters};
 use crate::script_types::{members, plain_name};
@@ -112,10 +113,12 @@ impl Writer {
         let _ = writeln!(out, "export type {} = {{", name.luau);
         for function in &name.functions {
             self.doc(out, &format!("globaltype/{own}.{}", function.name), &function.doc, "  ");
-            // The type of a function that may also be a table hides the types of its parameters from the checker, and
-            // interpretations seldom have options.
-            let is_drawn = function.name == "interpret";
-            let form = merge(if is_drawn { &function.forms[..1] } else { &function.forms });
+            // A type that is a function or a table hides the types of the function's parameters from the checker, so the
+            // form with options is not declared.
+            let takes_function =
+                |form: &CallForm| form.arguments.iter().any(|it| it.luau.starts_with("(this:"));
+            let is_hidden = function.forms.first().is_some_and(takes_function);
+            let form = merge(if is_hidden { &function.forms[..1] } else { &function.forms });
             let mut arguments = vec![format!("self: {}", name.luau)];
             arguments.extend(form.arguments.iter().map(|argument| match &*argument.name {
                 "..." => format!("...{}", argument.luau),

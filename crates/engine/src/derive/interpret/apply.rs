@@ -7,10 +7,12 @@ use mlua::Buffer;
 
 use super::InterpretationPass;
 use super::notices::ObjectNotice;
-use crate::machine::{CLOSE_CALL, Flusher, Machine, OPEN_CALL, Objects, read_column, returns_value};
+use crate::machine::{
+    CLOSE_CALL, Flusher, Machine, OPEN_CALL, Objects, read_column, returns_value, stops_at_depth,
+};
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
-use burgeon_base::warning::{Warning, WarningKind};
+use burgeon_base::warning::Warning;
 use burgeon_kit::{Call, Capability, Kind, Locate, Object, ObjectPlace, Value, Values, Warn};
 use burgeon_rewriting::{CLOSE, END, Mark, OPEN, Symbol, module_brief};
 
@@ -468,17 +470,13 @@ impl Flusher for Applier {
         self.pass.context(rule, module)
     }
 
-    fn undrawn(&self, symbol: Symbol) {
+    fn note_undrawn(&self, symbol: Symbol) {
         self.pass.note_undrawn(symbol);
     }
 
-    fn too_deep(&mut self, entry: usize, rule: u16, module: &str, max_depth: usize) {
+    fn note_depth(&mut self, entry: usize, rule: u16, module: &str, max_depth: usize) {
         let Some(at) = self.entries.get(entry).copied() else { return };
-        let text = format!(
-            "interpretation stopped at the maximum depth {max_depth}, but the rule returns more modules"
-        );
-        let mut warning = Warning::new(WarningKind::Depth, text)
-            .help("end it with a guard or a counter, or raise the limit: lsystem({ max_depth = 1000 })")
+        let mut warning = stops_at_depth("interpretation", max_depth, "returns more modules")
             .module(module, self.pass.step);
         if let Some(known) = self.pass.plan.interpretations.list.get(usize::from(rule)) {
             warning = warning.at(known.place.clone()).rule(format!("{} (interpretation)", known.name));

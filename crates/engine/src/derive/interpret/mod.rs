@@ -5,6 +5,7 @@
 //! from the object.
 
 mod apply;
+mod blame;
 mod notices;
 mod pass;
 

@@ -96,7 +96,7 @@ impl SystemDeclaration {
                 axiom.features.push(None);
             }
             Some(DeclaredAxiom::Derived(derived)) => {
-                self.continued(machine, derived, key, random, &mut axiom)
+                self.continue_chains(machine, derived, key, random, &mut axiom)
             }
             Some(DeclaredAxiom::Source(source, function)) => {
                 let made = self.features(machine, source, function, key, random, &mut axiom);
@@ -112,7 +112,7 @@ impl SystemDeclaration {
     }
 
     /// Makes the initial chains of the chains of a derived system, with their features and copies of their objects.
-    fn continued(
+    fn continue_chains(
         &self,
         machine: &Machine,
         derived: &DerivedSystem,

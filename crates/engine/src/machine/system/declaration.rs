@@ -135,7 +135,7 @@ impl SystemDeclaration {
 
     /// Returns for each of `symbols` symbols whether its rules may read where the object is; empty if none does, or if the
     /// object has no place.
-    pub(crate) fn located(&self, symbols: usize) -> Vec<bool> {
+    pub(crate) fn located_symbols(&self, symbols: usize) -> Vec<bool> {
         let moves = |object: &Arc<dyn Object>| object.kind().has_capability::<dyn Locate>();
         if !self.object.as_ref().is_some_and(moves) || !self.rules.iter().any(|declared| declared.asks) {
             return Vec::new();
@@ -153,7 +153,7 @@ impl SystemDeclaration {
     }
 
     /// Returns the symbols that contexts skip.
-    pub(super) fn skipped(&self, symbols: &Symbols) -> Vec<Symbol> {
+    pub(super) fn skipped_symbols(&self, symbols: &Symbols) -> Vec<Symbol> {
         match &self.considered {
             Some(considered) => (FIRST_SYMBOL..)
                 .take(symbols.names().count())
@@ -166,7 +166,7 @@ impl SystemDeclaration {
     /// Returns the rules of a phase in the form that machines share. The numbers of rules are those of all phases.
     pub(crate) fn grammar(&self, library: &Library, random: bool, phase: RulePhase) -> Grammar {
         let symbols = Arc::new(library.symbols.borrow().clone());
-        let ignored = self.skipped(&symbols);
+        let ignored = self.skipped_symbols(&symbols);
         // Weights of interpretation rules draw from the keys of modules, too.
         let random = random || self.interpretations.iter().any(|known| known.rule.weight.is_some());
         let rules = self.rules.iter().map(|declared| declared.rule.clone()).collect();

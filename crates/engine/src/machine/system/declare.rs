@@ -201,6 +201,13 @@ fn returns_branch() -> Warning {
         .help("return the modules of a list: return sequence(list); for a branch, write return { sequence(list) }")
 }
 
+/// Returns the warning for a phase that stops at its maximum depth, although its rule goes on as `rest` says.
+pub(crate) fn stops_at_depth(phase: &str, max_depth: usize, rest: &str) -> Warning {
+    let text = format!("{phase} stopped at the maximum depth {max_depth}, but the rule {rest}");
+    Warning::new(WarningKind::Depth, text)
+        .help("end it with a guard or a counter, or raise the limit: lsystem({ max_depth = 1000 })")
+}
+
 /// Returns the warning for an interpretation that returns a `value`, given as text, other than a module.
 pub(crate) fn returns_value(value: &str) -> Warning {
     let text = format!("{value} returned by an interpretation is ignored");

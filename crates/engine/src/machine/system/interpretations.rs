@@ -89,7 +89,7 @@ impl SystemDeclaration {
         let rules = || self.interpretations.iter().map(|known| &known.rule);
         if rules().any(|rule| !rule.contexts().is_empty()) {
             let symbols = Arc::new(library.symbols.borrow().clone());
-            let ignored = self.skipped(&symbols);
+            let ignored = self.skipped_symbols(&symbols);
             found.grammar =
                 Some(Arc::new(Grammar::new(symbols, rules().cloned().collect(), &ignored, false)));
         }

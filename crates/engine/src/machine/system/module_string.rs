@@ -65,9 +65,14 @@ enum StringItem<'a> {
 
 /// Returns true if a successor is the body of a Lua function: if it contains the word `return`.
 pub(super) fn is_lua(text: &str) -> bool {
+    mentions(text, "return")
+}
+
+/// Returns true if `text` contains `name` as a whole word.
+pub(super) fn mentions(text: &str, name: &str) -> bool {
     let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    let mut found = text.match_indices("return");
-    found.any(|(at, word)| !text[..at].ends_with(is_word) && !text[at + word.len()..].starts_with(is_word))
+    text.match_indices(name)
+        .any(|(at, _)| !text[..at].ends_with(is_word) && !text[at + name.len()..].starts_with(is_word))
 }
 
 /// Returns the body of a Lua function that returns the modules of a string. `formals` are the names of its parameters, or
@@ -102,7 +107,7 @@ pub(super) fn lua_body(
             }
             StringItem::Close => {
                 depth = depth.checked_sub(1).ok_or_else(|| {
-                    Error::syntax(format!("read as {}: a ] closes no branch", shown(&items)))
+                    Error::syntax(format!("read as {}: a ] closes no branch", split_text(&items)))
                         .help("remove it, or open the branch with [")
                         .at(place.clone())
                 })?;
@@ -115,7 +120,7 @@ pub(super) fn lua_body(
         }
     }
     if depth > 0 {
-        let error = Error::syntax(format!("read as {}: a branch is not closed", shown(&items)));
+        let error = Error::syntax(format!("read as {}: a branch is not closed", split_text(&items)));
         return Err(error.help("close it with ]"));
     }
     let list = lua.trim_end_matches([',', ' ', '\n']);
@@ -135,7 +140,7 @@ fn mistake(
 ) -> Option<Error> {
     match item {
         StringItem::Module { name, .. } if formals.is_some_and(|formals| formals.contains(name)) => {
-            let error = Error::argument(format!("read as {}: {name} is also a parameter", shown(items)));
+            let error = Error::argument(format!("read as {}: {name} is also a parameter", split_text(items)));
             Some(error.help("give the parameter of the pattern another name"))
         }
         StringItem::Module { text, name, arguments: None } => {
@@ -144,7 +149,7 @@ fn mistake(
                 let example = format!("{text}({})", signature.parameters[..signature.required].join(", "));
                 Error::argument(format!(
                     "read as {}: {text} has no arguments, but it was declared as {}",
-                    shown(items),
+                    split_text(items),
                     signature.usage()
                 ))
                 .help(format!("write its arguments in brackets, such as {example}"))
@@ -152,7 +157,7 @@ fn mistake(
         }
         StringItem::Unknown { text, .. } | StringItem::Separator(text) => {
             let other = formals.map_or("", |_| ", or write the successor as a body of Lua with return");
-            Some(unknown(text, &shown(items), other))
+            Some(unknown_item(text, &split_text(items), other))
         }
         _ => None,
     }
@@ -172,7 +177,7 @@ pub(super) fn pattern_names(text: &str, symbols: &Symbols, scope: &NameScope) ->
             StringItem::Module { name, arguments: Some(arguments), .. } => {
                 names.push_str(&format!("{name}({arguments}) "));
             }
-            StringItem::Unknown { text, .. } => return Err(unknown(text, &shown(&items), "")),
+            StringItem::Unknown { text, .. } => return Err(unknown_item(text, &split_text(&items), "")),
         }
     }
     Ok(names.trim_end().to_owned())
@@ -181,10 +186,10 @@ pub(super) fn pattern_names(text: &str, symbols: &Symbols, scope: &NameScope) ->
 /// Returns the names of the modules in a string such as `+-F`.
 pub(super) fn string_names(text: &str, symbols: &Symbols, scope: &NameScope) -> Result<Vec<String>> {
     let items = StringReader { text, at: 0, symbols, scope }.items()?;
-    let split = shown(&items);
+    let split = split_text(&items);
     let names = items.into_iter().map(|item| match item {
         StringItem::Module { name, arguments: None, .. } => Ok(name),
-        StringItem::Unknown { text, .. } => Err(unknown(text, &split, "")),
+        StringItem::Unknown { text, .. } => Err(unknown_item(text, &split, "")),
         _ => Err(Error::argument(format!("read as {split}: only modules without brackets can be listed"))
             .help("write their names or symbols, such as \"+-F\"")),
     });
@@ -201,7 +206,7 @@ pub(super) fn has_symbols(text: &str) -> bool {
 /// Returns the signatures of the letters and digits in patterns and strings that are no modules, in the order in which
 /// they occur. The parameters have the names of the first pattern that names all of them. Those that a string omits are
 /// optional.
-pub(crate) fn undeclared(
+pub(crate) fn undeclared_letters(
     patterns: &[String],
     strings: &[String],
     symbols: &Symbols,
@@ -300,7 +305,7 @@ fn end_of_expression(text: &str, is_end: impl Fn(char) -> bool) -> Option<usize>
 }
 
 /// Formats a string as it was split.
-fn shown(items: &[StringItem]) -> String {
+fn split_text(items: &[StringItem]) -> String {
     let texts = items.iter().filter_map(|item| match item {
         StringItem::Open => Some("[".to_owned()),
         StringItem::Close => Some("]".to_owned()),
@@ -314,7 +319,7 @@ fn shown(items: &[StringItem]) -> String {
 }
 
 /// Returns the error for a character of a string that is no module, with another remedy for letters.
-fn unknown(text: &str, split: &str, other: &str) -> Error {
+fn unknown_item(text: &str, split: &str, other: &str) -> Error {
     let error = Error::script(format!("read as {split}: {text} is no module"));
     match letter_name(text) {
         Some(name) => error.help(format!("declare it: local {name} = module(\"{name}\"){other}")),

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use mlua::{Function, Lua, MultiValue, Value as LuaValue};
 
 use super::declare::check_open;
-use super::module_string::{has_symbols, is_lua, lua_body, pattern_names, string_names};
+use super::module_string::{has_symbols, is_lua, lua_body, mentions, pattern_names, string_names};
 use crate::declare::bytecode::compile;
 use crate::machine::Machine;
 use crate::machine::library::Library;
@@ -148,11 +148,4 @@ fn declarations(body: &str, symbols: &Symbols, scope: &NameScope) -> Result<Stri
         text.push_str(&format!("local {name} = module(\"{owner}{name}\"{parameters}) "));
     }
     Ok(text)
-}
-
-/// Returns true if `text` contains `name` as a whole word.
-fn mentions(text: &str, name: &str) -> bool {
-    let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    text.match_indices(name)
-        .any(|(at, _)| !text[..at].ends_with(is_word) && !text[at + name.len()..].starts_with(is_word))
 }
