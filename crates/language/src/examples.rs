@@ -58,8 +58,11 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "sequence" shows "sequence";
     "source" shows "source";
     "step" shows "step";
+    "stop" shows "stop" "system:after_step" "now";
     "stream" shows "stream";
     "system" shows "system" "system:axiom" "system:ignore" "system:interpret" "system:derive";
+    "use_group" shows "use_group" "system:before_step";
+    "variables" shows "variables" "system:at_start" "system:at_end";
     "vec" shows "vec";
     "vector" shows "vector" "vector:dot" "vector:cross" "vector:length" "vector:unit" "vector:distance"
         "vector:lerp";

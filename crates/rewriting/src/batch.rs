@@ -6,6 +6,7 @@ use crate::chain::{Chain, Mark};
 use crate::key::ModuleKey;
 use crate::links::Links;
 use crate::matching::{Bindings, ContextMatcher};
+use crate::ordinals::Ordinals;
 use crate::output::Output;
 use crate::plan::StepPlan;
 use crate::rules::{Applications, RuleFailure, Rules};
@@ -36,6 +37,7 @@ pub struct Scratch {
     keys: Vec<ModuleKey>,
     places: Vec<u32>,
     pub(crate) arranged: ModuleOrder,
+    pub(crate) ordinals: Ordinals,
 }
 
 /// Module that has rules.

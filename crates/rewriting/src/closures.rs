@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::chain::{CLOSE, Chain, DEEPEST, END, OPEN, Symbol};
 use crate::grammar::{Grammar, MOST_RULES, Rule};
 use crate::key::{KeyPart, ModuleKey};
+use crate::ordinals::Ordinals;
 use crate::pattern::Pattern;
 use crate::phases::{Phase, PhaseOutcome, Phases, derive};
 use crate::plan::StepPlan;
@@ -259,12 +260,9 @@ impl ClosureSystem {
         }
         made.symbols.push(END);
         let seed = ModuleKey::seed(self.seed);
-        let mut ordinal = 0;
+        let mut ordinals = Ordinals::default();
         let keys = made.symbols.iter().map(|symbol| match *symbol > END {
-            true => {
-                ordinal += 1;
-                seed.child(ordinal - 1)
-            }
+            true => seed.successor(self.symbols.name_hash(*symbol), ordinals.next(*symbol)),
             false => ModuleKey::default(),
         });
         Ok(Chain { keys: keys.collect(), symbols: made.symbols, params: made.params, marks: Vec::new() })
@@ -310,7 +308,11 @@ impl Phase<Stepper> for RewritePhase<'_> {
     fn run(&self, stepper: &mut Stepper, chain: Arc<Chain>, step: usize) -> Result<PhaseOutcome> {
         let outcome = stepper.step(self.0, &NoHelpers, &Stop::new(), &chain, step)?;
         stepper.reuse(chain);
-        Ok(PhaseOutcome { chain: Arc::new(outcome.chain), settled: !outcome.ran && !outcome.reads_step })
+        Ok(PhaseOutcome {
+            settled: !outcome.ran && !outcome.reads_step,
+            is_last: outcome.is_last,
+            chain: Arc::new(outcome.chain),
+        })
     }
 }
 

@@ -82,6 +82,7 @@ pub struct Grammar {
     choices: Vec<Choice>,
     skipped: Vec<bool>,
     arities: Vec<u8>,
+    name_hashes: Vec<u64>,
     left: bool,
     right: bool,
     random: bool,
@@ -103,13 +104,14 @@ impl Grammar {
         let rights = rules.iter().map(|rule| branches.number(&rule.pattern.right)).collect();
         let random = random || rules.iter().any(|rule| rule.weight.is_some());
         let grammar = Self {
-            symbols,
             rules,
             by_symbol: Vec::new(),
             rights,
             branches,
             choices: Vec::new(),
             skipped,
+            name_hashes: arities.iter().zip(0..).map(|(_, symbol)| symbols.name_hash(symbol)).collect(),
+            symbols,
             arities,
             left: false,
             right: false,
@@ -196,6 +198,12 @@ impl Grammar {
     #[inline]
     pub fn arities(&self) -> &[u8] {
         &self.arities
+    }
+
+    /// Returns the hashes of the names of modules by symbol, including brackets.
+    #[inline]
+    pub fn name_hashes(&self) -> &[u64] {
+        &self.name_hashes
     }
 
     /// Returns true if modules need random keys.

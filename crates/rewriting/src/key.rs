@@ -4,8 +4,9 @@ use burgeon_base::random::Stream;
 
 /// Hash of the seed and a module's lineage.
 ///
-/// A child's key depends on its parent's key and its index among the successors. A module therefore keeps its random
-/// numbers when other parts of the chain change.
+/// The key of a module depends on the key of the module that was rewritten, on its own name, and on its ordinal among the
+/// modules with this name in the successor. A module therefore keeps its random numbers when other parts of the chain
+/// change, and when modules with other names are added to the successor.
 ///
 /// ```
 /// use burgeon_rewriting::ModuleKey;
@@ -28,10 +29,18 @@ impl ModuleKey {
     /// Returns the key of the chain for the feature with this id.
     #[must_use]
     pub fn feature(self, id: &str) -> Self {
-        id.bytes().fold(Self(mix(self.0 ^ 0xFEA7)), |key, byte| Self(mix(key.0 ^ u64::from(byte))))
+        Self(id.bytes().fold(mix(self.0 ^ 0xFEA7), |key, byte| mix(key ^ u64::from(byte))))
     }
 
-    /// Returns the key of the successor's module number `ordinal`, from 0.
+    /// Returns the key of a successor's module: number `ordinal`, from 0, among the modules with the same name. `name` is
+    /// the hash of the name (see [`Symbols::name_hash`](crate::Symbols::name_hash)).
+    #[must_use]
+    #[inline]
+    pub fn successor(self, name: u64, ordinal: usize) -> Self {
+        Self(self.0.wrapping_add(name)).child(ordinal)
+    }
+
+    /// Returns the key of part number `ordinal`, from 0, of a module or an object.
     #[must_use]
     #[inline]
     pub fn child(self, ordinal: usize) -> Self {
@@ -93,6 +102,12 @@ pub enum KeyPart<'a> {
 
 const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
+/// Returns the hash of the name of a module, which may belong to a package.
+pub(crate) fn name_hash(package: Option<&str>, name: &str) -> u64 {
+    let bytes = package.unwrap_or_default().bytes().chain([0]).chain(name.bytes());
+    bytes.fold(mix(0x4E4D), |hash, byte| mix(hash ^ u64::from(byte)))
+}
+
 /// Mixes bits with the finaliser of `SplitMix64` (Steele, Lea and Flood, "Fast splittable pseudorandom number
 /// generators", 2014).
 #[inline]
@@ -119,6 +134,9 @@ mod tests {
             ModuleKey::seed(2),
             root.child(0),
             root.child(1),
+            root.successor(7, 0),
+            root.successor(7, 1),
+            root.successor(8, 0),
             root.advance(),
             root.interpretation(),
             root.at_place(0),

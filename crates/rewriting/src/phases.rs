@@ -18,12 +18,14 @@ pub struct PhaseOutcome {
     pub chain: Arc<Chain>,
     /// Set if nothing can change in later steps. The derivation then ends, and this step does not count.
     pub settled: bool,
+    /// Set if this step is the last. Its other phases still run, and it counts.
+    pub is_last: bool,
 }
 
 impl PhaseOutcome {
     /// Creates the result of a phase after which the derivation continues.
     pub fn next(chain: Arc<Chain>) -> Self {
-        Self { chain, settled: false }
+        Self { chain, settled: false, is_last: false }
     }
 }
 
@@ -48,7 +50,7 @@ pub struct DerivedChain {
 }
 
 /// Runs the phases of a derivation, from a chain after `begin` steps up to `end` steps, or until a phase of a step has
-/// settled.
+/// settled or has ended the derivation.
 ///
 /// ```
 /// use burgeon_base::Result;
@@ -60,7 +62,7 @@ pub struct DerivedChain {
 /// impl Phase<usize> for Count {
 ///     fn run(&self, count: &mut usize, chain: Arc<Chain>, step: usize) -> Result<PhaseOutcome> {
 ///         *count += 1;
-///         Ok(PhaseOutcome { chain, settled: step == 3 })
+///         Ok(PhaseOutcome { settled: step == 3, ..PhaseOutcome::next(chain) })
 ///     }
 /// }
 ///
@@ -77,14 +79,18 @@ pub fn derive<S>(
     begin: usize,
     end: usize,
 ) -> Result<DerivedChain> {
+    let mut is_last = false;
     for phase in &phases.first {
-        chain = phase.run(state, chain, begin)?.chain;
+        let outcome = phase.run(state, chain, begin)?;
+        chain = outcome.chain;
+        is_last |= outcome.is_last;
     }
     let mut steps = begin;
-    'steps: while steps < end {
+    'steps: while steps < end && !is_last {
         for phase in &phases.each {
             let outcome = phase.run(state, chain, steps + 1)?;
             chain = outcome.chain;
+            is_last |= outcome.is_last;
             if outcome.settled {
                 break 'steps;
             }

@@ -67,12 +67,11 @@ impl Batch<'_> {
             out.symbols.extend_from_slice(symbols);
             out.params.extend_from_slice(&group.params[group.param_at..group.param_at + params]);
             if random {
-                let parent = self.chain.keys[here];
-                let mut ordinal = 0;
-                out.keys.extend(symbols.iter().map(|symbol| {
-                    let key = parent.child(ordinal);
-                    ordinal += usize::from(*symbol > END);
-                    if *symbol > END { key } else { ModuleKey::default() }
+                let (parent, names) = (self.chain.keys[here], grammar.name_hashes());
+                scratch.ordinals.clear();
+                out.keys.extend(symbols.iter().map(|symbol| match *symbol > END {
+                    true => parent.successor(names[usize::from(*symbol)], scratch.ordinals.next(*symbol)),
+                    false => ModuleKey::default(),
                 }));
             }
             group.param_at += params;

@@ -101,6 +101,8 @@ pub struct StepOutcome {
     pub changed: bool,
     /// Set if a function of a rule has read the number of the step.
     pub reads_step: bool,
+    /// Set if a function of a rule has requested that this step is the last.
+    pub is_last: bool,
     /// For each symbol of the previous chain, the rule that ran or [`NO_RULE`](crate::NO_RULE), and the number of its
     /// successors; empty if the plan is not traced.
     pub applied: Vec<(u16, u32)>,
@@ -136,6 +138,11 @@ impl Stepper {
             scratch: Scratch::default(),
             outputs: Vec::new(),
         }
+    }
+
+    /// Sets the plan of the following steps, which must have the same rules. Other rules can be candidates.
+    pub fn set_plan(&mut self, plan: &Arc<StepPlan>) {
+        self.plan = Arc::clone(plan);
     }
 
     /// Adds the work of the rules in the steps of an earlier derivation that this one continues.
@@ -178,10 +185,10 @@ impl Stepper {
         }
         let work = reclaim(work);
         let StepTotals { ran, changed, applied } = result?;
-        let reads_step = work.step.is_read();
+        let (reads_step, is_last) = (work.step.is_read(), work.step.is_last());
         self.links = work.links;
         self.outputs = work.spare.into_inner().recover();
-        Ok(StepOutcome { chain: std::mem::take(&mut self.spare), ran, changed, reads_step, applied })
+        Ok(StepOutcome { chain: std::mem::take(&mut self.spare), ran, changed, reads_step, is_last, applied })
     }
 
     /// Takes back a chain that is no longer needed, to reuse its memory.

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use rustc_hash::FxHashMap;
 
 use super::chain::{END, Symbol};
+use crate::key::name_hash;
 use burgeon_base::error::{Error, Limit, Result};
 
 /// Number of symbols that are reserved for placeholders: modules that a phase replaces by other modules.
@@ -231,6 +232,15 @@ impl Symbols {
             }
         }
         Ok(symbol)
+    }
+
+    /// Returns the hash of the name of `symbol`, with the name of its package. Unlike the symbol, it does not depend on the
+    /// other declarations.
+    pub fn name_hash(&self, symbol: Symbol) -> u64 {
+        match symbol.checked_sub(FIRST_PLACEHOLDER).map(usize::from) {
+            Some(index) => name_hash(self.owners[index].as_deref(), &self.signatures[index].name),
+            None => 0,
+        }
     }
 
     /// Marks all current declarations as part of the standard library.

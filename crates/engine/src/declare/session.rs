@@ -86,6 +86,8 @@ struct ScriptFacts {
     randoms: AtomicBool,
     /// Set if a file may read the number of the step.
     steps: AtomicBool,
+    /// Set if a file may end a derivation.
+    stops: AtomicBool,
     /// Set if a file may distinguish a new table from an existing one.
     inspects_tables: AtomicBool,
     /// Set if a file may set metatables.
@@ -322,6 +324,11 @@ impl Session {
         self.facts.steps.load(Ordering::Acquire)
     }
 
+    /// Returns true if a script file may end a derivation.
+    pub(crate) fn may_stop(&self) -> bool {
+        self.facts.stops.load(Ordering::Acquire)
+    }
+
     /// Returns true if a script file may distinguish a new table from an existing one.
     pub(crate) fn inspects_tables(&self) -> bool {
         self.facts.inspects_tables.load(Ordering::Acquire)
@@ -416,6 +423,7 @@ impl Session {
     pub(crate) fn note(&self, analysis: &Analysis) {
         self.facts.randoms.fetch_or(analysis.random, Ordering::AcqRel);
         self.facts.steps.fetch_or(analysis.reads_step, Ordering::AcqRel);
+        self.facts.stops.fetch_or(analysis.stops, Ordering::AcqRel);
         self.facts.metatables.fetch_or(has_metatables(&analysis.text), Ordering::AcqRel);
         self.facts.inspects_tables.fetch_or(inspects_tables(&analysis.text), Ordering::AcqRel);
     }

@@ -47,6 +47,10 @@ impl CheckpointWriter {
             || derivation.traced.is_some()
             || asks_others
             || !continues
+            // Their state between steps is not stored.
+            || !derivation.hooks.is_empty()
+            || derivation.plan.variables().is_some()
+            || session.may_stop()
         {
             return None;
         }
@@ -104,7 +108,7 @@ impl CheckpointWriter {
 /// Describes everything that determines the chains of a derivation, except for the number of steps; `None` if not all is
 /// known.
 fn inputs(session: &Session, derivation: &Derivation, derived: &[Arc<DerivedSystem>]) -> Option<String> {
-    let mut text = format!("system {}\n", derivation.plan.system);
+    let mut text = format!("system {} {:?}\n", derivation.plan.system, derivation.group);
     let options = &session.options;
     let _ = writeln!(text, "{:?} {:?}", session.script(), options.registry);
     let _ = writeln!(text, "{} {} {:?}", options.seed, options.lod, options.part);

@@ -63,6 +63,9 @@ impl LuaRules<'_> {
         if self.machine.current.has_read_step() {
             applications.step.note_read();
         }
+        if self.machine.current.take_end() {
+            applications.step.request_end();
+        }
         called.map_err(|error| self.failure(error))
     }
 

@@ -8,6 +8,7 @@ use super::threads::{LeadingMachine, ThreadPool};
 use crate::machine::{Axiom, Machine, Objects};
 use crate::results::{DerivedSystem, Remark, RowFeatures, RuleName, SystemUses, Trace};
 use burgeon_base::error::{Error, Result, SourcePlace};
+use burgeon_base::locks::LockRecovery;
 use burgeon_kit::{Drawing, Object};
 
 /// Result of a derivation.
@@ -18,14 +19,16 @@ pub(super) enum Ending {
     Traced(Box<Trace>),
 }
 
-/// Derives system `index` of the machine's script by at most `steps` steps, or until nothing changes.
+/// Derives system `index` of the machine's script by at most `steps` steps, or until nothing changes, with the rules of a
+/// group.
 pub(super) fn lead(
     machine: &Machine,
     threads: &ThreadPool,
     index: usize,
-    steps: Option<usize>,
+    steps: (Option<usize>, Option<&str>),
 ) -> Result<Ending> {
     let mut derivation = Derivation::plan(machine, index, steps)?;
+    machine.load_variables(derivation.plan.variables().as_deref())?;
     let chain = std::mem::take(&mut derivation.axiom.chain);
     let grown = derive(LeadingMachine { machine, threads }, &derivation, chain)?;
     settle(machine, derivation, grown)
@@ -45,7 +48,7 @@ fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -
     machine.current.objects.replace(None);
     session.keep(&grown.chain.params);
     let plan = Arc::try_unwrap(plan).map_err(|_| Error::internal("a worker still holds the plan"))?;
-    let DerivationPlan { system, steps, interpretations, objects, .. } = plan;
+    let DerivationPlan { system, steps, interpretations, objects, variables, .. } = plan;
     let grammar = &steps.grammar;
     let objects = objects.map(Arc::try_unwrap).transpose();
     let objects = objects.map_err(|_| Error::internal("a worker still holds the objects"))?;
@@ -99,6 +102,7 @@ fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -
         rows,
         draws,
         undrawn,
+        variables: variables.into_inner().recover().map(Arc::unwrap_or_clone),
         uses: SystemUses::default(),
     });
     derived.drop_chains(&neighbors);

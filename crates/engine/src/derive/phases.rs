@@ -14,12 +14,12 @@ use super::rewriter::SystemRewriter;
 use super::step::step;
 use super::threads::LeadingMachine;
 use crate::declare::TraceRequest;
-use crate::machine::{Driver as _, stops_at_depth};
+use crate::machine::{Driver as _, HookFunction, HookMoment, HookView, VariableValues, stops_at_depth};
 use crate::results::{RowFeatures, RuleName, RuleReport, Step, Times};
 use burgeon_base::error::Result;
 use burgeon_base::warning::Warning;
 use burgeon_rewriting::{
-    Chain, Phase, PhaseOutcome, Phases, StepOutcome, Stepper, Symbol, Use, module_brief,
+    Chain, KeyPart, Phase, PhaseOutcome, Phases, StepOutcome, Stepper, Symbol, Use, module_brief,
 };
 
 /// State of a derivation, shared by its phases.
@@ -47,6 +47,10 @@ pub(super) struct DerivationState<'a> {
     pass: PassOutcome,
     /// Set if a decomposition has read the number of the step.
     decomposition_reads_step: bool,
+    /// Number of the group of rules in use; `None` for the rules without a group.
+    group: Option<usize>,
+    /// Set if a variable has changed since the step began.
+    variables_changed: bool,
     /// Writer of checkpoints, if later runs can continue from them.
     checkpoints: Option<CheckpointWriter>,
 }
@@ -105,8 +109,11 @@ pub(super) fn derive(
         published: 0,
         pass: PassOutcome::default(),
         decomposition_reads_step: false,
+        group: None,
+        variables_changed: false,
         checkpoints,
     };
+    state.use_group(derivation.group);
     let view = leader.machine.current.chains_derived.borrow().with_begun(plan.system, grammar.symbols());
     session.show_chains(view);
     let derived = burgeon_rewriting::derive(
@@ -175,7 +182,45 @@ fn phases<'a>(state: &DerivationState<'a>, begin: usize) -> Phases<'static, Deri
         }
         (false, _) => {}
     }
+    for (moment, hooks) in &derivation.hooks {
+        let hook = Box::new(RunHooks(*moment, hooks.clone()));
+        match moment {
+            HookMoment::Start => phases.first.insert(0, hook),
+            HookMoment::BeforeStep => phases.each.insert(0, hook),
+            HookMoment::AfterStep => phases.each.push(hook),
+            HookMoment::End => phases.last.push(hook),
+        }
+    }
     phases
+}
+
+/// Runs the hooks for a moment.
+struct RunHooks(HookMoment, Vec<HookFunction>);
+
+impl Phase<DerivationState<'_>> for RunHooks {
+    fn run(&self, state: &mut DerivationState<'_>, chain: Arc<Chain>, number: usize) -> Result<PhaseOutcome> {
+        let Self(moment, hooks) = self;
+        let (machine, plan) = (state.leader.machine, &state.derivation.plan);
+        machine.session.stop.check()?;
+        if *moment == HookMoment::Start {
+            state.publish(&chain);
+        }
+        machine.enter(plan.system)?;
+        machine.refresh();
+        let view = HookView {
+            step: number,
+            chain: Arc::clone(&chain),
+            symbols: Arc::clone(plan.steps.grammar.symbols()),
+            groups: plan.groups.iter().map(|group| Arc::clone(&group.name)).collect(),
+            group: state.group,
+            is_last: false,
+        };
+        let key = state.derivation.key.at_place(number).substream(KeyPart::Text(moment.method().as_bytes()));
+        let view = machine.run_hooks(hooks, moment.method(), view, key)?;
+        state.use_group(view.group);
+        state.take_variables();
+        Ok(PhaseOutcome { is_last: view.is_last, ..PhaseOutcome::next(chain) })
+    }
 }
 
 /// Applies the rules once.
@@ -197,8 +242,9 @@ impl Phase<DerivationState<'_>> for Rewrite {
         // step can make a difference in a later step.
         let repeats = !outcome.changed && state.derivation.draws_afresh && !plan.steps.grammar.draws_random();
         let reads_step = outcome.reads_step || state.pass.reads_step || state.decomposition_reads_step;
-        let settled = (!outcome.ran || repeats) && !reads_step;
-        Ok(PhaseOutcome { chain: Arc::new(outcome.chain), settled })
+        let varies = std::mem::take(&mut state.variables_changed) || state.derivation.has_step_hooks;
+        let settled = (!outcome.ran || repeats) && !reads_step && !varies;
+        Ok(PhaseOutcome { chain: Arc::new(outcome.chain), settled, is_last: outcome.is_last })
     }
 }
 
@@ -216,6 +262,7 @@ impl Phase<DerivationState<'_>> for Decompose {
         let (Some(rules), Some(mut decomposer)) = (&plan.decomposition, state.decomposer.take()) else {
             return Ok(PhaseOutcome::next(chain));
         };
+        let mut is_last = false;
         for depth in 1.. {
             let begin = Instant::now();
             if depth > rules.max_depth {
@@ -224,12 +271,15 @@ impl Phase<DerivationState<'_>> for Decompose {
             }
             // A pass costs as much as drawing, so it runs only to find places.
             if rules.asks && !plan.located.is_empty() && !plan.skips_passes {
+                let variables = plan.variables();
                 Interpret.run(state, Arc::clone(&chain), number)?;
+                state.restore_variables(variables)?;
             }
             let mut outcome = step(state.leader, plan, &mut decomposer, declared, &chain, number)?;
             plan.set_places(None);
             state.times.rewriting += begin.elapsed();
             state.decomposition_reads_step |= outcome.reads_step;
+            is_last |= outcome.is_last;
             if !outcome.changed {
                 break;
             }
@@ -239,7 +289,7 @@ impl Phase<DerivationState<'_>> for Decompose {
             chain = Resolve.run(state, Arc::new(outcome.chain), number)?.chain;
         }
         state.decomposer = Some(decomposer);
-        Ok(PhaseOutcome::next(chain))
+        Ok(PhaseOutcome { is_last, ..PhaseOutcome::next(chain) })
     }
 }
 
@@ -369,12 +419,49 @@ impl Phase<DerivationState<'_>> for Interpret {
         if state.failed().len() > failed {
             state.publish(&chain);
         }
+        state.take_variables();
         state.times.interpretation += begin.elapsed();
-        Ok(PhaseOutcome::next(chain))
+        Ok(PhaseOutcome { is_last: state.pass.is_last, ..PhaseOutcome::next(chain) })
     }
 }
 
 impl DerivationState<'_> {
+    /// Uses the rules of the group with this number in the next steps; `None` for the rules without a group.
+    fn use_group(&mut self, group: Option<usize>) {
+        if group == self.group {
+            return;
+        }
+        self.group = group;
+        let plan = &self.derivation.plan;
+        let chosen = group.and_then(|number| plan.groups.get(number));
+        self.stepper.set_plan(chosen.map_or(&plan.steps, |group| &group.steps));
+        let decomposition = plan.decomposition.as_ref().map(|rules| &rules.steps);
+        let decomposition = chosen.map_or(decomposition, |group| group.decomposition.as_ref());
+        if let Some((decomposer, steps)) = self.decomposer.as_mut().zip(decomposition) {
+            decomposer.set_plan(steps);
+        }
+    }
+
+    /// Publishes the variables that a hook or an interpretation has assigned.
+    fn take_variables(&mut self) {
+        let plan = &self.derivation.plan;
+        let variables = self.leader.machine.current.variables.borrow();
+        if let (Some(variables), Some(before)) = (&*variables, plan.variables())
+            && !variables.is_same(&before)
+        {
+            self.variables_changed = true;
+            plan.set_variables(variables.clone());
+        }
+    }
+
+    /// Sets the variables to earlier values, because the pass that has assigned them is not part of the derivation.
+    fn restore_variables(&mut self, variables: Option<Arc<VariableValues>>) -> Result<()> {
+        let Some(variables) = variables else { return Ok(()) };
+        self.leader.machine.load_variables(Some(&variables))?;
+        self.derivation.plan.set_variables(Arc::unwrap_or_clone(variables));
+        Ok(())
+    }
+
     /// Returns a copy of the chain for the lineage, if its modules will be inspected; otherwise an empty
     /// chain.
     fn traced_chain(&self, chain: &Chain) -> Chain {

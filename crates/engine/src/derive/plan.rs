@@ -4,8 +4,11 @@ use std::sync::{Arc, RwLock};
 
 use super::rewriter::SystemRewriter;
 use crate::declare::TraceRequest;
-use crate::machine::{Axiom, Interpretations, Machine, ModulePlaces, Objects, RulePhase, SystemFunctions};
-use burgeon_base::error::{Result, SourcePlace};
+use crate::machine::{
+    Axiom, HookFunction, HookMoment, Interpretations, Machine, ModulePlaces, Objects, RulePhase,
+    SystemFunctions, VariableValues, group_number,
+};
+use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::Warning;
 use burgeon_rewriting::{ModuleKey, StepPlan};
@@ -19,6 +22,15 @@ pub(crate) struct Decomposition {
     pub asks: bool,
 }
 
+/// Group of rules that a script can choose for the next steps.
+pub(crate) struct RuleGroup {
+    pub name: Arc<str>,
+    /// Rules of the group, and rules without a group.
+    pub steps: Arc<StepPlan>,
+    /// Decomposition rules of the group, and those without a group, if there are any.
+    pub decomposition: Option<Arc<StepPlan>>,
+}
+
 /// Constant data of a derivation, shared by all threads.
 pub(crate) struct DerivationPlan {
     /// Index of the system in the script.
@@ -27,6 +39,12 @@ pub(crate) struct DerivationPlan {
     pub steps: Arc<StepPlan>,
     /// Decomposition rules, if there are any.
     pub decomposition: Option<Decomposition>,
+    /// Groups of rules.
+    pub groups: Vec<RuleGroup>,
+    /// Variables, as functions read them in the present phase.
+    pub(super) variables: RwLock<Option<Arc<VariableValues>>>,
+    /// Set if interpretations can assign variables.
+    pub assigns_variables: bool,
     pub interpretations: Interpretations,
     pub objects: Option<Arc<Objects>>,
     /// Set if the number of steps is given, which `step()` requires.
@@ -50,6 +68,16 @@ impl DerivationPlan {
     /// Sets the places of modules in the present chain, or `None` for another chain.
     pub(super) fn set_places(&self, places: Option<ModulePlaces>) {
         *self.places.write().recover() = places.map(Arc::new);
+    }
+
+    /// Returns the variables, if the system has some.
+    pub(super) fn variables(&self) -> Option<Arc<VariableValues>> {
+        self.variables.read().recover().clone()
+    }
+
+    /// Sets the variables that functions read from now on.
+    pub(super) fn set_variables(&self, variables: VariableValues) {
+        *self.variables.write().recover() = Some(Arc::new(variables));
     }
 
     /// Marks self-expanding objects as checked only.
@@ -103,11 +131,24 @@ pub(super) struct Derivation {
     pub draws: bool,
     /// Maximum number of steps.
     pub limit: usize,
+    /// Number of the group of rules with which the derivation begins; `None` for the rules without a group.
+    pub group: Option<usize>,
+    /// Key of the random numbers of hooks.
+    pub key: ModuleKey,
+    /// Hooks of each moment that has some.
+    pub hooks: Vec<(HookMoment, Vec<HookFunction>)>,
+    /// Set if hooks run in each step.
+    pub has_step_hooks: bool,
 }
 
 impl Derivation {
-    /// Plans the derivation of system `index` by at most `steps` steps: initial chains, rules and objects.
-    pub(super) fn plan(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Self> {
+    /// Plans the derivation of system `index` by at most `steps` steps, which begins with the rules of `group`: initial
+    /// chains, rules and objects.
+    pub(super) fn plan(
+        machine: &Machine,
+        index: usize,
+        (steps, group): (Option<usize>, Option<&str>),
+    ) -> Result<Self> {
         let session = &machine.session;
         let options = &session.options;
         let traced = options.reports.trace.filter(|traced| traced.system == index);
@@ -116,7 +157,12 @@ impl Derivation {
         machine.library.systems.borrow()[index].note_derivation(machine);
         let systems = machine.library.systems.borrow();
         let system = &systems[index];
-        let grammar = system.grammar(&machine.library, session.draws_random(), RulePhase::Rewriting);
+        let group_names = system.groups();
+        let group = group.map(|name| group_number(&group_names, name)).transpose()?;
+        let grammar_of = |phase, group: Option<&str>| {
+            system.grammar(&machine.library, session.draws_random(), phase, group)
+        };
+        let grammar = grammar_of(RulePhase::Rewriting, None);
         let key = ModuleKey::seed(system.seed.unwrap_or(options.seed));
         let mut axiom = system.axiom(machine, key, grammar.draws_random())?;
         if let Some(chain) = traced.and_then(|traced| traced.chain) {
@@ -140,19 +186,36 @@ impl Derivation {
                 notes_places: !located.is_empty() || traced.is_some_and(|traced| traced.chain.is_some()),
             })
         };
-        let decomposition = system.has_rules_in(RulePhase::Decomposition).then(|| Decomposition {
-            steps: step_plan(system.grammar(
-                &machine.library,
-                session.draws_random(),
-                RulePhase::Decomposition,
-            )),
+        let decomposes = system.has_rules_in(RulePhase::Decomposition);
+        let groups = group_names.into_iter().map(|name| RuleGroup {
+            steps: step_plan(grammar_of(RulePhase::Rewriting, Some(&name))),
+            decomposition: decomposes.then(|| step_plan(grammar_of(RulePhase::Decomposition, Some(&name)))),
+            name,
+        });
+        let groups = groups.collect();
+        let decomposition = decomposes.then(|| Decomposition {
+            steps: step_plan(grammar_of(RulePhase::Decomposition, None)),
             max_depth: system.max_depth,
             asks: system.asks_in(RulePhase::Decomposition),
         });
+        let earlier = axiom.variables.take();
+        let variables = system.variables.and_then(|table| machine.library.initial_variables(table));
+        let variables = variables.map(|variables| variables.continued(earlier.as_ref()));
+        let assigns_variables = system.interpretations_reach_variables(machine)?;
+        if options.part.is_some() && axiom.given > 1 && system.has_state_of_all_chains() {
+            return Err(Error::script(
+                "hooks and variables see all chains, but --part derives a part of them",
+            )
+            .at(system.place.clone())
+            .help("run the script without --part, or keep values in parameters of modules"));
+        }
         let plan = Arc::new(DerivationPlan {
             system: index,
             steps: step_plan(grammar),
             decomposition,
+            groups,
+            variables: RwLock::new(variables.map(Arc::new)),
+            assigns_variables,
             interpretations: system.interpretations(&machine.library),
             objects,
             bounded: limit.is_some(),
@@ -172,10 +235,15 @@ impl Derivation {
             place: system.place.clone(),
             caller: system.caller.clone(),
             axiom_place: system.axiom_place.clone(),
-            last_only: system.shows_last_only(),
+            last_only: system.last_only
+                || (system.shows_last_only() && !assigns_variables && !session.may_stop()),
             draws_afresh,
             draws: draws_afresh && system.object.is_some(),
             limit: if options.check { 0 } else { limit.unwrap_or(usize::MAX) },
+            group,
+            key,
+            hooks: system.hooks_by_moment(),
+            has_step_hooks: system.has_step_hooks(),
         })
     }
 }

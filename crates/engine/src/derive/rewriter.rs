@@ -56,6 +56,9 @@ impl<'a> SystemRewriter<'a> {
             profiled: false,
             located: Vec::new(),
             skips_passes: false,
+            groups: Vec::new(),
+            variables: RwLock::default(),
+            assigns_variables: false,
             places: RwLock::default(),
         });
         let declared = self.leader.machine.library.systems.borrow()[index].prepare(self.leader.machine)?;
@@ -81,18 +84,19 @@ impl Rewriter for SystemRewriter<'_> {
         let session = &self.leader.machine.session;
         let systems = self.leader.machine.library.systems.borrow();
         let system = &systems[index];
-        if system.has_rules_in(RulePhase::Decomposition) {
-            return Err(Error::script(
-                "an object applies the rules of this system, which must not have decomposition rules",
-            )
+        if let Some((what, help)) = system.unfit_for_objects() {
+            return Err(Error::script(format!(
+                "an object applies the rules of this system, which must not have {what}"
+            ))
             .at(system.place.clone())
-            .help("declare the rules with system:rule"));
+            .help(help));
         }
         let rules = Arc::new(RuleSet {
             grammar: system.grammar(
                 &self.leader.machine.library,
                 session.draws_random(),
                 RulePhase::Rewriting,
+                None,
             ),
             values: Arc::clone(&session.values),
             place: system.place.clone(),

@@ -174,7 +174,12 @@ impl ThreadPool {
 }
 
 impl Driver for ThreadPool {
-    fn derive(&self, machine: &Machine, index: usize, steps: Option<usize>) -> Result<Arc<DerivedSystem>> {
+    fn derive(
+        &self,
+        machine: &Machine,
+        index: usize,
+        steps: (Option<usize>, Option<&str>),
+    ) -> Result<Arc<DerivedSystem>> {
         let problems: Vec<Error> = machine.library.problems.borrow_mut().drain(..).collect();
         if !problems.is_empty() {
             return Err(Error::several(problems));
@@ -195,6 +200,7 @@ impl Driver for ThreadPool {
             error.rather_called_at(machine.library.systems.borrow()[index].caller.clone())
         });
         machine.current.objects.replace(None);
+        machine.load_variables(None)?;
         self.finished(machine, &derived);
         derived
     }
@@ -261,7 +267,10 @@ fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<R
     loop {
         let job = match inbox.recv() {
             Ok(Message::Work(job)) => job,
-            Ok(Message::Derived(derived)) => return Ok(derived),
+            Ok(Message::Derived(derived)) => {
+                machine.load_variables(None)?;
+                return Ok(derived);
+            }
             Err(_) => return Err(Error::cancellation("the run has ended")),
         };
         // The leader waits for the job, so all other parts of a job are dropped before the job itself.
@@ -275,6 +284,7 @@ fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<R
                 machine.current.objects.replace(plan.objects.clone());
                 machine.current.located.replace(plan.places());
                 machine.current.skips_passes.set(plan.skips_passes);
+                machine.load_variables(plan.variables().as_deref())?;
                 machine.refresh();
                 let rules = LuaRules { machine, declared, bounded: plan.bounded };
                 while work.work(&rules, &machine.session.stop, &mut scratch) {}
@@ -291,6 +301,7 @@ fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<R
                 prepared(machine, &mut known, index)?;
                 machine.enter(index)?;
                 machine.current.objects.replace(interpreting.plan.objects.clone());
+                machine.load_variables(interpreting.plan.variables().as_deref())?;
                 machine.refresh();
                 while interpreting.work(machine) {}
                 machine.current.objects.replace(None);

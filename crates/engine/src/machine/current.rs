@@ -3,7 +3,9 @@
 use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
+use super::hooks::HookView;
 use super::module_places::ModulePlaces;
+use super::variables::VariableValues;
 use crate::declare::Session;
 use crate::machine::types::Objects;
 use crate::questions::ChainView;
@@ -73,6 +75,12 @@ pub(crate) struct WorkState {
     pub drawn: Cell<usize>,
     /// Step for which rules run, if any have run.
     step: Cell<Option<RunningStep>>,
+    /// Set if a function has requested that the step that is running is the last.
+    ends: Cell<bool>,
+    /// Derivation of the hook that runs.
+    pub hook: RefCell<Option<HookView>>,
+    /// Variables that functions of the script read.
+    pub variables: RefCell<Option<VariableValues>>,
     /// Type of `this`; Lua refers to its methods by number.
     pub kind: RefCell<Option<Arc<Kind>>>,
     /// Shapes of prepared results, by number.
@@ -100,6 +108,9 @@ impl WorkState {
             used: Cell::new(0),
             drawn: Cell::new(0),
             step: Cell::new(None),
+            ends: Cell::new(false),
+            hook: RefCell::default(),
+            variables: RefCell::default(),
             kind: RefCell::default(),
             shapes: RefCell::default(),
             flusher: RefCell::default(),
@@ -129,9 +140,10 @@ impl WorkState {
         Ok(stream.uniform())
     }
 
-    /// Adds the key of a module that the interpretation rule with key `parent` has returned. Returns its index.
-    pub(crate) fn child_key(&self, parent: usize, ordinal: usize) -> Result<usize> {
-        let key = self.key(Some(parent))?.child(ordinal);
+    /// Adds the key of a module that the interpretation rule with key `parent` has returned, from the hash of its name and
+    /// its ordinal among the modules with this name. Returns its index.
+    pub(crate) fn add_successor_key(&self, parent: usize, name: u64, ordinal: usize) -> Result<usize> {
+        let key = self.key(Some(parent))?.successor(name, ordinal);
         let mut keys = self.keys.borrow_mut();
         keys.push(key);
         Ok(keys.len() - 1)
@@ -166,6 +178,16 @@ impl WorkState {
     /// Returns true if a function has read the number of the step since [`WorkState::begin_step`].
     pub(crate) fn has_read_step(&self) -> bool {
         self.step.get().is_some_and(|step| step.read)
+    }
+
+    /// Requests that the step that is running is the last.
+    pub(crate) fn request_end(&self) {
+        self.ends.set(true);
+    }
+
+    /// Returns true if a function has requested since the last call that the step that is running is the last.
+    pub(crate) fn take_end(&self) -> bool {
+        self.ends.take()
     }
 
     /// Returns the chain being interpreted, or the chain of an application in the batch.

@@ -9,8 +9,14 @@ use burgeon_kit::Prefetch;
 
 /// Driver of a machine: derives the systems of its script with the help of other threads.
 pub(crate) trait Driver {
-    /// Derives system `index` of the machine's script by at most `steps` steps, or until nothing changes.
-    fn derive(&self, machine: &Machine, index: usize, steps: Option<usize>) -> Result<Arc<DerivedSystem>>;
+    /// Derives system `index` of the machine's script by at most `steps` steps, or until nothing changes, with the rules of a
+    /// group.
+    fn derive(
+        &self,
+        machine: &Machine,
+        index: usize,
+        steps_and_group: (Option<usize>, Option<&str>),
+    ) -> Result<Arc<DerivedSystem>>;
 
     /// Returns the results of the derivations so far, in order.
     fn derived(&self) -> Vec<Result<Arc<DerivedSystem>>>;

@@ -87,6 +87,37 @@ pub(crate) fn freeze<'a>(
     Ok(frozen)
 }
 
+/// Returns true if `functions` can reach a table for which `is_wanted` holds through captured variables.
+pub(crate) fn reaches(
+    lua: &Lua,
+    functions: Vec<Function>,
+    is_wanted: impl Fn(&Table) -> bool,
+) -> mlua::Result<bool> {
+    let mut seen = FxHashSet::default();
+    let mut queue: Vec<Value> = functions.into_iter().map(Value::Function).collect();
+    while let Some(value) = queue.pop() {
+        match value {
+            Value::Function(function) => {
+                if function.info().what != "C" && seen.insert(function.to_pointer() as usize) {
+                    queue.extend(captured(lua, &function)?);
+                }
+            }
+            Value::Table(table) if seen.insert(table.to_pointer() as usize) => {
+                if is_wanted(&table) {
+                    return Ok(true);
+                }
+                queue.extend(table.metatable().map(Value::Table));
+                for pair in table.pairs::<Value, Value>() {
+                    let (key, value) = pair?;
+                    queue.extend([key, value]);
+                }
+            }
+            _ => {}
+        }
+    }
+    Ok(false)
+}
+
 /// Returns the values that a Lua function captures; empty for the machine's own functions.
 pub(crate) fn captured(lua: &Lua, function: &Function) -> mlua::Result<Vec<Value>> {
     if function.info().source.as_deref() == Some("=burgeon") {

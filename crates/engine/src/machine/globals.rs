@@ -27,7 +27,7 @@ impl Library {
         globals.raw_set(
             "warn",
             lua.create_function(move |_, (text, help): (LuaValue, LuaValue)| {
-                library.at_top_level("warn").map_err(mlua::Error::external)?;
+                library.outside_rules("warn").map_err(mlua::Error::external)?;
                 let warning = script_warning(&text, &help).map_err(mlua::Error::external)?;
                 library.machine().map_err(mlua::Error::external)?.warn(warning);
                 Ok(())
@@ -37,7 +37,7 @@ impl Library {
         globals.raw_set(
             "expect",
             lua.create_function(move |_, values: (LuaValue, LuaValue, LuaValue)| {
-                library.at_top_level("expect").map_err(mlua::Error::external)?;
+                library.outside_rules("expect").map_err(mlua::Error::external)?;
                 let machine = library.machine().map_err(mlua::Error::external)?;
                 expect(&machine.session.options, &values).map_err(mlua::Error::external)
             })?,

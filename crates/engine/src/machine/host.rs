@@ -15,7 +15,7 @@ use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::warning::take_deferred;
 use burgeon_kit::declare::as_ref;
 use burgeon_kit::{Call, Draw, ObjectContent, ScriptObject, Value};
-use burgeon_rewriting::{CLOSE, ColumnValue, DEEPEST, OPEN, module_brief, module_text};
+use burgeon_rewriting::{CLOSE, ColumnValue, DEEPEST, OPEN, Symbol, module_brief, module_text};
 
 /// Number of entries from which the conversion of a result pauses garbage collection.
 const LONG: usize = 256;
@@ -42,6 +42,8 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<WorkState>, library: &Rc<Library
     add_script_objects(lua, &host, current, library)?;
     super::streams::add_streams(lua, &host, current)?;
     super::questions::add_questions(lua, &host, current, library)?;
+    super::hooks::add_hooks(lua, &host, current)?;
+    super::variables::add_variables(lua, &host, current, library)?;
     Ok(host)
 }
 
@@ -198,11 +200,12 @@ fn add_returned_modules(
 ) -> mlua::Result<()> {
     host.set("open", OPEN)?;
     host.set("close", CLOSE)?;
-    let state = Rc::clone(current);
+    let (state, owner) = (Rc::clone(current), Rc::clone(library));
     host.set(
-        "child_key",
-        lua.create_function(move |_, (parent, ordinal): (usize, usize)| {
-            state.child_key(parent, ordinal).map_err(mlua::Error::external)
+        "add_successor_key",
+        lua.create_function(move |_, (parent, symbol, ordinal): (usize, Symbol, usize)| {
+            let name = owner.symbols.borrow().name_hash(symbol);
+            state.add_successor_key(parent, name, ordinal).map_err(mlua::Error::external)
         })?,
     )?;
     let state = Rc::clone(current);

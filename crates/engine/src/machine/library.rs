@@ -11,6 +11,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::system::{EagerMark, SystemDeclaration, install_lazy, undeclared_letters};
 use super::table_classes::declare_class;
 use super::types::{Extension, ScriptTypeEntry, install_functions, install_kind};
+use super::variables::VariableTable;
 use super::{Machine, compile, native};
 use crate::declare::{Param, Session, Setting};
 use crate::placeholders::{self, FRAGMENT, QUERY};
@@ -65,6 +66,8 @@ pub(crate) struct Library {
     /// Functions of the types that the script declared.
     pub script_types: RefCell<Vec<ScriptTypeEntry>>,
     pub extensions: RefCell<Vec<Extension>>,
+    /// Variables of systems.
+    pub variables: RefCell<Vec<VariableTable>>,
     /// Names of the object constructors.
     kinds: RefCell<Vec<String>>,
     /// First declaration of each parameter, with its location.
@@ -219,6 +222,12 @@ impl Library {
     /// always runs at the top level.
     pub(super) fn at_top_level(&self, what: &str) -> Result<()> {
         self.machine()?.refuse_in_rules(what)
+    }
+
+    /// Fails while rules or interpretations run, because only the top level and hooks can call `what`.
+    pub(super) fn outside_rules(&self, what: &str) -> Result<()> {
+        let machine = self.machine()?;
+        if machine.runs_hook() { Ok(()) } else { machine.refuse_in_rules(what) }
     }
 
     /// Sets the globals of the machine and runs the standard library.

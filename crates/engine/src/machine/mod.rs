@@ -12,6 +12,7 @@ mod driver;
 mod expectation;
 mod freeze;
 mod globals;
+mod hooks;
 mod host;
 mod library;
 mod messages;
@@ -25,17 +26,23 @@ mod streams;
 mod system;
 mod table_classes;
 mod types;
+mod variables;
 mod virtual_machine;
 mod watchdog;
 
 pub use blank::make_ready;
 pub(crate) use current::{Flusher, WorkState};
 pub(crate) use driver::Driver;
+pub(crate) use hooks::{HookView, group_number};
 pub(crate) use module_places::ModulePlaces;
 pub(crate) use native::native;
 pub(crate) use prelude::{CLOSE_CALL, OPEN_CALL};
-pub(crate) use system::{Axiom, Interpretations, RulePhase, SystemFunctions, returns_value, stops_at_depth};
+pub(crate) use system::{
+    Axiom, HookFunction, HookMoment, Interpretations, RulePhase, SystemFunctions, returns_value,
+    stops_at_depth,
+};
 pub(crate) use types::Objects;
+pub(crate) use variables::{VariableValues, table_of};
 pub use virtual_machine::Machine;
 pub(crate) use virtual_machine::{compile, read_column, write_column};
 pub use watchdog::Watchdog;

@@ -11,7 +11,7 @@ use crate::machine::types::POINTS;
 use burgeon_rewriting::Successors;
 
 /// Parts of the prelude: one chunk of Luau, in which each part uses the locals of the parts before it.
-const PARTS: [&str; 14] = [
+const PARTS: [&str; 15] = [
     include_str!("prelude/batch.luau"),
     include_str!("prelude/constructors.luau"),
     include_str!("prelude/successors.luau"),
@@ -24,6 +24,7 @@ const PARTS: [&str; 14] = [
     include_str!("prelude/questions.luau"),
     include_str!("prelude/randoms.luau"),
     include_str!("prelude/distributions.luau"),
+    include_str!("prelude/hooks.luau"),
     include_str!("prelude/globals.luau"),
     include_str!("prelude/exports.luau"),
 ];
@@ -61,6 +62,12 @@ pub(crate) struct Prelude {
     /// `(count)`: interprets a batch; returns the numbers of calls and arguments recorded last, and the number of times
     /// that rules have run in addition to those of the entries, by rule.
     pub interpret: Function,
+    /// `(hook, number)`: runs a hook in step `number`.
+    pub run_hook: Function,
+    /// `(number, values)`: sets the values of a table of variables by name; nil removes them.
+    pub load_variables: Function,
+    /// `(value)`: returns the number of a table of variables, or nil for another value.
+    pub variables_of: Function,
     /// `(entry, call)`: runs an interpretation rule again, and raises an error at one of its recorded calls.
     pub relive: Function,
     /// Ends a batch that failed.
@@ -82,7 +89,7 @@ pub(crate) struct Prelude {
     pub forget_values: Function,
     /// Globals of scripts.
     pub globals: Table,
-    /// Returns the current phase: 0 top level, 1 rule, 2 guard, 3 interpretation.
+    /// Returns the current phase: 0 top level, 1 rule, 2 guard, 3 interpretation, 4 hook.
     pub phase: Function,
     /// `(value)`: returns the list of modules for which a value stands, or nil.
     pub elements: Function,
@@ -118,6 +125,9 @@ impl Prelude {
             recorder: table.get("recorder")?,
             direct: table.get("direct")?,
             interpret: table.get("interpret")?,
+            run_hook: table.get("run_hook")?,
+            load_variables: table.get("load_variables")?,
+            variables_of: table.get("variables_of")?,
             relive: table.get("relive")?,
             finish: table.get("finish")?,
             at: table.get("current")?,

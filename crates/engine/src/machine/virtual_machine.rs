@@ -238,6 +238,11 @@ impl Machine {
         }
     }
 
+    /// Returns true if a hook is running.
+    pub(crate) fn runs_hook(&self) -> bool {
+        self.current.hook.borrow().is_some()
+    }
+
     /// Returns the package of the file that is being run; `None` for the script's own files.
     pub(crate) fn asker<'a>(lua: &Lua, session: &'a Session) -> Option<&'a Package> {
         if session.packages().order().is_empty() {

@@ -8,11 +8,12 @@ use super::records::{SourceFeatures, drop_indices};
 use super::remark::Remark;
 use super::row_features::RowFeatures;
 use super::trace::RuleName;
+use crate::machine::VariableValues;
 use burgeon_base::error::{Result, SourcePlace};
 use burgeon_base::warning::Warning;
 use burgeon_kit::Values;
 use burgeon_kit::{Model, Object};
-use burgeon_rewriting::{Chain, FIRST_SYMBOL, Symbol, Symbols, Use, chain_text, write_chains};
+use burgeon_rewriting::{Chain, Symbol, Symbols, Use, chain_text, write_chains};
 use burgeon_scene::{CityClass, Origin, Scene};
 use burgeon_spatial::RecordTable;
 
@@ -83,6 +84,8 @@ pub struct DerivedSystem {
     pub(crate) undrawn: Vec<(Symbol, Warning)>,
     /// Number of modules in all chains, without brackets.
     pub(crate) modules: usize,
+    /// Variables of the system after the last step.
+    pub(crate) variables: Option<VariableValues>,
     /// Later uses of the system by the script.
     pub(crate) uses: SystemUses,
 }
@@ -111,10 +114,7 @@ impl DerivedSystem {
     /// Returns the number of modules of each declared name in all chains.
     pub(crate) fn counts(&self) -> Vec<(&str, usize)> {
         self.uses.read.store(true, Ordering::Relaxed);
-        let mut counts = vec![0; self.symbols.arities().len()];
-        self.chain.symbols.iter().for_each(|symbol| counts[usize::from(*symbol)] += 1);
-        let declared = (FIRST_SYMBOL..).zip(counts.into_iter().skip(usize::from(FIRST_SYMBOL)));
-        declared.map(|(symbol, count)| (self.symbols.display_name(symbol), count)).collect()
+        self.chain.counts(&self.symbols)
     }
 
     /// Drops the chains at the indices `chains`, which are ascending. Queries still see them.

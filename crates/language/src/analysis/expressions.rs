@@ -182,6 +182,9 @@ impl Walk<'_> {
                 Suffix::Call(Call::MethodCall(method)) => match text_of(method.name()).as_str() {
                     "rule" | "decompose" => self.rule(method.args(), FunctionRole::Rule),
                     "interpret" => self.rule(method.args(), FunctionRole::Interpretation),
+                    "at_start" | "before_step" | "after_step" | "at_end" => {
+                        self.rule(method.args(), FunctionRole::Hook);
+                    }
                     "axiom" => {
                         self.axiom = true;
                         self.suffix(suffix);

@@ -32,6 +32,8 @@ pub struct Analysis {
     pub random: bool,
     /// Set if the script uses the global `step`.
     pub reads_step: bool,
+    /// Set if a function may end a derivation.
+    pub stops: bool,
     /// Lines on which pure functions begin.
     pub pure: Vec<usize>,
     /// Lines on which functions begin that do not read their first parameter, a rule's `this`.
@@ -136,7 +138,14 @@ impl ScriptReader {
 
 /// Returns the analysis of a script that must not run.
 fn unread(text: &str, problems: Vec<Error>) -> Analysis {
-    Analysis { text: text.to_owned(), problems, random: true, reads_step: true, ..Analysis::default() }
+    Analysis {
+        text: text.to_owned(),
+        problems,
+        random: true,
+        reads_step: true,
+        stops: true,
+        ..Analysis::default()
+    }
 }
 
 fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -> Analysis {
@@ -164,6 +173,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         mut problems,
         random,
         reads_step,
+        stops,
         pure,
         mut blind,
         guards,
@@ -207,6 +217,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         problems,
         random,
         reads_step,
+        stops,
         pure,
         blind,
         guards,

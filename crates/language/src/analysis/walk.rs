@@ -35,6 +35,7 @@ pub(super) enum FunctionRole {
     Rule,
     Guard,
     Interpretation,
+    Hook,
     /// Read method of an object type, which rules and interpretations can call.
     Reading,
     /// Write method of an object type, which interpretations can call.
@@ -108,6 +109,7 @@ pub(super) struct Walk<'a> {
     pub(super) problems: Vec<Error>,
     pub(super) random: bool,
     pub(super) reads_step: bool,
+    pub(super) stops: bool,
     /// Rule whose functions are being walked.
     pub(super) rule: Option<String>,
     /// Set if the next function belongs to an axiom.
@@ -170,6 +172,7 @@ impl<'a> Walk<'a> {
             problems: Vec::new(),
             random: false,
             reads_step: false,
+            stops: false,
             rule: None,
             axiom: false,
             pure: BTreeMap::new(),
@@ -321,7 +324,8 @@ impl<'a> Walk<'a> {
         let name = text_of(token);
         let here = self.functions.len() - 1;
         let rule = self.functions.iter().rposition(|function| {
-            matches!(function.role, FunctionRole::Rule | FunctionRole::Guard | FunctionRole::Interpretation)
+            use FunctionRole::{Guard, Hook, Interpretation, Rule};
+            matches!(function.role, Rule | Guard | Interpretation | Hook)
         });
         let found = self.find(&name).map(|variable| (variable.id, variable.function));
         let Some((id, owner)) = found else {
@@ -346,12 +350,14 @@ impl<'a> Walk<'a> {
                 let what = match self.functions[rule].role {
                     FunctionRole::Guard => "a guard",
                     FunctionRole::Interpretation => "an interpretation rule",
+                    FunctionRole::Hook => "a hook",
                     _ => "a rule",
                 };
                 let help = match self.functions[rule].role {
                     FunctionRole::Interpretation => {
                         "it can change only `this`; keep values in a parameter of a module"
                     }
+                    FunctionRole::Hook => "declare it with variables({ ... }), and pass these to the system",
                     _ => {
                         "pass it in a parameter of a module; to change the object, use an interpretation rule"
                     }
@@ -383,6 +389,7 @@ impl<'a> Walk<'a> {
         }
         self.random |= name == "stream" || stream_argument(&name).is_some();
         self.reads_step |= name == "step";
+        self.stops |= name == "stop";
         if self.globals.names.contains(&name) {
             if self.globals.deprecated.contains_key(&name) {
                 let line = token.start_position().map_or(1, |position| position.line());

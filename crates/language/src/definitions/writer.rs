@@ -289,7 +289,8 @@ impl Writer {
                 returns => self.got(returns),
             };
             let returns = if returns.contains("->") { format!("({returns})") } else { returns };
-            let _ = writeln!(out, "declare function {}({arguments}): {returns}\n", name.name);
+            let generic = if returns == "T" { "<T>" } else { "" };
+            let _ = writeln!(out, "declare function {}{generic}({arguments}): {returns}\n", name.name);
         } else if name.forms.is_empty() {
             let luau = self.got(&name.luau);
             let _ = writeln!(out, "declare {}: {luau}\n", name.name);

@@ -5,13 +5,14 @@ use std::sync::LazyLock;
 use burgeon_kit::{Argument, Field};
 
 use super::name::{Name, Operator, field};
+use super::systems::{DERIVED, LSYSTEM, NOW, RULE, SYSTEM};
 use crate::form::argument;
 
 /// Returns all names of this file.
 pub(super) fn names() -> Vec<Name> {
     let shared = [
-        &*PARAM, &OBJECT, &EXTEND, &LSYSTEM, &SYSTEM, &RULE, &DERIVED, &SOURCE, &LAYER, &QUERY, &FRAGMENT,
-        &VECTOR,
+        &*PARAM, &OBJECT, &EXTEND, &LSYSTEM, &SYSTEM, &RULE, &DERIVED, &NOW, &SOURCE, &LAYER, &QUERY,
+        &FRAGMENT, &VECTOR,
     ];
     let mut names: Vec<Name> = shared.into_iter().cloned().collect();
     names.extend([
@@ -76,8 +77,25 @@ pub(super) fn names() -> Vec<Name> {
         .form([], "number")
         .pure(),
         Name::global(
+            "stop",
+            "Ends the derivation after the step that is running. Rules, interpretations and hooks can call it.",
+        )
+        .form([], "()"),
+        Name::global(
+            "use_group",
+            "Chooses the group of rules for the next steps, in a hook; without a name, only rules without a group apply.",
+        )
+        .form([argument("name", "string?")], "()"),
+        Name::global(
+            "variables",
+            "Declares variables of a system with their first values, for lsystem({ variables = ... }). Hooks and interpretations \
+             assign them, such as clock.time += 1; rules and guards read them as the step began. Each derivation begins with the \
+             first values; after it, they are in derived.variables.",
+        )
+        .form([argument("values", "T")], "T"),
+        Name::global(
             "warn",
-            "Adds a warning to the run, with the problem and its remedy. Only the top level of a script and its functions can warn, not rules.",
+            "Adds a warning to the run, with the problem and its remedy. Only the top level of a script, its functions and hooks can warn, not rules.",
         )
         .form([argument("text", "string"), argument("help", "string?")], "()"),
         Name::global(
@@ -178,7 +196,7 @@ fn metres(name: &'static str, luau: &str, doc: &'static str) -> Field {
     Field { unit: Some("m".into()), ..Field::new(name, luau, doc) }
 }
 
-fn options(luau: &str, fields: impl Into<Vec<Field>>) -> Argument {
+pub(super) fn options(luau: &str, fields: impl Into<Vec<Field>>) -> Argument {
     Argument { fields: fields.into(), ..argument("options", luau) }
 }
 
@@ -201,33 +219,6 @@ pub static PARAM: LazyLock<Name> = LazyLock::new(|| {
             ),
         ],
         "any",
-    )
-});
-
-/// Constructor of systems.
-pub static LSYSTEM: LazyLock<Name> = LazyLock::new(|| {
-    Name::global("lsystem", "Creates a system; see `system`.").form(
-        [options(
-            "{ ... }?",
-            [
-                field("object", "any", "nil", "The object that the chains draw with, or its constructor."),
-                field(
-                    "interpret",
-                    "\"last\"?",
-                    "nil",
-                    "With \"last\", only the last chain is interpreted instead of the chain of every step.",
-                ),
-                field("max_depth", "number?", "100", "Maximum depth of decompositions and of interpretations that return modules: the number of times that their rules apply one after another."),
-                field(
-                    "city",
-                    "string?",
-                    "nil",
-                    "CityJSON class of the chains, such as \"Road\"; buildings have a class by default.",
-                ),
-                field("seed", "number?", "nil", "Seed of the random numbers, instead of the run's seed."),
-            ],
-        )],
-        "System<T>",
     )
 });
 
@@ -282,102 +273,6 @@ pub static EXTEND: LazyLock<Name> = LazyLock::new(|| {
     let declaration = Argument { fields: fields.into(), ..argument("declaration", "{ ... }") };
     Name::global("extend", "Adds methods to an object type for this run.")
         .form([argument("constructor", "(...any) -> any"), declaration], "()")
-});
-
-/// Methods of a system.
-pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
-    let pattern = || argument("pattern", "string");
-    let successor = || argument("successor", "((this: T, ...any) -> ...Module) | string");
-    let draw = || argument("draw", "(this: T, ...any) -> ...any");
-    Name::return_value(
-        "system",
-        "System<T>",
-        "A system of rules, created by lsystem; T is the type of its object.",
-    )
-    .functions([
-        Name::function(
-            "axiom",
-            "Sets the initial chain, as modules or as a string such as \"F-F-F-F\", or the function that returns the chain of each \
-             feature of a source. The chains of a derived system continue its derivation with the rules of this system.",
-        )
-        .form([argument("...", "Module")], "System<T>")
-        .form([argument("modules", "string")], "System<T>")
-        .form(
-            [argument("source", "Layer"), argument("chain", "(feature: Feature) -> ...Module")],
-            "System<T>",
-        )
-        .form([argument("derived", "Derived")], "System<T>"),
-        Name::function("rule", "Adds a rule: the successor of a module that matches the pattern. A string with the word return is the body of a Lua function; others are modules such as \"F[+F]F(x / 2)\".")
-            .form([pattern(), successor()], "System<T>")
-            .form([pattern(), options("{ ... }", RULE.fields.clone()), successor()], "System<T>"),
-        Name::function(
-            "decompose",
-            "Adds a decomposition rule, which applies repeatedly after the axiom and after each step.",
-        )
-        .form([pattern(), successor()], "System<T>")
-        .form([pattern(), options("{ ... }", RULE.fields.clone()), successor()], "System<T>"),
-        Name::function(
-            "interpret",
-            "Adds an interpretation: the function that draws a module. It calls methods of `this`, and may return modules, which \
-             are interpreted in its place; the chain does not change. Interpretations of one module are chosen as rules are: by \
-             contexts in the chain, and with the options of a rule before the function, by guards and weights.",
-        )
-        .form([pattern(), draw()], "System<T>")
-        .form([pattern(), options("{ ... }", RULE.fields.clone()), draw()], "System<T>"),
-        Name::function("ignore", "Sets modules that context matching ignores.")
-            .form([argument("...", "string")], "System<T>"),
-        Name::function("consider", "Sets the only modules that context matching considers.")
-            .form([argument("...", "string")], "System<T>"),
-        Name::function(
-            "derive",
-            "Applies the rules step by step; without a number of steps, until no rule applies.",
-        )
-        .form([argument("steps", "number?")], "Derived"),
-    ])
-});
-
-/// Options of a rule.
-pub static RULE: LazyLock<Name> = LazyLock::new(|| {
-    Name::return_value(
-        "rule",
-        "{ ... }",
-        "Options of system:rule and system:decompose, between pattern and successor, and of system:interpret.",
-    )
-    .fields([
-        field(
-            "weight",
-            "number?",
-            "nil",
-            "Relative probability among the rules that apply; never chosen if 0.",
-        ),
-        field(
-            "when",
-            "((this: T, ...any) -> boolean)?",
-            "nil",
-            "The guard: the rule applies only if this function returns true.",
-        ),
-    ])
-});
-
-/// Fields of a derived system.
-pub static DERIVED: LazyLock<Name> = LazyLock::new(|| {
-    Name::return_value(
-        "derived",
-        "Derived",
-        "A derived system, returned by system:derive, which is also a model.",
-    )
-    .extends("Model")
-    .fields([
-        Field::new("objects", "{ any }", "The objects that the chains drew with."),
-        Field::new("chains", "{ string }", "The chains as text."),
-        Field::new("steps", "number", "Number of steps."),
-        Field::new("modules", "number", "Number of modules in the chains."),
-        Field::new(
-            "counts",
-            "{ [string]: number }",
-            "Number of modules of each name in the chains, such as derived.counts.F.",
-        ),
-    ])
 });
 
 /// Loading of features, with the options that select them.

@@ -8,8 +8,10 @@ mod list;
 mod luau;
 mod name;
 mod standard;
+mod systems;
 
-pub use burgeon::{DERIVED, EXTEND, LAYER, LSYSTEM, OBJECT, PARAM, RULE, SOURCE, SYSTEM, VECTOR};
+pub use burgeon::{EXTEND, LAYER, OBJECT, PARAM, SOURCE, VECTOR};
 pub use list::{deprecated_names, is_pure_function, library_effect, names};
 pub use luau::LOCKED;
 pub use name::{Effect, Name, NameKind, Operator};
+pub use systems::{DERIVED, LSYSTEM, NOW, RULE, SYSTEM};

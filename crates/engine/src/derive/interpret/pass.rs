@@ -68,6 +68,8 @@ pub(crate) struct InterpretationPass {
     number: usize,
     /// Set if an interpretation rule has read that number.
     reads_step: AtomicBool,
+    /// Set if an interpretation rule has requested that the step is the last.
+    is_last: AtomicBool,
     /// Start of each piece of whole chains, and the end of the last piece.
     pieces: Vec<Mark>,
     next: AtomicUsize,
@@ -86,6 +88,8 @@ pub(crate) struct InterpretationPass {
 pub(crate) struct PassOutcome {
     /// Set if an interpretation rule has read the number of the step.
     pub reads_step: bool,
+    /// Set if an interpretation rule has requested that the step is the last.
+    pub is_last: bool,
     /// Symbols of modules that interpretation rules returned and nothing draws.
     pub undrawn: BTreeSet<Symbol>,
 }
@@ -125,6 +129,7 @@ impl InterpretationPass {
             step,
             number,
             reads_step: AtomicBool::new(false),
+            is_last: AtomicBool::new(false),
             pieces,
             next: AtomicUsize::new(0),
             triangles: AtomicUsize::new(0),
@@ -135,7 +140,10 @@ impl InterpretationPass {
             undrawn: Mutex::default(),
             places: Mutex::default(),
         });
-        threads.hand_out(machine, count, 2, || ThreadJob::Interpret(Arc::downgrade(&interpreting)))?;
+        // Chains that assign the same variables are interpreted one after the other.
+        if !plan.assigns_variables {
+            threads.hand_out(machine, count, 2, || ThreadJob::Interpret(Arc::downgrade(&interpreting)))?;
+        }
         while interpreting.work(machine) {}
         let done = threads.reclaim(interpreting);
         let counted = done.uses.into_inner().recover();
@@ -149,6 +157,7 @@ impl InterpretationPass {
                 plan.set_places((!plan.located.is_empty()).then(|| ModulePlaces::new(places)));
                 Ok(PassOutcome {
                     reads_step: done.reads_step.into_inner(),
+                    is_last: done.is_last.into_inner(),
                     undrawn: done.undrawn.into_inner().recover(),
                 })
             }
@@ -181,6 +190,7 @@ impl InterpretationPass {
         machine.current.begin_step(self.number, self.plan.bounded);
         let result = self.run(machine, begin, end);
         self.reads_step.fetch_or(machine.current.has_read_step(), Ordering::Relaxed);
+        self.is_last.fetch_or(machine.current.take_end(), Ordering::Relaxed);
         let flusher = machine.current.flusher.replace(None);
         if let Some(applier) =
             flusher.and_then(|flusher| (flusher as Box<dyn std::any::Any>).downcast::<Applier>().ok())

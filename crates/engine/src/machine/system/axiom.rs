@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use mlua::{AnyUserData, Function, MultiValue, Table, Value as LuaValue};
 
-use crate::machine::Machine;
 use crate::machine::convert::to_value;
 use crate::machine::types::ObjectHandle;
+use crate::machine::{Machine, VariableValues};
 use crate::results::{DerivedSystem, Remark, SourceFeatures};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_kit::{Object, Prefetch, Value};
-use burgeon_rewriting::{CLOSE, Chain, DEEPEST, END, ModuleKey, OPEN, Symbol};
+use burgeon_rewriting::{CLOSE, Chain, DEEPEST, END, ModuleKey, OPEN, Ordinals, Symbol};
 
 use super::lazy::is_feature;
 use super::selection::{FeatureRole, PartSelection};
@@ -35,6 +35,8 @@ pub(crate) struct Axiom {
     pub remarks: Vec<Remark>,
     /// Indices of the chains that are only built for others near them, ascending.
     pub neighbors: Vec<usize>,
+    /// Variables of the derivation that is continued.
+    pub variables: Option<VariableValues>,
 }
 
 impl Axiom {
@@ -121,6 +123,7 @@ impl SystemDeclaration {
         axiom: &mut Axiom,
     ) {
         derived.note_continued();
+        axiom.variables.clone_from(&derived.variables);
         let arities = machine.library.symbols.borrow().arities();
         axiom.chain = derived.chain.without_chains(&derived.left_out, &arities);
         let stays = |index: &usize| derived.left_out.binary_search(index).is_err();
@@ -146,13 +149,17 @@ impl SystemDeclaration {
             axiom.chain.keys.clear();
         } else if axiom.chain.keys.is_empty() {
             // No rule has used random numbers so far, so the modules are numbered in the order of each chain.
+            let (symbols, mut ordinals) = (machine.library.symbols.borrow(), Ordinals::default());
             let mut keys = keys.into_iter();
-            let (mut key, mut ordinal) = (keys.next().unwrap_or(key), 0);
+            let mut key = keys.next().unwrap_or(key);
             for symbol in &axiom.chain.symbols {
-                axiom.chain.keys.push(if *symbol > END { key.child(ordinal) } else { key });
-                ordinal += usize::from(*symbol > END);
+                axiom.chain.keys.push(match *symbol > END {
+                    true => key.successor(symbols.name_hash(*symbol), ordinals.next(*symbol)),
+                    false => key,
+                });
                 if *symbol == END {
-                    (key, ordinal) = (keys.next().unwrap_or(key), 0);
+                    ordinals.clear();
+                    key = keys.next().unwrap_or(key);
                 }
             }
         }
@@ -329,11 +336,16 @@ impl Builder<'_> {
     }
 
     fn list(&mut self, items: &[LuaValue], key: ModuleKey) -> Result<()> {
-        let mut ordinal = 0;
-        self.items(items, key, &mut ordinal, 0)
+        self.items(items, key, &mut Ordinals::default(), 0)
     }
 
-    fn items(&mut self, items: &[LuaValue], key: ModuleKey, ordinal: &mut usize, depth: usize) -> Result<()> {
+    fn items(
+        &mut self,
+        items: &[LuaValue],
+        key: ModuleKey,
+        ordinals: &mut Ordinals,
+        depth: usize,
+    ) -> Result<()> {
         for item in items {
             let LuaValue::Table(table) = item else {
                 let what = match to_value(item, false) {
@@ -355,7 +367,7 @@ impl Builder<'_> {
                     .sequence_values()
                     .collect::<mlua::Result<_>>()
                     .map_err(|error| self.machine.translate(error))?;
-                self.items(&inner, key, ordinal, depth + 1)?;
+                self.items(&inner, key, ordinals, depth + 1)?;
                 continue;
             }
             let is_module = self
@@ -377,7 +389,7 @@ impl Builder<'_> {
                     .collect::<mlua::Result<_>>()
                     .map_err(|error| self.machine.translate(error))?;
                 self.push(OPEN, &[], key);
-                self.items(&inner, key, ordinal, depth + 1)?;
+                self.items(&inner, key, ordinals, depth + 1)?;
                 self.push(CLOSE, &[], key);
                 continue;
             }
@@ -394,13 +406,15 @@ impl Builder<'_> {
                 LuaValue::Number(symbol) => symbol as Symbol,
                 _ => END,
             };
-            let arity = self.machine.library.symbols.borrow().signature(symbol).arity();
+            let (arity, name) = {
+                let symbols = self.machine.library.symbols.borrow();
+                (symbols.signature(symbol).arity(), symbols.name_hash(symbol))
+            };
             let mut params = Vec::with_capacity(arity);
             for index in 0..arity {
                 params.push(self.machine.session.values.pack(to_value(&read(index + 3)?, true)?));
             }
-            self.push(symbol, &params, key.child(*ordinal));
-            *ordinal += 1;
+            self.push(symbol, &params, key.successor(name, ordinals.next(symbol)));
         }
         Ok(())
     }

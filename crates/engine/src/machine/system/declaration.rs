@@ -4,6 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
 use super::DeclaredInterpretation;
+use super::hooks::DeclaredHook;
 use crate::machine::Machine;
 use crate::machine::freeze::{ReachableFunction, TableFreeze, freeze};
 use crate::machine::library::Library;
@@ -42,6 +43,9 @@ pub(crate) struct SystemDeclaration {
     pub(crate) axiom: Option<DeclaredAxiom>,
     pub(crate) rules: Vec<DeclaredRule>,
     pub(crate) interpretations: Vec<DeclaredInterpretation>,
+    pub(super) hooks: Vec<DeclaredHook>,
+    /// Number of the table of variables, if the system has one.
+    pub(crate) variables: Option<usize>,
     pub(crate) ignored: Vec<Symbol>,
     pub(crate) considered: Option<Vec<Symbol>>,
     /// Record of each derivation.
@@ -95,6 +99,8 @@ impl RulePhase {
 pub(crate) struct DeclaredRule {
     pub(crate) rule: Rule,
     pub(crate) phase: RulePhase,
+    /// Group of rules that are candidates only while the group is used; `None` for rules that always are.
+    pub(crate) group: Option<Arc<str>>,
     pub(crate) guard: Option<Function>,
     /// Source text of the guard, if it is known.
     pub(crate) guard_text: Option<String>,
@@ -152,6 +158,21 @@ impl SystemDeclaration {
         self.rules.iter().any(|declared| declared.phase == phase)
     }
 
+    /// Returns a part of the system that an object which applies its rules would not use, and the remedy.
+    pub(crate) fn unfit_for_objects(&self) -> Option<(&'static str, &'static str)> {
+        if self.has_rules_in(RulePhase::Decomposition) {
+            Some(("decomposition rules", "declare the rules with system:rule"))
+        } else if self.rules.iter().any(|declared| declared.group.is_some()) {
+            Some(("groups of rules", "declare the rules without a group"))
+        } else if self.variables.is_some() {
+            Some(("variables", "pass values in parameters of modules"))
+        } else if !self.hooks.is_empty() {
+            Some(("hooks", "calculate before the system is passed to the object"))
+        } else {
+            None
+        }
+    }
+
     /// Returns the symbols that contexts skip.
     pub(super) fn skipped_symbols(&self, symbols: &Symbols) -> Vec<Symbol> {
         match &self.considered {
@@ -163,15 +184,36 @@ impl SystemDeclaration {
         }
     }
 
-    /// Returns the rules of a phase in the form that machines share. The numbers of rules are those of all phases.
-    pub(crate) fn grammar(&self, library: &Library, random: bool, phase: RulePhase) -> Grammar {
+    /// Returns the names of the groups of rules, in the order of declaration.
+    pub(crate) fn groups(&self) -> Vec<Arc<str>> {
+        let mut groups: Vec<Arc<str>> = Vec::new();
+        for group in self.rules.iter().filter_map(|declared| declared.group.as_ref()) {
+            if !groups.contains(group) {
+                groups.push(Arc::clone(group));
+            }
+        }
+        groups
+    }
+
+    /// Returns the rules of a phase in the form that machines share. The numbers of rules are those of all phases. Rules of
+    /// groups other than `group` are no candidates.
+    pub(crate) fn grammar(
+        &self,
+        library: &Library,
+        random: bool,
+        phase: RulePhase,
+        group: Option<&str>,
+    ) -> Grammar {
         let symbols = Arc::new(library.symbols.borrow().clone());
         let ignored = self.skipped_symbols(&symbols);
         // Weights of interpretation rules draw from the keys of modules, too.
         let random = random || self.interpretations.iter().any(|known| known.rule.weight.is_some());
         let rules = self.rules.iter().map(|declared| declared.rule.clone()).collect();
         let grammar = Grammar::new(symbols, rules, &ignored, random);
-        grammar.with_candidates(|number| self.rules[usize::from(number)].phase == phase)
+        grammar.with_candidates(|number| {
+            let declared = &self.rules[usize::from(number)];
+            declared.phase == phase && (declared.group.is_none() || declared.group.as_deref() == group)
+        })
     }
 
     /// Prepares `machine` for deriving this system: creates the drivers and freezes reachable tables.
@@ -245,6 +287,7 @@ impl SystemDeclaration {
                 }
             }));
         }
+        reached.extend(self.reachable_hooks());
         let types = machine.library.script_types.borrow();
         let functions =
             types.iter().flat_map(|known| known.functions.iter().map(|it| (&*known.kind.name, it)));

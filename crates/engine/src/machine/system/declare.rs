@@ -93,9 +93,9 @@ impl SystemDeclaration {
                 ));
             }
         };
-        let (weight, guard) = match options {
+        let RuleOptions { weight, guard, group } = match options {
             Some(options) => rule_options(&options).map_err(named)?,
-            None => (None, None),
+            None => RuleOptions::default(),
         };
         let place = Machine::place(lua);
         let session = std::sync::Arc::clone(&library.machine()?.session);
@@ -133,7 +133,7 @@ impl SystemDeclaration {
         let begin = guard.as_ref().and_then(begin_of);
         let guard_text = begin.and_then(|(file, line)| session.guard_text(&file, line));
         let rule = Rule::new(pattern, weight, guard.is_some(), place);
-        self.rules.push(DeclaredRule { rule, phase, guard, guard_text, successor, asks });
+        self.rules.push(DeclaredRule { rule, phase, group, guard, guard_text, successor, asks });
         Ok(())
     }
 
@@ -154,18 +154,22 @@ impl SystemDeclaration {
         drop(symbols);
         let name = pattern.text.clone();
         let named = |error: Error| error.rule(&name);
-        let (weight, guard) = match (arguments.len(), arguments.get(1)) {
+        let RuleOptions { weight, guard, group } = match (arguments.len(), arguments.get(1)) {
             (3, Some(LuaValue::Table(options))) => rule_options(options).map_err(named)?,
             (3, _) => {
                 let error = Error::argument("the options of an interpretation must be a table");
                 return Err(named(error.help("write { weight = 2 }")));
             }
-            (1 | 2, _) => (None, None),
+            (1 | 2, _) => RuleOptions::default(),
             (count, _) => {
                 let error = Error::argument(format!("interpret takes 2 or 3 arguments, not {count}"));
                 return Err(named(error.help(usage)));
             }
         };
+        if group.is_some() {
+            return Err(named(Error::argument("an interpretation has no group"))
+                .help("groups are for rules; use a guard that reads a variable"));
+        }
         let (1.., Some(LuaValue::Function(function))) = (arguments.len() - 1, arguments.pop()) else {
             return Err(named(Error::argument("an interpretation needs a function").help(usage)));
         };
@@ -227,8 +231,16 @@ fn may_ask(session: &Session, function: &Function) -> bool {
     takes_any && !begin_of(function).is_some_and(|(file, line)| session.is_blind(&file, line))
 }
 
-fn rule_options(options: &Table) -> Result<(Option<f64>, Option<Function>)> {
-    let (mut weight, mut guard) = (None, None);
+/// Options of a rule.
+#[derive(Default)]
+struct RuleOptions {
+    weight: Option<f64>,
+    guard: Option<Function>,
+    group: Option<Arc<str>>,
+}
+
+fn rule_options(options: &Table) -> Result<RuleOptions> {
+    let RuleOptions { mut weight, mut guard, mut group } = RuleOptions::default();
     for pair in options.pairs::<LuaValue, LuaValue>() {
         let (key, value) = pair.map_err(|error| Error::internal(error.to_string()))?;
         let key = key.to_string().unwrap_or_default();
@@ -242,6 +254,13 @@ fn rule_options(options: &Table) -> Result<(Option<f64>, Option<Function>)> {
                     .help("a rule with weight 0 is never chosen"));
                 }
             },
+            ("group", LuaValue::String(name)) if !name.as_bytes().is_empty() => {
+                group = Some(name.to_string_lossy().into());
+            }
+            ("group", other) => {
+                return Err(Error::argument(format!("group must be a name, not a {}", other.type_name()))
+                    .help("write { group = \"grow\" }, and derive(5, \"grow\")"));
+            }
             ("when", LuaValue::Function(function)) => guard = Some(function),
             ("when", other) => {
                 return Err(Error::argument(format!("when must be a function, not a {}", other.type_name()))
@@ -250,11 +269,11 @@ fn rule_options(options: &Table) -> Result<(Option<f64>, Option<Function>)> {
             (other, _) => {
                 let message = format!("unknown option `{other}` of a rule");
                 return Err(Error::not_found("option", other, RULE.part_names(), message)
-                    .help(format!("it has {}", RULE.part_names().join(" and "))));
+                    .help(format!("it has {}", RULE.part_names().join(", "))));
             }
         }
     }
-    Ok((weight, guard))
+    Ok(RuleOptions { weight, guard, group })
 }
 
 /// Refuses a function with more parameters than the pattern provides.

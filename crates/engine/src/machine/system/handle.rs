@@ -19,6 +19,7 @@ use burgeon_scene::CityClass;
 
 use super::SystemDeclaration;
 use super::declaration::{MAX_DEPTH, RulePhase};
+use super::hooks::HookMoment;
 use super::strings::word_symbols;
 
 /// Script value for a system.
@@ -46,6 +47,8 @@ impl SystemHandle {
             axiom: None,
             rules: Vec::new(),
             interpretations: Vec::new(),
+            hooks: Vec::new(),
+            variables: None,
             ignored: Vec::new(),
             considered: None,
             derivations: RefCell::default(),
@@ -64,6 +67,16 @@ impl SystemHandle {
                 ("interpret", _) => {
                     return Err(Error::argument("lsystem: interpret must be \"last\"")
                         .help("omit it to interpret after every step"));
+                }
+                ("variables", value) => {
+                    let machine = library.machine()?;
+                    let number = machine.prelude().variables_of.call::<Option<usize>>(value);
+                    system.variables =
+                        Some(number.map_err(|error| machine.translate(error))?.ok_or_else(|| {
+                            Error::argument("lsystem: variables must be a result of variables(...)").help(
+                            "write local clock = variables({ time = 0 }), and lsystem({ variables = clock })",
+                        )
+                        })?);
                 }
                 ("city", value) => match to_value(&value, false)? {
                     Value::Text(class) => {
@@ -204,6 +217,15 @@ impl UserData for SystemHandle {
             })?;
             Ok(this.again())
         });
+        for moment in HookMoment::ALL {
+            let declared = move |lua: &Lua, (this, arguments): (UserDataRef<Self>, MultiValue)| {
+                let arguments: Vec<LuaValue> = arguments.into_iter().collect();
+                let place = Machine::place(lua);
+                this.declare(lua, "hook", |system| system.add_hook(moment, arguments, place))?;
+                Ok(this.again())
+            };
+            methods.add_function(moment.method(), declared);
+        }
         methods.add_function("ignore", |lua, (this, names): (UserDataRef<Self>, MultiValue)| {
             let library = Rc::clone(&this.library);
             this.declare(lua, "ignore", |system| {
@@ -222,34 +244,47 @@ impl UserData for SystemHandle {
             })?;
             Ok(this.again())
         });
-        methods.add_function("derive", |lua, (this, steps): (UserDataRef<Self>, LuaValue)| {
-            let machine = this.library.machine().map_err(mlua::Error::external)?;
-            machine.refuse_in_rules("derive").map_err(mlua::Error::external)?;
-            let steps = match to_value(&steps, false).map_err(mlua::Error::external)? {
-                Value::Nil => None,
-                #[allow(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "the range is checked"
-                )]
-                Value::Number(steps) if steps.fract() == 0.0 && (0.0..1e9).contains(&steps) => {
-                    Some(steps as usize)
-                }
-                other => {
-                    return Err(mlua::Error::external(
-                        Error::argument(format!(
-                            "derive needs an integer number of steps of at least 0, not {other}"
-                        ))
-                        .help("omit it to derive until no rule applies"),
-                    ));
-                }
-            };
-            let derived = machine
-                .driver
-                .derive(&machine, this.index, steps)
-                .map_err(|error| mlua::Error::external(error.at(Machine::place(lua))))?;
-            Ok(DerivedHandle(derived))
-        });
+        methods.add_function(
+            "derive",
+            |lua, (this, steps, group): (UserDataRef<Self>, LuaValue, LuaValue)| {
+                let machine = this.library.machine().map_err(mlua::Error::external)?;
+                machine.refuse_in_rules("derive").map_err(mlua::Error::external)?;
+                let steps = match to_value(&steps, false).map_err(mlua::Error::external)? {
+                    Value::Nil => None,
+                    #[allow(
+                        clippy::cast_possible_truncation,
+                        clippy::cast_sign_loss,
+                        reason = "the range is checked"
+                    )]
+                    Value::Number(steps) if steps.fract() == 0.0 && (0.0..1e9).contains(&steps) => {
+                        Some(steps as usize)
+                    }
+                    other => {
+                        return Err(mlua::Error::external(
+                            Error::argument(format!(
+                                "derive needs an integer number of steps of at least 0, not {other}"
+                            ))
+                            .help("omit it to derive until no rule applies"),
+                        ));
+                    }
+                };
+                let group = match group {
+                    LuaValue::Nil => None,
+                    LuaValue::String(name) => Some(name.to_string_lossy()),
+                    other => {
+                        let message =
+                            format!("derive needs the name of a group, not a {}", other.type_name());
+                        let error = Error::argument(message).help("write system:derive(5, \"grow\")");
+                        return Err(mlua::Error::external(error));
+                    }
+                };
+                let derived = machine
+                    .driver
+                    .derive(&machine, this.index, (steps, group.as_deref()))
+                    .map_err(|error| mlua::Error::external(error.at(Machine::place(lua))))?;
+                Ok(DerivedHandle(derived))
+            },
+        );
         methods.add_meta_function("__newindex", |_, (_, name): (LuaValue, String)| -> mlua::Result<()> {
             Err(mlua::Error::external(
                 Error::script(format!("cannot assign `{name}` of a system"))

@@ -40,19 +40,35 @@ impl SystemDeclaration {
                 None => warning,
             });
         }
+        let groups = self.groups();
+        let groups = || std::iter::once(None).chain(groups.iter().map(|group| Some(&**group)));
         for phase in RulePhase::ALL {
-            self.tell_forestalled_in(phase, machine, grammar);
+            groups().for_each(|group| self.tell_forestalled_in((phase, group), machine, grammar));
         }
     }
 
-    /// Warns about rules of a phase that never apply.
-    fn tell_forestalled_in(&self, phase: RulePhase, machine: &Machine, grammar: &Grammar) {
+    /// Warns about rules of a phase that never apply. `group` are the rules to which the warnings belong; rules without a group
+    /// apply together with them.
+    fn tell_forestalled_in(
+        &self,
+        (phase, group): (RulePhase, Option<&str>),
+        machine: &Machine,
+        grammar: &Grammar,
+    ) {
         let mut sure = CandidateRules::default();
         let mut guards = GuardClasses::default();
-        let can_apply =
-            |(index, rule): &(usize, &Rule)| rule.weight != Some(0.0) && self.rules[*index].phase == phase;
+        let group_of = |index: usize| self.rules[index].group.as_deref();
+        let can_apply = |(index, rule): &(usize, &Rule)| {
+            rule.weight != Some(0.0)
+                && self.rules[*index].phase == phase
+                && (group_of(*index).is_none() || group_of(*index) == group)
+        };
         for (index, rule) in grammar.rules().iter().enumerate().filter(can_apply) {
             let guard = guards.class_of(machine, &self.rules, index);
+            if group_of(index) != group {
+                sure.add(rule, guard);
+                continue;
+            }
             let warn =
                 |warning: Warning| machine.warn(warning.at(rule.place.clone()).rule(&rule.pattern.text));
             let earlier = sure.forestalls(rule, guard);

@@ -8,6 +8,7 @@ use rustc_hash::FxHashMap;
 
 use super::geometries::geometry_field;
 use crate::machine::convert::to_lua;
+use crate::machine::table_of;
 use crate::results::DerivedSystem;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
@@ -194,6 +195,14 @@ impl DerivedHandle {
             "chains" => {
                 let lines = derived.read_chains();
                 let table = lua.create_sequence_from(lines.lines())?;
+                table.set_readonly(true);
+                Ok(LuaValue::Table(table))
+            }
+            "variables" => {
+                let table = match &derived.variables {
+                    Some(variables) => table_of(lua, variables)?,
+                    None => lua.create_table()?,
+                };
                 table.set_readonly(true);
                 Ok(LuaValue::Table(table))
             }

@@ -1,0 +1,20 @@
+-- Days pass between the steps, and the light of each day decides about the growth.
+local clock = variables({ day = 0, light = 0 })
+local Apex = module("Apex")
+local plant = lsystem({ object = turtle({ width = 0.2 }), variables = clock })
+plant:axiom(Apex())
+plant:at_start(function()
+  clock.light = 0.5
+end)
+plant:before_step(function()
+  clock.day += 1
+  clock.light = 0.5 + 0.5 * math.sin(clock.day)
+end)
+plant:rule("Apex", function()
+  return F(clock.light), Roll(137.5), { Turn(60), F(clock.light / 2) }, Apex()
+end)
+plant:at_end(function(now)
+  print(`{now.modules} modules after {clock.day} days`)
+end)
+local derived = plant:derive(12)
+print(derived.variables.light)
