@@ -5,7 +5,7 @@ local steps = param("steps", { default = 5, min = 1, max = 6, step = 1, doc = "S
 local angle = param("angle", { default = 25.7, min = 5, max = 90, unit = "deg", doc = "Of the branches" })
 local height = param("height", { default = 2, min = 0.1, max = 20, unit = "m", doc = "Length of the stems" })
 
-local plants = {}
+local plants: any = {}
 for k = 1, 5 do
   table.insert(plants, { id = `plant {k}`, x = k * height / 2 })
 end
@@ -22,15 +22,9 @@ field:axiom(source(plants), function(plant)
   })
   return pen, F()
 end)
-field:rule("F", { weight = 0.33 }, function()
-  return F(), { Left(), F() }, F(), { Right(), F() }, F()
-end)
-field:rule("F", { weight = 0.33 }, function()
-  return F(), { Left(), F() }, F(), F()
-end)
-field:rule("F", { weight = 0.34 }, function()
-  return F(), F(), { Right(), F() }, F()
-end)
+field:rule("F", { weight = 0.33 }, "F[+F]F[-F]F" :: any)
+field:rule("F", { weight = 0.33 }, "F[+F]FF" :: any)
+field:rule("F", { weight = 0.34 }, "FF[-F]F" :: any)
 
 local derived = field:derive(steps)
 -- Every successor has three segments on the axis, so each stem has its full length whatever was chosen.

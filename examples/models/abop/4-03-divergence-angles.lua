@@ -5,7 +5,7 @@ local florets = param("florets", { default = 500, min = 1, max = 2000, step = 1,
 
 local Apex = module("Apex", "n")
 
-local function head(divergence: number, place)
+local function head(divergence: number, place: any): any
   local pen = turtle({ position = place, color = "#c98f2c" })
   local system = lsystem({ object = pen, interpret = "last" })
   system:axiom(Apex(1))
@@ -16,7 +16,7 @@ local function head(divergence: number, place)
 end
 
 -- The distance from floret 500 to the nearest older one, after Vogel's formula.
-local function gap(divergence: number)
+local function gap(divergence: number): number
   local nearest = math.huge
   for older = 1, 499 do
     local turn = math.rad(divergence * older)

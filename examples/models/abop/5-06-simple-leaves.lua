@@ -37,7 +37,7 @@ for k, leaf in LEAVES do
       { Right(angle), Vein(t), Point() }
   end)
   system:rule("Vein(t)", {
-    when = function(this, t)
+    when = function(this, t: number)
       return t > 0
     end,
   }, function(this, t: number)
