@@ -60,6 +60,9 @@ for k, plant in PLANTS do
   expect(derived.objects[1]:position().z, 1, 1e-9)
 end
 -- By hand: 111, 101, 1111, 1001, 101[11]1.
-expect(grow(1, 4, nil).chains[1], "F Cell(1) F Cell(0) F Cell(1) [ Turn(22.5) F Cell(1) F Cell(1) ] F Cell(1)")
+expect(
+  grow(1, 4, nil).chains[1],
+  "F Cell(1) F Cell(0) F Cell(1) [ Turn(22.5) F Cell(1) F Cell(1) ] F Cell(1)"
+)
 
 -- Picture: --azimuth 180 --elevation 5
