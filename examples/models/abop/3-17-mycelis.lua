@@ -49,7 +49,7 @@ end
 local counts = stage(33, 0)
 expect({ counts.Climbing, counts.Release, counts.Flower, counts.Node }, { 1 + 11, 1, 1, 0 })
 for k, steps in { 45, 60, 110 } do
-  stage(steps, k * 14 - 4)
+  stage(steps, k * 9 - 2)
 end
 
 -- Picture: --azimuth 180 --elevation 0
