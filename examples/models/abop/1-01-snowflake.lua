@@ -6,7 +6,9 @@ local steps = param("steps", { default = 3, min = 0, max = 7, step = 1, doc = "S
 
 for n = 0, steps do
   local place = vec(n % 2, 0, -math.floor(n / 2)) * (size * 1.35)
-  local snowflake = lsystem({
+  local snowflake = abop({
+    axiom = "-(30)F--F--F",
+    F = "F+F--F+F",
     object = turtle({
       step = size / 3 ^ n,
       angle = 60,
@@ -15,12 +17,7 @@ for n = 0, steps do
       color = "#1f4e79",
       sides = 4,
     }),
-    interpret = "last",
   })
-  snowflake:axiom(Right(30), F(), Right(120), F(), Right(120), F())
-  snowflake:rule("F", function()
-    return F(), Left(), F(), Right(120), F(), Left(), F()
-  end)
 
   -- Four edges of a third replace an edge, and the outline returns to its first corner.
   local derived = snowflake:derive(n)

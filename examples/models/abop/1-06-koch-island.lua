@@ -4,15 +4,10 @@
 local size = param("size", { default = 10, min = 1, max = 100, unit = "m", doc = "Side of the first square" })
 local stages = param("stages", { default = 4, min = 1, max = 5, step = 1, doc = "Stages, two in a row" })
 
-local function island(n: number, place)
+local function island(n: number, place: any): any
   local edge =
     turtle({ step = size / 4 ^ n, width = size / 80, position = place, color = "#1f4e79", sides = 4 })
-  local system = lsystem({ object = edge, interpret = "last" })
-  system:axiom(F(), Right(), F(), Right(), F(), Right(), F(), Right())
-  system:rule("F", function()
-    return F(), Right(), F(), Left(), F(), Left(), F(), F(), Right(), F(), Right(), F(), Left(), F()
-  end)
-  return system:derive(n)
+  return abop({ axiom = "F-F-F-F-", F = "F-F+F+FF-F-F+F", object = edge }):derive(n)
 end
 
 for n = 0, stages - 1 do

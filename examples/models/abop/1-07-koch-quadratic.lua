@@ -3,23 +3,9 @@
 -- Source: P. Prusinkiewicz and A. Lindenmayer, The Algorithmic Beauty of Plants, 1990, figure 1.7.
 local size = param("size", { default = 10, min = 1, max = 100, unit = "m", doc = "Side of the first square" })
 
-local SIGNS = { F = F(), ["+"] = Left(), ["-"] = Right() }
-local function word(signs: string)
-  local modules = {}
-  for sign in signs:gmatch(".") do
-    table.insert(modules, SIGNS[sign])
-  end
-  return table.unpack(modules)
-end
-
-local function curve(axiom: string, successor: string, n: number, step: number, place)
+local function curve(axiom: string, edge: string, n: number, step: number, place: any): any
   local pen = turtle({ step = step, width = size / 60, position = place, color = "#1f4e79", sides = 4 })
-  local system = lsystem({ object = pen, interpret = "last" })
-  system:axiom(word(axiom))
-  system:rule("F", function()
-    return word(successor)
-  end)
-  return system:derive(n)
+  return abop({ axiom = axiom, F = edge, object = pen }):derive(n)
 end
 
 -- 18 edges of a sixth replace an edge, and the island returns to its start.

@@ -4,24 +4,13 @@
 local size = param("size", { default = 10, min = 1, max = 100, unit = "m", doc = "Side of the first square" })
 local steps = param("steps", { default = 2, min = 0, max = 3, step = 1, doc = "Steps of the derivation" })
 
-local SIGNS = { F = F(), f = G(), ["+"] = Left(), ["-"] = Right() }
-local function word(signs: string)
-  local modules = {}
-  for sign in signs:gmatch(".") do
-    table.insert(modules, SIGNS[sign])
-  end
-  return table.unpack(modules)
-end
-
 local coast = turtle({ step = size / 6 ^ steps, width = size / 80, color = "#1f4e79", sides = 4 })
-local sea = lsystem({ object = coast, interpret = "last" })
-sea:axiom(word("F+F+F+F+"))
-sea:rule("F", function()
-  return word("F+f-FF+F+FF+Ff+FF-f+FF-F-FF-Ff-FFF")
-end)
-sea:rule("G", function()
-  return word("ffffff")
-end)
+local sea = abop({
+  axiom = "F+F+F+F+",
+  F = "F+f-FF+F+FF+Ff+FF-f+FF-F-FF-Ff-FFF",
+  f = "ffffff",
+  object = coast,
+})
 
 local derived = sea:derive(steps)
 -- An edge becomes 18 edges and 4 moves, a move becomes 6: 4 * 18^2 edges, and (4 * 4) * 6 + (4 * 18) * 4 moves.

@@ -13,28 +13,12 @@ local CURVES = {
   { steps = 4, edge = "F-F+F-F-F", extent = 37, corner = { -6, -6 } },
 }
 
-local SIGNS = { F = F(), ["+"] = Left(), ["-"] = Right() }
-local function word(signs: string)
-  local modules = {}
-  for sign in signs:gmatch(".") do
-    table.insert(modules, SIGNS[sign])
-  end
-  return modules
-end
-
 for k, curve in CURVES do
   local step = size / curve.extent
   local cell = vec((k - 1) % 3, 0, -math.floor((k - 1) / 3)) * (size * 1.15)
   local place = cell - vec(curve.corner[1], 0, curve.corner[2]) * step
-  local system = lsystem({
-    object = turtle({ step = step, width = size / 90, position = place, color = "#1f4e79", sides = 3 }),
-    interpret = "last",
-  })
-  system:axiom(table.unpack(word("F-F-F-F-")))
-  local successor = word(curve.edge)
-  system:rule("F", function()
-    return table.unpack(successor)
-  end)
+  local pen = turtle({ step = step, width = size / 90, position = place, color = "#1f4e79", sides = 3 })
+  local system = abop({ axiom = "F-F-F-F-", F = curve.edge, object = pen })
 
   -- Each edge becomes as many as its successor has, and the outline is closed.
   local derived = system:derive(curve.steps)

@@ -5,27 +5,19 @@ local steps = param("steps", { default = 10, min = 0, max = 13, step = 1, doc = 
 local size =
   param("size", { default = 10, min = 1, max = 100, unit = "m", doc = "From one end to the other" })
 
-local LeftEdge, RightEdge = module("LeftEdge"), module("RightEdge")
 local edge = size / math.sqrt(2) ^ steps
-
 local pen = turtle({ step = edge, width = edge / 3, color = "#b8452f", sides = 4 })
-local dragon = lsystem({ object = pen, interpret = "last" })
-dragon:axiom(LeftEdge())
-dragon:rule("LeftEdge", function()
-  return LeftEdge(), Left(), RightEdge(), Left()
-end)
-dragon:rule("RightEdge", function()
-  return Right(), LeftEdge(), Right(), RightEdge()
-end)
-local function draw(this)
-  this:forward()
+local dragon = abop({ axiom = "L", L = "L+R+", R = "-L-R", object = pen })
+-- L and R are edges.
+for _, letter in { "L", "R" } do
+  dragon:interpret(letter, function(this)
+    this:forward()
+  end)
 end
-dragon:interpret("LeftEdge", draw)
-dragon:interpret("RightEdge", draw)
 
 local derived = dragon:derive(steps)
 -- Each step doubles the edges, and an edge is the diagonal of the two that replace it.
-expect(derived.counts.LeftEdge + derived.counts.RightEdge, 2 ^ 10)
+expect(derived.counts.L + derived.counts.R, 2 ^ 10)
 -- Ten eighths of a turn later, the curve ends to the left of its start.
 expect(derived.objects[1]:position():distance(vec(-10, 0, 0)), 0, 1e-9)
 

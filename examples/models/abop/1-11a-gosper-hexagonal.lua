@@ -5,35 +5,24 @@ local steps = param("steps", { default = 4, min = 0, max = 5, step = 1, doc = "S
 local size =
   param("size", { default = 10, min = 1, max = 100, unit = "m", doc = "From one end to the other" })
 
-local LeftEdge, RightEdge = module("LeftEdge"), module("RightEdge")
-local SIGNS = { L = LeftEdge(), R = RightEdge(), ["+"] = Left(), ["-"] = Right() }
-local function word(signs: string)
-  local modules = {}
-  for sign in signs:gmatch(".") do
-    table.insert(modules, SIGNS[sign])
-  end
-  return table.unpack(modules)
-end
-
 local edge = size / math.sqrt(7) ^ steps
 local pen = turtle({ step = edge, angle = 60, width = edge / 3, color = "#2f6b4f", sides = 4 })
-local curve = lsystem({ object = pen, interpret = "last" })
-curve:axiom(LeftEdge())
-curve:rule("LeftEdge", function()
-  return word("L+R++R-L--LL-R+")
-end)
-curve:rule("RightEdge", function()
-  return word("-L+RR++R+L--L-R")
-end)
-local function draw(this)
-  this:forward()
+local curve = abop({
+  axiom = "L",
+  L = "L+R++R-L--LL-R+",
+  R = "-L+RR++R+L--L-R",
+  object = pen,
+})
+-- L and R are edges.
+for _, letter in { "L", "R" } do
+  curve:interpret(letter, function(this)
+    this:forward()
+  end)
 end
-curve:interpret("LeftEdge", draw)
-curve:interpret("RightEdge", draw)
 
 local derived = curve:derive(steps)
 -- Seven edges, shorter by the square root of seven, replace an edge and end where it ended.
-expect(derived.counts.LeftEdge + derived.counts.RightEdge, 7 ^ 4)
+expect(derived.counts.L + derived.counts.R, 7 ^ 4)
 expect(derived.objects[1]:position():length(), 10, 1e-9)
 
 -- Picture: --azimuth 180 --elevation 0

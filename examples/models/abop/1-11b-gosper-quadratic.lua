@@ -4,35 +4,24 @@
 local steps = param("steps", { default = 2, min = 0, max = 3, step = 1, doc = "Steps of the derivation" })
 local size = param("size", { default = 10, min = 1, max = 100, unit = "m", doc = "Side of the square" })
 
-local LeftEdge, RightEdge = module("LeftEdge"), module("RightEdge")
-local SIGNS = { L = LeftEdge(), R = RightEdge(), ["+"] = Left(), ["-"] = Right() }
-local function word(signs: string)
-  local modules = {}
-  for sign in signs:gmatch(".") do
-    table.insert(modules, SIGNS[sign])
-  end
-  return table.unpack(modules)
-end
-
 local edge = size / 5 ^ steps
 local pen = turtle({ step = edge, width = edge / 3, color = "#2f6b4f", sides = 4 })
-local curve = lsystem({ object = pen, interpret = "last" })
-curve:axiom(Right(), RightEdge())
-curve:rule("LeftEdge", function()
-  return word("LL-R-R+L+L-R-RL+R+LLR-L+R+LL+R-LR-R-L+L+RR-")
-end)
-curve:rule("RightEdge", function()
-  return word("+LL-R-R+L+LR+L-RR-L-R+LRR-L-RL+L+R-R-L+L+RR")
-end)
-local function draw(this)
-  this:forward()
+local curve = abop({
+  axiom = "-R",
+  L = "LL-R-R+L+L-R-RL+R+LLR-L+R+LL+R-LR-R-L+L+RR-",
+  R = "+LL-R-R+L+LR+L-RR-L-R+LRR-L-RL+L+R-R-L+L+RR",
+  object = pen,
+})
+-- L and R are edges.
+for _, letter in { "L", "R" } do
+  curve:interpret(letter, function(this)
+    this:forward()
+  end)
 end
-curve:interpret("LeftEdge", draw)
-curve:interpret("RightEdge", draw)
 
 local derived = curve:derive(steps)
 -- 25 edges replace an edge, and the curve runs along the side of the square from corner to corner.
-expect(derived.counts.LeftEdge + derived.counts.RightEdge, 25 ^ 2)
+expect(derived.counts.L + derived.counts.R, 25 ^ 2)
 expect(derived.objects[1]:position():distance(vec(10, 0, 0)), 0, 1e-9)
 
 -- Picture: --azimuth 180 --elevation 0

@@ -4,17 +4,10 @@
 local steps = param("steps", { default = 5, min = 1, max = 7, step = 1, doc = "Steps of the derivation" })
 local size = param("size", { default = 10, min = 1, max = 100, unit = "m", doc = "Side of the square" })
 
-local Tile, Mirror = module("Tile"), module("Mirror")
 local edge = size / (2 ^ steps - 1)
 local pen = turtle({ step = edge, width = edge / 3, color = "#2f6b4f", sides = 4 })
-local curve = lsystem({ object = pen, interpret = "last" })
-curve:axiom(Tile())
-curve:rule("Tile", function()
-  return Left(), Mirror(), F(), Right(), Tile(), F(), Tile(), Right(), F(), Mirror(), Left()
-end)
-curve:rule("Mirror", function()
-  return Right(), Tile(), F(), Left(), Mirror(), F(), Mirror(), Left(), F(), Tile(), Right()
-end)
+-- L is a tile, and R its mirror image.
+local curve = abop({ axiom = "L", L = "+RF-LFL-FR+", R = "-LF+RFR+FL-", object = pen })
 
 local derived = curve:derive(steps)
 -- One edge less than the 4^5 tiles; the ends are the first and the last tile of one side.

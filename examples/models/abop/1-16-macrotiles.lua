@@ -3,28 +3,11 @@
 -- Source: P. Prusinkiewicz and A. Lindenmayer, The Algorithmic Beauty of Plants, 1990, figure 1.16.
 local size = param("size", { default = 10, min = 1, max = 100, unit = "m", doc = "Side of a square" })
 
-local Tile, Mirror = module("Tile"), module("Mirror")
-local SIGNS = { L = Tile(), R = Mirror(), F = F(), ["+"] = Left(), ["-"] = Right() }
-local function word(signs: string)
-  local modules = {}
-  for sign in signs:gmatch(".") do
-    table.insert(modules, SIGNS[sign])
-  end
-  return table.unpack(modules)
-end
-
-local function curve(tile: string, mirror: string, side: number, steps: number, place)
+-- L is a tile, and R its mirror image.
+local function curve(tile: string, mirror: string, side: number, steps: number, place: any)
   local edge = size / (side ^ steps - 1)
   local pen = turtle({ step = edge, width = edge / 3, position = place, color = "#2f6b4f", sides = 4 })
-  local system = lsystem({ object = pen, interpret = "last" })
-  system:axiom(Right(), Tile())
-  system:rule("Tile", function()
-    return word(tile)
-  end)
-  system:rule("Mirror", function()
-    return word(mirror)
-  end)
-  local derived = system:derive(steps)
+  local derived = abop({ axiom = "-L", L = tile, R = mirror, object = pen }):derive(steps)
   -- One edge less than there are tiles; the curve runs along one side of the square, from corner to corner.
   expect(derived.counts.F, side ^ (2 * steps) - 1)
   expect(derived.objects[1]:position():distance(place + vec(size, 0, 0)), 0, 1e-9 * size)

@@ -4,17 +4,8 @@
 local size =
   param("size", { default = 10, min = 1, max = 100, unit = "m", doc = "From one end to the other" })
 
-local Tile, Mirror = module("Tile"), module("Mirror")
-local SIGNS = { L = Tile(), R = Mirror(), F = F(), ["+"] = Left(), ["-"] = Right() }
-local function word(signs: string)
-  local modules = {}
-  for sign in signs:gmatch(".") do
-    table.insert(modules, SIGNS[sign])
-  end
-  return table.unpack(modules)
-end
-
-local function curve(tile: string, mirror: string, options)
+-- L is a tile, and R its mirror image.
+local function curve(tile: string, mirror: string, options: { [string]: any })
   local edge = size / math.sqrt(2) / (options.side ^ options.steps - 1)
   local pen = turtle({
     step = edge,
@@ -24,15 +15,7 @@ local function curve(tile: string, mirror: string, options)
     color = "#2f6b4f",
     sides = 4,
   })
-  local system = lsystem({ object = pen, interpret = "last" })
-  system:axiom(Right(options.first), Tile())
-  system:rule("Tile", function()
-    return word(tile)
-  end)
-  system:rule("Mirror", function()
-    return word(mirror)
-  end)
-  local derived = system:derive(options.steps)
+  local derived = abop({ axiom = options.axiom, L = tile, R = mirror, object = pen }):derive(options.steps)
   -- One edge less than there are tiles; the ends are opposite corners of the square.
   expect(derived.counts.F, options.side ^ (2 * options.steps) - 1)
   expect(derived.objects[1]:position():distance(options.place), size, 1e-9 * size)
@@ -41,12 +24,12 @@ end
 curve(
   "LFRFL-F-RFLFR+F+LFRFL",
   "RFLFR+F+LFRFL-F-RFLFR",
-  { side = 3, steps = 3, angle = 90, first = 0, place = vec(0, 0, 0) }
+  { side = 3, steps = 3, angle = 90, axiom = "L", place = vec(0, 0, 0) }
 )
 curve(
   "L+F+R-F-L+F+R-F-L-F-R+F+L-F-R-F-L+F+R-F-L-F-R-F-L+F+R+F+L+F+R-F-L+F+R+F+L-F-R+F+L+F+R-F-L+F+R-F-L",
   "R-F-L+F+R-F-L+F+R+F+L-F-R+F+L+F+R-F-L+F+R+F+L+F+R-F-L-F-R-F-L+F+R-F-L-F-R+F+L-F-R-F-L+F+R-F-L+F+R",
-  { side = 5, steps = 2, angle = 45, first = 45, place = vec(size * 0.9, 0, 0) }
+  { side = 5, steps = 2, angle = 45, axiom = "-L", place = vec(size * 0.9, 0, 0) }
 )
 
 -- Picture: --azimuth 180 --elevation 0

@@ -4,26 +4,6 @@
 local steps = param("steps", { default = 2, min = 1, max = 4, step = 1, doc = "Steps of the derivation" })
 local size = param("size", { default = 10, min = 1, max = 100, unit = "m", doc = "Side of the cube" })
 
-local RULES = {
-  A = "B-F+CFC+F-D&F^D-F+&&CFC+F+B//",
-  B = "A&F^CFB^F^D^^-F-D^|F^B|FC^F^A//",
-  C = "|D^|F^B-F+C^F^A&&FA&F^C+F+B^F^D//",
-  D = "|CFB-F+B|FA&F^A&&FB-F+B|FC//",
-}
-local SIGNS: { [string]: any } = {
-  F = F(),
-  ["+"] = Left(),
-  ["-"] = Right(),
-  ["&"] = Down(),
-  ["^"] = Up(),
-  ["/"] = RollRight(),
-  ["|"] = TurnAround(),
-}
-local PAINT = { A = 1, B = 2, C = 3, D = 4 }
-for name in RULES do
-  SIGNS[name] = module(name)()
-end
-
 local edge = size / (2 ^ steps - 1)
 local pen = turtle({
   step = edge,
@@ -31,19 +11,17 @@ local pen = turtle({
   palette = { "#c8452f", "#2f6fb0", "#3f8f4a", "#e0b23c" },
   roughness = 0.4,
 })
-local cube = lsystem({ object = pen, interpret = "last" })
-cube:axiom(SIGNS.A)
-for name, signs in RULES do
-  local successor = {}
-  for sign in signs:gmatch(".") do
-    table.insert(successor, SIGNS[sign])
-  end
-  cube:rule(name, function()
-    return table.unpack(successor)
-  end)
-  cube:interpret(name, function(this)
-    this:paint(PAINT[name])
-    this:sphere(edge / 8)
+local cube = abop({
+  axiom = "A",
+  A = "B-F+CFC+F-D&F^D-F+&&CFC+F+B//",
+  B = "A&F^CFB^F^D^^-F-D^|F^B|FC^F^A//",
+  C = "|D^|F^B-F+C^F^A&&FA&F^C+F+B^F^D//",
+  D = "|CFB-F+B|FA&F^A&&FB-F+B|FC//",
+  object = pen,
+})
+for number, letter in { "A", "B", "C", "D" } do
+  cube:interpret(letter, function(this)
+    this:paint(number):sphere(edge / 8)
   end)
 end
 

@@ -7,11 +7,7 @@ local height = param("height", { default = 2, min = 0.1, max = 20, unit = "m", d
 
 local pen =
   turtle({ step = height / 3 ^ steps, angle = angle, width = height / 420, color = "#47742f", sides = 4 })
-local bush = lsystem({ object = pen, interpret = "last" })
-bush:axiom(F())
-bush:rule("F", function()
-  return F(), { Left(), F() }, F(), { Right(), F() }, { F() }
-end)
+local bush = abop({ axiom = "F", F = "F[+F]F[-F][F]", object = pen })
 
 local derived = bush:derive(steps)
 -- Five segments replace a segment; two of them are outside of brackets, which leave 2^5 segments on the axis.

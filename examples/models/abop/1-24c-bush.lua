@@ -7,16 +7,7 @@ local segment =
   param("segment", { default = 0.04, min = 0.01, max = 1, unit = "m", doc = "Length of a segment" })
 
 local pen = turtle({ step = segment, angle = angle, width = segment / 3, color = "#47742f", sides = 4 })
-local bush = lsystem({ object = pen, interpret = "last" })
-bush:axiom(F())
-bush:rule("F", function()
-  return F(),
-    F(),
-    Right(),
-    { Right(), F(), Left(), F(), Left(), F() },
-    Left(),
-    { Left(), F(), Right(), F(), Right(), F() }
-end)
+local bush = abop({ axiom = "F", F = "FF-[-F+F+F]+[+F-F-F]", object = pen })
 
 local derived = bush:derive(steps)
 -- Eight segments replace a segment; two of them are on the axis, whose turns cancel out.

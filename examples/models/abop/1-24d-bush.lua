@@ -6,21 +6,13 @@ local angle = param("angle", { default = 20, min = 5, max = 90, unit = "deg", do
 local segment =
   param("segment", { default = 0.01, min = 0.001, max = 1, unit = "m", doc = "Length of a segment" })
 
-local Apex = module("Apex")
 local pen = turtle({ step = segment, angle = angle, width = segment * 1.4, color = "#47742f", sides = 4 })
-local plant = lsystem({ object = pen, interpret = "last" })
-plant:axiom(Apex())
-plant:rule("Apex", function()
-  return F(), { Left(), Apex() }, F(), { Right(), Apex() }, Left(), Apex()
-end)
-plant:rule("F", function()
-  return F(), F()
-end)
+local plant = abop({ axiom = "X", X = "F[+X]F[-X]+X", F = "FF", object = pen })
 
--- Three apices replace an apex. Segments: s(n + 1) = 2 s(n) + 2 * 3^n, so s(n) = 2 (3^n - 2^n).
+-- Three apices X replace an apex. Segments: s(n + 1) = 2 s(n) + 2 * 3^n, so s(n) = 2 (3^n - 2^n).
 expect(
   plant:derive(steps).counts,
-  { Apex = 3 ^ 7, F = 2 * (3 ^ 7 - 2 ^ 7), Left = 3 ^ 7 - 1, Right = (3 ^ 7 - 1) / 2 }
+  { X = 3 ^ 7, F = 2 * (3 ^ 7 - 2 ^ 7), Left = 3 ^ 7 - 1, Right = (3 ^ 7 - 1) / 2 }
 )
 
 -- Picture: --azimuth 180 --elevation 0

@@ -5,21 +5,13 @@ local steps = param("steps", { default = 7, min = 1, max = 8, step = 1, doc = "S
 local angle = param("angle", { default = 25.7, min = 5, max = 90, unit = "deg", doc = "Of the branches" })
 local height = param("height", { default = 2, min = 0.1, max = 20, unit = "m", doc = "Height of the plant" })
 
-local Apex = module("Apex")
 local segment = height / (2 ^ (steps + 1) - 2)
 local pen = turtle({ step = segment, angle = angle, width = height / 150, color = "#47742f", sides = 4 })
-local plant = lsystem({ object = pen, interpret = "last" })
-plant:axiom(Apex())
-plant:rule("Apex", function()
-  return F(), { Left(), Apex() }, { Right(), Apex() }, F(), Apex()
-end)
-plant:rule("F", function()
-  return F(), F()
-end)
+local plant = abop({ axiom = "X", X = "F[+X][-X]FX", F = "FF", object = pen })
 
 local derived = plant:derive(steps)
--- Three apices replace an apex. Segments: s(n + 1) = 2 s(n) + 2 * 3^n, so s(n) = 2 (3^n - 2^n).
-expect({ derived.counts.Apex, derived.counts.F }, { 3 ^ 7, 2 * (3 ^ 7 - 2 ^ 7) })
+-- Three apices X replace an apex. Segments: s(n + 1) = 2 s(n) + 2 * 3^n, so s(n) = 2 (3^n - 2^n).
+expect({ derived.counts.X, derived.counts.F }, { 3 ^ 7, 2 * (3 ^ 7 - 2 ^ 7) })
 -- On the axis: h(n + 1) = 2 h(n) + 2, so h(n) = 2^(n + 1) - 2.
 expect(derived.objects[1]:position().z, 2, 1e-9)
 

@@ -12,7 +12,7 @@ local Shoot, Leaf = module("Shoot"), module("Leaf")
 -- A hexagon with edges of 1 m, from its base to its tip and back.
 local leaf = lsystem({ object = turtle({ angle = angle, color = "#5d9440" }) })
 local Side = module("Side")
-leaf:axiom(BeginPolygon(), Side(), TurnAround(), Side(), EndPolygon())
+leaf:axiom("{ Side | Side }")
 leaf:interpret("Side", function()
   return Right(), G(), Point(), Left(), G(), Point(), Left(), G(), Point(), Right()
 end)
@@ -23,16 +23,14 @@ local bush = lsystem({
   interpret = "last",
 })
 bush:axiom(Apex(0.5))
-bush:rule("Apex(w)", function(this, w)
+bush:rule("Apex(w)", function(this, w: number)
   local branch = { Down(), F(), Leaf(), Width(w * taper), Apex(w * taper) }
   return branch, RollRight(5 * angle), branch, RollRight(7 * angle), branch
 end)
 bush:rule("F", function()
   return Shoot(), RollRight(5 * angle), F()
 end)
-bush:rule("Shoot", function()
-  return F(), Leaf()
-end)
+bush:rule("Shoot", "F Leaf")
 bush:interpret("Leaf", function(this)
   this:pitch_up(2 * angle)
   this:place(blade)

@@ -36,15 +36,13 @@ plant:rule("Internode", function()
     F(),
     Segment()
 end)
-plant:rule("Segment", function()
-  return Segment(), F(), Segment()
-end)
+plant:rule("Segment", "Segment F Segment")
 
 -- Leaves and petals are polygons with edges of 1 m, and a flower has five petals on a stalk.
-plant:interpret("Leaf", function(this)
+plant:interpret("Leaf", function(this): any
   this:color("#5f9c3f")
   local tip = { G(), Point(), Right(), G(), Point(), G(), Point(), Right(), G(), Point() }
-  local parts: { any } = { BeginPolygon(), Left() }
+  local parts: any = { BeginPolygon(), Left() }
   for side = 1, 2 do
     for _, part in tip do
       table.insert(parts, part)
@@ -56,8 +54,8 @@ plant:interpret("Leaf", function(this)
   table.insert(parts, EndPolygon())
   return table.unpack(parts)
 end)
-plant:interpret("Flower", function()
-  local parts: { any } = { Down(3 * angle), Width(0.2), F(2) }
+plant:interpret("Flower", function(): any
+  local parts: any = { Down(3 * angle), Width(0.2), F(2) }
   for k = 1, 5 do
     table.insert(parts, { RollRight(k * 72), Petal() })
   end

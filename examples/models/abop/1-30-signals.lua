@@ -6,28 +6,15 @@ local angle = param("angle", { default = 45, min = 10, max = 80, unit = "deg", d
 
 local Segment, Signal = module("Segment"), module("Signal")
 
-local function tree(pattern: string, step: number, z: number)
+local function tree(pattern: string, step: number, z: number): number
   local pen = turtle({ angle = angle, width = 0.16, position = { step * 3, 0, z } })
   local system = lsystem({ object = pen, interpret = "last" })
-  local first, last = Segment(), Segment()
-  if pattern == "Signal < Segment" then
-    first = Signal()
-  else
-    last = Signal()
-  end
-  system:axiom(
-    first,
-    { Left(), Segment() },
-    Segment(),
-    { Right(), Segment() },
-    Segment(),
-    { Left(), Segment() },
-    last
-  )
-  system:ignore("Left", "Right")
-  system:rule(pattern, function()
-    return Signal()
-  end)
+  local stem = "Segment [+Segment] Segment [-Segment] Segment [+Segment] Segment"
+  -- The signal begins at the base, or at the tip.
+  local first = if pattern == "Signal < Segment" then "^Segment" else "Segment$"
+  system:axiom((stem:gsub(first, "Signal")))
+  system:ignore("+-")
+  system:rule(pattern, "Signal")
   system:interpret("Segment", function(this)
     this:color("#4c7a34"):forward()
   end)

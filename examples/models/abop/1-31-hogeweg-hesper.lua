@@ -6,7 +6,7 @@ local height = param("height", { default = 1, min = 0.1, max = 10, unit = "m", d
 
 -- Outcomes for the bits 000 to 111 of the cells below, here and above: a bit, growth (G), or a branch to the left (L)
 -- or to the right (R).
-local PLANTS = {
+local PLANTS: { any } = {
   { axiom = "111", outcomes = { 0, "L", 1, 1, 0, "G", 0, 0 }, steps = 30, angle = 22.5 },
   { axiom = "111", outcomes = { 1, "R", 1, 1, 0, "G", 1, 0 }, steps = 30, angle = 22.5 },
   { axiom = "111", outcomes = { 0, 1, 0, "L", 0, "G", 0, 0 }, steps = 26, angle = 25.75 },
@@ -17,15 +17,10 @@ local PLANTS = {
 local Cell = module("Cell", "bit")
 
 -- Without a turtle, the chain is not drawn.
-local function grow(k: number, steps: number, pen)
+local function grow(k: number, steps: number, pen: any): any
   local plant = PLANTS[k]
   local system = lsystem({ object = pen, interpret = "last" })
-  local cells = {}
-  for bit in plant.axiom:gmatch(".") do
-    table.insert(cells, F())
-    table.insert(cells, Cell(tonumber(bit) :: number))
-  end
-  system:axiom(table.unpack(cells))
+  system:axiom((plant.axiom:gsub(".", "F Cell(%0) ")))
   system:ignore("F", "Turn")
   system:rule(
     "Cell(below) < Cell(bit) > Cell(above)",
@@ -42,14 +37,12 @@ local function grow(k: number, steps: number, pen)
     end
   )
   -- Turns to the left and to the right alternate.
-  system:rule("Turn(a)", function(this, a)
-    return Turn(-a)
-  end)
+  system:rule("Turn(a)", "Turn(-a)")
   return system:derive(steps)
 end
 
 for k, plant in PLANTS do
-  local stem = grow(k, plant.steps).chains[1]:gsub("%b[]", "")
+  local stem = grow(k, plant.steps, nil).chains[1]:gsub("%b[]", "")
   local _, segments = stem:gsub("F", "")
   local derived = grow(
     k,
@@ -67,6 +60,9 @@ for k, plant in PLANTS do
   expect(derived.objects[1]:position().z, 1, 1e-9)
 end
 -- By hand: 111, 101, 1111, 1001, 101[11]1.
-expect(grow(1, 4).chains[1], "F Cell(1) F Cell(0) F Cell(1) [ Turn(22.5) F Cell(1) F Cell(1) ] F Cell(1)")
+expect(
+  grow(1, 4, nil).chains[1],
+  "F Cell(1) F Cell(0) F Cell(1) [ Turn(22.5) F Cell(1) F Cell(1) ] F Cell(1)"
+)
 
 -- Picture: --azimuth 180 --elevation 5

@@ -10,13 +10,12 @@ local LENGTH = 3.9 -- length above which a cell does not differentiate
 -- State 0 is a heterocyst; the longer daughter is to the left in state 1, and to the right in state 2.
 local Cell, Gap = module("Cell", "length", "state", "level"), module("Gap")
 
-local function filament(row: number)
-  local pen = turtle({ position = { 0, 0, -row * 7 }, width = 3 })
+local function filament(pen: any): any
   local system = lsystem({ object = pen, interpret = "last" })
   system:ignore("Gap")
   system:axiom(Right(), Cell(0, 0, HIGH), Gap(), Cell(4, 1, HIGH), Gap(), Cell(0, 0, HIGH))
   system:rule("Cell(a, i, before) < Cell(length, state, level) > Cell(b, j, after)", {
-    when = function(this, a, i, before, length, state)
+    when = function(this, a, i, before, length, state: number)
       return state > 0
     end,
   }, function(this, a, i, before: number, length: number, state: number, level: number, b, j, after: number)
@@ -31,10 +30,32 @@ local function filament(row: number)
     end
     return Cell(0, 0, HIGH)
   end)
+  return system
+end
+
+-- The places of the heterocysts, then the level of the first other cell and the number of cells.
+local function measure(chain: string): ({ number }, number, number)
+  local number, heterocysts: { number }, first = 0, {}, 0
+  for state, level in chain:gmatch("Cell%([^,]+,(%d),([^)]+)%)") do
+    number += 1
+    if state == "0" then
+      table.insert(heterocysts, number)
+    elseif number == 2 then
+      first = tonumber(level) :: number
+    end
+  end
+  return heterocysts, first, number
+end
+
+-- A cell of 4 has grown to 6 after 20 steps, and has divided after 22, in two rows; its short daughter of 2 needs twice
+-- as many. So two rows each have a Fibonacci number of cells, besides the heterocysts at the ends.
+local last, before = 1, 1
+for row = 0, rows - 1 do
+  local system = filament(turtle({ position = { 0, 0, -row * 7 }, width = 3 }))
   system:interpret("Gap", function(this)
     this:advance(0.5)
   end)
-  system:interpret("Cell(length, state, level)", function(this, length: number, state, level: number)
+  system:interpret("Cell(length, state, level)", function(this, length: number, state: number, level: number)
     if state == 0 then
       this:color("#2f5fb0"):advance(2)
       this:sphere(2)
@@ -43,14 +64,22 @@ local function filament(row: number)
       this:color(mix("#d5e39a", "#3f7a3a", math.min(level / HIGH * 4, 1))):forward(length)
     end
   end)
-  return system:derive(row * 11).counts.Cell
+  local chain = system:derive(row * 11).chains[1]
+  local heterocysts, level, number = measure(chain)
+  expect(number, 2 + last)
+  if row % 2 == 1 then
+    last, before = last + before, last
+  end
+  expect(heterocysts, if row < 13 then { 1, number } else { 1, 12, 23 })
+  -- A single cell between heterocysts: c(n + 1) = c(n) / 4 + 450, so c(n) = 600 + 300 / 4^n.
+  if row < 2 then
+    expect(level, 600 + 300 / 4 ^ (row * 11), 1e-9)
+  end
 end
-
-local cells = {}
-for row = 0, rows - 1 do
-  table.insert(cells, filament(row))
+-- The first new heterocyst is in the middle, where there is least of the compound, and appears in step 138.
+for _, step in { 137, 138 } do
+  local heterocysts = measure(filament(nil):derive(step).chains[1])
+  expect(#heterocysts, if step < 138 then 2 else 3)
 end
--- A cell of 4 grows by 0.1 in a step, so it has its length of 6 after 20 steps, and has divided after 22.
-expect({ cells[1], cells[2], cells[3] }, { 3, 3, 4 })
 
 -- Picture: --azimuth 180 --elevation 0

@@ -10,7 +10,7 @@ local Apex = module("Apex", "length")
 local pattern =
   lsystem({ object = turtle({ width = 0.012, color = "#5a4632", sides = 4 }), interpret = "last" })
 pattern:axiom(Apex(1))
-pattern:rule("Apex(s)", function(this, s)
+pattern:rule("Apex(s)", function(this, s: number)
   return F(s), { Left(angle), Apex(s / ratio) }, { Right(angle), Apex(s / ratio) }
 end)
 

@@ -9,7 +9,7 @@ local thinner =
   param("thinner", { default = 0.707, min = 0.5, max = 0.9, doc = "Width of a branch by its parent" })
 
 -- The four trees of the figure: lengths of the next internode and of a branch by the internode; angles of branches to the trunk and of forks.
-local TREES = {
+local TREES: { [string]: any } = {
   a = { trunk = 0.9, branch = 0.6, angle = 45, fork = 45 },
   b = { trunk = 0.9, branch = 0.9, angle = 45, fork = 45 },
   c = { trunk = 0.9, branch = 0.8, angle = 45, fork = 45 },
@@ -24,7 +24,7 @@ local system = lsystem({
   interpret = "last",
 })
 system:axiom(Trunk(1, 0.1))
-system:rule("Trunk(l, w)", function(this, l, w)
+system:rule("Trunk(l, w)", function(this, l: number, w: number)
   return Width(w),
     F(l),
     { Down(tree.angle), Branch(l * tree.branch, w * thinner, -1) },
@@ -32,7 +32,7 @@ system:rule("Trunk(l, w)", function(this, l, w)
     Trunk(l * tree.trunk, w * thinner)
 end)
 -- The sides alternate.
-system:rule("Branch(l, w, side)", function(this, l, w, side)
+system:rule("Branch(l, w, side)", function(this, l: number, w: number, side: number)
   return Width(w),
     F(l),
     { Turn(side * tree.fork), Level(), Branch(l * tree.branch, w * thinner, -side) },

@@ -7,7 +7,7 @@ local thinner =
   param("thinner", { default = 0.707, min = 0.5, max = 0.9, doc = "Width of a branch by its parent" })
 
 -- Lengths of the two branches by their parent, and their angles to it.
-local TREES = {
+local TREES: { [string]: any } = {
   a = { lengths = { 0.9, 0.7 }, angles = { 5, 65 } },
   b = { lengths = { 0.9, 0.7 }, angles = { 10, 60 } },
   c = { lengths = { 0.9, 0.8 }, angles = { 20, 50 } },
@@ -21,7 +21,7 @@ local system = lsystem({
   object = turtle({ color = "#5e4631", sides = 6 }),
   interpret = "last",
 })
-local function shoot(which: number, l: number, w: number)
+local function shoot(which: number, l: number, w: number): any
   return Branch(l * tree.lengths[which], w * thinner)
 end
 system:axiom(Stem(1, 0.1))

@@ -5,7 +5,7 @@ local letter = param("tree", { default = "a", choices = { "a", "b", "c", "d" }, 
 local size = param("size", { default = 10, min = 1, max = 100, unit = "m", doc = "Height of the first fork" })
 
 -- The book gives the vectors of the tropism with y upwards.
-local TREES = {
+local TREES: { [string]: any } = {
   a = {
     steps = 6,
     rolls = { 94.74, 132.63 },
@@ -45,10 +45,10 @@ system:axiom(Width(1), F(200), RollRight(45), Apex())
 system:rule("Apex", function()
   return Width(THICKER), F(50), branch, RollRight(tree.rolls[1]), branch, RollRight(tree.rolls[2]), branch
 end)
-system:rule("F(l)", function(this, l)
+system:rule("F(l)", function(this, l: number)
   return F(l * tree.longer)
 end)
-system:rule("Width(w)", function(this, w)
+system:rule("Width(w)", function(this, w: number)
   return Width(w * THICKER)
 end)
 system:interpret("F(l)", function(this, l)

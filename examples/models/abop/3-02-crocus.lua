@@ -13,15 +13,13 @@ local Internode, Leaf, Flower = module("Internode", "length"), module("Leaf", "a
 
 local crocus = lsystem({ object = turtle({ width = 0.35, color = "#cfd9a0" }), interpret = "last" })
 crocus:axiom(Vegetative(1))
-crocus:rule("Vegetative(t)", function(this, t: number)
+crocus:rule("Vegetative(t)", function(this, t: number): any
   if t == LEAVES then
     return Internode(20), Flowering()
   end
   return Internode(1), { Down(30), Leaf(0) }, RollRight(divergence), Vegetative(t + 1)
 end)
-crocus:rule("Flowering", function()
-  return Flower(0)
-end)
+crocus:rule("Flowering", "Flower(0)")
 crocus:rule("Leaf(t)", function(this, t: number)
   return Leaf(math.min(t + 1, LEAF_AGE))
 end)
@@ -32,12 +30,12 @@ crocus:rule("Internode(l)", function(this, l: number)
   return Internode(if l < 2 then math.min(l + 0.2, 2) else l)
 end)
 
-crocus:interpret("Internode(l)", function(this, l)
+crocus:interpret("Internode(l)", function(this, l: number)
   this:forward(l * 0.5)
 end)
 -- Narrow leaves in five pieces, which bend outwards.
-local function blade(length: number, width: number, bend: number, color)
-  local parts: { any } = { Color(color) }
+local function blade(length: number, width: number, bend: number, color: any): any
+  local parts: any = { Color(color) }
   for k = 0, 4 do
     local near, far =
       width * math.sin(math.pi * (0.15 + k * 0.17)), width * math.sin(math.pi * (0.32 + k * 0.17))
@@ -58,11 +56,11 @@ local function blade(length: number, width: number, bend: number, color)
   end
   return table.unpack(parts)
 end
-crocus:interpret("Leaf(t)", function(this, t: number)
+crocus:interpret("Leaf(t)", function(this, t: number): any
   return Up(20), blade(3 + t * 1.2, 0.12 + t * 0.03, 45, "#4a8038")
 end)
-crocus:interpret("Flower(t)", function(this, t: number)
-  local parts: { any } = {}
+crocus:interpret("Flower(t)", function(this, t: number): any
+  local parts: any = {}
   for k = 1, 6 do
     table.insert(
       parts,

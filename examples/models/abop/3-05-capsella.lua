@@ -25,28 +25,24 @@ plant:rule("Flowering", function()
     Flowering()
 end)
 -- An internode makes a segment in each step, and a stalk bends by nine degrees.
-plant:rule("Internode(t)", function(this, t: number)
+plant:rule("Internode(t)", function(this, t: number): any
   if t > 0 then
     return F(1), Internode(t - 1)
   end
   return F(1)
 end)
-plant:rule("Bend(t)", function(this, t: number)
+plant:rule("Bend(t)", function(this, t: number): any
   if t > 0 then
     return Down(9), Bend(t - 1)
   end
   return Down(9)
 end)
-plant:rule("Leaf(a)", function(this, a: number)
-  return Leaf(math.min(a + 1, 8))
-end)
-plant:rule("Flower(a)", function(this, a: number)
-  return Flower(a + 1)
-end)
+plant:rule("Leaf(a)", "Leaf(math.min(a + 1, 8))")
+plant:rule("Flower(a)", "Flower(a + 1)")
 
 -- A shape symmetrical to the heading: distances along it and to its sides.
-local function shape(outline: { { number } }, size: number)
-  local parts: { any } = { BeginPolygon() }
+local function shape(outline: { { number } }, size: number): any
+  local parts: any = { BeginPolygon() }
   for k = 1, 2 * #outline do
     local side = if k <= #outline then -90 else 90
     local at = outline[if k <= #outline then k else 2 * #outline + 1 - k]
@@ -55,16 +51,16 @@ local function shape(outline: { { number } }, size: number)
   table.insert(parts, EndPolygon())
   return table.unpack(parts)
 end
-plant:interpret("Leaf(a)", function(this, a: number)
+plant:interpret("Leaf(a)", function(this, a: number): any
   return Color("#4f8038"), shape({ { 0, 0.1 }, { 1, 0.9 }, { 2, 0.95 }, { 3, 0.1 } }, 2 * a + 1)
 end)
-plant:interpret("Flower(a)", function(this, a: number)
+plant:interpret("Flower(a)", function(this, a: number): any
   if a > 6 then
     return Color("#8fae4a"),
       Up(50),
       shape({ { 0, 0.1 }, { 3, 1.6 }, { 3.4, 1 }, { 3, 0.1 } }, math.min(a / 4, 4))
   end
-  local parts: { any } = { Color("#f4f2ea") }
+  local parts: any = { Color("#f4f2ea") }
   for k = 1, 4 do
     table.insert(
       parts,

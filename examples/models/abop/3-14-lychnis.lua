@@ -11,7 +11,7 @@ local Leaf, Flower = module("Leaf", "age"), module("Flower", "age")
 local plant =
   lsystem({ object = turtle({ step = 0.1, width = 0.16, color = "#6d9a58", sides = 6 }), interpret = "last" })
 plant:axiom(Apex(7))
-plant:rule("Apex(t)", function(this, t: number)
+plant:rule("Apex(t)", function(this, t: number): any
   if t < 7 then
     return Apex(t + 1)
   end
@@ -28,18 +28,14 @@ plant:rule("Apex(t)", function(this, t: number)
     Internode(10),
     Flower(0)
 end)
-plant:rule("Internode(t)", function(this, t: number)
+plant:rule("Internode(t)", function(this, t: number): any
   if t > 0 then
     return F(), F(), Internode(t - 1)
   end
   return Internode(t)
 end)
-plant:rule("Leaf(a)", function(this, a: number)
-  return Leaf(a + 1)
-end)
-plant:rule("Flower(a)", function(this, a: number)
-  return Flower(a + 1)
-end)
+plant:rule("Leaf(a)", "Leaf(a + 1)")
+plant:rule("Flower(a)", "Flower(a + 1)")
 
 plant:interpret("Leaf(a)", function(this, a: number)
   local length, width = 0.35 + a * 0.05, 0.12 + a * 0.012
@@ -52,10 +48,10 @@ plant:interpret("Leaf(a)", function(this, a: number)
     EndPolygon()
 end)
 -- Five petals, which open in five steps.
-plant:interpret("Flower(a)", function(this, a: number)
+plant:interpret("Flower(a)", function(this, a: number): any
   local open = math.min(a, 5)
   local size = 0.15 + 0.06 * open
-  local parts: { any } = { Sphere(0.12), Color(petals) }
+  local parts: any = { Sphere(0.12), Color(petals) }
   for k = 1, 5 do
     for _, part in
       {
@@ -74,7 +70,7 @@ end)
 
 -- An apex waits seven steps, and one with a start of four waits three; both flower in the step after that: flowers appear
 -- in step n as often as f(n) = f(n - 8) + f(n - 4) with f(1) = 1.
-local appear, flowers = { 1 }, 1
+local appear: { number }, flowers = { 1 }, 1
 for n = 2, 30 do
   appear[n] = (appear[n - 8] or 0) + (appear[n - 4] or 0)
   flowers += appear[n]

@@ -12,42 +12,27 @@ local Delay, Apex, Bud, Flower =
 local Node, Climbing, Release, Descent, Pause =
   module("Node"), module("Climbing"), module("Release"), module("Descent"), module("Pause")
 
-local function stage(steps: number, x: number)
+local function stage(steps: number, x: number): any
   local pen = turtle({ position = { x, 0, 0 }, width = 0.35, color = "#5d8a44", sides = 5 })
   local plant = lsystem({ object = pen, interpret = "last" })
   -- A pause separates the two signals. If contexts did not see it, they would have the same speed.
   plant:consider("Node", "Climbing", "Release", "Descent", "Pause")
   plant:axiom(Delay(20), F(), Apex(0))
 
-  for _, signal in { "Climbing", "Descent" } do
-    plant:rule(`{signal} < Apex(t)`, function()
-      return Release(), Descent(), Flower()
-    end)
-  end
-  plant:rule("Apex(t)", function(this, t: number)
+  plant:rule("Climbing < Apex(t)", "Release Descent Flower")
+  plant:rule("Descent < Apex(t)", "Release Descent Flower")
+  plant:rule("Apex(t)", function(this, t: number): any
     if t > 0 then
       return Apex(t - 1)
     end
     return Node(), { Left(angle), Bud() }, F(), RollRight(180), Apex(2)
   end)
-  plant:rule("Climbing < Node", function()
-    return Climbing()
-  end)
-  plant:rule("Climbing > Release", function()
-    return Release()
-  end)
-  plant:rule("Release < Bud", function()
-    return F(), Apex(2)
-  end)
-  plant:rule("Descent < Node", function()
-    return Climbing()
-  end)
-  plant:rule("Release > Descent", function()
-    return Pause()
-  end)
-  plant:rule("Pause", function()
-    return Descent()
-  end)
+  plant:rule("Climbing < Node", "Climbing")
+  plant:rule("Climbing > Release", "Release")
+  plant:rule("Release < Bud", "F Apex(2)")
+  plant:rule("Descent < Node", "Climbing")
+  plant:rule("Release > Descent", "Pause")
+  plant:rule("Pause", "Descent")
   plant:rule("Delay(t)", function(this, t: number)
     return if t > 0 then Delay(t - 1) else Climbing()
   end)
@@ -64,7 +49,7 @@ end
 local counts = stage(33, 0)
 expect({ counts.Climbing, counts.Release, counts.Flower, counts.Node }, { 1 + 11, 1, 1, 0 })
 for k, steps in { 45, 60, 110 } do
-  stage(steps, k * 14 - 4)
+  stage(steps, k * 9 - 2)
 end
 
 -- Picture: --azimuth 180 --elevation 0

@@ -7,7 +7,7 @@ local divergence =
 local petals = param("petals", { default = "#f2b422", doc = "Colour of the petals" })
 
 -- A petal of 1 m along the heading, with two sides that meet in a fold.
-local function petal(color)
+local function petal(color: any): any
   local system = lsystem({ object = turtle({ color = color, roughness = 0.6 }) })
   local function half(side: number): any
     return {
@@ -25,31 +25,73 @@ local function petal(color)
 end
 local yellow, green = petal(petals), petal("#5f8f3c")
 
-local Apex, Organ = module("Apex", "n"), module("Organ", "n")
+local Apex, Disc = module("Apex", "n"), module("Disc")
+local Seed, Floret, Petal, Bract =
+  module("Seed", "n"), module("Floret"), module("Petal", "ring"), module("Bract")
+
+-- Four rings of 15 petals.
+local function organ(n: number): any
+  if n <= 440 then
+    return Seed(n)
+  elseif n <= 565 then
+    return Floret()
+  elseif n <= 625 then
+    return Petal((n - 566) // 15)
+  end
+  return Bract()
+end
+
 local head = lsystem({ object = turtle({ sides = 6 }), interpret = "last" })
-head:axiom(Apex(1))
+head:axiom({ Disc() }, Apex(1))
 head:rule("Apex(n)", function(this, n: number)
-  return { Turn(divergence * n), G(math.sqrt(n)), Organ(n) }, Apex(n + 1)
+  return { Turn(divergence * n), G(math.sqrt(n)), organ(n) }, Apex(n + 1)
 end)
 
 -- The turtle heads outwards; the head faces the direction of the turtle's up, and petals lean towards it.
-head:interpret("Organ(n)", function(this, n: number)
-  if n <= 440 then
-    this:color(mix("#6b4a22", "#2f2013", n / 440)):sphere(1.05)
-  elseif n <= 565 then
-    this:color("#8a5a1c"):sphere(1.05)
-    return Up(60), Width(0.5), F(1.6), Color("#e0a52c"), Sphere(0.5)
-  else
-    -- Four rings, the outer ones flatter, and green bracts behind them.
-    local ring = math.min((n - 565) // 15, 4)
-    local model, length = if ring < 4 then yellow else green, if ring < 4 then 15 else 9
-    return Up(38 - ring * 12), Place(model, length)
+-- A disc behind the organs closes the gaps.
+head:interpret("Disc", function(this)
+  this:pitch(90):advance(0.4):pitch(-90):color("#4a5a20"):begin_polygon()
+  for _ = 1, 36 do
+    this:turn(10):advance(29):point():advance(-29)
   end
-  return nil
+  this:end_polygon()
+end)
+head:interpret("Seed(n)", function(this, n: number)
+  this:color(mix("#6b4a22", "#2f2013", n // 40 / 11)):sphere(1.05)
+end)
+head:interpret("Floret", function()
+  return Color("#8a5a1c"), Sphere(1.05), Up(60), Width(0.5), F(1.6), Color("#e0a52c"), Sphere(0.5)
+end)
+-- The outer rings are flatter, and the bracts are behind them.
+head:interpret("Petal(ring)", function(this, ring: number)
+  return Up(38 - ring * 12), Place(yellow, 15)
+end)
+head:interpret("Bract", function()
+  return Up(-10), Place(green, 9)
 end)
 
 -- A step makes one organ.
 local derived = head:derive(organs)
-expect(derived.counts.Organ, 630)
+local counts = derived.counts
+expect({ counts.Seed, counts.Floret, counts.Petal, counts.Bract }, { 440, 125, 60, 5 })
+
+-- The place of an organ in Vogel's formula: above it is the topmost point of a seed or floret.
+local function place(n: number): any
+  local turn = math.rad(divergence * n)
+  return vec(-math.sin(turn), 0, math.cos(turn)) * math.sqrt(n)
+end
+for n = 1, 440 + 125 do
+  expect(derived.objects[1]:distance(place(n) + vec(0, 0, 1.05)), 0, 1e-5)
+end
+-- The organs nearest to the last one are 34, 55 and 89 older: the numbers of the visible spirals.
+local last = place(organs)
+local older: { number } = {}
+for n = 1, organs - 1 do
+  table.insert(older, n)
+end
+table.sort(older, function(a: number, b: number)
+  return last:distance(place(organs - a)) < last:distance(place(organs - b))
+end)
+expect({ older[1], older[2], older[3] }, { 55, 89, 34 })
 
 -- Picture: --azimuth 180 --elevation 0

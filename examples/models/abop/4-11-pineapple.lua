@@ -22,7 +22,7 @@ local girth = 2 * math.pi * radius
 local Apex, Scale, Leaf = module("Apex", "n"), module("Scale", "size"), module("Leaf", "length")
 local fruit = lsystem({ object = turtle({ color = "#b07a2a", sides = 6 }), interpret = "last" })
 fruit:axiom(Apex(1))
-fruit:rule("Apex(n)", function(this, n: number)
+fruit:rule("Apex(n)", function(this, n: number): any
   if n > scales + 34 then
     return nil
   elseif n > scales then
@@ -36,12 +36,12 @@ fruit:rule("Apex(n)", function(this, n: number)
     RollRight(DIVERGENCE),
     Apex(n + 1)
 end)
-fruit:interpret("Scale(size)", function(this, size)
+fruit:interpret("Scale(size)", function(this, size: number)
   this:color("#c08a34"):sphere(size * 0.62)
   this:color("#6f7a2e"):advance(size * 0.45)
   this:sphere(size * 0.2)
 end)
-fruit:interpret("Leaf(length)", function(this, length)
+fruit:interpret("Leaf(length)", function(this, length: number)
   this:color("#4f7f45")
   return BeginPolygon(),
     { Left(90), G(0.009), Point() },

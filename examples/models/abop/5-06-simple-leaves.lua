@@ -37,7 +37,7 @@ for k, leaf in LEAVES do
       { Right(angle), Vein(t), Point() }
   end)
   system:rule("Vein(t)", {
-    when = function(this, t)
+    when = function(this, t: number)
       return t > 0
     end,
   }, function(this, t: number)
@@ -50,8 +50,27 @@ for k, leaf in LEAVES do
     this:advance(l * size / length)
   end)
 
+  local derived = system:derive(steps)
   -- Two points of the outline for each step, and its base.
-  expect(system:derive(steps).counts.Point, 2 * 20 + 1)
+  expect(derived.counts.Point, 2 * 20 + 1)
+  -- The two veins of step n + 1 get a part in each later step, until the potential n is used up. All parts grow in the
+  -- steps after their own. The ends of the veins are the corners of the outline.
+  local parts, height = 0, 0
+  for n = 0, steps - 1 do
+    local later = if n == 0 then 0 else math.min(steps - 1 - n, math.ceil(n / leaf.decrease))
+    local vein = 0
+    for step = n + 2, n + 1 + later do
+      vein += leaf.vein * leaf.vein_rate ^ (steps - step)
+    end
+    parts += 1 + 2 * later
+    height += leaf.rib * leaf.rib_rate ^ (steps - 1 - n)
+    local turn = math.rad(angle)
+    for side = -1, 1, 2 do
+      local corner = vec(side * vein * math.sin(turn), 0, height + vein * math.cos(turn)) * (size / length)
+      expect(derived.objects[1]:distance(place + corner), 0, 1e-6)
+    end
+  end
+  expect(derived.counts.Part, parts)
 end
 
 -- Picture: --azimuth 180 --elevation 0

@@ -16,7 +16,7 @@ local Apex, Vein = module("Apex", "time", "side"), module("Vein", "potential")
 local Part, Notch = module("Part", "length", "rate"), module("Notch", "length", "potential")
 
 local leaf = lsystem({ object = turtle({ color = "#3f7d33", roughness = 0.6 }), interpret = "last" })
-leaf:axiom({ BeginPolygon(), Apex(0, 1) }, BeginPolygon(), Apex(0, -1))
+leaf:axiom("[{ Apex(0, 1)] { Apex(0, -1)")
 -- A polygon begins at the end of a vein, and ends behind the notch at the end of the next vein.
 leaf:rule("Apex(t, side)", function(this, t: number, side: number)
   return Point(),
@@ -27,7 +27,7 @@ leaf:rule("Apex(t, side)", function(this, t: number, side: number)
     Apex(t + 1, side)
 end)
 leaf:rule("Vein(t)", {
-  when = function(this, t)
+  when = function(this, t: number)
     return t > 0
   end,
 }, function(this, t: number)
@@ -37,13 +37,13 @@ leaf:rule("Part(length, rate)", function(this, length: number, rate: number)
   return Part(length * rate, rate)
 end)
 leaf:rule("Notch(length, t)", {
-  when = function(this, length, t)
+  when = function(this, length, t: number)
     return t > 1
   end,
 }, function(this, length: number, t: number)
   return Notch(length * notch.rate, t - 1)
 end)
-local function draw(this, length: number)
+local function draw(this: any, length: number)
   this:advance(length * unit)
 end
 leaf:interpret("Part(length, rate)", draw)

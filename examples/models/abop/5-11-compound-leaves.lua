@@ -22,13 +22,13 @@ for k, leaf in LEAVES do
     interpret = "last",
   })
   system:axiom(Apex(0))
-  system:rule("Apex(d)", function(this, d)
+  system:rule("Apex(d)", function(this, d: number): any
     if d > 0 then
       return Apex(d - 1)
     end
     return F(1), { Left(), Apex(leaf.delay) }, { Right(), Apex(leaf.delay) }, F(1), Apex(0)
   end)
-  system:rule("F(a)", function(this, a)
+  system:rule("F(a)", function(this, a: number)
     return F(a * leaf.rate)
   end)
   system:interpret("F(a)", function(this, a)
@@ -38,7 +38,7 @@ for k, leaf in LEAVES do
   local derived = system:derive(leaf.steps)
   expect(derived.objects[1]:position():distance(place), 2, 1e-9)
   -- Growing apices: a(n) = a(n - 1) + 2 a(n - 1 - delay). Each makes two internodes in the next step.
-  local active, branches = { [0] = 1 }, 1
+  local active: { [number]: number }, branches = { [0] = 1 }, 1
   for n = 1, leaf.steps - 1 do
     active[n] = active[n - 1] + 2 * (active[n - 1 - leaf.delay] or 0)
     branches += active[n]

@@ -21,13 +21,13 @@ for k, leaf in LEAVES do
     interpret = "last",
   })
   system:axiom(Apex(0, 1))
-  system:rule("Apex(d, side)", function(this, d, side)
+  system:rule("Apex(d, side)", function(this, d: number, side: number): any
     if d > 0 then
       return Apex(d - 1, side)
     end
     return F(1), { Turn(side * 45), Apex(leaf.delay, side) }, F(1), Apex(0, -side)
   end)
-  system:rule("F(a)", function(this, a)
+  system:rule("F(a)", function(this, a: number)
     return F(a * leaf.rate)
   end)
   system:interpret("F(a)", function(this, a)
@@ -37,7 +37,7 @@ for k, leaf in LEAVES do
   local derived = system:derive(leaf.steps)
   expect(derived.objects[1]:position():distance(place), 2, 1e-9)
   -- Growing apices: a(n) = a(n - 1) + a(n - 1 - delay). Each makes two internodes in the next step.
-  local active, branches = { [0] = 1 }, 1
+  local active: { [number]: number }, branches = { [0] = 1 }, 1
   for n = 1, leaf.steps - 1 do
     active[n] = active[n - 1] + (active[n - 1 - leaf.delay] or 0)
     branches += active[n]

@@ -13,51 +13,38 @@ local LEFT, RIGHT = 3, 5 -- internodes of a branch
 local Wait, Apex, Internode = module("Wait", "left"), module("Apex", "rest", "left"), module("Internode")
 local Up, Down, Across = module("Up"), module("Down"), module("Across") -- the insect
 
-local plant = lsystem({ object = turtle({ angle = 45, width = 0.35 }), interpret = "last" })
-plant:axiom(Wait(delay), Internode(), Apex(0, LEFT))
+local function insect(pen: any): any
+  local plant = lsystem({ object = pen, interpret = "last" })
+  plant:axiom(Wait(delay), Internode(), Apex(0, LEFT))
 
-plant:rule("Wait(left)", function(this, left)
-  return if left > 0 then Wait(left - 1) else Up()
-end)
-
--- The insect climbs, turns left where the axis forks, and eats the apex.
-plant:rule("Up < Internode", function()
-  return Internode(), Up()
-end)
-plant:rule("Up < Left", function()
-  return Left(), Up()
-end)
-plant:rule("Up < Apex", function()
-  return Down()
-end)
--- On its way down it enters the right branch when it comes out of the left one.
-plant:rule("Internode > [Left Down]", function()
-  return Internode(), Across()
-end)
-plant:rule("Across < Right", function()
-  return Right(), Up()
-end)
-plant:rule("Internode > [Left] [Right Down]", function()
-  return Down(), Internode()
-end)
-plant:rule("Internode > Down", function()
-  return Down(), Internode()
-end)
-for _, name in { "Up", "Down", "Across" } do
-  plant:rule(name, function()
-    return nil
+  plant:rule("Wait(left)", function(this, left: number)
+    return if left > 0 then Wait(left - 1) else Up()
   end)
+  -- The insect climbs, turns left where the axis forks, and eats the apex.
+  plant:rule("Up < Internode", "Internode Up")
+  plant:rule("Up < Left", "Left Up")
+  plant:rule("Up < Apex", "Down")
+  -- On its way down it enters the right branch when it comes out of the left one.
+  plant:rule("Internode > [Left Down]", "Internode Across")
+  plant:rule("Across < Right", "Right Up")
+  plant:rule("Internode > [Left] [Right Down]", "Down Internode")
+  plant:rule("Internode > Down", "Down Internode")
+  for _, name in { "Up", "Down", "Across" } do
+    plant:rule(name, "")
+  end
+
+  plant:rule("Internode < Apex(rest, left)", function(this, rest: number, left: number): any
+    if rest > 0 then
+      return Apex(rest - 1, left)
+    elseif left > 0 then
+      return Internode(), Apex(pause, left - 1)
+    end
+    return { Left(), Internode(), Apex(pause, LEFT) }, { Right(), Internode(), Apex(pause, RIGHT) }
+  end)
+  return plant
 end
 
-plant:rule("Internode < Apex(rest, left)", function(this, rest, left)
-  if rest > 0 then
-    return Apex(rest - 1, left)
-  elseif left > 0 then
-    return Internode(), Apex(pause, left - 1)
-  end
-  return { Left(), Internode(), Apex(pause, LEFT) }, { Right(), Internode(), Apex(pause, RIGHT) }
-end)
-
+local plant = insect(turtle({ angle = 45, width = 0.35 }))
 plant:interpret("Internode", function()
   return Color("#6a8f4a"), F(1)
 end)
@@ -73,4 +60,14 @@ local result = plant:derive(steps)
 
 -- Each turn of the insect moves it by one module, and never copies it. It has not left the plant yet.
 expect(result.counts.Up + result.counts.Down + result.counts.Across, 1)
+
+-- The whole visit, without a drawing. An axis gains an internode in every sixth step, and forks in the steps 19, 43 and
+-- 55. The insect eats the apices in the steps 48, 54, 73 and 84, when the branches have 1, 2, 3 and 5 internodes.
+local visit = insect(nil):derive(120)
+expect({ visit.counts.Apex, visit.counts.Internode }, { 0, 2 * (1 + LEFT) + (1 + RIGHT) + 1 + 2 + 3 + 5 })
+-- It appears in step 36, and takes a step for each internode on its way up and on its way down, three for each fork, one
+-- for each apex, and one to leave the plant.
+local forks = visit.counts.Left
+expect(visit.counts.Up + visit.counts.Down + visit.counts.Across, 0)
+expect(visit.steps, delay + 1 + 2 * visit.counts.Internode + 3 * forks + (forks + 1) + 1)
 -- Picture: --azimuth 180 --elevation 0

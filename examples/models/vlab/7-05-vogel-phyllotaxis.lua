@@ -27,4 +27,23 @@ local flower = head:derive(0)
 
 -- A disc with n florets has the radius c sqrt(n), so each floret has the area pi c^2 and spheres of 0.91 c touch.
 expect(flower.counts.Floret, 500)
+
+-- The topmost point of each sphere is above the place in the formula.
+local function place(n: number): any
+  local turn = math.rad(angle * n)
+  return vec(-math.sin(turn), math.cos(turn), 0) * spacing * math.sqrt(n)
+end
+for n = 0, florets - 1 do
+  expect(flower.objects[1]:distance(place(n) + vec(0, 0, 0.455)), 0, 1e-6)
+end
+-- At the edge, the florets next to a floret are 34, 55 and 89 older: the numbers of the visible spirals.
+local last = place(florets - 1)
+local older: { number } = {}
+for n = 1, florets - 1 do
+  table.insert(older, n)
+end
+table.sort(older, function(a: number, b: number)
+  return last:distance(place(florets - 1 - a)) < last:distance(place(florets - 1 - b))
+end)
+expect({ older[1], older[2], older[3] }, { 55, 34, 89 })
 -- Picture: --azimuth 180 --elevation 60
