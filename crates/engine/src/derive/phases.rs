@@ -258,7 +258,7 @@ fn warn_of_depth(
     let (session, grammar) = (&state.leader.machine.session, &rules.steps.grammar);
     let applied = trial.uses().iter().position(|uses| uses.applied > 0);
     let Some(rule) = applied.and_then(|number| grammar.rules().get(number)) else { return Ok(()) };
-    let (symbol, arities) = (rule.pattern.predecessor.symbol, grammar.arities());
+    let (symbol, arities) = (rule.pattern.symbol, grammar.arities());
     let mut param = 0;
     let module = chain.symbols.iter().find_map(|other| {
         let begin = param;

@@ -25,7 +25,7 @@ pub(super) fn parse_pattern(text: &str, symbols: &Symbols, scope: &NameScope) ->
             Err(_) if !has_symbols(text) => return Err(error),
             pattern => pattern?,
         };
-        Ok(Pattern { text: text.split_whitespace().collect::<Vec<_>>().join(" "), ..pattern })
+        Ok(pattern.with_text(text))
     })
 }
 
