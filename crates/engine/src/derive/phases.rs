@@ -19,7 +19,7 @@ use crate::results::{RowFeatures, RuleName, RuleReport, Step, Times};
 use burgeon_base::error::Result;
 use burgeon_base::warning::Warning;
 use burgeon_rewriting::{
-    Chain, Phase, PhaseOutcome, Phases, StepOutcome, Stepper, Symbol, Use, module_brief,
+    Chain, CutChain, Phase, PhaseOutcome, Phases, StepOutcome, Stepper, Symbol, Use, cut, module_brief,
 };
 
 /// State of a derivation, shared by its phases.
@@ -47,6 +47,8 @@ pub(super) struct DerivationState<'a> {
     pass: PassOutcome,
     /// Set if a decomposition has read the number of the step.
     decomposition_reads_step: bool,
+    /// Set if branches were cut at the beginning of the step.
+    has_cut: bool,
     /// Writer of checkpoints, if later runs can continue from them.
     checkpoints: Option<CheckpointWriter>,
 }
@@ -105,6 +107,7 @@ pub(super) fn derive(
         published: 0,
         pass: PassOutcome::default(),
         decomposition_reads_step: false,
+        has_cut: false,
         checkpoints,
     };
     let view = leader.machine.current.chains_derived.borrow().with_begun(plan.system, grammar.symbols());
@@ -150,7 +153,7 @@ fn phases<'a>(state: &DerivationState<'a>, begin: usize) -> Phases<'static, Deri
     let interprets = derivation.plan.objects.is_some();
     let mut phases: Phases<'static, DerivationState<'a>> = Phases {
         first: vec![Box::new(Resolve)],
-        each: vec![Box::new(Rewrite), Box::new(Resolve)],
+        each: vec![Box::new(CutBranches), Box::new(Rewrite), Box::new(Resolve)],
         last: Vec::new(),
     };
     if state.decomposer.is_some() {
@@ -178,6 +181,35 @@ fn phases<'a>(state: &DerivationState<'a>, begin: usize) -> Phases<'static, Deri
     phases
 }
 
+/// Removes the modules that cut branches, with what follows them in their branches.
+struct CutBranches;
+
+impl Phase<DerivationState<'_>> for CutBranches {
+    fn run(&self, state: &mut DerivationState<'_>, chain: Arc<Chain>, number: usize) -> Result<PhaseOutcome> {
+        let plan = &state.derivation.plan;
+        let arities = plan.steps.grammar.arities();
+        let begin = Instant::now();
+        let made = plan.cut.and_then(|symbol| cut(&chain, symbol, arities));
+        state.has_cut = made.is_some();
+        let Some(CutChain { chain: mut made, applied }) = made else { return Ok(PhaseOutcome::next(chain)) };
+        made.mark(plan.steps.batch, arities);
+        plan.keep_places(&applied);
+        if let Some(features) = &state.features {
+            features.borrow_mut().step(&applied);
+        }
+        if state.derivation.traced.is_some() {
+            let before = state.traced_chain(&chain);
+            state.steps.push(Step { number, chain: before, applied, ..Step::default() });
+        }
+        let made = Arc::new(made);
+        // Queries of the step see the chain without what was cut.
+        state.publish(&made);
+        state.stepper.reuse(chain);
+        state.times.rewriting += begin.elapsed();
+        Ok(PhaseOutcome::next(made))
+    }
+}
+
 /// Applies the rules once.
 struct Rewrite;
 
@@ -197,7 +229,7 @@ impl Phase<DerivationState<'_>> for Rewrite {
         // step can make a difference in a later step.
         let repeats = !outcome.changed && state.derivation.draws_afresh && !plan.steps.grammar.draws_random();
         let reads_step = outcome.reads_step || state.pass.reads_step || state.decomposition_reads_step;
-        let settled = (!outcome.ran || repeats) && !reads_step;
+        let settled = (!outcome.ran || repeats) && !reads_step && !state.has_cut;
         Ok(PhaseOutcome { chain: Arc::new(outcome.chain), settled })
     }
 }

@@ -8,7 +8,7 @@ use crate::machine::{Axiom, Interpretations, Machine, ModulePlaces, Objects, Rul
 use burgeon_base::error::{Result, SourcePlace};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::Warning;
-use burgeon_rewriting::{ModuleKey, StepPlan};
+use burgeon_rewriting::{ModuleKey, StepPlan, Symbol};
 
 /// Rules that apply repeatedly after the axiom and after each step.
 pub(crate) struct Decomposition {
@@ -29,6 +29,8 @@ pub(crate) struct DerivationPlan {
     pub decomposition: Option<Decomposition>,
     pub interpretations: Interpretations,
     pub objects: Option<Arc<Objects>>,
+    /// Symbol of the modules that cut branches.
+    pub cut: Option<Symbol>,
     /// Set if the number of steps is given, which `step()` requires.
     pub bounded: bool,
     /// Set if the time of each interpretation rule is measured.
@@ -50,6 +52,13 @@ impl DerivationPlan {
     /// Sets the places of modules in the present chain, or `None` for another chain.
     pub(super) fn set_places(&self, places: Option<ModulePlaces>) {
         *self.places.write().recover() = places.map(Arc::new);
+    }
+
+    /// Keeps the places of the modules that remain; `applied` has the number of symbols that each symbol became.
+    pub(super) fn keep_places(&self, applied: &[(u16, u32)]) {
+        if let Some(places) = self.places() {
+            self.set_places(Some(places.after(applied)));
+        }
     }
 
     /// Marks self-expanding objects as checked only.
@@ -155,6 +164,7 @@ impl Derivation {
             decomposition,
             interpretations: system.interpretations(&machine.library),
             objects,
+            cut: machine.library.cut.get(),
             bounded: limit.is_some(),
             profiled: options.reports.profile,
             places: RwLock::default(),

@@ -49,6 +49,7 @@ impl SystemDeclaration {
     fn tell_forestalled_in(&self, phase: RulePhase, machine: &Machine, grammar: &Grammar) {
         let mut sure = CandidateRules::default();
         let mut guards = GuardClasses::default();
+        let cut = machine.library.cut.get().filter(|_| phase == RulePhase::Rewriting);
         let can_apply =
             |(index, rule): &(usize, &Rule)| rule.weight != Some(0.0) && self.rules[*index].phase == phase;
         for (index, rule) in grammar.rules().iter().enumerate().filter(can_apply) {
@@ -69,6 +70,11 @@ impl SystemDeclaration {
                         "remove it from system:ignore(...), or from the context".to_owned(),
                     ),
                 };
+                warn(Warning::new(WarningKind::ImpossibleContext, text).help(help));
+            } else if let Some(symbol) = cut.filter(|symbol| needs(rule, *symbol)) {
+                let name = grammar.symbols().display_name(symbol);
+                let text = format!("{name} is erased before rules are matched, so this rule never applies");
+                let help = format!("match other modules; system:decompose and system:interpret see {name}");
                 warn(Warning::new(WarningKind::ImpossibleContext, text).help(help));
             } else if let Some(earlier) = earlier {
                 let place = earlier.place.as_ref().map_or_else(String::new, |place| format!(" in {place}"));
@@ -127,6 +133,7 @@ impl SystemDeclaration {
         let signature = symbols.signature(symbol);
         if self.interpretations.iter().any(|known| known.rule.pattern.symbol == symbol)
             || standard.iter().any(|known| known.symbol == symbol && is_a(known))
+            || library.cut.get() == Some(symbol)
         {
             return None;
         }
@@ -279,6 +286,12 @@ fn around(grammar: &Grammar, index: usize) -> PatternElements {
 fn skipped_symbol(grammar: &Grammar, item: &Item) -> Option<Symbol> {
     let symbols = item.symbols.listed()?;
     symbols.first().copied().filter(|_| symbols.iter().all(|symbol| grammar.is_skipped(*symbol)))
+}
+
+/// Returns true if a rule applies only where a module with this symbol is.
+fn needs(rule: &Rule, symbol: Symbol) -> bool {
+    let mut items = rule.pattern.predecessors.iter().chain(rule.contexts());
+    items.any(|item| item.symbols.listed() == Some(&[symbol]))
 }
 
 /// Returns true if a pattern names `symbol`.
