@@ -524,9 +524,9 @@ __interpretation("turtle", "Place", "place")
 
 -- Pruning ---------------------------------------------------------------------------------------------------
 
---- Module that erases itself and everything that follows it in its branch, at the beginning of the next step. Until then,
---- the modules are drawn.
 -- %
+--- Creates a module that erases itself and everything that follows it in its branch, at the beginning of the next step.
+--- Until then, the modules are drawn.
 names.Cut = module("Cut")
 __cut("Cut")
 

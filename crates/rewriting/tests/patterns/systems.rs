@@ -1,6 +1,6 @@
 //! Random systems with patterns of every kind.
 
-use crate::plain::{
+use super::plain::{
     Application, Parameter, Part, PlainContext, PlainModule, PlainPattern, PlainRule, PlainValue, Wanted,
 };
 use crate::rewriting::ModuleKey;

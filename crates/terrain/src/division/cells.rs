@@ -83,8 +83,9 @@ impl CellSystem {
             ));
         }
         if let Some(rule) = grammar.rules().iter().find(|rule| rule.pattern.has_run()) {
-            let error = Error::script("a rule for the cells of a terrain rewrites one cell, not several modules")
-                .help("write a rule for one module, such as \"Cell(height)\"");
+            let error =
+                Error::script("a rule for the cells of a terrain rewrites one cell, not several modules")
+                    .help("write a rule for one module, such as \"Cell(height)\"");
             return Err(error.at(rule.place.clone()).rule(&rule.pattern.text));
         }
         let axiom = rewriter.axiom(index)?;

@@ -156,7 +156,9 @@ impl SystemDeclaration {
         let named = |error: Error| error.rule(&name);
         if pattern.has_run() {
             let error = Error::script("an interpretation is of one module, but the pattern has several");
-            return Err(named(error.help("interpret each module, and write the others as contexts: A < B > C")));
+            return Err(named(
+                error.help("interpret each module, and write the others as contexts: A < B > C"),
+            ));
         }
         let (weight, guard) = match (arguments.len(), arguments.get(1)) {
             (3, Some(LuaValue::Table(options))) => rule_options(options).map_err(named)?,
