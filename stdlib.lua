@@ -403,7 +403,7 @@ local function abop(plant: { [string]: any }): System<any>
     if type(key) ~= "string" then
       refuse(`a key of abop is {describe(key)}, not the pattern of a rule`, ABOP_USAGE)
     elseif not table.find(ABOP_OPTIONS, key) then
-      -- A rule rewrites one module, so a word without contexts is its name.
+      -- A word without contexts is the name of a module, unless all its letters are modules.
       local word = string.match(string.gsub(key, "%b()", ""), "^%s*([%a_][%w_]+)%s*$")
       if word and #undeclared_letters({ word }, {}) > 0 then
         local is_option = word == key and string.find(key, "^[%l_]+$")
@@ -521,6 +521,14 @@ turtle_module("Elasticity", "elasticity", "elasticity")
 -- ~
 names.Place = module("Place", "model", "scale?")
 __interpretation("turtle", "Place", "place")
+
+-- Pruning ---------------------------------------------------------------------------------------------------
+
+-- %
+--- Creates a module that erases itself and everything that follows it in its branch, at the beginning of the next step.
+--- Until then, the modules are drawn.
+names.Cut = module("Cut")
+__cut("Cut")
 
 names.vec = vec
 names.lerp = lerp

@@ -120,7 +120,7 @@ fn a_malformed_pattern_shows_the_place() {
         A((x)
           ^
       | s:rule("A((x)", function() return B() end)
-      help: expected a parameter's name
+      help: expected a parameter's name or a value
     "#);
     assert_snapshot!(pattern("A(x) > B [ B"), @r#"
     error: s.lua:3: malformed pattern: unexpected '[' at character 10
@@ -150,12 +150,19 @@ fn a_malformed_pattern_shows_the_place() {
       | s:rule("A(x, x)", function() return B() end)
       help: duplicate parameter name x
     "#);
-    assert_snapshot!(pattern("A(1)"), @r#"
+    assert_snapshot!(pattern("A(1x)"), @r#"
     error: s.lua:3: malformed pattern: unexpected '1' at character 3
-        A(1)
+        A(1x)
           ^
-      | s:rule("A(1)", function() return B() end)
-      help: expected a parameter's name
+      | s:rule("A(1x)", function() return B() end)
+      help: expected a number such as 2, -1.5 or 1e-3
+    "#);
+    assert_snapshot!(pattern("A('x)"), @r#"
+    error: s.lua:3: malformed pattern: unexpected ''' at character 3
+        A('x)
+          ^
+      | s:rule("A('x)", function() return B() end)
+      help: this text is not closed
     "#);
     assert_snapshot!(pattern("B < A(x) é"), @r#"
     error: s.lua:3: malformed pattern: unexpected 'é' at character 10
@@ -167,16 +174,40 @@ fn a_malformed_pattern_shows_the_place() {
 }
 
 #[test]
-fn a_pattern_has_one_predecessor_and_no_empty_context() {
+fn a_pattern_has_predecessors_and_no_empty_context() {
     assert_snapshot!(pattern(""), @r#"
     error: s.lua:3: malformed pattern "": missing predecessor
       | s:rule("", function() return B() end)
       help: add the module to be rewritten
     "#);
-    assert_snapshot!(pattern("A(x) B"), @r#"
-    error: s.lua:3: malformed pattern "A(x) B": more than one predecessor
-      | s:rule("A(x) B", function() return B() end)
-      help: a rule rewrites one module; put the others into a context: A < B > C
+    assert_snapshot!(pattern("* B"), @r#"
+    error: s.lua:3: malformed pattern "* B": the first module of a predecessor needs one symbol
+      | s:rule("* B", function() return B() end)
+      help: write one rule for each symbol; * and (A|B) can only follow it, or stand in contexts
+    "#);
+    assert_snapshot!(pattern("(A|B)"), @r#"
+    error: s.lua:3: malformed pattern "(A|B)": the first module of a predecessor needs one symbol
+      | s:rule("(A|B)", function() return B() end)
+      help: write one rule for each symbol; * and (A|B) can only follow it, or stand in contexts
+    "#);
+    assert_snapshot!(pattern("A > (A|B)(x)"), @r#"
+    error: s.lua:3: malformed pattern "A > (A|B)(x)": B has no parameters, not 1
+      | s:rule("A > (A|B)(x)", function() return B() end)
+      help: it was declared as B; write all parameters or no brackets
+    "#);
+    assert_snapshot!(pattern("A > *(x)"), @r#"
+    error: s.lua:3: malformed pattern: unexpected '(' at character 6
+        A > *(x)
+             ^
+      | s:rule("A > *(x)", function() return B() end)
+      help: * matches modules with any number of parameters, so it names none of them
+    "#);
+    assert_snapshot!(pattern("(A B) < A"), @r#"
+    error: s.lua:3: malformed pattern: unexpected 'B' at character 4
+        (A B) < A
+           ^
+      | s:rule("(A B) < A", function() return B() end)
+      help: expected | or ), as in (A|B)
     "#);
     assert_snapshot!(pattern("< A(x)"), @r#"
     error: s.lua:3: malformed pattern "< A(x)": the context next to < is empty
@@ -194,9 +225,18 @@ fn a_pattern_has_one_predecessor_and_no_empty_context() {
       help: it is the path towards the axiom; write only the modules on it
     "#);
     assert_snapshot!(pattern("[B]"), @r#"
-    error: s.lua:3: malformed pattern "[B]": more than one predecessor
+    error: s.lua:3: malformed pattern "[B]": a predecessor cannot have branches
       | s:rule("[B]", function() return B() end)
-      help: a rule rewrites one module; put the others into a context: A < B > C
+      help: its modules stand next to one another; put branches into the right context: A > [B]
+    "#);
+}
+
+#[test]
+fn an_interpretation_of_several_modules_is_refused() {
+    assert_snapshot!(refused_rules("s:interpret(\"A(x) B\", function(this, x) end)"), @r#"
+    error: s.lua:3: rule A(x) B: an interpretation is of one module, but the pattern has several
+      | s:interpret("A(x) B", function(this, x) end)
+      help: interpret each module, and write the others as contexts: A < B > C
     "#);
 }
 

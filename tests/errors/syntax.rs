@@ -145,6 +145,7 @@ fn names_of_the_engine_cannot_be_used_or_declared() {
         "__prepared",
         "__class",
         "__interpretation",
+        "__cut",
         "__put_1",
     ];
     let said = refused(&names.map(|name| format!("{name}(1)\n")).concat());

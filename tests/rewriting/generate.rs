@@ -264,7 +264,7 @@ impl Engine {
     /// Returns the indices of the modules that a pattern matches.
     pub(crate) fn matching(&self, rule: usize) -> impl Iterator<Item = usize> {
         let number = u16::try_from(rule).expect("few rules");
-        let symbol = self.grammar.rules()[rule].pattern.predecessor.symbol;
+        let symbol = self.grammar.rules()[rule].pattern.symbol;
         let symbols = self.chain.symbols.iter().enumerate();
         let around = self.around();
         symbols

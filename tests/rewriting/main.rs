@@ -1,5 +1,7 @@
 //! Rewriting from a script to its chains, tested against the laws of the design and the literature.
 
+use burgeon::rewriting;
+
 mod candidates;
 mod chains_as_axioms;
 mod choice;
@@ -23,6 +25,7 @@ mod naive;
 mod parameters;
 mod parts;
 mod passes;
+mod patterns;
 mod properties;
 mod queries;
 mod results;

@@ -6,6 +6,7 @@ use burgeon_kit::{ScriptExample, examples};
 pub const EXAMPLES: &[ScriptExample] = examples! {
     "BeginPolygon" shows "BeginPolygon" "Point" "EndPolygon";
     "Color" shows "Color";
+    "Cut" shows "Cut";
     "Elasticity" shows "Elasticity";
     "F" shows "F" "G";
     "Level" shows "Level";

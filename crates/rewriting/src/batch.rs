@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use crate::chain::{Chain, Mark};
+use crate::grammar::Rule;
 use crate::key::ModuleKey;
 use crate::links::Links;
 use crate::matching::{Bindings, ContextMatcher};
@@ -118,31 +119,43 @@ impl Batch<'_> {
         let declared = &self.plan.grammar.rules()[usize::from(rule)];
         let arity = declared.arguments();
         scratch.arguments.reserve(members.len() * arity);
-        let own = declared.pattern.predecessor.bound;
-        if declared.contexts().is_empty() {
+        if !declared.has_contexts() && !declared.tests_modules() {
+            let own = declared.pattern.own_bound();
             for index in members {
                 let at = scratch.active[*index as usize].param as usize;
                 scratch.arguments.extend_from_slice(&self.chain.params[at..at + own]);
             }
-        } else {
-            let left = declared.pattern.left.len();
-            for index in members {
-                let active = scratch.active[*index as usize];
+            return;
+        }
+        let left = declared.pattern.left.len();
+        for index in members {
+            let active = scratch.active[*index as usize];
+            if declared.has_contexts() {
                 self.contexts().bind(rule, active.module as usize, &mut scratch.bindings);
-                let at = active.param as usize;
-                for (place, item) in declared.contexts().iter().enumerate() {
-                    if place == left {
-                        scratch.arguments.extend_from_slice(&self.chain.params[at..at + own]);
-                    }
-                    if item.bound > 0 {
-                        let at = self.links.param[scratch.bindings[place] as usize] as usize;
-                        scratch.arguments.extend_from_slice(&self.chain.params[at..at + item.bound]);
-                    }
+            }
+            for (place, item) in declared.contexts().iter().enumerate() {
+                if place == left {
+                    self.push_own(declared, active, &mut scratch.arguments);
                 }
-                if left == declared.contexts().len() {
-                    scratch.arguments.extend_from_slice(&self.chain.params[at..at + own]);
+                if item.bound > 0 {
+                    let at = self.links.param[scratch.bindings[place] as usize] as usize;
+                    item.push_arguments(&self.chain.params, at, &mut scratch.arguments);
                 }
             }
+            if left == declared.contexts().len() {
+                self.push_own(declared, active, &mut scratch.arguments);
+            }
+        }
+    }
+
+    /// Appends the arguments that the rewritten modules provide.
+    #[inline]
+    fn push_own(&self, rule: &Rule, active: Active, arguments: &mut Vec<f64>) {
+        let (module, mut param) = (active.module as usize, active.param as usize);
+        let arities = self.plan.grammar.arities();
+        for (item, symbol) in rule.pattern.predecessors.iter().zip(&self.chain.symbols[module..]) {
+            item.push_arguments(&self.chain.params, param, arguments);
+            param += usize::from(arities[usize::from(*symbol)]);
         }
     }
 
@@ -199,7 +212,7 @@ impl Batch<'_> {
         Ok(())
     }
 
-    /// Returns the error of a rule with its location, rule, module and step.
+    /// Returns the error of a rule with its location, rule, modules and step.
     pub(crate) fn blame(
         &self,
         failure: RuleFailure,
@@ -211,10 +224,14 @@ impl Batch<'_> {
         let active = scratch.active[index as usize];
         let grammar = &self.plan.grammar;
         let declared = &grammar.rules()[usize::from(rule)];
-        let symbol = self.chain.symbols[active.module as usize];
-        let arity = usize::from(grammar.arities()[usize::from(symbol)]);
-        let params = &self.chain.params[active.param as usize..][..arity];
-        let module = module_brief(grammar.symbols(), self.rules.parameters(), symbol, params);
+        let mut param = active.param as usize;
+        let run = &self.chain.symbols[active.module as usize..][..declared.run_length()];
+        let modules = run.iter().map(|symbol| {
+            let params = &self.chain.params[param..][..usize::from(grammar.arities()[usize::from(*symbol)])];
+            param += params.len();
+            module_brief(grammar.symbols(), self.rules.parameters(), *symbol, params)
+        });
+        let module = modules.collect::<Vec<_>>().join(" ");
         let error = failure.error.at(declared.place.clone()).rule(&declared.pattern.text);
         (index, error.module(module, self.step.number()))
     }

@@ -4,6 +4,7 @@ use crate::batch::{Active, Batch, ChainPiece, NO_RULE, Scratch, narrow};
 use crate::chain::{END, Symbol};
 use crate::choice::Candidates;
 use crate::grammar::Choice;
+use crate::runs::RechosenModules;
 use burgeon_base::error::{Error, Result};
 
 impl Batch<'_> {
@@ -28,7 +29,7 @@ impl Batch<'_> {
                 };
                 match grammar.choice(symbol) {
                     Choice::Sole(rule) => active.rule = rule,
-                    Choice::Contexts => active.rule = self.choose_unguarded(rules, module),
+                    Choice::Contexts => active.rule = self.choose_unguarded(rules, active),
                     Choice::Guards => guarded.push(narrow(scratch.active.len())),
                 }
                 if active.rule != NO_RULE || grammar.choice(symbol) == Choice::Guards {
@@ -41,6 +42,9 @@ impl Batch<'_> {
         if !guarded.is_empty() {
             self.choose_guarded(guarded, scratch)?;
         }
+        if grammar.has_runs() {
+            self.drop_taken(scratch);
+        }
         for group in &mut scratch.groups {
             group.members.clear();
         }
@@ -52,23 +56,32 @@ impl Batch<'_> {
         Ok(())
     }
 
-    fn choose_unguarded(&self, rules: &[u16], module: usize) -> u16 {
+    /// Returns true if the predecessor and the contexts of rule number `rule` match.
+    #[inline]
+    pub(crate) fn matches(&self, rule: u16, active: Active) -> bool {
+        let (module, param) = (active.module as usize, active.param as usize);
+        let tests_modules = self.plan.grammar.rules()[usize::from(rule)].tests_modules();
+        (!tests_modules || self.contexts().matches_predecessors(rule, module, param))
+            && self.contexts().matches(rule, module)
+    }
+
+    fn choose_unguarded(&self, rules: &[u16], active: Active) -> u16 {
         let mut candidates = Candidates::default();
         for number in rules {
             let rule = &self.plan.grammar.rules()[usize::from(*number)];
-            if candidates.admit(rule) && self.contexts().matches(*number, module) {
+            if candidates.admit(rule) && self.matches(*number, active) {
                 candidates.add(*number, rule);
                 if candidates.is_settled() {
                     break;
                 }
             }
         }
-        self.choose_rule(&candidates, module)
+        self.choose_rule(&candidates, active.module as usize)
     }
 
     /// Returns the rule to apply to `module`, or [`NO_RULE`].
     #[inline]
-    fn choose_rule(&self, candidates: &Candidates, module: usize) -> u16 {
+    pub(crate) fn choose_rule(&self, candidates: &Candidates, module: usize) -> u16 {
         candidates.choose(|| self.chain.keys[module].stream()).unwrap_or(NO_RULE)
     }
 
@@ -82,6 +95,7 @@ impl Batch<'_> {
         };
         open.sort_by_key(|index| symbol_of(scratch, *index));
         let mut first: Option<(u32, Error)> = None;
+        let mut rechosen = RechosenModules::default();
         let mut rest = open.as_slice();
         while let Some(index) = rest.first() {
             let symbol = symbol_of(scratch, *index);
@@ -93,14 +107,18 @@ impl Batch<'_> {
                 let rule = &grammar.rules()[usize::from(*number)];
                 let end = first.as_ref().map_or(u32::MAX, |(index, _)| *index);
                 let asked = members.iter().zip(&candidates).filter(|(index, candidates)| {
-                    let module = scratch.active[**index as usize].module as usize;
-                    **index < end && candidates.admit(rule) && self.contexts().matches(*number, module)
+                    **index < end
+                        && candidates.admit(rule)
+                        && !rechosen.contains(**index)
+                        && self.matches(*number, scratch.active[**index as usize])
                 });
                 let mut holds: Vec<u32> = asked.map(|(index, _)| *index).collect();
-                if rule.guarded
-                    && let Some(failed) = self.guard(*number, &mut holds, scratch)?
-                {
-                    first = Some(failed);
+                if rule.guarded {
+                    let failed = match grammar.has_runs() {
+                        true => self.guard_runs(*number, &mut holds, scratch, &mut rechosen),
+                        false => self.guard(*number, &mut holds, scratch),
+                    };
+                    first = [failed, first].into_iter().flatten().min_by_key(|(index, _)| *index);
                 }
                 let mut holds = holds.into_iter().peekable();
                 for (index, candidates) in members.iter().zip(&mut candidates) {
@@ -110,6 +128,9 @@ impl Batch<'_> {
                 }
             }
             for (index, candidates) in members.iter().zip(&candidates) {
+                if rechosen.contains(*index) {
+                    continue;
+                }
                 let active = &mut scratch.active[*index as usize];
                 active.rule = self.choose_rule(candidates, active.module as usize);
             }
@@ -119,23 +140,24 @@ impl Batch<'_> {
 
     /// Retains the applications in `members` for which the guard of `rule` holds. If the guard fails, retains only
     /// those before the failure, and returns the failure with its application.
-    fn guard(
+    pub(crate) fn guard(
         &self,
         rule: u16,
         members: &mut Vec<u32>,
         scratch: &mut Scratch,
-    ) -> Result<Option<(u32, Error)>> {
+    ) -> Option<(u32, Error)> {
         if members.is_empty() {
-            return Ok(None);
+            return None;
         }
         let mut holds: Vec<u32> = Vec::new();
         let failed = loop {
+            holds.clear();
             let result = self.rules.guard(&self.gather(rule, members, scratch), &mut holds);
             let Err(failure) = result else { break None };
             let (index, error) = self.blame(failure, rule, members, scratch);
             match self.forgive(index, error, members, scratch) {
                 Err(error) => break Some((index, error)),
-                Ok(()) if members.is_empty() => return Ok(None),
+                Ok(()) if members.is_empty() => return None,
                 Ok(()) => {}
             }
         };
@@ -144,6 +166,11 @@ impl Batch<'_> {
         }
         let mut holds = holds.into_iter();
         members.retain(|_| holds.next().is_some_and(|holds| holds != 0));
-        Ok(failed)
+        failed
+    }
+
+    /// Returns true if the chain of an application is skipped because its data is wrong.
+    pub(crate) fn is_failed(&self, active: Active) -> bool {
+        self.plan.failed.as_ref().is_some_and(|failed| failed.contains(active.chain as usize))
     }
 }

@@ -1,52 +1,177 @@
-//! The right contexts of a grammar, with numbered branches.
+//! The patterns of a grammar in the form that matching uses, with numbered branches and tests.
+
+use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
 use super::chain::Symbol;
-use super::pattern::Context;
+use super::column_value::ColumnValue;
+use super::pattern::{Context, Item, Pattern, PatternValue, SymbolSet};
+use super::symbols::FIRST_SYMBOL;
+use super::text::ShowParameters;
 
-/// An element of a right context.
+/// An element of a context or of a predecessor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum ContextElement {
-    /// A module on the main path.
+    /// A module with this symbol.
     Module(Symbol),
+    /// A module that passes the test with this number in the grammar.
+    Test(u32),
     /// A branch that begins like the named branch with this number in the grammar.
     Branch(u32),
+    /// No further module: the end of a branch or chain, or the beginning of the chain.
+    End,
 }
 
-/// Branches that the contexts of a grammar name, each stored once.
-#[derive(Debug, Clone, Default)]
-pub struct Branches {
-    list: Vec<Box<[ContextElement]>>,
-    numbers: FxHashMap<Box<[ContextElement]>, u32>,
+/// Condition on a module that is not only its symbol.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(super) struct ModuleTest {
+    symbols: SymbolSet,
+    /// Index of a parameter, and number of the constant that it must equal.
+    values: Box<[(usize, u32)]>,
 }
 
-impl Branches {
-    /// Returns the context elements of the branch with a number.
+impl ModuleTest {
+    /// Returns true if a module with this symbol can pass.
     #[inline]
-    pub(super) fn get(&self, number: u32) -> &[ContextElement] {
-        &self.list[number as usize]
+    pub(super) fn admits(&self, symbol: Symbol) -> bool {
+        match &self.symbols {
+            SymbolSet::One(one) => *one == symbol,
+            SymbolSet::OneOf(several) => several.contains(&symbol),
+            SymbolSet::Any => symbol >= FIRST_SYMBOL,
+        }
     }
 
-    /// Returns a right context with its branches replaced by their numbers.
-    pub fn number(&mut self, contexts: &[Context]) -> Box<[ContextElement]> {
-        let ahead = contexts.iter().map(|context| match context {
-            Context::Module(item) => ContextElement::Module(item.symbol),
-            Context::Branch(inner) => {
-                let inner = self.number(inner);
-                let next = u32::try_from(self.list.len()).unwrap_or(u32::MAX);
-                let number = *self.numbers.entry(inner.clone()).or_insert(next);
-                if number == next {
-                    self.list.push(inner);
+    /// Returns true if the module depends on values.
+    #[inline]
+    pub(super) fn has_values(&self) -> bool {
+        !self.values.is_empty()
+    }
+
+    /// Returns true if the parameters `params`, which begin with those of a module, have the required values.
+    /// `constants` are those of the grammar in the current chain.
+    #[inline]
+    pub(super) fn holds(&self, params: &[f64], constants: &[f64]) -> bool {
+        self.values.iter().all(|(place, constant)| {
+            let (value, constant) = (params[*place], constants[*constant as usize]);
+            // Values that are not numbers are stored as different NaN.
+            #[allow(clippy::float_cmp, reason = "a pattern names an exact value")]
+            let is_same = value == constant;
+            is_same || value.to_bits() == constant.to_bits()
+        })
+    }
+}
+
+/// A value of a pattern.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+enum Constant {
+    /// Bits of a value as columns store it.
+    Stored(u64),
+    Text(Arc<str>),
+}
+
+/// Patterns of a grammar: rules by number, and the branches, tests and values that they name, each stored once.
+#[derive(Debug, Clone, Default)]
+pub(super) struct CompiledPatterns {
+    /// Left context of each rule, the nearest module first.
+    pub lefts: Vec<Box<[ContextElement]>>,
+    /// Modules that each rule rewrites.
+    pub predecessors: Vec<Box<[ContextElement]>>,
+    /// Right context of each rule.
+    pub rights: Vec<Box<[ContextElement]>>,
+    branches: Vec<Box<[ContextElement]>>,
+    branch_numbers: FxHashMap<Box<[ContextElement]>, u32>,
+    tests: Vec<ModuleTest>,
+    test_numbers: FxHashMap<ModuleTest, u32>,
+    constants: Vec<Constant>,
+    constant_numbers: FxHashMap<Constant, u32>,
+}
+
+/// Returns the number of `item` in `list`, to which it is added if it is new.
+fn number<T: Clone + Eq + std::hash::Hash>(
+    list: &mut Vec<T>,
+    numbers: &mut FxHashMap<T, u32>,
+    item: T,
+) -> u32 {
+    let next = u32::try_from(list.len()).unwrap_or(u32::MAX);
+    *numbers.entry(item).or_insert_with_key(|item| {
+        list.push(item.clone());
+        next
+    })
+}
+
+impl CompiledPatterns {
+    /// Adds the pattern of the next rule.
+    pub(super) fn add(&mut self, pattern: &Pattern) {
+        let mut left: Vec<ContextElement> = pattern.left.iter().rev().map(|item| self.module(item)).collect();
+        if pattern.from_beginning {
+            left.push(ContextElement::End);
+        }
+        self.lefts.push(left.into());
+        let predecessors = pattern.predecessors.iter().map(|item| self.module(item)).collect();
+        self.predecessors.push(predecessors);
+        let right = self.right(&pattern.right);
+        self.rights.push(right);
+    }
+
+    fn module(&mut self, item: &Item) -> ContextElement {
+        if let Some(symbol) = item.plain() {
+            return ContextElement::Module(symbol);
+        }
+        let values = item.values.iter().map(|(place, value)| {
+            let constant = match value {
+                // 0 and -0 are the same number.
+                PatternValue::Stored(ColumnValue::Number(number)) => {
+                    Constant::Stored((number + 0.0).to_bits())
                 }
-                ContextElement::Branch(number)
+                PatternValue::Stored(value) => Constant::Stored(value.pack().to_bits()),
+                PatternValue::Text(text) => Constant::Text(Arc::clone(text)),
+            };
+            (*place, number(&mut self.constants, &mut self.constant_numbers, constant))
+        });
+        let test = ModuleTest { values: values.collect(), symbols: item.symbols.clone() };
+        ContextElement::Test(number(&mut self.tests, &mut self.test_numbers, test))
+    }
+
+    fn right(&mut self, contexts: &[Context]) -> Box<[ContextElement]> {
+        let ahead = contexts.iter().map(|context| match context {
+            Context::Module(item) => self.module(item),
+            Context::Branch(inner) => {
+                let inner = self.right(inner);
+                ContextElement::Branch(number(&mut self.branches, &mut self.branch_numbers, inner))
             }
+            Context::End => ContextElement::End,
         });
         ahead.collect()
     }
 
+    /// Returns the context elements of the branch with a number.
+    #[inline]
+    pub(super) fn branch(&self, number: u32) -> &[ContextElement] {
+        &self.branches[number as usize]
+    }
+
     /// Returns the number of branches.
-    pub fn len(&self) -> usize {
-        self.list.len()
+    pub(super) fn branch_count(&self) -> usize {
+        self.branches.len()
+    }
+
+    /// Returns the test with a number.
+    #[inline]
+    pub(super) fn test(&self, number: u32) -> &ModuleTest {
+        &self.tests[number as usize]
+    }
+
+    /// Returns the values of patterns as the columns of the current chain contain them.
+    pub(super) fn stored_constants<'a>(
+        &'a self,
+        values: &'a dyn ShowParameters,
+    ) -> impl Iterator<Item = f64> + 'a {
+        // No column contains this value, so a text that no module has matches none.
+        let absent = ColumnValue::Handle(u32::MAX).pack();
+        self.constants.iter().map(move |constant| match constant {
+            Constant::Stored(bits) => f64::from_bits(*bits),
+            Constant::Text(text) => values.find_text(text).unwrap_or(absent),
+        })
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::chain::{END, Symbol};
-use super::context::{Branches, ContextElement};
+use super::context::{CompiledPatterns, ContextElement};
 use super::pattern::{Item, Pattern};
 use super::symbols::Symbols;
 use burgeon_base::error::SourcePlace;
@@ -23,13 +23,39 @@ pub struct Rule {
     /// Source location of the declaration.
     pub place: Option<SourcePlace>,
     contexts: Vec<Item>,
+    has_contexts: bool,
+    tests_modules: bool,
+    run_length: usize,
 }
 
 impl Rule {
     /// Creates a rule for `pattern`.
     pub fn new(pattern: Pattern, weight: Option<f64>, guarded: bool, place: Option<SourcePlace>) -> Self {
         let contexts = pattern.context_items();
-        Self { pattern, weight, guarded, place, contexts }
+        let has_contexts = pattern.has_left() || pattern.has_right();
+        let tests_modules =
+            pattern.has_run() || pattern.predecessors.iter().any(|item| item.plain().is_none());
+        let run_length = pattern.predecessors.len().max(1);
+        Self { pattern, weight, guarded, place, contexts, has_contexts, tests_modules, run_length }
+    }
+
+    /// Returns true if the rule has a context, which can also be only an end of the chain.
+    #[inline]
+    pub fn has_contexts(&self) -> bool {
+        self.has_contexts
+    }
+
+    /// Returns true if the symbol of the first module does not decide alone whether the predecessor matches: if there
+    /// are several modules, or values.
+    #[inline]
+    pub fn tests_modules(&self) -> bool {
+        self.tests_modules
+    }
+
+    /// Returns the number of modules that the rule rewrites at once.
+    #[inline]
+    pub fn run_length(&self) -> usize {
+        self.run_length
     }
 
     /// Returns the context modules, in the order in which the pattern names them.
@@ -49,9 +75,9 @@ impl Rule {
 pub enum Choice {
     /// The only rule, which always applies.
     Sole(u16),
-    /// Contexts and weights decide.
+    /// Contexts, values and weights decide.
     Contexts,
-    /// Guards decide, in addition to contexts and weights.
+    /// Guards decide, in addition to contexts, values and weights.
     Guards,
 }
 
@@ -62,7 +88,7 @@ impl Choice {
         }
         let mut first = rules;
         match (first.next(), numbers) {
-            (Some(rule), [number]) if rule.contexts.is_empty() && rule.weight.is_none() => {
+            (Some(rule), [number]) if !rule.has_contexts && !rule.tests_modules && rule.weight.is_none() => {
                 Self::Sole(*number)
             }
             _ => Self::Contexts,
@@ -76,15 +102,14 @@ pub struct Grammar {
     symbols: Arc<Symbols>,
     rules: Vec<Rule>,
     by_symbol: Vec<Vec<u16>>,
-    /// Right context of each rule.
-    rights: Vec<Box<[ContextElement]>>,
-    branches: Branches,
+    patterns: CompiledPatterns,
     choices: Vec<Choice>,
     skipped: Vec<bool>,
     arities: Vec<u8>,
     name_hashes: Vec<u64>,
     left: bool,
     right: bool,
+    runs: bool,
     random: bool,
 }
 
@@ -100,14 +125,13 @@ impl Grammar {
         for symbol in ignored.iter().filter(|symbol| **symbol > END) {
             skipped[usize::from(*symbol)] = true;
         }
-        let mut branches = Branches::default();
-        let rights = rules.iter().map(|rule| branches.number(&rule.pattern.right)).collect();
+        let mut patterns = CompiledPatterns::default();
+        rules.iter().for_each(|rule| patterns.add(&rule.pattern));
         let random = random || rules.iter().any(|rule| rule.weight.is_some());
         let grammar = Self {
             rules,
             by_symbol: Vec::new(),
-            rights,
-            branches,
+            patterns,
             choices: Vec::new(),
             skipped,
             name_hashes: arities.iter().zip(0..).map(|(_, symbol)| symbols.name_hash(symbol)).collect(),
@@ -115,6 +139,7 @@ impl Grammar {
             arities,
             left: false,
             right: false,
+            runs: false,
             random,
         };
         grammar.with_candidates(|_| true)
@@ -125,12 +150,13 @@ impl Grammar {
     #[must_use]
     pub fn with_candidates(mut self, is_candidate: impl Fn(u16) -> bool) -> Self {
         let mut by_symbol = vec![Vec::new(); self.arities.len()];
-        (self.left, self.right) = (false, false);
+        (self.left, self.right, self.runs) = (false, false, false);
         for (number, rule) in (0u16..).zip(&self.rules).filter(|(number, _)| is_candidate(*number)) {
-            self.left |= !rule.pattern.left.is_empty();
-            self.right |= !rule.pattern.right.is_empty();
+            self.left |= rule.pattern.has_left();
+            self.right |= rule.pattern.has_right();
             if rule.weight != Some(0.0) {
-                by_symbol[usize::from(rule.pattern.predecessor.symbol)].push(number);
+                self.runs |= rule.pattern.has_run();
+                by_symbol[usize::from(rule.pattern.symbol)].push(number);
             }
         }
         let among = |of: &Vec<u16>| Choice::among(of.iter().map(|rule| &self.rules[usize::from(*rule)]), of);
@@ -156,16 +182,28 @@ impl Grammar {
         &self.by_symbol[usize::from(symbol)]
     }
 
+    /// Returns the left context of rule number `rule`, the nearest module first.
+    #[inline]
+    pub fn left_of(&self, rule: u16) -> &[ContextElement] {
+        &self.patterns.lefts[usize::from(rule)]
+    }
+
+    /// Returns the modules that rule number `rule` rewrites.
+    #[inline]
+    pub fn predecessors_of(&self, rule: u16) -> &[ContextElement] {
+        &self.patterns.predecessors[usize::from(rule)]
+    }
+
     /// Returns the right context of rule number `rule`.
     #[inline]
     pub fn right_of(&self, rule: u16) -> &[ContextElement] {
-        &self.rights[usize::from(rule)]
+        &self.patterns.rights[usize::from(rule)]
     }
 
-    /// Returns the branches that contexts name.
+    /// Returns the branches, tests and values that patterns name.
     #[inline]
-    pub fn branches(&self) -> &Branches {
-        &self.branches
+    pub(super) fn patterns(&self) -> &CompiledPatterns {
+        &self.patterns
     }
 
     /// Returns the method of choosing the rule for a module with this symbol.
@@ -216,6 +254,12 @@ impl Grammar {
     #[inline]
     pub fn has_contexts(&self) -> bool {
         self.left || self.right
+    }
+
+    /// Returns true if a rule rewrites several modules at once.
+    #[inline]
+    pub fn has_runs(&self) -> bool {
+        self.runs
     }
 
     /// Returns true if a rule has a left context.

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::chain::{CLOSE, Chain, END, OPEN};
 use super::grammar::Grammar;
+use super::text::{PlainNumbers, ShowParameters};
 
 /// Index that means no neighbour.
 pub(super) const NONE: u32 = u32::MAX;
@@ -21,6 +22,8 @@ pub struct Links {
     pub(crate) branch: Vec<u32>,
     /// Index of each symbol's first parameter.
     pub param: Vec<u32>,
+    /// Values of the grammar's patterns as the chain contains them.
+    pub(crate) constants: Vec<f64>,
     /// Cached search results for each branch that the grammar names.
     known: Vec<OnceLock<BranchSearches>>,
     stack: Vec<u32>,
@@ -46,13 +49,20 @@ impl BranchSearches {
 }
 
 impl Links {
-    /// Finds the neighbours in `chain` with one pass in each direction.
+    /// Finds the neighbours in `chain`, all of whose parameters are numbers, with one pass in each direction.
     pub fn build(&mut self, chain: &Chain, grammar: &Grammar) {
+        self.build_with(chain, grammar, &PlainNumbers);
+    }
+
+    /// Finds the neighbours in `chain`, whose parameters `values` represents.
+    pub fn build_with(&mut self, chain: &Chain, grammar: &Grammar, values: &dyn ShowParameters) {
         self.left.clear();
         self.right.clear();
         self.branch.clear();
         self.param.clear();
         self.known.clear();
+        self.constants.clear();
+        self.constants.extend(grammar.patterns().stored_constants(values));
         if grammar.has_contexts() {
             self.find_params(chain, grammar);
         }
@@ -62,7 +72,7 @@ impl Links {
         if grammar.has_right_contexts() {
             self.find_right(chain, grammar);
         }
-        let named = grammar.branches().len();
+        let named = grammar.patterns().branch_count();
         if named > 0 {
             self.find_branches(chain, grammar);
             self.known.resize_with(named, OnceLock::new);

@@ -3,7 +3,7 @@
 use smallvec::SmallVec;
 
 use super::chain::{CLOSE, Chain, END, OPEN};
-use super::context::ContextElement;
+use super::context::{ContextElement, ModuleTest};
 use super::grammar::Grammar;
 use super::links::{Links, NONE};
 
@@ -65,35 +65,89 @@ enum ContextPosition {
 }
 
 impl ContextMatcher<'_> {
-    /// Returns true if the contexts of rule number `rule` match around the module at `index`.
+    /// Returns true if the contexts of rule number `rule` match around the module at `index`, or around the modules
+    /// from `index` on that the rule rewrites at once.
     #[inline]
     pub fn matches(self, rule: u16, index: usize) -> bool {
         let declared = &self.grammar.rules()[usize::from(rule)];
-        if declared.contexts().is_empty() {
+        if !declared.has_contexts() {
             return true;
         }
-        let mut nearest = if declared.pattern.left.is_empty() { NONE } else { self.links.left[index] };
-        for item in declared.pattern.left.iter().rev() {
-            if nearest == NONE || self.chain.symbols[nearest as usize] != item.symbol {
+        let left = self.grammar.left_of(rule);
+        if !left.is_empty() && !self.matches_left(left, self.links.left[index]) {
+            return false;
+        }
+        let right = self.grammar.right_of(rule);
+        let last = index + declared.run_length() - 1;
+        right.is_empty() || self.match_right(right, ContextPosition::Module(last), None)
+    }
+
+    /// Returns true if the module at `index`, whose parameters begin at `param`, has the values that rule number `rule`
+    /// requires, and if all modules that the rule rewrites at once follow it.
+    pub fn matches_predecessors(self, rule: u16, index: usize, param: usize) -> bool {
+        let mut begin = param;
+        self.grammar.predecessors_of(rule).iter().zip(index..).all(|(element, index)| {
+            let Some(symbol) = self.chain.symbols.get(index) else { return false };
+            let params = self.chain.params.get(begin..).unwrap_or_default();
+            begin += usize::from(self.grammar.arities()[usize::from(*symbol)]);
+            match element {
+                ContextElement::Module(wanted) => wanted == symbol,
+                ContextElement::Test(number) => {
+                    let test = self.grammar.patterns().test(*number);
+                    test.admits(*symbol) && test.holds(params, &self.links.constants)
+                }
+                ContextElement::Branch(_) | ContextElement::End => false,
+            }
+        })
+    }
+
+    /// Returns true if the module at `index` matches a context element.
+    #[inline]
+    fn is_module(self, element: ContextElement, index: u32) -> bool {
+        let symbol = self.chain.symbols[index as usize];
+        match element {
+            ContextElement::Module(wanted) => wanted == symbol,
+            ContextElement::Test(number) => {
+                let test = self.grammar.patterns().test(number);
+                test.admits(symbol) && (!test.has_values() || self.has_values(test, index))
+            }
+            ContextElement::Branch(_) | ContextElement::End => false,
+        }
+    }
+
+    fn has_values(self, test: &ModuleTest, index: u32) -> bool {
+        let begin = self.links.param[index as usize] as usize;
+        test.holds(&self.chain.params[begin..], &self.links.constants)
+    }
+
+    /// Returns true if `contexts`, the nearest first, match the path that begins with the module `nearest`.
+    #[inline]
+    fn matches_left(self, contexts: &[ContextElement], mut nearest: u32) -> bool {
+        for element in contexts {
+            if *element == ContextElement::End {
+                return nearest == NONE;
+            }
+            if nearest == NONE || !self.is_module(*element, nearest) {
                 return false;
             }
             nearest = self.links.left[nearest as usize];
         }
-        let right = self.grammar.right_of(rule);
-        right.is_empty() || self.match_right(right, ContextPosition::Module(index), None)
+        true
     }
 
     /// Fills `bindings` for a rule that matches at a module.
     pub fn bind(self, rule: u16, index: usize, bindings: &mut Bindings) {
         bindings.clear();
+        let declared = &self.grammar.rules()[usize::from(rule)];
         let mut here = index;
-        for _ in &self.grammar.rules()[usize::from(rule)].pattern.left {
+        for _ in &declared.pattern.left {
             let nearest = self.links.left[here];
             bindings.push(nearest);
             here = nearest as usize;
         }
         bindings.reverse();
-        self.match_right(self.grammar.right_of(rule), ContextPosition::Module(index), Some(bindings));
+        let last = index + declared.run_length() - 1;
+        self.match_right(self.grammar.right_of(rule), ContextPosition::Module(last), Some(bindings));
     }
 
     /// Returns true if `contexts` match from a position on. Modules within branches are only traversed if `bindings`
@@ -107,12 +161,10 @@ impl ContextMatcher<'_> {
         let mut here = from;
         for context in contexts {
             here = match context {
-                ContextElement::Module(symbol) => {
-                    let found = match here {
-                        ContextPosition::Module(index) => self.links.right[index],
-                        ContextPosition::At(index) => self.next_module(index),
-                    };
-                    if found == NONE || self.chain.symbols[found as usize] != *symbol {
+                ContextElement::End => return self.next(here) == NONE,
+                ContextElement::Module(_) | ContextElement::Test(_) => {
+                    let found = self.next(here);
+                    if found == NONE || !self.is_module(*context, found) {
                         return false;
                     }
                     if let Some(bindings) = &mut bindings {
@@ -130,7 +182,7 @@ impl ContextMatcher<'_> {
                         return false;
                     }
                     if let Some(bindings) = &mut bindings {
-                        let inner = self.grammar.branches().get(*number);
+                        let inner = self.grammar.patterns().branch(*number);
                         self.match_right(inner, ContextPosition::At(found as usize + 1), Some(bindings));
                     }
                     ContextPosition::At(self.links.right[found as usize] as usize + 1)
@@ -138,6 +190,15 @@ impl ContextMatcher<'_> {
             };
         }
         true
+    }
+
+    /// Returns the next module on the main path that is not ignored.
+    #[inline]
+    fn next(self, here: ContextPosition) -> u32 {
+        match here {
+            ContextPosition::Module(index) => self.links.right[index],
+            ContextPosition::At(index) => self.next_module(index),
+        }
     }
 
     /// Returns the first module at or after `index` on its own branch that is not ignored.
@@ -191,6 +252,6 @@ impl ContextMatcher<'_> {
     }
 
     fn begins_so(self, number: u32, open: u32) -> bool {
-        self.match_right(self.grammar.branches().get(number), ContextPosition::At(open as usize + 1), None)
+        self.match_right(self.grammar.patterns().branch(number), ContextPosition::At(open as usize + 1), None)
     }
 }

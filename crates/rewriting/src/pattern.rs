@@ -1,19 +1,24 @@
-//! Patterns such as `A B < S(x) > C [D] E`, and their parser.
+//! Patterns such as `A B < S(x) T(0) > C [D] $`.
 
-use super::chain::{DEEPEST, Symbol};
-use super::symbols::{NameScope, Symbols, count_text};
-use burgeon_base::error::{Error, Result};
+use std::sync::Arc;
 
-/// Maximum number of characters of a pattern that an error shows before its position, and after it.
-const AROUND: usize = 100;
+use super::chain::Symbol;
+use super::column_value::ColumnValue;
+use super::pattern_reader::PatternReader;
+use super::symbols::{NameScope, Symbols};
+use burgeon_base::error::Result;
 
 /// A predecessor with its contexts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pattern {
     /// Left context, as written: the last module is the nearest.
     pub left: Vec<Item>,
-    /// Module to be rewritten.
-    pub predecessor: Item,
+    /// Set if nothing may precede the left context on the path to the axiom.
+    pub from_beginning: bool,
+    /// Symbol of the first module to be rewritten.
+    pub symbol: Symbol,
+    /// Modules to be rewritten, at least one. They stand next to one another in the chain.
+    pub predecessors: Vec<Item>,
     /// Right context, as written.
     pub right: Vec<Context>,
     /// Names of all formal parameters, in the order in which they are written.
@@ -23,12 +28,34 @@ pub struct Pattern {
 }
 
 /// A module of a pattern.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Item {
-    /// Symbol of the module.
-    pub symbol: Symbol,
-    /// Number of parameters that are bound to names: all, or none if the module is written without parameters.
+    /// Symbols that match.
+    pub symbols: SymbolSet,
+    /// Number of parameters that are bound to names; 0 if the module is written without parameters.
     pub bound: usize,
+    /// Parameters that must have a value, by their index, ascending. They are not bound to names.
+    pub values: Vec<(usize, PatternValue)>,
+}
+
+/// Symbols that a module of a pattern matches.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub enum SymbolSet {
+    /// One symbol.
+    One(Symbol),
+    /// One of several symbols.
+    OneOf(Vec<Symbol>),
+    /// Any module.
+    Any,
+}
+
+/// Value of a parameter in a pattern.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PatternValue {
+    /// A value that columns contain: a number, `true`, `false` or `nil`.
+    Stored(ColumnValue),
+    /// A text.
+    Text(Arc<str>),
 }
 
 /// An element of a right context.
@@ -38,6 +65,56 @@ pub enum Context {
     Module(Item),
     /// A branch that begins with these elements.
     Branch(Vec<Context>),
+    /// The end of the branch or chain, `$`: no module follows on the main path.
+    End,
+}
+
+impl SymbolSet {
+    /// Returns the symbols that match; `None` if all do.
+    pub fn listed(&self) -> Option<&[Symbol]> {
+        match self {
+            Self::One(symbol) => Some(std::slice::from_ref(symbol)),
+            Self::OneOf(symbols) => Some(symbols),
+            Self::Any => None,
+        }
+    }
+
+    /// Returns true if the set lists `symbol`. A set of all symbols lists none.
+    pub fn names(&self, symbol: Symbol) -> bool {
+        self.listed().is_some_and(|symbols| symbols.contains(&symbol))
+    }
+}
+
+impl Item {
+    /// Creates an item without parameters.
+    pub fn new(symbols: SymbolSet) -> Self {
+        Self { symbols, bound: 0, values: Vec::new() }
+    }
+
+    /// Returns the symbol if the item matches every module with it, and no other.
+    pub fn plain(&self) -> Option<Symbol> {
+        match self.symbols {
+            SymbolSet::One(symbol) if self.values.is_empty() => Some(symbol),
+            _ => None,
+        }
+    }
+
+    /// Returns the indices of the parameters that are bound to names.
+    pub fn bound_places(&self) -> impl Iterator<Item = usize> {
+        let has_value = |place: &usize| self.values.iter().any(|(valued, _)| valued == place);
+        (0..if self.bound == 0 { 0 } else { self.bound + self.values.len() })
+            .filter(move |place| !has_value(place))
+    }
+
+    /// Appends the arguments that a module with the parameters from `begin` of `params` provides.
+    #[inline]
+    pub fn push_arguments(&self, params: &[f64], begin: usize, arguments: &mut Vec<f64>) {
+        if self.values.is_empty() {
+            arguments.extend_from_slice(&params[begin..begin + self.bound]);
+        } else {
+            arguments.extend(self.bound_places().map(|place| params[begin + place]));
+        }
+    }
 }
 
 impl Pattern {
@@ -49,10 +126,11 @@ impl Pattern {
     /// let mut symbols = Symbols::default();
     /// let apex = symbols.declare(Signature::new("Apex", &["length".into()])?)?;
     /// let leaf = symbols.declare(Signature::new("Leaf", &[])?)?;
-    /// let pattern = Pattern::parse("Apex(l)<Apex(m)>[Leaf] Apex", &symbols)?;
-    /// assert_eq!((pattern.predecessor.symbol, pattern.left[0].symbol), (apex, apex));
+    /// let pattern = Pattern::parse("Apex(l)<Apex(m)>[Leaf] Apex(0) $", &symbols)?;
+    /// assert_eq!((pattern.symbol, pattern.left[0].plain()), (apex, Some(apex)));
     /// assert_eq!(pattern.formals, ["l", "m"]);
     /// assert!(matches!(&pattern.right[0], Context::Branch(inner) if inner.len() == 1));
+    /// assert_eq!(pattern.right[2], Context::End);
     ///
     /// let error = Pattern::parse("Apex(l, m)", &symbols).expect_err("it has one parameter");
     /// assert!(error.message().contains("Apex"));
@@ -64,11 +142,42 @@ impl Pattern {
 
     /// Parses a pattern whose names are resolved in `scope`; see [`Symbols::find_in`].
     pub fn parse_in(text: &str, symbols: &Symbols, scope: &NameScope) -> Result<Self> {
-        PatternReader { text, at: 0, depth: 0, symbols, scope, formals: Vec::new() }.pattern()
+        PatternReader::new(text, symbols, scope).pattern()
+    }
+
+    /// Returns the pattern with `text` as its text, in which white space outside of quotes becomes single spaces.
+    #[must_use]
+    pub fn with_text(self, text: &str) -> Self {
+        Self { text: single_spaced(text), ..self }
+    }
+
+    /// Returns true if the pattern rewrites several modules at once.
+    pub fn has_run(&self) -> bool {
+        self.predecessors.len() > 1
+    }
+
+    /// Returns true if the pattern has a left context, or `^`.
+    pub fn has_left(&self) -> bool {
+        !self.left.is_empty() || self.from_beginning
+    }
+
+    /// Returns true if the pattern has a right context, or `$`.
+    pub fn has_right(&self) -> bool {
+        !self.right.is_empty()
+    }
+
+    /// Returns the number of parameters of the rewritten modules that are bound to names.
+    pub fn own_bound(&self) -> usize {
+        self.predecessors.iter().map(|item| item.bound).sum()
+    }
+
+    /// Returns the number of parameters of the left context that are bound to names.
+    pub fn left_bound(&self) -> usize {
+        self.left.iter().map(|item| item.bound).sum()
     }
 
     /// Returns the names of the arguments of a rule's functions, without `this`, each with its index. These are the
-    /// formal parameters, and the declared parameters of the predecessor whose names no formal parameter has.
+    /// formal parameters, and the declared parameters of the rewritten modules whose names no formal parameter has.
     ///
     /// ```
     /// use burgeon_rewriting::{Pattern, Signature, Symbols};
@@ -82,15 +191,20 @@ impl Pattern {
     /// ```
     pub fn arguments<'a>(&'a self, symbols: &'a Symbols) -> Vec<(usize, &'a str)> {
         let formals = self.formals.iter().map(String::as_str);
-        let own: usize = self.left.iter().map(|item| item.bound).sum();
-        let declared =
-            symbols.signature(self.predecessor.symbol).parameters.iter().take(self.predecessor.bound);
-        let declared = (own..).zip(declared.map(String::as_str));
         let mut arguments: Vec<(usize, &str)> = formals.enumerate().collect();
-        for (place, name) in declared {
-            if !self.formals.iter().any(|formal| formal == name) {
-                arguments.push((place, name));
+        let mut first = self.left_bound();
+        for item in &self.predecessors {
+            let SymbolSet::One(symbol) = item.symbols else {
+                first += item.bound;
+                continue;
+            };
+            let declared = &symbols.signature(symbol).parameters;
+            for (index, name) in (first..).zip(item.bound_places().filter_map(|place| declared.get(place))) {
+                if !arguments.iter().any(|(_, known)| known == name) {
+                    arguments.push((index, name));
+                }
             }
+            first += item.bound;
         }
         arguments
     }
@@ -100,8 +214,9 @@ impl Pattern {
         fn flatten(contexts: &[Context], items: &mut Vec<Item>) {
             for context in contexts {
                 match context {
-                    Context::Module(item) => items.push(*item),
+                    Context::Module(item) => items.push(item.clone()),
                     Context::Branch(inner) => flatten(inner, items),
+                    Context::End => {}
                 }
             }
         }
@@ -111,221 +226,29 @@ impl Pattern {
     }
 }
 
-struct PatternReader<'a> {
-    text: &'a str,
-    at: usize,
-    /// Number of branches that are open at the current position.
-    depth: usize,
-    symbols: &'a Symbols,
-    scope: &'a NameScope,
-    formals: Vec<String>,
-}
-
-impl PatternReader<'_> {
-    fn pattern(mut self) -> Result<Pattern> {
-        let mut groups: Vec<Vec<Context>> = vec![Vec::new()];
-        let mut separators: Vec<char> = Vec::new();
-        loop {
-            match self.peek() {
-                None => break,
-                Some(separator @ ('<' | '>')) => {
-                    if separators.contains(&separator) || (separator == '<' && !separators.is_empty()) {
-                        return Err(
-                            self.error_here("a pattern is: left context < predecessor > right context")
-                        );
-                    }
-                    self.at += 1;
-                    separators.push(separator);
-                    groups.push(Vec::new());
+/// Returns `text` with single spaces, except for quoted texts in it.
+pub(super) fn single_spaced(text: &str) -> String {
+    let mut spaced = String::new();
+    let mut quote: Option<char> = None;
+    let mut letters = text.trim().chars();
+    while let Some(letter) = letters.next() {
+        match quote {
+            None if letter.is_whitespace() => {
+                if !spaced.ends_with(' ') {
+                    spaced.push(' ');
                 }
-                Some(_) => {
-                    let context = self.context()?;
-                    if let Some(group) = groups.last_mut() {
-                        group.push(context);
-                    }
-                }
+                continue;
             }
-        }
-        let mut groups = groups.into_iter();
-        let mut take = || groups.next().unwrap_or_default();
-        let left = if separators.contains(&'<') { take() } else { Vec::new() };
-        let middle = take();
-        let right = if separators.contains(&'>') { take() } else { Vec::new() };
-        for (separator, group) in [('<', &left), ('>', &right)] {
-            if separators.contains(&separator) && group.is_empty() {
-                return Err(self.error(
-                    &format!("the context next to {separator} is empty"),
-                    "add a module, or remove the separator",
-                ));
+            None => quote = Some(letter).filter(|letter| matches!(letter, '"' | '\'')),
+            Some(mark) if letter == mark => quote = None,
+            Some(_) if letter == '\\' => {
+                spaced.push(letter);
+                spaced.extend(letters.next());
+                continue;
             }
+            Some(_) => {}
         }
-        let predecessor = match middle.as_slice() {
-            [Context::Module(item)] => *item,
-            [] => return Err(self.error("missing predecessor", "add the module to be rewritten")),
-            _ => {
-                return Err(self.error(
-                    "more than one predecessor",
-                    "a rule rewrites one module; put the others into a context: A < B > C",
-                ));
-            }
-        };
-        let left = left
-            .into_iter()
-            .map(|context| match context {
-                Context::Module(item) => Ok(item),
-                Context::Branch(_) => Err(self.error(
-                    "a left context cannot have branches",
-                    "it is the path towards the axiom; write only the modules on it",
-                )),
-            })
-            .collect::<Result<_>>()?;
-        let text = self.text.split_whitespace().collect::<Vec<_>>().join(" ");
-        Ok(Pattern { left, predecessor, right, formals: self.formals, text })
+        spaced.push(letter);
     }
-
-    fn context(&mut self) -> Result<Context> {
-        if self.peek() != Some('[') {
-            return self.item().map(Context::Module);
-        }
-        let begin = self.at;
-        if self.depth == DEEPEST {
-            return Err(self.error_here(&format!("branches are nested at most {DEEPEST} deep")));
-        }
-        self.depth += 1;
-        self.at += 1;
-        let mut inner = Vec::new();
-        loop {
-            match self.peek() {
-                Some(']') => {
-                    self.at += 1;
-                    break;
-                }
-                None => {
-                    self.at = begin;
-                    return Err(self.error_here("this branch is not closed"));
-                }
-                Some(_) => inner.push(self.context()?),
-            }
-        }
-        self.depth -= 1;
-        if inner.is_empty() {
-            self.at = begin;
-            return Err(self.error_here("a branch in a context must contain at least one module"));
-        }
-        Ok(Context::Branch(inner))
-    }
-
-    fn item(&mut self) -> Result<Item> {
-        let begin = self.at;
-        let name = self.module_name()?;
-        let symbol = self.symbols.find_in(&name, self.scope).map_err(|error| {
-            let text = format!("{} in the pattern \"{}\"", error.message(), self.text.trim());
-            error.saying(text)
-        })?;
-        if self.peek() != Some('(') {
-            return Ok(Item { symbol, bound: 0 });
-        }
-        self.at += 1;
-        let mut bound = 0;
-        while self.peek() != Some(')') {
-            if bound > 0 {
-                if self.peek() != Some(',') {
-                    return Err(self.error_here("expected a comma or a closing bracket"));
-                }
-                self.at += 1;
-            }
-            let before = self.at;
-            let formal = self.name("a parameter's name")?;
-            if formal != "_" && self.formals.contains(&formal) {
-                self.at = before;
-                self.peek();
-                return Err(self.error_here(&format!("duplicate parameter name {formal}")));
-            }
-            self.formals.push(formal);
-            bound += 1;
-        }
-        self.at += 1;
-        let signature = self.symbols.signature(symbol);
-        if bound != signature.arity() {
-            self.at = begin;
-            return Err(self.error(
-                &format!("{} has {}, not {bound}", signature.name, count_text(signature.arity())),
-                &format!(
-                    "it was declared as {}; write all parameters{} or no brackets",
-                    signature.usage(),
-                    if signature.required < signature.arity() { ", also the optional ones," } else { "" }
-                ),
-            ));
-        }
-        Ok(Item { symbol, bound })
-    }
-
-    /// Parses the name of a module, optionally with a package: `castle.Stone`.
-    fn module_name(&mut self) -> Result<String> {
-        self.peek();
-        let rest = &self.text[self.at..];
-        let is_of_package = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || "_-".contains(c);
-        if let Some((package, _)) = rest.split_once('.')
-            && package.starts_with(|c: char| c.is_ascii_lowercase())
-            && package.chars().all(is_of_package)
-        {
-            let package = package.to_owned();
-            self.at += package.len() + 1;
-            if self.text[self.at..].starts_with(char::is_whitespace) {
-                return Err(self.error_here("expected the name of a module of the package"));
-            }
-            return Ok(format!("{package}.{}", self.name("a module's name")?));
-        }
-        self.name("a module's name")
-    }
-
-    fn name(&mut self, what: &str) -> Result<String> {
-        let rest = {
-            self.peek();
-            &self.text[self.at..]
-        };
-        let length = rest.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).unwrap_or(rest.len());
-        if length == 0 || rest.starts_with(|c: char| c.is_ascii_digit()) {
-            return Err(self.error_here(&format!("expected {what}")));
-        }
-        self.at += length;
-        Ok(rest[..length].to_owned())
-    }
-
-    /// Skips spaces, and returns the character at the new position.
-    fn peek(&mut self) -> Option<char> {
-        let rest = &self.text[self.at..];
-        self.at += rest.len() - rest.trim_start().len();
-        self.text[self.at..].chars().next()
-    }
-
-    /// Returns an error that shows the current position.
-    fn error_here(&self, help: &str) -> Error {
-        let found = match self.text[self.at..].chars().next() {
-            Some(c) => format!("unexpected '{c}'"),
-            None => "unexpected end".to_owned(),
-        };
-        let before = self.text[..self.at].chars().count();
-        let shown = |c: char| if c.is_whitespace() { ' ' } else { c };
-        let mut line: String =
-            self.text.chars().skip(before.saturating_sub(AROUND)).take(2 * AROUND).map(shown).collect();
-        let mut column = before.min(AROUND);
-        if before > AROUND {
-            line.insert_str(0, "...");
-            column += 3;
-        }
-        if self.text.chars().count() > before.saturating_sub(AROUND) + 2 * AROUND {
-            line.push_str("...");
-        }
-        Error::syntax(format!(
-            "malformed pattern: {found} at character {}\n    {line}\n    {}^",
-            before + 1,
-            " ".repeat(column)
-        ))
-        .help(help)
-    }
-
-    fn error(&self, message: &str, help: &str) -> Error {
-        Error::syntax(format!("malformed pattern \"{}\": {message}", self.text.trim())).help(help)
-    }
+    spaced
 }

@@ -9,7 +9,20 @@ use crate::uses::Use;
 
 impl Batch<'_> {
     /// Returns the part of the next chain that replaces `piece`.
-    pub(crate) fn splice(&self, piece: ChainPiece, scratch: &mut Scratch, mut output: Output) -> Output {
+    pub(crate) fn splice(&self, piece: ChainPiece, scratch: &mut Scratch, output: Output) -> Output {
+        match self.plan.grammar.has_runs() {
+            true => self.splice_runs::<true>(piece, scratch, output),
+            false => self.splice_runs::<false>(piece, scratch, output),
+        }
+    }
+
+    /// Splices the successors of single modules, and of several modules at once if `RUNS` is set.
+    fn splice_runs<const RUNS: bool>(
+        &self,
+        piece: ChainPiece,
+        scratch: &mut Scratch,
+        mut output: Output,
+    ) -> Output {
         let grammar = &self.plan.grammar;
         let random = grammar.draws_random();
         let out = &mut output.chain;
@@ -75,9 +88,13 @@ impl Batch<'_> {
                 }));
             }
             group.param_at += params;
-            module = here + 1;
-            param =
-                active.param as usize + usize::from(grammar.arities()[usize::from(self.chain.symbols[here])]);
+            let length = if RUNS { grammar.rules()[usize::from(active.rule)].run_length() } else { 1 };
+            module = here + length;
+            param = active.param as usize
+                + match RUNS {
+                    true => self.run_params(here, length),
+                    false => usize::from(grammar.arities()[usize::from(self.chain.symbols[here])]),
+                };
         }
         let rest = piece.end - module;
         let rest_params: usize = self.chain.symbols[module..module + rest]
@@ -116,7 +133,12 @@ impl Batch<'_> {
                 }
                 Successor::UpTo(end) => end - std::mem::replace(from, end),
             };
-            applied[active.module as usize - piece.begin.module] = (active.rule, narrow(count));
+            let module = active.module as usize - piece.begin.module;
+            if !matches!(made, Successor::Keep) {
+                let length = self.plan.grammar.rules()[usize::from(active.rule)].run_length();
+                applied[module..module + length].fill((active.rule, 0));
+            }
+            applied[module] = (active.rule, narrow(count));
         }
         applied
     }

@@ -9,6 +9,7 @@ use crate::links::Links;
 use crate::output::Output;
 use crate::plan::StepPlan;
 use crate::rules::Rules;
+use crate::runs::pieces_at_brackets;
 use crate::step_number::StepNumber;
 use crate::uses::Use;
 use burgeon_base::Stop;
@@ -163,8 +164,12 @@ impl Stepper {
         chain: &Arc<Chain>,
         step: usize,
     ) -> Result<StepOutcome> {
-        self.links.build(chain, &self.plan.grammar);
-        let pieces = pieces(chain, self.plan.batch);
+        let grammar = &self.plan.grammar;
+        self.links.build_with(chain, grammar, rules.parameters());
+        let pieces = match grammar.has_runs() {
+            true => pieces_at_brackets(chain, self.plan.batch, grammar.arities()),
+            false => pieces(chain, self.plan.batch),
+        };
         let count = pieces.len();
         let work = Arc::new(StepWork {
             plan: Arc::clone(&self.plan),

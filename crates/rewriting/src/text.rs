@@ -6,15 +6,24 @@ use super::chain::{CLOSE, Chain, END, OPEN, Symbol};
 use super::symbols::Symbols;
 use burgeon_base::error::shorten;
 
-/// Formatter of parameters, which can represent values that are not numbers.
+/// Access to parameters that represent values other than numbers: their texts, and the texts that patterns name.
 pub trait ShowParameters {
     /// Formats a stored parameter; `nil` for an omitted optional one.
     fn show(&self, stored: f64) -> String;
+
+    /// Returns the number that columns store for a text; `None` if no module has this text.
+    fn find_text(&self, _text: &str) -> Option<f64> {
+        None
+    }
 }
 
 impl<T: ShowParameters + ?Sized> ShowParameters for std::sync::Arc<T> {
     fn show(&self, stored: f64) -> String {
         (**self).show(stored)
+    }
+
+    fn find_text(&self, text: &str) -> Option<f64> {
+        (**self).find_text(text)
     }
 }
 

@@ -19,7 +19,8 @@ use crate::results::{RowFeatures, RuleName, RuleReport, Step, Times};
 use burgeon_base::error::Result;
 use burgeon_base::warning::Warning;
 use burgeon_rewriting::{
-    Chain, KeyPart, Phase, PhaseOutcome, Phases, StepOutcome, Stepper, Symbol, Use, module_brief,
+    Chain, CutChain, KeyPart, Phase, PhaseOutcome, Phases, StepOutcome, Stepper, Symbol, Use, cut,
+    module_brief,
 };
 
 /// State of a derivation, shared by its phases.
@@ -51,6 +52,8 @@ pub(super) struct DerivationState<'a> {
     group: Option<usize>,
     /// Set if a variable has changed since the step began.
     variables_changed: bool,
+    /// Set if branches were cut at the beginning of the step.
+    has_cut: bool,
     /// Writer of checkpoints, if later runs can continue from them.
     checkpoints: Option<CheckpointWriter>,
 }
@@ -111,6 +114,7 @@ pub(super) fn derive(
         decomposition_reads_step: false,
         group: None,
         variables_changed: false,
+        has_cut: false,
         checkpoints,
     };
     state.use_group(derivation.group);
@@ -157,7 +161,7 @@ fn phases<'a>(state: &DerivationState<'a>, begin: usize) -> Phases<'static, Deri
     let interprets = derivation.plan.objects.is_some();
     let mut phases: Phases<'static, DerivationState<'a>> = Phases {
         first: vec![Box::new(Resolve)],
-        each: vec![Box::new(Rewrite), Box::new(Resolve)],
+        each: vec![Box::new(CutBranches), Box::new(Rewrite), Box::new(Resolve)],
         last: Vec::new(),
     };
     if state.decomposer.is_some() {
@@ -223,6 +227,35 @@ impl Phase<DerivationState<'_>> for RunHooks {
     }
 }
 
+/// Removes the modules that cut branches, with what follows them in their branches.
+struct CutBranches;
+
+impl Phase<DerivationState<'_>> for CutBranches {
+    fn run(&self, state: &mut DerivationState<'_>, chain: Arc<Chain>, number: usize) -> Result<PhaseOutcome> {
+        let plan = &state.derivation.plan;
+        let arities = plan.steps.grammar.arities();
+        let begin = Instant::now();
+        let made = plan.cut.and_then(|symbol| cut(&chain, symbol, arities));
+        state.has_cut = made.is_some();
+        let Some(CutChain { chain: mut made, applied }) = made else { return Ok(PhaseOutcome::next(chain)) };
+        made.mark(plan.steps.batch, arities);
+        plan.keep_places(&applied);
+        if let Some(features) = &state.features {
+            features.borrow_mut().step(&applied);
+        }
+        if state.derivation.traced.is_some() {
+            let before = state.traced_chain(&chain);
+            state.steps.push(Step { number, chain: before, applied, ..Step::default() });
+        }
+        let made = Arc::new(made);
+        // Queries of the step see the chain without what was cut.
+        state.publish(&made);
+        state.stepper.reuse(chain);
+        state.times.rewriting += begin.elapsed();
+        Ok(PhaseOutcome::next(made))
+    }
+}
+
 /// Applies the rules once.
 struct Rewrite;
 
@@ -243,7 +276,7 @@ impl Phase<DerivationState<'_>> for Rewrite {
         let repeats = !outcome.changed && state.derivation.draws_afresh && !plan.steps.grammar.draws_random();
         let reads_step = outcome.reads_step || state.pass.reads_step || state.decomposition_reads_step;
         let varies = std::mem::take(&mut state.variables_changed) || state.derivation.has_step_hooks;
-        let settled = (!outcome.ran || repeats) && !reads_step && !varies;
+        let settled = (!outcome.ran || repeats) && !reads_step && !varies && !state.has_cut;
         Ok(PhaseOutcome { chain: Arc::new(outcome.chain), settled, is_last: outcome.is_last })
     }
 }
@@ -308,7 +341,7 @@ fn warn_of_depth(
     let (session, grammar) = (&state.leader.machine.session, &rules.steps.grammar);
     let applied = trial.uses().iter().position(|uses| uses.applied > 0);
     let Some(rule) = applied.and_then(|number| grammar.rules().get(number)) else { return Ok(()) };
-    let (symbol, arities) = (rule.pattern.predecessor.symbol, grammar.arities());
+    let (symbol, arities) = (rule.pattern.symbol, grammar.arities());
     let mut param = 0;
     let module = chain.symbols.iter().find_map(|other| {
         let begin = param;

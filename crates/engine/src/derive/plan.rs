@@ -11,7 +11,7 @@ use crate::machine::{
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::Warning;
-use burgeon_rewriting::{ModuleKey, StepPlan};
+use burgeon_rewriting::{ModuleKey, StepPlan, Symbol};
 
 /// Rules that apply repeatedly after the axiom and after each step.
 pub(crate) struct Decomposition {
@@ -47,6 +47,8 @@ pub(crate) struct DerivationPlan {
     pub assigns_variables: bool,
     pub interpretations: Interpretations,
     pub objects: Option<Arc<Objects>>,
+    /// Symbol of the modules that cut branches.
+    pub cut: Option<Symbol>,
     /// Set if the number of steps is given, which `step()` requires.
     pub bounded: bool,
     /// Set if the time of each interpretation rule is measured.
@@ -78,6 +80,13 @@ impl DerivationPlan {
     /// Sets the variables that functions read from now on.
     pub(super) fn set_variables(&self, variables: VariableValues) {
         *self.variables.write().recover() = Some(Arc::new(variables));
+    }
+
+    /// Keeps the places of the modules that remain; `applied` has the number of symbols that each symbol became.
+    pub(super) fn keep_places(&self, applied: &[(u16, u32)]) {
+        if let Some(places) = self.places() {
+            self.set_places(Some(places.after(applied)));
+        }
     }
 
     /// Marks self-expanding objects as checked only.
@@ -218,6 +227,7 @@ impl Derivation {
             assigns_variables,
             interpretations: system.interpretations(&machine.library),
             objects,
+            cut: machine.library.cut.get(),
             bounded: limit.is_some(),
             profiled: options.reports.profile,
             places: RwLock::default(),

@@ -52,6 +52,7 @@ impl<'a> SystemRewriter<'a> {
             decomposition: None,
             interpretations: Interpretations::default(),
             objects: None,
+            cut: None,
             bounded: true,
             profiled: false,
             located: Vec::new(),

@@ -1,6 +1,6 @@
 //! Global names of scripts: `module`, `lsystem`, `param`, `require`, objects, and the standard library.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock};
@@ -44,6 +44,8 @@ pub(crate) struct Library {
     pub symbols: RefCell<Symbols>,
     pub systems: RefCell<Vec<SystemDeclaration>>,
     pub standard: RefCell<Vec<StandardInterpretation>>,
+    /// Module of the standard library that cuts branches.
+    pub cut: Cell<Option<Symbol>>,
     pub problems: RefCell<Vec<Error>>,
     /// Location of each module's declaration.
     pub places: RefCell<FxHashMap<Symbol, SourcePlace>>,
@@ -256,7 +258,7 @@ impl Library {
             globals.raw_set(name, value).map_err(|error| machine.translate(error))?;
         }
         self.standard_chunk.replace(Some(chunk));
-        for name in ["__interpretation", "__class", "__letters", "__refuse", "__describe"] {
+        for name in ["__interpretation", "__cut", "__class", "__letters", "__refuse", "__describe"] {
             globals.raw_set(name, LuaValue::Nil).map_err(|error| machine.translate(error))?;
         }
         self.note_names(machine.lua());
@@ -366,6 +368,15 @@ impl Library {
                     mlua::Error::external(Error::internal(format!("{kind} has no such method")))
                 })?;
                 library.standard.borrow_mut().push(StandardInterpretation { kind, symbol, method });
+                Ok(())
+            })?,
+        )?;
+        let library = std::rc::Rc::clone(&machine.library);
+        globals.raw_set(
+            "__cut",
+            lua.create_function(move |_, module: String| {
+                let symbol = library.symbols.borrow().find(&module).map_err(mlua::Error::external)?;
+                library.cut.set(Some(symbol));
                 Ok(())
             })?,
         )?;

@@ -171,6 +171,11 @@ impl ShowParameters for Values {
     fn show(&self, stored: f64) -> String {
         self.unpack(stored).to_string()
     }
+
+    fn find_text(&self, text: &str) -> Option<f64> {
+        let handle = *self.read().handles.get(&HashedValue::new(Value::Text(text.into())))?;
+        Some(ColumnValue::Handle(handle).pack())
+    }
 }
 
 #[cfg(test)]
@@ -204,6 +209,8 @@ mod tests {
         let values = Values::default();
         let a = values.pack(Value::Text("a".into()));
         assert_eq!(a.to_bits(), values.pack(Value::Text("a".into())).to_bits());
+        assert_eq!(values.find_text("a").map(f64::to_bits), Some(a.to_bits()));
+        assert_eq!((values.find_text("b"), values.len()), (None, 1));
         values.pack(Value::Text("b".into()));
         assert_eq!(values.len(), 2);
         values.retain(&[&[1.0, a]]);

@@ -13,7 +13,7 @@ pub(super) fn names() -> Vec<Name> {
     let lines: Vec<&'static str> = TEXT.lines().collect();
     let mut names = Vec::new();
     for (at, line) in lines.iter().enumerate() {
-        if let Some(module) = module(line) {
+        if let Some(module) = module(line).or_else(|| plain_module(line, &lines[..at])) {
             names.push(module);
         } else if let Some((name, form)) = function(line)
             && is_given(name)
@@ -102,6 +102,17 @@ fn module(line: &'static str) -> Option<Name> {
     Some(Name { doc: doc.into(), ..name })
 }
 
+/// Parses a module without parameters and without an interpretation, which has a description.
+fn plain_module(line: &'static str, before: &[&str]) -> Option<Name> {
+    let (name, declared) = line.strip_prefix("names.")?.split_once(" = ")?;
+    let doc = doc(before);
+    if doc.is_empty() || declared != format!("module(\"{name}\")") {
+        return None;
+    }
+    let name = Name { doc: doc.into(), ..Name::global(name, "") };
+    Some(name.form([], "Module").pure())
+}
+
 /// Creates the argument for a module parameter; a name that ends with `?` makes it optional.
 fn parameter_argument(parameter: &'static str) -> Argument {
     match parameter.strip_suffix('?') {
@@ -130,6 +141,9 @@ mod tests {
         assert_eq!(told("F").as_deref(), Some(expected));
         let expected = "(model: any, scale: any?) -> Module: Interpreted as a call of turtle:place.";
         assert_eq!(told("Place").as_deref(), Some(expected));
+        let expected = "() -> Module: Creates a module that erases itself and everything that follows it in its branch, at the \
+                        beginning of the next step. Until then, the modules are drawn.";
+        assert_eq!(told("Cut").as_deref(), Some(expected));
         for inner in ["made", "vectors", "smooth", "curve", "hash", "turtle_module", "names"] {
             assert_eq!(told(inner), None);
         }

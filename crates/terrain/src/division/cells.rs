@@ -82,6 +82,12 @@ impl CellSystem {
                     .help("write rules for single modules, without < and >"),
             ));
         }
+        if let Some(rule) = grammar.rules().iter().find(|rule| rule.pattern.has_run()) {
+            let error =
+                Error::script("a rule for the cells of a terrain rewrites one cell, not several modules")
+                    .help("write a rule for one module, such as \"Cell(height)\"");
+            return Err(error.at(rule.place.clone()).rule(&rule.pattern.text));
+        }
         let axiom = rewriter.axiom(index)?;
         let signatures = grammar.symbols();
         let find = |parameter: &str| -> Vec<Option<usize>> {

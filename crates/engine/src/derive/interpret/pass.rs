@@ -118,7 +118,7 @@ impl InterpretationPass {
         let count = pieces.len() - 1;
         let mut links = Links::default();
         if let Some(grammar) = &plan.interpretations.grammar {
-            links.build(chain, grammar);
+            links.build_with(chain, grammar, &*machine.session.values);
         }
         machine.enter(plan.system)?;
         machine.refresh();
@@ -416,12 +416,11 @@ impl InterpretationPass {
         }
         let mut bindings = Bindings::default();
         contexts.bind(rule, module, &mut bindings);
-        let items = grammar.rules()[usize::from(rule)].contexts();
-        let params = items.iter().zip(bindings).flat_map(|(item, bound)| {
-            let begin = self.links.param[bound as usize] as usize;
-            self.chain.params[begin..begin + item.bound].iter().copied()
-        });
-        Some(params.collect())
+        let mut params = Vec::new();
+        for (item, bound) in grammar.rules()[usize::from(rule)].contexts().iter().zip(bindings) {
+            item.push_arguments(&self.chain.params, self.links.param[bound as usize] as usize, &mut params);
+        }
+        Some(params)
     }
 
     /// Records that nothing draws the modules with this symbol.

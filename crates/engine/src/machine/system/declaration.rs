@@ -148,7 +148,7 @@ impl SystemDeclaration {
         }
         let mut located = vec![false; symbols];
         for declared in self.rules.iter().filter(|declared| declared.asks) {
-            located[usize::from(declared.rule.pattern.predecessor.symbol)] = true;
+            located[usize::from(declared.rule.pattern.symbol)] = true;
         }
         located
     }

@@ -154,6 +154,12 @@ impl SystemDeclaration {
         drop(symbols);
         let name = pattern.text.clone();
         let named = |error: Error| error.rule(&name);
+        if pattern.has_run() {
+            let error = Error::script("an interpretation is of one module, but the pattern has several");
+            return Err(named(
+                error.help("interpret each module, and write the others as contexts: A < B > C"),
+            ));
+        }
         let RuleOptions { weight, guard, group } = match (arguments.len(), arguments.get(1)) {
             (3, Some(LuaValue::Table(options))) => rule_options(options).map_err(named)?,
             (3, _) => {
@@ -180,9 +186,9 @@ impl SystemDeclaration {
             check_queries(library, function, &pattern).map_err(named)?;
         }
         let rule = Rule::new(pattern, weight, guard.is_some(), Machine::place(lua));
-        let symbol = rule.pattern.predecessor.symbol;
+        let symbol = rule.pattern.symbol;
         let earlier = self.interpretations.iter().map(|known| &known.rule);
-        let mut earlier = earlier.filter(|known| known.pattern.predecessor.symbol == symbol);
+        let mut earlier = earlier.filter(|known| known.pattern.symbol == symbol);
         if let Some(known) = earlier.find(|known| is_unconditional(known)) {
             let line = known.place.as_ref().map_or(String::new(), |place| format!(" in line {}", place.line));
             return Err(named(Error::script(format!("{name} is already interpreted{line}"))).help(

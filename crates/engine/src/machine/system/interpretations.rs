@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use super::SystemDeclaration;
 use crate::machine::Machine;
+use crate::machine::convert::to_lua;
 use crate::machine::library::Library;
 use crate::machine::questions::argument_places;
 use crate::machine::types::ScriptTypeEntry;
 use burgeon_base::error::SourcePlace;
-use burgeon_kit::{Object, ScriptType};
-use burgeon_rewriting::{CLOSE, END, Grammar, Item, OPEN, Pattern, Rule, Symbol};
+use burgeon_kit::{Object, ScriptType, Value};
+use burgeon_rewriting::{CLOSE, END, Grammar, OPEN, PatternValue, Rule, Symbol};
 use mlua::{Function, Table, Value as LuaValue};
 
 /// Interpretation rule as a script declares it.
@@ -63,7 +64,7 @@ pub(crate) struct Interpretation {
 
 /// Returns true if a rule always applies to its symbol.
 pub(crate) fn is_unconditional(rule: &Rule) -> bool {
-    rule.contexts().is_empty() && rule.weight.is_none() && !rule.guarded
+    !rule.has_contexts() && !rule.tests_modules() && rule.weight.is_none() && !rule.guarded
 }
 
 fn number(index: usize) -> u16 {
@@ -87,7 +88,7 @@ impl SystemDeclaration {
         self.add_rules(&mut found, &arities);
         self.add_hooks(&mut found, object);
         let rules = || self.interpretations.iter().map(|known| &known.rule);
-        if rules().any(|rule| !rule.contexts().is_empty()) {
+        if rules().any(Rule::has_contexts) {
             let symbols = Arc::new(library.symbols.borrow().clone());
             let ignored = self.skipped_symbols(&symbols);
             found.grammar =
@@ -100,14 +101,13 @@ impl SystemDeclaration {
     fn add_rules(&self, found: &mut Interpretations, arities: &[u8]) {
         let mut candidates: Vec<SymbolCandidates> = Vec::new();
         for (index, DeclaredInterpretation { rule, .. }) in (0u16..).zip(&self.interpretations) {
-            let Rule { pattern: Pattern { predecessor, text, .. }, place, .. } = rule;
             found.list.push(Interpretation {
-                bound: predecessor.bound,
-                name: text.clone(),
-                place: place.clone(),
+                bound: rule.pattern.own_bound(),
+                name: rule.pattern.text.clone(),
+                place: rule.place.clone(),
                 is_choice: false,
             });
-            let symbol = predecessor.symbol;
+            let symbol = rule.pattern.symbol;
             match candidates.iter_mut().find(|known| known.symbol == symbol) {
                 Some(known) => known.rules.push(index),
                 None => candidates.push(SymbolCandidates { symbol, number: index, rules: vec![index] }),
@@ -183,7 +183,7 @@ impl SystemDeclaration {
         for (index, DeclaredInterpretation { rule, function, .. }) in self.interpretations.iter().enumerate()
         {
             let places = argument_places(lua, &rule.pattern, &symbols)?;
-            prelude.interpreter.call::<()>((index, function, rule.pattern.predecessor.bound, places))?;
+            prelude.interpreter.call::<()>((index, function, rule.pattern.own_bound(), places))?;
         }
         for SymbolCandidates { symbol, number, rules } in &known.candidates {
             let list = lua.create_table()?;
@@ -220,10 +220,24 @@ impl SystemDeclaration {
         candidate.raw_set("rule", number)?;
         candidate.raw_set("weight", rule.weight)?;
         candidate.raw_set("guard", guard.clone().map_or(LuaValue::Nil, LuaValue::Function))?;
-        candidate.raw_set("has_contexts", !rule.contexts().is_empty())?;
+        candidate.raw_set("has_contexts", rule.has_contexts())?;
         candidate.raw_set("count", rule.arguments())?;
-        candidate.raw_set("left", pattern.left.iter().map(|item: &Item| item.bound).sum::<usize>())?;
-        candidate.raw_set("own", pattern.predecessor.bound)?;
+        candidate.raw_set("left", pattern.left_bound())?;
+        let item = pattern.predecessors.first();
+        let places = item.into_iter().flat_map(|item| item.bound_places());
+        candidate.raw_set("places", machine.lua().create_sequence_from(places)?)?;
+        let values = machine.lua().create_table()?;
+        for (place, value) in item.into_iter().flat_map(|item| &item.values) {
+            let value = match value {
+                PatternValue::Stored(value) => machine.session.values.unpack(value.pack()),
+                PatternValue::Text(text) => Value::Text(Arc::clone(text)),
+            };
+            let required = machine.lua().create_table()?;
+            required.raw_set("place", *place)?;
+            required.raw_set("value", to_lua(machine.lua(), &value, false)?)?;
+            values.raw_push(required)?;
+        }
+        candidate.raw_set("values", values)?;
         Ok(candidate)
     }
 }

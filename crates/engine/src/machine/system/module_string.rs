@@ -4,7 +4,7 @@ use burgeon_base::error::{Error, Result, SourcePlace, shorten};
 use burgeon_rewriting::{NameScope, Signature, Symbols};
 
 /// Turtle symbols of *The Algorithmic Beauty of Plants* and cpfg, with the modules of the standard library.
-const TURTLE: [(&str, &str); 22] = [
+const TURTLE: [(&str, &str); 23] = [
     ("@O", "Sphere"),
     ("@v", "Level"),
     ("f", "G"),
@@ -27,10 +27,11 @@ const TURTLE: [(&str, &str); 22] = [
     (";", "Paint"),
     (",", "Paint"),
     ("~", "Place"),
+    ("%", "Cut"),
 ];
 
 /// Symbols that errors list.
-const LISTED: &str = "F G f + - & ^ \\ / | $ ! # { } . ; , ~ @O @v [ ]";
+const LISTED: &str = "F G f + - & ^ \\ / | $ ! # { } . ; , ~ % @O @v [ ]";
 
 /// Texts that stand for a successor without modules.
 const ERASING: [&str; 3] = ["", "*", "\u{3b5}"];
@@ -48,7 +49,7 @@ enum StringItem<'a> {
     Close,
     /// A line break, which the Lua text keeps, so that lines stay the same.
     Break,
-    /// `<` or `>` of a pattern.
+    /// A part of a pattern that is no module: `<`, `>`, `*`, alternatives, and the ends `^` and `$`.
     Separator(&'a str),
     /// A module by its text, its name, and the text between its brackets.
     Module {
@@ -87,7 +88,7 @@ pub(super) fn lua_body(
     if ERASING.contains(&text.trim()) {
         return Ok("return nil".to_owned());
     }
-    let items = StringReader { text, at: 0, symbols, scope }.items()?;
+    let items = StringReader::new(text, symbols, scope).items()?;
     let mut place = place;
     let (mut depth, mut values) = (0usize, 0usize);
     let mut lua = String::new();
@@ -165,7 +166,7 @@ fn mistake(
 
 /// Returns a pattern in which turtle symbols, digits and joined letters are the names of modules.
 pub(super) fn pattern_names(text: &str, symbols: &Symbols, scope: &NameScope) -> Result<String> {
-    let items = StringReader { text, at: 0, symbols, scope }.items()?;
+    let items = StringReader::new(text, symbols, scope).pattern_items()?;
     let mut names = String::new();
     for item in &items {
         match item {
@@ -185,7 +186,7 @@ pub(super) fn pattern_names(text: &str, symbols: &Symbols, scope: &NameScope) ->
 
 /// Returns the names of the modules in a string such as `+-F`.
 pub(super) fn string_names(text: &str, symbols: &Symbols, scope: &NameScope) -> Result<Vec<String>> {
-    let items = StringReader { text, at: 0, symbols, scope }.items()?;
+    let items = StringReader::new(text, symbols, scope).items()?;
     let split = split_text(&items);
     let names = items.into_iter().map(|item| match item {
         StringItem::Module { name, arguments: None, .. } => Ok(name),
@@ -201,6 +202,18 @@ pub(super) fn has_symbols(text: &str) -> bool {
     // The name of a module of a package can contain a hyphen and a full stop.
     let can_be_name = |symbol: &str| symbol == "f" || symbol == "." || symbol == "-" && text.contains('.');
     TURTLE.iter().any(|(symbol, _)| text.contains(symbol) && !can_be_name(symbol))
+}
+
+/// Returns true if a pattern contains symbols that are no names, outside of parameters.
+pub(super) fn has_pattern_symbols(text: &str) -> bool {
+    let mut rest = text;
+    let mut outside = String::new();
+    while let Some((before, after)) = rest.split_once('(') {
+        outside.push_str(before);
+        rest = end_of_expression(after, |letter| letter == ')').map_or("", |end| &after[end + 1..]);
+    }
+    outside.push_str(rest);
+    has_symbols(&outside.replace(['^', '$', '|'], ""))
 }
 
 /// Returns the signatures of the letters and digits in patterns and strings that are no modules, in the order in which
@@ -224,7 +237,8 @@ pub(crate) fn undeclared_letters(
         if !is_pattern && (is_lua(text) || ERASING.contains(&text.trim())) {
             continue;
         }
-        for item in (StringReader { text, at: 0, symbols, scope }).items()? {
+        let reader = StringReader::new(text, symbols, scope);
+        for item in if is_pattern { reader.pattern_items()? } else { reader.items()? } {
             let StringItem::Unknown { text, arguments } = item else { continue };
             let Some(name) = letter_name(text) else { continue };
             let arguments = arguments.map(split_arguments).unwrap_or_default();
@@ -236,14 +250,18 @@ pub(crate) fn undeclared_letters(
             letter.most = letter.most.max(arguments.len());
             if !is_pattern {
                 letter.least = Some(letter.least.map_or(arguments.len(), |least| least.min(arguments.len())));
-            } else if arguments.len() > letter.formals.len() {
-                letter.formals = arguments.iter().map(|formal| formal.trim().to_owned()).collect();
+                continue;
+            }
+            let formals: Vec<String> = arguments.iter().map(|formal| formal.trim().to_owned()).collect();
+            let names_more = are_names(&formals) && !are_names(&letter.formals);
+            if formals.len() > letter.formals.len() || formals.len() == letter.formals.len() && names_more {
+                letter.formals = formals;
             }
         }
     }
     let signature = |letter: Letter| {
         let least = letter.least.unwrap_or(letter.most);
-        let named = letter.formals.len() == letter.most && letter.formals.iter().all(|name| name != "_");
+        let named = letter.formals.len() == letter.most && are_names(&letter.formals);
         let parameters: Vec<String> = (0..letter.most)
             .map(|index| {
                 let name = if named { letter.formals[index].clone() } else { format!("a{}", index + 1) };
@@ -253,6 +271,15 @@ pub(crate) fn undeclared_letters(
         Signature::new(&letter.name, &parameters)
     };
     letters.into_iter().map(signature).collect()
+}
+
+/// Returns true if all parameters of a pattern can be the names of parameters: none is `_` or a value.
+fn are_names(formals: &[String]) -> bool {
+    let is_name = |name: &String| {
+        name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+            && !["_", "true", "false", "nil"].contains(&name.as_str())
+    };
+    formals.iter().all(is_name)
 }
 
 /// Returns the name of the module that a letter or a digit stands for.
@@ -335,9 +362,36 @@ struct StringReader<'a> {
     at: usize,
     symbols: &'a Symbols,
     scope: &'a NameScope,
+    /// Set if the string is a pattern.
+    is_pattern: bool,
+    /// Set after `>`.
+    is_right: bool,
+    /// Set within `(A|B)`.
+    in_alternatives: bool,
 }
 
 impl<'a> StringReader<'a> {
+    fn new(text: &'a str, symbols: &'a Symbols, scope: &'a NameScope) -> Self {
+        let (is_pattern, is_right, in_alternatives) = (false, false, false);
+        Self { text, at: 0, symbols, scope, is_pattern, is_right, in_alternatives }
+    }
+
+    fn pattern_items(self) -> Result<Vec<StringItem<'a>>> {
+        Self { is_pattern: true, ..self }.items()
+    }
+
+    /// Returns true if `letter`, after which the reader stands, is no module at this place of the pattern.
+    fn is_separator(&self, letter: char, is_first: bool) -> bool {
+        let rest = self.text[self.at..].trim_start();
+        match letter {
+            '*' | '(' => true,
+            '|' | ')' => self.in_alternatives,
+            '^' => is_first && rest.contains('<'),
+            '$' => self.is_right && (rest.is_empty() || rest.starts_with(']')),
+            _ => false,
+        }
+    }
+
     fn items(mut self) -> Result<Vec<StringItem<'a>>> {
         let names = self.names();
         let mut items = Vec::new();
@@ -348,7 +402,17 @@ impl<'a> StringReader<'a> {
                 '[' => items.push(StringItem::Open),
                 ']' => items.push(StringItem::Close),
                 '\n' => items.push(StringItem::Break),
-                '<' | '>' => items.push(StringItem::Separator(&self.text[begin..self.at])),
+                '<' | '>' => {
+                    self.is_right = letter == '>';
+                    items.push(StringItem::Separator(&self.text[begin..self.at]));
+                }
+                letter if self.is_pattern && self.is_separator(letter, items.is_empty()) => {
+                    self.in_alternatives = letter == '(' || self.in_alternatives && letter != ')';
+                    if letter == ')' {
+                        self.arguments("alternatives")?;
+                    }
+                    items.push(StringItem::Separator(&self.text[begin..self.at]));
+                }
                 letter if letter.is_whitespace() => {}
                 _ => {
                     self.at = begin;

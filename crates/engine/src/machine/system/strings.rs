@@ -5,7 +5,9 @@ use std::collections::BTreeSet;
 use mlua::{Function, Lua, MultiValue, Value as LuaValue};
 
 use super::declare::check_open;
-use super::module_string::{has_symbols, is_lua, lua_body, mentions, pattern_names, string_names};
+use super::module_string::{
+    has_pattern_symbols, has_symbols, is_lua, lua_body, mentions, pattern_names, string_names,
+};
 use crate::declare::bytecode::compile;
 use crate::machine::Machine;
 use crate::machine::library::Library;
@@ -17,15 +19,15 @@ use burgeon_rewriting::{NameScope, Pattern, Symbol, Symbols};
 pub(super) fn parse_pattern(text: &str, symbols: &Symbols, scope: &NameScope) -> Result<Pattern> {
     Pattern::parse_in(text, symbols, scope).or_else(|error| {
         let names = match pattern_names(text, symbols, scope) {
-            Err(unknown) if has_symbols(text) => return Err(unknown),
+            Err(unknown) if has_pattern_symbols(text) => return Err(unknown),
             Err(_) => return Err(error),
             Ok(names) => names,
         };
         let pattern = match Pattern::parse_in(&names, symbols, scope) {
-            Err(_) if !has_symbols(text) => return Err(error),
+            Err(_) if !has_pattern_symbols(text) => return Err(error),
             pattern => pattern?,
         };
-        Ok(Pattern { text: text.split_whitespace().collect::<Vec<_>>().join(" "), ..pattern })
+        Ok(pattern.with_text(text))
     })
 }
 

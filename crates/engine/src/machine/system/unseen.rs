@@ -13,7 +13,7 @@ use crate::machine::types::object_of_system;
 use crate::results::DerivedSystem;
 use burgeon_base::error::SourcePlace;
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_rewriting::{Context, FIRST_SYMBOL, Grammar, Pattern, Rule, Symbol};
+use burgeon_rewriting::{ContextElement, FIRST_SYMBOL, Grammar, Item, Pattern, Rule, Symbol};
 
 use super::{DeclaredRule, DerivationRecord, RulePhase, SystemDeclaration};
 
@@ -57,6 +57,7 @@ impl SystemDeclaration {
     ) {
         let mut sure = CandidateRules::default();
         let mut guards = GuardClasses::default();
+        let cut = machine.library.cut.get().filter(|_| phase == RulePhase::Rewriting);
         let group_of = |index: usize| self.rules[index].group.as_deref();
         let can_apply = |(index, rule): &(usize, &Rule)| {
             rule.weight != Some(0.0)
@@ -65,17 +66,18 @@ impl SystemDeclaration {
         };
         for (index, rule) in grammar.rules().iter().enumerate().filter(can_apply) {
             let guard = guards.class_of(machine, &self.rules, index);
+            let around = around(grammar, index);
             if group_of(index) != group {
-                sure.add(rule, guard);
+                sure.add(rule, around, guard);
                 continue;
             }
             let warn =
                 |warning: Warning| machine.warn(warning.at(rule.place.clone()).rule(&rule.pattern.text));
-            let earlier = sure.forestalls(rule, guard);
-            if let Some(item) = rule.contexts().iter().find(|item| grammar.is_skipped(item.symbol)) {
-                let name = grammar.symbols().display_name(item.symbol);
+            let earlier = sure.forestalls(rule, &around, guard);
+            if let Some(symbol) = rule.contexts().iter().find_map(|item| skipped_symbol(grammar, item)) {
+                let name = grammar.symbols().display_name(symbol);
                 let (text, help) = match self.considered {
-                    Some(_) if !self.ignored.contains(&item.symbol) => (
+                    Some(_) if !self.ignored.contains(&symbol) => (
                         format!("{name} is not among the modules to consider, so this context never occurs"),
                         format!("add it: system:consider(\"{name}\")"),
                     ),
@@ -84,6 +86,11 @@ impl SystemDeclaration {
                         "remove it from system:ignore(...), or from the context".to_owned(),
                     ),
                 };
+                warn(Warning::new(WarningKind::ImpossibleContext, text).help(help));
+            } else if let Some(symbol) = cut.filter(|symbol| needs(rule, *symbol)) {
+                let name = grammar.symbols().display_name(symbol);
+                let text = format!("{name} is erased before rules are matched, so this rule never applies");
+                let help = format!("match other modules; system:decompose and system:interpret see {name}");
                 warn(Warning::new(WarningKind::ImpossibleContext, text).help(help));
             } else if let Some(earlier) = earlier {
                 let place = earlier.place.as_ref().map_or_else(String::new, |place| format!(" in {place}"));
@@ -105,7 +112,7 @@ impl SystemDeclaration {
                 };
                 warn(Warning::new(WarningKind::UnreachableRule, text).help(help));
             }
-            sure.add(rule, guard);
+            sure.add(rule, around, guard);
         }
     }
 
@@ -140,8 +147,9 @@ impl SystemDeclaration {
         let (kind, is_a) = (&of.name, |known: &StandardInterpretation| of.is_a(&known.kind));
         let (symbols, standard) = (library.symbols.borrow(), library.standard.borrow());
         let signature = symbols.signature(symbol);
-        if self.interpretations.iter().any(|known| known.rule.pattern.predecessor.symbol == symbol)
+        if self.interpretations.iter().any(|known| known.rule.pattern.symbol == symbol)
             || standard.iter().any(|known| known.symbol == symbol && is_a(known))
+            || library.cut.get() == Some(symbol)
         {
             return None;
         }
@@ -189,8 +197,8 @@ impl SystemDeclaration {
     }
 }
 
-/// Predecessor and contexts, without parameter names.
-type ContextSymbols = (Symbol, Vec<Symbol>, Vec<Option<Symbol>>);
+/// Predecessor, left and right context, without parameter names.
+type PatternElements = [Vec<ContextElement>; 3];
 
 /// Number of the first rule with an equivalent guard; `None` without a guard.
 type GuardClass = Option<usize>;
@@ -218,7 +226,7 @@ impl GuardClasses {
         let rule = &rules[index];
         let guard = rule.guard.as_ref()?;
         let text = rule.guard_text.clone().unwrap_or_default();
-        let known = self.first.entry((rule.rule.pattern.predecessor.symbol, text)).or_default();
+        let known = self.first.entry((rule.rule.pattern.symbol, text)).or_default();
         let captures = captured(machine.lua(), guard).unwrap_or_default();
         let same = known.iter().find(|(other, of_other)| {
             let other = &rules[*other];
@@ -238,13 +246,13 @@ impl GuardClasses {
 /// Returns the number of parameters that a rule binds for its predecessor and for each module of its
 /// contexts.
 fn bounds(rule: &Rule) -> Vec<usize> {
-    std::iter::once(&rule.pattern.predecessor).chain(rule.contexts()).map(|item| item.bound).collect()
+    rule.pattern.predecessors.iter().chain(rule.contexts()).map(|item| item.bound).collect()
 }
 
 /// Rules so far that are candidates whenever their contexts match and their guards hold, by what they match.
 #[derive(Default)]
 struct CandidateRules<'a> {
-    rules: FxHashMap<(ContextSymbols, GuardClass), [Option<&'a Rule>; 3]>,
+    rules: FxHashMap<(PatternElements, GuardClass), [Option<&'a Rule>; 3]>,
     /// Symbols that have a rule with a weight.
     weighted: FxHashSet<Symbol>,
 }
@@ -260,19 +268,18 @@ const WEIGHTED: usize = 2;
 impl<'a> CandidateRules<'a> {
     /// Returns an earlier rule that always takes precedence over `rule`: without contexts or with equal
     /// contexts, and without a guard; or with equal contexts and an equivalent `guard`.
-    fn forestalls(&self, rule: &Rule, guard: GuardClass) -> Option<&'a Rule> {
-        let around = around(rule);
-        let anywhere = (around.0, Vec::new(), Vec::new());
+    fn forestalls(&self, rule: &Rule, around: &PatternElements, guard: GuardClass) -> Option<&'a Rule> {
+        let anywhere = [vec![ContextElement::Module(rule.pattern.symbol)], Vec::new(), Vec::new()];
         let places = if rule.weight.is_some() { BEFORE_ALL..=BEFORE_ALL } else { BEFORE_ALL..=WEIGHTED };
-        let of = |around: &ContextSymbols, guard: GuardClass| {
+        let of = |around: &PatternElements, guard: GuardClass| {
             self.rules.get(&(around.clone(), guard))?[places.clone()].iter().flatten().next().copied()
         };
-        let guarded = || guard.and_then(|guard| of(&around, Some(guard)));
-        of(&anywhere, None).or_else(|| of(&around, None)).or_else(guarded)
+        let guarded = || guard.and_then(|guard| of(around, Some(guard)));
+        of(&anywhere, None).or_else(|| of(around, None)).or_else(guarded)
     }
 
-    fn add(&mut self, rule: &'a Rule, guard: GuardClass) {
-        let symbol = rule.pattern.predecessor.symbol;
+    fn add(&mut self, rule: &'a Rule, around: PatternElements, guard: GuardClass) {
+        let symbol = rule.pattern.symbol;
         let place = match rule.weight {
             Some(_) => WEIGHTED,
             None if self.weighted.contains(&symbol) => BEFORE_PLAIN,
@@ -281,35 +288,32 @@ impl<'a> CandidateRules<'a> {
         if rule.weight.is_some() {
             self.weighted.insert(symbol);
         }
-        self.rules.entry((around(rule), guard)).or_default()[place].get_or_insert(rule);
+        self.rules.entry((around, guard)).or_default()[place].get_or_insert(rule);
     }
 }
 
-fn around(rule: &Rule) -> ContextSymbols {
-    let pattern = &rule.pattern;
-    let left = pattern.left.iter().map(|item| item.symbol).collect();
-    (pattern.predecessor.symbol, left, plain(&pattern.right))
+/// Returns the elements of the pattern of rule `index`.
+fn around(grammar: &Grammar, index: usize) -> PatternElements {
+    let number = u16::try_from(index).unwrap_or(u16::MAX);
+    [grammar.predecessors_of(number), grammar.left_of(number), grammar.right_of(number)].map(<[_]>::to_vec)
 }
 
-/// Returns the symbols of a right context, with `None` for branch borders.
-fn plain(contexts: &[Context]) -> Vec<Option<Symbol>> {
-    let mut symbols = Vec::new();
-    for context in contexts {
-        match context {
-            Context::Module(item) => symbols.push(Some(item.symbol)),
-            Context::Branch(inner) => {
-                symbols.push(None);
-                symbols.extend(plain(inner));
-                symbols.push(None);
-            }
-        }
-    }
-    symbols
+/// Returns a symbol of a context module if contexts skip all that it matches.
+fn skipped_symbol(grammar: &Grammar, item: &Item) -> Option<Symbol> {
+    let symbols = item.symbols.listed()?;
+    symbols.first().copied().filter(|_| symbols.iter().all(|symbol| grammar.is_skipped(*symbol)))
+}
+
+/// Returns true if a rule applies only where a module with this symbol is.
+fn needs(rule: &Rule, symbol: Symbol) -> bool {
+    let mut items = rule.pattern.predecessors.iter().chain(rule.contexts());
+    items.any(|item| item.symbols.listed() == Some(&[symbol]))
 }
 
 /// Returns true if a pattern names `symbol`.
 fn names(pattern: &Pattern, symbol: Symbol) -> bool {
-    pattern.predecessor.symbol == symbol || pattern.context_items().iter().any(|item| item.symbol == symbol)
+    let names = |items: &[Item]| items.iter().any(|item| item.symbols.names(symbol));
+    names(&pattern.predecessors) || names(&pattern.context_items())
 }
 
 /// Warns about declarations without effect, after a script has run to its end. A script that `returns` a

@@ -1,0 +1,439 @@
+//! Parser of patterns.
+
+use super::chain::{DEEPEST, Symbol};
+use super::column_value::ColumnValue;
+use super::pattern::{Context, Item, Pattern, PatternValue, SymbolSet, single_spaced};
+use super::symbols::{NameScope, Symbols, count_text};
+use burgeon_base::error::{Error, Result};
+
+/// Maximum number of characters of a pattern that an error shows before its position, and after it.
+const AROUND: usize = 100;
+
+/// Help for `^` at another position than the beginning.
+const BEGINNING: &str = "^ is the beginning of the chain; write it first in a left context: ^ < A";
+/// Help for `$` at another position than the end.
+const ENDING: &str = "$ is the end of a branch or of the chain; write it last in a right context: A > B $";
+
+/// Reader of one pattern.
+pub(super) struct PatternReader<'a> {
+    text: &'a str,
+    at: usize,
+    /// Number of branches that are open at the current position.
+    depth: usize,
+    symbols: &'a Symbols,
+    scope: &'a NameScope,
+    formals: Vec<String>,
+}
+
+/// Element of a part of a pattern, before the kind of the part is known.
+enum Element {
+    Context(Context),
+    /// `^`
+    Beginning,
+}
+
+/// Elements between two separators, each with its position.
+type Part = Vec<(usize, Element)>;
+
+impl<'a> PatternReader<'a> {
+    pub(super) fn new(text: &'a str, symbols: &'a Symbols, scope: &'a NameScope) -> Self {
+        Self { text, at: 0, depth: 0, symbols, scope, formals: Vec::new() }
+    }
+
+    pub(super) fn pattern(mut self) -> Result<Pattern> {
+        let mut parts: Vec<Part> = vec![Vec::new()];
+        let mut separators: Vec<char> = Vec::new();
+        loop {
+            match self.peek() {
+                None => break,
+                Some(separator @ ('<' | '>')) => {
+                    if separators.contains(&separator) || (separator == '<' && !separators.is_empty()) {
+                        return Err(
+                            self.error_here("a pattern is: left context < predecessor > right context")
+                        );
+                    }
+                    self.at += 1;
+                    separators.push(separator);
+                    parts.push(Vec::new());
+                }
+                Some(_) => {
+                    let begin = self.at;
+                    let element = self.element()?;
+                    if let Some(part) = parts.last_mut() {
+                        part.push((begin, element));
+                    }
+                }
+            }
+        }
+        let mut parts = parts.into_iter();
+        let mut take = || parts.next().unwrap_or_default();
+        let left = if separators.contains(&'<') { take() } else { Vec::new() };
+        let middle = take();
+        let right = if separators.contains(&'>') { take() } else { Vec::new() };
+        for (separator, part) in [('<', &left), ('>', &right)] {
+            if separators.contains(&separator) && part.is_empty() {
+                return Err(self.error(
+                    &format!("the context next to {separator} is empty"),
+                    "add a module, or remove the separator",
+                ));
+            }
+        }
+        let (symbol, predecessors) = self.predecessors(middle)?;
+        let (from_beginning, left) = self.left_context(left)?;
+        let right = self.right_context(right)?;
+        let text = single_spaced(self.text);
+        Ok(Pattern { left, from_beginning, symbol, predecessors, right, formals: self.formals, text })
+    }
+
+    /// Returns the predecessor's modules and the symbol of the first.
+    fn predecessors(&mut self, part: Part) -> Result<(Symbol, Vec<Item>)> {
+        let mut items = Vec::new();
+        for (begin, element) in part {
+            let help = match element {
+                Element::Context(Context::Module(item)) => {
+                    items.push(item);
+                    continue;
+                }
+                Element::Context(Context::Branch(_)) => {
+                    return Err(self.error(
+                        "a predecessor cannot have branches",
+                        "its modules stand next to one another; put branches into the right context: A > [B]",
+                    ));
+                }
+                Element::Context(Context::End) => ENDING,
+                Element::Beginning => BEGINNING,
+            };
+            self.at = begin;
+            return Err(self.error_here(help));
+        }
+        match items.first().map(|item| &item.symbols) {
+            Some(SymbolSet::One(symbol)) => Ok((*symbol, items)),
+            Some(_) => Err(self.error(
+                "the first module of a predecessor needs one symbol",
+                "write one rule for each symbol; * and (A|B) can only follow it, or stand in contexts",
+            )),
+            None => Err(self.error("missing predecessor", "add the module to be rewritten")),
+        }
+    }
+
+    /// Returns whether the left context begins with the chain, and its modules.
+    fn left_context(&mut self, part: Part) -> Result<(bool, Vec<Item>)> {
+        let mut items = Vec::new();
+        let mut from_beginning = false;
+        for (number, (begin, element)) in part.into_iter().enumerate() {
+            let help = match element {
+                Element::Context(Context::Module(item)) => {
+                    items.push(item);
+                    continue;
+                }
+                Element::Context(Context::Branch(_)) => {
+                    return Err(self.error(
+                        "a left context cannot have branches",
+                        "it is the path towards the axiom; write only the modules on it",
+                    ));
+                }
+                Element::Beginning if number == 0 => {
+                    from_beginning = true;
+                    continue;
+                }
+                Element::Beginning => BEGINNING,
+                Element::Context(Context::End) => ENDING,
+            };
+            self.at = begin;
+            return Err(self.error_here(help));
+        }
+        Ok((from_beginning, items))
+    }
+
+    fn right_context(&mut self, part: Part) -> Result<Vec<Context>> {
+        let count = part.len();
+        let mut contexts = Vec::new();
+        for (number, (begin, element)) in part.into_iter().enumerate() {
+            let help = match element {
+                Element::Beginning => BEGINNING,
+                Element::Context(Context::End) if number + 1 < count => ENDING,
+                Element::Context(context) => {
+                    contexts.push(context);
+                    continue;
+                }
+            };
+            self.at = begin;
+            return Err(self.error_here(help));
+        }
+        Ok(contexts)
+    }
+
+    fn element(&mut self) -> Result<Element> {
+        let context = match self.peek() {
+            Some('^') => {
+                self.at += 1;
+                return Ok(Element::Beginning);
+            }
+            Some('$') => {
+                self.at += 1;
+                Context::End
+            }
+            Some('[') => self.branch()?,
+            Some('*') => {
+                self.at += 1;
+                if self.text[self.at..].starts_with('(') {
+                    return Err(self.error_here(
+                        "* matches modules with any number of parameters, so it names none of them",
+                    ));
+                }
+                Context::Module(Item::new(SymbolSet::Any))
+            }
+            _ => Context::Module(self.item()?),
+        };
+        Ok(Element::Context(context))
+    }
+
+    fn branch(&mut self) -> Result<Context> {
+        let begin = self.at;
+        if self.depth == DEEPEST {
+            return Err(self.error_here(&format!("branches are nested at most {DEEPEST} deep")));
+        }
+        self.depth += 1;
+        self.at += 1;
+        let mut inner: Part = Vec::new();
+        loop {
+            match self.peek() {
+                Some(']') => {
+                    self.at += 1;
+                    break;
+                }
+                None => {
+                    self.at = begin;
+                    return Err(self.error_here("this branch is not closed"));
+                }
+                Some(_) => {
+                    let at = self.at;
+                    let element = self.element()?;
+                    inner.push((at, element));
+                }
+            }
+        }
+        self.depth -= 1;
+        if inner.is_empty() {
+            self.at = begin;
+            return Err(self.error_here("a branch in a context must contain at least one module"));
+        }
+        let end = self.at;
+        let inner = self.right_context(inner)?;
+        self.at = end;
+        Ok(Context::Branch(inner))
+    }
+
+    /// Parses a module, or alternatives such as `(A|B)`, with parameters.
+    fn item(&mut self) -> Result<Item> {
+        let begin = self.at;
+        let mut symbols = Vec::new();
+        if self.peek() == Some('(') {
+            self.at += 1;
+            loop {
+                symbols.push(self.symbol()?);
+                match self.peek() {
+                    Some('|') => self.at += 1,
+                    Some(')') => break,
+                    _ => return Err(self.error_here("expected | or ), as in (A|B)")),
+                }
+            }
+            self.at += 1;
+        } else {
+            symbols.push(self.symbol()?);
+        }
+        let parameters = self.has_parameters();
+        let (bound, values) = if parameters { self.parameters()? } else { (0, Vec::new()) };
+        let count = bound + values.len();
+        let other =
+            symbols.iter().map(|symbol| self.symbols.signature(*symbol)).find(|it| it.arity() != count);
+        if let Some(signature) = other.filter(|_| parameters) {
+            self.at = begin;
+            return Err(self.error(
+                &format!("{} has {}, not {count}", signature.name, count_text(signature.arity())),
+                &format!(
+                    "it was declared as {}; write all parameters{} or no brackets",
+                    signature.usage(),
+                    if signature.required < signature.arity() { ", also the optional ones," } else { "" }
+                ),
+            ));
+        }
+        let symbols = match *symbols.as_slice() {
+            [symbol] => SymbolSet::One(symbol),
+            _ => SymbolSet::OneOf(symbols),
+        };
+        Ok(Item { symbols, bound, values })
+    }
+
+    fn symbol(&mut self) -> Result<Symbol> {
+        let name = self.module_name()?;
+        self.symbols.find_in(&name, self.scope).map_err(|error| {
+            let text = format!("{} in the pattern \"{}\"", error.message(), self.text.trim());
+            error.saying(text)
+        })
+    }
+
+    /// Returns true if parameters follow. After a space, a bracket with `|` begins alternatives instead.
+    fn has_parameters(&mut self) -> bool {
+        let is_near = self.text[self.at..].starts_with('(');
+        let is_open = self.peek() == Some('(');
+        let inner = self.text[self.at..].split(')').next().unwrap_or_default();
+        is_near || is_open && (!inner.contains('|') || inner.contains(['"', '\'']))
+    }
+
+    /// Parses the parameters of a module: the number of names, and the values with their indices.
+    fn parameters(&mut self) -> Result<(usize, Vec<(usize, PatternValue)>)> {
+        self.at += 1;
+        let (mut count, mut values) = (0, Vec::new());
+        while self.peek() != Some(')') {
+            if count > 0 {
+                if self.peek() != Some(',') {
+                    return Err(self.error_here("expected a comma or a closing bracket"));
+                }
+                self.at += 1;
+            }
+            if let Some(value) = self.value()? {
+                values.push((count, value));
+            }
+            count += 1;
+        }
+        self.at += 1;
+        Ok((count - values.len(), values))
+    }
+
+    /// Parses a parameter: returns its value, or `None` for a name, which becomes a formal parameter.
+    fn value(&mut self) -> Result<Option<PatternValue>> {
+        let stored = |value| Ok(Some(PatternValue::Stored(value)));
+        match self.peek() {
+            Some(quote @ ('"' | '\'')) => return self.quoted(quote).map(Some),
+            Some('-' | '.' | '0'..='9') => return stored(ColumnValue::Number(self.number()?)),
+            _ => {}
+        }
+        let before = self.at;
+        let formal = self.name("a parameter's name or a value")?;
+        match formal.as_str() {
+            "true" => return stored(ColumnValue::Boolean(true)),
+            "false" => return stored(ColumnValue::Boolean(false)),
+            "nil" => return stored(ColumnValue::Nil),
+            _ => {}
+        }
+        if formal != "_" && self.formals.contains(&formal) {
+            self.at = before;
+            self.peek();
+            return Err(self.error_here(&format!("duplicate parameter name {formal}")));
+        }
+        self.formals.push(formal);
+        Ok(None)
+    }
+
+    fn number(&mut self) -> Result<f64> {
+        let rest = &self.text[self.at..];
+        let mut end = usize::from(rest.starts_with('-'));
+        for (at, letter) in rest.char_indices().skip(end) {
+            let after_exponent = rest[..at].ends_with(['e', 'E']);
+            if !(letter.is_ascii_alphanumeric() || letter == '.' || after_exponent && "+-".contains(letter)) {
+                break;
+            }
+            end = at + letter.len_utf8();
+        }
+        let is_decimal =
+            rest[..end].trim_start_matches('-').starts_with(|c: char| c == '.' || c.is_ascii_digit());
+        let number = rest[..end].parse::<f64>().ok().filter(|number| is_decimal && number.is_finite());
+        let number = number.ok_or_else(|| self.error_here("expected a number such as 2, -1.5 or 1e-3"))?;
+        self.at += end;
+        Ok(number)
+    }
+
+    fn quoted(&mut self, quote: char) -> Result<PatternValue> {
+        let begin = self.at;
+        let mut text = String::new();
+        let mut letters = self.text[begin + 1..].char_indices();
+        while let Some((at, letter)) = letters.next() {
+            match letter {
+                letter if letter == quote => {
+                    self.at = begin + 1 + at + 1;
+                    return Ok(PatternValue::Text(text.into()));
+                }
+                '\\' => match letters.next() {
+                    Some((_, escaped @ ('\\' | '"' | '\''))) => text.push(escaped),
+                    _ => {
+                        self.at = begin + 1 + at;
+                        return Err(self.error_here("a backslash stands before a quote or a backslash"));
+                    }
+                },
+                letter => text.push(letter),
+            }
+        }
+        self.at = begin;
+        Err(self.error_here("this text is not closed"))
+    }
+
+    /// Parses the name of a module, optionally with a package: `castle.Stone`.
+    fn module_name(&mut self) -> Result<String> {
+        self.peek();
+        let rest = &self.text[self.at..];
+        let is_of_package = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || "_-".contains(c);
+        if let Some((package, _)) = rest.split_once('.')
+            && package.starts_with(|c: char| c.is_ascii_lowercase())
+            && package.chars().all(is_of_package)
+        {
+            let package = package.to_owned();
+            self.at += package.len() + 1;
+            if self.text[self.at..].starts_with(char::is_whitespace) {
+                return Err(self.error_here("expected the name of a module of the package"));
+            }
+            return Ok(format!("{package}.{}", self.name("a module's name")?));
+        }
+        self.name("a module's name")
+    }
+
+    fn name(&mut self, what: &str) -> Result<String> {
+        let rest = {
+            self.peek();
+            &self.text[self.at..]
+        };
+        let length = rest.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).unwrap_or(rest.len());
+        if length == 0 || rest.starts_with(|c: char| c.is_ascii_digit()) {
+            return Err(self.error_here(&format!("expected {what}")));
+        }
+        self.at += length;
+        Ok(rest[..length].to_owned())
+    }
+
+    /// Skips spaces, and returns the character at the new position.
+    fn peek(&mut self) -> Option<char> {
+        let rest = &self.text[self.at..];
+        self.at += rest.len() - rest.trim_start().len();
+        self.text[self.at..].chars().next()
+    }
+
+    /// Returns an error that shows the current position.
+    fn error_here(&self, help: &str) -> Error {
+        let found = match self.text[self.at..].chars().next() {
+            Some(c) => format!("unexpected '{c}'"),
+            None => "unexpected end".to_owned(),
+        };
+        let before = self.text[..self.at].chars().count();
+        let shown = |c: char| if c.is_whitespace() { ' ' } else { c };
+        let mut line: String =
+            self.text.chars().skip(before.saturating_sub(AROUND)).take(2 * AROUND).map(shown).collect();
+        let mut column = before.min(AROUND);
+        if before > AROUND {
+            line.insert_str(0, "...");
+            column += 3;
+        }
+        if self.text.chars().count() > before.saturating_sub(AROUND) + 2 * AROUND {
+            line.push_str("...");
+        }
+        Error::syntax(format!(
+            "malformed pattern: {found} at character {}\n    {line}\n    {}^",
+            before + 1,
+            " ".repeat(column)
+        ))
+        .help(help)
+    }
+
+    fn error(&self, message: &str, help: &str) -> Error {
+        Error::syntax(format!("malformed pattern \"{}\": {message}", self.text.trim())).help(help)
+    }
+}

@@ -1,0 +1,52 @@
+//! Patterns with several predecessors, values, wildcards, ends and cuts: the crate and a plain implementation derive the
+//! same chains.
+
+mod functions;
+mod plain;
+mod systems;
+
+use burgeon_rewriting as rewriting;
+
+use systems::{Dice, RandomSystem};
+
+/// Numbers of compared systems, to ensure that the test is meaningful.
+#[derive(Debug, Default)]
+struct Compared {
+    changed: usize,
+    runs: usize,
+    values: usize,
+    ends: usize,
+    cuts: usize,
+}
+
+#[test]
+fn random_systems_derive_the_same_chains_in_the_crate_and_plainly() {
+    let mut compared = Compared::default();
+    for seed in 0..4000 {
+        let mut dice = Dice::new(seed);
+        let system = RandomSystem::new(&mut dice);
+        let axiom = plain::axiom(system.axiom.clone(), seed);
+        let mut expected = Vec::new();
+        let mut chain = axiom.clone();
+        while expected.len() < 4 && plain::modules(&chain) < 300 {
+            let cut = plain::cut_branches(&chain, "Cut");
+            compared.cuts += usize::from(cut != chain);
+            chain = plain::step(&cut, &system.rules, &system.ignored);
+            expected.push(chain.clone());
+        }
+        let division = (1 + usize::from(seed % 4 == 0), [1, 2, 7, 4096][seed as usize / 4 % 4]);
+        let found = functions::derive(&system, &axiom, expected.len(), division);
+        let texts: Vec<String> = system.rules.iter().map(|rule| rule.pattern.text().0).collect();
+        for (step, (found, expected)) in found.iter().zip(&expected).enumerate() {
+            assert_eq!(found, expected, "seed {seed}, step {}, {division:?}: {texts:#?}", step + 1);
+        }
+        let any = |what: &str| texts.iter().any(|text| text.contains(what));
+        compared.changed += usize::from(expected.first() != Some(&axiom));
+        compared.runs += usize::from(system.rules.iter().any(|rule| rule.pattern.predecessors.len() > 1));
+        compared.values += usize::from(any("\"") || any("true") || any("nil"));
+        compared.ends += usize::from(any("$") || any("^"));
+    }
+    println!("{compared:?}");
+    assert!(compared.changed > 2000 && compared.runs > 2000 && compared.values > 500, "{compared:?}");
+    assert!(compared.ends > 500 && compared.cuts > 500, "{compared:?}");
+}
