@@ -23,7 +23,7 @@ mod universe;
 
 pub use curves::curve::{CurveObject, CurveOptions};
 pub use curves::ramp::{RampObject, RampOptions};
-pub use curves::surface::{SurfaceObject, SurfaceOptions};
+pub use curves::surface::{SplineSurfaceOptions, SurfaceObject};
 pub use elevation::{Elevation, ElevationOptions};
 pub use examples::{EXAMPLES, PLAIN_EXAMPLES};
 pub use extruder::Extruder;

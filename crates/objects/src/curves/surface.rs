@@ -20,7 +20,7 @@ const MOST_DIVISIONS: u32 = 256;
 
 /// Fields of `surface { ... }`.
 #[fields("surface")]
-pub struct SurfaceOptions {
+pub struct SplineSurfaceOptions {
     /// Rows of control points (m), all of one length. Along a row u increases from 0 to 1, from row to row v.
     pub points: Vec<Vec<Vector>>,
     /// Relation to the points: "bezier", patches of 4 rows of 4 points that share their border points; "b-spline"; or
@@ -46,7 +46,7 @@ pub struct SurfaceOptions {
 #[object(
     "surface",
     can(ObjectContent),
-    options = SurfaceOptions,
+    options = SplineSurfaceOptions,
     first = "points",
     example = include_str!("../../scripts/surface.lua"),
 )]
@@ -81,16 +81,16 @@ impl SurfaceObject {
     ///
     /// ```
     /// use burgeon_kit::Vector;
-    /// use burgeon_objects::{SurfaceObject, SurfaceOptions};
+    /// use burgeon_objects::{SurfaceObject, SplineSurfaceOptions};
     /// use glam::DVec3;
     ///
     /// let row = |y: f64| vec![Vector(DVec3::new(0.0, y, 0.0)), Vector(DVec3::new(2.0, y, 0.0))];
     /// let (points, kind) = (vec![row(0.0), row(1.0)], "b-spline".to_owned());
-    /// let flat = SurfaceObject::new(SurfaceOptions { points, kind, ..SurfaceOptions::default() })?;
+    /// let flat = SurfaceObject::new(SplineSurfaceOptions { points, kind, ..SplineSurfaceOptions::default() })?;
     /// assert_eq!((flat.point(0.5, 1.0), flat.normal(0.0, 0.0)), (DVec3::new(1.0, 1.0, 0.0), DVec3::Z));
     /// # Ok::<(), burgeon_base::Error>(())
     /// ```
-    pub fn new(options: SurfaceOptions) -> Result<Self> {
+    pub fn new(options: SplineSurfaceOptions) -> Result<Self> {
         let kind = variant("surface", &options.kind, &KINDS)?;
         let divisions = options.divisions;
         if !(1..=MOST_DIVISIONS).contains(&divisions) {

@@ -8,7 +8,7 @@ use burgeon_scene::Part;
 use glam::DVec3;
 
 use super::Turtle;
-use crate::{CurveObject, CurveOptions, SurfaceObject, SurfaceOptions};
+use crate::{CurveObject, CurveOptions, SplineSurfaceOptions, SurfaceObject};
 
 fn turtle() -> Turtle {
     Turtle::new(Default::default()).expect("a turtle")
@@ -85,8 +85,11 @@ fn a_contour_is_scaled_by_half_of_the_width_and_oriented_like_a_placed_model() {
 #[test]
 fn a_surface_is_drawn_at_the_turtles_frame_and_visible_from_both_sides() {
     let row = |y: f64| vec![Vector(DVec3::new(0.0, y, 0.0)), Vector(DVec3::new(1.0, y, 0.0))];
-    let options =
-        SurfaceOptions { points: vec![row(0.0), row(1.0)], kind: "b-spline".into(), ..Default::default() };
+    let options = SplineSurfaceOptions {
+        points: vec![row(0.0), row(1.0)],
+        kind: "b-spline".into(),
+        ..Default::default()
+    };
     let flat = Arc::new(SurfaceObject::new(options).expect("a surface"));
     let mut turtle = turtle();
     turtle.advance(Some(3.0));
