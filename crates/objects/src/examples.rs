@@ -41,6 +41,8 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "terrain/river" shows "terrain:river";
     "turtle/advance" shows "turtle:advance";
     "turtle/begin_polygon" shows "turtle:begin_polygon" "turtle:point" "turtle:end_polygon";
+    "turtle/begin_cylinder" shows "turtle:begin_cylinder" "turtle:end_cylinder";
+    "turtle/contour" shows "turtle:contour";
     "turtle/face" shows "turtle:face";
     "turtle/forward" shows "turtle:forward" "turtle.step" "turtle:color" "turtle.color";
     "turtle/jump" shows "turtle:jump" "turtle.position";
@@ -51,6 +53,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "turtle/place" shows "turtle:place";
     "turtle/roll" shows "turtle:roll" "turtle:roll_back";
     "turtle/sphere" shows "turtle:sphere";
+    "turtle/surface" shows "turtle:surface";
     "turtle/tropism" shows "turtle:tropism" "turtle:elasticity" "turtle.tropism" "turtle.elasticity";
     "turtle/turn" shows "turtle:turn" "turtle:turn_right";
     "turtle/turn_around" shows "turtle:turn_around";
@@ -59,6 +62,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
 
 /// Scripts without a render: most of them call read methods.
 pub const PLAIN_EXAMPLES: &[ScriptExample] = examples! {
+    "curve/length" shows "curve:length" "curve:point" "curve:tangent" "curve:mix";
     "elevation/height" shows "elevation:height" "elevation:low" "elevation:high" "elevation:step";
     "extruder/position" shows "extruder:position" "extruder:heading" "extruder:distance"
         "extruder:open_edges";
@@ -103,7 +107,9 @@ pub const PLAIN_EXAMPLES: &[ScriptExample] = examples! {
     "network/walk" shows "network:grow_to" "network:walk" "network:turn" "network:move_to";
     "planet/height" shows "planet:focus" "planet:height" "planet:surface" "planet:symbol"
         "planet:heights";
+    "ramp/slope" shows "ramp:slope" "ramp:at" "ramp:integral" "ramp:mix";
     "streets/distance" shows "streets:distance";
+    "surface/normal" shows "surface:normal" "surface:point" "surface:mix";
     "terrain/height" shows "terrain:focus" "terrain:height" "terrain:normal" "terrain:slope"
         "terrain:symbol" "terrain:heights" "terrain:is_source"
         "terrain:river_cut";

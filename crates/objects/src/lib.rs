@@ -5,6 +5,7 @@
 //! A new type is a new file and a line in [`registry`]: a struct with `#[object]`, and `#[methods]` for the methods
 //! that scripts may call. CONTRIBUTING.md lists the other steps, such as examples and the reference page.
 
+mod curves;
 mod elevation;
 mod examples;
 mod extruder;
@@ -20,6 +21,9 @@ pub mod terrain;
 mod turtle;
 mod universe;
 
+pub use curves::curve::{CurveObject, CurveOptions};
+pub use curves::ramp::{RampObject, RampOptions};
+pub use curves::surface::{SplineSurfaceOptions, SurfaceObject};
 pub use elevation::{Elevation, ElevationOptions};
 pub use examples::{EXAMPLES, PLAIN_EXAMPLES};
 pub use extruder::Extruder;
@@ -69,6 +73,9 @@ pub fn registry() -> Registry {
         &model,
         Elevation::kind(),
         EditFile::kind(),
+        RampObject::kind(),
+        CurveObject::kind(),
+        SurfaceObject::kind(),
     ];
     own.into_iter().chain(facade::kinds()).map(Arc::clone).collect()
 }
@@ -78,6 +85,6 @@ mod tests {
     #[test]
     fn no_type_is_left_out_for_its_name() {
         super::registry().check().expect("each has a name of its own");
-        assert_eq!(super::registry().kinds().count(), 14 + super::facade::kinds().len());
+        assert_eq!(super::registry().kinds().count(), 17 + super::facade::kinds().len());
     }
 }

@@ -6,7 +6,7 @@ use super::entry::{Entry, EntryGroup, Member, MemberKind};
 use burgeon::language::CallForm;
 
 /// Counts.
-const COUNTS: [&str; 32] = [
+const COUNTS: [&str; 34] = [
     "derived.modules",
     "derived.steps",
     "extruder.along",
@@ -34,6 +34,8 @@ const COUNTS: [&str; 32] = [
     "network:probe depth",
     "planet.levels",
     "source.limit",
+    "surface.degree",
+    "surface.divisions",
     "system:derive steps",
     "terrain.levels",
     "terrain.plants.density",
@@ -42,7 +44,7 @@ const COUNTS: [&str; 32] = [
 ];
 
 /// Fractions, probabilities, weights and factors.
-const FACTORS: [&str; 52] = [
+const FACTORS: [&str; 63] = [
     ".amount",
     ".metallic",
     ".noise",
@@ -50,6 +52,9 @@ const FACTORS: [&str; 52] = [
     ".roughness",
     "Elasticity elasticity",
     "Place scale",
+    "curve:mix t",
+    "curve:point t",
+    "curve:tangent t",
     "ease.back t",
     "ease.in t",
     "ease.inout t",
@@ -84,7 +89,14 @@ const FACTORS: [&str; 52] = [
     "noise z",
     "planet.closeness",
     "planet.error",
+    "ramp:mix t",
     "rule.weight",
+    "surface.weights",
+    "surface:mix t",
+    "surface:normal u",
+    "surface:normal v",
+    "surface:point u",
+    "surface:point v",
     "system:decompose.weight",
     "system:interpret.weight",
     "system:rule.weight",
@@ -93,6 +105,7 @@ const FACTORS: [&str; 52] = [
     "turtle.elasticity",
     "turtle:elasticity elasticity",
     "turtle:place scale",
+    "turtle:surface scale",
     "turtle:tropism elasticity",
     "vector:lerp t",
 ];
@@ -138,7 +151,7 @@ const NUMBERS: [&str; 36] = [
 ];
 
 /// Values in any unit that the script or the file uses.
-const ANY: [&str; 30] = [
+const ANY: [&str; 36] = [
     "beta a",
     "beta b",
     "beta r",
@@ -160,6 +173,10 @@ const ANY: [&str; 30] = [
     "param.step",
     "poisson mean",
     "poisson r",
+    "ramp:at x",
+    "ramp:integral a",
+    "ramp:integral b",
+    "ramp:slope x",
     "random a",
     "random b",
     "remap from",
@@ -169,6 +186,8 @@ const ANY: [&str; 30] = [
     "remap x",
     "stream ...",
     "source.within",
+    "surface.u_knots",
+    "surface.v_knots",
 ];
 
 /// Returns true if a value of this type is a number or contains numbers.

@@ -1,7 +1,10 @@
-//! Sweeps: surfaces of cross-sections that move along paths, and round tubes.
+//! Sweeps: surfaces of cross-sections that move along paths, round tubes, and generalised cylinders.
 //!
 //! Input: a section and stations, or a strand of points. Output: closed meshes, or a list of their open edges.
 
+mod axis;
+pub(crate) mod contour;
+pub(crate) mod cylinder;
 pub(crate) mod options;
 pub(crate) mod path;
 mod quad;

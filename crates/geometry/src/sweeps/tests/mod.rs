@@ -1,4 +1,5 @@
 //! Tests of sweeps: volumes against formulas, closedness over random input, normals, textures and errors.
 
+mod cylinder;
 mod forms;
 mod properties;

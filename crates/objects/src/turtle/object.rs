@@ -4,53 +4,18 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DQuat, DVec3};
 
-use super::MaterialOptions;
-use super::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
-use super::surface::plain_material;
+use super::angles::Angles;
+use super::cylinder::{OpenCylinder, already_open, not_open};
+use super::options::TurtleOptions;
+use super::state::{Branch, TurtleState};
+use crate::MaterialOptions;
+use crate::curves::curve::CurveObject;
+use crate::curves::surface::SurfaceObject;
+use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Frame, Strand, face, sphere};
-use burgeon_kit::{AxisScale, Color, Drawing, Locate, Model, ObjectPlace, Vector, fields, methods, object};
+use burgeon_kit::{AxisScale, Color, Drawing, Locate, Model, ObjectPlace, Vector, methods, object};
 use burgeon_scene::Material;
-
-/// Fields of `turtle { ... }`.
-#[fields("turtle")]
-pub struct TurtleOptions {
-    /// Default length of a step (m).
-    #[default(1.0)]
-    pub step: f64,
-    /// Default angle of a turn (degrees).
-    #[default(90.0)]
-    pub angle: f64,
-    /// Diameter of branches (m).
-    #[default(0.1)]
-    pub width: f64,
-    /// Number of faces around branches.
-    #[default(8)]
-    pub sides: u32,
-    /// Colour of the surfaces.
-    #[default(Color([0.22, 0.13, 0.07, 1.0]))]
-    pub color: Color,
-    /// Roughness: 0 like a mirror, 1 like chalk.
-    #[default(0.85)]
-    pub roughness: f64,
-    /// Metalness: 0 for wood, stone and plaster, 1 for bare metal.
-    #[default(0.0)]
-    pub metallic: f64,
-    /// Colours for `paint`, numbered from 1.
-    pub palette: Vec<Color>,
-    /// Start position (m).
-    #[default(Vector(DVec3::ZERO))]
-    pub position: Vector,
-    /// Initial heading.
-    #[default(Vector(DVec3::Z))]
-    pub heading: Vector,
-    /// Direction towards which the heading bends with each step drawn.
-    #[default(Vector(DVec3::NEG_Z))]
-    pub tropism: Vector,
-    /// Strength of the bending, from 0; 0.2 is strong.
-    #[default(0.0)]
-    pub elasticity: f64,
-}
 
 /// A turtle as in The Algorithmic Beauty of Plants, which draws round branches in three dimensions.
 ///
@@ -72,7 +37,7 @@ pub struct TurtleOptions {
 #[object(
     "turtle",
     options = TurtleOptions,
-    example = include_str!("../scripts/turtle.lua"),
+    example = include_str!("../../scripts/turtle.lua"),
     draws,
     can(Locate),
     begins_empty,
@@ -88,48 +53,6 @@ pub struct Turtle {
     drawing: Drawing,
     angles: Angles,
     polygons: Vec<Vec<DVec3>>,
-}
-
-/// The sines and cosines of recent angles: most systems repeat the same few angles.
-#[derive(Clone, Default)]
-struct Angles {
-    /// Bits of an angle (degrees), its sine and its cosine, at an index hashed from the bits.
-    known: [(u64, f64, f64); 16],
-}
-
-impl Angles {
-    #[inline]
-    fn sin_cos(&mut self, angle: f64) -> (f64, f64) {
-        // Adds 1 because an empty entry has the bits of 0.
-        let bits = angle.to_bits().wrapping_add(1);
-        let place = bits.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 60;
-        let known = &mut self.known[place as usize];
-        if known.0 != bits {
-            let (sin, cos) = angle.to_radians().sin_cos();
-            *known = (bits, sin, cos);
-        }
-        (known.1, known.2)
-    }
-}
-
-#[derive(Clone)]
-struct TurtleState {
-    frame: Frame,
-    width: f64,
-    /// Part of the drawing, which has the material.
-    part: usize,
-    tropism: DVec3,
-    elasticity: f64,
-    /// Branch that is being drawn.
-    strand: Option<Branch>,
-}
-
-/// A strand, the part that it is drawn into, and the module that drew its last segment.
-#[derive(Clone)]
-struct Branch {
-    part: usize,
-    strand: Strand,
-    maker: u32,
 }
 
 #[methods("turtle")]
@@ -275,9 +198,44 @@ impl Turtle {
     /// Fills the current polygon, which is visible from both sides.
     pub fn end_polygon(&mut self) -> Result<()> {
         let Some(corners) = self.polygons.pop() else { return Err(no_polygon("end_polygon")) };
-        let material = Material { double_sided: true, ..self.drawing.material_of(self.state.part) };
-        let part = self.drawing.material(&material);
+        let part = self.two_sided();
         face(self.drawing.part(part), &corners)
+    }
+
+    /// Begins a generalised cylinder, a smooth surface with the turtle's width and contour: `forward` adds control points
+    /// of its axis, `end_cylinder` or the end of the branch completes it.
+    ///
+    /// It does not twist: turns about the heading have no effect on it. Moving without drawing adds no point.
+    pub fn begin_cylinder(&mut self) -> Result<()> {
+        self.lift();
+        if self.state.cylinder.is_some() {
+            return Err(already_open());
+        }
+        let cylinder = OpenCylinder::begin(&self.drawing, self.state.part, &self.state.frame);
+        self.state.cylinder = Some(Box::new(cylinder));
+        self.control();
+        Ok(())
+    }
+
+    /// Sets the contour of generalised cylinders, a closed curve in the plane z = 0; a circle if omitted. It is scaled
+    /// by half of the width. A cylinder blends to it along the next step.
+    pub fn contour(&mut self, contour: Option<Arc<CurveObject>>) -> Result<()> {
+        let curve = contour.as_deref().map(CurveObject::contour).transpose();
+        self.state.contour = curve.map_err(|error| error.about("turtle:contour"))?.cloned();
+        Ok(())
+    }
+
+    /// Completes and draws the generalised cylinder: one closed surface, with flat ends, or tips where the width is 0.
+    pub fn end_cylinder(&mut self) -> Result<()> {
+        if self.state.cylinder.is_none() { Err(not_open()) } else { self.close_cylinder() }
+    }
+
+    /// Draws a surface in the turtle's frame, with this `scale` (1 unless given), which may be a vector with a scale for
+    /// each axis of the surface. It is visible from both sides, and its texture covers it once with a size of 1 m.
+    pub fn surface(&mut self, surface: Arc<SurfaceObject>, scale: Option<AxisScale>) -> Result<()> {
+        let part = self.two_sided();
+        let scale = DAffine3::from_scale(scale.unwrap_or_default().0);
+        surface.draw(self.drawing.part(part), &(self.state.frame.transform() * scale))
     }
 
     /// Draws a sphere with `radius` (m) around the turtle's position.
@@ -380,8 +338,31 @@ impl Turtle {
         self.state.part = self.drawing.material(&Material { base_color: color.0, ..material });
     }
 
+    /// Returns the part with the present material, visible from both sides.
+    fn two_sided(&mut self) -> usize {
+        let material = Material { double_sided: true, ..self.drawing.material_of(self.state.part) };
+        self.drawing.material(&material)
+    }
+
+    /// Adds a control point at the turtle's position to the open cylinder.
+    fn control(&mut self) {
+        let TurtleState { frame, width, contour, cylinder, .. } = &mut self.state;
+        if let Some(cylinder) = cylinder {
+            cylinder.add(frame.position, *width, contour.as_ref());
+        }
+    }
+
+    /// Draws the open cylinder, if there is one.
+    fn close_cylinder(&mut self) -> Result<()> {
+        let cylinder = self.state.cylinder.take();
+        cylinder.map_or(Ok(()), |cylinder| cylinder.draw(&mut self.drawing, self.options.sides))
+    }
+
     fn draw(&mut self, length: f64) -> Result<()> {
-        if self.polygons.is_empty() && self.state.width > 0.0 {
+        if self.state.cylinder.is_some() && self.polygons.is_empty() {
+            self.state.frame.forward(length);
+            self.control();
+        } else if self.polygons.is_empty() && self.state.width > 0.0 {
             let part = self.state.part;
             if self.state.strand.as_ref().is_none_or(|branch| branch.part != part) {
                 self.lift();
@@ -426,22 +407,6 @@ impl Turtle {
     }
 }
 
-impl TurtleState {
-    fn begin(options: &TurtleOptions, drawing: &mut Drawing) -> Self {
-        let mut frame = Frame::default();
-        frame.face(options.heading.0);
-        let material = plain_material(options.color, options.roughness, options.metallic);
-        Self {
-            frame,
-            width: options.width,
-            part: drawing.material(&material),
-            tropism: options.tropism.0.normalize_or_zero(),
-            elasticity: options.elasticity,
-            strand: None,
-        }
-    }
-}
-
 impl Turtle {
     fn restart(&mut self) {
         self.stack.clear();
@@ -452,15 +417,22 @@ impl Turtle {
 
     fn open_branch(&mut self) {
         // The new branch starts without a strand; the strand in the copy continues after the branch.
+        let cylinder = self.state.cylinder.take();
         self.stack.push(self.state.clone());
         self.state.strand = None;
+        if let Some(outer) = self.stack.last_mut() {
+            outer.cylinder = cylinder;
+        }
     }
 
     fn close_branch(&mut self) -> Result<()> {
         self.lift();
+        self.close_cylinder()?;
         // Uses `clone_from` because moving the state out of the stack would copy it twice.
-        if let Some(state) = self.stack.last() {
+        if let Some(state) = self.stack.last_mut() {
+            let cylinder = state.cylinder.take();
             self.state.clone_from(state);
+            self.state.cylinder = cylinder;
             self.stack.truncate(self.stack.len() - 1);
         }
         Ok(())
@@ -468,6 +440,7 @@ impl Turtle {
 
     fn finish(&mut self) -> Result<()> {
         self.lift();
+        self.close_cylinder()?;
         if let Some(open) = self.polygons.first() {
             return Err(Error::script(format!(
                 "a polygon of {} corners is still open at the end",

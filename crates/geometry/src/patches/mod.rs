@@ -1,0 +1,10 @@
+//! Surfaces of control points: Bezier patches, B-splines and NURBS, and their triangles.
+//!
+//! Input: a grid of points. Output: positions, normals and meshes, which are not closed.
+
+mod basis;
+mod mesh;
+pub(crate) mod surface;
+mod surface_mix;
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,98 @@
+//! Axes of generalised cylinders: smooth curves through control points, with radii and frames.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::cylinder::CylinderPoint;
+use crate::curves::curve::{Curve, CurveKind};
+use crate::curves::frames::rotation_minimizing;
+use crate::curves::ramp::{Ramp, RampKind};
+use crate::limits::NOTHING;
+use burgeon_base::error::Result;
+
+/// Maximum angle (radians) between the tangents of two rings.
+const TURN: f64 = 0.18;
+/// Number of rings between two control points between which the radius or the contour changes.
+const CHANGING: usize = 6;
+/// Maximum number of rings between two control points.
+const MOST: usize = 64;
+/// Number of tangents that are compared between two control points.
+const PROBES: usize = 8;
+
+/// A ring across the axis.
+pub(super) struct AxisRing {
+    /// Position on the axis (m).
+    pub(super) centre: DVec3,
+    /// Unit tangent of the axis.
+    pub(super) tangent: DVec3,
+    /// Direction of the contour's x, perpendicular to the tangent.
+    pub(super) side: DVec3,
+    /// Radius (m).
+    pub(super) radius: f64,
+    /// Distance (m) from the start along the axis.
+    pub(super) distance: f64,
+    /// Control point before the ring.
+    pub(super) control: usize,
+    /// Part of the contour of the next control point, from 0 to 1.
+    pub(super) part: f64,
+}
+
+/// Returns the rings of the axis through `points`, of which those at the position of their predecessor are left out;
+/// none if fewer than 2 remain. `side` is the direction of the contour's x at the start.
+pub(super) fn rings(points: &mut Vec<CylinderPoint>, side: DVec3) -> Result<Vec<AxisRing>> {
+    // The last of several points at one position counts, as the width of a branch does.
+    points.dedup_by(|next, kept| {
+        let same = next.position.distance(kept.position) <= NOTHING;
+        if same {
+            kept.clone_from(next);
+        }
+        same
+    });
+    if points.len() < 2 {
+        return Ok(Vec::new());
+    }
+    let positions: Vec<DVec3> = points.iter().map(|point| point.position).collect();
+    let curve = Curve::new(&positions, CurveKind::Through, false)?;
+    let marks = curve.joints();
+    let radii: Vec<_> = marks.iter().zip(points.iter()).map(|(mark, it)| (*mark, it.radius).into()).collect();
+    let radius = Ramp::new(&radii, RampKind::Monotone)?;
+    let mut rings: Vec<AxisRing> = Vec::new();
+    for (control, pair) in points.windows(2).enumerate() {
+        let (from, to) = (marks[control], marks[control + 1]);
+        let at = |step: usize, of: usize| from + (to - from) * (step as f64 / of as f64);
+        let tangents: Vec<DVec3> = (0..=PROBES).map(|probe| curve.tangent(at(probe, PROBES))).collect();
+        let turn: f64 = tangents.windows(2).map(|pair| pair[0].angle_between(pair[1])).sum();
+        let same = pair[0].radius.to_bits() == pair[1].radius.to_bits() && same(&pair[0], &pair[1]);
+        let steps = ((turn / TURN).ceil() as usize).max(if same { 1 } else { CHANGING }).min(MOST);
+        let last = control + 2 == points.len();
+        rings.extend((0..steps + usize::from(last)).map(|step| {
+            let (t, part) = (at(step, steps), step as f64 / steps as f64);
+            let tangent = if t >= 1.0 { tangents[PROBES] } else { curve.tangent(t) };
+            AxisRing {
+                centre: curve.point(t),
+                tangent,
+                side: DVec3::ZERO,
+                radius: radius.at(t).max(0.0),
+                distance: t * curve.length(),
+                control,
+                // Smooth at the control points, where another change of contour begins.
+                part: part * part * (3.0 - 2.0 * part),
+            }
+        }));
+    }
+    let centres: Vec<DVec3> = rings.iter().map(|ring| ring.centre).collect();
+    let tangents: Vec<DVec3> = rings.iter().map(|ring| ring.tangent).collect();
+    let sides = rotation_minimizing(&centres, &tangents, side);
+    rings.iter_mut().zip(sides).for_each(|(ring, side)| ring.side = side);
+    Ok(rings)
+}
+
+/// Returns true if two control points have the same contour.
+fn same(one: &CylinderPoint, other: &CylinderPoint) -> bool {
+    match (&one.contour, &other.contour) {
+        (None, None) => true,
+        (Some(one), Some(other)) => Arc::ptr_eq(one, other) || one == other,
+        _ => false,
+    }
+}

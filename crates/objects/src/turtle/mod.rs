@@ -1,0 +1,14 @@
+//! The turtle: walks, turns and draws branches, polygons, generalised cylinders, surfaces and instances.
+//!
+//! Input: the calls of scripts. Output: closed branches and cylinders, and open polygons and surfaces. Shapes already drawn
+//! never change.
+
+mod angles;
+mod cylinder;
+mod object;
+mod options;
+mod state;
+#[cfg(test)]
+mod tests;
+
+pub use object::Turtle;

@@ -1,0 +1,44 @@
+//! Fields of the turtle's constructor.
+
+use burgeon_kit::{Color, Vector, fields};
+use glam::DVec3;
+
+/// Fields of `turtle { ... }`.
+#[fields("turtle")]
+pub struct TurtleOptions {
+    /// Default length of a step (m).
+    #[default(1.0)]
+    pub step: f64,
+    /// Default angle of a turn (degrees).
+    #[default(90.0)]
+    pub angle: f64,
+    /// Diameter of branches (m).
+    #[default(0.1)]
+    pub width: f64,
+    /// Number of faces around branches.
+    #[default(8)]
+    pub sides: u32,
+    /// Colour of the surfaces.
+    #[default(Color([0.22, 0.13, 0.07, 1.0]))]
+    pub color: Color,
+    /// Roughness: 0 like a mirror, 1 like chalk.
+    #[default(0.85)]
+    pub roughness: f64,
+    /// Metalness: 0 for wood, stone and plaster, 1 for bare metal.
+    #[default(0.0)]
+    pub metallic: f64,
+    /// Colours for `paint`, numbered from 1.
+    pub palette: Vec<Color>,
+    /// Start position (m).
+    #[default(Vector(DVec3::ZERO))]
+    pub position: Vector,
+    /// Initial heading.
+    #[default(Vector(DVec3::Z))]
+    pub heading: Vector,
+    /// Direction towards which the heading bends with each step drawn.
+    #[default(Vector(DVec3::NEG_Z))]
+    pub tropism: Vector,
+    /// Strength of the bending, from 0; 0.2 is strong.
+    #[default(0.0)]
+    pub elasticity: f64,
+}

@@ -1,0 +1,103 @@
+//! Tests of generalised cylinders and surfaces that a turtle draws.
+
+use std::sync::Arc;
+
+use burgeon_geometry::solid::{area, check, volume};
+use burgeon_kit::{AxisScale, Draw as _, Object, Vector};
+use burgeon_scene::Part;
+use glam::DVec3;
+
+use super::Turtle;
+use crate::{CurveObject, CurveOptions, SplineSurfaceOptions, SurfaceObject};
+
+fn turtle() -> Turtle {
+    Turtle::new(Default::default()).expect("a turtle")
+}
+
+fn drawn(turtle: &Turtle) -> Vec<&Part> {
+    turtle.drawing().parts().iter().filter(|part| !part.triangles.is_empty()).collect()
+}
+
+fn square(closed: bool) -> Arc<CurveObject> {
+    let points = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
+    let points = points.iter().map(|(x, y)| Vector(DVec3::new(*x, *y, 0.0))).collect();
+    Arc::new(CurveObject::new(CurveOptions { points, kind: "linear".into(), closed }).expect("a curve"))
+}
+
+#[test]
+fn steps_within_a_cylinder_are_one_closed_surface() {
+    let mut turtle = turtle();
+    turtle.width(0.4).expect("a width");
+    turtle.begin_cylinder().expect("a beginning");
+    for _ in 0..6 {
+        turtle.forward(Some(0.5)).expect("a step");
+        turtle.turn(Some(20.0));
+    }
+    assert!(drawn(&turtle).is_empty(), "it is drawn at its end");
+    turtle.end_cylinder().expect("an end");
+    assert!(check(drawn(&turtle)).is_solid());
+    // A tube through the corners is a little longer than their chords of 3 m.
+    let expected = 3.0 * 0.04 * 4.0 * 0.5f64.sqrt();
+    assert!((volume(drawn(&turtle)) / expected - 1.0).abs() < 0.02, "{} {expected}", volume(drawn(&turtle)));
+    turtle.end().expect("the end of the pass");
+    assert_eq!(
+        turtle.end_cylinder().expect_err("none is open").remedy(),
+        Some("begin it with begin_cylinder()")
+    );
+}
+
+#[test]
+fn a_branch_has_a_cylinder_of_its_own_and_its_end_completes_it() {
+    let mut turtle = turtle();
+    turtle.begin_cylinder().expect("a trunk");
+    turtle.forward(Some(1.0)).expect("a step");
+    turtle.push();
+    turtle.turn(Some(90.0));
+    turtle.begin_cylinder().expect("a branch");
+    turtle.forward(Some(1.0)).expect("a step");
+    let error = turtle.begin_cylinder().expect_err("one is open");
+    assert!(error.to_string().contains("a cylinder is already open"));
+    turtle.pop().expect("the end of the branch");
+    let one = volume(drawn(&turtle));
+    assert!(one > 0.0);
+    turtle.forward(Some(1.0)).expect("a step");
+    turtle.end().expect("the end of the pass");
+    assert!(check(drawn(&turtle)).is_solid());
+    assert!((volume(drawn(&turtle)) - 3.0 * one).abs() < 1e-6, "the trunk is straight and 2 m long");
+}
+
+#[test]
+fn a_contour_is_scaled_by_half_of_the_width_and_oriented_like_a_placed_model() {
+    let mut turtle = turtle();
+    turtle.contour(Some(square(true))).expect("a contour");
+    turtle.width(0.5).expect("a width");
+    turtle.begin_cylinder().expect("a beginning");
+    turtle.forward(Some(2.0)).expect("a step");
+    turtle.end_cylinder().expect("an end");
+    assert!((volume(drawn(&turtle)) - 0.5).abs() < 1e-6);
+    let corner = |at: &glam::Vec3| at.distance(glam::Vec3::new(0.25, 0.25, 2.0)) < 1e-6;
+    assert!(drawn(&turtle)[0].positions.iter().any(corner));
+    let error = turtle.contour(Some(square(false))).expect_err("an open curve");
+    assert_eq!(error.message(), "turtle:contour: the contour is an open curve");
+    assert_eq!(error.remedy(), Some("close it: curve({ ... }, { closed = true })"));
+}
+
+#[test]
+fn a_surface_is_drawn_at_the_turtles_frame_and_visible_from_both_sides() {
+    let row = |y: f64| vec![Vector(DVec3::new(0.0, y, 0.0)), Vector(DVec3::new(1.0, y, 0.0))];
+    let options = SplineSurfaceOptions {
+        points: vec![row(0.0), row(1.0)],
+        kind: "b-spline".into(),
+        ..Default::default()
+    };
+    let flat = Arc::new(SurfaceObject::new(options).expect("a surface"));
+    let mut turtle = turtle();
+    turtle.advance(Some(3.0));
+    turtle.surface(Arc::clone(&flat), Some(AxisScale(DVec3::new(2.0, 3.0, 1.0)))).expect("a surface");
+    turtle.surface(flat, None).expect("a surface");
+    let parts = drawn(&turtle);
+    assert_eq!((parts.len(), area(parts.iter().copied())), (1, 7.0));
+    assert!(turtle.drawing().material_of(1).double_sided && !turtle.drawing().material_of(0).double_sided);
+    assert!(parts[0].positions.iter().all(|at| at.z == 3.0));
+    assert!(parts[0].positions.contains(&glam::Vec3::new(2.0, 3.0, 3.0)));
+}
