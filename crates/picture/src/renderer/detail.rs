@@ -34,6 +34,14 @@ impl RenderDetail {
                 sun_side: 768.0,
                 sun_taps: 12,
             },
+            Quality::Film => Self {
+                columns: 2,
+                rows: 4,
+                sky_maps: 28,
+                sky_side: 192.0,
+                sun_side: 1280.0,
+                sun_taps: 16,
+            },
             Quality::Fine => Self {
                 columns: 2,
                 rows: 8,

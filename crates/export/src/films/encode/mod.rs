@@ -1,0 +1,9 @@
+//! Encoders of animated images.
+
+mod apng;
+mod gif;
+mod palette;
+mod sink;
+
+pub(super) use apng::apng;
+pub(super) use gif::gif;
