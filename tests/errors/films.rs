@@ -60,7 +60,10 @@ fn read_gif(path: &Path) -> (Vec<u16>, Vec<Vec<u8>>, gif::Repeat) {
         for (y, pixels) in frame.buffer.chunks(row).enumerate() {
             let begin = ((usize::from(frame.top) + y) * width + usize::from(frame.left)) * 4;
             let place = canvas[begin..begin + row].chunks_exact_mut(4);
-            place.zip(pixels.chunks(4)).filter(|(_, new)| new[3] > 0).for_each(|(old, new)| old.copy_from_slice(new));
+            place
+                .zip(pixels.chunks(4))
+                .filter(|(_, new)| new[3] > 0)
+                .for_each(|(old, new)| old.copy_from_slice(new));
         }
         delays.push(frame.delay);
         images.push(canvas.clone());
@@ -135,7 +138,8 @@ fn a_film_has_all_frames_and_delays_in_every_format_and_the_same_bytes_for_any_n
         let reader = channel.reader(|_| file.blob.as_deref());
         let Some(ReadOutputs::Scales(scales)) = reader.read_outputs() else { panic!("no scales") };
         let keys: Vec<(f32, [f32; 3])> = reader.read_inputs().unwrap().zip(scales).collect();
-        let shown: Vec<f32> = keys.iter().filter(|(_, scale)| *scale == [1.0; 3]).map(|(time, _)| *time).collect();
+        let shown: Vec<f32> =
+            keys.iter().filter(|(_, scale)| *scale == [1.0; 3]).map(|(time, _)| *time).collect();
         assert!((shown[0] - number as f32 / 30.0).abs() < 1e-6, "frame {number}: {keys:?}");
     }
     // The ground is the same in all frames and stored once; the plants are not.
@@ -155,7 +159,8 @@ fn a_pattern_writes_a_model_for_each_frame_that_equals_a_single_run() {
 fn a_turntable_returns_to_its_beginning() {
     let film = |threads: &str| {
         let folder = folder();
-        let flags = ["--turntable", "8", "-o", "a.gif", "-o", "%d.png", "--fps", "12.5", "--threads", threads];
+        let flags =
+            ["--turntable", "8", "-o", "a.gif", "-o", "%d.png", "--fps", "12.5", "--threads", threads];
         let said = folder.burgeon(&arguments(&flags)).done();
         assert!(said.stderr.starts_with("8 frames, 0.64 s at 12.5 frames per second; "), "{}", said.stderr);
         folder
@@ -181,7 +186,10 @@ fn json_is_one_document_about_the_film() {
     document["peak_memory_mb"] = 0.into();
     assert_snapshot!(document, @"");
     let document = folder.burgeon(&arguments(&["--turntable", "3", "-o", "t.gif", "--json"])).done().json();
-    assert_eq!((&document["frames"], &document["fps"], &document["ok"]), (&3.into(), &25.0.into(), &true.into()));
+    assert_eq!(
+        (&document["frames"], &document["fps"], &document["ok"]),
+        (&3.into(), &25.0.into(), &true.into())
+    );
 }
 
 #[test]

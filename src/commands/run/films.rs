@@ -61,7 +61,8 @@ impl RunCommand {
         let is_film = |path: &&PathBuf| Format::of(path).is_err() && FilmFormat::of(path).is_ok();
         match self.output.iter().find(is_film) {
             Some(path) => {
-                let message = format!("{} holds the frames of a film, and this is a single run", path.display());
+                let message =
+                    format!("{} holds the frames of a film, and this is a single run", path.display());
                 Err(Error::usage(message).help("add --frames FIRST:LAST:STEP or --turntable N"))
             }
             None => Ok(()),
@@ -151,13 +152,12 @@ impl RunCommand {
         let mut writer = self.film_writer(settings, session.options.limits.memory, &session.stop)?;
         if writer.needs().scenes {
             let images = FILM_FORMATS.iter().filter(|it| matches!(it.content, FilmContent::Images(_)));
-            return Err(Error::usage("a turntable consists of renders, and a model file cannot hold them").help(
-                format!(
+            return Err(Error::usage("a turntable consists of renders, and a model file cannot hold them")
+                .help(format!(
                     "write a {} file, or a pattern such as frames/%04d.{}",
                     extension_list(images, "or"),
                     PNG.extension()
-                ),
-            ));
+                )));
         }
         let mut run = {
             let _progress = ProgressDisplay::show(&session, !self.script.json);
@@ -210,7 +210,8 @@ fn film_text(settings: &FilmSettings, begin: Instant) -> String {
 /// Fails if a file of the film is one that the script has read.
 fn refuse_inputs(writer: &FilmWriter, inputs: &BTreeSet<PathBuf>) -> Result<()> {
     let read: BTreeSet<PathBuf> = inputs.iter().filter_map(|path| path.canonicalize().ok()).collect();
-    let is_read = |path: &PathBuf| path.canonicalize().is_ok_and(|path| path.is_file() && read.contains(&path));
+    let is_read =
+        |path: &PathBuf| path.canonicalize().is_ok_and(|path| path.is_file() && read.contains(&path));
     match writer.paths().into_iter().find(is_read) {
         Some(path) => Err(Error::usage(format!("cannot write {}: the script reads it", path.display()))
             .help("specify another file")),

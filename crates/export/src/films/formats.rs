@@ -113,8 +113,12 @@ mod tests {
         let extensions: BTreeSet<&str> = FILM_FORMATS.iter().map(FilmFormat::extension).collect();
         assert_eq!(extensions.len(), FILM_FORMATS.len());
         for format in &FILM_FORMATS {
-            assert!(!format.extension().is_empty() && format.extension() == format.extension().to_lowercase());
-            assert!(!format.file.title.is_empty() && format.media_type.contains('/') && format.fastest >= 25.0);
+            assert!(
+                !format.extension().is_empty() && format.extension() == format.extension().to_lowercase()
+            );
+            assert!(
+                !format.file.title.is_empty() && format.media_type.contains('/') && format.fastest >= 25.0
+            );
         }
     }
 }

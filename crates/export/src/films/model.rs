@@ -49,7 +49,10 @@ impl FilmModel {
                 Some(())
             });
             if known.is_none() {
-                return Err(Error::internal(format!("the mesh {:?} refers to a missing material", mesh.name)));
+                return Err(Error::internal(format!(
+                    "the mesh {:?} refers to a missing material",
+                    mesh.name
+                )));
             }
             places.push(if used { self.mesh(mesh) } else { usize::MAX });
         }
@@ -127,7 +130,7 @@ mod tests {
 
     #[test]
     fn models_beyond_the_memory_limit_are_refused() {
-        let mut model = FilmModel::new(3_000);
+        let mut model = FilmModel::new(2_000);
         model.add(samples::boxes(1)).unwrap();
         insta::assert_snapshot!(model.add(samples::boxes(9)).unwrap_err(), @r"
         the models of 2 frames exceed the memory limit of 0 MB

@@ -36,7 +36,8 @@ impl FilmSettings {
     pub(super) fn fraction(&self) -> (u16, u16) {
         let shown = |scale: f64| (scale, (scale * self.fps).round());
         let fits = |(_, below): &(f64, f64)| *below <= f64::from(u16::MAX);
-        let (above, below) = [1000.0, 100.0, 10.0, 1.0].map(shown).into_iter().find(fits).unwrap_or((1.0, 1.0));
+        let (above, below) =
+            [1000.0, 100.0, 10.0, 1.0].map(shown).into_iter().find(fits).unwrap_or((1.0, 1.0));
         let divisor = greatest_common_divisor(above as u16, below.max(1.0) as u16);
         (above as u16 / divisor, below.max(1.0) as u16 / divisor)
     }

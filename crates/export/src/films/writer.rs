@@ -140,7 +140,9 @@ impl FilmWriter {
                     pattern.folder().map_or(Ok(()), |folder| files.folder(folder))?;
                     files.write(&pattern.path(0), |_| Ok(()))?;
                 }
-                FilmTarget::Images(path, ..) | FilmTarget::Scenes(path, _) => files.write(path, |_| Ok(()))?,
+                FilmTarget::Images(path, ..) | FilmTarget::Scenes(path, _) => {
+                    files.write(path, |_| Ok(()))?
+                }
             }
         }
         Ok(Self { settings, targets, model, files: Files::new(stop), number: 0 })

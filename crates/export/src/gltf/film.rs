@@ -123,7 +123,9 @@ mod tests {
 
     #[test]
     fn frames_that_show_nothing_are_empty_and_keep_their_time() {
-        let file = film(vec![Scene::default(), samples::boxes(40), Scene::default()]);
+        let mut row = samples::boxes(40);
+        row.instances.iter_mut().for_each(|instance| instance.name = "box".into());
+        let file = film(vec![Scene::default(), row, Scene::default()]);
         assert!(visible(&file, 0.25).is_empty() && visible(&file, 1.25).is_empty());
         assert_eq!(visible(&file, 0.75), ["frame 1"]);
         // The instances of a frame share a node.

@@ -90,7 +90,8 @@ impl Film {
         let of_steps = match find_param(script, &options, axis.name()) {
             Ok(param) => {
                 if !matches!(param.control, Control::Number { .. }) {
-                    let message = format!("param {} is not a number, so frames cannot run over it", param.name);
+                    let message =
+                        format!("param {} is not a number, so frames cannot run over it", param.name);
                     return Err(Error::argument(message).help("name a number: --frames NAME=FIRST:LAST:STEP"));
                 }
                 (0..frames).try_for_each(|number| param.accept(&axis.text(number)).map(|_| ()))?;
@@ -104,7 +105,9 @@ impl Film {
                 )));
             }
             Err(_) => {
-                if let Some(value) = (0..frames).map(|number| axis.value(number)).find(|value| !is_step(*value)) {
+                if let Some(value) =
+                    (0..frames).map(|number| axis.value(number)).find(|value| !is_step(*value))
+                {
                     return Err(Error::argument(format!("{value} is not a number of steps"))
                         .help("use integers of at least 0, such as --frames steps=0:12"));
                 }

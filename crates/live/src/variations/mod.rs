@@ -10,6 +10,6 @@ mod runs;
 mod sheet;
 
 pub use axis::{MOST, VariationAxis};
-pub(crate) use runs::{find_param, scene_bytes};
 pub use runs::{Framing, Thumbnail, Variation, Variations};
+pub(crate) use runs::{find_param, scene_bytes};
 pub use sheet::{SheetLayout, sheet};

@@ -39,8 +39,7 @@ fn farthest(points: &[DVec3]) -> Vec<usize> {
     let mut farthest: Vec<usize> = (0..DIRECTIONS)
         .filter_map(|i| {
             let direction = spread(i, DIRECTIONS);
-            (0..points.len())
-                .max_by(|a, b| points[*a].dot(direction).total_cmp(&points[*b].dot(direction)))
+            (0..points.len()).max_by(|a, b| points[*a].dot(direction).total_cmp(&points[*b].dot(direction)))
         })
         .collect();
     farthest.sort_unstable();

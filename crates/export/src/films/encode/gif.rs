@@ -40,7 +40,8 @@ impl FrameEncoder for GifEncoder {
     fn add(&mut self, image: &Image, out: &mut dyn Write) -> io::Result<()> {
         // A transparent pixel cannot erase an earlier one, so a film with transparent pixels consists of whole frames.
         let before = self.before.take().filter(|_| !self.settings.transparent);
-        let area = before.as_ref().map_or(PixelArea::whole(image), |before| PixelArea::changed(image, before));
+        let area =
+            before.as_ref().map_or(PixelArea::whole(image), |before| PixelArea::changed(image, before));
         let shown = |(x, y): (u32, u32)| {
             let [red, green, blue, opacity] = image.pixel(x, y);
             let stays = before.as_ref().is_some_and(|before| before.pixel(x, y) == image.pixel(x, y));

@@ -87,8 +87,7 @@ impl FramePalette {
             bins[it.begin..it.end].iter().for_each(|bin| sums.add(bin));
             sums.color()
         };
-        let mut colors: Vec<[u8; 3]> =
-            boxes.iter().filter(|it| it.begin < it.end).map(mean).collect();
+        let mut colors: Vec<[u8; 3]> = boxes.iter().filter(|it| it.begin < it.end).map(mean).collect();
         let mut sums = vec![ColorSums::default(); colors.len()];
         bins.iter().for_each(|bin| sums[nearest(&colors, bin)].add(bin));
         for (color, sums) in colors.iter_mut().zip(&sums).filter(|(_, sums)| sums.count > 0.0) {
