@@ -3,7 +3,6 @@
 //! Input: the frames in order, as images or as scenes. Output: the files of the paths that [`FilmWriter`] was created
 //! with. An animated file is complete or absent; files of single frames appear one by one, each complete.
 
-mod changes;
 mod formats;
 mod model;
 mod pattern;

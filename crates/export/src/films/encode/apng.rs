@@ -2,8 +2,9 @@
 //!
 //! Specification: W3C, "Portable Network Graphics (PNG) Specification (Third Edition)", 2025.
 
+use super::changes::PixelArea;
+use super::delay::fraction;
 use super::sink::EncodedBytes;
-use crate::films::changes::PixelArea;
 use crate::films::settings::FilmSettings;
 use crate::films::writer::FrameEncoder;
 use burgeon_scene::image::Image;
@@ -27,7 +28,7 @@ pub(in crate::films) fn apng(settings: &FilmSettings) -> io::Result<Box<dyn Fram
     encoder.set_compression(Compression::Balanced);
     encoder.set_filter(Filter::Adaptive);
     encoder.set_animated(settings.frames, 0).map_err(failed)?;
-    let (above, below) = settings.fraction();
+    let (above, below) = fraction(settings);
     encoder.set_frame_delay(above, below).map_err(failed)?;
     encoder.set_blend_op(BlendOp::Source).map_err(failed)?;
     encoder.set_dispose_op(DisposeOp::None).map_err(failed)?;

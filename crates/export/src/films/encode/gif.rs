@@ -2,9 +2,10 @@
 //!
 //! Specification: CompuServe, "Graphics Interchange Format, version 89a", 1990.
 
+use super::changes::PixelArea;
+use super::delay::centiseconds;
 use super::palette::FramePalette;
 use super::sink::EncodedBytes;
-use crate::films::changes::PixelArea;
 use crate::films::settings::FilmSettings;
 use crate::films::writer::FrameEncoder;
 use burgeon_scene::image::Image;
@@ -55,7 +56,7 @@ impl FrameEncoder for GifEncoder {
         colors.extend([0; 3]);
         let keeps = if self.settings.transparent { DisposalMethod::Background } else { DisposalMethod::Keep };
         let frame = Frame {
-            delay: self.settings.centiseconds(self.number),
+            delay: centiseconds(&self.settings, self.number),
             dispose: keeps,
             transparent: Some(clear),
             left: area.left as u16,

@@ -1,6 +1,8 @@
 //! Encoders of animated images.
 
 mod apng;
+mod changes;
+mod delay;
 mod gif;
 mod palette;
 mod sink;
