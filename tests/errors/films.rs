@@ -184,7 +184,7 @@ fn json_is_one_document_about_the_film() {
     assert!(document["seconds"]["total"].as_f64().unwrap() > 0.0);
     document["seconds"]["total"] = 0.into();
     document["peak_memory_mb"] = 0.into();
-    assert_snapshot!(document, @"");
+    assert_snapshot!(document, @r#"{"ok":true,"frames":3,"fps":25.0,"param":"time","values":[0.0,2.0],"modules":23,"triangles":348,"warnings":[],"seconds":{"film":0.12,"total":0},"peak_memory_mb":0}"#);
     let document = folder.burgeon(&arguments(&["--turntable", "3", "-o", "t.gif", "--json"])).done().json();
     assert_eq!(
         (&document["frames"], &document["fps"], &document["ok"]),
@@ -202,25 +202,80 @@ fn a_film_over_the_steps_shows_the_derivation() {
 
 #[test]
 fn a_film_that_cannot_be_made_is_refused_and_leaves_the_old_one() {
-    assert_snapshot!(refused(&["--frames", "n=0:3", "-o", "film.gif"]), @"");
-    assert_snapshot!(refused(&["--frames", "tim=0:3", "-o", "film.gif"]), @"");
-    assert_snapshot!(refused(&["--frames", "kind=0:3", "-o", "film.gif"]), @"");
-    assert_snapshot!(refused(&["--frames", "0:10", "-o", "film.gif"]), @"");
-    assert_snapshot!(refused(&["--frames", "steps=0:3:0.5", "-o", "film.gif"]), @"");
-    assert_snapshot!(refused(&["--frames", "0:9:0.0001", "-o", "film.gif"]), @"");
-    assert_snapshot!(refused(&["--frames", "0:9:0.1", "--frame-limit", "20", "-o", "film.gif"]), @"");
-    assert_snapshot!(refused(&["--frames", "0:3", "--set", "time=3", "-o", "film.gif"]), @"");
+    assert_snapshot!(refused(&["--frames", "n=0:3", "-o", "film.gif"]), @r"
+    error: s.lua: unknown parameter `n`
+      help: it has time, kind
+    ");
+    assert_snapshot!(refused(&["--frames", "tim=0:3", "-o", "film.gif"]), @r"
+    error: s.lua: unknown parameter `tim`
+      help: did you mean time?
+    ");
+    assert_snapshot!(refused(&["--frames", "kind=0:3", "-o", "film.gif"]), @r"
+    error: param kind is not a number, so frames cannot run over it
+      help: name a number: --frames NAME=FIRST:LAST:STEP
+    ");
+    assert_snapshot!(refused(&["--frames", "0:10", "-o", "film.gif"]), @r"
+    error: param time is 10, out of its range
+      help: the allowed values are 0 to 9
+    ");
+    assert_snapshot!(refused(&["--frames", "steps=0:3:0.5", "-o", "film.gif"]), @r"
+    error: 0.5 is not a number of steps
+      help: use integers of at least 0, such as --frames steps=0:12
+    ");
+    assert_snapshot!(refused(&["--frames", "0:9:0.0001", "-o", "film.gif"]), @r"
+    error: 90,001 frames exceed the maximum of 10,000
+      help: use a larger step, FIRST:LAST:STEP, or raise the limit: --frame-limit N
+    ");
+    assert_snapshot!(refused(&["--frames", "0:9:0.1", "--frame-limit", "20", "-o", "film.gif"]), @r"
+    error: 91 frames exceed the maximum of 20
+      help: use a larger step, FIRST:LAST:STEP, or raise the limit: --frame-limit N
+    ");
+    assert_snapshot!(refused(&["--frames", "0:3", "--set", "time=3", "-o", "film.gif"]), @r"
+    error: --set and --frames both use `time`; remove one
+      help: remove --set time or --frames time
+    ");
     // Frames before the one that fails are complete, and not published.
-    assert_snapshot!(refused(&["--frames", "5:9", "-o", "film.gif", "-o", "%d.png"]), @"");
-    assert_snapshot!(refused(&["--frames", "0:3"]), @"");
-    assert_snapshot!(refused(&["--frames", "0:3", "-o", "tree.png"]), @"");
-    assert_snapshot!(refused(&["--frames", "0:3", "-o", "tree.gpkg"]), @"");
-    assert_snapshot!(refused(&["--frames", "0:3", "-o", "%d-%d.png"]), @"");
-    assert_snapshot!(refused(&["--frames", "0:3", "-o", "film.gif", "-o", "film.gif"]), @"");
-    assert_snapshot!(refused(&["--frames", "0:3", "-o", "no/film.gif"]), @"");
-    assert_snapshot!(refused(&["--frames", "0:3", "--fps", "60", "-o", "film.gif"]), @"");
-    assert_snapshot!(refused(&["--turntable", "8", "-o", "film.glb"]), @"");
-    assert_snapshot!(refused(&["-o", "film.gif"]), @"");
+    assert_snapshot!(refused(&["--frames", "5:9", "-o", "film.gif", "-o", "%d.png"]), @r#"
+    error: s.lua:7: rule A(x): seven is too many (frame 2, time 7)
+      | if time == 7 then error("seven is too many") end
+      module: A(1), step 1
+    "#);
+    assert_snapshot!(refused(&["--frames", "0:3"]), @r"
+    error: a film has no file
+      help: write it to a .gif, .apng or .glb file, such as -o film.gif
+    ");
+    assert_snapshot!(refused(&["--frames", "0:3", "-o", "tree.png"]), @r"
+    error: tree.png cannot hold the frames of a film
+      help: write .gif, .apng and .glb files, or one file for each frame by a pattern such as tree-%04d.png
+    ");
+    assert_snapshot!(refused(&["--frames", "0:3", "-o", "tree.gpkg"]), @r"
+    error: tree.gpkg cannot hold the frames of a film
+      help: write .gif, .apng and .glb files, or one file for each frame by a pattern such as tree-%04d.png
+    ");
+    assert_snapshot!(refused(&["--frames", "0:3", "-o", "%d-%d.png"]), @r"
+    error: %d-%d.png has several patterns for the number of the frame
+      help: keep one of them, such as %04d
+    ");
+    assert_snapshot!(refused(&["--frames", "0:3", "-o", "film.gif", "-o", "film.gif"]), @r"
+    error: film.gif would be written twice
+      help: specify different files
+    ");
+    assert_snapshot!(refused(&["--frames", "0:3", "-o", "no/film.gif"]), @r"
+    error: cannot write no/film.gif: folder not found: no
+      help: create the folder first, or write to an existing folder
+    ");
+    assert_snapshot!(refused(&["--frames", "0:3", "--fps", "60", "-o", "film.gif"]), @r"
+    error: a .gif file has at most 50 frames per second, not 60
+      help: use --fps 50 or less
+    ");
+    assert_snapshot!(refused(&["--turntable", "8", "-o", "film.glb"]), @r"
+    error: a turntable consists of renders, and a model file cannot hold them
+      help: write a .gif or .apng file, or a pattern such as frames/%04d.png
+    ");
+    assert_snapshot!(refused(&["-o", "film.gif"]), @r"
+    error: film.gif holds the frames of a film, and this is a single run
+      help: add --frames FIRST:LAST:STEP or --turntable N
+    ");
 }
 
 #[test]
@@ -234,13 +289,60 @@ fn the_time_limit_holds_for_each_run_of_a_film() {
 
 #[test]
 fn ranges_that_are_none_are_a_wrong_command_line() {
-    assert_snapshot!(wrong(&["--frames", "0:3:0", "-o", "film.gif"]), @"");
-    assert_snapshot!(wrong(&["--frames", "0:3:-1", "-o", "film.gif"]), @"");
-    assert_snapshot!(wrong(&["--frames", "0:nan:1", "-o", "film.gif"]), @"");
-    assert_snapshot!(wrong(&["--frames", "3", "-o", "film.gif"]), @"");
-    assert_snapshot!(wrong(&["--turntable", "1", "-o", "film.gif"]), @"");
-    assert_snapshot!(wrong(&["--turntable", "8", "--frames", "0:3", "-o", "film.gif"]), @"");
-    assert_snapshot!(wrong(&["--frames", "0:3", "--fps", "0", "-o", "film.gif"]), @"");
-    assert_snapshot!(wrong(&["--fps", "10", "-o", "film.gif"]), @"");
-    assert_snapshot!(wrong(&["--frames", "0:3", "--chain", "-", "-o", "film.gif"]), @"");
+    assert_snapshot!(wrong(&["--frames", "0:3:0", "-o", "film.gif"]), @r"
+    error: invalid value '0:3:0' for '--frames <[NAME=]FIRST:LAST:STEP>': the step 0 cannot reach 3 from 0
+      help: write 0:3:1
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["--frames", "0:3:-1", "-o", "film.gif"]), @r"
+    error: invalid value '0:3:-1' for '--frames <[NAME=]FIRST:LAST:STEP>': the step -1 cannot reach 3 from 0
+      help: write 0:3:1
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["--frames", "0:nan:1", "-o", "film.gif"]), @r#"
+    error: invalid value '0:nan:1' for '--frames <[NAME=]FIRST:LAST:STEP>': "nan" is not a number for the last value
+      help: write FIRST:LAST:STEP, such as 0:10:0.1, or NAME=FIRST:LAST:STEP
+
+    For more information, try '--help'.
+    "#);
+    assert_snapshot!(wrong(&["--frames", "3", "-o", "film.gif"]), @r#"
+    error: invalid value '3' for '--frames <[NAME=]FIRST:LAST:STEP>': "3" is not a range
+      help: write FIRST:LAST:STEP, such as 0:10:0.1, or NAME=FIRST:LAST:STEP
+
+    For more information, try '--help'.
+    "#);
+    assert_snapshot!(wrong(&["--turntable", "1", "-o", "film.gif"]), @r"
+    error: invalid value '1' for '--turntable <N>': write an integer of at least 2
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["--turntable", "8", "--frames", "0:3", "-o", "film.gif"]), @r"
+    error: the argument '--turntable <N>' cannot be used with '--frames <[NAME=]FIRST:LAST:STEP>'
+
+    Usage: burgeon run --size <WIDTHxHEIGHT> --turntable <N> --output <FILE> <SCRIPT>
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["--frames", "0:3", "--fps", "0", "-o", "film.gif"]), @r"
+    error: invalid value '0' for '--fps <N>': write a number of frames per second from 0.1 to 1000
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["--fps", "10", "-o", "film.gif"]), @r"
+    error: the following required arguments were not provided:
+      <--frames <[NAME=]FIRST:LAST:STEP>|--turntable <N>>
+
+    Usage: burgeon run --size <WIDTHxHEIGHT> --fps <N> --output <FILE> <--frames <[NAME=]FIRST:LAST:STEP>|--turntable <N>> <SCRIPT>
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["--frames", "0:3", "--chain", "-", "-o", "film.gif"]), @r"
+    error: the argument '--frames <[NAME=]FIRST:LAST:STEP>' cannot be used with '--chain <FILE>'
+
+    Usage: burgeon run --size <WIDTHxHEIGHT> --frames <[NAME=]FIRST:LAST:STEP> --output <FILE> <SCRIPT>
+
+    For more information, try '--help'.
+    ");
 }
