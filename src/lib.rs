@@ -64,6 +64,7 @@
 //! - [`watch`]: reports changes of the files of a script.
 //! - [`presets`]: named values of parameters, in a file next to the script.
 //! - [`variations`]: many runs of a script, as thumbnails for comparison.
+//! - [`films`]: runs of a script over the values of a parameter, and a model from all sides, as frames of a film.
 //! - [`live`]: a [`Live`](live::Live) server shows the scene in the browser, and updates it on every save. It requires
 //!   the feature `live`, which is enabled by default.
 //!
@@ -154,7 +155,7 @@ pub use burgeon_geometry as geometry;
 pub use burgeon_kit as kit;
 pub use burgeon_language as language;
 pub use burgeon_live as live;
-pub use burgeon_live::{presets, variations};
+pub use burgeon_live::{films, presets, variations};
 pub use burgeon_objects as objects;
 pub use burgeon_packages as packages;
 pub use burgeon_picture as picture;

@@ -88,9 +88,7 @@ pub(crate) fn summary(run: &Run, writing: Duration, total: Duration, listed: Opt
     if let Some(frame) = run.service::<ReferenceFrame>() {
         let _ = writeln!(text, "origin at {}; {WORLD_AXES}", frame.world_place());
     }
-    if let Some(memory) = peak_memory() {
-        let _ = writeln!(text, "{memory} MB of memory at the peak");
-    }
+    text += &memory_text();
     for note in &run.notes {
         let _ = writeln!(text, "note: {note}");
     }
@@ -160,10 +158,20 @@ pub(crate) fn setting_json(setting: &Setting) -> serde_json::Value {
 }
 
 /// Returns the peak resident memory of this process (MB), if the system reports it.
-fn peak_memory() -> Option<u64> {
+pub(crate) fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
     Some(line.split_whitespace().next()?.parse::<u64>().ok()? / 1024)
+}
+
+/// Formats the peak memory of this process as a line; empty if the system does not report it.
+pub(crate) fn memory_text() -> String {
+    peak_memory().map(|memory| format!("{memory} MB of memory at the peak\n")).unwrap_or_default()
+}
+
+/// Formats numbers of modules and triangles.
+pub(crate) fn sizes(modules: usize, triangles: usize) -> String {
+    format!("{}, {}", plural(modules, "module"), plural(triangles, "triangle"))
 }
 
 fn plural(number: usize, noun: &str) -> String {

@@ -16,6 +16,7 @@ mod exports;
 mod extracts;
 mod facades;
 mod files;
+mod films;
 mod fitting;
 mod footprints;
 mod foreign;

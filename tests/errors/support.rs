@@ -96,6 +96,10 @@ impl Folder {
         std::fs::read_to_string(self.0.path().join(name)).unwrap()
     }
 
+    pub(crate) fn read_bytes(&self, name: &str) -> Vec<u8> {
+        std::fs::read(self.0.path().join(name)).unwrap()
+    }
+
     /// Returns the names and sizes of all files, including files in subfolders.
     pub(crate) fn files(&self) -> BTreeMap<String, u64> {
         let mut files = BTreeMap::new();

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use burgeon::export::films::FILM_FORMATS;
 use burgeon::export::heights::HEIGHT_FORMATS;
 use burgeon::export::{FORMATS, FileFormat};
 
@@ -18,9 +19,11 @@ const EXCEPTIONS: [(&str, &str); 6] = [
     ("viewer/src/stage.js", "image/png"),
 ];
 
-/// Returns the rows of both tables.
+/// Returns the rows of all tables.
 fn formats() -> impl Iterator<Item = &'static FileFormat> {
-    FORMATS.iter().map(|format| &format.file).chain(HEIGHT_FORMATS.iter().map(|format| &format.file))
+    let models = FORMATS.iter().map(|format| &format.file);
+    let films = FILM_FORMATS.iter().map(|format| &format.file);
+    models.chain(HEIGHT_FORMATS.iter().map(|format| &format.file)).chain(films)
 }
 
 /// Returns the extensions and media types that `code` names: with a dot, or as a whole string.
@@ -36,6 +39,7 @@ fn named(code: &str) -> BTreeSet<String> {
         found.extend(literals.into_iter().filter(|literal| code.contains(literal.as_str())));
     }
     let media_types = FORMATS.iter().map(|format| format.media_type);
+    let media_types = media_types.chain(FILM_FORMATS.iter().map(|format| format.media_type));
     found.extend(media_types.filter(|media_type| code.contains(media_type)).map(str::to_owned));
     found
 }
@@ -77,6 +81,10 @@ fn the_book_lists_every_format() {
     let outputs = outputs.split("\n## ").next().unwrap();
     for format in &FORMATS {
         assert!(outputs.contains(&format!("`.{}`", format.extension())), ".{}", format.extension());
+    }
+    let films = page.lines().find(|line| line.starts_with("| `--frames [NAME=]FIRST:LAST:STEP` |")).unwrap();
+    for format in &FILM_FORMATS {
+        assert!(films.contains(&format!("`.{}`", format.extension())), ".{}", format.extension());
     }
     let heights = page.lines().find(|line| line.starts_with("| `--heights FILE` |")).unwrap();
     for format in &HEIGHT_FORMATS {

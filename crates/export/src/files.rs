@@ -2,7 +2,7 @@
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::target::{FileTarget, ReplaceMethod};
@@ -46,6 +46,25 @@ struct OutputFile {
     way: ReplaceMethod,
 }
 
+/// File of a group whose content is being written.
+pub struct OpenFile {
+    path: PathBuf,
+    written: OutputFile,
+    out: Out,
+}
+
+impl OpenFile {
+    /// Returns the writer for the content.
+    pub fn out(&mut self) -> &mut Out {
+        &mut self.out
+    }
+
+    /// Returns the error for content that could not be written.
+    pub fn error(&self, error: &io::Error) -> Error {
+        self.written.target.write_error(error)
+    }
+}
+
 /// Writer for the content of a file.
 pub type Out = BufWriter<Stoppable>;
 
@@ -72,20 +91,42 @@ impl Files {
     /// Fails if the folder does not exist, if `path` is a folder or not writable, if `path` refers to the same file as
     /// another path, or if the disk is full.
     pub fn write(&mut self, path: &Path, content: impl FnOnce(&mut Out) -> io::Result<()>) -> Result<()> {
+        let mut file = self.open(path)?;
+        let done = content(&mut file.out);
+        // A cancelled write reports the cancellation and not an error of the file.
+        self.stop.check()?;
+        done.map_err(|error| file.error(&error))?;
+        self.close(file)
+    }
+
+    /// Begins the future file `path`, for content that is written in several steps. It is not part of the group before
+    /// [`close`](Self::close).
+    ///
+    /// Fails as [`write`](Self::write) does.
+    pub fn open(&self, path: &Path) -> Result<OpenFile> {
         self.stop.check()?;
         let target = FileTarget::of(path)?;
-        if self.written.iter().any(|known| known.target.is(&target)) {
+        self.refuse_twice(&target, path)?;
+        let (temporary, file, way) = target.create()?;
+        let out = BufWriter::with_capacity(1 << 18, Stoppable { file, stop: Arc::clone(&self.stop) });
+        Ok(OpenFile { path: path.to_owned(), written: OutputFile { target, temporary, way }, out })
+    }
+
+    /// Adds a file with all of its content to the group.
+    pub fn close(&mut self, mut file: OpenFile) -> Result<()> {
+        let done = file.out.flush();
+        self.stop.check()?;
+        done.map_err(|error| file.error(&error))?;
+        self.refuse_twice(&file.written.target, &file.path)?;
+        self.written.push(file.written);
+        Ok(())
+    }
+
+    fn refuse_twice(&self, target: &FileTarget, path: &Path) -> Result<()> {
+        if self.written.iter().any(|known| known.target.is(target)) {
             return Err(Error::usage(format!("{} would be written twice", path.display()))
                 .help("specify different files"));
         }
-        let (temporary, file, way) = target.create()?;
-        let written = OutputFile { target, temporary, way };
-        let mut out = BufWriter::with_capacity(1 << 18, Stoppable { file, stop: Arc::clone(&self.stop) });
-        let done = content(&mut out).and_then(|()| out.flush());
-        // A cancelled write reports the cancellation and not an error of the file.
-        self.stop.check()?;
-        done.map_err(|error| written.target.write_error(&error))?;
-        self.written.push(written);
         Ok(())
     }
 

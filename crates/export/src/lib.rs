@@ -5,7 +5,8 @@
 //! written next to the path under temporary names ([`Files`]) and published when all of it is complete. The same scene
 //! results in the same bytes.
 //!
-//! Terrain heights are written by [`heights`], from a grid instead of a scene.
+//! Terrain heights are written by [`heights`], from a grid instead of a scene. A film of several scenes or renders is
+//! written by [`films`].
 //!
 //! Every format rejects a scene with invalid references (`check`), omits the parts that are not shown, and moves a
 //! model that is far from the world's origin to a nearby origin (`check::origin`).
@@ -21,6 +22,7 @@ mod color;
 mod decompose;
 mod facts;
 mod files;
+pub mod films;
 mod format;
 mod formats;
 pub mod gltf;
@@ -38,7 +40,7 @@ mod x3d;
 mod samples;
 
 pub use facts::{Export, SceneFacts, SystemFacts};
-pub use files::{Files, Out, Stoppable};
+pub use files::{Files, OpenFile, Out, Stoppable};
 pub use format::{FileFormat, Format, Need, extension_list};
 pub use formats::{FORMATS, GLB, PNG};
 pub use render::png;

@@ -3,8 +3,9 @@
 use super::settings::Picture;
 use burgeon_base::error::Result;
 use burgeon_base::stop::Stop;
-use burgeon_scene::Scene;
 use burgeon_scene::image::{self, Image};
+use burgeon_scene::{Scene, Upright};
+use glam::DVec3;
 
 /// Extent of one or more scenes.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -18,6 +19,20 @@ impl Extent {
 
     /// Extends the extent by `other`.
     pub fn join(&mut self, _other: &Self) {}
+
+    /// Extends the extent by `other`.
+    pub fn join_outline(&mut self, _other: &Self) {}
+
+    /// Returns true, because nothing can be shown.
+    pub fn is_empty(&self) -> bool {
+        true
+    }
+
+    /// Returns an empty extent.
+    #[must_use]
+    pub fn revolved(&self, _upright: Option<Upright>, _center: Option<DVec3>, _count: usize) -> Self {
+        Self(())
+    }
 }
 
 /// Fails, because rendering is not available.

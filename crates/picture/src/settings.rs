@@ -66,6 +66,8 @@ pub enum Background {
 pub enum Quality {
     /// Few samples, for thumbnails.
     Draft,
+    /// Smooth edges and shadows that stay still from frame to frame, for films.
+    Film,
     /// Smooth edges and soft shadows, for presentation.
     #[default]
     Fine,

@@ -4,10 +4,12 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
+use super::films::FilmFlags;
 use super::{parts, watch};
 use crate::commands::progress::ProgressDisplay;
 use crate::commands::report;
 use crate::commands::shared::{PictureFlags, ScriptFlags, end_on_interrupt, size};
+use burgeon::export::films::FilmFormat;
 use burgeon::export::heights::{HEIGHT_FORMATS, HeightFormat};
 use burgeon::export::{FORMATS, FileFormat, Format, GLB, Need, extension_list};
 use burgeon::presets::Presets;
@@ -15,6 +17,7 @@ use burgeon::results::layers;
 use burgeon::script::{Param, Preset, RunOptions, Session};
 use burgeon::{Result, Warning, WarningKind};
 use clap::Args;
+use clap::builder::ArgPredicate;
 
 /// Runs a script and writes what it makes
 #[derive(Args, Clone)]
@@ -60,8 +63,12 @@ pub(crate) struct RunCommand {
     #[arg(long)]
     watch: bool,
 
-    /// Width and height of a render (pixels)
+    #[command(flatten)]
+    pub(super) film: FilmFlags,
+
+    /// Width and height of a render (pixels); 800x600 for films
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size, default_value = "1280x960", help_heading = "Pictures")]
+    #[arg(default_value_ifs = [("frames", ArgPredicate::IsPresent, "800x600"), ("turntable", ArgPredicate::IsPresent, "800x600")])]
     pub(super) size: (u32, u32),
 
     #[command(flatten)]
@@ -118,6 +125,13 @@ impl RunCommand {
     }
 
     pub(crate) fn run(&self) -> Result<()> {
+        if let Some(axis) = &self.film.frames {
+            return self.run_frames(axis);
+        }
+        if let Some(frames) = self.film.turntable {
+            return self.run_turntable(frames);
+        }
+        self.refuse_films()?;
         self.check_files()?;
         if let Some(name) = &self.save_preset {
             burgeon::presets::check_name(name)?;
@@ -247,6 +261,9 @@ impl RunCommand {
 
 fn output(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
+    if FilmFormat::of(&path).is_ok() {
+        return Ok(path);
+    }
     Format::of(&path).map(|_| path).map_err(|error| error.to_string())
 }
 

@@ -1,8 +1,9 @@
 //! `burgeon run`: writes files from a script.
 //!
-//! Input: a script and the names of files. Output: the files, all or none of them. Modelling happens in the library.
+//! Input: a script and the names of files. Output: the files, all or none of them, or a film. Modelling happens in the library.
 
 mod command;
+mod films;
 mod outputs;
 mod parts;
 mod watch;

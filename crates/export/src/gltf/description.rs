@@ -21,6 +21,7 @@ pub(super) struct Description<'a> {
     pub(super) root: json::Root,
     /// Extensions of the document.
     pub(super) extensions: Option<serde_json::Value>,
+    pub(super) animations: Vec<serde_json::Value>,
     pub(super) accessors: Vec<Accessor>,
     pub(super) meshes: Vec<MeshDescription<'a>>,
     pub(super) nodes: Vec<Node<'a>>,
@@ -40,11 +41,19 @@ pub(super) struct Accessor {
     pub(super) normalized: bool,
     #[serde(rename = "type")]
     pub(super) kind: Type,
-    /// Corners of the bounding box of points.
+    /// Corners of the bounding box of points, or the first and the last of times.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) min: Option<[f32; 3]>,
+    pub(super) min: Option<Extreme>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) max: Option<[f32; 3]>,
+    pub(super) max: Option<Extreme>,
+}
+
+/// Smallest or largest item of an array, for each component.
+#[derive(Clone, Copy, Serialize)]
+#[serde(untagged)]
+pub(super) enum Extreme {
+    Point([f32; 3]),
+    Number([f32; 1]),
 }
 
 #[derive(Serialize)]
@@ -136,6 +145,8 @@ struct WholeDocument<'a> {
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 struct DocumentHead<'a> {
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    animations: &'a [serde_json::Value],
     asset: &'a json::Asset,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     buffers: &'a [json::Buffer],
@@ -182,6 +193,7 @@ impl<'a> Description<'a> {
         WholeDocument {
             accessors: &self.accessors,
             before: DocumentHead {
+                animations: &self.animations,
                 asset: &root.asset,
                 buffers: &root.buffers,
                 buffer_views: &root.buffer_views,
@@ -282,7 +294,7 @@ mod tests {
                 component_type: ComponentType::F32,
                 normalized: false,
                 kind: Type::Vec3,
-                min: Some([0.1; 3]),
+                min: Some(Extreme::Point([0.1; 3])),
                 max: None,
             });
         }

@@ -7,10 +7,11 @@ use super::description::{Description, use_extension};
 use super::material::Textures;
 use super::mesh::Arrays;
 use super::metadata::Metadata;
-use super::{InstancePlace, body, material, mesh, place};
+use super::{InstancePlace, body, film, material, mesh, place};
 use crate::check::{SceneCheck, check};
 use crate::decompose::{Y_UP_AXES, y_up};
 use crate::files::Files;
+use crate::films::{FilmModel, FilmSettings};
 use crate::texture::Images;
 use crate::{Export, SceneFacts, stem, uri};
 use burgeon_base::error::{Error, Result};
@@ -76,7 +77,7 @@ fn bytes(scene: &Scene, arrays: Arrays, stop: &Stop) -> Result<(Vec<u8>, Layout)
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
     let document =
-        Document::new(&checked, &SceneFacts::default(), &images, &Textures::Embedded, arrays, stop)?;
+        Document::new(&checked, &SceneFacts::default(), &images, &Textures::Embedded, (arrays, None), stop)?;
     let mut bytes = Vec::new();
     let head = document.head()?;
     let length: usize = head.iter().map(Vec::len).sum();
@@ -91,8 +92,25 @@ pub(crate) fn write_glb(export: &Export<'_>, path: &Path, files: &mut Files) -> 
     let checked = check(export.scene)?;
     let images = Images::load(&checked)?;
     let stop = files.stop();
-    let document =
-        Document::new(&checked, &export.facts, &images, &Textures::Embedded, Arrays::default(), &stop)?;
+    let content = (Arrays::default(), None);
+    let document = Document::new(&checked, &export.facts, &images, &Textures::Embedded, content, &stop)?;
+    let head = document.head()?;
+    files.write(path, |out| document.body.write(head, out, &stop))
+}
+
+/// Writes one `.glb` file to `path`, with an animation that shows the model of one frame after another.
+pub(crate) fn write_film(
+    model: &FilmModel,
+    settings: &FilmSettings,
+    path: &Path,
+    files: &mut Files,
+) -> Result<()> {
+    let checked = check(&model.scene)?;
+    let images = Images::load(&checked)?;
+    let stop = files.stop();
+    let content = (Arrays::default(), Some((model, settings)));
+    let facts = SceneFacts::default();
+    let document = Document::new(&checked, &facts, &images, &Textures::Embedded, content, &stop)?;
     let head = document.head()?;
     files.write(path, |out| document.body.write(head, out, &stop))
 }
@@ -107,7 +125,8 @@ pub(crate) fn write_gltf(export: &Export<'_>, path: &Path, files: &mut Files) ->
     }
     let stop = files.stop();
     let textures = Textures::Beside(names);
-    let mut document = Document::new(&checked, &export.facts, &images, &textures, Arrays::default(), &stop)?;
+    let content = (Arrays::default(), None);
+    let mut document = Document::new(&checked, &export.facts, &images, &textures, content, &stop)?;
     if let Some(buffer) = document.description.root.buffers.first_mut() {
         buffer.uri = Some(uri(&buffer_name(path)));
         files.write(&buffer_path(path), |out| document.body.write(Vec::new(), out, &stop))?;
@@ -147,7 +166,7 @@ impl<'a> Document<'a> {
         facts: &SceneFacts<'a>,
         images: &'a Images,
         textures: &Textures,
-        arrays: Arrays,
+        (arrays, film): (Arrays, Option<(&'a FilmModel, &FilmSettings)>),
         stop: &Stop,
     ) -> Result<Self> {
         stop.check()?;
@@ -168,7 +187,11 @@ impl<'a> Document<'a> {
         let materials = material::write(checked, images, textures, &mut description.root, &mut body);
         let meshes = mesh::write(checked, metadata, arrays, &materials, &mut description, &mut body, stop);
         stop.check()?;
-        let placed = place::write(checked, metadata, &meshes, arrays, &mut description, &mut body);
+        let kinds = (arrays, film.map(|(model, _)| model));
+        let placed = place::write(checked, metadata, &meshes, kinds, &mut description, &mut body);
+        if let Some((_, settings)) = film {
+            film::write(&placed.frames, settings, &mut description, &mut body);
+        }
         if arrays.small {
             use_extension(&mut description.root, QUANTIZATION);
             description.root.extensions_required.push(QUANTIZATION.into());

@@ -4,7 +4,9 @@ use super::super::check::{PartExtent, SceneCheck};
 use super::body::{ArrayKind, Body, BodyArray};
 use super::coordinates::y_up;
 use super::corners::{self, CornerRange, FaceChoice, FaceCorners, PartFaces, flat_faces};
-use super::description::{Accessor, Attributes, Description, MeshDescription, Primitive, ShadingExtras};
+use super::description::{
+    Accessor, Attributes, Description, Extreme, MeshDescription, Primitive, ShadingExtras,
+};
 use super::metadata::{FeaturePlace, Metadata};
 use super::weld::FlatPart;
 use burgeon_base::stop::Stop;
@@ -239,8 +241,11 @@ impl Vertices {
             let CornerRange { count, low, high } = corners.range(textured);
             corners.has_parts(textured).then(|| {
                 let positions = accessor(places, ComponentType::F32, Type::Vec3, count);
-                let positions =
-                    Accessor { min: Some(low.to_array()), max: Some(high.to_array()), ..positions };
+                let positions = Accessor {
+                    min: Some(Extreme::Point(low.to_array())),
+                    max: Some(Extreme::Point(high.to_array())),
+                    ..positions
+                };
                 let positions = description.accessor(positions);
                 let normals = normals.map(|place| {
                     description.accessor(accessor(place, ComponentType::F32, Type::Vec3, count))
@@ -305,7 +310,11 @@ impl Vertices {
                 BodyArray::TexCoords(shown.part, shown.texture.unwrap_or([1.0, 1.0]))
             })
         });
-        let positions = Accessor { min: Some(low.to_array()), max: Some(high.to_array()), ..positions };
+        let positions = Accessor {
+            min: Some(Extreme::Point(low.to_array())),
+            max: Some(Extreme::Point(high.to_array())),
+            ..positions
+        };
         let accessors = Attributes {
             positions: description.accessor(positions),
             normals: Some(description.accessor(normals)),

@@ -11,6 +11,7 @@ mod coordinates;
 mod corners;
 mod description;
 mod document;
+mod film;
 mod material;
 mod mesh;
 mod metadata;
@@ -22,5 +23,5 @@ mod tests;
 mod weld;
 
 pub use document::{Layout, glb, glb_for_viewer, glb_with_texture_coordinates};
-pub(super) use document::{buffer_path, write_glb, write_gltf};
+pub(super) use document::{buffer_path, write_film, write_glb, write_gltf};
 pub use place::InstancePlace;

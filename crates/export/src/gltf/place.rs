@@ -7,6 +7,7 @@ use super::coordinates::short;
 use super::description::{Accessor, Description, FeatureExtras, Node, use_extension};
 use super::mesh::{Arrays, accessor};
 use super::metadata::{FeaturePlace, INSTANCE_FEATURES, Metadata, instance_features};
+use crate::films::FilmModel;
 use burgeon_scene::Instance;
 use glam::{DAffine3, DQuat, DVec3};
 use gltf_json as json;
@@ -26,6 +27,8 @@ const ENOUGH: usize = 16;
 /// Properties that instances of one node have in common; only their transforms differ.
 #[derive(PartialEq, Eq, Hash, Clone, Copy)]
 struct InstanceKind<'a> {
+    /// Frame of a film, 0 without one.
+    frame: u32,
     mesh: usize,
     name: &'a str,
     /// Set if the instances are mirrored. Renderers choose the visible side once for all instances of a node.
@@ -80,6 +83,8 @@ pub(super) struct InstanceNodes<'a> {
     pub(super) places: Vec<Option<InstancePlace>>,
     /// Features of instances that share a node.
     pub(super) features: Vec<&'a str>,
+    /// Frames of a film that show something, and the node of each.
+    pub(super) frames: Vec<(u32, usize)>,
 }
 
 /// Adds the instances.
@@ -87,16 +92,17 @@ pub(super) fn write<'a>(
     checked: &SceneCheck<'a>,
     metadata: Option<&Metadata>,
     meshes: &[Option<usize>],
-    arrays: Arrays,
+    (arrays, film): (Arrays, Option<&'a FilmModel>),
     description: &mut Description<'a>,
     body: &mut Body<'a>,
 ) -> InstanceNodes<'a> {
     let scene = checked.scene;
+    let frame_of = |number: usize| film.and_then(|film| film.frames.get(number)).copied().unwrap_or(0);
     let mut groups: Vec<(InstanceKind<'_>, InstanceGroup)> = Vec::new();
     let mut known = FxHashMap::default();
     let mut group_of = Vec::with_capacity(scene.instances.len());
-    for instance in &scene.instances {
-        group_of.push(InstanceKind::of(instance, metadata).map(|kind| {
+    for (number, instance) in scene.instances.iter().enumerate() {
+        group_of.push(InstanceKind::of(instance, frame_of(number), metadata).map(|kind| {
             let group = *known.entry(kind).or_insert_with(|| {
                 groups.push((kind, InstanceGroup::default()));
                 groups.len() - 1
@@ -132,7 +138,7 @@ pub(super) fn write<'a>(
         if let Some(metadata) = metadata.filter(|metadata| metadata.is_shared(instance.mesh)) {
             add_feature(shown, metadata.of_instance(instance), description, body);
         }
-        nodes.push(node);
+        nodes.push((frame_of(number), node));
         places[number] = Some(InstancePlace { node: shown, shared: None });
     }
     for ((kind, group), members) in groups.into_iter().zip(members) {
@@ -140,15 +146,20 @@ pub(super) fn write<'a>(
             let reach = if arrays.small { f64::INFINITY } else { reach(checked, kind.mesh) };
             let features = metadata.is_some().then_some(kind.table).flatten();
             let node = add_group(kind, group, features, (mesh, reach), description, body);
-            nodes.push(node);
+            nodes.push((kind.frame, node));
             for (shared, number) in members.into_iter().enumerate() {
                 places[number] = Some(InstancePlace { node, shared: Some(shared) });
             }
         }
     }
     let features = features.list;
+    let frames = film.map(|film| add_frames(film, &nodes, description)).unwrap_or_default();
+    let nodes: Vec<usize> = match film {
+        Some(_) => frames.iter().map(|(_, node)| *node).collect(),
+        None => nodes.into_iter().map(|(_, node)| node).collect(),
+    };
     if checked.origin == DVec3::ZERO || nodes.is_empty() {
-        return InstanceNodes { nodes, places, features };
+        return InstanceNodes { nodes, places, features, frames };
     }
     let origin = Node {
         name: "origin",
@@ -156,15 +167,16 @@ pub(super) fn write<'a>(
         children: Some(nodes),
         ..Node::default()
     };
-    InstanceNodes { nodes: vec![description.node(origin)], places, features }
+    InstanceNodes { nodes: vec![description.node(origin)], places, features, frames }
 }
 
 impl<'a> InstanceKind<'a> {
     /// Returns the group key of an instance that may share its node. A drawing of a feature has a separate node, which
     /// stores the feature's id.
-    fn of(instance: &'a Instance, metadata: Option<&Metadata>) -> Option<Self> {
+    fn of(instance: &'a Instance, frame: u32, metadata: Option<&Metadata>) -> Option<Self> {
         let shared = metadata.is_some_and(|metadata| metadata.is_shared(instance.mesh));
         (instance.feature.is_none() || instance.placement.is_some() || shared).then(|| Self {
+            frame,
             mesh: instance.mesh,
             name: &instance.name,
             mirrored: instance.transform.matrix3.determinant() < 0.0,
@@ -320,6 +332,27 @@ fn add_group<'a>(
         extensions: Some(extensions),
         ..Node::default()
     })
+}
+
+/// Adds a node for each frame that shows something, with the `nodes` of the frame; only the first frame is visible at
+/// the beginning.
+fn add_frames<'a>(
+    film: &'a FilmModel,
+    nodes: &[(u32, usize)],
+    description: &mut Description<'a>,
+) -> Vec<(u32, usize)> {
+    let mut children = vec![Vec::new(); film.count() as usize];
+    for (frame, node) in nodes {
+        if let Some(children) = children.get_mut(*frame as usize) {
+            children.push(*node);
+        }
+    }
+    let shown = (0_u32..).zip(children).zip(&film.names).filter(|((_, children), _)| !children.is_empty());
+    let added = shown.map(|((frame, children), name)| {
+        let scale = (frame > 0).then_some([0.0; 3]);
+        (frame, description.node(Node { name, children: Some(children), scale, ..Node::default() }))
+    });
+    added.collect()
 }
 
 /// Assigns a feature to the node of a sheared instance, which cannot share a node.

@@ -11,4 +11,5 @@ mod sheet;
 
 pub use axis::{MOST, VariationAxis};
 pub use runs::{Framing, Thumbnail, Variation, Variations};
+pub(crate) use runs::{find_param, scene_bytes};
 pub use sheet::{SheetLayout, sheet};

@@ -103,7 +103,7 @@ impl Variations {
                 .map(|seed| VariationPlan { label: format!("seed {seed}"), seed: *seed, set: None })
                 .collect(),
             VariationAxis::Param { name, values } => {
-                let param = find(script, &options, name)?;
+                let param = find_param(script, &options, name)?;
                 let all = if values.is_empty() { every_value(&param)? } else { values.clone() };
                 all.into_iter()
                     .map(|value| {
@@ -195,7 +195,7 @@ impl Variations {
         let modules = run.systems.iter().map(|system| system.modules()).sum();
         let (triangles, extent) = (run.scene.triangles(), Extent::of(&run.scene)?);
         let room = held.is_none_or(|held| {
-            let size = bytes(&run.scene);
+            let size = scene_bytes(&run.scene);
             held.fetch_add(size, Ordering::Relaxed).saturating_add(size) < HELD
         });
         let scene = room.then_some(run.scene);
@@ -285,7 +285,7 @@ fn mean(pixels: [[u8; 4]; 4]) -> [u8; 4] {
 }
 
 /// Returns the parameter `name` of `script`.
-fn find(script: &Path, options: &RunOptions, name: &str) -> Result<Param> {
+pub(crate) fn find_param(script: &Path, options: &RunOptions, name: &str) -> Result<Param> {
     let mut options = RunOptions { check: true, ..options.clone() };
     let short = name.rsplit('.').next().unwrap_or(name);
     options.params.set.retain(|(known, _)| known != name && known != short);
@@ -318,7 +318,7 @@ fn label(param: &Param, value: &Setting) -> String {
 }
 
 /// Estimates the memory (bytes) of `scene`.
-fn bytes(scene: &Scene) -> usize {
+pub(crate) fn scene_bytes(scene: &Scene) -> usize {
     let parts = scene.meshes.iter().flat_map(|mesh| &mesh.parts);
     let meshes: usize = parts.map(|part| part.positions.len() * 32 + part.triangles.len() * 12).sum();
     meshes + scene.instances.len() * 200

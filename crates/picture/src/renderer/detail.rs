@@ -13,6 +13,8 @@ pub(super) struct RenderDetail {
     pub sky_maps: usize,
     /// Side of a square with as many texels as a map of the sky.
     pub sky_side: f32,
+    /// Set if points may stand for small triangles in the maps of the sky.
+    pub sky_points: bool,
     /// Side of a square with as many texels as the sun's map.
     pub sun_side: f32,
     /// Number of lookups in the sun's map for one pixel.
@@ -31,14 +33,25 @@ impl RenderDetail {
                 rows: 4,
                 sky_maps: affordable(2_500_000, 40, 10),
                 sky_side: 160.0,
+                sky_points: false,
                 sun_side: 768.0,
                 sun_taps: 12,
+            },
+            Quality::Film => Self {
+                columns: 2,
+                rows: 4,
+                sky_maps: 28,
+                sky_side: 192.0,
+                sky_points: true,
+                sun_side: 1280.0,
+                sun_taps: 16,
             },
             Quality::Fine => Self {
                 columns: 2,
                 rows: 8,
                 sky_maps: affordable(26_000_000, 112, 18),
                 sky_side: 768.0,
+                sky_points: false,
                 sun_side: 4096.0,
                 sun_taps: 40,
             },

@@ -10,22 +10,41 @@ use glam::DVec3;
 /// Number of directions for which the farthest point is stored. The camera's margin exceeds the error in between.
 const DIRECTIONS: usize = 512;
 
+/// Maximum number of points of an extent that was joined from many.
+const MOST: usize = 16 * DIRECTIONS;
+
 impl Extent {
     /// Computes the extent of `scene`; empty if the scene shows nothing. Fails as [`render`](super::render) does.
     pub fn of(scene: &Scene) -> Result<Self> {
         let stage = Stage::new(scene)?;
         let back = stage.shrink.inverse();
         let hull: Vec<DVec3> = stage.hull.iter().map(|point| point.as_dvec3()).collect();
-        let mut farthest: Vec<usize> = (0..DIRECTIONS)
-            .filter_map(|i| {
-                let direction = spread(i, DIRECTIONS);
-                (0..hull.len()).max_by(|a, b| hull[*a].dot(direction).total_cmp(&hull[*b].dot(direction)))
-            })
-            .collect();
-        farthest.sort_unstable();
-        farthest.dedup();
-        Ok(Self::new(farthest.into_iter().map(|i| back.transform_point3(hull[i])).collect()))
+        let farthest = farthest(&hull).into_iter();
+        Ok(Self::new(farthest.map(|i| back.transform_point3(hull[i])).collect()))
     }
+
+    /// Extends the extent by `other`, and keeps only the points that determine it, so that many extents take no more
+    /// memory than a few.
+    pub fn join_outline(&mut self, other: &Self) {
+        self.join(other);
+        if self.all().len() > MOST {
+            let kept = farthest(self.all());
+            *self = Self::new(kept.into_iter().map(|i| self.all()[i]).collect());
+        }
+    }
+}
+
+/// Returns the indices of the farthest of `points` in each direction, in order.
+fn farthest(points: &[DVec3]) -> Vec<usize> {
+    let mut farthest: Vec<usize> = (0..DIRECTIONS)
+        .filter_map(|i| {
+            let direction = spread(i, DIRECTIONS);
+            (0..points.len()).max_by(|a, b| points[*a].dot(direction).total_cmp(&points[*b].dot(direction)))
+        })
+        .collect();
+    farthest.sort_unstable();
+    farthest.dedup();
+    farthest
 }
 
 #[cfg(test)]

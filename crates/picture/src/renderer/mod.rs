@@ -1,6 +1,6 @@
 //! Renderer, in the order of its steps: check the scene and move it to the origin (`stage`); choose a viewpoint
 //! (`view`) and fit the camera (`camera`); draw depth maps from the sun (`sun`) and from many directions of the sky
-//! (`sky`), and compute the light on the ground from them (`floor`); find the triangle that each sample of the camera
+//! (`sky`, for large scenes of films from `sky_points`), and compute the light on the ground from them (`floor`); find the triangle that each sample of the camera
 //! sees (`visible`), skipping the samples that translucent and cut-out surfaces do not cover (`coverage`); convert each
 //! pixel's triangles to points on surfaces (`surface`), shade them (`shade`) and mix their colours (`develop`).
 
@@ -20,6 +20,7 @@ mod render;
 mod samples;
 mod shade;
 mod sky;
+mod sky_points;
 mod stage;
 mod sun;
 mod surface;

@@ -1,7 +1,7 @@
 //! Renders a scene.
 
 use super::{Extent, camera, detail, develop, floor, shade, sky, stage, sun, texture, view};
-use crate::settings::Picture;
+use crate::settings::{Picture, Quality, ViewBall};
 use burgeon_base::error::Result;
 use burgeon_base::stop::Stop;
 use burgeon_scene::Scene;
@@ -40,7 +40,8 @@ pub fn render(scene: &Scene, picture: &Picture) -> Result<Image> {
 /// Renders `scene` with a camera that sees all of `extent`. Without an extent the camera is fitted to the scene.
 ///
 /// Renders of several scenes with the same extent and the same `picture` share a camera, so that sizes can be compared.
-/// If `picture` specifies no direction, the shape of the extent determines it. Fails as [`render`] does, and if `stop`
+/// If `picture` specifies no direction, the shape of the extent determines it. With [`Quality::Film`] they share the ground
+/// and the grids of the shadows too. Fails as [`render`] does, and if `stop`
 /// requests cancellation.
 ///
 /// ```
@@ -64,26 +65,23 @@ pub fn render_within(
 ) -> Result<Image> {
     picture.check()?;
     let textures = texture::load(&scene.materials)?;
-    let stage = stage::Stage::within(scene, &textures, extent, stop)?;
+    let mut stage = stage::Stage::within(scene, &textures, extent, stop)?;
+    let is_film = picture.quality == Quality::Film;
+    if let Some(extent) = extent.filter(|_| is_film) {
+        stage.surround(&extent.points(&stage.shrink));
+    }
     let detail = detail::RenderDetail::of(picture.quality, stage.triangles());
     let size = [picture.width, picture.height];
-    let (eye, camera) = match (extent, picture.look) {
-        (None, None) => {
-            let eye = view::viewpoint(&stage.hull, picture);
-            (eye, camera::Camera::fit(stage.points(), eye, size))
+    let points = extent.map(|extent| extent.points(&stage.shrink));
+    let eye = view::viewpoint(points.as_ref().unwrap_or(&stage.hull), picture);
+    let camera = match (points, picture.look) {
+        (_, Some(look)) => {
+            let axes = if is_film { eye.axes() } else { [DVec3::X, DVec3::Y, DVec3::Z] };
+            let points = ball(look, axes).map(|point| stage.shrink.transform_point3(point).as_vec3a());
+            camera::Camera::fit(points, eye, size).with_nearer_plane()
         }
-        (None, Some(look)) => {
-            let eye = view::viewpoint(&stage.hull, picture);
-            let axes = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
-            let points = axes.map(|axis| DVec3::from(look.at) + axis * look.radius);
-            let points = points.map(|point| stage.shrink.transform_point3(point).as_vec3a());
-            (eye, camera::Camera::fit(points, eye, size).with_nearer_plane())
-        }
-        (Some(extent), _) => {
-            let points = extent.points(&stage.shrink);
-            let eye = view::viewpoint(&points, picture);
-            (eye, camera::Camera::fit(points.into_iter(), eye, size))
-        }
+        (None, None) => camera::Camera::fit(stage.points(), eye, size),
+        (Some(points), None) => camera::Camera::fit(points.into_iter(), eye, size),
     };
     let sun = sun::Sun::new(&stage, eye, &detail);
     let sky = sky::Sky::new(&stage, &sun, &detail, picture.ground);
@@ -101,4 +99,10 @@ pub fn render_within(
     let image = develop::develop(&light, picture, &detail);
     // A cancelled render is incomplete.
     stop.check().map(|()| image)
+}
+
+/// Returns the points of a sphere along `axes`.
+fn ball(look: ViewBall, axes: [DVec3; 3]) -> impl Iterator<Item = DVec3> {
+    let directions = axes.into_iter().flat_map(|axis| [axis, -axis]);
+    directions.map(move |axis| DVec3::from(look.at) + axis * look.radius)
 }

@@ -7,7 +7,8 @@ use super::coverage::Coverage;
 use super::detail::RenderDetail;
 use super::light_map::LightProjection;
 use super::raster::RasterGrid;
-use super::stage::Stage;
+use super::sky_points::SkyPoints;
+use super::stage::{DrawCall, ProjectedTriangle, Stage};
 use super::sun::Sun;
 use glam::{Vec2, Vec3, Vec3A};
 use rayon::prelude::*;
@@ -66,13 +67,23 @@ impl Sky {
         };
         let light =
             |direction: Vec3A| if direction.z > 0.0 { sky_light(direction, sun.direction) } else { below };
-        let maps: Vec<SkySample> = (0..count)
+        let fit = |i: usize| LightProjection::fit(&stage.hull, direction(i, count).0, detail.sky_side);
+        let frames: Vec<LightProjection> = (0..count).into_par_iter().map(fit).collect();
+        let points = detail.sky_points.then(|| SkyPoints::new(stage, &frames)).flatten();
+        let maps: Vec<SkySample> = frames
             .into_par_iter()
-            .map(|i| {
+            .enumerate()
+            .map(|(i, frame)| {
                 let (direction, angle) = direction(i, count);
                 let jitter =
                     Vec2::from_angle(i as f32 * 2.399_963) * (i as f32 * 0.754_877_7 + 0.5).fract().sqrt();
-                SkySample::new(stage, direction, jitter, (light(direction) * angle).into(), detail.sky_side)
+                let light = (light(direction) * angle).into();
+                let mut map = SkySample::new(frame, direction, jitter, light);
+                match &points {
+                    Some(points) => map.draw_points(stage, points, i),
+                    None => map.draw(stage),
+                }
+                map
             })
             .collect();
         let lift = maps.iter().map(|map| map.frame.texel).fold(0.0, f32::max) * 1.6;
@@ -118,40 +129,55 @@ impl Sky {
 }
 
 impl SkySample {
-    fn new(stage: &Stage, direction: Vec3A, jitter: Vec2, light: Vec3A, side: f32) -> Self {
-        let mut frame = LightProjection::fit(&stage.hull, direction, side);
+    /// Creates an empty map.
+    fn new(mut frame: LightProjection, direction: Vec3A, jitter: Vec2, light: Vec3A) -> Self {
         let scale = FARTHEST / frame.depth;
         let stretch = Vec3::new(1.0, 1.0, scale);
         frame.to_texels = glam::Affine3A::from_scale(stretch) * frame.to_texels;
-        let width = frame.width;
-        let mut depths = vec![u16::MAX; frame.texels()];
-        let grid = RasterGrid { width, rows: 0..frame.height, shifts: &[128.0] };
-        let all = 0..stage.triangles() as u32;
-        stage.each_triangle(
-            all,
-            &frame.to_texels,
-            |p| p,
-            None,
-            |draw, triangle| {
-                let coverage = Coverage::of(draw, &triangle, [4, 4], false);
-                grid.cover(triangle.corners, |y, xs, z, growth| {
-                    let texels = &mut depths[y * width + xs.start..y * width + xs.end];
-                    let depth = |i: usize| (z + growth * (i as i32 as f32)) as i32 as u16;
-                    if coverage.is_full() {
-                        texels.iter_mut().enumerate().for_each(|(i, texel)| *texel = depth(i).min(*texel));
-                    } else {
-                        for (i, texel) in texels.iter_mut().enumerate() {
-                            if coverage.covers(xs.start + i, y, 128.0) {
-                                *texel = depth(i).min(*texel);
-                            }
-                        }
-                    }
-                });
-            },
-        );
+        let depths = vec![u16::MAX; frame.texels()];
         let bias = 0.5 * frame.texel * scale + 1.0;
         let spread = SPREAD / (scale * frame.texel);
         Self { direction, light, jitter, bias, spread, frame, depths }
+    }
+
+    /// Draws all triangles.
+    fn draw(&mut self, stage: &Stage) {
+        let all = 0..stage.triangles() as u32;
+        let to_texels = self.frame.to_texels;
+        stage.each_triangle(all, &to_texels, |p| p, None, |draw, triangle| self.cover(draw, &triangle));
+    }
+
+    /// Draws the points that stand for small triangles, and the other triangles. The map has this `number`.
+    fn draw_points(&mut self, stage: &Stage, points: &SkyPoints, number: usize) {
+        for ProjectedTriangle { number, corners, .. } in &points.triangles {
+            let corners = corners.map(|corner| self.frame.to_texels.transform_point3a(corner));
+            let triangle = ProjectedTriangle { number: *number, corners, weights: None };
+            self.cover(stage.find(*number).0, &triangle);
+        }
+        let depths = &mut self.depths;
+        points.each(&self.frame, number, self.direction, |texel, depth| {
+            depths[texel] = (depth as i32 as u16).min(depths[texel]);
+        });
+    }
+
+    fn cover(&mut self, draw: &DrawCall<'_>, triangle: &ProjectedTriangle) {
+        let width = self.frame.width;
+        let grid = RasterGrid { width, rows: 0..self.frame.height, shifts: &[128.0] };
+        let depths = &mut self.depths;
+        let coverage = Coverage::of(draw, triangle, [4, 4], false);
+        grid.cover(triangle.corners, |y, xs, z, growth| {
+            let texels = &mut depths[y * width + xs.start..y * width + xs.end];
+            let depth = |i: usize| (z + growth * (i as i32 as f32)) as i32 as u16;
+            if coverage.is_full() {
+                texels.iter_mut().enumerate().for_each(|(i, texel)| *texel = depth(i).min(*texel));
+            } else {
+                for (i, texel) in texels.iter_mut().enumerate() {
+                    if coverage.covers(xs.start + i, y, 128.0) {
+                        *texel = depth(i).min(*texel);
+                    }
+                }
+            }
+        });
     }
 
     /// Returns true if the direction's light reaches `point`, which is lifted off its surface.

@@ -134,6 +134,16 @@ impl<'a> Stage<'a> {
         Ok(stage)
     }
 
+    /// Replaces the bounding box and the hull by those of `points`, unless there are none.
+    pub(super) fn surround(&mut self, points: &[Vec3A]) {
+        let bounds = points.iter().fold(None, |bounds: Option<(Vec3A, Vec3A)>, point| {
+            Some(bounds.map_or((*point, *point), |(low, high)| (low.min(*point), high.max(*point))))
+        });
+        if let Some(bounds) = bounds {
+            (self.bounds, self.hull) = (bounds, points.to_vec());
+        }
+    }
+
     /// Returns the number of triangles, counted for each instance.
     pub(super) fn triangles(&self) -> usize {
         self.count as usize

@@ -25,6 +25,13 @@ impl Viewpoint {
         let (sin, cos) = self.azimuth.sin_cos();
         DVec3::new(sin * self.elevation.cos(), cos * self.elevation.cos(), self.elevation.sin())
     }
+
+    /// Returns the camera's axes: towards it, to its right, and up or down.
+    pub(super) fn axes(self) -> [DVec3; 3] {
+        let (sin, cos) = self.azimuth.sin_cos();
+        let (toward, right) = (self.direction(), DVec3::new(-cos, sin, 0.0));
+        [toward, right, toward.cross(right)]
+    }
 }
 
 /// Returns the viewpoint that `picture` specifies. Unspecified angles are chosen to suit a model with this `hull`.

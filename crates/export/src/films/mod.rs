@@ -1,0 +1,19 @@
+//! Films: frames as one animated file, or as one file for each frame.
+//!
+//! Input: the frames in order, as images or as scenes. Output: the files of the paths that [`FilmWriter`] was created
+//! with. An animated file is complete or absent; files of single frames appear one by one, each complete.
+
+mod formats;
+mod model;
+mod pattern;
+mod settings;
+mod writer;
+
+#[cfg_attr(not(feature = "pictures"), path = "absent.rs")]
+mod encode;
+
+pub use formats::{FILM_FORMATS, FilmContent, FilmFormat};
+pub use model::FilmModel;
+pub use pattern::FramePattern;
+pub use settings::FilmSettings;
+pub use writer::{FilmFrame, FilmNeeds, FilmWriter, FrameEncoder};
