@@ -25,15 +25,15 @@ pub(super) struct PatternReader<'a> {
     formals: Vec<String>,
 }
 
-/// Element of a part of a pattern, before the kind of the part is known.
-enum Element {
+/// PatternElement of a part of a pattern, before the kind of the part is known.
+enum PatternElement {
     Context(Context),
     /// `^`
     Beginning,
 }
 
 /// Elements between two separators, each with its position.
-type Part = Vec<(usize, Element)>;
+type PatternPart = Vec<(usize, PatternElement)>;
 
 impl<'a> PatternReader<'a> {
     pub(super) fn new(text: &'a str, symbols: &'a Symbols, scope: &'a NameScope) -> Self {
@@ -41,7 +41,7 @@ impl<'a> PatternReader<'a> {
     }
 
     pub(super) fn pattern(mut self) -> Result<Pattern> {
-        let mut parts: Vec<Part> = vec![Vec::new()];
+        let mut parts: Vec<PatternPart> = vec![Vec::new()];
         let mut separators: Vec<char> = Vec::new();
         loop {
             match self.peek() {
@@ -86,22 +86,22 @@ impl<'a> PatternReader<'a> {
     }
 
     /// Returns the predecessor's modules and the symbol of the first.
-    fn predecessors(&mut self, part: Part) -> Result<(Symbol, Vec<Item>)> {
+    fn predecessors(&mut self, part: PatternPart) -> Result<(Symbol, Vec<Item>)> {
         let mut items = Vec::new();
         for (begin, element) in part {
             let help = match element {
-                Element::Context(Context::Module(item)) => {
+                PatternElement::Context(Context::Module(item)) => {
                     items.push(item);
                     continue;
                 }
-                Element::Context(Context::Branch(_)) => {
+                PatternElement::Context(Context::Branch(_)) => {
                     return Err(self.error(
                         "a predecessor cannot have branches",
                         "its modules stand next to one another; put branches into the right context: A > [B]",
                     ));
                 }
-                Element::Context(Context::End) => ENDING,
-                Element::Beginning => BEGINNING,
+                PatternElement::Context(Context::End) => ENDING,
+                PatternElement::Beginning => BEGINNING,
             };
             self.at = begin;
             return Err(self.error_here(help));
@@ -117,27 +117,27 @@ impl<'a> PatternReader<'a> {
     }
 
     /// Returns whether the left context begins with the chain, and its modules.
-    fn left_context(&mut self, part: Part) -> Result<(bool, Vec<Item>)> {
+    fn left_context(&mut self, part: PatternPart) -> Result<(bool, Vec<Item>)> {
         let mut items = Vec::new();
         let mut from_beginning = false;
         for (number, (begin, element)) in part.into_iter().enumerate() {
             let help = match element {
-                Element::Context(Context::Module(item)) => {
+                PatternElement::Context(Context::Module(item)) => {
                     items.push(item);
                     continue;
                 }
-                Element::Context(Context::Branch(_)) => {
+                PatternElement::Context(Context::Branch(_)) => {
                     return Err(self.error(
                         "a left context cannot have branches",
                         "it is the path towards the axiom; write only the modules on it",
                     ));
                 }
-                Element::Beginning if number == 0 => {
+                PatternElement::Beginning if number == 0 => {
                     from_beginning = true;
                     continue;
                 }
-                Element::Beginning => BEGINNING,
-                Element::Context(Context::End) => ENDING,
+                PatternElement::Beginning => BEGINNING,
+                PatternElement::Context(Context::End) => ENDING,
             };
             self.at = begin;
             return Err(self.error_here(help));
@@ -145,14 +145,14 @@ impl<'a> PatternReader<'a> {
         Ok((from_beginning, items))
     }
 
-    fn right_context(&mut self, part: Part) -> Result<Vec<Context>> {
+    fn right_context(&mut self, part: PatternPart) -> Result<Vec<Context>> {
         let count = part.len();
         let mut contexts = Vec::new();
         for (number, (begin, element)) in part.into_iter().enumerate() {
             let help = match element {
-                Element::Beginning => BEGINNING,
-                Element::Context(Context::End) if number + 1 < count => ENDING,
-                Element::Context(context) => {
+                PatternElement::Beginning => BEGINNING,
+                PatternElement::Context(Context::End) if number + 1 < count => ENDING,
+                PatternElement::Context(context) => {
                     contexts.push(context);
                     continue;
                 }
@@ -163,11 +163,11 @@ impl<'a> PatternReader<'a> {
         Ok(contexts)
     }
 
-    fn element(&mut self) -> Result<Element> {
+    fn element(&mut self) -> Result<PatternElement> {
         let context = match self.peek() {
             Some('^') => {
                 self.at += 1;
-                return Ok(Element::Beginning);
+                return Ok(PatternElement::Beginning);
             }
             Some('$') => {
                 self.at += 1;
@@ -185,7 +185,7 @@ impl<'a> PatternReader<'a> {
             }
             _ => Context::Module(self.item()?),
         };
-        Ok(Element::Context(context))
+        Ok(PatternElement::Context(context))
     }
 
     fn branch(&mut self) -> Result<Context> {
@@ -195,7 +195,7 @@ impl<'a> PatternReader<'a> {
         }
         self.depth += 1;
         self.at += 1;
-        let mut inner: Part = Vec::new();
+        let mut inner: PatternPart = Vec::new();
         loop {
             match self.peek() {
                 Some(']') => {

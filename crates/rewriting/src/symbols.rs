@@ -168,6 +168,8 @@ pub struct Symbols {
     by_name: FxHashMap<String, Vec<Symbol>>,
     /// Number of declared modules that belong to the standard library.
     standard: usize,
+    /// Module of the standard library that has a meaning of its own, so that no declaration of a script is the same module.
+    reserved: Option<Symbol>,
 }
 
 impl Default for Symbols {
@@ -187,6 +189,7 @@ impl Symbols {
             signatures,
             by_name: FxHashMap::default(),
             standard: 0,
+            reserved: None,
         }
     }
 
@@ -202,7 +205,8 @@ impl Symbols {
     pub fn declare_in(&mut self, signature: Signature, owner: Option<&str>) -> Result<Symbol> {
         let known = self.by_name.get(&signature.name).map(Vec::as_slice).unwrap_or_default();
         let own = known.iter().rev().find(|symbol| self.owner(**symbol) == owner);
-        let standard = known.iter().find(|symbol| self.is_standard(**symbol));
+        let is_shared = |symbol: &&Symbol| self.is_standard(**symbol) && self.reserved != Some(**symbol);
+        let standard = known.iter().find(is_shared);
         for symbol in own.into_iter().chain(standard).copied() {
             if *self.signature(symbol) == signature {
                 return Ok(symbol);
@@ -241,6 +245,12 @@ impl Symbols {
             Some(index) => name_hash(self.owners[index].as_deref(), &self.signatures[index].name),
             None => 0,
         }
+    }
+
+    /// Marks a module of the standard library that has a meaning of its own. A script that declares a module with its name
+    /// has another module.
+    pub fn reserve(&mut self, symbol: Symbol) {
+        self.reserved = Some(symbol);
     }
 
     /// Marks all current declarations as part of the standard library.

@@ -14,9 +14,10 @@ const AXES: [&str; 2] = ["extruder", "turtle"];
 pub(super) type Page = (String, String);
 
 /// Chapters that are written by hand: their titles and files.
-const CHAPTERS: [(&str, &str); 18] = [
+const CHAPTERS: [(&str, &str); 19] = [
     ("Introduction", "introduction"),
     ("Contexts and features", "rules"),
+    ("Phases, hooks and variables", "phases"),
     ("Curves and surfaces", "curves"),
     ("Data and heights", "data"),
     ("SQL queries", "queries"),

@@ -6,9 +6,11 @@ use super::entry::{Entry, EntryGroup, Member, MemberKind};
 use burgeon::language::CallForm;
 
 /// Counts.
-const COUNTS: [&str; 34] = [
+const COUNTS: [&str; 36] = [
     "derived.modules",
     "derived.steps",
+    "now.modules",
+    "now.step",
     "extruder.along",
     "extruder.around",
     "extruder.sides",

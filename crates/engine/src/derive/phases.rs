@@ -14,8 +14,8 @@ use super::rewriter::SystemRewriter;
 use super::step::step;
 use super::threads::LeadingMachine;
 use crate::declare::TraceRequest;
-use crate::machine::{Driver as _, HookFunction, HookMoment, HookView, VariableValues, stops_at_depth};
-use crate::results::{RowFeatures, RuleName, RuleReport, Step, Times};
+use crate::machine::{Driver as _, HookFunction, HookMoment, HookView, stops_at_depth};
+use crate::results::{RowFeatures, RuleName, RuleReport, Step, Times, VariableValues};
 use burgeon_base::error::Result;
 use burgeon_base::warning::Warning;
 use burgeon_rewriting::{

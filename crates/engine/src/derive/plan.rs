@@ -6,8 +6,9 @@ use super::rewriter::SystemRewriter;
 use crate::declare::TraceRequest;
 use crate::machine::{
     Axiom, HookFunction, HookMoment, Interpretations, Machine, ModulePlaces, Objects, RulePhase,
-    SystemFunctions, VariableValues, group_number,
+    SystemFunctions, group_number,
 };
+use crate::results::VariableValues;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::Warning;

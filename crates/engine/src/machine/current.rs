@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use super::hooks::HookView;
 use super::module_places::ModulePlaces;
-use super::variables::VariableValues;
 use crate::declare::Session;
 use crate::machine::types::Objects;
 use crate::questions::ChainView;
+use crate::results::VariableValues;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::random::Stream;
 use burgeon_base::warning::{Warning, take_deferred};

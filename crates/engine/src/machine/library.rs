@@ -377,6 +377,7 @@ impl Library {
             lua.create_function(move |_, module: String| {
                 let symbol = library.symbols.borrow().find(&module).map_err(mlua::Error::external)?;
                 library.cut.set(Some(symbol));
+                library.symbols.borrow_mut().reserve(symbol);
                 Ok(())
             })?,
         )?;

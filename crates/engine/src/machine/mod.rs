@@ -42,7 +42,7 @@ pub(crate) use system::{
     stops_at_depth,
 };
 pub(crate) use types::Objects;
-pub(crate) use variables::{VariableValues, table_of};
+pub(crate) use variables::table_of;
 pub use virtual_machine::Machine;
 pub(crate) use virtual_machine::{compile, read_column, write_column};
 pub use watchdog::Watchdog;

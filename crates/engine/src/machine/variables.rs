@@ -2,7 +2,6 @@
 
 use std::rc::Rc;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use mlua::{Lua, LuaString, Table, Value as LuaValue};
 
@@ -10,6 +9,7 @@ use super::Machine;
 use super::convert::{to_lua, to_value};
 use super::current::WorkState;
 use super::library::Library;
+use crate::results::VariableValues;
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::{TableKey, Value};
 
@@ -19,46 +19,13 @@ pub(crate) struct VariableTable {
     initial: Vec<Value>,
 }
 
-/// Values of the variables of a system.
-#[derive(Clone)]
-pub(crate) struct VariableValues {
-    /// Index of the variables among those of the script.
-    pub(crate) table: usize,
-    pub(crate) names: Arc<[Arc<str>]>,
-    pub(crate) values: Vec<Value>,
-    /// Number that is different for all states of all variables.
-    version: u64,
-}
-
-impl VariableValues {
-    fn new(table: usize, declared: &VariableTable) -> Self {
-        let names = declared.names.as_slice().into();
-        Self { table, names, values: declared.initial.clone(), version: new_version() }
-    }
-
-    /// Returns the same variables with the values of `other`, where these are the same variables.
-    pub(crate) fn continued(mut self, other: Option<&Self>) -> Self {
-        if let Some(other) = other.filter(|other| other.table == self.table) {
-            self.values.clone_from(&other.values);
-        }
-        self
-    }
-
-    /// Returns true if the values have not changed since `earlier` was copied.
-    pub(crate) fn is_same(&self, earlier: &Self) -> bool {
-        self.version == earlier.version
-    }
-}
-
-fn new_version() -> u64 {
-    static NEXT: AtomicU64 = AtomicU64::new(0);
-    NEXT.fetch_add(1, Ordering::Relaxed)
-}
-
 impl Library {
     /// Returns the values of variables number `table` at the beginning of a derivation.
     pub(crate) fn initial_variables(&self, table: usize) -> Option<VariableValues> {
-        self.variables.borrow().get(table).map(|declared| VariableValues::new(table, declared))
+        self.variables
+            .borrow()
+            .get(table)
+            .map(|declared| VariableValues::new(table, &declared.names, &declared.initial))
     }
 }
 
@@ -122,8 +89,7 @@ pub(super) fn add_variables(
                 && let Some(index) =
                     variables.names.iter().position(|known| *name.as_bytes() == *known.as_bytes())
             {
-                variables.values[index] = value;
-                variables.version = new_version();
+                variables.set(index, value);
             }
             Ok(stored)
         })?,

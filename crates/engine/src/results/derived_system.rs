@@ -8,7 +8,7 @@ use super::records::{SourceFeatures, drop_indices};
 use super::remark::Remark;
 use super::row_features::RowFeatures;
 use super::trace::RuleName;
-use crate::machine::VariableValues;
+use super::variables::VariableValues;
 use burgeon_base::error::{Result, SourcePlace};
 use burgeon_base::warning::Warning;
 use burgeon_kit::Values;

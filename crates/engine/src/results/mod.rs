@@ -11,6 +11,7 @@ mod records;
 mod remark;
 mod row_features;
 mod trace;
+mod variables;
 
 pub use burgeon_rewriting::Use;
 pub(crate) use derived_system::SystemUses;
@@ -23,3 +24,4 @@ pub(crate) use row_features::RowFeatures;
 pub use trace::{Ancestor, Module, RuleName, RuleProducts, Trace};
 pub(crate) use trace::{PendingAnswer, RESOLVED};
 pub(crate) use trace::{Step, around};
+pub(crate) use variables::VariableValues;

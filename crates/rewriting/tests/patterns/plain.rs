@@ -3,7 +3,9 @@
 //! It follows the laws of rewriting directly: each module looks at the tree around it, and each chain is scanned from
 //! left to right. Only the keys of random numbers are shared with the crate.
 
-use crate::rewriting::ModuleKey;
+use std::collections::HashMap;
+
+use crate::rewriting::{ModuleKey, Signature, Symbols};
 
 /// Value of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -239,7 +241,7 @@ fn rewrite<'a, R: PlainRule>(
                 let weighted = rule.weight().is_some();
                 let application = Application { arguments: &arguments, key: module.key, weighted };
                 match rule.successor(&application) {
-                    Some(successor) => made.extend(keyed(successor, module.key, &mut 0)),
+                    Some(successor) => made.extend(keyed(successor, module.key, &mut HashMap::new())),
                     None => {
                         made.push(Part::Module(PlainModule { key: module.key.advance(), ..module.clone() }));
                         made.extend_from_slice(&parts[position + 1..position + count]);
@@ -287,21 +289,32 @@ fn choose<'r, R: PlainRule>(
     Some(matching.swap_remove(chosen.unwrap_or(last)))
 }
 
-/// Returns a successor with the keys of its modules.
-fn keyed(parts: Vec<Part>, parent: ModuleKey, ordinal: &mut usize) -> Vec<Part> {
+/// Returns the hash of the name of a module of the script.
+fn name_hash(name: &str) -> u64 {
+    let mut symbols = Symbols::default();
+    let symbol = symbols.declare(Signature::new(name, &[]).expect("a name")).expect("a module");
+    symbols.name_hash(symbol)
+}
+
+/// Returns a successor with the keys of its modules; `made` counts the modules so far by name.
+fn keyed(parts: Vec<Part>, parent: ModuleKey, made: &mut HashMap<String, usize>) -> Vec<Part> {
     let with_key = |part| match part {
         Part::Module(module) => {
+            let ordinal = made.entry(module.name.to_string()).or_default();
             *ordinal += 1;
-            Part::Module(PlainModule { key: parent.child(*ordinal - 1), ..module })
+            Part::Module(PlainModule {
+                key: parent.successor(name_hash(&module.name), *ordinal - 1),
+                ..module
+            })
         }
-        Part::Branch(inner) => Part::Branch(keyed(inner, parent, ordinal)),
+        Part::Branch(inner) => Part::Branch(keyed(inner, parent, made)),
     };
     parts.into_iter().map(with_key).collect()
 }
 
 /// Returns the chain `parts` as the axiom of a system with this seed.
 pub(crate) fn axiom(parts: Vec<Part>, seed: u64) -> Vec<Part> {
-    keyed(parts, ModuleKey::seed(seed), &mut 0)
+    keyed(parts, ModuleKey::seed(seed), &mut HashMap::new())
 }
 
 /// Returns the chain without the modules named `cut` and what follows them in their branches.

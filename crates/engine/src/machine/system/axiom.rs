@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use mlua::{AnyUserData, Function, MultiValue, Table, Value as LuaValue};
 
+use crate::machine::Machine;
 use crate::machine::convert::to_value;
 use crate::machine::types::ObjectHandle;
-use crate::machine::{Machine, VariableValues};
+use crate::results::VariableValues;
 use crate::results::{DerivedSystem, Remark, SourceFeatures};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_kit::{Object, Prefetch, Value};
