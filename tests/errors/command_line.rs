@@ -353,7 +353,7 @@ fn help_reads_well() {
       burgeon live tree.lua
       burgeon run tree.lua -o tree.glb
     ");
-    assert_snapshot!(without_formats(&Folder::new().burgeon(&["run", "-h"]).done().stdout), @r#"
+    assert_snapshot!(without_formats(&Folder::new().burgeon(&["run", "-h"]).done().stdout), @r"
     Runs a script and writes what it makes
 
     Usage: burgeon run [OPTIONS] <SCRIPT>
@@ -393,14 +393,23 @@ fn help_reads_well() {
           --memory-limit <MEGABYTES>  Memory limit of a run [default: 4096]
           --module-limit <N>          Maximum number of modules of a system's chains [default: 50000000]
           --triangle-limit <N>        Maximum number of triangles of a system [default: 50000000]
+          --frame-limit <N>           Maximum number of frames of a film [default: 10000]
+
+    Films:
+          --frames <[NAME=]FIRST:LAST:STEP>
+              Writes a film, one run for each value of the parameter time, or of NAME, to a .gif, .apng or .glb file, or to a file for each frame by a pattern such as frames/%04d.png; steps is the number of steps
+          --turntable <N>
+              Writes a film of N frames in which the camera goes once around the model
+          --fps <N>
+              Frames per second of a film [default: 25]
 
     Pictures:
-          --size <WIDTHxHEIGHT>      Width and height of a render (pixels) [default: 1280x960]
+          --size <WIDTHxHEIGHT>      Width and height of a render (pixels); 800x600 for films [default: 1280x960]
           --azimuth <DEGREES>        Azimuth of the camera: 0 is north, 90 east (degrees) [default: from the model]
           --elevation <DEGREES>      Elevation of the camera above the horizon (degrees) [default: from the model]
           --look <X,Y,Z,M>           Frames the sphere with this centre and radius (m) [default: the whole model]
           --background <BACKGROUND>  Background of the render [default: light] [possible values: light, dark, clear]
-    "#);
+    ");
     assert_snapshot!(Folder::new().burgeon(&["check", "-h"]).done().stdout, @r"
     Checks a script and its required files as far as a run goes, and reports all problems
 

@@ -10,7 +10,17 @@ end
 local bud, mature = petal(0.2, -0.2), petal(0.6, 0.5)
 local Petal = module("Petal", "age")
 local flower = lsystem({ object = turtle({ color = "#b0568a" }) })
-flower:axiom({ Petal(0.1) }, Roll(72), { Petal(0.3) }, Roll(72), { Petal(0.5) }, Roll(72), { Petal(0.7) }, Roll(72), { Petal(1) })
+flower:axiom(
+  { Petal(0.1) },
+  Roll(72),
+  { Petal(0.3) },
+  Roll(72),
+  { Petal(0.5) },
+  Roll(72),
+  { Petal(0.7) },
+  Roll(72),
+  { Petal(1) }
+)
 flower:interpret("Petal(age)", function(this, age)
   this:pitch(20 + 40 * age):surface(bud:mix(mature, age))
 end)

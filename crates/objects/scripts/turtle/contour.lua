@@ -1,6 +1,15 @@
 -- A contour with four lobes blends into a circle.
 local lobes = curve({
-  points = { { 1, 0 }, { 0.4, 0.4 }, { 0, 1 }, { -0.4, 0.4 }, { -1, 0 }, { -0.4, -0.4 }, { 0, -1 }, { 0.4, -0.4 } },
+  points = {
+    { 1, 0 },
+    { 0.4, 0.4 },
+    { 0, 1 },
+    { -0.4, 0.4 },
+    { -1, 0 },
+    { -0.4, -0.4 },
+    { 0, -1 },
+    { 0.4, -0.4 },
+  },
   closed = true,
 })
 local Part = module("Part")
