@@ -97,10 +97,10 @@ pub(crate) fn reaches(
     let mut queue: Vec<Value> = functions.into_iter().map(Value::Function).collect();
     while let Some(value) = queue.pop() {
         match value {
-            Value::Function(function) => {
-                if function.info().what != "C" && seen.insert(function.to_pointer() as usize) {
-                    queue.extend(captured(lua, &function)?);
-                }
+            Value::Function(function)
+                if function.info().what != "C" && seen.insert(function.to_pointer() as usize) =>
+            {
+                queue.extend(captured(lua, &function)?);
             }
             Value::Table(table) if seen.insert(table.to_pointer() as usize) => {
                 if is_wanted(&table) {

@@ -89,7 +89,7 @@ pub struct FilmWriter {
 /// File of a film, or files of its frames.
 enum FilmTarget {
     Frames(&'static Format, FramePattern),
-    Images(PathBuf, fn(&FilmSettings) -> io::Result<Box<dyn FrameEncoder>>, Option<FrameFile>),
+    Images(PathBuf, fn(&FilmSettings) -> io::Result<Box<dyn FrameEncoder>>, Option<Box<FrameFile>>),
     Scenes(PathBuf, fn(&FilmModel, &FilmSettings, &Path, &mut Files) -> Result<()>),
 }
 
@@ -198,7 +198,7 @@ impl FilmWriter {
                 }
                 FilmTarget::Images(path, encoder, file) => {
                     if file.is_none() {
-                        *file = Some(FrameFile::open(&self.files, path, *encoder, &self.settings)?);
+                        *file = Some(Box::new(FrameFile::open(&self.files, path, *encoder, &self.settings)?));
                     }
                     let image = frame.image.as_ref().ok_or_else(missing)?;
                     file.as_mut().map_or_else(|| Err(missing()), |file| file.add(image))?;

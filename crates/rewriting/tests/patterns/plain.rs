@@ -303,7 +303,7 @@ fn keyed(parts: Vec<Part>, parent: ModuleKey, made: &mut HashMap<String, usize>)
             let ordinal = made.entry(module.name.to_string()).or_default();
             *ordinal += 1;
             Part::Module(PlainModule {
-                key: parent.successor(name_hash(&module.name), *ordinal - 1),
+                key: parent.successor(name_hash(module.name), *ordinal - 1),
                 ..module
             })
         }
