@@ -22,6 +22,8 @@ mod color;
 mod decompose;
 mod facts;
 mod files;
+mod film_model;
+mod film_settings;
 pub mod films;
 mod format;
 mod formats;

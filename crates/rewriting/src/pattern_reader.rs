@@ -33,7 +33,7 @@ enum PatternElement {
 }
 
 /// Elements between two separators, each with its position.
-type PatternPart = Vec<(usize, PatternElement)>;
+type PatternSection = Vec<(usize, PatternElement)>;
 
 impl<'a> PatternReader<'a> {
     pub(super) fn new(text: &'a str, symbols: &'a Symbols, scope: &'a NameScope) -> Self {
@@ -41,7 +41,7 @@ impl<'a> PatternReader<'a> {
     }
 
     pub(super) fn pattern(mut self) -> Result<Pattern> {
-        let mut parts: Vec<PatternPart> = vec![Vec::new()];
+        let mut parts: Vec<PatternSection> = vec![Vec::new()];
         let mut separators: Vec<char> = Vec::new();
         loop {
             match self.peek() {
@@ -86,7 +86,7 @@ impl<'a> PatternReader<'a> {
     }
 
     /// Returns the predecessor's modules and the symbol of the first.
-    fn predecessors(&mut self, part: PatternPart) -> Result<(Symbol, Vec<Item>)> {
+    fn predecessors(&mut self, part: PatternSection) -> Result<(Symbol, Vec<Item>)> {
         let mut items = Vec::new();
         for (begin, element) in part {
             let help = match element {
@@ -117,7 +117,7 @@ impl<'a> PatternReader<'a> {
     }
 
     /// Returns whether the left context begins with the chain, and its modules.
-    fn left_context(&mut self, part: PatternPart) -> Result<(bool, Vec<Item>)> {
+    fn left_context(&mut self, part: PatternSection) -> Result<(bool, Vec<Item>)> {
         let mut items = Vec::new();
         let mut from_beginning = false;
         for (number, (begin, element)) in part.into_iter().enumerate() {
@@ -145,7 +145,7 @@ impl<'a> PatternReader<'a> {
         Ok((from_beginning, items))
     }
 
-    fn right_context(&mut self, part: PatternPart) -> Result<Vec<Context>> {
+    fn right_context(&mut self, part: PatternSection) -> Result<Vec<Context>> {
         let count = part.len();
         let mut contexts = Vec::new();
         for (number, (begin, element)) in part.into_iter().enumerate() {
@@ -195,7 +195,7 @@ impl<'a> PatternReader<'a> {
         }
         self.depth += 1;
         self.at += 1;
-        let mut inner: PatternPart = Vec::new();
+        let mut inner: PatternSection = Vec::new();
         loop {
             match self.peek() {
                 Some(']') => {

@@ -204,9 +204,10 @@ impl Symbols {
     /// Declares a module of the package `owner`, or of the script; see [`declare`](Self::declare).
     pub fn declare_in(&mut self, signature: Signature, owner: Option<&str>) -> Result<Symbol> {
         let known = self.by_name.get(&signature.name).map(Vec::as_slice).unwrap_or_default();
-        let own = known.iter().rev().find(|symbol| self.owner(**symbol) == owner);
-        let is_shared = |symbol: &&Symbol| self.is_standard(**symbol) && self.reserved != Some(**symbol);
-        let standard = known.iter().find(is_shared);
+        let known =
+            known.iter().filter(|symbol| !self.is_standard(**symbol) || self.reserved != Some(**symbol));
+        let own = known.clone().rev().find(|symbol| self.owner(**symbol) == owner);
+        let standard = known.clone().find(|symbol| self.is_standard(**symbol));
         for symbol in own.into_iter().chain(standard).copied() {
             if *self.signature(symbol) == signature {
                 return Ok(symbol);
@@ -375,6 +376,19 @@ mod tests {
         let first = symbols.declare(signature("A", &["x"]).unwrap()).unwrap();
         assert_eq!(symbols.declare(signature("A", &["x"]).unwrap()).unwrap(), first);
         assert!(symbols.declare(signature("A", &["y"]).unwrap()).is_err());
+    }
+
+    #[test]
+    fn a_script_that_declares_the_name_of_a_reserved_module_has_another_module() {
+        let mut symbols = Symbols::default();
+        let cut = symbols.declare(Signature::new("Cut", &[]).unwrap()).unwrap();
+        symbols.reserve(cut);
+        symbols.end_of_standard();
+        assert_eq!(symbols.find("Cut").unwrap(), cut);
+        let own = symbols.declare(Signature::new("Cut", &[]).unwrap()).unwrap();
+        assert_ne!(own, cut);
+        assert_eq!(symbols.find("Cut").unwrap(), own);
+        assert_eq!(symbols.declare(Signature::new("Cut", &[]).unwrap()).unwrap(), own);
     }
 
     #[test]

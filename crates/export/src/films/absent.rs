@@ -1,7 +1,7 @@
 //! Stubs of the encoders of animated images, for builds without the feature `pictures`.
 
-use super::settings::FilmSettings;
 use super::writer::FrameEncoder;
+use crate::film_settings::FilmSettings;
 use std::io;
 
 /// Fails, because images cannot be encoded.

@@ -3,10 +3,10 @@
 //! The command line, its help and errors read this table. A new format is a row here.
 
 use super::encode;
-use super::model::FilmModel;
-use super::settings::FilmSettings;
 use super::writer::FrameEncoder;
 use crate::files::Files;
+use crate::film_model::FilmModel;
+use crate::film_settings::FilmSettings;
 use crate::format::{FileFormat, always, find};
 use crate::gltf;
 use burgeon_base::error::Result;

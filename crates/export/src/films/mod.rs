@@ -4,16 +4,14 @@
 //! with. An animated file is complete or absent; files of single frames appear one by one, each complete.
 
 mod formats;
-mod model;
 mod pattern;
-mod settings;
 mod writer;
 
 #[cfg_attr(not(feature = "pictures"), path = "absent.rs")]
 mod encode;
 
+pub use crate::film_model::FilmModel;
+pub use crate::film_settings::FilmSettings;
 pub use formats::{FILM_FORMATS, FilmContent, FilmFormat};
-pub use model::FilmModel;
 pub use pattern::FramePattern;
-pub use settings::FilmSettings;
 pub use writer::{FilmFrame, FilmNeeds, FilmWriter, FrameEncoder};

@@ -1,10 +1,10 @@
 //! Writes a film to one or several files, frame by frame.
 
 use super::formats::{FILM_FORMATS, FilmContent, FilmFormat};
-use super::model::FilmModel;
 use super::pattern::FramePattern;
-use super::settings::FilmSettings;
 use crate::files::{Files, OpenFile};
+use crate::film_model::FilmModel;
+use crate::film_settings::FilmSettings;
 use crate::format::{Format, Need, extension_list};
 use crate::{Export, PNG, SceneFacts, stem};
 use burgeon_base::error::{Error, Result};

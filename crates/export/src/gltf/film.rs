@@ -3,7 +3,7 @@
 use super::body::{Body, BodyArray};
 use super::description::{Accessor, Description, Extreme};
 use super::mesh::accessor;
-use crate::films::FilmSettings;
+use crate::film_settings::FilmSettings;
 use gltf_json as json;
 use json::accessor::{ComponentType, Type};
 use serde_json::json;

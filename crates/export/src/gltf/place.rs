@@ -7,7 +7,7 @@ use super::coordinates::short;
 use super::description::{Accessor, Description, FeatureExtras, Node, use_extension};
 use super::mesh::{Arrays, accessor};
 use super::metadata::{FeaturePlace, INSTANCE_FEATURES, Metadata, instance_features};
-use crate::films::FilmModel;
+use crate::film_model::FilmModel;
 use burgeon_scene::Instance;
 use glam::{DAffine3, DQuat, DVec3};
 use gltf_json as json;

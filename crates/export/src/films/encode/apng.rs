@@ -5,7 +5,7 @@
 use super::changes::PixelArea;
 use super::delay::fraction;
 use super::sink::EncodedBytes;
-use crate::films::settings::FilmSettings;
+use crate::film_settings::FilmSettings;
 use crate::films::writer::FrameEncoder;
 use burgeon_scene::image::Image;
 use png::{BitDepth, BlendOp, ColorType, Compression, DisposeOp, EncodingError, Filter};

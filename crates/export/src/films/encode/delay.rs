@@ -1,6 +1,6 @@
 //! Times for which formats show a frame.
 
-use crate::films::settings::FilmSettings;
+use crate::film_settings::FilmSettings;
 
 /// Returns the time (1/100 s) for which frame `number` is shown. Rounding errors do not add up over the film.
 pub(super) fn centiseconds(settings: &FilmSettings, number: u32) -> u16 {

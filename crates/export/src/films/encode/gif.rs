@@ -6,7 +6,7 @@ use super::changes::PixelArea;
 use super::delay::centiseconds;
 use super::palette::FramePalette;
 use super::sink::EncodedBytes;
-use crate::films::settings::FilmSettings;
+use crate::film_settings::FilmSettings;
 use crate::films::writer::FrameEncoder;
 use burgeon_scene::image::Image;
 use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
