@@ -43,7 +43,7 @@ local Base, Apex = module("Base"), module("Apex", "number")
 local Internode, Leaf, Tip = module("Internode", "age"), module("Leaf", "age"), module("Tip")
 local plant = lsystem({ object = turtle({ width = 0.1, sides = 16, color = "#6d8f45", roughness = 0.6 }) })
 plant:axiom(Base(), Apex(0))
-plant:rule("Apex(number)", function(_, number)
+plant:rule("Apex(number)", function(_, number: number)
   if number == leaves then
     return Tip()
   end

@@ -13,7 +13,7 @@ local LEFT, RIGHT = 3, 5 -- internodes of a branch
 local Wait, Apex, Internode = module("Wait", "left"), module("Apex", "rest", "left"), module("Internode")
 local Up, Down, Across = module("Up"), module("Down"), module("Across") -- the insect
 
-local function insect(pen: any): any
+local function insect(pen: Turtle): any
   local plant = lsystem({ object = pen, interpret = "last" })
   plant:axiom(Wait(delay), Internode(), Apex(0, LEFT))
 
