@@ -1,7 +1,6 @@
 //! Chains in columns: all chains of a system are stored one after the other in a structure of arrays.
 
 use super::key::ModuleKey;
-use super::symbols::{FIRST_SYMBOL, Symbols};
 
 /// Symbol of a module.
 pub type Symbol = u16;
@@ -69,25 +68,6 @@ impl Chain {
     /// Returns the number of modules, without brackets and ends.
     pub fn modules(&self) -> usize {
         self.symbols.iter().filter(|symbol| **symbol > END).count()
-    }
-
-    /// Returns the name and the number of modules of each declared symbol, in the order of declaration.
-    ///
-    /// ```
-    /// use burgeon_rewriting::{Chain, END, Signature, Symbols};
-    ///
-    /// let mut symbols = Symbols::default();
-    /// let a = symbols.declare(Signature::new("A", &[])?)?;
-    /// let b = symbols.declare(Signature::new("B", &[])?)?;
-    /// let chain = Chain { symbols: vec![a, b, a, END], ..Chain::default() };
-    /// assert_eq!(chain.counts(&symbols), [("A", 2), ("B", 1)]);
-    /// # Ok::<(), burgeon_base::Error>(())
-    /// ```
-    pub fn counts<'a>(&self, symbols: &'a Symbols) -> Vec<(&'a str, usize)> {
-        let mut counts = vec![0; symbols.arities().len()];
-        self.symbols.iter().for_each(|symbol| counts[usize::from(*symbol)] += 1);
-        let declared = (FIRST_SYMBOL..).zip(counts.into_iter().skip(usize::from(FIRST_SYMBOL)));
-        declared.map(|(symbol, count)| (symbols.display_name(symbol), count)).collect()
     }
 
     /// Sets marks that divide the columns into pieces of about `size` symbols. `arities` contains the number of

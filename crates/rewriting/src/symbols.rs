@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
-use super::chain::{END, Symbol};
+use super::chain::{Chain, END, Symbol};
 use crate::key::name_hash;
 use burgeon_base::error::{Error, Limit, Result};
 
@@ -246,6 +246,30 @@ impl Symbols {
             Some(index) => name_hash(self.owners[index].as_deref(), &self.signatures[index].name),
             None => 0,
         }
+    }
+
+    /// Returns the name of each declared module, in the order of declaration, and the number of its modules in `chain`.
+    ///
+    /// ```
+    /// use burgeon_rewriting::{Chain, END, Signature, Symbols};
+    ///
+    /// let mut symbols = Symbols::default();
+    /// let a = symbols.declare(Signature::new("A", &[])?)?;
+    /// let b = symbols.declare(Signature::new("B", &[])?)?;
+    /// let chain = Chain { symbols: vec![a, b, a, END], ..Chain::default() };
+    /// assert_eq!(symbols.counts(&chain), [("A", 2), ("B", 1)]);
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
+    pub fn counts(&self, chain: &Chain) -> Vec<(&str, usize)> {
+        let mut counts = vec![0; self.arities().len()];
+        chain.symbols.iter().for_each(|symbol| counts[usize::from(*symbol)] += 1);
+        let declared = (FIRST_SYMBOL..).zip(counts.into_iter().skip(usize::from(FIRST_SYMBOL)));
+        declared.map(|(symbol, count)| (self.display_name(symbol), count)).collect()
+    }
+
+    /// Returns true if `symbol` is the reserved module.
+    pub fn is_reserved(&self, symbol: Symbol) -> bool {
+        self.reserved == Some(symbol)
     }
 
     /// Marks a module of the standard library that has a meaning of its own. A script that declares a module with its name

@@ -72,7 +72,7 @@ pub(super) fn add_hooks(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlu
                 "modules" => number(view.chain.modules()),
                 "counts" => {
                     let counts = lua.create_table()?;
-                    for (name, count) in view.chain.counts(&view.symbols) {
+                    for (name, count) in view.symbols.counts(&view.chain) {
                         counts.raw_set(name, count)?;
                     }
                     counts.set_readonly(true);

@@ -114,7 +114,7 @@ impl DerivedSystem {
     /// Returns the number of modules of each declared name in all chains.
     pub(crate) fn counts(&self) -> Vec<(&str, usize)> {
         self.uses.read.store(true, Ordering::Relaxed);
-        self.chain.counts(&self.symbols)
+        self.symbols.counts(&self.chain)
     }
 
     /// Drops the chains at the indices `chains`, which are ascending. Queries still see them.

@@ -137,6 +137,10 @@ fn declarations(body: &str, symbols: &Symbols, scope: &NameScope) -> Result<Stri
             let help = "return it from a function, with a constructor of the package: function(this) return stone(1) end";
             Error::of(error.kind().clone(), error.message()).help(help)
         })?;
+        if symbols.is_reserved(symbol) {
+            // A declaration would make another module; the name is a global.
+            continue;
+        }
         let owner = symbols.owner(symbol).filter(|owner| scope.package.as_deref() != Some(*owner));
         let owner = owner.map_or_else(String::new, |owner| format!("{owner}."));
         let signature = symbols.signature(symbol);
