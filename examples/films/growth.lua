@@ -60,7 +60,7 @@ plant:rule("Apex(age, left, order)", {
   when = function(this, age, left)
     return age > interval and left > 0
   end,
-}, function(this, age: number, left: number, order: number)
+}, function(this, age, left, order)
   local rest = age - interval
   return Internode(rest, order),
     { Leaf(rest, order) },
@@ -73,7 +73,7 @@ plant:rule("Apex(age, left, order)", {
   when = function(this, age, left)
     return age > interval and left == 0
   end,
-}, function(this, age: number)
+}, function(this, age)
   return Flower(age - interval)
 end)
 -- Buds of the main shoot grow out; those of its branches rest.
@@ -81,7 +81,7 @@ plant:rule("Bud(age, left, order)", {
   when = function(this, age, left, order)
     return age > DELAY and order == 1
   end,
-}, function(this, age: number, left, order)
+}, function(this, age, left, order)
   return Apex(age - DELAY, left, order)
 end)
 

@@ -63,7 +63,7 @@ expect(result.counts.Up + result.counts.Down + result.counts.Across, 1)
 
 -- The whole visit, without a drawing. An axis gains an internode in every sixth step, and forks in the steps 19, 43 and
 -- 55. The insect eats the apices in the steps 48, 54, 73 and 84, when the branches have 1, 2, 3 and 5 internodes.
-local visit = insect(nil):derive(120)
+local visit = insect(nil :: any):derive(120)
 expect({ visit.counts.Apex, visit.counts.Internode }, { 0, 2 * (1 + LEFT) + (1 + RIGHT) + 1 + 2 + 3 + 5 })
 -- It appears in step 36, and takes a step for each internode on its way up and on its way down, three for each fork, one
 -- for each apex, and one to leave the plant.
