@@ -4,9 +4,7 @@ use std::sync::Arc;
 
 use super::chain::Symbol;
 use super::column_value::ColumnValue;
-use super::pattern_reader::PatternReader;
-use super::symbols::{NameScope, Symbols};
-use burgeon_base::error::Result;
+use super::symbols::Symbols;
 
 /// A predecessor with its contexts.
 #[derive(Debug, Clone, PartialEq)]
@@ -118,33 +116,6 @@ impl Item {
 }
 
 impl Pattern {
-    /// Parses a pattern; its symbols must be declared in `symbols`.
-    ///
-    /// ```
-    /// use burgeon_rewriting::{Context, Pattern, Signature, Symbols};
-    ///
-    /// let mut symbols = Symbols::default();
-    /// let apex = symbols.declare(Signature::new("Apex", &["length".into()])?)?;
-    /// let leaf = symbols.declare(Signature::new("Leaf", &[])?)?;
-    /// let pattern = Pattern::parse("Apex(l)<Apex(m)>[Leaf] Apex(0) $", &symbols)?;
-    /// assert_eq!((pattern.symbol, pattern.left[0].plain()), (apex, Some(apex)));
-    /// assert_eq!(pattern.formals, ["l", "m"]);
-    /// assert!(matches!(&pattern.right[0], Context::Branch(inner) if inner.len() == 1));
-    /// assert_eq!(pattern.right[2], Context::End);
-    ///
-    /// let error = Pattern::parse("Apex(l, m)", &symbols).expect_err("it has one parameter");
-    /// assert!(error.message().contains("Apex"));
-    /// # Ok::<(), burgeon_base::error::Error>(())
-    /// ```
-    pub fn parse(text: &str, symbols: &Symbols) -> Result<Self> {
-        Self::parse_in(text, symbols, &NameScope::default())
-    }
-
-    /// Parses a pattern whose names are resolved in `scope`; see [`Symbols::find_in`].
-    pub fn parse_in(text: &str, symbols: &Symbols, scope: &NameScope) -> Result<Self> {
-        PatternReader::new(text, symbols, scope).pattern()
-    }
-
     /// Returns the pattern with `text` as its text, in which white space outside of quotes becomes single spaces.
     #[must_use]
     pub fn with_text(self, text: &str) -> Self {

@@ -14,8 +14,37 @@ const BEGINNING: &str = "^ is the beginning of the chain; write it first in a le
 /// Help for `$` at another position than the end.
 const ENDING: &str = "$ is the end of a branch or of the chain; write it last in a right context: A > B $";
 
+impl Pattern {
+    /// Parses a pattern; its symbols must be declared in `symbols`.
+    ///
+    /// ```
+    /// use burgeon_rewriting::{Context, Pattern, Signature, Symbols};
+    ///
+    /// let mut symbols = Symbols::default();
+    /// let apex = symbols.declare(Signature::new("Apex", &["length".into()])?)?;
+    /// let leaf = symbols.declare(Signature::new("Leaf", &[])?)?;
+    /// let pattern = Pattern::parse("Apex(l)<Apex(m)>[Leaf] Apex(0) $", &symbols)?;
+    /// assert_eq!((pattern.symbol, pattern.left[0].plain()), (apex, Some(apex)));
+    /// assert_eq!(pattern.formals, ["l", "m"]);
+    /// assert!(matches!(&pattern.right[0], Context::Branch(inner) if inner.len() == 1));
+    /// assert_eq!(pattern.right[2], Context::End);
+    ///
+    /// let error = Pattern::parse("Apex(l, m)", &symbols).expect_err("it has one parameter");
+    /// assert!(error.message().contains("Apex"));
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
+    pub fn parse(text: &str, symbols: &Symbols) -> Result<Self> {
+        Self::parse_in(text, symbols, &NameScope::default())
+    }
+
+    /// Parses a pattern whose names are resolved in `scope`; see [`Symbols::find_in`].
+    pub fn parse_in(text: &str, symbols: &Symbols, scope: &NameScope) -> Result<Self> {
+        PatternReader::new(text, symbols, scope).pattern()
+    }
+}
+
 /// Reader of one pattern.
-pub(super) struct PatternReader<'a> {
+struct PatternReader<'a> {
     text: &'a str,
     at: usize,
     /// Number of branches that are open at the current position.
@@ -36,11 +65,11 @@ enum PatternElement {
 type PatternSection = Vec<(usize, PatternElement)>;
 
 impl<'a> PatternReader<'a> {
-    pub(super) fn new(text: &'a str, symbols: &'a Symbols, scope: &'a NameScope) -> Self {
+    fn new(text: &'a str, symbols: &'a Symbols, scope: &'a NameScope) -> Self {
         Self { text, at: 0, depth: 0, symbols, scope, formals: Vec::new() }
     }
 
-    pub(super) fn pattern(mut self) -> Result<Pattern> {
+    fn pattern(mut self) -> Result<Pattern> {
         let mut parts: Vec<PatternSection> = vec![Vec::new()];
         let mut separators: Vec<char> = Vec::new();
         loop {
