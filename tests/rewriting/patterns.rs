@@ -247,3 +247,60 @@ fn interpretations_choose_by_values_and_take_one_module() {
     let told = error(&script("B P"));
     assert!(told.contains("an interpretation is of one module"), "{told}");
 }
+
+#[test]
+fn the_lineage_of_a_run_is_that_of_its_first_module_and_survives_cuts() {
+    let file = tempfile::Builder::new().suffix(".lua").tempfile().expect("a file").into_temp_path();
+    let script = "local A, B, Slab = module('A', 'n'), module('B', 'n'), module('Slab', 'h')
+        local s = lsystem({ object = extruder() })
+        s:axiom({ B(7), Cut(), B(8) }, A(1), B(2))
+        s:rule('A(a) B(b)', function(this, a, b) return Slab(a + b), B(9) end)
+        s:interpret('Slab(h)', function(this, h) this:extrude(h) end)
+        s:derive(1)";
+    std::fs::write(&file, script).expect("a script");
+    let run = burgeon::run(&file, burgeon::options()).expect("it runs");
+    assert_eq!(all_chains(&run).trim_end(), "[ B(7) ] Slab(3) B(9)");
+    let asked = burgeon::trace::Pick { instance: 0, part: 0, triangle: 0 };
+    let picked = burgeon::trace::pick(&file, &burgeon::options(), &run.scene, asked).expect("it is known");
+    let path = picked.drawn.expect("a module made it").path;
+    let path: Vec<_> = path.iter().map(|ancestor| ancestor.module.text.as_str()).collect();
+    assert_eq!(path, ["A(1)", "Slab(3)"]);
+}
+
+#[test]
+fn runs_decompose_and_never_cross_the_chains_of_features() {
+    let run = run("local A, B = module('A', 'n'), module('B', 'n')
+         local s = lsystem()
+         s:axiom(source({ { id = 'a', n = 1 }, { id = 'b', n = 2 }, { id = 'c', n = 5 } }), function(feature)
+           local list = {}
+           for i = 1, feature.n do list[i] = A(i) end
+           return sequence(list)
+         end)
+         s:decompose('A(a) A(b)', function(this, a, b) return A(a + b) end)
+         s:rule('A(n)', function(this, n) return B(n), B(random() // 1 + n) end)
+         s:decompose('B(a) B(b)', { weight = 1 }, function(this, a, b) return B(a * b) end)
+         s:derive(1)");
+    assert_eq!(all_chains(&run), "B(1)\nB(9)\nB(225)\n");
+    let uses: Vec<usize> = run.systems[0].rules.iter().map(|rule| rule.done.applied).collect();
+    assert_eq!(uses, [5, 3, 3]);
+}
+
+#[test]
+fn rules_that_no_module_can_reach_are_told() {
+    let told = |rules: &str| {
+        let run = run(&format!(
+            "local A, B, X = module('A', 'n'), module('B'), module('X')
+             local s = lsystem() s:axiom(A(1), B(), X()) s:ignore('X') {rules} s:derive(1)"
+        ));
+        run.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+    };
+    let quiet = "s:rule('A(0)', [[ return nil ]]) s:rule('A(1)', [[ return B() ]]) s:rule('A(n) B', [[ return nil ]])
+                 s:rule('A > (B|X)', [[ return nil ]]) s:rule('A > $', [[ return nil ]]) s:rule('A', [[ return nil ]])";
+    assert_eq!(told(quiet), "");
+    let twice = "s:rule('A(0) B', [[ return nil ]]) s:rule('A(0) B', [[ return B() ]])";
+    assert!(told(twice).contains("never applied: A(0) B"), "{}", told(twice));
+    let sole = "s:rule('A', [[ return nil ]]) s:rule('A(n) B', [[ return B() ]])";
+    assert!(told(sole).contains("never applied: A"), "{}", told(sole));
+    assert!(told("s:rule('A > (X|X)', [[ return nil ]])").contains("X is ignored"));
+    assert!(told("s:rule('A > Cut', [[ return nil ]])").contains("Cut is erased before rules are matched"));
+}

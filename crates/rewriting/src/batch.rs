@@ -3,7 +3,6 @@
 use std::time::Instant;
 
 use crate::chain::{Chain, Mark};
-use crate::grammar::Rule;
 use crate::key::ModuleKey;
 use crate::links::Links;
 use crate::matching::{Bindings, ContextMatcher};
@@ -119,8 +118,12 @@ impl Batch<'_> {
         let declared = &self.plan.grammar.rules()[usize::from(rule)];
         let arity = declared.arguments();
         scratch.arguments.reserve(members.len() * arity);
-        if !declared.has_contexts() && !declared.tests_modules() {
-            let own = declared.pattern.own_bound();
+        if declared.skips_arguments() {
+            self.gather_some(rule, members, scratch);
+            return;
+        }
+        let own = declared.pattern.own_bound();
+        if declared.contexts().is_empty() {
             for index in members {
                 let at = scratch.active[*index as usize].param as usize;
                 scratch.arguments.extend_from_slice(&self.chain.params[at..at + own]);
@@ -130,32 +133,47 @@ impl Batch<'_> {
         let left = declared.pattern.left.len();
         for index in members {
             let active = scratch.active[*index as usize];
-            if declared.has_contexts() {
-                self.contexts().bind(rule, active.module as usize, &mut scratch.bindings);
-            }
+            self.contexts().bind(rule, active.module as usize, &mut scratch.bindings);
+            let at = active.param as usize;
             for (place, item) in declared.contexts().iter().enumerate() {
                 if place == left {
-                    self.push_own(declared, active, &mut scratch.arguments);
+                    scratch.arguments.extend_from_slice(&self.chain.params[at..at + own]);
                 }
                 if item.bound > 0 {
                     let at = self.links.param[scratch.bindings[place] as usize] as usize;
-                    item.push_arguments(&self.chain.params, at, &mut scratch.arguments);
+                    scratch.arguments.extend_from_slice(&self.chain.params[at..at + item.bound]);
                 }
             }
             if left == declared.contexts().len() {
-                self.push_own(declared, active, &mut scratch.arguments);
+                scratch.arguments.extend_from_slice(&self.chain.params[at..at + own]);
             }
         }
     }
 
-    /// Appends the arguments that the rewritten modules provide.
-    #[inline]
-    fn push_own(&self, rule: &Rule, active: Active, arguments: &mut Vec<f64>) {
-        let (module, mut param) = (active.module as usize, active.param as usize);
+    /// Gathers the arguments of a rule that rewrites several modules at once, or whose pattern has values.
+    #[inline(never)]
+    fn gather_some(&self, rule: u16, members: &[u32], scratch: &mut Scratch) {
+        let declared = &self.plan.grammar.rules()[usize::from(rule)];
         let arities = self.plan.grammar.arities();
-        for (item, symbol) in rule.pattern.predecessors.iter().zip(&self.chain.symbols[module..]) {
-            item.push_arguments(&self.chain.params, param, arguments);
-            param += usize::from(arities[usize::from(*symbol)]);
+        let left = declared.pattern.left.len();
+        for index in members {
+            let active = scratch.active[*index as usize];
+            if declared.has_contexts() {
+                self.contexts().bind(rule, active.module as usize, &mut scratch.bindings);
+            }
+            let begin = |place: usize| self.links.param[scratch.bindings[place] as usize] as usize;
+            for (place, item) in declared.contexts().iter().enumerate().take(left) {
+                item.push_arguments(&self.chain.params, begin(place), &mut scratch.arguments);
+            }
+            let mut at = active.param as usize;
+            let symbols = &self.chain.symbols[active.module as usize..];
+            for (item, symbol) in declared.pattern.predecessors.iter().zip(symbols) {
+                item.push_arguments(&self.chain.params, at, &mut scratch.arguments);
+                at += usize::from(arities[usize::from(*symbol)]);
+            }
+            for (place, item) in declared.contexts().iter().enumerate().skip(left) {
+                item.push_arguments(&self.chain.params, begin(place), &mut scratch.arguments);
+            }
         }
     }
 

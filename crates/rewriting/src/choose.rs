@@ -3,7 +3,7 @@
 use crate::batch::{Active, Batch, ChainPiece, NO_RULE, Scratch, narrow};
 use crate::chain::{END, Symbol};
 use crate::choice::Candidates;
-use crate::grammar::Choice;
+use crate::grammar::{Choice, Rule};
 use crate::runs::RechosenModules;
 use burgeon_base::error::{Error, Result};
 
@@ -57,19 +57,28 @@ impl Batch<'_> {
     }
 
     /// Returns true if the predecessor and the contexts of rule number `rule` match.
-    #[inline]
-    pub(crate) fn matches(&self, rule: u16, active: Active) -> bool {
+    #[inline(always)]
+    fn matches(&self, rule: u16, declared: &Rule, active: Active) -> bool {
         let (module, param) = (active.module as usize, active.param as usize);
-        let tests_modules = self.plan.grammar.rules()[usize::from(rule)].tests_modules();
-        (!tests_modules || self.contexts().matches_predecessors(rule, module, param))
-            && self.contexts().matches(rule, module)
+        (!declared.tests_modules() || self.contexts().matches_predecessors(rule, module, param))
+            && (!declared.has_contexts() || self.contexts().matches(rule, module))
+    }
+
+    /// Does the same as [`matches`](Self::matches), but is not inlined where guards cost more.
+    #[inline]
+    pub(crate) fn matches_guarded(&self, rule: u16, declared: &Rule, active: Active) -> bool {
+        #[inline(never)]
+        fn matches(batch: &Batch<'_>, rule: u16, declared: &Rule, active: Active) -> bool {
+            batch.matches(rule, declared, active)
+        }
+        !declared.has_contexts() && !declared.tests_modules() || matches(self, rule, declared, active)
     }
 
     fn choose_unguarded(&self, rules: &[u16], active: Active) -> u16 {
         let mut candidates = Candidates::default();
         for number in rules {
             let rule = &self.plan.grammar.rules()[usize::from(*number)];
-            if candidates.admit(rule) && self.matches(*number, active) {
+            if candidates.admit(rule) && self.matches(*number, rule, active) {
                 candidates.add(*number, rule);
                 if candidates.is_settled() {
                     break;
@@ -110,7 +119,7 @@ impl Batch<'_> {
                     **index < end
                         && candidates.admit(rule)
                         && !rechosen.contains(**index)
-                        && self.matches(*number, scratch.active[**index as usize])
+                        && self.matches_guarded(*number, rule, scratch.active[**index as usize])
                 });
                 let mut holds: Vec<u32> = asked.map(|(index, _)| *index).collect();
                 if rule.guarded {

@@ -42,12 +42,6 @@ impl ModuleTest {
         }
     }
 
-    /// Returns true if the module depends on values.
-    #[inline]
-    pub(super) fn has_values(&self) -> bool {
-        !self.values.is_empty()
-    }
-
     /// Returns true if the parameters `params`, which begin with those of a module, have the required values.
     /// `constants` are those of the grammar in the current chain.
     #[inline]

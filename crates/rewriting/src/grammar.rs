@@ -25,6 +25,7 @@ pub struct Rule {
     contexts: Vec<Item>,
     has_contexts: bool,
     tests_modules: bool,
+    skips_arguments: bool,
     run_length: usize,
 }
 
@@ -36,7 +37,18 @@ impl Rule {
         let tests_modules =
             pattern.has_run() || pattern.predecessors.iter().any(|item| item.plain().is_none());
         let run_length = pattern.predecessors.len().max(1);
-        Self { pattern, weight, guarded, place, contexts, has_contexts, tests_modules, run_length }
+        let skips_arguments = tests_modules || contexts.iter().any(|item| !item.values.is_empty());
+        Self {
+            pattern,
+            weight,
+            guarded,
+            place,
+            contexts,
+            has_contexts,
+            tests_modules,
+            skips_arguments,
+            run_length,
+        }
     }
 
     /// Returns true if the rule has a context, which can also be only an end of the chain.
@@ -50,6 +62,12 @@ impl Rule {
     #[inline]
     pub fn tests_modules(&self) -> bool {
         self.tests_modules
+    }
+
+    /// Returns true if the arguments of a module are not all of its parameters, or if several modules provide them.
+    #[inline]
+    pub(super) fn skips_arguments(&self) -> bool {
+        self.skips_arguments
     }
 
     /// Returns the number of modules that the rule rewrites at once.

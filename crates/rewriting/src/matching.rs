@@ -3,7 +3,7 @@
 use smallvec::SmallVec;
 
 use super::chain::{CLOSE, Chain, END, OPEN};
-use super::context::{ContextElement, ModuleTest};
+use super::context::ContextElement;
 use super::grammar::Grammar;
 use super::links::{Links, NONE};
 
@@ -67,7 +67,7 @@ enum ContextPosition {
 impl ContextMatcher<'_> {
     /// Returns true if the contexts of rule number `rule` match around the module at `index`, or around the modules
     /// from `index` on that the rule rewrites at once.
-    #[inline]
+    #[inline(always)]
     pub fn matches(self, rule: u16, index: usize) -> bool {
         let declared = &self.grammar.rules()[usize::from(rule)];
         if !declared.has_contexts() {
@@ -84,6 +84,7 @@ impl ContextMatcher<'_> {
 
     /// Returns true if the module at `index`, whose parameters begin at `param`, has the values that rule number `rule`
     /// requires, and if all modules that the rule rewrites at once follow it.
+    #[inline(never)]
     pub fn matches_predecessors(self, rule: u16, index: usize, param: usize) -> bool {
         let mut begin = param;
         self.grammar.predecessors_of(rule).iter().zip(index..).all(|(element, index)| {
@@ -101,33 +102,28 @@ impl ContextMatcher<'_> {
         })
     }
 
-    /// Returns true if the module at `index` matches a context element.
-    #[inline]
-    fn is_module(self, element: ContextElement, index: u32) -> bool {
-        let symbol = self.chain.symbols[index as usize];
-        match element {
-            ContextElement::Module(wanted) => wanted == symbol,
-            ContextElement::Test(number) => {
-                let test = self.grammar.patterns().test(number);
-                test.admits(symbol) && (!test.has_values() || self.has_values(test, index))
-            }
-            ContextElement::Branch(_) | ContextElement::End => false,
-        }
-    }
-
-    fn has_values(self, test: &ModuleTest, index: u32) -> bool {
+    /// Returns true if the module at `index` passes a test. Most patterns have none.
+    #[inline(never)]
+    fn passes(self, number: u32, index: u32) -> bool {
+        let test = self.grammar.patterns().test(number);
         let begin = self.links.param[index as usize] as usize;
-        test.holds(&self.chain.params[begin..], &self.links.constants)
+        test.admits(self.chain.symbols[index as usize])
+            && test.holds(self.chain.params.get(begin..).unwrap_or_default(), &self.links.constants)
     }
 
     /// Returns true if `contexts`, the nearest first, match the path that begins with the module `nearest`.
     #[inline]
     fn matches_left(self, contexts: &[ContextElement], mut nearest: u32) -> bool {
         for element in contexts {
-            if *element == ContextElement::End {
-                return nearest == NONE;
-            }
-            if nearest == NONE || !self.is_module(*element, nearest) {
+            let is_found = match *element {
+                ContextElement::Module(symbol) => {
+                    nearest != NONE && self.chain.symbols[nearest as usize] == symbol
+                }
+                ContextElement::Test(number) => nearest != NONE && self.passes(number, nearest),
+                ContextElement::End => return nearest == NONE,
+                ContextElement::Branch(_) => false,
+            };
+            if !is_found {
                 return false;
             }
             nearest = self.links.left[nearest as usize];
@@ -162,9 +158,19 @@ impl ContextMatcher<'_> {
         for context in contexts {
             here = match context {
                 ContextElement::End => return self.next(here) == NONE,
-                ContextElement::Module(_) | ContextElement::Test(_) => {
+                ContextElement::Module(symbol) => {
                     let found = self.next(here);
-                    if found == NONE || !self.is_module(*context, found) {
+                    if found == NONE || self.chain.symbols[found as usize] != *symbol {
+                        return false;
+                    }
+                    if let Some(bindings) = &mut bindings {
+                        bindings.push(found);
+                    }
+                    ContextPosition::Module(found as usize)
+                }
+                ContextElement::Test(number) => {
+                    let found = self.next(here);
+                    if found == NONE || !self.passes(*number, found) {
                         return false;
                     }
                     if let Some(bindings) = &mut bindings {

@@ -110,8 +110,13 @@ impl Item {
         if self.values.is_empty() {
             arguments.extend_from_slice(&params[begin..begin + self.bound]);
         } else {
-            arguments.extend(self.bound_places().map(|place| params[begin + place]));
+            self.push_some(&params[begin..], arguments);
         }
+    }
+
+    #[inline(never)]
+    fn push_some(&self, params: &[f64], arguments: &mut Vec<f64>) {
+        arguments.extend(self.bound_places().map(|place| params[place]));
     }
 }
 

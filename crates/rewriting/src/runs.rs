@@ -135,7 +135,7 @@ impl Batch<'_> {
             let mut candidates = Candidates::default();
             for number in grammar.rules_of(symbols[module]) {
                 let rule = &grammar.rules()[usize::from(*number)];
-                if candidates.admit(rule) && self.matches(*number, scratch.active[index]) {
+                if candidates.admit(rule) && self.matches_guarded(*number, rule, scratch.active[index]) {
                     let mut members = vec![narrow(index)];
                     if rule.guarded
                         && let Some(failed) = self.guard(*number, &mut members, scratch)
