@@ -309,6 +309,7 @@ impl Phase<Stepper> for RewritePhase<'_> {
         let outcome = stepper.step(self.0, &NoHelpers, &Stop::new(), &chain, step)?;
         stepper.reuse(chain);
         Ok(PhaseOutcome {
+            more_steps: 0,
             settled: !outcome.ran && !outcome.reads_step,
             is_last: outcome.is_last,
             chain: Arc::new(outcome.chain),
