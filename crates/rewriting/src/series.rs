@@ -13,7 +13,7 @@ use burgeon_base::Stop;
 use burgeon_base::error::Result;
 
 /// Maximum number of symbols of a new segment.
-const SEGMENT: usize = 512;
+const SEGMENT: usize = 256;
 
 /// Minimum number of segments, since a step on few of them costs as much as a step on the whole chain.
 const FEWEST: usize = 8;

@@ -31,12 +31,20 @@ impl Phase<DerivationState<'_>> for Interpret {
         }
         state.later.retain(|warning| !warning.is_of_pass());
         let failed = state.failed().len();
+        let memory = state.repeats_passes().then_some(&mut state.memory);
         let uses = &mut state.interpretations;
         // If only the last pass runs, the chain stays the same from `step` to the last step.
         let last_only = state.derivation.last_only && plan.bounded;
         let number = if last_only { state.derivation.limit } else { step };
-        state.pass =
-            InterpretationPass::pass(state.leader, plan, &chain, (step, number), uses, &mut state.later)?;
+        state.pass = InterpretationPass::pass(
+            state.leader,
+            plan,
+            &chain,
+            (step, number),
+            uses,
+            &mut state.later,
+            memory,
+        )?;
         plan.expand(&state.rewriter, &mut state.later)?;
         if state.failed().len() > failed {
             state.publish(&chain);

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::checkpoints::CheckpointWriter;
 use super::hooks::RunHooks;
-use super::interpret::PassOutcome;
+use super::interpret::{PassMemory, PassOutcome};
 use super::passes::{ExpandObjects, Interpret};
 use super::plan::{Derivation, DerivationPlan};
 use super::rewrite::{CutBranches, Decompose, Resolve, Rewrite};
@@ -72,6 +72,7 @@ pub(super) fn derive(
         steps: Vec::new(),
         features: records.then(|| RefCell::new(RowFeatures::new(chain.symbols.len()))),
         published: 0,
+        memory: PassMemory::default(),
         pass: PassOutcome::default(),
         decomposition_reads_step: false,
         group: None,

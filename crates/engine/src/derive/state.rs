@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::sync::Arc;
 
 use super::checkpoints::CheckpointWriter;
-use super::interpret::PassOutcome;
+use super::interpret::{PassMemory, PassOutcome};
 use super::plan::Derivation;
 use super::rewriter::SystemRewriter;
 use super::threads::LeadingMachine;
@@ -12,6 +12,7 @@ use crate::declare::TraceRequest;
 use crate::machine::HookMoment;
 use crate::results::{RowFeatures, Step, Times};
 use burgeon_base::warning::Warning;
+use burgeon_kit::{Object, Rewind};
 use burgeon_rewriting::{Chain, StepOutcome, Stepper, Use};
 
 /// State of a derivation, shared by its phases.
@@ -35,6 +36,8 @@ pub(super) struct DerivationState<'a> {
     pub(super) features: Option<RefCell<RowFeatures>>,
     /// Number of states of the chain that were published.
     pub(super) published: u32,
+    /// Memory of the last pass, from which the next continues.
+    pub(super) memory: PassMemory,
     /// Result of the last pass.
     pub(super) pass: PassOutcome,
     /// Set if a decomposition has read the number of the step.
@@ -72,6 +75,23 @@ impl DerivationState<'_> {
             && self.features.is_none()
             && !self.has_step_hooks()
             && !self.leader.machine.session.observes_steps()
+    }
+
+    /// Returns true if a pass draws what the pass before has drawn, as far as the chain is the same.
+    pub(super) fn repeats_passes(&self) -> bool {
+        let Derivation { plan, last_only, draws_afresh, .. } = self.derivation;
+        // A type that extends another has a state of its own, which does not return to a mark.
+        let rewinds =
+            |object: &dyn Object| Ok(object.base().is_none() && object.kind().has_capability::<dyn Rewind>());
+        !last_only
+            && *draws_afresh
+            && plan.steps.chains == 1
+            && !plan.steps.traced
+            && !plan.profiled
+            && plan.interpretations.grammar.is_none()
+            && plan.variables().is_none()
+            && !self.leader.machine.session.observes_steps()
+            && plan.objects.as_ref().is_some_and(|objects| objects.read(0, rewinds).unwrap_or(false))
     }
 
     /// Returns a copy of the chain for the lineage, if its modules will be inspected; otherwise an empty

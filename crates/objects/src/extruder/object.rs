@@ -1,5 +1,6 @@
 //! The extruder object of scripts.
 
+use std::any::Any;
 use std::sync::Arc;
 
 use super::options::ExtruderOptions;
@@ -9,7 +10,9 @@ use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{Frame, Rings, Section, Segment, SweepOptions, sweep};
-use burgeon_kit::{AxisScale, Color, Drawing, Locate, Model, ObjectPlace, Vector, Warn, methods, object};
+use burgeon_kit::{
+    AxisScale, Color, Drawing, DrawingMark, Locate, Model, ObjectPlace, Rewind, Vector, Warn, methods, object,
+};
 use burgeon_spatial::Path;
 use glam::{DAffine3, DVec2, DVec3};
 use smallvec::{SmallVec, smallvec};
@@ -42,7 +45,7 @@ const CREASE: f64 = 40.0;
     options = ExtruderOptions,
     example = include_str!("../../scripts/extruder.lua"),
     draws,
-    can(Warn, Locate),
+    can(Warn, Locate, Rewind),
     begins_empty,
     begin = restart,
     push = open_branch,
@@ -429,6 +432,39 @@ impl Extruder {
 
     fn finish(&mut self) -> Result<()> {
         self.close()
+    }
+}
+
+/// State of an extruder in a pass, without what it has drawn.
+struct ExtruderMark {
+    state: ExtruderState,
+    stack: Vec<ExtruderState>,
+    drawing: DrawingMark,
+    open_edges: usize,
+}
+
+impl Rewind for Extruder {
+    fn mark_size(&self) -> usize {
+        let run_size = |state: &ExtruderState| 1 + state.run.as_ref().map_or(0, |run| run.stations.len());
+        self.stack.iter().chain([&self.state]).map(run_size).sum()
+    }
+
+    fn mark(&self) -> Box<dyn Any + Send + Sync> {
+        Box::new(ExtruderMark {
+            state: self.state.clone(),
+            stack: self.stack.clone(),
+            drawing: self.drawing.mark(),
+            open_edges: self.open_edges,
+        })
+    }
+
+    fn rewind(&mut self, mark: &(dyn Any + Send + Sync)) -> bool {
+        let Some(mark) = mark.downcast_ref::<ExtruderMark>() else { return false };
+        self.state.clone_from(&mark.state);
+        self.stack.clone_from(&mark.stack);
+        self.drawing.rewind(&mark.drawing);
+        self.open_edges = mark.open_edges;
+        true
     }
 }
 
