@@ -130,9 +130,10 @@ impl Applier {
     /// Adds the present state of the object to `memory`, if the position `at` needs a mark.
     pub(super) fn mark(&mut self, at: Mark, memory: &mut PassMemory) -> Result<()> {
         let triangles = self.counted;
+        let interval = self.pass.marked_symbols();
         self.objects.read(self.chain, |object| {
             if let Some(object) = object.capability::<dyn Rewind>()
-                && memory.needs_mark(at, object.mark_size())
+                && memory.needs_mark(at, interval, object.mark_size())
             {
                 memory.marks.push(PassMark { at, object: object.mark(), triangles });
             }

@@ -6,9 +6,6 @@ use std::sync::Arc;
 use burgeon_kit::ObjectPlace;
 use burgeon_rewriting::{Chain, Mark};
 
-/// Number of symbols between two marks, for an object without open frames.
-const INTERVAL: usize = 256;
-
 /// State of the object of a chain at a position of the chain.
 pub(super) struct PassMark {
     pub at: Mark,
@@ -50,10 +47,11 @@ impl PassMemory {
         self.places.truncate(kept);
     }
 
-    /// Returns true if the state at `at` is worth a mark, which has `size` frames.
-    pub(super) fn needs_mark(&self, at: Mark, size: usize) -> bool {
+    /// Returns true if the state at `at` is worth a mark, which has `size` frames: at least `interval` symbols after the
+    /// last mark.
+    pub(super) fn needs_mark(&self, at: Mark, interval: usize, size: usize) -> bool {
         let last = self.marks.last().map_or(0, |mark| mark.at.module);
-        at.module >= last + INTERVAL + size / 4
+        at.module >= last + interval + size / 4
     }
 }
 

@@ -23,7 +23,7 @@ use mlua::Table;
 /// Maximum number of entries per call into Lua.
 const ENTRIES: usize = 4096;
 
-/// Maximum number of symbols per call into Lua in a pass that the next pass can continue.
+/// Maximum number of symbols per call into Lua, and between two marks, in a pass that the next pass can continue.
 const MARKED_SYMBOLS: usize = 256;
 
 /// Number of pieces if there are many chains. Chains can differ much in cost, so small pieces keep a thread
@@ -280,7 +280,7 @@ impl InterpretationPass {
         let (symbols, params) = (&self.chain.symbols[..end], self.chain.params.as_slice());
         let NextEntry { at: Mark { mut module, mut param, mut chain }, mut is_begin } = *next;
         batch.clear();
-        let most = if self.memory.is_some() { end.min(module + MARKED_SYMBOLS) } else { end };
+        let most = if self.memory.is_some() { end.min(module + self.marked_symbols()) } else { end };
         while module < most && batch.entries.len() < ENTRIES {
             let symbol = symbols[module];
             let id = by_symbol[usize::from(symbol)];
@@ -455,6 +455,11 @@ impl InterpretationPass {
             item.push_arguments(&self.chain.params, self.links.param[bound as usize] as usize, &mut params);
         }
         Some(params)
+    }
+
+    /// Returns the number of symbols per call into Lua, and between two marks.
+    pub(super) fn marked_symbols(&self) -> usize {
+        self.plan.steps.batch.min(MARKED_SYMBOLS)
     }
 
     /// Records that nothing draws the modules with this symbol.
