@@ -3,13 +3,14 @@
 use std::any::Any;
 use std::sync::Arc;
 
+use super::joint::Joint;
 use super::options::ExtruderOptions;
 use super::state::{ExtruderState, SolidRun};
 use crate::MaterialOptions;
 use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_geometry::{Frame, Rings, Section, Segment, SweepOptions, sweep};
+use burgeon_geometry::{Frame, Rings, Section, Segment, Station, SweepOptions, sweep};
 use burgeon_kit::{
     AxisScale, Color, Drawing, DrawingMark, Locate, Model, ObjectPlace, Rewind, Vector, Warn, methods, object,
 };
@@ -167,7 +168,8 @@ impl Extruder {
         self.state.smooth = smooth;
     }
 
-    /// Extrudes the cross-section by `length` (m).
+    /// Extrudes the cross-section by `length` (m). A segment that begins where the last one ends continues its solid: across
+    /// a turn with a mitre, unless the turn is above 120 degrees, rolls more than it bends, or a segment is too short.
     pub fn extrude(&mut self, length: f64) -> Result<()> {
         self.segment(length)
     }
@@ -344,27 +346,33 @@ impl Extruder {
         if segment.steps == 0 {
             segment.steps = segment.steps_for(10f64.to_radians());
         }
-        let continues = state.run.as_ref().is_some_and(|run| {
-            run.end == state.frame
-                && run.scale == state.scale
+        let joint = state.run.as_ref().and_then(|run| {
+            let is_alike = run.scale == state.scale
                 && (Arc::ptr_eq(&run.section, &section) || run.section == section)
                 && run.smooth == state.smooth
                 && run.caps == state.caps
-                && (Arc::ptr_eq(&run.material, &state.material) || run.material == state.material)
+                && (Arc::ptr_eq(&run.material, &state.material) || run.material == state.material);
+            if is_alike { Joint::between(run, state.frame, &segment) } else { None }
         });
-        if !continues {
+        if joint.is_none() {
             self.close()?;
         }
         let state = &mut self.state;
-        let mut stations = SmallVec::new();
+        let mut stations: SmallVec<[Station; 2]> = SmallVec::new();
         let end = segment.stations(state.frame, &mut stations)?;
         let maker = self.drawing.maker();
-        match &mut state.run {
-            Some(run) => {
-                run.stations.extend(stations.into_iter().skip(1));
+        let free = segment.length / segment.steps as f64;
+        match state.run.as_mut().zip(joint) {
+            Some((run, joint)) => {
+                let steps = segment.steps as f64;
+                for (step, station) in stations.iter_mut().enumerate() {
+                    station.twist -= joint.roll * (1.0 - step as f64 / steps);
+                }
+                run.stations.extend(stations.into_iter().skip(usize::from(joint.is_straight)));
                 run.makers.resize(run.stations.len(), maker);
                 run.end = end;
                 run.scale = state.taper;
+                run.free = if segment.steps == 1 { free - joint.length } else { free };
             }
             None => {
                 state.run = Some(SolidRun {
@@ -372,6 +380,7 @@ impl Extruder {
                     stations,
                     section,
                     end,
+                    free,
                     scale: state.taper,
                     smooth: state.smooth,
                     caps: state.caps,
