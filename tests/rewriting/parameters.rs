@@ -269,23 +269,29 @@ fn a_derived_system_is_an_object_that_travels() {
 }
 
 #[test]
-fn an_optional_parameter_is_left_out_but_never_nil() {
+fn a_parameter_with_a_default_is_left_out_but_never_nil() {
     let script = |axiom: &str, successor: &str| {
         format!(
             "local L = module('L', 'a', 'b?')\nlocal list, s = {{ 1 }}, lsystem {{}}\ns:axiom({axiom})\n\
              s:rule('L(a, b)', function(_, a, b) {successor} end)\ns:derive(1)\n"
         )
     };
-    assert_eq!(chain(&script("L(1), L(1, 2)", "return L(a), L(a, a)")), "L(1) L(1, 1) L(1) L(1, 1)");
+    assert_eq!(
+        chain(&script("L(1), L(1, 2), F()", "return L(a, b), F(a), F()")),
+        "L(1) F(1) F L(1, 2) F(1) F F"
+    );
     for (axiom, successor, line) in [
-        ("L(1, list[5])", "return", 3),
-        ("L(1)", "return L(a, b)", 4),
-        ("L(1)", "local made = { L(a, b), L(a) } return table.unpack(made)", 4),
-        ("L(1)", "return sequence({ L(a, list[5]) })", 4),
+        ("F(list[5])", "return", 3),
+        ("L(1)", "return F(b)", 4),
+        ("L(1)", "local made = { F(b), L(a) } return table.unpack(made)", 4),
+        ("L(1)", "return sequence({ F(list[5]) })", 4),
     ] {
         let made = error(&script(axiom, successor));
-        assert!(made.contains(&format!("main.lua:{line}: ")) && made.contains("b of L is nil"), "{made}");
-        assert!(made.contains("leave it out, or give a value; it was declared as L(a, b?)"), "{made}");
+        assert!(
+            made.contains(&format!("main.lua:{line}: ")) && made.contains("length of F is nil"),
+            "{made}"
+        );
+        assert!(made.contains("leave it out, or give a value; it was declared as F(length?)"), "{made}");
     }
     assert!(error(&script("L(list[5])", "return")).contains("L has 1 to 2 parameters; a is missing"));
 }

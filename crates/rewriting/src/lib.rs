@@ -65,6 +65,7 @@ mod rules;
 mod runs;
 mod segments;
 mod series;
+mod series_pause;
 mod splice;
 mod step;
 mod step_number;

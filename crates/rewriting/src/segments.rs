@@ -7,7 +7,7 @@ use crate::grammar::Grammar;
 
 /// Part of a chain, of consecutive symbols.
 #[derive(Debug, Default)]
-pub(crate) struct Segment {
+pub(crate) struct ChainSegment {
     /// Symbols, parameters and keys. Brackets need not balance.
     pub chain: Chain,
     pub brackets: Brackets,
@@ -50,7 +50,7 @@ impl Brackets {
 /// Chains of a system, in segments of similar size.
 #[derive(Debug)]
 pub(crate) struct SegmentedChain {
-    pub segments: Vec<Segment>,
+    pub segments: Vec<ChainSegment>,
     /// Number of symbols of all segments.
     pub symbols: usize,
     /// Number of symbols of a new segment.
@@ -76,7 +76,7 @@ impl SegmentedChain {
             keys: Vec::with_capacity(total(|chain| chain.keys.len())),
             marks: Vec::new(),
         };
-        for Segment { chain, .. } in &self.segments {
+        for ChainSegment { chain, .. } in &self.segments {
             joined.symbols.extend_from_slice(&chain.symbols);
             joined.params.extend_from_slice(&chain.params);
             joined.keys.extend_from_slice(&chain.keys);
@@ -129,7 +129,7 @@ impl SegmentedChain {
 }
 
 /// Adds segments of `size` symbols of `chain` to `segments`.
-fn divide(chain: &Chain, grammar: &Grammar, size: usize, segments: &mut Vec<Segment>) {
+fn divide(chain: &Chain, grammar: &Grammar, size: usize, segments: &mut Vec<ChainSegment>) {
     let arities = grammar.arities();
     let (mut begin, mut param) = (0, 0);
     for symbols in chain.symbols.chunks(size) {
@@ -143,7 +143,7 @@ fn divide(chain: &Chain, grammar: &Grammar, size: usize, segments: &mut Vec<Segm
         };
         (begin, param) = (end, param + params);
         let has_rules = has_rules(&chain, grammar);
-        segments.push(Segment {
+        segments.push(ChainSegment {
             brackets: Brackets::of(&chain),
             has_rules,
             is_resting: !has_rules,

@@ -6,6 +6,7 @@ use crate::links::Links;
 use crate::output::Output;
 use crate::rules::Rules;
 use crate::segments::SegmentedChain;
+use crate::series_pause::SeriesPause;
 use crate::step::Stepper;
 use crate::step_number::StepNumber;
 use crate::windows::ContextWindow;
@@ -17,9 +18,6 @@ const SEGMENT: usize = 256;
 
 /// Minimum number of segments, since a step on few of them costs as much as a step on the whole chain.
 const FEWEST: usize = 8;
-
-/// Maximum number of steps before the next attempt, after a series in which most segments did not rest.
-const LONGEST_PAUSE: usize = 256;
 
 /// Request for several steps in a row.
 #[allow(missing_debug_implementations, reason = "contains a function")]
@@ -54,20 +52,6 @@ pub struct SeriesOutcome {
     pub read: usize,
 }
 
-/// Pauses between attempts to perform steps in series.
-#[derive(Debug)]
-pub(crate) struct SeriesPause {
-    /// Number of steps until the next attempt.
-    left: usize,
-    next: usize,
-}
-
-impl Default for SeriesPause {
-    fn default() -> Self {
-        Self { left: 0, next: 1 }
-    }
-}
-
 /// Changes of a step.
 #[derive(Default)]
 struct StepChanges {
@@ -92,9 +76,7 @@ impl Stepper {
         {
             return false;
         }
-        let is_due = self.pause.left == 0;
-        self.pause.left = self.pause.left.saturating_sub(1);
-        is_due
+        self.pause.pass()
     }
 
     fn segment_size(&self) -> usize {
@@ -146,18 +128,13 @@ impl Stepper {
                 break;
             }
             if busy == 2 || pieces.segments.len() < FEWEST {
-                self.pause = match outcome.steps < LONGEST_PAUSE {
-                    true => {
-                        SeriesPause { left: self.pause.next, next: LONGEST_PAUSE.min(2 * self.pause.next) }
-                    }
-                    false => SeriesPause::default(),
-                };
+                self.pause = self.pause.after_series(outcome.steps);
                 break;
             }
         }
         if outcome.reads_step {
             // Guards that read the number of the step can decide differently in each step.
-            self.pause.left = usize::MAX;
+            self.pause = SeriesPause::endless();
         }
         self.links = links;
         outcome.chain = pieces.joined();

@@ -10,7 +10,7 @@ use crate::output::Output;
 use crate::plan::StepPlan;
 use crate::rules::Rules;
 use crate::runs::pieces_at_brackets;
-use crate::series::SeriesPause;
+use crate::series_pause::SeriesPause;
 use crate::step_number::StepNumber;
 use crate::uses::Use;
 use burgeon_base::Stop;

@@ -5,9 +5,9 @@ use std::ops::Range;
 use crate::batch::ChainPiece;
 use crate::chain::{CLOSE, Chain, END, Mark, OPEN};
 use crate::grammar::Grammar;
-use crate::segments::{Segment, SegmentedChain};
+use crate::segments::{ChainSegment, SegmentedChain};
 
-/// Segment of a chain with the modules that the contexts of its modules can match. Modules that no context can
+/// ChainSegment of a chain with the modules that the contexts of its modules can match. Modules that no context can
 /// match are left out, so the window is short, but neighbours along the tree are the same as in the whole chain.
 #[derive(Debug, Default)]
 pub(crate) struct ContextWindow {
@@ -52,7 +52,7 @@ impl ContextWindow {
     /// Adds the modules on the path from the end of `segments` to the axiom: in each of the `levels` branches that end
     /// after it, and outside of them, as many as a left context has. Returns the index of the first segment that was
     /// searched.
-    fn add_path(&mut self, segments: &[Segment], levels: usize, grammar: &Grammar) -> usize {
+    fn add_path(&mut self, segments: &[ChainSegment], levels: usize, grammar: &Grammar) -> usize {
         let wanted = grammar.longest_left();
         let arities = grammar.arities();
         self.before.clear();
@@ -110,7 +110,7 @@ impl ContextWindow {
 
     /// Adds the modules that follow on the main path: in each of the `levels` branches that begin before `segments`, and
     /// outside of them, as many as a right context has. Returns the number of segments that were searched.
-    fn add_following(&mut self, segments: &[Segment], levels: usize, grammar: &Grammar) -> usize {
+    fn add_following(&mut self, segments: &[ChainSegment], levels: usize, grammar: &Grammar) -> usize {
         let wanted = grammar.longest_right();
         let arities = grammar.arities();
         let (mut depth, mut left, mut found) = (0, 0, 0);

@@ -54,3 +54,18 @@ impl RunProgress {
         format!("step {step}{of}, {} modules, {rate:.1} M modules/s{left}", grouped(modules))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn progress_tells_the_time_left_once_there_is_some() {
+        let progress = RunProgress::default();
+        let after = |seconds: f64| progress.message(Duration::from_secs_f64(seconds));
+        assert_eq!(after(0.2), "running the script");
+        progress.note(5, 20, 1_000_000);
+        assert_eq!(after(0.2), "step 5 of 20, 1,000,000 modules, 5.0 M modules/s");
+        assert_eq!(after(4.0), "step 5 of 20, 1,000,000 modules, 0.2 M modules/s, at least 12 s left");
+    }
+}
