@@ -12,6 +12,7 @@ mod decomposition;
 mod determinism;
 mod distributions;
 mod edits;
+mod environments;
 mod expectations;
 mod fragments;
 mod generate;

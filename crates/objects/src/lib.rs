@@ -7,6 +7,7 @@
 
 mod curves;
 mod elevation;
+mod environment;
 mod examples;
 mod extruder;
 pub mod facade;
@@ -25,6 +26,7 @@ pub use curves::curve::{CurveObject, CurveOptions};
 pub use curves::ramp::{RampObject, RampOptions};
 pub use curves::surface::{SplineSurfaceOptions, SurfaceObject};
 pub use elevation::{Elevation, ElevationOptions};
+pub use environment::{AttractorOptions, Attractors, DiscOptions, Discs, ShadowVoxelOptions, ShadowVoxels};
 pub use examples::{EXAMPLES, PLAIN_EXAMPLES};
 pub use extruder::Extruder;
 pub use facade::{Facade, Template, Templates, Wall};
@@ -76,6 +78,9 @@ pub fn registry() -> Registry {
         RampObject::kind(),
         CurveObject::kind(),
         SurfaceObject::kind(),
+        ShadowVoxels::kind(),
+        Attractors::kind(),
+        Discs::kind(),
     ];
     own.into_iter().chain(facade::kinds()).map(Arc::clone).collect()
 }

@@ -50,6 +50,7 @@ impl CheckpointWriter {
             // Their state between steps is not stored.
             || !derivation.hooks.is_empty()
             || derivation.plan.variables().is_some()
+            || derivation.plan.environments.is_some()
             || session.may_stop()
         {
             return None;

@@ -21,6 +21,7 @@ impl Phase<DerivationState<'_>> for RunHooks {
         }
         machine.enter(plan.system)?;
         machine.refresh();
+        machine.current.environments.replace(plan.environments.clone());
         let view = HookView {
             step: number,
             chain: Arc::clone(&chain),

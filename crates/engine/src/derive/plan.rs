@@ -5,8 +5,8 @@ use std::sync::{Arc, RwLock};
 use super::rewriter::SystemRewriter;
 use crate::declare::TraceRequest;
 use crate::machine::{
-    Axiom, HookFunction, HookMoment, Interpretations, Machine, ModulePlaces, Objects, RulePhase,
-    SystemFunctions, group_number,
+    Axiom, Environments, HookFunction, HookMoment, Interpretations, Machine, ModulePlaces, Objects,
+    RulePhase, SystemFunctions, group_number,
 };
 use crate::results::VariableValues;
 use burgeon_base::error::{Error, Result, SourcePlace};
@@ -44,6 +44,8 @@ pub(crate) struct DerivationPlan {
     pub groups: Vec<RuleGroup>,
     /// Variables, as functions read them in the present phase.
     pub(super) variables: RwLock<Option<Arc<VariableValues>>>,
+    /// Environments that interpretations change and rules read.
+    pub environments: Option<Arc<Environments>>,
     /// Set if interpretations can assign variables.
     pub assigns_variables: bool,
     pub interpretations: Interpretations,
@@ -212,7 +214,7 @@ impl Derivation {
         let assigns_variables = system.interpretations_reach_variables(machine)?;
         if options.part.is_some() && axiom.given > 1 && system.has_state_of_all_chains() {
             return Err(Error::script(
-                "hooks and variables see all chains, but --part derives a part of them",
+                "hooks, variables and environments belong to all chains, but --part derives a part of them",
             )
             .at(system.place.clone())
             .help("run the script without --part, or keep values in parameters of modules"));
@@ -224,6 +226,7 @@ impl Derivation {
             groups,
             variables: RwLock::new(variables.map(Arc::new)),
             assigns_variables,
+            environments: Environments::new(&system.environments),
             interpretations: system.interpretations(&machine.library),
             objects,
             cut: machine.library.cut.get(),

@@ -63,7 +63,9 @@ impl Phase<DerivationState<'_>> for Rewrite {
         state.record(&chain, &mut outcome, number);
         state.previous = Some(chain);
         let reads_step = outcome.reads_step || state.pass.reads_step || state.decomposition_reads_step;
-        let varies = std::mem::take(&mut state.variables_changed) || state.has_step_hooks();
+        // An environment can change although no module does.
+        let evolves = plan.environments.is_some() && plan.bounded;
+        let varies = std::mem::take(&mut state.variables_changed) || state.has_step_hooks() || evolves;
         let repeats = !outcome.changed && state.ends_unchanged();
         let settled = (!outcome.ran || repeats) && !reads_step && !varies && !state.has_cut;
         let is_last = outcome.is_last;

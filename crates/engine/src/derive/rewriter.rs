@@ -60,6 +60,7 @@ impl<'a> SystemRewriter<'a> {
             groups: Vec::new(),
             variables: RwLock::default(),
             assigns_variables: false,
+            environments: None,
             places: RwLock::default(),
         });
         let declared = self.leader.machine.library.systems.borrow()[index].prepare(self.leader.machine)?;

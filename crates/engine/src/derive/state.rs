@@ -90,6 +90,7 @@ impl DerivationState<'_> {
             && !plan.profiled
             && plan.interpretations.grammar.is_none()
             && plan.variables().is_none()
+            && plan.environments.is_none()
             && !self.leader.machine.session.observes_steps()
             && plan.objects.as_ref().is_some_and(|objects| objects.read(0, rewinds).unwrap_or(false))
     }

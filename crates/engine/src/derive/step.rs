@@ -64,6 +64,7 @@ fn enter(machine: &Machine, plan: &DerivationPlan) -> Result<()> {
     machine.refresh();
     machine.current.objects.replace(plan.objects.clone());
     machine.current.located.replace(plan.places());
+    machine.current.environments.replace(plan.environments.clone());
     machine.current.skips_passes.set(plan.skips_passes);
     Ok(())
 }

@@ -200,6 +200,7 @@ impl Driver for ThreadPool {
             error.rather_called_at(machine.library.systems.borrow()[index].caller.clone())
         });
         machine.current.objects.replace(None);
+        machine.current.environments.replace(None);
         machine.load_variables(None)?;
         self.finished(machine, &derived);
         derived
@@ -283,6 +284,7 @@ fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<R
                 machine.enter(plan.system)?;
                 machine.current.objects.replace(plan.objects.clone());
                 machine.current.located.replace(plan.places());
+                machine.current.environments.replace(plan.environments.clone());
                 machine.current.skips_passes.set(plan.skips_passes);
                 machine.load_variables(plan.variables().as_deref())?;
                 machine.refresh();
@@ -290,6 +292,7 @@ fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<R
                 while work.work(&rules, &machine.session.stop, &mut scratch) {}
                 machine.current.objects.replace(None);
                 machine.current.located.replace(None);
+                machine.current.environments.replace(None);
             }
             ThreadJob::Prefetch(prefetch) => {
                 if let Some(prefetch) = prefetch.upgrade() {

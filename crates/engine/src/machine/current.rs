@@ -3,6 +3,7 @@
 use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
+use super::environments::Environments;
 use super::hooks::HookView;
 use super::module_places::ModulePlaces;
 use crate::declare::Session;
@@ -81,6 +82,8 @@ pub(crate) struct WorkState {
     pub hook: RefCell<Option<HookView>>,
     /// Variables that functions of the script read.
     pub variables: RefCell<Option<VariableValues>>,
+    /// Environments of the derivation.
+    pub environments: RefCell<Option<Arc<Environments>>>,
     /// Type of `this`; Lua refers to its methods by number.
     pub kind: RefCell<Option<Arc<Kind>>>,
     /// Shapes of prepared results, by number.
@@ -111,6 +114,7 @@ impl WorkState {
             ends: Cell::new(false),
             hook: RefCell::default(),
             variables: RefCell::default(),
+            environments: RefCell::default(),
             kind: RefCell::default(),
             shapes: RefCell::default(),
             flusher: RefCell::default(),

@@ -12,9 +12,10 @@ use crate::machine::library::Library;
 use crate::machine::types::{ObjectHandle, claim};
 use crate::machine::write_column;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
+use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::take_deferred;
 use burgeon_kit::declare::as_ref;
-use burgeon_kit::{Call, Draw, ObjectContent, ScriptObject, Value};
+use burgeon_kit::{Call, Draw, Environment, ObjectContent, ScriptObject, Value};
 use burgeon_rewriting::{CLOSE, ColumnValue, DEEPEST, OPEN, Symbol, module_brief, module_text};
 
 /// Number of entries from which the conversion of a result pauses garbage collection.
@@ -281,11 +282,17 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Li
             let Some(method) = known.or_else(|| kind.method(method)) else {
                 return Err(mlua::Error::external(handle.0.kind().unknown_method(method)));
             };
+            let environments = state.environments.borrow().clone();
+            let environment = environments.as_ref().and_then(|all| all.state_of(&handle.0));
             match &method.call {
                 Call::Read(read) => {
                     let given = values(&arguments)?;
                     take_deferred();
-                    let answer = read(&*handle.0, &given).map_err(mlua::Error::external)?;
+                    let answer = match environment {
+                        Some(environment) => read(&**environment.read().recover(), &given),
+                        None => read(&*handle.0, &given),
+                    };
+                    let answer = answer.map_err(mlua::Error::external)?;
                     let machine = owner.machine().map_err(mlua::Error::external)?;
                     take_deferred().into_iter().for_each(|warning| machine.warn(warning));
                     let place = guard.and_then(|guard| state.noted_place(guard));
@@ -309,6 +316,14 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Li
                     }
                     made
                 }
+                Call::Write { values: write, .. } if handle.0.kind().has_capability::<dyn Environment>() => {
+                    let Some(environment) = environment else {
+                        return Err(mlua::Error::external(no_environment(&name)));
+                    };
+                    let given = values(&arguments)?;
+                    let answer = write(&mut **environment.write().recover(), &given);
+                    to_lua(lua, &answer.map_err(mlua::Error::external)?, false)
+                }
                 Call::Write { .. } | Call::Script { .. } => Err(mlua::Error::external(Error::scope(
                     format!("{name} is a write method, so only interpretation rules can call it"),
                 ))),
@@ -316,6 +331,12 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Li
         })?,
     )?;
     Ok(())
+}
+
+/// Returns the error for a change of an environment that the system does not have.
+fn no_environment(name: &str) -> Error {
+    Error::scope(format!("{name} changes an environment that this system does not have"))
+        .help("give it to the system: lsystem({ object = turtle(), environment = { light } })")
 }
 
 /// Adds the functions that read and store the fields and state of script-declared objects.

@@ -7,6 +7,7 @@ mod constructor;
 pub mod declare;
 mod deprecation;
 mod drawing;
+mod environment;
 mod kind;
 mod loading;
 mod model;
@@ -27,6 +28,7 @@ pub use capability::{
 pub use constructor::Constructor;
 pub use deprecation::Deprecation;
 pub use drawing::{Drawing, DrawingMark};
+pub use environment::Environment;
 pub use kind::{Call, Construct, Field, Kind, KindDeclaration, Make, Method, ReadCall, Write, WriteNumbers};
 pub use loading::{LoadRequest, LoadServices, LoadedObject, Loader, Resources};
 pub use model::Model;

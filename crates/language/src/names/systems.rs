@@ -29,6 +29,12 @@ pub static LSYSTEM: LazyLock<Name> = LazyLock::new(|| {
                     "CityJSON class of the chains, such as \"Road\"; buildings have a class by default.",
                 ),
                 field("seed", "number?", "nil", "Seed of the random numbers, instead of the run's seed."),
+                field(
+                    "environment",
+                    "any",
+                    "nil",
+                    "Environments that all chains share, one or a list: interpretations change them, and rules read them.",
+                ),
                 field("variables", "any", "nil", "Variables that hooks and interpretations assign; see `variables`."),
             ],
         )],

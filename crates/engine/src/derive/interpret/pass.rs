@@ -137,6 +137,10 @@ impl InterpretationPass {
         machine.enter(plan.system)?;
         machine.refresh();
         machine.current.objects.replace(plan.objects.clone());
+        machine.current.environments.replace(plan.environments.clone());
+        if let Some(environments) = &plan.environments {
+            environments.begin_pass();
+        }
         let interpreting = Arc::new(Self {
             plan: Arc::clone(plan),
             chain: Arc::clone(chain),
@@ -155,8 +159,8 @@ impl InterpretationPass {
             places: Mutex::default(),
             memory: last.map(Mutex::new),
         });
-        // Chains that assign the same variables are interpreted one after the other.
-        if !plan.assigns_variables {
+        // Chains that assign the same variables, or change the same environments, are interpreted one after the other.
+        if !plan.assigns_variables && plan.environments.is_none() {
             threads.hand_out(machine, count, 2, || ThreadJob::Interpret(Arc::downgrade(&interpreting)))?;
         }
         while interpreting.work(machine) {}
@@ -184,6 +188,9 @@ impl InterpretationPass {
         match done.failure.into_inner().recover() {
             Some((_, error)) => Err(error),
             None => {
+                if let Some(environments) = &plan.environments {
+                    environments.end_pass()?;
+                }
                 plan.set_places((!plan.located.is_empty()).then(|| ModulePlaces::new(places)));
                 Ok(PassOutcome {
                     reads_step: done.reads_step.into_inner(),

@@ -11,7 +11,7 @@ use crate::machine::library::Library;
 use crate::machine::questions::argument_places;
 use crate::machine::types::methods_key;
 use crate::results::DerivedSystem;
-use burgeon_base::error::{Result, SourcePlace};
+use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_kit::{Locate, Object};
 use burgeon_rewriting::{FIRST_SYMBOL, Grammar, Rule, Symbol, Symbols};
 use burgeon_scene::CityClass;
@@ -44,6 +44,8 @@ pub(crate) struct SystemDeclaration {
     pub(crate) rules: Vec<DeclaredRule>,
     pub(crate) interpretations: Vec<DeclaredInterpretation>,
     pub(super) hooks: Vec<DeclaredHook>,
+    /// Environments that all chains share.
+    pub(crate) environments: Vec<Arc<dyn Object>>,
     /// Number of the table of variables, if the system has one.
     pub(crate) variables: Option<usize>,
     pub(crate) ignored: Vec<Symbol>,
@@ -131,7 +133,26 @@ impl SystemDeclaration {
     pub(crate) fn shows_last_only(&self) -> bool {
         let empties = |object: &Arc<dyn Object>| object.kind().begins_empty && !object.expands();
         self.last_only
-            || (self.object.as_ref().is_some_and(empties) && !self.rules.iter().any(|rule| rule.asks))
+            || self.environments.is_empty()
+                && (self.object.as_ref().is_some_and(empties) && !self.rules.iter().any(|rule| rule.asks))
+    }
+
+    /// Fails if the system has environments that no pass would change.
+    pub(crate) fn check_environments(&self) -> Result<()> {
+        if self.environments.is_empty() {
+            return Ok(());
+        }
+        if self.object.is_none() {
+            return Err(Error::argument("lsystem: a system with an environment needs an object")
+                .help("add object = turtle(), whose interpretations change the environment"));
+        }
+        if self.last_only {
+            return Err(Error::argument(
+                "lsystem: interpret is \"last\", but rules read the environment after each step",
+            )
+            .help("leave interpret out"));
+        }
+        Ok(())
     }
 
     /// Returns true if a rule of `phase` may use `this`.
@@ -166,6 +187,8 @@ impl SystemDeclaration {
             Some(("groups of rules", "declare the rules without a group"))
         } else if self.variables.is_some() {
             Some(("variables", "pass values in parameters of modules"))
+        } else if !self.environments.is_empty() {
+            Some(("environments", "pass values in parameters of modules"))
         } else if !self.hooks.is_empty() {
             Some(("hooks", "calculate before the system is passed to the object"))
         } else {

@@ -21,6 +21,7 @@ use super::SystemDeclaration;
 use super::declaration::{MAX_DEPTH, RulePhase};
 use super::hooks::HookMoment;
 use super::strings::word_symbols;
+use crate::machine::environments::environments_of;
 
 /// Script value for a system.
 pub(crate) struct SystemHandle {
@@ -48,6 +49,7 @@ impl SystemHandle {
             rules: Vec::new(),
             interpretations: Vec::new(),
             hooks: Vec::new(),
+            environments: Vec::new(),
             variables: None,
             ignored: Vec::new(),
             considered: None,
@@ -68,6 +70,7 @@ impl SystemHandle {
                     return Err(Error::argument("lsystem: interpret must be \"last\"")
                         .help("omit it to interpret after every step"));
                 }
+                ("environment", value) => system.environments = environments_of(&value)?,
                 ("variables", value) => {
                     let machine = library.machine()?;
                     let number = machine.prelude().variables_of.call::<Option<usize>>(value);
@@ -115,6 +118,7 @@ impl SystemHandle {
                 }
             }
         }
+        system.check_environments()?;
         let index = system.index;
         let Ok(mut systems) = library.systems.try_borrow_mut() else { return Err(in_axiom("lsystem")) };
         systems.push(system);

@@ -79,7 +79,7 @@ impl SystemDeclaration {
 
     /// Returns true if functions can depend on several chains at once.
     pub(crate) fn has_state_of_all_chains(&self) -> bool {
-        !self.hooks.is_empty() || self.variables.is_some()
+        !self.hooks.is_empty() || self.variables.is_some() || !self.environments.is_empty()
     }
 
     /// Returns true if an interpretation can assign variables of the system.

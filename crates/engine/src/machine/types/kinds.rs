@@ -8,7 +8,9 @@ use super::handles::{ObjectHandle, methods_key};
 use crate::machine::convert::to_field;
 use crate::machine::{Machine, compile};
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::{Call, Construct, Deprecation, Kind, Loader, Table as ValueTable, TableKey, Value};
+use burgeon_kit::{
+    Call, Construct, Deprecation, Environment, Kind, Loader, Table as ValueTable, TableKey, Value,
+};
 
 /// Installs the constructor and the method table of an object type.
 pub(in crate::machine) fn install_kind(
@@ -36,16 +38,21 @@ pub(in crate::machine) fn install_kind(
 pub(in crate::machine) fn install_methods(machine: &Machine, kind: &Arc<Kind>) -> mlua::Result<Table> {
     let lua = machine.lua();
     let methods = lua.create_table()?;
+    let is_environment = kind.has_capability::<dyn Environment>();
     for (index, method) in kind.methods.iter().enumerate() {
         let name = format!("{}:{}", kind.name, method.name);
         let function: Function = match &method.call {
             Call::Script { .. } => continue,
-            Call::Write { numbers: Some(_), .. } if method.arguments.len() <= 3 => {
+            Call::Write { numbers: Some(_), .. } if method.arguments.len() <= 3 && !is_environment => {
                 machine.prelude().recorder.call((index, name, method.arguments.len(), &*kind.name))?
             }
-            Call::Write { .. } | Call::Read(_) => {
-                machine.prelude().direct.call((index, name, method.call.changes(), &*kind.name))?
-            }
+            Call::Write { .. } | Call::Read(_) => machine.prelude().direct.call((
+                index,
+                name,
+                method.call.changes(),
+                &*kind.name,
+                is_environment,
+            ))?,
         };
         let function = match kind.deprecation(&method.name) {
             None => function,

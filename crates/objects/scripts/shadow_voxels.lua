@@ -1,0 +1,20 @@
+-- A hedge whose shoots grow towards the light and stop in the shade.
+local light = shadow_voxels({ size = 0.3, strength = 0.15, depth = 6 })
+local Shoot, Twig = module("Shoot", "age"), module("Twig")
+local hedge = lsystem({ object = turtle({ width = 0.05, angle = 30, color = "#5d4a32" }), environment = light })
+hedge:axiom(Shoot(0))
+hedge:rule("Shoot(age)", function(this, age)
+  local place = this:position()
+  if light:light(place) < 0.5 then
+    return Twig()
+  end
+  return F(0.3), { Turn(), Roll(137), Shoot(age + 1) }, Roll(90), Shoot(age + 1)
+end)
+hedge:interpret("Shoot(age)", function(this)
+  light:shade(this:position())
+end)
+hedge:interpret("Twig", function(this)
+  light:shade(this:position())
+  this:color("#6b8f3a"):sphere(0.12)
+end)
+hedge:derive(8)

@@ -1,0 +1,13 @@
+//! Environments: what the chains of a system share, such as light and free space.
+//!
+//! Input: calls of interpretations, in the order of the chains. Output: answers to rules after the pass. An environment draws
+//! nothing.
+
+mod attractors;
+mod discs;
+mod place_key;
+mod shadow_voxels;
+
+pub use attractors::{AttractorOptions, Attractors};
+pub use discs::{DiscOptions, Discs};
+pub use shadow_voxels::{ShadowVoxelOptions, ShadowVoxels};

@@ -1,0 +1,130 @@
+//! Environments: interpretations change them in the order of the chains, and rules read them as the last pass has left them.
+
+use super::scripts::{all_chains, chain, divided, error, run, run_with};
+
+const PLANTS: &str = r#"
+local ground = discs({ overlap = 0.5 })
+local Seed, Plant, Dead = module("Seed", "x"), module("Plant", "x", "r"), module("Dead", "x")
+local field = lsystem({ object = turtle(), environment = ground })
+"#;
+
+#[test]
+fn rules_read_an_environment_as_the_last_pass_has_left_it() {
+    // The plants at 0 and 1 overlap once their radii add to more than 2: the later one of equal ones dies.
+    let script = format!(
+        "{PLANTS}field:axiom(Plant(0, 0.4), Plant(1, 0.4), Plant(9, 0.4))
+        field:rule('Plant(x, r)', function(this, x, r)
+          if ground:dominated(vec(x, 0, 0)) then return Dead(x) end
+          return Plant(x, r * 2)
+        end)
+        field:interpret('Plant(x, r)', function(this, x, r) ground:add(vec(x, 0, 0), r) end)
+        for steps = 0, 3 do field:derive(steps) end\n"
+    );
+    let run = run(&script);
+    let chains: Vec<String> =
+        run.systems.iter().map(|system| system.chain_text().trim().to_owned()).collect();
+    assert_eq!(
+        chains,
+        [
+            "Plant(0, 0.4) Plant(1, 0.4) Plant(9, 0.4)",
+            "Plant(0, 0.8) Plant(1, 0.8) Plant(9, 0.8)",
+            "Plant(0, 1.6) Plant(1, 1.6) Plant(9, 1.6)",
+            "Plant(0, 3.2) Dead(1) Plant(9, 3.2)",
+        ]
+    );
+}
+
+#[test]
+fn interpretations_read_what_the_modules_before_them_have_changed() {
+    let made = chain(
+        "local light = shadow_voxels({ size = 1, strength = 0.25, decay = 1, depth = 3 })
+        local A, B, Seen = module('A'), module('B', 'n'), module('Seen', 'light')
+        local variable = variables({ first = -1, second = -1 })
+        local s = lsystem({ object = turtle(), environment = { light }, variables = variable })
+        s:axiom(F(0.1), A(), A())
+        s:interpret('A', function(this)
+          if variable.first < 0 then variable.first = light:light(vec(0, 0, 0))
+          elseif variable.second < 0 then variable.second = light:light(vec(0, 0, 0)) end
+          light:shade(this:position(), 2)
+        end)
+        s:rule('A', function(this) return Seen(light:light(vec(0, 0, 0))) end)
+        s:after_step(function() expect(variable.first, 1) expect(variable.second, 0.75) end)
+        s:derive(1)\n",
+    );
+    // Both shade the voxel by 0.25 * 2; one such shadow of amount 1 does not count.
+    assert_eq!(made, "F(0.1) Seen(0.25) Seen(0.25)");
+}
+
+#[test]
+fn chains_share_an_environment_and_give_the_same_for_any_number_of_threads() {
+    let script = "local points = {}
+        for i = 1, 300 do points[i] = vec(random(-4, 4), random(-4, 4), random(1, 6)) end
+        local space = attractors({ points = points, influence = 3, kill = 0.5 })
+        local light = shadow_voxels({ size = 0.5 })
+        local Root, Node, Grow = module('Root', 'x'), module('Node'), module('Grow', 'x', 'y', 'z')
+        local trees = lsystem({ object = turtle({ sides = 3 }), environment = { space, light } })
+        trees:axiom(source({ -2, 0, 2 }), function(x) return Root(x), Node() end)
+        trees:rule('Node', { when = function(this) return light:light(this:position()) > 0.2 end }, function(this)
+          local place = this:position()
+          if space:count(place) > 0 then
+            local to = space:direction(place)
+            return Node(), { Grow(to.x, to.y, to.z + 0.1 * random()), Node() }
+          end
+        end)
+        trees:interpret('Root(x)', function(this, x) this:jump(vec(x, 0, 0)) end)
+        trees:interpret('Node', function(this) space:add(this:position()) light:shade(this:position(), 0.1) end)
+        trees:interpret('Grow(x, y, z)', function(this, x, y, z) this:face(vec(x, y, z)):forward(0.4) end)
+        trees:derive(12)\n";
+    let of = |threads, batch| all_chains(&run_with(script, divided(threads, batch)));
+    let one = of(1, 4096);
+    assert!(one.matches("Grow").count() > 100, "{}", one.matches("Grow").count());
+    for (threads, batch) in [(1, 2), (2, 3), (3, 4096), (3, 1)] {
+        assert_eq!(of(threads, batch), one);
+    }
+}
+
+#[test]
+fn each_derivation_begins_with_the_environment_that_the_script_has_made() {
+    let run = run("local points = {}
+        for i = 1, 40 do points[i] = vec(0, 0, i * 0.2) end
+        local space = attractors({ points = points, influence = 2, kill = 0.3 })
+        local Node, Left = module('Node'), module('Left', 'n')
+        local tree = lsystem({ object = turtle(), environment = space })
+        tree:axiom(Node())
+        tree:rule('Node', function(this)
+          return space:count(this:position()) > 0 and F(0.4) or Left(space:remaining()), Node()
+        end)
+        tree:interpret('Node', function(this) space:add(this:position()) end)
+        tree:derive(30)
+        tree:derive(30)\n");
+    let chains: Vec<String> = run.systems.iter().map(|system| system.chain_text()).collect();
+    assert_eq!(chains[0], chains[1]);
+    assert!(chains[0].contains("F(0.4) F(0.4) F(0.4)"), "{}", chains[0]);
+}
+
+#[test]
+fn misuse_is_refused_with_the_line_and_the_remedy() {
+    let head = "local light = shadow_voxels() local other = shadow_voxels() local A = module('A')\n";
+    let system = "local s = lsystem({ object = turtle(), environment = light }) s:axiom(A())\n";
+    let of = |rest: &str| error(&format!("{head}{rest}")).replace("\n", " | ");
+    let with = |rest: &str| of(&format!("{system}{rest}\ns:derive(2)"));
+    let said = [
+        with("s:rule('A', function(this) light:shade(this:position()) return A() end)"),
+        with(
+            "s:rule('A', { when = function(this) light:shade(vec(0, 0, 0)) return true end }, function() return A() end)",
+        ),
+        with("s:interpret('A', function(this) other:shade(this:position()) end)"),
+        with("s:interpret('A', function(this) light:shade(vec(0, 0, 1e300)) end)"),
+        with("light:shade(vec(0, 0, 0))"),
+        of("lsystem({ object = turtle(), environment = { turtle() } })"),
+        of("lsystem({ object = turtle(), environment = 3 })"),
+        of("lsystem({ environment = light })"),
+        of("lsystem({ object = turtle(), environment = light, interpret = 'last' })"),
+        of("shadow_voxels({ size = 0 })"),
+        of("attractors({ points = { vec(0, 0, 0) }, kill = -1 })"),
+        of("discs({ overlap = 2 })"),
+    ];
+    let said: String =
+        said.iter().map(|line| line.replace(|c: char| c == '/', "").to_owned() + "\n").collect();
+    insta::assert_snapshot!(said, @r"");
+}
