@@ -39,6 +39,7 @@ fn no_shipped_script_has_an_error_in_strict_mode() {
         "scripts/templates/roads",
         "examples",
         "examples/films",
+        "examples/models/abop",
         "examples/models/classics",
         "examples/models/lpy",
         "examples/models/vlab",
