@@ -1,6 +1,6 @@
 --!strict
 -- The filament of Anabaena in continuous time: cells divide at an age, and grow exponentially until then. A film:
--- burgeon run examples/models/abop/6-03-timed-anabaena.lua --frames 0:7:0.05 --elevation 0 --azimuth 180 -o anabaena.gif
+-- burgeon run examples/models/abop/6-03-timed-anabaena.lua --frames 0:7:0.05 --elevation 0 -o anabaena.gif
 -- Source: P. Prusinkiewicz and A. Lindenmayer, The Algorithmic Beauty of Plants, 1990, section 6.1 and figure 6.3.
 local time = param("time", { default = 7, min = 0, max = 9, doc = "Time, in lives of a cell" })
 local rows =

@@ -1,5 +1,5 @@
 --!strict
--- A tree by space colonisation: points of a crown attract the nearest node of the tree, and vanish when a node comes near.
+-- A tree by space colonisation: points of a crown attract the nearest node, and vanish when a node comes near.
 -- Hooks find the mean direction of the points of each node, and a node with such a direction grows by a segment.
 -- Source: A. Runions, B. Lane and P. Prusinkiewicz, Modeling trees with a space colonization algorithm, 2007.
 local count = param("count", { default = 1000, min = 10, max = 3000, step = 1, doc = "Attraction points" })
@@ -35,8 +35,10 @@ local crown = variables({
   width = {} :: { [string]: number },
 })
 
-local function nodes(): { { name: string, place: Vector } }
-  local list = {}
+type NodePlace = { name: string, place: Vector }
+
+local function nodes(): { NodePlace }
+  local list: { NodePlace } = {}
   for k, row in query("select name, x, y, z from Node") do
     list[k] = { name = row.name, place = vec(row.x, row.y, row.z) }
   end
@@ -48,7 +50,7 @@ local tree = lsystem({ object = pen, variables = crown, interpret = "last" })
 tree:axiom(Node(0, 0, 0, "0", 0))
 tree:before_step(function()
   local all, pull = nodes(), {} :: { [string]: Vector }
-  for _, point in crown.left do
+  for _, point: Vector in crown.left do
     local best, distance = "", reach * segment
     for _, node in all do
       local away = point:distance(node.place)
@@ -64,7 +66,7 @@ tree:before_step(function()
   end
   crown.pull = pull
   -- Widths from the tips to the root: the names of children are longer than that of their parent.
-  table.sort(all, function(a, b)
+  table.sort(all, function(a: NodePlace, b: NodePlace): boolean
     return if #a.name == #b.name then a.name < b.name else #a.name > #b.name
   end)
   local load: { [string]: number }, width = {}, {} :: { [string]: number }
@@ -85,14 +87,15 @@ tree:rule("Node(x, y, z, name, children)", {
   return Node(x, y, z, name, children + 1), { Node(place.x, place.y, place.z, `{name}.{children + 1}`, 0) }
 end)
 tree:after_step(function()
-  local all, left = nodes(), {} :: { Vector }
-  for _, point in crown.left do
+  local all = nodes()
+  local left: { Vector } = {}
+  for _, point: Vector in crown.left do
     local is_free = true
     for _, node in all do
       is_free = is_free and point:distance(node.place) > near * segment
     end
     if is_free then
-      table.insert(left, point)
+      left[#left + 1] = point
     end
   end
   crown.left = left

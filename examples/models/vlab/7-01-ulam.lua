@@ -1,6 +1,6 @@
 --!strict
--- Growth on a grid with collisions: an apex sends three tentacles to the neighbouring cells. A cell that is free, and that
--- only one tentacle has reached, gets an apex. Other tentacles stay. A hook counts the tentacles of all cells after each step.
+-- Growth on a grid with collisions: an apex sends three tentacles to the neighbouring cells. A free cell that only one
+-- tentacle has reached gets an apex; other tentacles stay. A hook counts the tentacles of all cells before each step.
 -- Source: Virtual Laboratory (cpfg), Open/01-ulam-collide, University of Calgary, after S. Ulam, 1962.
 local steps = param("steps", { default = 15, min = 1, max = 40, step = 1, doc = "Generations" })
 local young = param("young", { default = "#d9a441", doc = "Colour of the youngest cells" })
@@ -11,6 +11,10 @@ local Cell = module("Cell", "x", "y", "heading", "birth")
 
 -- How many cells and tentacles there are at a place, such as 3,-1.
 local grid = variables({ taken = { ["0,0"] = 1 } :: { [string]: number } })
+
+local COUNT = [[
+  select x, y, count(*) as n from (select x, y from Cell union all select x, y from Tentacle) group by x, y
+]]
 
 local function key(x: number, y: number): string
   return `{x},{y}`
@@ -33,11 +37,7 @@ end
 growth:axiom(sequence(arms))
 growth:before_step(function()
   local taken: { [string]: number } = {}
-  for _, place in
-    query(
-      "select x, y, count(*) as n from (select x, y from Cell union all select x, y from Tentacle) group by x, y"
-    )
-  do
+  for _, place in query(COUNT) do
     taken[key(place.x, place.y)] = place.n
   end
   grid.taken = taken
@@ -49,7 +49,7 @@ growth:rule("Tentacle(x, y, heading)", {
 }, function(this, x, y, heading)
   return Cell(x, y, heading, step()), Apex(x, y, heading)
 end)
-growth:decompose("Apex(x, y, heading)", function(this, x, y, heading)
+growth:decompose("Apex(x, y, heading)", function(this, x: number, y: number, heading: number)
   local tentacles: { any } = {}
   for side = -1, 1 do
     local nx, ny = step_from(x, y, heading + side)
