@@ -1,6 +1,6 @@
 --!strict
--- Leaves of a lily as functions of their length: width, bend, turn and twist come from four functions, and a leaf is the
--- surface of a contour that moves along its axis.
+-- Leaves of a lily: four functions of the length give width, bend, turn and twist, and a leaf is the surface of a contour
+-- that moves along its axis.
 -- Source: Virtual Laboratory (cpfg), inverse-modeling/01-herb-lily, University of Calgary.
 local leaves = param("leaves", { default = 9, min = 1, max = 20, step = 1, doc = "Leaves of the plant" })
 local twisting = param("twisting", { default = 1, min = -3, max = 3, doc = "Strength of the twist" })
