@@ -57,8 +57,9 @@ local function is_list(value)
   return type(value) == "table" and type(value[1]) == "number" and type(value[2]) == "number"
 end
 
+--- Vectors are values, so nothing can change one that others have.
 local function made(x, y, z)
-  return setmetatable({ x = x, y = y, z = z }, Vec)
+  return table.freeze(setmetatable({ x = x, y = y, z = z }, Vec))
 end
 
 local function finite(x: number, y: number, z: number)

@@ -32,6 +32,7 @@ mod results;
 mod returned_modules;
 mod scripts;
 mod sequences;
+mod series;
 mod steps;
 mod stochastic;
 mod streams;

@@ -1,6 +1,6 @@
 //! Scripts have the same result in every machine that runs them: law 10 of the design.
 
-use super::scripts::{all_chains, divided, lines, run_with, try_run};
+use super::scripts::{all_chains, divided, error, lines, run_with, try_run};
 
 const HEAD: &str = r#"
     local A = module("A", "x"); local B = module("B", "x")
@@ -205,4 +205,12 @@ fn captured_state_that_would_depend_on_the_order_is_refused() {
         }
     }
     assert!(wrong.is_empty(), "not refused:\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn nothing_changes_a_vector() {
+    for write in ["v.x = 5", "rawset(v, 'x', 5)", "local set = rawset set(v, 'x', 5)"] {
+        let made = error(&format!("local v = vec(1, 2, 3)\n{write}"));
+        assert!(made.contains("main.lua:2"), "{made}");
+    }
 }

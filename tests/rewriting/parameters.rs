@@ -267,3 +267,31 @@ fn a_derived_system_is_an_object_that_travels() {
     let (low, high) = run.scene.bounds().expect("something is drawn");
     assert!((low.z - 3.0).abs() < 1e-9 && (high.z - 8.0).abs() < 1e-9, "{low} {high}");
 }
+
+#[test]
+fn a_parameter_with_a_default_is_left_out_but_never_nil() {
+    let script = |axiom: &str, successor: &str| {
+        format!(
+            "local L = module('L', 'a', 'b?')\nlocal list, s = {{ 1 }}, lsystem {{}}\ns:axiom({axiom})\n\
+             s:rule('L(a, b)', function(_, a, b) {successor} end)\ns:derive(1)\n"
+        )
+    };
+    assert_eq!(
+        chain(&script("L(1), L(1, 2), F()", "return L(a, b), F(a), F()")),
+        "L(1) F(1) F L(1, 2) F(1) F F"
+    );
+    for (axiom, successor, line) in [
+        ("F(list[5])", "return", 3),
+        ("L(1)", "return F(b)", 4),
+        ("L(1)", "local made = { F(b), L(a) } return table.unpack(made)", 4),
+        ("L(1)", "return sequence({ F(list[5]) })", 4),
+    ] {
+        let made = error(&script(axiom, successor));
+        assert!(
+            made.contains(&format!("main.lua:{line}: ")) && made.contains("length of F is nil"),
+            "{made}"
+        );
+        assert!(made.contains("leave it out, or give a value; it was declared as F(length?)"), "{made}");
+    }
+    assert!(error(&script("L(list[5])", "return")).contains("L has 1 to 2 parameters; a is missing"));
+}

@@ -25,11 +25,11 @@ pub use color::Color;
 pub use contract::declare;
 pub use contract::{
     Answer, Argument, AxisScale, BeginPrefetch, Call, Capabilities, Capability, Construct, Constructor,
-    Deprecation, Draw, Drawing, Expand, Expectation, Field, Gather, HasLayers, Kind, KindDeclaration,
-    LevelOfDetail, LoadRequest, LoadServices, LoadedObject, Loader, Locate, Make, Method, Model, Object,
-    ObjectContent, ObjectParameter, ObjectPlace, Parameter, Prefetch, ReadCall, Report, Resources,
-    RewriteOutcome, Rewriter, RuleSet, Show, System, Table, TableKey, Value, Values, Vector, Warn, Write,
-    WriteNumbers, is_keyword, object,
+    Deprecation, Draw, Drawing, DrawingMark, Expand, Expectation, Field, Gather, HasLayers, Kind,
+    KindDeclaration, LevelOfDetail, LoadRequest, LoadServices, LoadedObject, Loader, Locate, Make, Method,
+    Model, Object, ObjectContent, ObjectParameter, ObjectPlace, Parameter, Prefetch, ReadCall, Report,
+    Resources, Rewind, RewriteOutcome, Rewriter, RuleSet, Show, System, Table, TableKey, Value, Values,
+    Vector, Warn, Write, WriteNumbers, is_keyword, object,
 };
 pub use example::ScriptExample;
 pub use fields::{Fields, TableOf};

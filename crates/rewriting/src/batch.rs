@@ -1,6 +1,6 @@
 //! Rewriting of a piece of a chain: applies the chosen rules in batches, with one call of each rule's functions.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use crate::chain::{Chain, Mark};
 use crate::key::ModuleKey;
@@ -181,6 +181,10 @@ impl Batch<'_> {
     fn apply(&self, scratch: &mut Scratch) -> Result<()> {
         let mut first: Option<(u32, Error)> = None;
         for rule in 0..scratch.groups.len() {
+            scratch.groups[rule].time = Duration::ZERO;
+            if scratch.groups[rule].members.is_empty() {
+                continue;
+            }
             let mut members = std::mem::take(&mut scratch.groups[rule].members);
             if let Some((index, _)) = &first {
                 members.retain(|member| member < index);

@@ -11,6 +11,7 @@ use crate::pattern::Pattern;
 use crate::phases::{Phase, PhaseOutcome, Phases, derive};
 use crate::plan::StepPlan;
 use crate::rules::{Applications, RuleFailure, Rules};
+use crate::series::StepSeries;
 use crate::step::{NoHelpers, Stepper};
 use crate::step_number::StepNumber;
 use crate::successors::Successors;
@@ -269,6 +270,9 @@ impl ClosureSystem {
     }
 
     /// Derives a chain by at most `steps` steps; stops early if no rule applies and no guard reads the number of the step.
+    ///
+    /// A guard must always return the same for the same arguments, because it is not called again while nothing around its
+    /// module changes.
     pub fn derive(&self, mut chain: Chain, steps: usize) -> Result<Chain> {
         let grammar = Grammar::new(Arc::new(self.symbols.clone()), self.rules.clone(), &self.ignored, true);
         chain.mark(BATCH, grammar.arities());
@@ -283,7 +287,11 @@ impl ClosureSystem {
             notes_places: false,
         });
         let mut stepper = Stepper::new(plan);
-        let phases = Phases { first: Vec::new(), each: vec![Box::new(RewritePhase(self))], last: Vec::new() };
+        let phases = Phases {
+            first: Vec::new(),
+            each: vec![Box::new(RewritePhase { system: self, last: steps })],
+            last: Vec::new(),
+        };
         let derived = derive(&phases, &mut stepper, Arc::new(chain), 0, steps)?;
         Ok(Arc::unwrap_or_clone(derived.chain))
     }
@@ -302,13 +310,39 @@ fn unbalanced_error() -> Error {
 }
 
 /// Phase that applies the closures of a system.
-struct RewritePhase<'a>(&'a ClosureSystem);
+struct RewritePhase<'a> {
+    system: &'a ClosureSystem,
+    /// Number of the last step.
+    last: usize,
+}
 
 impl Phase<Stepper> for RewritePhase<'_> {
     fn run(&self, stepper: &mut Stepper, chain: Arc<Chain>, step: usize) -> Result<PhaseOutcome> {
-        let outcome = stepper.step(self.0, &NoHelpers, &Stop::new(), &chain, step)?;
+        let stop = Stop::new();
+        if stepper.is_sparse(&chain) {
+            let outcome = stepper.perform(
+                self.system,
+                &stop,
+                &chain,
+                &mut StepSeries {
+                    first: step,
+                    last: self.last,
+                    ends_unchanged: false,
+                    ends_at: &[],
+                    watch: &mut |_, _| true,
+                },
+            )?;
+            return Ok(PhaseOutcome {
+                more_steps: outcome.steps - 1,
+                settled: outcome.settled,
+                is_last: outcome.is_last,
+                chain: Arc::new(outcome.chain),
+            });
+        }
+        let outcome = stepper.step(self.system, &NoHelpers, &stop, &chain, step)?;
         stepper.reuse(chain);
         Ok(PhaseOutcome {
+            more_steps: 0,
             settled: !outcome.ran && !outcome.reads_step,
             is_last: outcome.is_last,
             chain: Arc::new(outcome.chain),

@@ -125,8 +125,10 @@ pub struct Grammar {
     skipped: Vec<bool>,
     arities: Vec<u8>,
     name_hashes: Vec<u64>,
-    left: bool,
-    right: bool,
+    /// Number of elements of the longest left context.
+    left: usize,
+    /// Number of elements of the longest right context.
+    right: usize,
     runs: bool,
     random: bool,
 }
@@ -155,8 +157,8 @@ impl Grammar {
             name_hashes: arities.iter().zip(0..).map(|(_, symbol)| symbols.name_hash(symbol)).collect(),
             symbols,
             arities,
-            left: false,
-            right: false,
+            left: 0,
+            right: 0,
             runs: false,
             random,
         };
@@ -168,10 +170,10 @@ impl Grammar {
     #[must_use]
     pub fn with_candidates(mut self, is_candidate: impl Fn(u16) -> bool) -> Self {
         let mut by_symbol = vec![Vec::new(); self.arities.len()];
-        (self.left, self.right, self.runs) = (false, false, false);
+        (self.left, self.right, self.runs) = (0, 0, false);
         for (number, rule) in (0u16..).zip(&self.rules).filter(|(number, _)| is_candidate(*number)) {
-            self.left |= rule.pattern.has_left();
-            self.right |= rule.pattern.has_right();
+            self.left = self.left.max(self.patterns.lefts[usize::from(number)].len());
+            self.right = self.right.max(self.patterns.rights[usize::from(number)].len());
             if rule.weight != Some(0.0) {
                 self.runs |= rule.pattern.has_run();
                 by_symbol[usize::from(rule.pattern.symbol)].push(number);
@@ -271,7 +273,7 @@ impl Grammar {
     /// Returns true if a rule has a context.
     #[inline]
     pub fn has_contexts(&self) -> bool {
-        self.left || self.right
+        self.has_left_contexts() || self.has_right_contexts()
     }
 
     /// Returns true if a rule rewrites several modules at once.
@@ -283,12 +285,28 @@ impl Grammar {
     /// Returns true if a rule has a left context.
     #[inline]
     pub fn has_left_contexts(&self) -> bool {
-        self.left
+        self.left > 0
     }
 
     /// Returns true if a rule has a right context.
     #[inline]
     pub fn has_right_contexts(&self) -> bool {
+        self.right > 0
+    }
+
+    /// Returns the number of elements of the longest left context.
+    pub(crate) fn longest_left(&self) -> usize {
+        self.left
+    }
+
+    /// Returns the number of elements of the longest right context.
+    pub(crate) fn longest_right(&self) -> usize {
         self.right
+    }
+
+    /// Returns true if a few modules on the path before and after a module decide which rule applies to it: if rules
+    /// rewrite single modules, and their contexts name no branches.
+    pub(crate) fn has_near_contexts(&self) -> bool {
+        !self.runs && self.patterns.branch_count() == 0
     }
 }

@@ -9,6 +9,7 @@
 //!   step, and a [`ContextMatcher`] uses them to match contexts.
 //! - A [`Stepper`] performs steps: it chooses the rule of each module, applies the rules in batches, and splices the
 //!   [`Successors`] into the next chain. [`Helpers`] are threads that process pieces of a step.
+//! - In a [`StepSeries`], a step costs as much as it changes.
 //! - [`derive()`] runs [`Phase`]s, of which rewriting is one, until nothing can change.
 //! - Random numbers come from the [`ModuleKey`] of a module, which depends only on the seed and the lineage. A named
 //!   stream of a module also depends on its [`KeyPart`]s.
@@ -62,6 +63,9 @@ mod phases;
 mod plan;
 mod rules;
 mod runs;
+mod segments;
+mod series;
+mod series_pause;
 mod splice;
 mod step;
 mod step_number;
@@ -69,6 +73,7 @@ mod successors;
 mod symbols;
 mod text;
 mod uses;
+mod windows;
 
 pub use batch::{NO_RULE, Scratch};
 pub use chain::{CLOSE, Chain, DEEPEST, END, Mark, OPEN, Symbol};
@@ -87,6 +92,7 @@ pub use pattern::{Context, Item, Pattern, PatternValue, SymbolSet};
 pub use phases::{DerivedChain, Phase, PhaseOutcome, Phases, derive};
 pub use plan::StepPlan;
 pub use rules::{Applications, RuleFailure, Rules};
+pub use series::{SeriesOutcome, StepSeries};
 pub use step::{Helpers, NoHelpers, StepOutcome, StepWork, Stepper};
 pub use step_number::StepNumber;
 pub use successors::{ReturnShape, Successors};

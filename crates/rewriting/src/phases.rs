@@ -16,6 +16,8 @@ pub trait Phase<S> {
 pub struct PhaseOutcome {
     /// Chain after the phase.
     pub chain: Arc<Chain>,
+    /// Number of steps that the phase has performed in addition to the one that was requested.
+    pub more_steps: usize,
     /// Set if nothing can change in later steps. The derivation then ends, and this step does not count.
     pub settled: bool,
     /// Set if this step is the last. Its other phases still run, and it counts.
@@ -25,7 +27,7 @@ pub struct PhaseOutcome {
 impl PhaseOutcome {
     /// Creates the result of a phase after which the derivation continues.
     pub fn next(chain: Arc<Chain>) -> Self {
-        Self { chain, settled: false, is_last: false }
+        Self { chain, more_steps: 0, settled: false, is_last: false }
     }
 }
 
@@ -90,6 +92,7 @@ pub fn derive<S>(
         for phase in &phases.each {
             let outcome = phase.run(state, chain, steps + 1)?;
             chain = outcome.chain;
+            steps += outcome.more_steps;
             is_last |= outcome.is_last;
             if outcome.settled {
                 break 'steps;

@@ -10,6 +10,7 @@ use crate::output::Output;
 use crate::plan::StepPlan;
 use crate::rules::Rules;
 use crate::runs::pieces_at_brackets;
+use crate::series_pause::SeriesPause;
 use crate::step_number::StepNumber;
 use crate::uses::Use;
 use burgeon_base::Stop;
@@ -119,13 +120,16 @@ struct StepTotals {
 /// Executor of steps, which reuses the memory of the last chain for the next.
 #[derive(Debug)]
 pub struct Stepper {
-    plan: Arc<StepPlan>,
+    pub(crate) plan: Arc<StepPlan>,
     spare: Chain,
-    links: Links,
-    scratch: Scratch,
-    outputs: Vec<Output>,
+    pub(crate) links: Links,
+    pub(crate) scratch: Scratch,
+    pub(crate) outputs: Vec<Output>,
     /// Work of each rule in all steps.
-    uses: Vec<Use>,
+    pub(crate) uses: Vec<Use>,
+    /// Number of applications of rules in the last step, if there was one.
+    pub(crate) applied_last: Option<usize>,
+    pub(crate) pause: SeriesPause,
 }
 
 impl Stepper {
@@ -138,12 +142,15 @@ impl Stepper {
             links: Links::default(),
             scratch: Scratch::default(),
             outputs: Vec::new(),
+            applied_last: None,
+            pause: SeriesPause::default(),
         }
     }
 
     /// Sets the plan of the following steps, which must have the same rules. Other rules can be candidates.
     pub fn set_plan(&mut self, plan: &Arc<StepPlan>) {
         self.plan = Arc::clone(plan);
+        self.applied_last = None;
     }
 
     /// Adds the work of the rules in the steps of an earlier derivation that this one continues.
@@ -212,7 +219,7 @@ impl Stepper {
         let mut growth = vec![0usize; self.plan.grammar.rules().len()];
         let mut applied = Vec::new();
         let (mut ran, mut changed) = (false, false);
-        let mut chain = 0;
+        let (mut chain, mut applications) = (0, 0);
         for index in 0..work.pieces.len() {
             let mut output = loop {
                 if let Some(output) = work.take(index) {
@@ -240,6 +247,7 @@ impl Stepper {
             changed |= output.changed;
             for (rule, done) in &output.uses {
                 growth[usize::from(*rule)] += done.made;
+                applications += done.applied;
                 self.uses[usize::from(*rule)] += *done;
             }
             applied.append(&mut output.applied);
@@ -249,6 +257,7 @@ impl Stepper {
                 return Err(self.limit_error(&growth, work.step.number()));
             }
         }
+        self.applied_last = Some(applications);
         Ok(StepTotals { ran, changed, applied })
     }
 
@@ -258,7 +267,7 @@ impl Stepper {
     }
 
     /// Returns the error for a chain that exceeds the limit, with the rule that has produced the most symbols.
-    fn limit_error(&self, growth: &[usize], step: usize) -> Error {
+    pub(crate) fn limit_error(&self, growth: &[usize], step: usize) -> Error {
         let limit = self.plan.limit;
         let error = Error::limit(Limit::Modules, format!("the chain exceeded {limit} modules in step {step}"))
             .help("end the growth with a guard or a counter, derive fewer steps, or raise the limit: --module-limit N");

@@ -48,6 +48,15 @@ impl Part {
         self.surfaces.clear();
     }
 
+    /// Removes all vertices from number `vertices` on, and all triangles from number `triangles` on.
+    pub fn truncate(&mut self, vertices: usize, triangles: usize) {
+        self.positions.truncate(vertices);
+        self.normals.truncate(vertices);
+        self.uvs.truncate(vertices);
+        self.triangles.truncate(triangles);
+        self.surfaces.truncate(triangles);
+    }
+
     /// Reserves memory for more vertices and triangles, on huge pages if they are many.
     #[inline]
     pub fn make_room(&mut self, vertices: usize, triangles: usize) {

@@ -51,6 +51,11 @@ impl SurfaceRuns {
         self.0.is_empty()
     }
 
+    /// Removes the meanings of all triangles from number `count` on.
+    pub fn truncate(&mut self, count: usize) {
+        self.0.truncate(self.0.partition_point(|(first, _)| *first < count));
+    }
+
     /// Removes all meanings.
     pub fn clear(&mut self) {
         self.0.clear();

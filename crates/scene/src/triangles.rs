@@ -134,12 +134,22 @@ impl Triangles {
         }
         let kept = self.runs.partition_point(|run| (run.first as usize) < count);
         let Some(last) = kept.checked_sub(1) else { return self.clear() };
+        let listed_from = |runs: &[TriangleSpan]| {
+            runs.iter().find_map(|run| match run.faces {
+                FacePattern::Listed(from) => Some(from as usize),
+                _ => None,
+            })
+        };
+        if self.runs.get(kept).is_some_and(|next| next.first as usize == count) {
+            let listed = listed_from(&self.runs[kept..]);
+            self.runs.truncate(kept);
+            self.listed.truncate(listed.unwrap_or(self.listed.len()));
+            self.count = count;
+            return;
+        }
         let first = self.runs[last].first as usize;
         let rest: Vec<[u32; 3]> = self.range(first..count).collect();
-        let listed = self.runs[last..].iter().find_map(|run| match run.faces {
-            FacePattern::Listed(from) => Some(from as usize),
-            _ => None,
-        });
+        let listed = listed_from(&self.runs[last..]);
         self.runs.truncate(last);
         self.listed.truncate(listed.unwrap_or(self.listed.len()));
         self.count = first;

@@ -2,9 +2,9 @@
 
 use mlua::chunk::Compiler;
 
-/// Functions that the prelude redefines, because Luau's own versions give different bits in native code and
-/// in bytecode. Without this list the compiler would still inline its own versions.
-const DIFFERENT: [&str; 1] = ["math.lerp"];
+/// Functions that the prelude redefines: Luau's `math.lerp` gives different bits in native code and in bytecode, and its
+/// `rawset` changes vectors. Without this list the compiler would still inline its own versions.
+const DIFFERENT: [&str; 2] = ["math.lerp", "rawset"];
 
 /// Returns the compiler for all sources that a virtual machine runs.
 pub(crate) fn compiler() -> Compiler {

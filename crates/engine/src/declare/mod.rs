@@ -15,6 +15,7 @@ mod part;
 pub(crate) mod paths;
 mod positions;
 mod preset;
+mod progress;
 mod queries;
 mod scripts;
 mod session;
@@ -27,6 +28,7 @@ pub use options::{Limits, ParamValues, Print, RunInputs, RunOptions, RunReports,
 pub use param::{Control, Param, Setting};
 pub use part::FeaturePart;
 pub use preset::Preset;
+pub use progress::RunProgress;
 pub(crate) use scripts::SourceFile;
-pub use session::{RunProgress, Session};
+pub use session::Session;
 pub(crate) use types::{contested_method, qualified_name};

@@ -4,7 +4,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
-use std::time::Duration;
 
 use super::api::api_version;
 use super::data::Data;
@@ -12,72 +11,22 @@ use super::deprecations::Deprecations;
 use super::options::RunOptions;
 use super::param::Param;
 use super::positions::RandomPositions;
+use super::progress::RunProgress;
 use super::scripts::{ScriptFiles, SourceFile, own_params, read_stdlib, unreadable};
 use super::types::DeclaredTypes;
 use crate::questions::{ChainView, RowCache};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::stop::Stop;
-use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, Warnings};
 use burgeon_kit::Values;
 use burgeon_language::CallForm;
 use burgeon_language::analysis::{
-    Analysis, CheckedFile, QueryCall, call_problems, has_metatables, inspects_tables,
+    Analysis, CheckedFile, QueryCall, call_problems, has_metatables, inspects_tables, observes_steps,
 };
 use burgeon_packages::{PackageSearch, Packages};
 use burgeon_rewriting::Symbol;
 use rustc_hash::FxHashSet;
-
-/// Progress of a run, for display.
-#[derive(Debug, Default)]
-pub struct RunProgress {
-    step: AtomicUsize,
-    steps: AtomicUsize,
-    modules: AtomicUsize,
-    total: AtomicUsize,
-}
-
-impl RunProgress {
-    /// Records that `step` of at most `steps` has made a chain of `modules` modules.
-    pub(crate) fn note(&self, step: usize, steps: usize, modules: usize) {
-        self.step.store(step, Ordering::Relaxed);
-        self.steps.store(steps, Ordering::Relaxed);
-        self.modules.store(modules, Ordering::Relaxed);
-        self.total.fetch_add(modules, Ordering::Relaxed);
-    }
-
-    /// Returns the last completed step, the maximum number of steps if there is one, and the number of
-    /// modules.
-    pub fn counts(&self) -> (usize, Option<usize>, usize) {
-        let load = |count: &AtomicUsize| count.load(Ordering::Relaxed);
-        let steps = load(&self.steps);
-        (load(&self.step), (steps != usize::MAX && steps > 0).then_some(steps), load(&self.modules))
-    }
-
-    /// Returns a progress message with the rate and an estimate of the remaining time.
-    pub fn message(&self, elapsed: Duration) -> String {
-        let load = |count: &AtomicUsize| count.load(Ordering::Relaxed);
-        let (step, steps) = (load(&self.step), load(&self.steps));
-        if steps == 0 {
-            return "running the script".to_owned();
-        }
-        #[allow(clippy::cast_precision_loss, reason = "shown with three digits")]
-        let rate = load(&self.total) as f64 / elapsed.as_secs_f64().max(1e-3) / 1e6;
-        let modules = load(&self.modules);
-        let of = if steps == usize::MAX { String::new() } else { format!(" of {steps}") };
-        // Chains grow, so the remaining steps take at least as long as the completed steps.
-        let left = match (step, steps) {
-            (1.., steps) if steps != usize::MAX && steps > step => {
-                #[allow(clippy::cast_precision_loss, reason = "an estimate")]
-                let seconds = elapsed.as_secs_f64() * (steps - step) as f64 / step as f64;
-                if seconds < 1.0 { String::new() } else { format!(", at least {seconds:.0} s left") }
-            }
-            _ => String::new(),
-        };
-        format!("step {step}{of}, {} modules, {rate:.1} M modules/s{left}", grouped(modules))
-    }
-}
 
 /// Facts about the script files, found by static analysis.
 #[derive(Default)]
@@ -92,6 +41,8 @@ struct ScriptFacts {
     inspects_tables: AtomicBool,
     /// Set if a file may set metatables.
     metatables: AtomicBool,
+    /// Set if rules of a file may print, or ask for the chain.
+    observes_steps: AtomicBool,
 }
 
 /// Run of a script.
@@ -334,6 +285,11 @@ impl Session {
         self.facts.inspects_tables.load(Ordering::Acquire)
     }
 
+    /// Returns true if functions of a script file may print in a step, or ask for the chain before it.
+    pub(crate) fn observes_steps(&self) -> bool {
+        self.facts.observes_steps.load(Ordering::Acquire)
+    }
+
     /// Returns true if the functions that begin at a line of a file have no side effects.
     pub(crate) fn is_pure(&self, file: &str, line: usize) -> bool {
         !self.facts.metatables.load(Ordering::Acquire)
@@ -426,6 +382,7 @@ impl Session {
         self.facts.stops.fetch_or(analysis.stops, Ordering::AcqRel);
         self.facts.metatables.fetch_or(has_metatables(&analysis.text), Ordering::AcqRel);
         self.facts.inspects_tables.fetch_or(inspects_tables(&analysis.text), Ordering::AcqRel);
+        self.facts.observes_steps.fetch_or(observes_steps(&analysis.text), Ordering::AcqRel);
     }
 
     /// Records that a placeholder module has been made.
@@ -468,6 +425,11 @@ impl Session {
         }
     }
 
+    /// Returns true if so many values have been added that [`forget_unused`](Self::forget_unused) may drop some.
+    pub(crate) fn has_many_unused(&self) -> bool {
+        self.values.has_many_new(self.stop.memory().is_some_and(|memory| memory.is_half_full()))
+    }
+
     /// Returns all errors found while reading the files, sorted by file name.
     pub(crate) fn problems(&self) -> Vec<Error> {
         let scripts = self.script_files();
@@ -485,19 +447,4 @@ fn data_root(folder: &Path) -> Result<PathBuf> {
         Error::not_found("folder", &shown, [], format!("folder not found: {shown}"))
             .help("--data needs a folder of data files")
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn progress_tells_the_time_left_once_there_is_some() {
-        let progress = RunProgress::default();
-        let after = |seconds: f64| progress.message(Duration::from_secs_f64(seconds));
-        assert_eq!(after(0.2), "running the script");
-        progress.note(5, 20, 1_000_000);
-        assert_eq!(after(0.2), "step 5 of 20, 1,000,000 modules, 5.0 M modules/s");
-        assert_eq!(after(4.0), "step 5 of 20, 1,000,000 modules, 0.2 M modules/s, at least 12 s left");
-    }
 }

@@ -11,12 +11,16 @@
 
 mod checkpoints;
 mod functions;
+mod hooks;
 mod interpret;
 mod lead;
+mod passes;
 mod pending;
 mod phases;
 mod plan;
+mod rewrite;
 mod rewriter;
+mod state;
 mod step;
 mod threads;
 

@@ -147,8 +147,6 @@ pub(super) struct Derivation {
     pub key: ModuleKey,
     /// Hooks of each moment that has some.
     pub hooks: Vec<(HookMoment, Vec<HookFunction>)>,
-    /// Set if hooks run in each step.
-    pub has_step_hooks: bool,
 }
 
 impl Derivation {
@@ -254,7 +252,6 @@ impl Derivation {
             group,
             key,
             hooks: system.hooks_by_moment(),
-            has_step_hooks: system.has_step_hooks(),
         })
     }
 }

@@ -1,13 +1,13 @@
-//! One derivation step in the leading machine, with the help of the other machines.
+//! Derivation steps in the leading machine, with the help of the other machines.
 
 use std::sync::Arc;
 
 use super::functions::LuaRules;
 use super::plan::DerivationPlan;
 use super::threads::{LeadingMachine, ThreadJob};
-use crate::machine::SystemFunctions;
+use crate::machine::{Machine, SystemFunctions};
 use burgeon_base::error::Result;
-use burgeon_rewriting::{Chain, Helpers, StepOutcome, StepWork, Stepper};
+use burgeon_rewriting::{Chain, Helpers, SeriesOutcome, StepOutcome, StepSeries, StepWork, Stepper};
 
 /// Number of pieces of a chain from which rewriting takes longer than starting a helper.
 const MANY: usize = 16;
@@ -28,7 +28,7 @@ impl Helpers for MachineHelpers<'_> {
     }
 }
 
-/// Makes step `number` on `chain` with the functions `declared` of the leading machine.
+/// Performs step `number` on `chain` with the functions `declared` of the leading machine.
 pub(super) fn step(
     leader: LeadingMachine<'_>,
     plan: &Arc<DerivationPlan>,
@@ -38,12 +38,32 @@ pub(super) fn step(
     number: usize,
 ) -> Result<StepOutcome> {
     let machine = leader.machine;
+    enter(machine, plan)?;
+    let rules = LuaRules { machine, declared, bounded: plan.bounded };
+    let helpers = MachineHelpers { leader, plan };
+    stepper.step(&rules, &helpers, &machine.session.stop, chain, number)
+}
+
+/// Performs several steps on `chain` with the functions `declared` of the leading machine.
+pub(super) fn perform(
+    machine: &Machine,
+    plan: &Arc<DerivationPlan>,
+    stepper: &mut Stepper,
+    declared: &SystemFunctions,
+    chain: &Chain,
+    series: &mut StepSeries<'_>,
+) -> Result<SeriesOutcome> {
+    enter(machine, plan)?;
+    let rules = LuaRules { machine, declared, bounded: plan.bounded };
+    stepper.perform(&rules, &machine.session.stop, chain, series)
+}
+
+/// Prepares the leading machine for calls of the functions of a system.
+fn enter(machine: &Machine, plan: &DerivationPlan) -> Result<()> {
     machine.enter(plan.system)?;
     machine.refresh();
     machine.current.objects.replace(plan.objects.clone());
     machine.current.located.replace(plan.places());
     machine.current.skips_passes.set(plan.skips_passes);
-    let rules = LuaRules { machine, declared, bounded: plan.bounded };
-    let helpers = MachineHelpers { leader, plan };
-    stepper.step(&rules, &helpers, &machine.session.stop, chain, number)
+    Ok(())
 }

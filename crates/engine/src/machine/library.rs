@@ -241,7 +241,10 @@ impl Library {
             None => ("stdlib.lua", machine.load_compiled(&STANDARD_COMPILED)?),
             Some((name, text)) => (name, machine.load(name, text)?),
         };
+        let mark = |begins: bool| machine.prelude().begin_standard.call::<()>(begins);
+        mark(true).map_err(|error| machine.translate(error))?;
         let exports: LuaValue = chunk.call(()).map_err(|error| machine.translate(error))?;
+        mark(false).map_err(|error| machine.translate(error))?;
         let LuaValue::Table(exports) = exports else {
             return Err(Error::script(format!("{name} does not return a table"))
                 .help("end it with return { name = value, ... }"));

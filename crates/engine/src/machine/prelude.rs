@@ -70,6 +70,8 @@ pub(crate) struct Prelude {
     pub variables_of: Function,
     /// `(entry, call)`: runs an interpretation rule again, and raises an error at one of its recorded calls.
     pub relive: Function,
+    /// Marks the modules that are declared until it is called again as those of the standard library.
+    pub begin_standard: Function,
     /// Ends a batch that failed.
     pub finish: Function,
     /// Returns the current application, the number of its modules and of its calls, and the interpretation rule that
@@ -129,6 +131,7 @@ impl Prelude {
             load_variables: table.get("load_variables")?,
             variables_of: table.get("variables_of")?,
             relive: table.get("relive")?,
+            begin_standard: table.get("begin_standard")?,
             finish: table.get("finish")?,
             at: table.get("current")?,
             set_this: table.get("set_this")?,

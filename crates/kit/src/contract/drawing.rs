@@ -48,6 +48,17 @@ pub struct Drawing {
     nearest: OnceLock<Arc<Nearest>>,
 }
 
+/// Size of the content of a [`Drawing`] at a moment.
+#[derive(Debug, Clone)]
+pub struct DrawingMark {
+    /// Numbers of vertices and triangles of each part.
+    parts: Vec<(usize, usize)>,
+    /// Number of instances of each placed model.
+    placed: Vec<usize>,
+    instances: usize,
+    expected: usize,
+}
+
 impl Drawing {
     /// Creates an empty drawing whose origin is at `origin` (m).
     pub fn at(origin: DVec3) -> Self {
@@ -81,6 +92,35 @@ impl Drawing {
         if let Some(makers) = &mut self.makers {
             makers.clear();
         }
+    }
+
+    /// Returns the size of the present content, for [`Drawing::rewind`].
+    pub fn mark(&self) -> DrawingMark {
+        DrawingMark {
+            parts: self.parts.iter().map(|part| (part.positions.len(), part.triangles.len())).collect(),
+            placed: self.placed.iter().map(|(_, _, frames)| frames.len()).collect(),
+            instances: self.instances,
+            expected: self.expected,
+        }
+    }
+
+    /// Removes the content that was added since [`Drawing::mark`] returned `mark`. The drawing must not have been cleared
+    /// since, and must not be traced.
+    pub fn rewind(&mut self, mark: &DrawingMark) {
+        self.nearest.take();
+        self.materials.truncate(mark.parts.len());
+        for mut part in self.parts.drain(mark.parts.len()..).rev() {
+            part.clear();
+            self.spare.push(part);
+        }
+        for (part, (vertices, triangles)) in self.parts.iter_mut().zip(&mark.parts) {
+            part.truncate(*vertices, *triangles);
+        }
+        self.placed.truncate(mark.placed.len());
+        for ((_, _, frames), count) in self.placed.iter_mut().zip(&mark.placed) {
+            frames.truncate(*count);
+        }
+        (self.instances, self.expected) = (mark.instances, mark.expected);
     }
 
     /// Returns the index of the part with this material, and adds the part if it is missing.

@@ -26,13 +26,13 @@ pub use capability::{
 };
 pub use constructor::Constructor;
 pub use deprecation::Deprecation;
-pub use drawing::Drawing;
+pub use drawing::{Drawing, DrawingMark};
 pub use kind::{Call, Construct, Field, Kind, KindDeclaration, Make, Method, ReadCall, Write, WriteNumbers};
 pub use loading::{LoadRequest, LoadServices, LoadedObject, Loader, Resources};
 pub use model::Model;
 pub use object::Object;
 pub use parameter::{Answer, Expectation, ObjectParameter, Parameter, object};
-pub use place::{Locate, ObjectPlace};
+pub use place::{Locate, ObjectPlace, Rewind};
 pub use prefetch::{BeginPrefetch, Prefetch};
 pub use rewriter::{RewriteOutcome, Rewriter, RuleSet, System};
 pub use value::{Table, TableKey, Value, is_keyword};

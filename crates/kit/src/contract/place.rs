@@ -1,5 +1,7 @@
 //! Positions and axes of objects that move along a chain.
 
+use std::any::Any;
+
 use glam::DVec3;
 
 use crate::{Parameter, Value, Vector};
@@ -49,4 +51,18 @@ impl ObjectPlace {
 pub trait Locate {
     /// Returns the current place.
     fn place(&self) -> ObjectPlace;
+}
+
+/// Capability to return to an earlier state of the same interpretation pass, so that the next pass begins where the chain
+/// has changed.
+pub trait Rewind {
+    /// Returns the number of frames that a mark contains.
+    fn mark_size(&self) -> usize;
+
+    /// Returns the present state, to which [`Rewind::rewind`] returns. Content that is drawn never changes after that.
+    fn mark(&self) -> Box<dyn Any + Send + Sync>;
+
+    /// Returns to the state in which [`Rewind::mark`] returned `mark`, if the pass has not begun anew since, or to which the
+    /// object has returned since. Returns `false` if the mark belongs to another type.
+    fn rewind(&mut self, mark: &(dyn Any + Send + Sync)) -> bool;
 }

@@ -99,20 +99,24 @@ impl Values {
     /// A dropped handle can be reused for another value. Caches of handles must be emptied when [`Values::epoch`] has
     /// changed.
     pub fn retain_if_many(&self, columns: &[&[f64]]) {
-        let held = self.len();
-        if held > 2 * self.survivors.load(Ordering::Relaxed) + 10_000 {
+        if self.has_many_new(false) {
             self.retain(columns);
-            self.survivors.store(self.len(), Ordering::Relaxed);
         }
     }
 
     /// Drops unused values like [`Values::retain_if_many`], but even after a few additions, for runs with little memory
     /// left.
     pub fn retain_if_new(&self, columns: &[&[f64]]) {
-        if self.len() > self.survivors.load(Ordering::Relaxed) + 16 {
+        if self.has_many_new(true) {
             self.retain(columns);
-            self.survivors.store(self.len(), Ordering::Relaxed);
         }
+    }
+
+    /// Returns true if [`Values::retain_if_many`] would drop unused values; or [`Values::retain_if_new`], if there is
+    /// little memory left.
+    pub fn has_many_new(&self, lacks_memory: bool) -> bool {
+        let survivors = self.survivors.load(Ordering::Relaxed);
+        self.len() > if lacks_memory { survivors + 16 } else { 2 * survivors + 10_000 }
     }
 
     /// Returns the number of times that values were dropped.
@@ -137,6 +141,8 @@ impl Values {
                 slots.free.push(handle);
             }
         }
+        drop(slots);
+        self.survivors.store(self.len(), Ordering::Relaxed);
     }
 
     fn handle(&self, value: Value) -> u32 {

@@ -3,10 +3,22 @@
 /// Functions with which a script can inspect a table's entries.
 const INSPECTORS: [&str; 6] = ["pairs", "next", "rawget", "getmetatable", "clone", "foreach"];
 
+/// Functions through which rules can observe each step, or the chain before it.
+const OBSERVERS: [&str; 2] = ["print", "query"];
+
 /// Returns true if a script could distinguish a table that is created lazily from an existing table.
 pub fn inspects_tables(text: &str) -> bool {
+    contains_word(text, &INSPECTORS)
+}
+
+/// Returns true if functions of a script may print in a step, or ask for the chain before it.
+pub fn observes_steps(text: &str) -> bool {
+    contains_word(text, &OBSERVERS)
+}
+
+fn contains_word(text: &str, words: &[&str]) -> bool {
     let apart = |letter: Option<char>| letter.is_none_or(|it| !it.is_alphanumeric() && it != '_');
-    INSPECTORS.iter().any(|name| {
+    words.iter().any(|name| {
         text.match_indices(name).any(|(at, _)| {
             apart(text[..at].chars().next_back()) && apart(text[at + name.len()..].chars().next())
         })

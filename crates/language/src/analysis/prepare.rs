@@ -237,7 +237,7 @@ impl Walk<'_> {
                     self.edit(*from, *from, if *open { ", (" } else { ", " }.to_owned());
                     self.edit(*to, *to, if *open { ")" } else { "" }.to_owned());
                 }
-                ReturnArgument::Missing(at) => self.edit(*at, *at, ", nil".to_owned()),
+                ReturnArgument::Missing(at) => self.edit(*at, *at, ", __omitted".to_owned()),
             }
         }
         self.edit(end, end, ")".to_owned());

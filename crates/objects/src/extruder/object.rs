@@ -1,15 +1,19 @@
 //! The extruder object of scripts.
 
+use std::any::Any;
 use std::sync::Arc;
 
+use super::joint::Joint;
 use super::options::ExtruderOptions;
 use super::state::{ExtruderState, SolidRun};
 use crate::MaterialOptions;
 use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_geometry::{Frame, Rings, Section, Segment, SweepOptions, sweep};
-use burgeon_kit::{AxisScale, Color, Drawing, Locate, Model, ObjectPlace, Vector, Warn, methods, object};
+use burgeon_geometry::{Frame, Rings, Section, Segment, Station, SweepOptions, sweep};
+use burgeon_kit::{
+    AxisScale, Color, Drawing, DrawingMark, Locate, Model, ObjectPlace, Rewind, Vector, Warn, methods, object,
+};
 use burgeon_spatial::Path;
 use glam::{DAffine3, DVec2, DVec3};
 use smallvec::{SmallVec, smallvec};
@@ -42,7 +46,7 @@ const CREASE: f64 = 40.0;
     options = ExtruderOptions,
     example = include_str!("../../scripts/extruder.lua"),
     draws,
-    can(Warn, Locate),
+    can(Warn, Locate, Rewind),
     begins_empty,
     begin = restart,
     push = open_branch,
@@ -164,7 +168,8 @@ impl Extruder {
         self.state.smooth = smooth;
     }
 
-    /// Extrudes the cross-section by `length` (m).
+    /// Extrudes the cross-section by `length` (m). A segment that begins where the last one ends continues its solid: across
+    /// a turn with a mitre, unless the turn is above 120 degrees, rolls more than it bends, or a segment is too short.
     pub fn extrude(&mut self, length: f64) -> Result<()> {
         self.segment(length)
     }
@@ -341,27 +346,33 @@ impl Extruder {
         if segment.steps == 0 {
             segment.steps = segment.steps_for(10f64.to_radians());
         }
-        let continues = state.run.as_ref().is_some_and(|run| {
-            run.end == state.frame
-                && run.scale == state.scale
+        let joint = state.run.as_ref().and_then(|run| {
+            let is_alike = run.scale == state.scale
                 && (Arc::ptr_eq(&run.section, &section) || run.section == section)
                 && run.smooth == state.smooth
                 && run.caps == state.caps
-                && (Arc::ptr_eq(&run.material, &state.material) || run.material == state.material)
+                && (Arc::ptr_eq(&run.material, &state.material) || run.material == state.material);
+            if is_alike { Joint::between(run, state.frame, &segment) } else { None }
         });
-        if !continues {
+        if joint.is_none() {
             self.close()?;
         }
         let state = &mut self.state;
-        let mut stations = SmallVec::new();
+        let mut stations: SmallVec<[Station; 2]> = SmallVec::new();
         let end = segment.stations(state.frame, &mut stations)?;
         let maker = self.drawing.maker();
-        match &mut state.run {
-            Some(run) => {
-                run.stations.extend(stations.into_iter().skip(1));
+        let free = segment.length / segment.steps as f64;
+        match state.run.as_mut().zip(joint) {
+            Some((run, joint)) => {
+                let steps = segment.steps as f64;
+                for (step, station) in stations.iter_mut().enumerate() {
+                    station.twist -= joint.roll * (1.0 - step as f64 / steps);
+                }
+                run.stations.extend(stations.into_iter().skip(usize::from(joint.is_straight)));
                 run.makers.resize(run.stations.len(), maker);
                 run.end = end;
                 run.scale = state.taper;
+                run.free = if segment.steps == 1 { free - joint.length } else { free };
             }
             None => {
                 state.run = Some(SolidRun {
@@ -369,6 +380,7 @@ impl Extruder {
                     stations,
                     section,
                     end,
+                    free,
                     scale: state.taper,
                     smooth: state.smooth,
                     caps: state.caps,
@@ -429,6 +441,39 @@ impl Extruder {
 
     fn finish(&mut self) -> Result<()> {
         self.close()
+    }
+}
+
+/// State of an extruder in a pass, without what it has drawn.
+struct ExtruderMark {
+    state: ExtruderState,
+    stack: Vec<ExtruderState>,
+    drawing: DrawingMark,
+    open_edges: usize,
+}
+
+impl Rewind for Extruder {
+    fn mark_size(&self) -> usize {
+        let run_size = |state: &ExtruderState| 1 + state.run.as_ref().map_or(0, |run| run.stations.len());
+        self.stack.iter().chain([&self.state]).map(run_size).sum()
+    }
+
+    fn mark(&self) -> Box<dyn Any + Send + Sync> {
+        Box::new(ExtruderMark {
+            state: self.state.clone(),
+            stack: self.stack.clone(),
+            drawing: self.drawing.mark(),
+            open_edges: self.open_edges,
+        })
+    }
+
+    fn rewind(&mut self, mark: &(dyn Any + Send + Sync)) -> bool {
+        let Some(mark) = mark.downcast_ref::<ExtruderMark>() else { return false };
+        self.state.clone_from(&mark.state);
+        self.stack.clone_from(&mark.stack);
+        self.drawing.rewind(&mark.drawing);
+        self.open_edges = mark.open_edges;
+        true
     }
 }
 

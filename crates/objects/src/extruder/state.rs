@@ -36,6 +36,8 @@ pub(super) struct SolidRun {
     pub(super) makers: SmallVec<[u32; 2]>,
     pub(super) section: Arc<Section>,
     pub(super) end: Frame,
+    /// Length (m) of the last step without the part that a joint at its start takes.
+    pub(super) free: f64,
     pub(super) scale: DVec2,
     pub(super) smooth: bool,
     pub(super) caps: [bool; 2],

@@ -94,6 +94,113 @@ fn segments_that_continue_one_another_are_one_solid() {
     );
 }
 
+/// Returns the number of connected pieces that an extruder draws, and their volume (m³), after checking that each is a
+/// closed solid.
+fn pieces(options: ExtruderOptions, draw: impl FnOnce(&mut Extruder) -> Result<()>) -> (usize, f64) {
+    let mut extruder = Extruder::new(options).expect("the options are valid");
+    extruder.begin();
+    draw(&mut extruder).expect("it can be drawn");
+    extruder.end().expect("it can be closed");
+    let check = solid::check(extruder.drawing.parts());
+    assert!(check.is_solid(), "{check:?}");
+    let mut of_place = std::collections::HashMap::new();
+    let mut piece_of: Vec<usize> = Vec::new();
+    for part in extruder.drawing.parts() {
+        for triangle in part.triangles.iter() {
+            let corners = triangle.map(|corner| {
+                let place = part.positions[corner as usize].to_array().map(f32::to_bits);
+                *of_place.entry(place).or_insert_with(|| {
+                    piece_of.push(piece_of.len());
+                    piece_of.len() - 1
+                })
+            });
+            let [first, others @ ..] = corners.map(|corner| piece_of[corner]);
+            for other in others {
+                piece_of.iter_mut().filter(|piece| **piece == other).for_each(|piece| *piece = first);
+            }
+        }
+    }
+    piece_of.sort_unstable();
+    piece_of.dedup();
+    (piece_of.len(), solid::volume(extruder.drawing.parts()))
+}
+
+#[test]
+fn segments_across_turns_are_joined_by_mitres_into_one_solid() {
+    for sides in [4, 5, 12] {
+        let options = || ExtruderOptions { sides, ..ExtruderOptions::default() };
+        // A mitre takes from one side of the axis what it adds on the other.
+        let (count, polyline) = pieces(options(), |it| {
+            it.scale(0.2, None);
+            for angle in [30.0, -75.0, 90.0, 10.0, -40.0, 115.0, -20.0, 60.0, 5.0] {
+                it.extrude(2.0)?;
+                it.turn(angle);
+                it.pitch(-angle / 20.0);
+            }
+            Ok(())
+        });
+        assert_eq!(count, 1);
+        assert!((polyline - regular(f64::from(sides)) * 0.04 * 18.0).abs() < 0.02, "{polyline}");
+        let (count, helix) = pieces(options(), |it| {
+            it.scale(0.05, None);
+            for _ in 0..120 {
+                it.extrude(0.3)?;
+                it.turn(12.0);
+                it.pitch(3.0);
+            }
+            Ok(())
+        });
+        assert_eq!(count, 1);
+        assert!((helix - regular(f64::from(sides)) * 0.0025 * 36.0).abs() < 1e-3, "{helix}");
+    }
+}
+
+#[test]
+fn turns_that_have_no_mitre_begin_a_new_solid() {
+    let pieces_of = |draw: fn(&mut Extruder) -> Result<()>| {
+        pieces(ExtruderOptions { sides: 5, ..ExtruderOptions::default() }, |it| {
+            it.scale(0.2, None);
+            it.extrude(1.0)?;
+            draw(it)?;
+            it.extrude(1.0)
+        })
+        .0
+    };
+    assert_eq!(pieces_of(|it| Ok(it.turn(90.0))), 1);
+    // Too sharp, only a roll, more roll than bend, another place, another scale and a segment too short for the mitre.
+    assert_eq!(pieces_of(|it| Ok(it.turn(150.0))), 2);
+    assert_eq!(pieces_of(|it| Ok(it.roll(20.0))), 2);
+    assert_eq!(
+        pieces_of(|it| {
+            it.roll(40.0);
+            Ok(it.turn(10.0))
+        }),
+        2
+    );
+    assert_eq!(
+        pieces_of(|it| {
+            it.turn(90.0);
+            Ok(it.advance(0.5))
+        }),
+        2
+    );
+    assert_eq!(
+        pieces_of(|it| {
+            it.turn(90.0);
+            Ok(it.scale(0.5, None))
+        }),
+        2
+    );
+    assert_eq!(
+        pieces_of(|it| {
+            it.turn(90.0);
+            it.extrude(0.1)?;
+            Ok(it.turn(90.0))
+        }),
+        3
+    );
+}
+
 #[test]
 fn a_missing_cap_is_counted_as_open_edges() {
     let mut extruder =

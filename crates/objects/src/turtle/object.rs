@@ -1,5 +1,6 @@
 //! The turtle: walks, turns and draws branches, polygons and instances.
 
+use std::any::Any;
 use std::sync::Arc;
 
 use glam::{DAffine3, DQuat, DVec3};
@@ -14,7 +15,9 @@ use crate::curves::surface::SurfaceObject;
 use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Frame, Strand, face, sphere};
-use burgeon_kit::{AxisScale, Color, Drawing, Locate, Model, ObjectPlace, Vector, methods, object};
+use burgeon_kit::{
+    AxisScale, Color, Drawing, DrawingMark, Locate, Model, ObjectPlace, Rewind, Vector, methods, object,
+};
 use burgeon_scene::Material;
 
 /// A turtle as in The Algorithmic Beauty of Plants, which draws round branches in three dimensions.
@@ -39,7 +42,7 @@ use burgeon_scene::Material;
     options = TurtleOptions,
     example = include_str!("../../scripts/turtle.lua"),
     draws,
-    can(Locate),
+    can(Locate, Rewind),
     begins_empty,
     begin = restart,
     push = open_branch,
@@ -292,6 +295,38 @@ impl Locate for Turtle {
     fn place(&self) -> ObjectPlace {
         let Frame { heading, left, up, .. } = self.state.frame;
         ObjectPlace { position: self.position(), heading, left, up }
+    }
+}
+
+/// State of a turtle in a pass, without what it has drawn.
+struct TurtleMark {
+    state: TurtleState,
+    stack: Vec<TurtleState>,
+    polygons: Vec<Vec<DVec3>>,
+    drawing: DrawingMark,
+}
+
+impl Rewind for Turtle {
+    fn mark_size(&self) -> usize {
+        self.stack.len() + self.polygons.iter().map(Vec::len).sum::<usize>()
+    }
+
+    fn mark(&self) -> Box<dyn Any + Send + Sync> {
+        Box::new(TurtleMark {
+            state: self.state.clone(),
+            stack: self.stack.clone(),
+            polygons: self.polygons.clone(),
+            drawing: self.drawing.mark(),
+        })
+    }
+
+    fn rewind(&mut self, mark: &(dyn Any + Send + Sync)) -> bool {
+        let Some(mark) = mark.downcast_ref::<TurtleMark>() else { return false };
+        self.state.clone_from(&mark.state);
+        self.stack.clone_from(&mark.stack);
+        self.polygons.clone_from(&mark.polygons);
+        self.drawing.rewind(&mark.drawing);
+        true
     }
 }
 

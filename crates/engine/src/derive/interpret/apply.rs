@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use mlua::Buffer;
 
 use super::InterpretationPass;
+use super::memory::{PassMark, PassMemory};
 use super::notices::ObjectNotice;
 use crate::machine::{
     CLOSE_CALL, Flusher, Machine, OPEN_CALL, Objects, read_column, returns_value, stops_at_depth,
@@ -13,7 +14,7 @@ use crate::machine::{
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
 use burgeon_base::warning::Warning;
-use burgeon_kit::{Call, Capability, Kind, Locate, Object, ObjectPlace, Value, Values, Warn};
+use burgeon_kit::{Call, Capability, Kind, Locate, Object, ObjectPlace, Rewind, Value, Values, Warn};
 use burgeon_rewriting::{CLOSE, END, Mark, OPEN, Symbol, module_brief};
 
 /// Progress of applying one piece of the chains.
@@ -114,6 +115,29 @@ impl Applier {
             locate: kind.capability::<dyn Locate>(),
             kind,
             places: Vec::new(),
+        })
+    }
+
+    /// Returns the object to its state at `mark`, the position at which the piece begins.
+    pub(super) fn continue_from(&mut self, mark: &PassMark) -> Result<()> {
+        let returned = self.objects.write(self.chain, |object| {
+            Ok(object.capability_mut::<dyn Rewind>().is_some_and(|it| it.rewind(&*mark.object)))
+        })?;
+        (self.begun, self.counted) = (true, mark.triangles);
+        if returned { Ok(()) } else { Err(Error::internal("the object does not return to a mark")) }
+    }
+
+    /// Adds the present state of the object to `memory`, if the position `at` needs a mark.
+    pub(super) fn mark(&mut self, at: Mark, memory: &mut PassMemory) -> Result<()> {
+        let triangles = self.counted;
+        let interval = self.pass.marked_symbols();
+        self.objects.read(self.chain, |object| {
+            if let Some(object) = object.capability::<dyn Rewind>()
+                && memory.needs_mark(at, interval, object.mark_size())
+            {
+                memory.marks.push(PassMark { at, object: object.mark(), triangles });
+            }
+            Ok(())
         })
     }
 

@@ -6,8 +6,10 @@
 
 mod apply;
 mod blame;
+mod memory;
 mod notices;
 mod pass;
 
 pub(crate) use apply::Applier;
+pub(crate) use memory::PassMemory;
 pub(crate) use pass::{InterpretationPass, PassOutcome};

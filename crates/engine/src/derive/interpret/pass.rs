@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use super::Applier;
+use super::memory::PassMemory;
 use super::notices::Notices;
 use crate::derive::plan::DerivationPlan;
 use crate::derive::threads::{LeadingMachine, ThreadJob};
@@ -21,6 +22,9 @@ use mlua::Table;
 
 /// Maximum number of entries per call into Lua.
 const ENTRIES: usize = 4096;
+
+/// Maximum number of symbols per call into Lua, and between two marks, in a pass that the next pass can continue.
+const MARKED_SYMBOLS: usize = 256;
 
 /// Number of pieces if there are many chains. Chains can differ much in cost, so small pieces keep a thread
 /// from waiting for the last piece of another thread.
@@ -81,6 +85,8 @@ pub(crate) struct InterpretationPass {
     links: Links,
     undrawn: Mutex<BTreeSet<Symbol>>,
     places: Mutex<Vec<(u32, ObjectPlace)>>,
+    /// Memory of the last pass, if this pass continues it and can be continued.
+    memory: Option<Mutex<PassMemory>>,
 }
 
 /// Result of an interpretation pass.
@@ -96,7 +102,8 @@ pub(crate) struct PassOutcome {
 
 impl InterpretationPass {
     /// Interprets `chain` after `step` steps, where `step()` returns `number`. Adds the work of each rule to `uses`,
-    /// and the warnings of the objects to `said`.
+    /// and the warnings of the objects to `said`. With the `memory` of the last pass, only what follows the first change of
+    /// the chain is interpreted.
     pub(crate) fn pass(
         LeadingMachine { machine, threads }: LeadingMachine<'_>,
         plan: &Arc<DerivationPlan>,
@@ -104,11 +111,18 @@ impl InterpretationPass {
         (step, number): (usize, usize),
         uses: &mut [Use],
         said: &mut Vec<Warning>,
+        mut memory: Option<&mut PassMemory>,
     ) -> Result<PassOutcome> {
+        let mut last = memory.as_deref_mut().map(std::mem::take);
+        if let Some(last) = &mut last {
+            last.begin(chain);
+        }
+        let begin = last.as_ref().and_then(|last| last.marks.last());
+        let (begin, triangles) = begin.map_or_else(Default::default, |mark| (mark.at, mark.triangles));
         let starts = chain.starts(plan.steps.grammar.arities());
         let many = plan.steps.chains >= 4 * DEALT;
         let size = if many { plan.steps.batch.min(chain.symbols.len() / DEALT) } else { plan.steps.batch };
-        let mut pieces = vec![Mark::default()];
+        let mut pieces = vec![begin];
         for start in &starts[1..] {
             let begin = pieces.last().copied().unwrap_or_default();
             if start.module - begin.module >= size || start.module == chain.symbols.len() {
@@ -132,13 +146,14 @@ impl InterpretationPass {
             is_last: AtomicBool::new(false),
             pieces,
             next: AtomicUsize::new(0),
-            triangles: AtomicUsize::new(0),
+            triangles: AtomicUsize::new(triangles),
             failure: Mutex::new(None),
             uses: Mutex::new(vec![Use::default(); uses.len()]),
             notices: Notices::default(),
             links,
             undrawn: Mutex::default(),
             places: Mutex::default(),
+            memory: last.map(Mutex::new),
         });
         // Chains that assign the same variables are interpreted one after the other.
         if !plan.assigns_variables {
@@ -149,16 +164,31 @@ impl InterpretationPass {
         let counted = done.uses.into_inner().recover();
         uses.iter_mut().zip(counted).for_each(|(sum, more)| *sum += more);
         let of_symbol = |symbol: Symbol| done.chain.symbols.iter().filter(|other| **other == symbol).count();
-        said.extend(done.notices.into_list(of_symbol));
+        let notices: Vec<Warning> = done.notices.into_list(of_symbol).collect();
+        let undrawn = done.undrawn.into_inner().recover();
+        let mut places = done.places.into_inner().recover();
+        if let Some((memory, mut last)) = memory.zip(done.memory.map(|last| last.into_inner().recover())) {
+            last.places.append(&mut places);
+            places.clone_from(&last.places);
+            let has_failed = plan.objects.as_ref().is_some_and(|objects| objects.failed().any());
+            // Their warnings and numbers of steps belong to a whole pass.
+            if notices.is_empty()
+                && undrawn.is_empty()
+                && !has_failed
+                && !done.reads_step.load(Ordering::Relaxed)
+            {
+                *memory = last;
+            }
+        }
+        said.extend(notices);
         match done.failure.into_inner().recover() {
             Some((_, error)) => Err(error),
             None => {
-                let places = done.places.into_inner().recover();
                 plan.set_places((!plan.located.is_empty()).then(|| ModulePlaces::new(places)));
                 Ok(PassOutcome {
                     reads_step: done.reads_step.into_inner(),
                     is_last: done.is_last.into_inner(),
-                    undrawn: done.undrawn.into_inner().recover(),
+                    undrawn,
                 })
             }
         }
@@ -185,7 +215,12 @@ impl InterpretationPass {
     }
 
     fn piece(self: &Arc<Self>, machine: &Machine, begin: Mark, end: Mark) -> Result<()> {
-        let applier = Applier::new(Arc::clone(self), machine, begin)?;
+        let mut applier = Applier::new(Arc::clone(self), machine, begin)?;
+        if let Some(memory) = &self.memory
+            && let Some(mark) = memory.lock().recover().marks.last()
+        {
+            applier.continue_from(mark)?;
+        }
         machine.current.flusher.replace(Some(Box::new(applier)));
         machine.current.begin_step(self.number, self.plan.bounded);
         let result = self.run(machine, begin, end);
@@ -202,7 +237,7 @@ impl InterpretationPass {
 
     fn run(&self, machine: &Machine, begin: Mark, end: Mark) -> Result<()> {
         let interpretations = &self.plan.interpretations;
-        let mut next = NextEntry { at: begin, is_begin: true };
+        let mut next = NextEntry { at: begin, is_begin: begin == Mark::default() || self.memory.is_none() };
         let mut batch = EntryBatch::default();
         while next.at.module < end.module {
             self.gather(&mut next, end.module, &mut batch);
@@ -228,6 +263,11 @@ impl InterpretationPass {
                 }
             }
             self.count_uses(ids, begin.elapsed(), applying);
+            if let Some(memory) = &self.memory
+                && next.at.module < end.module
+            {
+                with_applier(machine, &mut |applier| applier.mark(next.at, &mut memory.lock().recover()))?;
+            }
         }
         Ok(())
     }
@@ -240,7 +280,8 @@ impl InterpretationPass {
         let (symbols, params) = (&self.chain.symbols[..end], self.chain.params.as_slice());
         let NextEntry { at: Mark { mut module, mut param, mut chain }, mut is_begin } = *next;
         batch.clear();
-        while module < end && batch.entries.len() < ENTRIES {
+        let most = if self.memory.is_some() { end.min(module + self.marked_symbols()) } else { end };
+        while module < most && batch.entries.len() < ENTRIES {
             let symbol = symbols[module];
             let id = by_symbol[usize::from(symbol)];
             if is_begin && interpretations.begin != u16::MAX {
@@ -287,16 +328,9 @@ impl InterpretationPass {
             keys.extend(entries.iter().zip(ids).map(|((module, _), id)| self.key(*module, *id)));
             machine.current.used.set(0);
         }
-        let with_applier = |act: &mut dyn FnMut(&mut Applier) -> Result<()>| -> Result<()> {
-            let mut flusher = machine.current.flusher.borrow_mut();
-            match flusher.as_deref_mut().and_then(applier) {
-                Some(applier) => act(applier),
-                None => Err(Error::internal("no interpretation is running")),
-            }
-        };
         let (calls, numbers, counts) = prelude.recorded().map_err(lua)?;
         let buffers = [calls, numbers, counts];
-        with_applier(&mut |applier| {
+        with_applier(machine, &mut |applier| {
             applier.begin_entries(entries, buffers.clone());
             Ok(())
         })?;
@@ -322,7 +356,7 @@ impl InterpretationPass {
                     return Err(self.find_line(machine, error));
                 };
                 let mut notices = Vec::new();
-                let forgiven = with_applier(&mut |applier| {
+                let forgiven = with_applier(machine, &mut |applier| {
                     applier.flush(at, called)?;
                     applier.forgive(error.clone())?;
                     times.append(&mut applier.take_times());
@@ -340,7 +374,7 @@ impl InterpretationPass {
             }
         };
         let mut notices = Vec::new();
-        let applied = with_applier(&mut |applier| {
+        let applied = with_applier(machine, &mut |applier| {
             applier.finish_entries(called, until)?;
             times.append(&mut applier.take_times());
             notices = applier.take_notices();
@@ -423,6 +457,11 @@ impl InterpretationPass {
         Some(params)
     }
 
+    /// Returns the number of symbols per call into Lua, and between two marks.
+    pub(super) fn marked_symbols(&self) -> usize {
+        self.plan.steps.batch.min(MARKED_SYMBOLS)
+    }
+
     /// Records that nothing draws the modules with this symbol.
     pub(super) fn note_undrawn(&self, symbol: Symbol) {
         self.undrawn.lock().recover().insert(symbol);
@@ -439,6 +478,15 @@ impl InterpretationPass {
             .help("draw with fewer sides, derive fewer steps, or raise the limit: --triangle-limit N"));
         }
         Ok(())
+    }
+}
+
+/// Calls `act` with the applier of the piece that the machine interprets.
+fn with_applier(machine: &Machine, act: &mut dyn FnMut(&mut Applier) -> Result<()>) -> Result<()> {
+    let mut flusher = machine.current.flusher.borrow_mut();
+    match flusher.as_deref_mut().and_then(applier) {
+        Some(applier) => act(applier),
+        None => Err(Error::internal("no interpretation is running")),
     }
 }
 

@@ -320,6 +320,9 @@ fn prepared(machine: &Machine, object: &dyn Object, key: ModuleKey) -> Box<dyn O
     object
 }
 
+/// Number of symbols between two checks for cancellation.
+const STRETCH: usize = 4096;
+
 /// Builder that appends modules made outside of rules to a chain.
 struct Builder<'a> {
     machine: &'a Machine,
@@ -337,19 +340,24 @@ impl Builder<'_> {
     }
 
     fn list(&mut self, items: &[LuaValue], key: ModuleKey) -> Result<()> {
-        self.items(items, key, &mut Ordinals::default(), 0)
+        self.items(&mut items.iter().cloned().map(Ok), key, &mut Ordinals::default(), 0)
     }
 
+    /// Adds the items of a list. They are read one by one, because a machine can hold only a million of them at a time.
     fn items(
         &mut self,
-        items: &[LuaValue],
+        items: &mut dyn Iterator<Item = mlua::Result<LuaValue>>,
         key: ModuleKey,
         ordinals: &mut Ordinals,
         depth: usize,
     ) -> Result<()> {
         for item in items {
-            let LuaValue::Table(table) = item else {
-                let what = match to_value(item, false) {
+            let item = item.map_err(|error| self.machine.translate(error))?;
+            if self.chain.symbols.len().is_multiple_of(STRETCH) {
+                self.machine.session.stop.check()?;
+            }
+            let LuaValue::Table(table) = &item else {
+                let what = match to_value(&item, false) {
                     Ok(value @ (Value::Number(_) | Value::Boolean(_) | Value::Text(_))) => {
                         format!("{} {value}", value.describe().replacen('a', "the", 1))
                     }
@@ -364,11 +372,7 @@ impl Builder<'_> {
             let elements = self.machine.prelude().elements.call::<Option<Table>>(table);
             let elements = elements.map_err(|error| self.machine.translate(error))?;
             if let Some(elements) = elements.filter(|_| depth < DEEPEST) {
-                let inner: Vec<LuaValue> = elements
-                    .sequence_values()
-                    .collect::<mlua::Result<_>>()
-                    .map_err(|error| self.machine.translate(error))?;
-                self.items(&inner, key, ordinals, depth + 1)?;
+                self.items(&mut elements.sequence_values(), key, ordinals, depth + 1)?;
                 continue;
             }
             let is_module = self
@@ -385,12 +389,8 @@ impl Builder<'_> {
                     )
                     .help("use a rule to add the rest step by step"));
                 }
-                let inner: Vec<LuaValue> = table
-                    .sequence_values()
-                    .collect::<mlua::Result<_>>()
-                    .map_err(|error| self.machine.translate(error))?;
                 self.push(OPEN, &[], key);
-                self.items(&inner, key, ordinals, depth + 1)?;
+                self.items(&mut table.sequence_values(), key, ordinals, depth + 1)?;
                 self.push(CLOSE, &[], key);
                 continue;
             }

@@ -77,13 +77,6 @@ impl SystemDeclaration {
         all.filter(|(_, hooks)| !hooks.is_empty()).collect()
     }
 
-    /// Returns true if hooks run in each step.
-    pub(crate) fn has_step_hooks(&self) -> bool {
-        let each =
-            |hook: &DeclaredHook| matches!(hook.moment, HookMoment::BeforeStep | HookMoment::AfterStep);
-        self.hooks.iter().any(each)
-    }
-
     /// Returns true if functions can depend on several chains at once.
     pub(crate) fn has_state_of_all_chains(&self) -> bool {
         !self.hooks.is_empty() || self.variables.is_some()

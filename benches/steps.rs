@@ -1,0 +1,62 @@
+//! CPU time of many steps that change little: growth at one place, with and without contexts, and questions for a place.
+//!
+//! `cargo bench --bench steps`. If the cost of a step is the cost of what changes, twice as many steps take twice as long.
+
+#![allow(clippy::print_stdout, reason = "a bench prints its figures")]
+
+use burgeon::script::RunOptions;
+use cpu_time::ThreadTime;
+
+/// Systems that add modules at one place, with the largest number of steps.
+const SYSTEMS: [(&str, usize, &str); 6] = [
+    ("growth", 80_000, "s:axiom(A()) s:rule('A', function() return F(), A() end)"),
+    ("nested branches", 80_000, "s:axiom(A()) s:rule('A', function() return F(), { A() } end)"),
+    ("left context", 80_000, "s:axiom(F(), A()) s:rule('F < A', function() return F(), A() end)"),
+    (
+        "guards and random numbers",
+        80_000,
+        "s:axiom(A()) s:rule('A', { when = function() return true end }, function() return random() < 2 and F(), A() end)",
+    ),
+    (
+        "questions for the place",
+        8_000,
+        "s:axiom(A()) s:rule('A', { when = function(this) return this:position().z >= 0 end }, function() return F(), A() end)",
+    ),
+    (
+        "one change among a million modules",
+        20_000,
+        "local list = table.create(1000000, F()) list[500000] = B(0) s:axiom(sequence(list))
+         s:rule('B(n)', function(_, n) return B(n + 1) end)",
+    ),
+];
+
+fn main() {
+    println!("CPU seconds            steps/8    steps/4    steps/2      steps   a step (us)");
+    for (name, most, rules) in SYSTEMS {
+        let times = [8, 4, 2, 1].map(|divisor| seconds(rules, most / divisor));
+        let base = seconds(rules, 1);
+        let each = (times[3] - base) / most as f64 * 1e6;
+        let [a, b, c, d] = times;
+        println!("{name:36} {a:8.3} {b:8.3} {c:8.3} {d:8.3} {each:8.1}  {most} steps");
+    }
+}
+
+/// Returns the CPU time (s) of a run with one thread: the least of three.
+fn seconds(rules: &str, steps: usize) -> f64 {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("main.lua");
+    let script = format!(
+        "local F, A, B = module('F'), module('A'), module('B', 'n')
+        local s = lsystem({{ object = turtle() }})
+        {rules}
+        s:derive({steps})\n"
+    );
+    std::fs::write(&path, script).expect("a file");
+    let options = RunOptions { threads: Some(1), ..burgeon::options() };
+    let time = || {
+        let begin = ThreadTime::now();
+        burgeon::run(&path, options.clone()).expect("a run");
+        begin.elapsed().as_secs_f64()
+    };
+    (0..3).map(|_| time()).fold(f64::INFINITY, f64::min)
+}

@@ -1,0 +1,215 @@
+//! Phases that rewrite the chain: cuts, rules, decomposition rules and placeholders.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::passes::Interpret;
+use super::pending::{Resolution, resolve};
+use super::plan::{Decomposition, Derivation};
+use super::state::DerivationState;
+use super::step::{perform, step};
+use crate::machine::stops_at_depth;
+use crate::results::Step;
+use burgeon_base::error::Result;
+use burgeon_rewriting::{
+    Chain, CutChain, PLACEHOLDERS, Phase, PhaseOutcome, StepSeries, Stepper, cut, module_brief, placeholder,
+};
+
+/// Removes the modules that cut branches, with what follows them in their branches.
+pub(super) struct CutBranches;
+
+impl Phase<DerivationState<'_>> for CutBranches {
+    fn run(&self, state: &mut DerivationState<'_>, chain: Arc<Chain>, number: usize) -> Result<PhaseOutcome> {
+        let plan = &state.derivation.plan;
+        let arities = plan.steps.grammar.arities();
+        let begin = Instant::now();
+        let made = plan.cut.and_then(|symbol| cut(&chain, symbol, arities));
+        state.has_cut = made.is_some();
+        let Some(CutChain { chain: mut made, applied }) = made else { return Ok(PhaseOutcome::next(chain)) };
+        made.mark(plan.steps.batch, arities);
+        plan.keep_places(&applied);
+        if let Some(features) = &state.features {
+            features.borrow_mut().step(&applied);
+        }
+        if state.derivation.traced.is_some() {
+            let before = state.traced_chain(&chain);
+            state.steps.push(Step { number, chain: before, applied, ..Step::default() });
+        }
+        let made = Arc::new(made);
+        // Queries of the step see the chain without what was cut.
+        state.publish(&made);
+        state.stepper.reuse(chain);
+        state.times.rewriting += begin.elapsed();
+        Ok(PhaseOutcome::next(made))
+    }
+}
+
+/// Applies the rules once; or several times, if nothing observes the steps and each step changes little.
+pub(super) struct Rewrite;
+
+impl Phase<DerivationState<'_>> for Rewrite {
+    fn run(&self, state: &mut DerivationState<'_>, chain: Arc<Chain>, number: usize) -> Result<PhaseOutcome> {
+        if !state.has_cut && state.performs_series() && state.stepper.is_sparse(&chain) {
+            return perform_series(state, chain, number);
+        }
+        let Derivation { plan, declared, .. } = state.derivation;
+        let session = &state.leader.machine.session;
+        session.stop.check()?;
+        let begin = Instant::now();
+        state.times.read += chain.symbols.len();
+        let mut outcome = step(state.leader, plan, &mut state.stepper, declared, &chain, number)?;
+        plan.set_places(None);
+        state.times.rewriting += begin.elapsed();
+        state.record(&chain, &mut outcome, number);
+        state.previous = Some(chain);
+        let reads_step = outcome.reads_step || state.pass.reads_step || state.decomposition_reads_step;
+        let varies = std::mem::take(&mut state.variables_changed) || state.has_step_hooks();
+        let repeats = !outcome.changed && state.ends_unchanged();
+        let settled = (!outcome.ran || repeats) && !reads_step && !varies && !state.has_cut;
+        let is_last = outcome.is_last;
+        Ok(PhaseOutcome { settled, is_last, ..PhaseOutcome::next(Arc::new(outcome.chain)) })
+    }
+}
+
+/// Maximum number of steps between two stored chains.
+const STORED_STEPS: usize = 64;
+
+/// Performs steps from step `number` on, in each of which only the parts of the chain are rewritten that can change.
+fn perform_series(state: &mut DerivationState<'_>, chain: Arc<Chain>, number: usize) -> Result<PhaseOutcome> {
+    let Derivation { plan, declared, limit, .. } = state.derivation;
+    let machine = state.leader.machine;
+    let session = &machine.session;
+    let begin = Instant::now();
+    let mut read = chain.symbols.len();
+    let mut last = 0;
+    let ends_unchanged = state.ends_unchanged();
+    let ends_at: Vec<_> = (0..PLACEHOLDERS).map(placeholder).chain(plan.cut).collect();
+    let outcome = perform(
+        machine,
+        plan,
+        &mut state.stepper,
+        declared,
+        &chain,
+        &mut StepSeries {
+            first: number,
+            last: match state.checkpoints {
+                Some(_) => (*limit).min(number + STORED_STEPS - 1),
+                None => *limit,
+            },
+            ends_unchanged,
+            ends_at: &ends_at,
+            watch: &mut |number, symbols| {
+                read += std::mem::replace(&mut last, symbols);
+                session.progress.note(number, *limit, symbols);
+                !session.has_many_unused()
+            },
+        },
+    )?;
+    state.times.read += read;
+    state.times.rewriting += begin.elapsed();
+    state.previous = Some(chain);
+    Ok(PhaseOutcome {
+        chain: Arc::new(outcome.chain),
+        more_steps: outcome.steps - 1,
+        settled: outcome.settled,
+        is_last: outcome.is_last,
+    })
+}
+
+/// Applies the decomposition rules until none applies, or up to the maximum depth.
+pub(super) struct Decompose;
+
+impl Phase<DerivationState<'_>> for Decompose {
+    fn run(
+        &self,
+        state: &mut DerivationState<'_>,
+        mut chain: Arc<Chain>,
+        number: usize,
+    ) -> Result<PhaseOutcome> {
+        let Derivation { plan, declared, .. } = state.derivation;
+        let (Some(rules), Some(mut decomposer)) = (&plan.decomposition, state.decomposer.take()) else {
+            return Ok(PhaseOutcome::next(chain));
+        };
+        let mut is_last = false;
+        for depth in 1.. {
+            let begin = Instant::now();
+            if depth > rules.max_depth {
+                warn_of_depth(state, rules, &chain, number)?;
+                break;
+            }
+            // A pass costs as much as drawing, so it runs only to find places.
+            if rules.asks && !plan.located.is_empty() && !plan.skips_passes {
+                let variables = plan.variables();
+                Interpret.run(state, Arc::clone(&chain), number)?;
+                state.restore_variables(variables)?;
+            }
+            let mut outcome = step(state.leader, plan, &mut decomposer, declared, &chain, number)?;
+            plan.set_places(None);
+            state.times.rewriting += begin.elapsed();
+            state.decomposition_reads_step |= outcome.reads_step;
+            is_last |= outcome.is_last;
+            if !outcome.changed {
+                break;
+            }
+            state.times.read += chain.symbols.len();
+            state.record(&chain, &mut outcome, number);
+            decomposer.reuse(chain);
+            chain = Resolve.run(state, Arc::new(outcome.chain), number)?.chain;
+        }
+        state.decomposer = Some(decomposer);
+        Ok(PhaseOutcome { is_last, ..PhaseOutcome::next(chain) })
+    }
+}
+
+/// Warns if a decomposition rule would apply to `chain`, which has reached the maximum depth.
+fn warn_of_depth(
+    state: &DerivationState<'_>,
+    rules: &Decomposition,
+    chain: &Arc<Chain>,
+    number: usize,
+) -> Result<()> {
+    let Derivation { plan, declared, .. } = state.derivation;
+    let mut trial = Stepper::new(Arc::clone(&rules.steps));
+    if !step(state.leader, plan, &mut trial, declared, chain, number)?.changed {
+        return Ok(());
+    }
+    let (session, grammar) = (&state.leader.machine.session, &rules.steps.grammar);
+    let applied = trial.uses().iter().position(|uses| uses.applied > 0);
+    let Some(rule) = applied.and_then(|number| grammar.rules().get(number)) else { return Ok(()) };
+    let (symbol, arities) = (rule.pattern.symbol, grammar.arities());
+    let mut param = 0;
+    let module = chain.symbols.iter().find_map(|other| {
+        let begin = param;
+        param += usize::from(arities[usize::from(*other)]);
+        (*other == symbol)
+            .then(|| module_brief(grammar.symbols(), &session.values, symbol, &chain.params[begin..param]))
+    });
+    let warning = stops_at_depth("decomposition", rules.max_depth, "still applies")
+        .at(rule.place.clone())
+        .rule(&rule.pattern.text);
+    session.warn(match module {
+        Some(module) => warning.module(module, number),
+        None => warning,
+    });
+    Ok(())
+}
+
+/// Replaces placeholders by other modules.
+pub(super) struct Resolve;
+
+impl Phase<DerivationState<'_>> for Resolve {
+    fn run(&self, state: &mut DerivationState<'_>, chain: Arc<Chain>, step: usize) -> Result<PhaseOutcome> {
+        let begin = Instant::now();
+        let resolved = resolve(state.leader, &state.derivation.plan, &chain, step, state.features.as_ref())?;
+        let Some(Resolution { chain: made, applied, answers, .. }) = resolved else {
+            return Ok(PhaseOutcome::next(chain));
+        };
+        if state.derivation.traced.is_some() {
+            let before = state.traced_chain(&chain);
+            state.steps.push(Step { number: step, chain: before, applied, answers, asked: Vec::new() });
+        }
+        state.stepper.reuse(chain);
+        state.times.rewriting += begin.elapsed();
+        Ok(PhaseOutcome::next(Arc::new(made)))
+    }
+}

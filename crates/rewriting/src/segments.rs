@@ -1,0 +1,159 @@
+//! Chains in segments, so that a step costs as much as it changes.
+
+use std::ops::Range;
+
+use crate::chain::{CLOSE, Chain, END, OPEN};
+use crate::grammar::Grammar;
+
+/// Part of a chain, of consecutive symbols.
+#[derive(Debug, Default)]
+pub(crate) struct ChainSegment {
+    /// Symbols, parameters and keys. Brackets need not balance.
+    pub chain: Chain,
+    pub brackets: Brackets,
+    /// Set if a symbol has rules.
+    has_rules: bool,
+    /// Set if no rule applies in the next step, because none applied in the last step and no module in reach of the
+    /// contexts has changed since.
+    pub is_resting: bool,
+    /// Indices of the segments that contexts reached in the last step.
+    pub reach: Range<usize>,
+}
+
+/// Brackets of a segment without a partner, and the number of its ends of chains.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) struct Brackets {
+    /// Number of branches that begin before the segment, and end in it.
+    pub closed: usize,
+    /// Number of branches that begin in the segment, and end after it.
+    pub opened: usize,
+    /// Number of chains that end in the segment.
+    pub ends: usize,
+}
+
+impl Brackets {
+    fn of(chain: &Chain) -> Self {
+        let mut brackets = Self::default();
+        for symbol in &chain.symbols {
+            match *symbol {
+                OPEN => brackets.opened += 1,
+                CLOSE if brackets.opened > 0 => brackets.opened -= 1,
+                CLOSE => brackets.closed += 1,
+                END => brackets.ends += 1,
+                _ => {}
+            }
+        }
+        brackets
+    }
+}
+
+/// Chains of a system, in segments of similar size.
+#[derive(Debug)]
+pub(crate) struct SegmentedChain {
+    pub segments: Vec<ChainSegment>,
+    /// Number of symbols of all segments.
+    pub symbols: usize,
+    /// Number of symbols of a new segment.
+    size: usize,
+}
+
+impl SegmentedChain {
+    /// Divides `chain` into segments of `size` symbols. Only those without rules are resting.
+    pub(crate) fn new(chain: &Chain, grammar: &Grammar, size: usize) -> Self {
+        let mut segments = Vec::with_capacity(chain.symbols.len() / size + 1);
+        divide(chain, grammar, size, &mut segments);
+        Self { segments, symbols: chain.symbols.len(), size }
+    }
+
+    /// Returns the whole chain, without marks.
+    pub(crate) fn joined(&self) -> Chain {
+        let total = |column: fn(&Chain) -> usize| -> usize {
+            self.segments.iter().map(|segment| column(&segment.chain)).sum()
+        };
+        let mut joined = Chain {
+            symbols: Vec::with_capacity(self.symbols),
+            params: Vec::with_capacity(total(|chain| chain.params.len())),
+            keys: Vec::with_capacity(total(|chain| chain.keys.len())),
+            marks: Vec::new(),
+        };
+        for ChainSegment { chain, .. } in &self.segments {
+            joined.symbols.extend_from_slice(&chain.symbols);
+            joined.params.extend_from_slice(&chain.params);
+            joined.keys.extend_from_slice(&chain.keys);
+        }
+        joined
+    }
+
+    /// Returns the number of symbols of the segments that are not resting.
+    pub(crate) fn awake(&self) -> usize {
+        let awake = self.segments.iter().filter(|segment| !segment.is_resting);
+        awake.map(|segment| segment.chain.symbols.len()).sum()
+    }
+
+    /// Replaces the content of the segment at `index`, and returns the earlier content for reuse.
+    pub(crate) fn replace(&mut self, index: usize, chain: Chain, grammar: &Grammar) -> Chain {
+        let segment = &mut self.segments[index];
+        self.symbols = self.symbols - segment.chain.symbols.len() + chain.symbols.len();
+        segment.brackets = Brackets::of(&chain);
+        segment.has_rules = has_rules(&chain, grammar);
+        std::mem::replace(&mut segment.chain, chain)
+    }
+
+    /// Wakes the segments whose contexts reached one of the segments at the indices `changed`, which are ascending.
+    pub(crate) fn wake(&mut self, changed: &[usize]) {
+        for segment in self.segments.iter_mut().filter(|segment| segment.is_resting && segment.has_rules) {
+            let first = changed.partition_point(|index| *index < segment.reach.start);
+            segment.is_resting = changed.get(first).is_none_or(|index| *index >= segment.reach.end);
+        }
+    }
+
+    /// Divides those of the segments at the indices `changed`, which are ascending, that have become long, and joins all
+    /// segments if many have become short. All segments are awake after that.
+    pub(crate) fn balance(&mut self, changed: &[usize], grammar: &Grammar) {
+        let is_long = |index: &&usize| self.segments[**index].chain.symbols.len() > 2 * self.size;
+        let long: Vec<usize> = changed.iter().filter(is_long).copied().collect();
+        for index in long.iter().rev() {
+            let mut parts = Vec::new();
+            divide(&self.segments[*index].chain, grammar, self.size, &mut parts);
+            self.segments.splice(index..=index, parts);
+        }
+        if self.segments.len() > 64 && self.segments.len() * self.size > 4 * self.symbols {
+            *self = Self::new(&self.joined(), grammar, self.size);
+        } else if !long.is_empty() && grammar.has_contexts() {
+            // The indices of the segments in reach have changed.
+            for segment in &mut self.segments {
+                segment.is_resting = !segment.has_rules;
+            }
+        }
+    }
+}
+
+/// Adds segments of `size` symbols of `chain` to `segments`.
+fn divide(chain: &Chain, grammar: &Grammar, size: usize, segments: &mut Vec<ChainSegment>) {
+    let arities = grammar.arities();
+    let (mut begin, mut param) = (0, 0);
+    for symbols in chain.symbols.chunks(size) {
+        let end = begin + symbols.len();
+        let params: usize = symbols.iter().map(|symbol| usize::from(arities[usize::from(*symbol)])).sum();
+        let chain = Chain {
+            symbols: symbols.to_vec(),
+            params: chain.params[param..param + params].to_vec(),
+            keys: chain.keys.get(begin..end).unwrap_or_default().to_vec(),
+            marks: Vec::new(),
+        };
+        (begin, param) = (end, param + params);
+        let has_rules = has_rules(&chain, grammar);
+        segments.push(ChainSegment {
+            brackets: Brackets::of(&chain),
+            has_rules,
+            is_resting: !has_rules,
+            chain,
+            reach: 0..0,
+        });
+    }
+}
+
+/// Returns true if a symbol of `chain` has rules.
+fn has_rules(chain: &Chain, grammar: &Grammar) -> bool {
+    chain.symbols.iter().any(|symbol| !grammar.rules_of(*symbol).is_empty())
+}
