@@ -18,33 +18,23 @@ local Internode = module("Internode", "age", "order")
 local Leaf = module("Leaf", "age", "order")
 local Flower = module("Flower", "age")
 
--- A blade of 1 m in strips on both sides of its rib, which bends by `arch` (degrees).
-local Rib = module("Rib", "k", "arch", "width")
-local function blade(color, arch: number, width: number)
-  local system = lsystem({ object = turtle({ color = color, roughness = 0.6 }) })
-  system:axiom(Rib(0, arch, width))
-  system:rule("Rib(k, arch, width)", function(this, k: number, arch, width)
-    if k == 6 then
-      return nil
-    end
-    local near = width * math.sin(math.pi * (k / 6) ^ 0.8)
-    local far = if k == 5 then 0 else width * math.sin(math.pi * ((k + 1) / 6) ^ 0.8)
-    local function strip(side: number): any
-      return {
-        Roll(side * 18),
-        BeginPolygon(),
-        Point(),
-        { Turn(side * 90), G(near), Point() },
-        { G(1 / 6), Turn(side * 90), G(far), Point() },
-        { G(1 / 6), Point() },
-        EndPolygon(),
-      }
-    end
-    return strip(1), strip(-1), G(1 / 6), Pitch(arch / 6), Rib(k + 1, arch, width)
-  end)
-  return system:derive()
+-- A blade of 1 m along z. Its halves are raised by `fold`, and its rib bends back by `arch` (both degrees).
+local function blade(width: number, fold: number, arch: number): Surface
+  local rows: { { Vector } } = {}
+  local place, across, up = vec(0, 0, 0), math.cos(math.rad(fold)), math.sin(math.rad(fold))
+  for k = 0, 6 do
+    local half = width * math.sin(math.pi * (k / 6) ^ 0.8)
+    local angle = math.rad(arch * k / 6)
+    -- y is the side of the stem, from which the blade bends away.
+    local rise = vec(0, -math.cos(angle), math.sin(angle)) * (half * up)
+    local side = vec(half * across, 0, 0)
+    rows[k + 1] = { place - side + rise, place, place + side + rise }
+    place += vec(0, math.sin(angle), math.cos(angle)) / 6
+  end
+  return surface({ points = rows, kind = "b-spline", degree = 2, divisions = 2 })
 end
-local green, petal = blade("#5c9440", 60, 0.19), blade(petals, 35, 0.3)
+local leaf_bud, leaf = blade(0.1, 75, -20), blade(0.2, 14, 65)
+local petal_bud, petal = blade(0.22, 50, -60), blade(0.32, 16, 45)
 
 -- Growth from a size at birth to another after some days, without a jump in value or speed.
 local function grown(age: number, days: number, size: number, birth: number?): number
@@ -100,15 +90,17 @@ plant:interpret("Leaf(age, order)", function(this, age, order)
   local scale = 0.75 ^ order
   this:pitch(lerp(6, 58, ease.smooth(math.clamp(age / 12, 0, 1))))
   this:width(grown(age, 12, 0.006 * scale)):forward(grown(age, 10, 0.05 * scale))
-  this:place(green, grown(age, 11, 0.2 * scale))
+  local open = ease.smooth(math.clamp(age / 10, 0, 1))
+  this:color("#5c9440"):surface(leaf_bud:mix(leaf, open), grown(age, 11, 0.2 * scale))
 end)
 plant:interpret("Flower(age)", function(this, age)
   local open, size = ease.smooth(math.clamp(age / 8, 0, 1)), grown(age, 7, 0.1)
-  local whorl: { any } = { Width(WIDTH), F(TIP + size * 0.4), { Color("#f2c84b"), Sphere(size * 0.22) } }
-  for k = 1, 6 do
-    table.insert(whorl, { Roll(k * 60), Pitch(lerp(5, 72, open)), Place(petal, size) })
+  this:width(WIDTH):forward(TIP + size * 0.4):color("#f2c84b"):sphere(size * lerp(0.1, 0.22, open))
+  local shape = petal_bud:mix(petal, open)
+  this:color(petals)
+  for _ = 1, 6 do
+    this:roll(60):pitch(lerp(5, 72, open)):surface(shape, size):pitch(-lerp(5, 72, open))
   end
-  return sequence(whorl)
 end)
 
 plant:derive()

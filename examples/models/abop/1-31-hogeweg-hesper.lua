@@ -16,10 +16,8 @@ local PLANTS: { any } = {
 
 local Cell = module("Cell", "bit")
 
--- Without a turtle, the chain is not drawn.
-local function grow(k: number, steps: number, pen: any): any
+local function grow<T>(k: number, steps: number, system: System<T>): Derived
   local plant = PLANTS[k]
-  local system = lsystem({ object = pen, interpret = "last" })
   system:axiom((plant.axiom:gsub(".", "F Cell(%0) ")))
   system:ignore("F", "Turn")
   system:rule(
@@ -42,26 +40,23 @@ local function grow(k: number, steps: number, pen: any): any
 end
 
 for k, plant in PLANTS do
-  local stem = grow(k, plant.steps, nil).chains[1]:gsub("%b[]", "")
+  local stem = grow(k, plant.steps, lsystem()).chains[1]:gsub("%b[]", "")
   local _, segments = stem:gsub("F", "")
-  local derived = grow(
-    k,
-    plant.steps,
-    turtle({
-      step = height / segments,
-      width = height / 160,
-      position = { k * height * 0.6, 0, 0 },
-      color = "#47742f",
-      sides = 4,
-    })
-  )
+  local pen = turtle({
+    step = height / segments,
+    width = height / 160,
+    position = { k * height * 0.6, 0, 0 },
+    color = "#47742f",
+    sides = 4,
+  })
+  local derived = grow(k, plant.steps, lsystem({ object = pen, interpret = "last" }))
   -- Each cell comes with its segment, and those outside of brackets are the stem.
   expect(derived.counts.F, derived.counts.Cell)
   expect(derived.objects[1]:position().z, 1, 1e-9)
 end
 -- By hand: 111, 101, 1111, 1001, 101[11]1.
 expect(
-  grow(1, 4, nil).chains[1],
+  grow(1, 4, lsystem()).chains[1],
   "F Cell(1) F Cell(0) F Cell(1) [ Turn(22.5) F Cell(1) F Cell(1) ] F Cell(1)"
 )
 

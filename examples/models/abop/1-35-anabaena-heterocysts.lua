@@ -10,15 +10,15 @@ local LENGTH = 3.9 -- length above which a cell does not differentiate
 -- State 0 is a heterocyst; the longer daughter is to the left in state 1, and to the right in state 2.
 local Cell, Gap = module("Cell", "length", "state", "level"), module("Gap")
 
-local function filament(pen: any): any
-  local system = lsystem({ object = pen, interpret = "last" })
+-- Adds the axiom and the rules of a filament to a system.
+local function add_filament<T>(system: System<T>)
   system:ignore("Gap")
   system:axiom(Right(), Cell(0, 0, HIGH), Gap(), Cell(4, 1, HIGH), Gap(), Cell(0, 0, HIGH))
   system:rule("Cell(a, i, before) < Cell(length, state, level) > Cell(b, j, after)", {
-    when = function(this, a, i, before, length, state: number)
+    when = function(this, a, i, before, length, state)
       return state > 0
     end,
-  }, function(this, a, i, before: number, length: number, state: number, level: number, b, j, after: number)
+  }, function(this, a, i, before, length, state, level, b, j, after)
     if length >= 6 then
       local long, short = Cell(length * 2 / 3, 3 - state, level), Cell(length / 3, state, level)
       if state == 1 then
@@ -30,7 +30,6 @@ local function filament(pen: any): any
     end
     return Cell(0, 0, HIGH)
   end)
-  return system
 end
 
 -- The places of the heterocysts, then the level of the first other cell and the number of cells.
@@ -51,7 +50,9 @@ end
 -- as many. So two rows each have a Fibonacci number of cells, besides the heterocysts at the ends.
 local last, before = 1, 1
 for row = 0, rows - 1 do
-  local system = filament(turtle({ position = { 0, 0, -row * 7 }, width = 3 }))
+  local pen = turtle({ position = { 0, 0, -row * 7 }, width = 3 })
+  local system = lsystem({ object = pen, interpret = "last" })
+  add_filament(system)
   system:interpret("Gap", function(this)
     this:advance(0.5)
   end)
@@ -78,7 +79,9 @@ for row = 0, rows - 1 do
 end
 -- The first new heterocyst is in the middle, where there is least of the compound, and appears in step 138.
 for _, step in { 137, 138 } do
-  local heterocysts = measure(filament(nil):derive(step).chains[1])
+  local system = lsystem()
+  add_filament(system)
+  local heterocysts = measure(system:derive(step).chains[1])
   expect(#heterocysts, if step < 138 then 2 else 3)
 end
 

@@ -37,10 +37,10 @@ for k, leaf in LEAVES do
       { Right(angle), Vein(t), Point() }
   end)
   system:rule("Vein(t)", {
-    when = function(this, t: number)
+    when = function(this, t)
       return t > 0
     end,
-  }, function(this, t: number)
+  }, function(this, t)
     return Part(leaf.vein, leaf.vein_rate), Vein(t - leaf.decrease)
   end)
   system:rule("Part(length, rate)", function(this, l: number, rate: number)

@@ -27,20 +27,20 @@ leaf:rule("Apex(t, side)", function(this, t: number, side: number)
     Apex(t + 1, side)
 end)
 leaf:rule("Vein(t)", {
-  when = function(this, t: number)
+  when = function(this, t)
     return t > 0
   end,
-}, function(this, t: number)
+}, function(this, t)
   return Part(vein.length, vein.rate), Vein(t - 1)
 end)
 leaf:rule("Part(length, rate)", function(this, length: number, rate: number)
   return Part(length * rate, rate)
 end)
 leaf:rule("Notch(length, t)", {
-  when = function(this, length, t: number)
+  when = function(this, length, t)
     return t > 1
   end,
-}, function(this, length: number, t: number)
+}, function(this, length, t)
   return Notch(length * notch.rate, t - 1)
 end)
 local function draw(this: any, length: number)

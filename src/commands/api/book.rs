@@ -14,11 +14,14 @@ const AXES: [&str; 2] = ["extruder", "turtle"];
 pub(super) type Page = (String, String);
 
 /// Chapters that are written by hand: their titles and files.
-const CHAPTERS: [(&str, &str); 19] = [
+const CHAPTERS: [(&str, &str); 22] = [
     ("Introduction", "introduction"),
     ("Contexts and features", "rules"),
     ("Phases, hooks and variables", "phases"),
     ("Curves and surfaces", "curves"),
+    ("Burgeon for those who know lpfg, L-Py, XL or Houdini", "comparison"),
+    ("Drawing, time and files compared", "drawing"),
+    ("Porting an lpfg model", "porting"),
     ("Data and heights", "data"),
     ("SQL queries", "queries"),
     ("SQL", "sql"),
