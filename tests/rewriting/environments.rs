@@ -26,10 +26,10 @@ fn rules_read_an_environment_as_the_last_pass_has_left_it() {
     assert_eq!(
         chains,
         [
-            "Plant(0, 0.4) Plant(1, 0.4) Plant(9, 0.4)",
-            "Plant(0, 0.8) Plant(1, 0.8) Plant(9, 0.8)",
-            "Plant(0, 1.6) Plant(1, 1.6) Plant(9, 1.6)",
-            "Plant(0, 3.2) Dead(1) Plant(9, 3.2)",
+            "Plant(0,0.4) Plant(1,0.4) Plant(9,0.4)",
+            "Plant(0,0.8) Plant(1,0.8) Plant(9,0.8)",
+            "Plant(0,1.6) Plant(1,1.6) Plant(9,1.6)",
+            "Plant(0,3.2) Dead(1) Plant(9,3.2)",
         ]
     );
 }

@@ -4,6 +4,9 @@ use burgeon_kit::{ScriptExample, examples};
 
 /// Scripts that draw: each has one render.
 pub const EXAMPLES: &[ScriptExample] = examples! {
+    "attractors" shows "attractors" "attractors:add" "attractors:count" "attractors:direction" "attractors:remaining";
+    "discs" shows "discs" "discs:add" "discs:dominated";
+    "shadow_voxels" shows "shadow_voxels" "shadow_voxels:shade" "shadow_voxels:light" "shadow_voxels:brightest";
     "extruder" shows "extruder";
     "footprint" shows "footprint";
     "planet" shows "planet";

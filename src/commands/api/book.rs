@@ -14,10 +14,11 @@ const AXES: [&str; 2] = ["extruder", "turtle"];
 pub(super) type Page = (String, String);
 
 /// Chapters that are written by hand: their titles and files.
-const CHAPTERS: [(&str, &str); 22] = [
+const CHAPTERS: [(&str, &str); 23] = [
     ("Introduction", "introduction"),
     ("Contexts and features", "rules"),
     ("Phases, hooks and variables", "phases"),
+    ("Environments", "environments"),
     ("Curves and surfaces", "curves"),
     ("Burgeon for those who know lpfg, L-Py, XL or Houdini", "comparison"),
     ("Drawing, time and files compared", "drawing"),

@@ -10,29 +10,32 @@ use burgeon_base::locks::LockRecovery;
 use burgeon_kit::{Environment, Object, Value};
 
 /// Environments of a derivation, in the state that interpretations change and rules read.
-pub(crate) struct Environments(Vec<(Arc<dyn Object>, RwLock<Box<dyn Object>>)>);
+pub(crate) struct Environments(Vec<RwLock<Box<dyn Object>>>);
 
 impl Environments {
     /// Creates the environments of a derivation as the script has made them; `None` if there are none.
     pub(crate) fn new(made: &[Arc<dyn Object>]) -> Option<Arc<Self>> {
-        let list: Vec<_> =
-            made.iter().map(|object| (Arc::clone(object), RwLock::new(object.boxed()))).collect();
-        (!list.is_empty()).then(|| Arc::new(Self(list)))
+        let states: Vec<_> = made.iter().map(|object| RwLock::new(object.boxed())).collect();
+        (!states.is_empty()).then(|| Arc::new(Self(states)))
     }
 
-    /// Returns the state of the environment that the script has made as `object`, if it is one of these.
-    pub(crate) fn state_of(&self, object: &Arc<dyn Object>) -> Option<&RwLock<Box<dyn Object>>> {
-        self.0.iter().find(|(made, _)| Arc::ptr_eq(made, object)).map(|(_, state)| state)
+    /// Returns the state of `object`, if it is one of the environments `made`, as this machine has made them.
+    pub(crate) fn state_of(
+        &self,
+        made: &[Arc<dyn Object>],
+        object: &Arc<dyn Object>,
+    ) -> Option<&RwLock<Box<dyn Object>>> {
+        self.0.get(made.iter().position(|known| Arc::ptr_eq(known, object))?)
     }
 
     /// Prepares the environments for an interpretation pass.
     pub(crate) fn begin_pass(&self) {
-        self.0.iter().for_each(|(_, state)| state.write().recover().begin());
+        self.0.iter().for_each(|state| state.write().recover().begin());
     }
 
     /// Completes an interpretation pass.
     pub(crate) fn end_pass(&self) -> Result<()> {
-        self.0.iter().try_for_each(|(_, state)| {
+        self.0.iter().try_for_each(|state| {
             let mut state = state.write().recover();
             state.capability_mut::<dyn Environment>().map_or(Ok(()), |environment| environment.end_pass())
         })
@@ -49,7 +52,10 @@ pub(super) fn environments_of(value: &LuaValue) -> Result<Vec<Arc<dyn Object>>> 
         Value::Object(object) if object.kind().has_capability::<dyn Environment>() => Ok(object),
         other => Err(Error::argument(format!(
             "lsystem: an environment is an object such as shadow_voxels(), not {}",
-            other.describe()
+            match &other {
+                Value::Object(object) => object.kind().with_article(),
+                other => other.describe().to_owned(),
+            }
         ))
         .help("write local light = shadow_voxels(), and lsystem({ object = turtle(), environment = { light } })")),
     });

@@ -283,7 +283,10 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Li
                 return Err(mlua::Error::external(handle.0.kind().unknown_method(method)));
             };
             let environments = state.environments.borrow().clone();
-            let environment = environments.as_ref().and_then(|all| all.state_of(&handle.0));
+            let environment = environments.as_ref().and_then(|all| {
+                let systems = owner.systems.try_borrow().ok()?;
+                all.state_of(&systems.get(state.system.get()?)?.environments, &handle.0)
+            });
             match &method.call {
                 Call::Read(read) => {
                     let given = values(&arguments)?;

@@ -7,6 +7,8 @@ mod attractors;
 mod discs;
 mod place_key;
 mod shadow_voxels;
+#[cfg(test)]
+mod tests;
 
 pub use attractors::{AttractorOptions, Attractors};
 pub use discs::{DiscOptions, Discs};

@@ -145,8 +145,9 @@ impl ShadowVoxels {
     fn voxel(&self, place: DVec3) -> Result<[i32; 3]> {
         let voxel = (place / self.options.size).floor();
         if voxel.abs().max_element() > FARTHEST || !voxel.is_finite() {
+            let [x, y, z] = place.to_array();
             return Err(Error::argument(format!(
-                "shadow_voxels: the place {place} (m) is outside of the grid"
+                "shadow_voxels: the place {{{x:?}, {y:?}, {z:?}}} (m) is outside of the grid"
             ))
             .help("use larger voxels, or places near the origin"));
         }
