@@ -41,6 +41,7 @@ fn no_shipped_script_has_an_error_in_strict_mode() {
         "examples/films",
         "examples/models/abop",
         "examples/models/abop/shared",
+        "examples/models/environment",
         "examples/models/classics",
         "examples/models/lpy",
         "examples/models/vlab",
