@@ -77,14 +77,13 @@ impl ContextWindow {
                     END => break 'search,
                     CLOSE => depth += 1,
                     OPEN if depth > 0 => depth -= 1,
-                    OPEN => {
-                        // Beyond the levels of the segment, the path is the same without brackets.
-                        if left < levels {
-                            self.before.push((OPEN, 0..0));
-                            left += 1;
-                            found = 0;
-                        }
+                    OPEN if left < levels => {
+                        self.before.push((OPEN, 0..0));
+                        left += 1;
+                        found = 0;
                     }
+                    // Beyond the levels of the segment, the path is the same without brackets.
+                    OPEN => {}
                     symbol if depth == 0 && found < wanted && !grammar.is_skipped(symbol) => {
                         let begin = self.params.len();
                         self.params.extend_from_slice(&segment.chain.params[params]);

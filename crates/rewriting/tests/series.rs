@@ -42,11 +42,13 @@ impl RandomRules {
     fn new(dice: &mut Dice) -> Self {
         let mut symbols = Symbols::default();
         for name in NAMES {
-            symbols.declare(Signature::new(name, &["x".to_owned()]).unwrap()).unwrap();
+            let signature = Signature::new(name, &["x".to_owned()]).expect("a name");
+            symbols.declare(signature).expect("a new name");
         }
+        let find = |name: &str| symbols.find(name).expect("a declared module");
         let ignored: Vec<Symbol> = match dice.below(3) {
-            0 => vec![symbols.find("E").unwrap()],
-            1 => vec![symbols.find("D").unwrap(), symbols.find("E").unwrap()],
+            0 => vec![find("E")],
+            1 => vec![find("D"), find("E")],
             _ => Vec::new(),
         };
         let draws = dice.below(2) == 0;
@@ -76,7 +78,7 @@ impl RandomRules {
             }
             let weight = (draws && dice.below(3) == 0).then(|| 1.0 + dice.below(3) as f64);
             let guarded = dice.below(2) == 0;
-            rules.push(Rule::new(Pattern::parse(&text, &symbols).unwrap(), weight, guarded, None));
+            rules.push(Rule::new(Pattern::parse(&text, &symbols).expect("a pattern"), weight, guarded, None));
             most.push(dice.below(6) as f64);
             successors.push((dice.below(6) > 0).then(|| {
                 let mut template = Vec::new();

@@ -1,5 +1,6 @@
 //! Light as shadows that spread downwards: `shadow_voxels` in scripts.
 
+use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use burgeon_base::error::{Error, Result};
@@ -46,7 +47,7 @@ pub struct ShadowVoxels {
     /// Amounts of the places in each voxel, by the numbers of the voxel along x, y and z.
     amounts: FxHashMap<[i32; 3], f64>,
     /// Sums of the amounts, built by the first question after the last change.
-    layers: OnceLock<FxHashMap<i32, LayerSums>>,
+    layers: OnceLock<BTreeMap<i32, LayerSums>>,
 }
 
 /// Sums of the amounts in a layer.
@@ -182,8 +183,8 @@ impl Environment for ShadowVoxels {
 }
 
 /// Returns the sums of the amounts in each layer that has some.
-fn layers(amounts: &FxHashMap<[i32; 3], f64>) -> Result<FxHashMap<i32, LayerSums>> {
-    let mut spans: FxHashMap<i32, [[i32; 2]; 2]> = FxHashMap::default();
+fn layers(amounts: &FxHashMap<[i32; 3], f64>) -> Result<BTreeMap<i32, LayerSums>> {
+    let mut spans: BTreeMap<i32, [[i32; 2]; 2]> = BTreeMap::new();
     // Sorted, so that rounding does not depend on the order of a hash table.
     let mut voxels: Vec<([i32; 3], f64)> = amounts.iter().map(|(voxel, amount)| (*voxel, *amount)).collect();
     voxels.sort_unstable_by_key(|(voxel, _)| *voxel);
@@ -191,7 +192,7 @@ fn layers(amounts: &FxHashMap<[i32; 3], f64>) -> Result<FxHashMap<i32, LayerSums
         let span = spans.entry(*z).or_insert([[*x, *y], [*x, *y]]);
         *span = [[span[0][0].min(*x), span[0][1].min(*y)], [span[1][0].max(*x), span[1][1].max(*y)]];
     }
-    let mut layers: FxHashMap<i32, LayerSums> = FxHashMap::default();
+    let mut layers: BTreeMap<i32, LayerSums> = BTreeMap::new();
     for (z, [first, last]) in spans {
         Stop::check_current()?;
         let counts = [0, 1].map(|axis| last[axis].abs_diff(first[axis]) as usize + 1);

@@ -157,48 +157,40 @@ fn segments_across_turns_are_joined_by_mitres_into_one_solid() {
 
 #[test]
 fn turns_that_have_no_mitre_begin_a_new_solid() {
-    let pieces_of = |draw: fn(&mut Extruder) -> Result<()>| {
+    let pieces_of = |draw: fn(&mut Extruder)| {
         pieces(ExtruderOptions { sides: 5, ..ExtruderOptions::default() }, |it| {
             it.scale(0.2, None);
             it.extrude(1.0)?;
-            draw(it)?;
+            draw(it);
             it.extrude(1.0)
         })
         .0
     };
-    assert_eq!(pieces_of(|it| Ok(it.turn(90.0))), 1);
+    assert_eq!(pieces_of(|it| it.turn(90.0)), 1);
     // Too sharp, only a roll, more roll than bend, another place, another scale and a segment too short for the mitre.
-    assert_eq!(pieces_of(|it| Ok(it.turn(150.0))), 2);
-    assert_eq!(pieces_of(|it| Ok(it.roll(20.0))), 2);
-    assert_eq!(
-        pieces_of(|it| {
-            it.roll(40.0);
-            Ok(it.turn(10.0))
-        }),
-        2
-    );
-    assert_eq!(
-        pieces_of(|it| {
-            it.turn(90.0);
-            Ok(it.advance(0.5))
-        }),
-        2
-    );
-    assert_eq!(
-        pieces_of(|it| {
-            it.turn(90.0);
-            Ok(it.scale(0.5, None))
-        }),
-        2
-    );
-    assert_eq!(
-        pieces_of(|it| {
-            it.turn(90.0);
-            it.extrude(0.1)?;
-            Ok(it.turn(90.0))
-        }),
-        3
-    );
+    assert_eq!(pieces_of(|it| it.turn(150.0)), 2);
+    assert_eq!(pieces_of(|it| it.roll(20.0)), 2);
+    let rolls = |it: &mut Extruder| {
+        it.roll(40.0);
+        it.turn(10.0);
+    };
+    assert_eq!(pieces_of(rolls), 2);
+    let moves = |it: &mut Extruder| {
+        it.turn(90.0);
+        it.advance(0.5);
+    };
+    assert_eq!(pieces_of(moves), 2);
+    let scales = |it: &mut Extruder| {
+        it.turn(90.0);
+        it.scale(0.5, None);
+    };
+    assert_eq!(pieces_of(scales), 2);
+    let is_short = |it: &mut Extruder| {
+        it.turn(90.0);
+        it.extrude(0.1).expect("it can be drawn");
+        it.turn(90.0);
+    };
+    assert_eq!(pieces_of(is_short), 3);
 }
 
 #[test]
