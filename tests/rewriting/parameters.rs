@@ -278,7 +278,7 @@ fn a_parameter_with_a_default_is_left_out_but_never_nil() {
     };
     assert_eq!(
         chain(&script("L(1), L(1, 2), F()", "return L(a, b), F(a), F()")),
-        "L(1) F(1) F L(1, 2) F(1) F F"
+        "L(1) F(1) F L(1,2) F(1) F F"
     );
     for (axiom, successor, line) in [
         ("F(list[5])", "return", 3),

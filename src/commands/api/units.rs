@@ -6,11 +6,9 @@ use super::entry::{Entry, EntryGroup, Member, MemberKind};
 use burgeon::language::CallForm;
 
 /// Counts.
-const COUNTS: [&str; 36] = [
+const COUNTS: [&str; 37] = [
     "derived.modules",
     "derived.steps",
-    "now.modules",
-    "now.step",
     "extruder.along",
     "extruder.around",
     "extruder.sides",
@@ -34,7 +32,10 @@ const COUNTS: [&str; 36] = [
     "network:grow_to depth",
     "network:lead depth",
     "network:probe depth",
+    "now.modules",
+    "now.step",
     "planet.levels",
+    "shadow_voxels.depth",
     "source.limit",
     "surface.degree",
     "surface.divisions",
@@ -46,7 +47,7 @@ const COUNTS: [&str; 36] = [
 ];
 
 /// Fractions, probabilities, weights and factors.
-const FACTORS: [&str; 63] = [
+const FACTORS: [&str; 66] = [
     ".amount",
     ".metallic",
     ".noise",
@@ -57,6 +58,7 @@ const FACTORS: [&str; 63] = [
     "curve:mix t",
     "curve:point t",
     "curve:tangent t",
+    "discs.overlap",
     "ease.back t",
     "ease.in t",
     "ease.inout t",
@@ -93,6 +95,8 @@ const FACTORS: [&str; 63] = [
     "planet.error",
     "ramp:mix t",
     "rule.weight",
+    "shadow_voxels.decay",
+    "shadow_voxels.strength",
     "surface.weights",
     "surface:mix t",
     "surface:normal u",
@@ -113,9 +117,10 @@ const FACTORS: [&str; 63] = [
 ];
 
 /// Indices, codes and seeds.
-const NUMBERS: [&str; 36] = [
+const NUMBERS: [&str; 38] = [
     ".seed",
     "Paint number",
+    "discs:add vigor",
     "elevation.crs",
     "extruder:mesh faces",
     "footprint:edge_facing edge",
@@ -127,8 +132,8 @@ const NUMBERS: [&str; 36] = [
     "geometry:point_n number",
     "network.existing.level",
     "network:arrived junction",
-    "network:end_junction junction",
     "network:degree junction",
+    "network:end_junction junction",
     "network:face junction",
     "network:fate junction",
     "network:grow junction",
@@ -142,6 +147,7 @@ const NUMBERS: [&str; 36] = [
     "network:reached junction",
     "network:stand junction",
     "noise seed",
+    "shadow_voxels:shade amount",
     "source.crs",
     "turtle:mesh faces",
     "turtle:paint number",

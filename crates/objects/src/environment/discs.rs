@@ -49,7 +49,7 @@ struct Disc {
 
 #[methods("discs")]
 impl Discs {
-    /// Adds a disc around a place with a radius (m) and a vigor, its radius unless given.
+    /// Adds a disc around a place with `radius` (m), and `vigor`, the radius unless given.
     pub fn add(&mut self, place: Vector, radius: f64, vigor: Option<f64>) -> Result<()> {
         let vigor = vigor.unwrap_or(radius);
         if !(place.0.is_finite() && radius >= 0.0 && radius.is_finite() && vigor.is_finite()) {
