@@ -90,6 +90,6 @@ mod tests {
     #[test]
     fn no_type_is_left_out_for_its_name() {
         super::registry().check().expect("each has a name of its own");
-        assert_eq!(super::registry().kinds().count(), 17 + super::facade::kinds().len());
+        assert_eq!(super::registry().kinds().count(), 20 + super::facade::kinds().len());
     }
 }
