@@ -10,12 +10,13 @@ local Node = module("Node")
 local tree = lsystem({ object = turtle({ width = 0.04, color = "#6d5a43" }), environment = space })
 tree:axiom(F(1.6), Node())
 local Grow = module("Grow", "x", "y", "z")
-tree:rule("Node", function(this)
-  local place = this:position()
-  if space:count(place) > 0 then
-    local to = space:direction(place)
-    return Node(), { Grow(to.x, to.y, to.z), Node() }
-  end
+tree:rule("Node", {
+  when = function(this)
+    return space:count(this:position()) > 0
+  end,
+}, function(this)
+  local to = space:direction(this:position())
+  return Node(), { Grow(to.x, to.y, to.z), Node() }
 end)
 tree:interpret("Node", function(this)
   space:add(this:position())

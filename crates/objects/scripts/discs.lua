@@ -10,7 +10,7 @@ field:axiom(sequence(seeds))
 field:rule("Seed(x, y)", function(this, x, y)
   return Plant(x, y, 0.05, 0.8 + 0.4 * random())
 end)
-field:rule("Plant(x, y, radius, rate)", function(this, x, y, radius, rate)
+field:rule("Plant(x, y, radius, rate)", function(this, x: number, y: number, radius: number, rate: number)
   if ground:dominated(vec(x, y, 0)) then
     return nil
   end

@@ -7,7 +7,7 @@ for i = 1, 300 do
   leaves[i] = Wall(random(-1, 1), random(2, 3))
 end
 garden:axiom(sequence(leaves), Shoot(0.25))
-garden:rule("Shoot(size)", function(this, size)
+garden:rule("Shoot(size)", function(this, size: number)
   local place = this:position()
   local up = (this:heading() + 0.5 * light:brightest(place)):unit()
   return Lean(up.x, up.y, up.z), F(size), { Turn(60), Roll(90), F(size / 2) }, Shoot(size * 0.97)

@@ -10,7 +10,7 @@ local field = lsystem({ object = turtle({ width = 0.1, sides = 12 }), environmen
 
 field:axiom(Plant(-4, -3, 0.4), Plant(5, 2, 0.4), Plant(-2, 6, 0.4))
 
-field:rule("Plant(x, y, radius)", function(_, x, y, radius)
+field:rule("Plant(x, y, radius)", function(_, x: number, y: number, radius: number)
   if crowns:dominated(vec(x, y, 0)) then
     return nil
   end

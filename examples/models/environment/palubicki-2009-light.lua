@@ -24,7 +24,7 @@ tree:rule("Bud(age)", {
   end
   return Shoot(way, 0), Bud(age + 1)
 end)
-tree:rule("Shoot(direction, age)", function(_, direction, age)
+tree:rule("Shoot(direction, age)", function(_, direction, age: number)
   return Shoot(direction, age + 1)
 end)
 
