@@ -302,6 +302,18 @@ fn the_same_streets_again_are_nothing_new() {
     check_planar(&network, "grown");
 }
 
+#[test]
+fn lines_without_a_cycle_enclose_nothing_however_large_their_coordinates() {
+    let lines = [[(10, -10), (-58, -43)], [(22, 15), (-55, -7)], [(-40, 0), (41, -45)]];
+    for scale in [11.3, 1000.0, 4000.0] {
+        let mut network = network();
+        let streets = lines
+            .map(|line| street(&line.map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)) * scale), 10.0, 0));
+        network.add_existing(&streets).expect("room");
+        assert_eq!((network.faces().len(), network.size(), network.components()), (0, 7, 1), "{scale}");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(150))]
 

@@ -2,6 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
+use super::grid::WholePlace as _;
 use super::network::{JunctionId, PieceId, StreetNetwork};
 use burgeon_geometry::planar::{contains, twice_area};
 use glam::DVec2;
@@ -107,6 +108,14 @@ impl StreetNetwork {
         twice_area(way.iter().map(|course| self.at(course.from))) / 2.0
     }
 
+    /// Returns true if a walk has an area on its left, which a walk around streets without a cycle has not. Exact.
+    fn encloses_area(&self, way: &[Course]) -> bool {
+        let places =
+            way.iter().map(|course| self.junctions[course.from as usize].place.steps().map(i128::from));
+        let next = places.clone().cycle().skip(1);
+        places.zip(next).map(|([ax, ay], [bx, by])| ax * by - ay * bx).sum::<i128>() > 0
+    }
+
     /// Returns the areas that the streets enclose, in a fixed order.
     ///
     /// A network without cycles encloses no area. A network inside a face is an island of that face.
@@ -129,7 +138,7 @@ impl StreetNetwork {
         let mut faces = Vec::new();
         let mut outsides = Vec::new();
         for way in self.ways() {
-            if self.area(&way) > 0.0 {
+            if self.encloses_area(&way) {
                 faces.push(StreetFace { around: way, islands: Vec::new() });
             } else {
                 outsides.push(way);
