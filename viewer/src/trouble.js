@@ -172,7 +172,7 @@ const CAUSES = {
   preset: 'Preset',
 };
 const PATIENCE = 120; // ms of work that show nothing, so that quick models do not flicker
-const SELDOM = 500; // ms between two lines of progress where each frame of the page takes time from the server
+const SELDOM = 800; // ms between two lines of progress where each frame of the page takes time from the server
 
 /** The thin bar while the server works or a model is on its way. */
 export class Working {
