@@ -118,6 +118,7 @@ pub struct ClosureSystem {
     successors: Vec<SuccessorClosure>,
     guards: Vec<Option<GuardClosure>>,
     ignored: Vec<Symbol>,
+    ring: bool,
     limit: usize,
 }
 
@@ -131,6 +132,7 @@ impl ClosureSystem {
             successors: Vec::new(),
             guards: Vec::new(),
             ignored: Vec::new(),
+            ring: false,
             limit: 100_000_000,
         }
     }
@@ -215,6 +217,21 @@ impl ClosureSystem {
         self.ignored.extend_from_slice(symbols);
     }
 
+    /// Makes the contexts of the rule that was added last skip modules with these symbols, in place of those of the system.
+    /// Fails if the system has no rule.
+    pub fn ignore_in_last_rule(&mut self, symbols: &[Symbol]) -> Result<()> {
+        let Some(rule) = self.rules.pop() else {
+            return Err(Error::argument("the system has no rule").help("add the rule first"));
+        };
+        self.rules.push(rule.ignoring(symbols.to_vec()));
+        Ok(())
+    }
+
+    /// Makes the first and the last module of each chain neighbours if `ring` is set.
+    pub fn ring(&mut self, ring: bool) {
+        self.ring = ring;
+    }
+
     /// Sets the maximum number of modules and brackets of a chain; 100 million by default.
     ///
     /// ```
@@ -274,7 +291,8 @@ impl ClosureSystem {
     /// A guard must always return the same for the same arguments, because it is not called again while nothing around its
     /// module changes.
     pub fn derive(&self, mut chain: Chain, steps: usize) -> Result<Chain> {
-        let grammar = Grammar::new(Arc::new(self.symbols.clone()), self.rules.clone(), &self.ignored, true);
+        let grammar = Grammar::new(Arc::new(self.symbols.clone()), self.rules.clone(), &self.ignored, true)
+            .with_ring(self.ring);
         chain.mark(BATCH, grammar.arities());
         let chains = chain.symbols.iter().filter(|symbol| **symbol == END).count();
         let plan = Arc::new(StepPlan {

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use super::chain::{END, Symbol};
+use super::chain::Symbol;
 use super::context::{CompiledPatterns, ContextElement};
+use super::ignored::IgnoredSet;
 use super::pattern::{Item, Pattern};
 use super::symbols::Symbols;
 use burgeon_base::error::SourcePlace;
@@ -22,6 +23,8 @@ pub struct Rule {
     pub guarded: bool,
     /// Source location of the declaration.
     pub place: Option<SourcePlace>,
+    /// Symbols that the contexts of this rule skip, if they are not those of the system.
+    ignored: Option<Vec<Symbol>>,
     contexts: Vec<Item>,
     has_contexts: bool,
     tests_modules: bool,
@@ -43,12 +46,32 @@ impl Rule {
             weight,
             guarded,
             place,
+            ignored: None,
             contexts,
             has_contexts,
             tests_modules,
             skips_arguments,
             run_length,
         }
+    }
+
+    /// Returns the rule whose contexts skip the modules with these symbols, in place of those that the grammar ignores.
+    ///
+    /// ```
+    /// use burgeon_rewriting::ClosureSystem;
+    ///
+    /// let mut system = ClosureSystem::new(0);
+    /// let (a, b, c) = (system.module("A", &[])?, system.module("B", &[])?, system.module("C", &[])?);
+    /// system.rule("A < B", move |_, out| out.push(a, &[]))?;
+    /// system.rule("A < C", move |_, out| out.push(a, &[]))?;
+    /// system.ignore_in_last_rule(&[b])?;
+    /// let chain = system.chain(|out| [a, b, c].into_iter().for_each(|symbol| out.push(symbol, &[])))?;
+    /// assert_eq!(system.text(&system.derive(chain, 1)?), "A A A\n");
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
+    #[must_use]
+    pub fn ignoring(self, symbols: Vec<Symbol>) -> Self {
+        Self { ignored: Some(symbols), ..self }
     }
 
     /// Returns true if the rule has a context, which can also be only an end of the chain.
@@ -122,7 +145,11 @@ pub struct Grammar {
     by_symbol: Vec<Vec<u16>>,
     patterns: CompiledPatterns,
     choices: Vec<Choice>,
-    skipped: Vec<bool>,
+    /// Sets of symbols that contexts skip, each stored once. The first is that of the system.
+    ignored: Vec<IgnoredSet>,
+    /// Number of the set of each rule.
+    ignored_numbers: Vec<usize>,
+    ring: bool,
     arities: Vec<u8>,
     name_hashes: Vec<u64>,
     /// Number of elements of the longest left context.
@@ -141,10 +168,17 @@ impl Grammar {
     /// rules are detected automatically.
     pub fn new(symbols: Arc<Symbols>, rules: Vec<Rule>, ignored: &[Symbol], random: bool) -> Self {
         let arities = symbols.arities();
-        let mut skipped = vec![false; arities.len()];
-        for symbol in ignored.iter().filter(|symbol| **symbol > END) {
-            skipped[usize::from(*symbol)] = true;
-        }
+        let mut sets = vec![IgnoredSet::new(ignored, arities.len())];
+        let ignored_numbers = rules.iter().map(|rule| {
+            let Some(ignored) = &rule.ignored else { return 0 };
+            let set = IgnoredSet::new(ignored, arities.len());
+            let known = sets.iter().position(|known| known.has_same_symbols(&set));
+            known.unwrap_or_else(|| {
+                sets.push(set);
+                sets.len() - 1
+            })
+        });
+        let ignored_numbers = ignored_numbers.collect();
         let mut patterns = CompiledPatterns::default();
         rules.iter().for_each(|rule| patterns.add(&rule.pattern));
         let random = random || rules.iter().any(|rule| rule.weight.is_some());
@@ -153,7 +187,9 @@ impl Grammar {
             by_symbol: Vec::new(),
             patterns,
             choices: Vec::new(),
-            skipped,
+            ignored: sets,
+            ignored_numbers,
+            ring: false,
             name_hashes: arities.iter().zip(0..).map(|(_, symbol)| symbols.name_hash(symbol)).collect(),
             symbols,
             arities,
@@ -165,15 +201,42 @@ impl Grammar {
         grammar.with_candidates(|_| true)
     }
 
+    /// Returns the grammar in which the first and the last module of a chain are neighbours if `ring` is set.
+    ///
+    /// ```
+    /// use burgeon_rewriting::ClosureSystem;
+    ///
+    /// let mut system = ClosureSystem::new(0);
+    /// let (on, off) = (system.module("On", &[])?, system.module("Off", &[])?);
+    /// system.rule("On < Off", move |_, out| out.push(on, &[]))?;
+    /// system.rule("On", move |_, out| out.push(off, &[]))?;
+    /// system.ring(true);
+    /// let chain = system.chain(|out| [off, off, on].into_iter().for_each(|symbol| out.push(symbol, &[])))?;
+    /// assert_eq!(system.text(&system.derive(chain, 1)?), "On Off Off\n");
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
+    #[must_use]
+    pub fn with_ring(self, ring: bool) -> Self {
+        Self { ring, ..self }
+    }
+
     /// Returns the grammar in which only rules whose numbers satisfy `is_candidate` can be chosen. The numbers of the
     /// rules and the random keys of modules stay the same, so that several phases of a derivation can share a chain.
     #[must_use]
     pub fn with_candidates(mut self, is_candidate: impl Fn(u16) -> bool) -> Self {
         let mut by_symbol = vec![Vec::new(); self.arities.len()];
         (self.left, self.right, self.runs) = (0, 0, false);
+        for ignored in &mut self.ignored {
+            (ignored.needs_left, ignored.needs_right) = (false, false);
+        }
         for (number, rule) in (0u16..).zip(&self.rules).filter(|(number, _)| is_candidate(*number)) {
-            self.left = self.left.max(self.patterns.lefts[usize::from(number)].len());
-            self.right = self.right.max(self.patterns.rights[usize::from(number)].len());
+            let left = self.patterns.lefts[usize::from(number)].len();
+            let right = self.patterns.rights[usize::from(number)].len();
+            self.left = self.left.max(left);
+            self.right = self.right.max(right);
+            let ignored = &mut self.ignored[self.ignored_numbers[usize::from(number)]];
+            ignored.needs_left |= left > 0;
+            ignored.needs_right |= right > 0;
             if rule.weight != Some(0.0) {
                 self.runs |= rule.pattern.has_run();
                 by_symbol[usize::from(rule.pattern.symbol)].push(number);
@@ -246,10 +309,28 @@ impl Grammar {
         self.choices[usize::from(symbol)]
     }
 
-    /// Returns true if contexts skip `symbol`.
+    /// Returns true if the contexts of rule number `rule` skip `symbol`.
     #[inline]
-    pub fn is_skipped(&self, symbol: Symbol) -> bool {
-        self.skipped[usize::from(symbol)]
+    pub fn is_ignored(&self, rule: u16, symbol: Symbol) -> bool {
+        self.ignored[self.ignored_set(rule)].contains(symbol)
+    }
+
+    /// Returns the sets of symbols that contexts skip.
+    #[inline]
+    pub(crate) fn ignored_sets(&self) -> &[IgnoredSet] {
+        &self.ignored
+    }
+
+    /// Returns the number of the set of symbols that the contexts of rule number `rule` skip.
+    #[inline]
+    pub(crate) fn ignored_set(&self, rule: u16) -> usize {
+        self.ignored_numbers[usize::from(rule)]
+    }
+
+    /// Returns true if the first and the last module of a chain are neighbours.
+    #[inline]
+    pub fn is_ring(&self) -> bool {
+        self.ring
     }
 
     /// Returns the number of parameters by symbol, including brackets.
@@ -305,8 +386,8 @@ impl Grammar {
     }
 
     /// Returns true if a few modules on the path before and after a module decide which rule applies to it: if rules
-    /// rewrite single modules, and their contexts name no branches.
+    /// rewrite single modules, their contexts name no branches and skip the same symbols, and chains are not rings.
     pub(crate) fn has_near_contexts(&self) -> bool {
-        !self.runs && self.patterns.branch_count() == 0
+        !self.runs && !self.ring && self.ignored.len() == 1 && self.patterns.branch_count() == 0
     }
 }

@@ -52,6 +52,7 @@ mod context;
 mod cut;
 mod failed_chains;
 mod grammar;
+mod ignored;
 mod key;
 mod links;
 mod matching;

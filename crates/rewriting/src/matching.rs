@@ -5,7 +5,8 @@ use smallvec::SmallVec;
 use super::chain::{CLOSE, Chain, END, OPEN};
 use super::context::ContextElement;
 use super::grammar::Grammar;
-use super::links::{Links, NONE};
+use super::ignored::IgnoredSet;
+use super::links::{Links, NONE, TreeLinks};
 
 /// Indices of the context modules that a pattern matched, in the order in which the pattern names them.
 pub type Bindings = SmallVec<[u32; 8]>;
@@ -64,7 +65,17 @@ enum ContextPosition {
     At(usize),
 }
 
-impl ContextMatcher<'_> {
+/// Matcher of the contexts of one rule, with the neighbours in the tree without the symbols that the rule ignores.
+#[derive(Clone, Copy)]
+struct TreeMatcher<'a> {
+    chain: &'a Chain,
+    links: &'a Links,
+    tree: &'a TreeLinks,
+    grammar: &'a Grammar,
+    ignored: &'a IgnoredSet,
+}
+
+impl<'a> ContextMatcher<'a> {
     /// Returns true if the contexts of rule number `rule` match around the module at `index`, or around the modules
     /// from `index` on that the rule rewrites at once.
     #[inline(always)]
@@ -73,13 +84,26 @@ impl ContextMatcher<'_> {
         if !declared.has_contexts() {
             return true;
         }
+        let matcher = self.tree_matcher(rule);
         let left = self.grammar.left_of(rule);
-        if !left.is_empty() && !self.matches_left(left, self.links.left[index]) {
+        if !left.is_empty() && !matcher.matches_left(left, matcher.tree.left[index]) {
             return false;
         }
         let right = self.grammar.right_of(rule);
         let last = index + declared.run_length() - 1;
-        right.is_empty() || self.match_right(right, ContextPosition::Module(last), None)
+        right.is_empty() || matcher.match_right(right, ContextPosition::Module(last), None)
+    }
+
+    #[inline]
+    fn tree_matcher(self, rule: u16) -> TreeMatcher<'a> {
+        let set = self.grammar.ignored_set(rule);
+        TreeMatcher {
+            chain: self.chain,
+            links: self.links,
+            tree: self.links.tree(set),
+            grammar: self.grammar,
+            ignored: &self.grammar.ignored_sets()[set],
+        }
     }
 
     /// Returns true if the module at `index`, whose parameters begin at `param`, has the values that rule number `rule`
@@ -102,6 +126,24 @@ impl ContextMatcher<'_> {
         })
     }
 
+    /// Fills `bindings` for a rule that matches at a module.
+    pub fn bind(self, rule: u16, index: usize, bindings: &mut Bindings) {
+        bindings.clear();
+        let declared = &self.grammar.rules()[usize::from(rule)];
+        let matcher = self.tree_matcher(rule);
+        let mut here = index;
+        for _ in &declared.pattern.left {
+            let nearest = matcher.tree.left[here];
+            bindings.push(nearest);
+            here = nearest as usize;
+        }
+        bindings.reverse();
+        let last = index + declared.run_length() - 1;
+        matcher.match_right(self.grammar.right_of(rule), ContextPosition::Module(last), Some(bindings));
+    }
+}
+
+impl TreeMatcher<'_> {
     /// Returns true if the module at `index` passes a test. Most patterns have none.
     #[inline(never)]
     fn passes(self, number: u32, index: u32) -> bool {
@@ -126,24 +168,9 @@ impl ContextMatcher<'_> {
             if !is_found {
                 return false;
             }
-            nearest = self.links.left[nearest as usize];
+            nearest = self.tree.left[nearest as usize];
         }
         true
-    }
-
-    /// Fills `bindings` for a rule that matches at a module.
-    pub fn bind(self, rule: u16, index: usize, bindings: &mut Bindings) {
-        bindings.clear();
-        let declared = &self.grammar.rules()[usize::from(rule)];
-        let mut here = index;
-        for _ in &declared.pattern.left {
-            let nearest = self.links.left[here];
-            bindings.push(nearest);
-            here = nearest as usize;
-        }
-        bindings.reverse();
-        let last = index + declared.run_length() - 1;
-        self.match_right(self.grammar.right_of(rule), ContextPosition::Module(last), Some(bindings));
     }
 
     /// Returns true if `contexts` match from a position on. Modules within branches are only traversed if `bindings`
@@ -183,7 +210,7 @@ impl ContextMatcher<'_> {
                         ContextPosition::Module(index) => index + 1,
                         ContextPosition::At(index) => index,
                     };
-                    let found = self.first_branch(*number, self.links.branch[next]);
+                    let found = self.first_branch(*number, self.tree.branch[next]);
                     if found == NONE {
                         return false;
                     }
@@ -191,7 +218,7 @@ impl ContextMatcher<'_> {
                         let inner = self.grammar.patterns().branch(*number);
                         self.match_right(inner, ContextPosition::At(found as usize + 1), Some(bindings));
                     }
-                    ContextPosition::At(self.links.right[found as usize] as usize + 1)
+                    ContextPosition::At(self.tree.right[found as usize] as usize + 1)
                 }
             };
         }
@@ -202,18 +229,20 @@ impl ContextMatcher<'_> {
     #[inline]
     fn next(self, here: ContextPosition) -> u32 {
         match here {
-            ContextPosition::Module(index) => self.links.right[index],
+            ContextPosition::Module(index) => self.tree.right[index],
             ContextPosition::At(index) => self.next_module(index),
         }
     }
 
     /// Returns the first module at or after `index` on its own branch that is not ignored.
     fn next_module(self, index: usize) -> u32 {
-        let right = &self.links.right;
+        let right = &self.tree.right;
         match self.chain.symbols[index] {
-            CLOSE | END => NONE,
+            CLOSE => NONE,
+            // The first module of a ring.
+            END => right[index],
             OPEN => right[right[index] as usize],
-            symbol if self.grammar.is_skipped(symbol) => right[index],
+            symbol if self.ignored.contains(symbol) => right[index],
             _ => u32::try_from(index).unwrap_or(NONE),
         }
     }
@@ -230,8 +259,8 @@ impl ContextMatcher<'_> {
         if second == NONE {
             return NONE;
         }
-        let known = self.links.branch_searches(number);
-        let mut here = second;
+        let known = self.tree.branch_searches(number);
+        let (mut here, mut count) = (second, 0);
         let found = loop {
             if here == NONE {
                 break NONE;
@@ -243,9 +272,14 @@ impl ContextMatcher<'_> {
                 break here;
             }
             here = self.branch_behind(here);
+            count += 1;
+            // All modules of the main axis of a ring can be ignored.
+            if here == second {
+                break NONE;
+            }
         };
         let mut passed = second;
-        while passed != here {
+        for _ in 0..count {
             known.note(passed, found);
             passed = self.branch_behind(passed);
         }
@@ -254,7 +288,7 @@ impl ContextMatcher<'_> {
 
     /// Returns the next branch after the one that begins at `open`, with only ignored modules in between.
     fn branch_behind(self, open: u32) -> u32 {
-        self.links.branch[self.links.right[open as usize] as usize + 1]
+        self.tree.branch[self.tree.right[open as usize] as usize + 1]
     }
 
     fn begins_so(self, number: u32, open: u32) -> bool {

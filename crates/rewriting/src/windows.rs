@@ -84,7 +84,7 @@ impl ContextWindow {
                     }
                     // Beyond the levels of the segment, the path is the same without brackets.
                     OPEN => {}
-                    symbol if depth == 0 && found < wanted && !grammar.is_skipped(symbol) => {
+                    symbol if depth == 0 && found < wanted && !grammar.ignored_sets()[0].contains(symbol) => {
                         let begin = self.params.len();
                         self.params.extend_from_slice(&segment.chain.params[params]);
                         self.before.push((symbol, begin..self.params.len()));
@@ -139,7 +139,7 @@ impl ContextWindow {
                         left += 1;
                         found = 0;
                     }
-                    symbol if depth == 0 && found < wanted && !grammar.is_skipped(symbol) => {
+                    symbol if depth == 0 && found < wanted && !grammar.ignored_sets()[0].contains(symbol) => {
                         self.chain.symbols.push(symbol);
                         self.chain.params.extend_from_slice(&segment.chain.params[params]);
                         found += 1;

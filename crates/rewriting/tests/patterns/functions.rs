@@ -170,15 +170,21 @@ pub(crate) fn derive(
         let parameters: Vec<String> = (0..count).map(|index| format!("v{index}")).collect();
         symbols.declare(Signature::new(name, &parameters).expect("a name")).expect("a new name");
     }
+    let find = |names: &[&str]| -> Vec<Symbol> {
+        names.iter().map(|name| symbols.find(name).expect("a declared module")).collect()
+    };
     let rules = system.rules.iter().map(|rule| {
         let (text, _) = rule.pattern.text();
         let pattern = Pattern::parse(&text, &symbols).unwrap_or_else(|error| panic!("{error}: {text}"));
-        Rule::new(pattern, rule.weight, rule.least.is_some(), None)
+        let declared = Rule::new(pattern, rule.weight, rule.least.is_some(), None);
+        match &rule.ignored {
+            Some(names) => declared.ignoring(find(names)),
+            None => declared,
+        }
     });
     let rules = rules.collect();
-    let ignored: Vec<Symbol> =
-        system.ignored.iter().map(|name| symbols.find(name).expect("a declared module")).collect();
-    let grammar = Grammar::new(Arc::new(symbols.clone()), rules, &ignored, true);
+    let ignored = find(&system.settings.ignored);
+    let grammar = Grammar::new(Arc::new(symbols.clone()), rules, &ignored, true).with_ring(system.settings.ring);
     let arities = symbols.arities();
     let mut chain = Chain::default();
     write(axiom, &symbols, &mut |symbol, params| {

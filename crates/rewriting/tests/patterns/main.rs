@@ -1,5 +1,5 @@
-//! Patterns with several predecessors, values, wildcards, ends and cuts: the crate and a plain implementation derive the
-//! same chains.
+//! Patterns with several predecessors, values, wildcards, ends, cuts, rings and contexts in the new chain: the crate and a
+//! plain implementation derive the same chains.
 
 mod functions;
 mod plain;
@@ -17,12 +17,16 @@ struct Compared {
     values: usize,
     ends: usize,
     cuts: usize,
+    rings: usize,
+    ignored: usize,
+    new_left: usize,
+    new_right: usize,
 }
 
 #[test]
 fn random_systems_derive_the_same_chains_in_the_crate_and_plainly() {
     let mut compared = Compared::default();
-    for seed in 0..4000 {
+    for seed in 0..10_000 {
         let mut dice = Dice::new(seed);
         let system = RandomSystem::new(&mut dice);
         let axiom = plain::axiom(system.axiom.clone(), seed);
@@ -31,7 +35,7 @@ fn random_systems_derive_the_same_chains_in_the_crate_and_plainly() {
         while expected.len() < 4 && plain::modules(&chain) < 300 {
             let cut = plain::cut_branches(&chain, "Cut");
             compared.cuts += usize::from(cut != chain);
-            chain = plain::step(&cut, &system.rules, &system.ignored);
+            chain = plain::step(&cut, &system.rules, &system.settings);
             expected.push(chain.clone());
         }
         let division = (1 + usize::from(seed % 4 == 0), [1, 2, 7, 4096][seed as usize / 4 % 4]);
@@ -45,8 +49,14 @@ fn random_systems_derive_the_same_chains_in_the_crate_and_plainly() {
         compared.runs += usize::from(system.rules.iter().any(|rule| rule.pattern.predecessors.len() > 1));
         compared.values += usize::from(any("\"") || any("true") || any("nil"));
         compared.ends += usize::from(any("$") || any("^"));
+        compared.rings += usize::from(system.settings.ring && (any("<") || any(">")));
+        compared.ignored += usize::from(system.rules.iter().any(|rule| rule.ignored.is_some()));
+        compared.new_left += usize::from(any("<<"));
+        compared.new_right += usize::from(any(">>"));
     }
     println!("{compared:?}");
     assert!(compared.changed > 2000 && compared.runs > 2000 && compared.values > 500, "{compared:?}");
     assert!(compared.ends > 500 && compared.cuts > 500, "{compared:?}");
+    assert!(compared.rings > 500 && compared.ignored > 500, "{compared:?}");
+    assert!(compared.new_left > 500 && compared.new_right > 500, "{compared:?}");
 }

@@ -58,10 +58,27 @@ pub(crate) enum PlainContext {
 /// Pattern of a rule.
 #[derive(Debug, Clone)]
 pub(crate) struct PlainPattern {
-    pub from_beginning: bool,
-    pub left: Vec<Wanted>,
+    pub new_left: PlainLeft,
+    pub left: PlainLeft,
     pub predecessors: Vec<Wanted>,
     pub right: Vec<PlainContext>,
+    pub new_right: Vec<PlainContext>,
+}
+
+/// Left context.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct PlainLeft {
+    pub from_beginning: bool,
+    pub modules: Vec<Wanted>,
+}
+
+/// Settings of a system.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct PlainSettings {
+    /// Names of modules that contexts skip.
+    pub ignored: Vec<&'static str>,
+    /// Set if the first and the last module of a chain are neighbours.
+    pub ring: bool,
 }
 
 /// Application of a rule.
@@ -76,6 +93,8 @@ pub(crate) struct Application<'a> {
 pub(crate) trait PlainRule {
     fn pattern(&self) -> &PlainPattern;
     fn weight(&self) -> Option<f64>;
+    /// Returns the names of modules that the contexts of this rule skip, if they are not those of the system.
+    fn ignored(&self) -> Option<&[&'static str]>;
     fn holds(&self, arguments: &[PlainValue]) -> bool;
     /// Returns the successor without keys; `None` keeps the modules.
     fn successor(&self, application: &Application<'_>) -> Option<Vec<Part>>;
@@ -144,56 +163,97 @@ impl PlainPattern {
             });
             texts.collect::<Vec<_>>().join(" ")
         }
+        fn left(context: &PlainLeft, separator: &str, formals: &mut usize) -> String {
+            let mut text = String::new();
+            if context.from_beginning {
+                text += "^ ";
+            }
+            context.modules.iter().for_each(|wanted| text += &format!("{} ", wanted.text(formals)));
+            if text.is_empty() { text } else { text + separator + " " }
+        }
         let mut formals = 0;
-        let mut text = String::new();
-        if self.from_beginning {
-            text += "^ ";
-        }
-        self.left.iter().for_each(|wanted| text += &format!("{} ", wanted.text(&mut formals)));
-        if !text.is_empty() {
-            text += "< ";
-        }
+        let mut text = left(&self.new_left, "<<", &mut formals);
+        text += &left(&self.left, "<", &mut formals);
         let run: Vec<String> = self.predecessors.iter().map(|wanted| wanted.text(&mut formals)).collect();
         text += &run.join(" ");
-        if !self.right.is_empty() {
-            text += &format!(" > {}", right(&self.right, &mut formals));
+        for (separator, contexts) in [(">", &self.right), (">>", &self.new_right)] {
+            if !contexts.is_empty() {
+                text += &format!(" {separator} {}", right(contexts, &mut formals));
+            }
         }
         (text, formals)
     }
 
-    /// Returns the arguments of the rule at `position` of `parts`, if it matches. `path` are the modules from the axiom
-    /// to that position.
-    fn bind(
-        &self,
-        path: &[&PlainModule],
-        parts: &[Part],
-        position: usize,
-        ignored: &[&str],
-    ) -> Option<Vec<PlainValue>> {
+    /// Returns the arguments of the rule at `place`, if it matches.
+    fn bind(&self, place: &Place<'_>, ignored: &[&str]) -> Option<Vec<PlainValue>> {
         let mut own = Vec::new();
         for (distance, wanted) in self.predecessors.iter().enumerate() {
-            match parts.get(position + distance)? {
+            match place.parts.get(place.position + distance)? {
                 Part::Module(module) => own.extend(wanted.bind(module)?),
                 Part::Branch(_) => return None,
             }
         }
-        let mut path = path.iter().rev().filter(|module| !ignored.contains(&module.name));
-        let mut left = Vec::new();
-        for wanted in self.left.iter().rev() {
-            left.push(wanted.bind(path.next()?)?);
-        }
-        if self.from_beginning && path.next().is_some() {
-            return None;
-        }
-        let mut arguments: Vec<PlainValue> = left.into_iter().rev().flatten().collect();
+        let mut arguments = self.new_left.bind(place.written.iter().rev(), ignored)?;
+        // A context is shorter than so many rounds.
+        let round = place.ring.iter().rev().filter_map(|part| match part {
+            Part::Module(module) => Some(module),
+            Part::Branch(_) => None,
+        });
+        let rounds = (0..ROUNDS).flat_map(|_| round.clone());
+        arguments.extend(self.left.bind(place.path.iter().rev().copied().chain(rounds), ignored)?);
         arguments.extend(own);
-        arguments.extend(ahead(&self.right, &parts[position + self.predecessors.len()..], ignored)?);
+        let mut following: Vec<&Part> =
+            place.parts[place.position + self.predecessors.len()..].iter().collect();
+        if place.is_main {
+            following.extend((0..ROUNDS).flat_map(|_| place.ring));
+        }
+        arguments.extend(ahead(&self.right, &following, ignored)?);
+        arguments.extend(ahead(&self.new_right, &place.after.iter().collect::<Vec<_>>(), ignored)?);
         Some(arguments)
     }
 }
 
+/// Number of times that a context may go around a ring.
+const ROUNDS: usize = 8;
+
+impl PlainLeft {
+    /// Returns the arguments of the context if it matches `path`, the nearest module first.
+    fn bind<'a>(
+        &self,
+        path: impl Iterator<Item = &'a PlainModule>,
+        ignored: &[&str],
+    ) -> Option<Vec<PlainValue>> {
+        let mut path = path.filter(|module| !ignored.contains(&module.name));
+        let mut found = Vec::new();
+        for wanted in self.modules.iter().rev() {
+            found.push(wanted.bind(path.next()?)?);
+        }
+        if self.from_beginning && path.next().is_some() {
+            return None;
+        }
+        Some(found.into_iter().rev().flatten().collect())
+    }
+}
+
+/// Module at which rules are chosen, with the chain around it.
+struct Place<'a> {
+    /// Modules from the axiom to the module.
+    path: &'a [&'a PlainModule],
+    /// Branch or chain with the module.
+    parts: &'a [Part],
+    position: usize,
+    /// Set if the module is on the main axis.
+    is_main: bool,
+    /// The chain if it is a ring, otherwise nothing.
+    ring: &'a [Part],
+    /// Modules on the path to the module that this step has written.
+    written: &'a [PlainModule],
+    /// Parts after the module in its branch that this step has written.
+    after: &'a [Part],
+}
+
 /// Returns the arguments of `contexts` if `parts` begin with them.
-fn ahead(contexts: &[PlainContext], parts: &[Part], ignored: &[&str]) -> Option<Vec<PlainValue>> {
+fn ahead(contexts: &[PlainContext], parts: &[&Part], ignored: &[&str]) -> Option<Vec<PlainValue>> {
     let Some((first, others)) = contexts.split_first() else { return Some(Vec::new()) };
     let is_ignored = |part: &Part| matches!(part, Part::Module(module) if ignored.contains(&module.name));
     for (position, part) in parts.iter().enumerate().filter(|(_, part)| !is_ignored(part)) {
@@ -201,10 +261,12 @@ fn ahead(contexts: &[PlainContext], parts: &[Part], ignored: &[&str]) -> Option<
             (PlainContext::Module(_) | PlainContext::End, Part::Branch(_)) => continue,
             (PlainContext::Module(wanted), Part::Module(module)) => wanted.bind(module)?,
             (PlainContext::Branch(_) | PlainContext::End, Part::Module(_)) => return None,
-            (PlainContext::Branch(wanted), Part::Branch(inner)) => match ahead(wanted, inner, ignored) {
-                Some(found) => found,
-                None => continue,
-            },
+            (PlainContext::Branch(wanted), Part::Branch(inner)) => {
+                match ahead(wanted, &inner.iter().collect::<Vec<_>>(), ignored) {
+                    Some(found) => found,
+                    None => continue,
+                }
+            }
         };
         return Some([found, ahead(others, &parts[position + 1..], ignored)?].concat());
     }
@@ -212,81 +274,130 @@ fn ahead(contexts: &[PlainContext], parts: &[Part], ignored: &[&str]) -> Option<
 }
 
 /// Returns the chain after one step.
-pub(crate) fn step<R: PlainRule>(chain: &[Part], rules: &[R], ignored: &[&str]) -> Vec<Part> {
-    rewrite(chain, &mut Vec::new(), rules, ignored)
+pub(crate) fn step<R: PlainRule>(chain: &[Part], rules: &[R], settings: &PlainSettings) -> Vec<Part> {
+    let walk = Walk { rules, settings, ring: if settings.ring { chain } else { &[] } };
+    match rules.iter().any(|rule| !rule.pattern().new_right.is_empty()) {
+        true => walk.rewrite_backwards(chain, &mut Vec::new(), true),
+        false => walk.rewrite(chain, &mut Vec::new(), &mut Vec::new(), true),
+    }
 }
 
-fn rewrite<'a, R: PlainRule>(
-    parts: &'a [Part],
-    path: &mut Vec<&'a PlainModule>,
-    rules: &[R],
-    ignored: &[&str],
-) -> Vec<Part> {
-    let depth = path.len();
-    let mut made = Vec::new();
-    let mut position = 0;
-    while let Some(part) = parts.get(position) {
-        let module = match part {
-            Part::Branch(inner) => {
-                made.push(Part::Branch(rewrite(inner, path, rules, ignored)));
-                position += 1;
-                continue;
-            }
-            Part::Module(module) => module,
-        };
-        let mut count = 1;
-        match choose(path, parts, position, (rules, ignored), module) {
-            Some((rule, arguments)) => {
-                count = rule.pattern().predecessors.len();
-                let weighted = rule.weight().is_some();
-                let application = Application { arguments: &arguments, key: module.key, weighted };
-                match rule.successor(&application) {
-                    Some(successor) => made.extend(keyed(successor, module.key, &mut HashMap::new())),
-                    None => {
-                        made.push(Part::Module(PlainModule { key: module.key.advance(), ..module.clone() }));
-                        made.extend_from_slice(&parts[position + 1..position + count]);
-                    }
+/// Step of a system.
+struct Walk<'r, R> {
+    rules: &'r [R],
+    settings: &'r PlainSettings,
+    ring: &'r [Part],
+}
+
+impl<R: PlainRule> Walk<'_, R> {
+    /// Rewrites `parts` from left to right.
+    fn rewrite<'a>(
+        &self,
+        parts: &'a [Part],
+        path: &mut Vec<&'a PlainModule>,
+        written: &mut Vec<PlainModule>,
+        is_main: bool,
+    ) -> Vec<Part> {
+        let (depth, written_depth) = (path.len(), written.len());
+        let mut made = Vec::new();
+        let mut position = 0;
+        while let Some(part) = parts.get(position) {
+            let (count, new) = match part {
+                Part::Branch(inner) => {
+                    made.push(Part::Branch(self.rewrite(inner, path, written, false)));
+                    position += 1;
+                    continue;
+                }
+                Part::Module(module) => {
+                    let ring = self.ring;
+                    self.replace(&Place { path, parts, position, is_main, ring, written, after: &[] }, module)
+                }
+            };
+            written.extend(new.iter().filter_map(|part| match part {
+                Part::Module(module) => Some(module.clone()),
+                Part::Branch(_) => None,
+            }));
+            made.extend(new);
+            for part in &parts[position..position + count] {
+                if let Part::Module(module) = part {
+                    path.push(module);
                 }
             }
-            None => made.push(part.clone()),
+            position += count;
         }
-        for part in &parts[position..position + count] {
-            if let Part::Module(module) = part {
-                path.push(module);
-            }
-        }
-        position += count;
+        path.truncate(depth);
+        written.truncate(written_depth);
+        made
     }
-    path.truncate(depth);
-    made
-}
 
-/// Returns the rule that applies at `position`, with its arguments.
-fn choose<'r, R: PlainRule>(
-    path: &[&PlainModule],
-    parts: &[Part],
-    position: usize,
-    (rules, ignored): (&'r [R], &[&str]),
-    module: &PlainModule,
-) -> Option<(&'r R, Vec<PlainValue>)> {
-    let matching = rules.iter().filter_map(|rule| {
-        let arguments = rule.pattern().bind(path, parts, position, ignored)?;
-        (rule.weight() != Some(0.0) && rule.holds(&arguments)).then_some((rule, arguments))
-    });
-    let mut matching: Vec<(&R, Vec<PlainValue>)> = matching.collect();
-    let (first, _) = matching.first()?;
-    if first.weight().is_none() {
-        return Some(matching.swap_remove(0));
+    /// Rewrites `parts` from right to left. Rules have one predecessor.
+    fn rewrite_backwards<'a>(
+        &self,
+        parts: &'a [Part],
+        path: &mut Vec<&'a PlainModule>,
+        is_main: bool,
+    ) -> Vec<Part> {
+        let depth = path.len();
+        let mut after = Vec::new();
+        for (position, part) in parts.iter().enumerate().rev() {
+            path.truncate(depth);
+            path.extend(parts[..position].iter().filter_map(|part| match part {
+                Part::Module(module) => Some(module),
+                Part::Branch(_) => None,
+            }));
+            let new = match part {
+                Part::Branch(inner) => vec![Part::Branch(self.rewrite_backwards(inner, path, false))],
+                Part::Module(module) => {
+                    let (ring, written, after) = (self.ring, &[][..], after.as_slice());
+                    self.replace(&Place { path, parts, position, is_main, ring, written, after }, module).1
+                }
+            };
+            after = [new, after].concat();
+        }
+        path.truncate(depth);
+        after
     }
-    matching.retain(|(rule, _)| rule.weight().is_some());
-    let total: f64 = matching.iter().filter_map(|(rule, _)| rule.weight()).sum();
-    let mut left = module.key.stream().uniform() * total;
-    let last = matching.len() - 1;
-    let chosen = matching.iter().position(|(rule, _)| {
-        left -= rule.weight().unwrap_or_default();
-        left < 0.0
-    });
-    Some(matching.swap_remove(chosen.unwrap_or(last)))
+
+    /// Returns the number of modules at `place` that are replaced together, and the parts that replace them.
+    fn replace(&self, place: &Place<'_>, module: &PlainModule) -> (usize, Vec<Part>) {
+        let Some((rule, arguments)) = self.choose(place, module) else {
+            return (1, vec![Part::Module(module.clone())]);
+        };
+        let count = rule.pattern().predecessors.len();
+        let weighted = rule.weight().is_some();
+        let made = match rule.successor(&Application { arguments: &arguments, key: module.key, weighted }) {
+            Some(successor) => keyed(successor, module.key, &mut HashMap::new()),
+            None => {
+                let first = Part::Module(PlainModule { key: module.key.advance(), ..module.clone() });
+                let others = &place.parts[place.position + 1..place.position + count];
+                [&[first], others].concat()
+            }
+        };
+        (count, made)
+    }
+
+    /// Returns the rule that applies at `place`, with its arguments.
+    fn choose(&self, place: &Place<'_>, module: &PlainModule) -> Option<(&R, Vec<PlainValue>)> {
+        let matching = self.rules.iter().filter_map(|rule| {
+            let ignored = rule.ignored().unwrap_or(&self.settings.ignored);
+            let arguments = rule.pattern().bind(place, ignored)?;
+            (rule.weight() != Some(0.0) && rule.holds(&arguments)).then_some((rule, arguments))
+        });
+        let mut matching: Vec<(&R, Vec<PlainValue>)> = matching.collect();
+        let (first, _) = matching.first()?;
+        if first.weight().is_none() {
+            return Some(matching.swap_remove(0));
+        }
+        matching.retain(|(rule, _)| rule.weight().is_some());
+        let total: f64 = matching.iter().filter_map(|(rule, _)| rule.weight()).sum();
+        let mut left = module.key.stream().uniform() * total;
+        let last = matching.len() - 1;
+        let chosen = matching.iter().position(|(rule, _)| {
+            left -= rule.weight().unwrap_or_default();
+            left < 0.0
+        });
+        Some(matching.swap_remove(chosen.unwrap_or(last)))
+    }
 }
 
 /// Returns the hash of the name of a module of the script.

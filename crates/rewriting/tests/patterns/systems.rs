@@ -1,7 +1,8 @@
 //! Random systems with patterns of every kind.
 
 use super::plain::{
-    Application, Parameter, Part, PlainContext, PlainModule, PlainPattern, PlainRule, PlainValue, Wanted,
+    Application, Parameter, Part, PlainContext, PlainLeft, PlainModule, PlainPattern, PlainRule,
+    PlainSettings, PlainValue, Wanted,
 };
 use crate::rewriting::ModuleKey;
 
@@ -78,13 +79,15 @@ pub(crate) struct SystemRule {
     pub least: Option<f64>,
     /// Sum of the arguments up to which the rule keeps its modules.
     pub keeps: Option<f64>,
+    /// Names of modules that its contexts skip, if they are not those of the system.
+    pub ignored: Option<Vec<&'static str>>,
     pub successor: Vec<Template>,
 }
 
 /// Random system.
 #[derive(Debug, Clone)]
 pub(crate) struct RandomSystem {
-    pub ignored: Vec<&'static str>,
+    pub settings: PlainSettings,
     pub axiom: Vec<Part>,
     pub rules: Vec<SystemRule>,
 }
@@ -105,6 +108,10 @@ impl PlainRule for SystemRule {
 
     fn weight(&self) -> Option<f64> {
         self.weight
+    }
+
+    fn ignored(&self) -> Option<&[&'static str]> {
+        self.ignored.as_deref()
     }
 
     fn holds(&self, arguments: &[PlainValue]) -> bool {
@@ -144,8 +151,11 @@ impl RandomSystem {
         };
         let size = 1 + dice.below(24);
         let axiom = parts(dice, size, 0);
-        let rules = (0..1 + dice.below(6)).map(|_| rule(dice)).collect();
-        Self { ignored, axiom, rules }
+        let ring = dice.chance(0.25);
+        // Rules that see the new chain go in one direction, and rewrite single modules.
+        let kind = dice.pick(&[RuleKind::Runs, RuleKind::Runs, RuleKind::Runs, RuleKind::Runs]);
+        let rules = (0..1 + dice.below(6)).map(|_| rule(dice, kind)).collect();
+        Self { settings: PlainSettings { ignored, ring }, axiom, rules }
     }
 }
 
@@ -213,17 +223,31 @@ fn right(dice: &mut Dice, depth: usize) -> Vec<PlainContext> {
     contexts
 }
 
-fn rule(dice: &mut Dice) -> SystemRule {
-    let has_left = dice.chance(0.35);
-    let left = match has_left {
+/// Kind of rules that a system has.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum RuleKind {
+    Runs,
+    NewLeft,
+    NewRight,
+}
+
+fn left(dice: &mut Dice, share: f64) -> PlainLeft {
+    let has_left = dice.chance(share);
+    let modules = match has_left {
         true => (0..dice.below(3)).map(|_| wanted(dice, false, false)).collect(),
         false => Vec::new(),
     };
-    let length = dice.pick(&[1, 1, 1, 2, 2, 3]);
+    PlainLeft { from_beginning: has_left && dice.chance(0.3), modules }
+}
+
+fn rule(dice: &mut Dice, kind: RuleKind) -> SystemRule {
+    let new_left = left(dice, if kind == RuleKind::NewLeft { 0.6 } else { 0.0 });
+    let left = left(dice, 0.35);
+    let length = if kind == RuleKind::Runs { dice.pick(&[1, 1, 1, 2, 2, 3]) } else { 1 };
     let predecessors = (0..length).map(|place| wanted(dice, place == 0, true)).collect();
-    let right = if dice.chance(0.35) { right(dice, 0) } else { Vec::new() };
-    let from_beginning = has_left && dice.chance(0.3);
-    let pattern = PlainPattern { from_beginning, left, predecessors, right };
+    let mut following = |share: f64| if dice.chance(share) { right(dice, 0) } else { Vec::new() };
+    let (right, new_right) = (following(0.35), following(if kind == RuleKind::NewRight { 0.6 } else { 0.0 }));
+    let pattern = PlainPattern { new_left, left, predecessors, right, new_right };
     let (_, arguments) = pattern.text();
     let successor = (0..dice.below(4)).map(|_| template(dice, arguments)).collect();
     SystemRule {
@@ -231,6 +255,12 @@ fn rule(dice: &mut Dice) -> SystemRule {
         weight: dice.chance(0.4).then(|| dice.pick(&[0.0, 0.5, 1.0, 3.0])),
         least: dice.chance(0.35).then(|| dice.below(4) as f64 - 1.0),
         keeps: dice.chance(0.25).then(|| dice.below(3) as f64),
+        ignored: match dice.below(8) {
+            0 => Some(Vec::new()),
+            1 => Some(vec!["A"]),
+            2 => Some(vec!["B", "D"]),
+            _ => None,
+        },
         successor,
     }
 }
