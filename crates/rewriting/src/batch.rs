@@ -1,11 +1,13 @@
 //! Rewriting of a piece of a chain: applies the chosen rules in batches, with one call of each rule's functions.
 
+use std::cell::RefCell;
 use std::time::{Duration, Instant};
 
 use crate::chain::{Chain, Mark};
 use crate::key::ModuleKey;
 use crate::links::Links;
 use crate::matching::{Bindings, ContextMatcher};
+use crate::new_chain::NewChain;
 use crate::ordinals::Ordinals;
 use crate::output::Output;
 use crate::plan::StepPlan;
@@ -13,6 +15,7 @@ use crate::rules::{Applications, RuleFailure, Rules};
 use crate::step_number::StepNumber;
 use crate::successors::{ModuleOrder, Successors};
 use crate::text::module_brief;
+use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
 
 /// Rule number for a module to which no rule was applied.
@@ -31,13 +34,15 @@ pub struct Scratch {
     pub(crate) active: Vec<Active>,
     /// Successors of each rule.
     pub(crate) groups: Vec<Successors>,
-    arguments: Vec<f64>,
+    pub(crate) arguments: Vec<f64>,
     pub(crate) bindings: Bindings,
     chains: Vec<u32>,
     keys: Vec<ModuleKey>,
     places: Vec<u32>,
     pub(crate) arranged: ModuleOrder,
     pub(crate) ordinals: Ordinals,
+    /// Indices of the active modules whose rules need the new chain.
+    pub(crate) delayed: Vec<u32>,
 }
 
 /// Module that has rules.
@@ -56,6 +61,9 @@ pub(crate) struct Batch<'a> {
     pub chain: &'a Chain,
     pub links: &'a Links,
     pub step: &'a StepNumber,
+    pub stop: &'a Stop,
+    /// Successors so far, if rules have contexts in the new chain.
+    pub new_chain: RefCell<NewChain>,
 }
 
 impl Batch<'_> {
@@ -65,6 +73,9 @@ impl Batch<'_> {
         scratch.groups.resize_with(rules, Successors::default);
         self.choose(piece, scratch)?;
         self.apply(scratch)?;
+        if !scratch.delayed.is_empty() {
+            self.rewrite_delayed(piece, scratch)?;
+        }
         let applied = if self.plan.traced { self.applied_rules(piece, scratch) } else { Vec::new() };
         Ok(Output { applied, ..self.splice(piece, scratch, spare) })
     }
@@ -118,6 +129,10 @@ impl Batch<'_> {
         let declared = &self.plan.grammar.rules()[usize::from(rule)];
         let arity = declared.arguments();
         scratch.arguments.reserve(members.len() * arity);
+        if declared.has_new_contexts() {
+            self.gather_new(rule, members, scratch);
+            return;
+        }
         if declared.skips_arguments() {
             self.gather_some(rule, members, scratch);
             return;
@@ -178,7 +193,7 @@ impl Batch<'_> {
     }
 
     /// Applies every chosen rule to its modules. Returns the error that comes first in the chain.
-    fn apply(&self, scratch: &mut Scratch) -> Result<()> {
+    pub(crate) fn apply(&self, scratch: &mut Scratch) -> Result<()> {
         let mut first: Option<(u32, Error)> = None;
         for rule in 0..scratch.groups.len() {
             scratch.groups[rule].time = Duration::ZERO;

@@ -13,6 +13,7 @@ impl Batch<'_> {
         let grammar = &self.plan.grammar;
         let arities = grammar.arities();
         scratch.active.clear();
+        scratch.delayed.clear();
         let mut guarded: Vec<u32> = Vec::new();
         // Skipped chains stay unchanged.
         let failed = self.plan.failed.as_ref().filter(|failed| failed.any());
@@ -31,8 +32,17 @@ impl Batch<'_> {
                     Choice::Sole(rule) => active.rule = rule,
                     Choice::Contexts => active.rule = self.choose_unguarded(rules, active),
                     Choice::Guards => guarded.push(narrow(scratch.active.len())),
+                    Choice::NewContexts => {
+                        let index = narrow(scratch.active.len());
+                        match self.needs_new_chain(rules, active) {
+                            true => scratch.delayed.push(index),
+                            false => guarded.push(index),
+                        }
+                    }
                 }
-                if active.rule != NO_RULE || grammar.choice(symbol) == Choice::Guards {
+                if active.rule != NO_RULE
+                    || matches!(grammar.choice(symbol), Choice::Guards | Choice::NewContexts)
+                {
                     scratch.active.push(active);
                 }
             }
@@ -59,6 +69,13 @@ impl Batch<'_> {
     /// Returns true if the predecessor and the contexts of rule number `rule` match.
     #[inline(always)]
     fn matches(&self, rule: u16, declared: &Rule, active: Active) -> bool {
+        self.matches_old(rule, declared, active)
+            && (!declared.has_new_contexts() || self.matches_new(rule, active))
+    }
+
+    /// Returns true if the predecessor and the contexts of rule number `rule` in the chain before the step match.
+    #[inline(always)]
+    pub(crate) fn matches_old(&self, rule: u16, declared: &Rule, active: Active) -> bool {
         let (module, param) = (active.module as usize, active.param as usize);
         (!declared.tests_modules() || self.contexts().matches_predecessors(rule, module, param))
             && (!declared.has_contexts() || self.contexts().matches(rule, module))
@@ -71,7 +88,8 @@ impl Batch<'_> {
         fn matches(batch: &Batch<'_>, rule: u16, declared: &Rule, active: Active) -> bool {
             batch.matches(rule, declared, active)
         }
-        !declared.has_contexts() && !declared.tests_modules() || matches(self, rule, declared, active)
+        !declared.has_contexts() && !declared.has_new_contexts() && !declared.tests_modules()
+            || matches(self, rule, declared, active)
     }
 
     fn choose_unguarded(&self, rules: &[u16], active: Active) -> u16 {
@@ -97,7 +115,7 @@ impl Batch<'_> {
     /// Calls the guards of each symbol's rules, one rule at a time, for all modules that the rule can still decide.
     ///
     /// Returns the error that comes first in the chain.
-    fn choose_guarded(&self, mut open: Vec<u32>, scratch: &mut Scratch) -> Result<()> {
+    pub(crate) fn choose_guarded(&self, mut open: Vec<u32>, scratch: &mut Scratch) -> Result<()> {
         let grammar = &self.plan.grammar;
         let symbol_of = |scratch: &Scratch, index: u32| -> Symbol {
             self.chain.symbols[scratch.active[index as usize].module as usize]

@@ -292,7 +292,8 @@ impl ClosureSystem {
     /// module changes.
     pub fn derive(&self, mut chain: Chain, steps: usize) -> Result<Chain> {
         let grammar = Grammar::new(Arc::new(self.symbols.clone()), self.rules.clone(), &self.ignored, true)
-            .with_ring(self.ring);
+            .with_ring(self.ring)
+            .in_one_direction()?;
         chain.mark(BATCH, grammar.arities());
         let chains = chain.symbols.iter().filter(|symbol| **symbol == END).count();
         let plan = Arc::new(StepPlan {

@@ -56,6 +56,9 @@ impl ModuleTest {
     }
 }
 
+/// Value that no column contains, so that a text that no module has matches none.
+const ABSENT: ColumnValue = ColumnValue::Handle(u32::MAX);
+
 /// A value of a pattern.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 enum Constant {
@@ -73,6 +76,10 @@ pub(super) struct CompiledPatterns {
     pub predecessors: Vec<Box<[ContextElement]>>,
     /// Right context of each rule.
     pub rights: Vec<Box<[ContextElement]>>,
+    /// Left context of each rule in the new chain, the nearest module first.
+    pub new_lefts: Vec<Box<[ContextElement]>>,
+    /// Right context of each rule in the new chain.
+    pub new_rights: Vec<Box<[ContextElement]>>,
     branches: Vec<Box<[ContextElement]>>,
     branch_numbers: FxHashMap<Box<[ContextElement]>, u32>,
     tests: Vec<ModuleTest>,
@@ -97,15 +104,21 @@ fn number<T: Clone + Eq + std::hash::Hash>(
 impl CompiledPatterns {
     /// Adds the pattern of the next rule.
     pub(super) fn add(&mut self, pattern: &Pattern) {
-        let mut left: Vec<ContextElement> = pattern.left.iter().rev().map(|item| self.module(item)).collect();
-        if pattern.from_beginning {
-            left.push(ContextElement::End);
-        }
-        self.lefts.push(left.into());
+        let new_left = self.left(&pattern.new_left, pattern.new_from_beginning);
+        self.new_lefts.push(new_left);
+        let left = self.left(&pattern.left, pattern.from_beginning);
+        self.lefts.push(left);
         let predecessors = pattern.predecessors.iter().map(|item| self.module(item)).collect();
         self.predecessors.push(predecessors);
         let right = self.right(&pattern.right);
         self.rights.push(right);
+        let new_right = self.right(&pattern.new_right);
+        self.new_rights.push(new_right);
+    }
+
+    fn left(&mut self, items: &[Item], from_beginning: bool) -> Box<[ContextElement]> {
+        let end = from_beginning.then_some(ContextElement::End);
+        items.iter().rev().map(|item| self.module(item)).chain(end).collect()
     }
 
     fn module(&mut self, item: &Item) -> ContextElement {
@@ -156,13 +169,17 @@ impl CompiledPatterns {
         &self.tests[number as usize]
     }
 
+    /// Returns true if a pattern names a text that no module has, in the order of `constants`.
+    pub(super) fn has_absent(constants: &[f64]) -> bool {
+        constants.iter().any(|constant| constant.to_bits() == ABSENT.pack().to_bits())
+    }
+
     /// Returns the values of patterns as the columns of the current chain contain them.
     pub(super) fn stored_constants<'a>(
         &'a self,
         values: &'a dyn ShowParameters,
     ) -> impl Iterator<Item = f64> + 'a {
-        // No column contains this value, so a text that no module has matches none.
-        let absent = ColumnValue::Handle(u32::MAX).pack();
+        let absent = ABSENT.pack();
         self.constants.iter().map(move |constant| match constant {
             Constant::Stored(bits) => f64::from_bits(*bits),
             Constant::Text(text) => values.find_text(text).unwrap_or(absent),

@@ -7,7 +7,7 @@ use super::context::{CompiledPatterns, ContextElement};
 use super::ignored::IgnoredSet;
 use super::pattern::{Item, Pattern};
 use super::symbols::Symbols;
-use burgeon_base::error::SourcePlace;
+use burgeon_base::error::{Error, Result, SourcePlace};
 
 /// Maximum number of rules of a system, because they are numbered in 16 bits.
 pub const MOST_RULES: usize = 65_000;
@@ -27,6 +27,7 @@ pub struct Rule {
     ignored: Option<Vec<Symbol>>,
     contexts: Vec<Item>,
     has_contexts: bool,
+    has_new_contexts: bool,
     tests_modules: bool,
     skips_arguments: bool,
     run_length: usize,
@@ -37,10 +38,12 @@ impl Rule {
     pub fn new(pattern: Pattern, weight: Option<f64>, guarded: bool, place: Option<SourcePlace>) -> Self {
         let contexts = pattern.context_items();
         let has_contexts = pattern.has_left() || pattern.has_right();
+        let has_new_contexts = pattern.has_new_left() || pattern.has_new_right();
         let tests_modules =
             pattern.has_run() || pattern.predecessors.iter().any(|item| item.plain().is_none());
         let run_length = pattern.predecessors.len().max(1);
-        let skips_arguments = tests_modules || contexts.iter().any(|item| !item.values.is_empty());
+        let skips_arguments =
+            tests_modules || has_new_contexts || contexts.iter().any(|item| !item.values.is_empty());
         Self {
             pattern,
             weight,
@@ -49,6 +52,7 @@ impl Rule {
             ignored: None,
             contexts,
             has_contexts,
+            has_new_contexts,
             tests_modules,
             skips_arguments,
             run_length,
@@ -74,7 +78,13 @@ impl Rule {
         Self { ignored: Some(symbols), ..self }
     }
 
-    /// Returns true if the rule has a context, which can also be only an end of the chain.
+    /// Returns true if the rule has a context in the chain that the step writes.
+    #[inline]
+    pub fn has_new_contexts(&self) -> bool {
+        self.has_new_contexts
+    }
+
+    /// Returns true if the rule has a context in the chain before the step, which can also be only an end of the chain.
     #[inline]
     pub fn has_contexts(&self) -> bool {
         self.has_contexts
@@ -120,10 +130,15 @@ pub enum Choice {
     Contexts,
     /// Guards decide, in addition to contexts, values and weights.
     Guards,
+    /// Contexts in the chain that the step writes decide, in addition to all others.
+    NewContexts,
 }
 
 impl Choice {
     fn among<'a>(rules: impl Iterator<Item = &'a Rule> + Clone, numbers: &[u16]) -> Self {
+        if rules.clone().any(Rule::has_new_contexts) {
+            return Self::NewContexts;
+        }
         if rules.clone().any(|rule| rule.guarded) {
             return Self::Guards;
         }
@@ -156,8 +171,21 @@ pub struct Grammar {
     left: usize,
     /// Number of elements of the longest right context.
     right: usize,
+    /// Contexts in the chain that a step writes.
+    new_contexts: NewContexts,
     runs: bool,
     random: bool,
+}
+
+/// Contexts of a grammar in the chain that a step writes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NewContexts {
+    /// No rule has one.
+    None,
+    /// Left contexts, so that modules are rewritten from left to right.
+    Left,
+    /// Right contexts, so that modules are rewritten from right to left.
+    Right,
 }
 
 impl Grammar {
@@ -195,6 +223,7 @@ impl Grammar {
             arities,
             left: 0,
             right: 0,
+            new_contexts: NewContexts::None,
             runs: false,
             random,
         };
@@ -226,6 +255,7 @@ impl Grammar {
     pub fn with_candidates(mut self, is_candidate: impl Fn(u16) -> bool) -> Self {
         let mut by_symbol = vec![Vec::new(); self.arities.len()];
         (self.left, self.right, self.runs) = (0, 0, false);
+        self.new_contexts = NewContexts::None;
         for ignored in &mut self.ignored {
             (ignored.needs_left, ignored.needs_right) = (false, false);
         }
@@ -239,6 +269,11 @@ impl Grammar {
             ignored.needs_right |= right > 0;
             if rule.weight != Some(0.0) {
                 self.runs |= rule.pattern.has_run();
+                if rule.pattern.has_new_left() {
+                    self.new_contexts = NewContexts::Left;
+                } else if rule.pattern.has_new_right() {
+                    self.new_contexts = NewContexts::Right;
+                }
                 by_symbol[usize::from(rule.pattern.symbol)].push(number);
             }
         }
@@ -246,6 +281,51 @@ impl Grammar {
         self.choices = by_symbol.iter().map(among).collect();
         self.by_symbol = by_symbol;
         self
+    }
+
+    /// Returns the grammar if its candidates can be applied in one step.
+    ///
+    /// Fails if some have left contexts in the new chain and others right contexts, or if some rewrite several modules at
+    /// once and others have contexts in the new chain.
+    ///
+    /// ```
+    /// use burgeon_rewriting::ClosureSystem;
+    ///
+    /// let mut system = ClosureSystem::new(0);
+    /// let (a, b) = (system.module("A", &[])?, system.module("B", &[])?);
+    /// system.rule("A << B", move |_, out| out.push(a, &[]))?;
+    /// let chain = |system: &ClosureSystem| system.chain(|out| [a, b, b].iter().for_each(|it| out.push(*it, &[])));
+    /// assert_eq!(system.text(&system.derive(chain(&system)?, 1)?), "A A A\n");
+    /// system.rule("A >> B", move |_, out| out.push(a, &[]))?;
+    /// let error = system.derive(chain(&system)?, 1).expect_err("two directions");
+    /// assert!(error.message().contains("A >> B"), "{error}");
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
+    pub fn in_one_direction(self) -> Result<Self> {
+        let rules = || self.by_symbol.iter().flatten().map(|number| &self.rules[usize::from(*number)]);
+        let left = rules().find(|rule| rule.pattern.has_new_left());
+        let right = rules().find(|rule| rule.pattern.has_new_right());
+        let run = rules().find(|rule| rule.pattern.has_run());
+        let conflict = match (left, right, run) {
+            (Some(left), Some(right), _) => {
+                (left, right, "sees the new chain before it", "the new chain after it")
+            }
+            (Some(new), None, Some(run)) | (None, Some(new), Some(run)) => {
+                (new, run, "sees the new chain", "rewrites several modules at once")
+            }
+            _ => return Ok(self),
+        };
+        let (first, second, what, other) = conflict;
+        let text = match std::ptr::eq(first, second) {
+            true => format!("the rule \"{}\" {what}, and {other}", first.pattern.text),
+            false => format!(
+                "the rule \"{}\" {what}, and \"{}\" {other}, in the same step",
+                first.pattern.text, second.pattern.text
+            ),
+        };
+        let error = Error::argument(text).at(second.place.clone()).rule(&second.pattern.text);
+        Err(error
+            .help("put the rules in groups that are derived in turn: s:rule(pattern, { group = \"up\" }, f)"))
     }
 
     /// Returns the declared modules.
@@ -281,6 +361,18 @@ impl Grammar {
     #[inline]
     pub fn right_of(&self, rule: u16) -> &[ContextElement] {
         &self.patterns.rights[usize::from(rule)]
+    }
+
+    /// Returns the left context of rule number `rule` in the new chain, the nearest module first.
+    #[inline]
+    pub fn new_left_of(&self, rule: u16) -> &[ContextElement] {
+        &self.patterns.new_lefts[usize::from(rule)]
+    }
+
+    /// Returns the right context of rule number `rule` in the new chain.
+    #[inline]
+    pub fn new_right_of(&self, rule: u16) -> &[ContextElement] {
+        &self.patterns.new_rights[usize::from(rule)]
     }
 
     /// Returns the branches, tests and values that patterns name.
@@ -354,7 +446,13 @@ impl Grammar {
     /// Returns true if a rule has a context.
     #[inline]
     pub fn has_contexts(&self) -> bool {
-        self.has_left_contexts() || self.has_right_contexts()
+        self.has_left_contexts() || self.has_right_contexts() || self.new_contexts != NewContexts::None
+    }
+
+    /// Returns the contexts of rules in the chain that a step writes.
+    #[inline]
+    pub fn new_contexts(&self) -> NewContexts {
+        self.new_contexts
     }
 
     /// Returns true if a rule rewrites several modules at once.
@@ -388,6 +486,10 @@ impl Grammar {
     /// Returns true if a few modules on the path before and after a module decide which rule applies to it: if rules
     /// rewrite single modules, their contexts name no branches and skip the same symbols, and chains are not rings.
     pub(crate) fn has_near_contexts(&self) -> bool {
-        !self.runs && !self.ring && self.ignored.len() == 1 && self.patterns.branch_count() == 0
+        !self.runs
+            && !self.ring
+            && self.new_contexts == NewContexts::None
+            && self.ignored.len() == 1
+            && self.patterns.branch_count() == 0
     }
 }

@@ -22,6 +22,11 @@ impl IgnoredSet {
         Self { contains: contains.into(), needs_left: false, needs_right: false }
     }
 
+    /// Creates a set without symbols, for left and right contexts.
+    pub(crate) fn none(count: usize) -> Self {
+        Self { needs_left: true, needs_right: true, ..Self::new(&[], count) }
+    }
+
     /// Returns true if contexts skip `symbol`.
     #[inline]
     pub(crate) fn contains(&self, symbol: Symbol) -> bool {

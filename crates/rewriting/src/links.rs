@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::chain::{CLOSE, Chain, END, OPEN, Symbol};
-use super::grammar::Grammar;
+use super::grammar::{Grammar, NewContexts};
 use super::ignored::IgnoredSet;
 use super::text::{PlainNumbers, ShowParameters};
 
@@ -20,6 +20,8 @@ pub struct Links {
     pub(crate) constants: Vec<f64>,
     /// Neighbours for each set of ignored symbols of the grammar.
     trees: Vec<TreeLinks>,
+    /// Neighbours without ignored symbols and rings, if rules have contexts in the new chain.
+    pub(crate) whole: TreeLinks,
     stack: Vec<u32>,
 }
 
@@ -73,6 +75,13 @@ impl Links {
         self.trees.resize_with(grammar.ignored_sets().len(), TreeLinks::default);
         for (tree, ignored) in self.trees.iter_mut().zip(grammar.ignored_sets()) {
             tree.build(chain, grammar, ignored, &mut self.stack);
+            if grammar.is_ring() {
+                tree.join_ends(chain, ignored);
+            }
+        }
+        if grammar.new_contexts() != NewContexts::None {
+            let none = IgnoredSet::none(grammar.arities().len());
+            self.whole.build(chain, grammar, &none, &mut self.stack);
         }
     }
 
@@ -112,9 +121,6 @@ impl TreeLinks {
                 self.find_branches(chain, ignored);
                 self.known.resize_with(named, OnceLock::new);
             }
-        }
-        if grammar.is_ring() {
-            self.join_ends(chain, ignored);
         }
     }
 

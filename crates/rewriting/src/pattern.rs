@@ -9,6 +9,10 @@ use super::symbols::Symbols;
 /// A predecessor with its contexts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pattern {
+    /// Left context in the chain that the step writes, as written: the last module is the nearest.
+    pub new_left: Vec<Item>,
+    /// Set if nothing may precede the new left context on the path to the axiom.
+    pub new_from_beginning: bool,
     /// Left context, as written: the last module is the nearest.
     pub left: Vec<Item>,
     /// Set if nothing may precede the left context on the path to the axiom.
@@ -19,6 +23,8 @@ pub struct Pattern {
     pub predecessors: Vec<Item>,
     /// Right context, as written.
     pub right: Vec<Context>,
+    /// Right context in the chain that the step writes, as written.
+    pub new_right: Vec<Context>,
     /// Names of all formal parameters, in the order in which they are written.
     pub formals: Vec<String>,
     /// Text of the pattern, with single spaces.
@@ -142,14 +148,24 @@ impl Pattern {
         !self.right.is_empty()
     }
 
+    /// Returns true if the pattern has a left context in the chain that the step writes: `A << B`.
+    pub fn has_new_left(&self) -> bool {
+        !self.new_left.is_empty() || self.new_from_beginning
+    }
+
+    /// Returns true if the pattern has a right context in the chain that the step writes: `A >> B`.
+    pub fn has_new_right(&self) -> bool {
+        !self.new_right.is_empty()
+    }
+
     /// Returns the number of parameters of the rewritten modules that are bound to names.
     pub fn own_bound(&self) -> usize {
         self.predecessors.iter().map(|item| item.bound).sum()
     }
 
-    /// Returns the number of parameters of the left context that are bound to names.
+    /// Returns the number of parameters of the left contexts that are bound to names.
     pub fn left_bound(&self) -> usize {
-        self.left.iter().map(|item| item.bound).sum()
+        self.new_left.iter().chain(&self.left).map(|item| item.bound).sum()
     }
 
     /// Returns the names of the arguments of a rule's functions, without `this`, each with its index. These are the
@@ -185,7 +201,7 @@ impl Pattern {
         arguments
     }
 
-    /// Returns the context modules in the order in which [`Bindings`](super::matching::Bindings) lists them.
+    /// Returns the context modules in the order in which the pattern names them.
     pub fn context_items(&self) -> Vec<Item> {
         fn flatten(contexts: &[Context], items: &mut Vec<Item>) {
             for context in contexts {
@@ -196,8 +212,9 @@ impl Pattern {
                 }
             }
         }
-        let mut items = self.left.clone();
+        let mut items: Vec<Item> = self.new_left.iter().chain(&self.left).cloned().collect();
         flatten(&self.right, &mut items);
+        flatten(&self.new_right, &mut items);
         items
     }
 }

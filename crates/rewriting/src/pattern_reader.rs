@@ -9,6 +9,13 @@ use burgeon_base::error::{Error, Result};
 /// Maximum number of characters of a pattern that an error shows before its position, and after it.
 const AROUND: usize = 100;
 
+/// Separators of a pattern, in their order. The predecessor stands between the second and the third.
+const SEPARATORS: [&str; 4] = ["<<", "<", ">", ">>"];
+
+/// Help for separators in another order.
+const ORDER: &str = "a pattern is: left context < predecessor > right context; contexts in the new chain stand outside \
+    of these: new left << left < predecessor > right >> new right";
+
 /// Help for `^` at another position than the beginning.
 const BEGINNING: &str = "^ is the beginning of the chain; write it first in a left context: ^ < A";
 /// Help for `$` at another position than the end.
@@ -71,17 +78,22 @@ impl<'a> PatternReader<'a> {
 
     fn pattern(mut self) -> Result<Pattern> {
         let mut parts: Vec<PatternSection> = vec![Vec::new()];
-        let mut separators: Vec<char> = Vec::new();
+        let mut separators: Vec<&str> = Vec::new();
         loop {
             match self.peek() {
                 None => break,
-                Some(separator @ ('<' | '>')) => {
-                    if separators.contains(&separator) || (separator == '<' && !separators.is_empty()) {
-                        return Err(
-                            self.error_here("a pattern is: left context < predecessor > right context")
-                        );
+                Some('<' | '>') => {
+                    let rest = &self.text[self.at..];
+                    // Two characters come first, because one is their beginning.
+                    let place =
+                        SEPARATORS.iter().position(|known| known.len() == 2 && rest.starts_with(known));
+                    let place = place.or_else(|| SEPARATORS.iter().position(|known| rest.starts_with(known)));
+                    let separator = SEPARATORS[place.unwrap_or_default()];
+                    let order = |known: &&str| SEPARATORS.iter().position(|other| other == known);
+                    if separators.last().and_then(order).is_some_and(|last| Some(last) >= place) {
+                        return Err(self.error_here(ORDER));
                     }
-                    self.at += 1;
+                    self.at += separator.len();
                     separators.push(separator);
                     parts.push(Vec::new());
                 }
@@ -94,24 +106,43 @@ impl<'a> PatternReader<'a> {
                 }
             }
         }
-        let mut parts = parts.into_iter();
-        let mut take = || parts.next().unwrap_or_default();
-        let left = if separators.contains(&'<') { take() } else { Vec::new() };
-        let middle = take();
-        let right = if separators.contains(&'>') { take() } else { Vec::new() };
-        for (separator, part) in [('<', &left), ('>', &right)] {
-            if separators.contains(&separator) && part.is_empty() {
+        let is_left = |separator: &&&str| separator.starts_with('<');
+        let middle_place = separators.iter().filter(is_left).count();
+        for (place, separator) in separators.iter().enumerate() {
+            let context = if place < middle_place { place } else { place + 1 };
+            if parts[context].is_empty() {
                 return Err(self.error(
                     &format!("the context next to {separator} is empty"),
                     "add a module, or remove the separator",
                 ));
             }
         }
+        let middle = std::mem::take(&mut parts[middle_place]);
+        let mut section = |separator: &str| {
+            let place = separators.iter().position(|known| *known == separator)?;
+            Some(std::mem::take(&mut parts[if place < middle_place { place } else { place + 1 }]))
+        };
+        let [new_left, left, right, new_right] =
+            SEPARATORS.map(|separator| section(separator).unwrap_or_default());
         let (symbol, predecessors) = self.predecessors(middle)?;
+        let (new_from_beginning, new_left) = self.left_context(new_left)?;
         let (from_beginning, left) = self.left_context(left)?;
         let right = self.right_context(right)?;
+        let new_right = self.right_context(new_right)?;
         let text = single_spaced(self.text);
-        Ok(Pattern { left, from_beginning, symbol, predecessors, right, formals: self.formals, text })
+        let formals = self.formals;
+        Ok(Pattern {
+            new_left,
+            new_from_beginning,
+            left,
+            from_beginning,
+            symbol,
+            predecessors,
+            right,
+            new_right,
+            formals,
+            text,
+        })
     }
 
     /// Returns the predecessor's modules and the symbol of the first.

@@ -1,5 +1,7 @@
 //! Several steps in a row, each of which costs as much as it changes.
 
+use std::cell::RefCell;
+
 use crate::batch::{Batch, ChainPiece};
 use crate::chain::{Chain, Mark, Symbol};
 use crate::links::Links;
@@ -112,8 +114,14 @@ impl Stepper {
         for number in series.first..=series.last {
             stop.check()?;
             let step = StepNumber::new(number);
-            let changes =
-                self.step_segments(rules, &step, &mut pieces, (&mut window, &mut links), series.ends_at)?;
+            let changes = self.step_segments(
+                rules,
+                stop,
+                &step,
+                &mut pieces,
+                (&mut window, &mut links),
+                series.ends_at,
+            )?;
             outcome.steps += 1;
             outcome.read += changes.read;
             outcome.reads_step = step.is_read();
@@ -146,6 +154,7 @@ impl Stepper {
     fn step_segments(
         &mut self,
         rules: &dyn Rules,
+        stop: &Stop,
         step: &StepNumber,
         pieces: &mut SegmentedChain,
         (window, links): (&mut ContextWindow, &mut Links),
@@ -175,7 +184,8 @@ impl Stepper {
                     }
                     false => &segment.chain,
                 };
-                let batch = Batch { rules, plan: &plan, chain, links, step };
+                let batch =
+                    Batch { rules, plan: &plan, chain, links, step, stop, new_chain: RefCell::default() };
                 let spare = self.outputs.pop().unwrap_or_default();
                 let output = batch.rewrite(piece, &mut self.scratch, spare)?;
                 pieces.segments[index].reach = reach;

@@ -1,11 +1,14 @@
 //! A derivation step: distributes pieces of the chain and merges the results in order.
 
+use std::cell::RefCell;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex};
 
 use crate::batch::{Batch, ChainPiece, Scratch};
 use crate::chain::{Chain, END, Mark};
+use crate::grammar::NewContexts;
 use crate::links::Links;
+use crate::new_contexts::pieces_at_ends;
 use crate::output::Output;
 use crate::plan::StepPlan;
 use crate::rules::Rules;
@@ -42,8 +45,15 @@ impl StepWork {
         if index >= self.pieces.len() || index > self.failed.load(Ordering::Relaxed) {
             return false;
         }
-        let batch =
-            Batch { rules, plan: &self.plan, chain: &self.chain, links: &self.links, step: &self.step };
+        let batch = Batch {
+            rules,
+            plan: &self.plan,
+            chain: &self.chain,
+            links: &self.links,
+            step: &self.step,
+            stop,
+            new_chain: RefCell::default(),
+        };
         let spare = self.spare.lock().recover().pop().unwrap_or_default();
         let result = stop.check().and_then(|()| batch.rewrite(self.pieces[index], scratch, spare));
         if result.is_err() {
@@ -173,9 +183,11 @@ impl Stepper {
     ) -> Result<StepOutcome> {
         let grammar = &self.plan.grammar;
         self.links.build_with(chain, grammar, rules.parameters());
+        let (batch, arities) = (self.plan.batch, grammar.arities());
         let pieces = match grammar.has_runs() {
-            true => pieces_at_brackets(chain, self.plan.batch, grammar.arities()),
-            false => pieces(chain, self.plan.batch),
+            true => pieces_at_brackets(chain, batch, arities),
+            false if grammar.new_contexts() != NewContexts::None => pieces_at_ends(chain, batch, arities),
+            false => pieces(chain, batch),
         };
         let count = pieces.len();
         let work = Arc::new(StepWork {

@@ -184,7 +184,8 @@ pub(crate) fn derive(
     });
     let rules = rules.collect();
     let ignored = find(&system.settings.ignored);
-    let grammar = Grammar::new(Arc::new(symbols.clone()), rules, &ignored, true).with_ring(system.settings.ring);
+    let grammar =
+        Grammar::new(Arc::new(symbols.clone()), rules, &ignored, true).with_ring(system.settings.ring);
     let arities = symbols.arities();
     let mut chain = Chain::default();
     write(axiom, &symbols, &mut |symbol, params| {

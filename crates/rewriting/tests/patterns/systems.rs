@@ -153,7 +153,7 @@ impl RandomSystem {
         let axiom = parts(dice, size, 0);
         let ring = dice.chance(0.25);
         // Rules that see the new chain go in one direction, and rewrite single modules.
-        let kind = dice.pick(&[RuleKind::Runs, RuleKind::Runs, RuleKind::Runs, RuleKind::Runs]);
+        let kind = dice.pick(&[RuleKind::Runs, RuleKind::Runs, RuleKind::NewLeft, RuleKind::NewRight]);
         let rules = (0..1 + dice.below(6)).map(|_| rule(dice, kind)).collect();
         Self { settings: PlainSettings { ignored, ring }, axiom, rules }
     }

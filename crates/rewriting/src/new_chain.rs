@@ -1,0 +1,429 @@
+//! The chain that a step writes, while it is incomplete: matching of contexts in it.
+
+use smallvec::SmallVec;
+
+use crate::batch::{ChainPiece, NO_RULE, Scratch, narrow};
+use crate::chain::{CLOSE, Chain, END, OPEN, Symbol};
+use crate::context::{CompiledPatterns, ContextElement};
+use crate::grammar::Grammar;
+use crate::ignored::IgnoredSet;
+use crate::links::{Links, NONE};
+use crate::successors::Successor;
+use crate::text::ShowParameters;
+
+/// Symbol of the new chain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct NewPlace {
+    /// Index of the symbol of the old chain that was rewritten.
+    old: u32,
+    /// Number of symbols of its successor before this one.
+    offset: u32,
+}
+
+/// Context modules in the new chain that a pattern matched, in the order in which the pattern names them.
+pub(crate) type NewBindings = SmallVec<[NewPlace; 8]>;
+
+/// Successor that has been written.
+#[derive(Debug, Clone, Copy)]
+struct WrittenSuccessor {
+    begin: usize,
+    end: usize,
+    first_param: usize,
+    last_param: usize,
+}
+
+/// Result of a search that begins at each symbol of the old chain.
+#[derive(Debug, Clone, Copy)]
+enum Search {
+    Unknown,
+    Found(Option<NewPlace>),
+}
+
+/// Results of the searches for the rules that ignore the same symbols.
+#[derive(Debug, Default)]
+struct Searches {
+    /// Last module, on the path to the axiom, of what has replaced the symbol or one before it.
+    lasts: Vec<Search>,
+    /// First symbol of what has replaced the symbol or one after it.
+    firsts: Vec<Search>,
+}
+
+/// Successors of a piece that have been written so far. The other symbols are as in the old chain.
+#[derive(Debug, Default)]
+pub(crate) struct NewChain {
+    /// Index of the first symbol of the piece in the old chain.
+    begin: usize,
+    /// Index among the active modules by symbol of the piece.
+    active: Vec<u32>,
+    /// Successors by active module; `None` if the module is unchanged or not yet rewritten.
+    successors: Vec<Option<WrittenSuccessor>>,
+    symbols: Vec<Symbol>,
+    params: Vec<f64>,
+    constants: Vec<f64>,
+    /// Searches by set of ignored symbols.
+    searches: Vec<Searches>,
+}
+
+impl NewChain {
+    /// Clears the chain for the piece of a chain with these active modules.
+    pub(crate) fn start(&mut self, piece: ChainPiece, scratch: &Scratch, links: &Links) {
+        let begin = piece.begin.module;
+        self.begin = begin;
+        self.active.clear();
+        self.active.resize(piece.end - begin, NONE);
+        for (index, active) in scratch.active.iter().enumerate() {
+            self.active[active.module as usize - begin] = narrow(index);
+        }
+        self.successors.clear();
+        self.successors.resize(scratch.active.len(), None);
+        self.symbols.clear();
+        self.params.clear();
+        self.constants.clone_from(&links.constants);
+        self.searches.clear();
+    }
+
+    /// Updates the values of patterns, because new modules can have texts that no module had before.
+    pub(crate) fn find_constants(&mut self, grammar: &Grammar, values: &dyn ShowParameters) {
+        if CompiledPatterns::has_absent(&self.constants) {
+            self.constants.clear();
+            self.constants.extend(grammar.patterns().stored_constants(values));
+        }
+    }
+
+    /// Adds the successors of all applications of a rule, and removes them from the `scratch`.
+    pub(crate) fn take_group(&mut self, rule: usize, scratch: &mut Scratch, arities: &[u8]) {
+        let group = &mut scratch.groups[rule];
+        group.rewind();
+        let members = std::mem::take(&mut group.members);
+        for member in &members {
+            let made = Successor::read(group.ends[group.next]);
+            group.next += 1;
+            let (begin, first_param) = (self.symbols.len(), self.params.len());
+            match made {
+                Successor::Keep => continue,
+                Successor::Shape(number) => {
+                    let shape = &group.shapes[number];
+                    self.symbols.extend_from_slice(&shape.symbols);
+                    self.params.extend_from_slice(&group.params[group.param_at..][..shape.params]);
+                    group.param_at += shape.params;
+                }
+                Successor::Ordered(end) => {
+                    group.arrange(end, arities, &mut scratch.arranged, &mut self.params);
+                    self.symbols.extend_from_slice(&scratch.arranged.symbols);
+                }
+                Successor::UpTo(end) => {
+                    let symbols = &group.symbols[group.symbol_at..end];
+                    let arity = |symbol: &Symbol| usize::from(arities[usize::from(*symbol)]);
+                    let params: usize = symbols.iter().map(arity).sum();
+                    self.symbols.extend_from_slice(symbols);
+                    self.params.extend_from_slice(&group.params[group.param_at..][..params]);
+                    group.symbol_at = end;
+                    group.param_at += params;
+                }
+            }
+            let (end, last_param) = (self.symbols.len(), self.params.len());
+            let successor = WrittenSuccessor { begin, end, first_param, last_param };
+            self.successors[*member as usize] = Some(successor);
+        }
+        group.members = members;
+        group.members.clear();
+    }
+
+    /// Fills the groups of `scratch` with the successors of all active modules, in their order.
+    pub(crate) fn fill_groups(&self, scratch: &mut Scratch) {
+        for group in &mut scratch.groups {
+            group.clear();
+            group.members.clear();
+        }
+        for (index, active) in scratch.active.iter().enumerate().filter(|(_, active)| active.rule != NO_RULE)
+        {
+            let group = &mut scratch.groups[usize::from(active.rule)];
+            group.members.push(narrow(index));
+            match &self.successors[index] {
+                None => group.keep(),
+                Some(successor) => {
+                    group.symbols.extend_from_slice(&self.symbols[successor.begin..successor.end]);
+                    group.params.extend_from_slice(&self.params[successor.first_param..successor.last_param]);
+                    group.end();
+                }
+            }
+        }
+    }
+
+    fn successor(&self, old: u32) -> Option<WrittenSuccessor> {
+        let active = self.active[old as usize - self.begin];
+        self.successors.get(active as usize).copied().flatten()
+    }
+}
+
+/// Matcher of the contexts of one rule in the new chain.
+pub(crate) struct NewMatcher<'a> {
+    pub new: &'a mut NewChain,
+    pub chain: &'a Chain,
+    pub links: &'a Links,
+    pub grammar: &'a Grammar,
+    pub rule: u16,
+}
+
+impl NewMatcher<'_> {
+    /// Returns true if the contexts match around the module at `index` of the old chain.
+    pub(crate) fn matches(&mut self, index: u32) -> bool {
+        let left = self.grammar.new_left_of(self.rule);
+        let right = self.grammar.new_right_of(self.rule);
+        (left.is_empty() || self.matches_left(left, index, None))
+            && (right.is_empty() || {
+                let first = self.first(index + 1);
+                self.matches_right(right, first, None)
+            })
+    }
+
+    /// Fills `bindings` for a rule that matches at the module at `index`.
+    pub(crate) fn bind(&mut self, index: u32, bindings: &mut NewBindings) {
+        bindings.clear();
+        let (left, right) = (self.grammar.new_left_of(self.rule), self.grammar.new_right_of(self.rule));
+        if !left.is_empty() {
+            self.matches_left(left, index, Some(bindings));
+            bindings.reverse();
+        }
+        if !right.is_empty() {
+            let first = self.first(index + 1);
+            self.matches_right(right, first, Some(bindings));
+        }
+    }
+
+    /// Returns the parameters from those of the module at `place` on.
+    pub(crate) fn params(&self, place: NewPlace) -> &[f64] {
+        let Some(successor) = self.new.successor(place.old) else {
+            return &self.chain.params[self.links.param[place.old as usize] as usize..];
+        };
+        let before = &self.new.symbols[successor.begin..][..place.offset as usize];
+        let arity = |symbol: &Symbol| usize::from(self.grammar.arities()[usize::from(*symbol)]);
+        let skipped: usize = before.iter().map(arity).sum();
+        &self.new.params[successor.first_param + skipped..successor.last_param]
+    }
+
+    fn ignored(&self) -> &IgnoredSet {
+        &self.grammar.ignored_sets()[self.grammar.ignored_set(self.rule)]
+    }
+
+    /// Returns the symbols that have replaced the symbol at `old`.
+    fn symbols(&self, old: u32) -> &[Symbol] {
+        match self.new.successor(old) {
+            Some(successor) => &self.new.symbols[successor.begin..successor.end],
+            None => std::slice::from_ref(&self.chain.symbols[old as usize]),
+        }
+    }
+
+    fn symbol(&self, place: NewPlace) -> Symbol {
+        self.symbols(place.old).get(place.offset as usize).copied().unwrap_or(END)
+    }
+
+    /// Returns true if the module at `place` matches an element that is a module.
+    fn passes(&self, element: ContextElement, place: NewPlace) -> bool {
+        let symbol = self.symbol(place);
+        match element {
+            ContextElement::Module(wanted) => wanted == symbol,
+            ContextElement::Test(number) => {
+                let test = self.grammar.patterns().test(number);
+                test.admits(symbol) && test.holds(self.params(place), &self.new.constants)
+            }
+            ContextElement::Branch(_) | ContextElement::End => false,
+        }
+    }
+
+    /// Returns true if `contexts`, the nearest first, match the path before the module at `index`.
+    fn matches_left(
+        &mut self,
+        contexts: &[ContextElement],
+        index: u32,
+        mut bindings: Option<&mut NewBindings>,
+    ) -> bool {
+        let mut nearest = self.last(self.links.whole.left[index as usize]);
+        for element in contexts {
+            let place = match (element, nearest) {
+                (ContextElement::End, _) => return nearest.is_none(),
+                (_, None) => return false,
+                (_, Some(place)) => place,
+            };
+            if !self.passes(*element, place) {
+                return false;
+            }
+            if let Some(bindings) = &mut bindings {
+                bindings.push(place);
+            }
+            nearest = self.before(place);
+        }
+        true
+    }
+
+    /// Returns the last module on the path from what has replaced the module at `old`, towards the axiom.
+    fn last(&mut self, old: u32) -> Option<NewPlace> {
+        let mut here = old;
+        let found = loop {
+            if here == NONE {
+                break None;
+            }
+            let place = here as usize - self.new.begin;
+            if let Search::Found(found) = self.searches().lasts[place] {
+                break found;
+            }
+            let length = self.symbols(here).len();
+            if let Some(found) = self.last_before(here, length) {
+                break Some(found);
+            }
+            here = self.links.whole.left[here as usize];
+        };
+        let end = here;
+        here = old;
+        while here != end {
+            let place = here as usize - self.new.begin;
+            self.searches().lasts[place] = Search::Found(found);
+            here = self.links.whole.left[here as usize];
+        }
+        if end != NONE {
+            let place = end as usize - self.new.begin;
+            self.searches().lasts[place] = Search::Found(found);
+        }
+        found
+    }
+
+    /// Returns the nearest module before `place` on the path to the axiom.
+    fn before(&mut self, place: NewPlace) -> Option<NewPlace> {
+        let found = self.last_before(place.old, place.offset as usize);
+        found.or_else(|| self.last(self.links.whole.left[place.old as usize]))
+    }
+
+    /// Returns the last module on the path among the first `length` symbols that have replaced the symbol at `old`.
+    fn last_before(&self, old: u32, length: usize) -> Option<NewPlace> {
+        let ignored = self.ignored();
+        let mut depth = 0_usize;
+        for (offset, symbol) in self.symbols(old)[..length].iter().enumerate().rev() {
+            match *symbol {
+                CLOSE => depth += 1,
+                OPEN => depth = depth.saturating_sub(1),
+                symbol if depth == 0 && symbol > END && !ignored.contains(symbol) => {
+                    return Some(NewPlace { old, offset: narrow(offset) });
+                }
+                _ => {}
+            }
+        }
+        None
+    }
+
+    /// Returns true if `contexts` match the new chain from the symbol at `here` on.
+    fn matches_right(
+        &mut self,
+        contexts: &[ContextElement],
+        mut here: Option<NewPlace>,
+        mut bindings: Option<&mut NewBindings>,
+    ) -> bool {
+        for element in contexts {
+            loop {
+                let symbol = here.map_or(END, |place| self.symbol(place));
+                let (Some(place), true) = (here, symbol != CLOSE && symbol != END) else {
+                    return *element == ContextElement::End;
+                };
+                match element {
+                    ContextElement::Branch(number) if symbol == OPEN => {
+                        let grammar = self.grammar;
+                        let inner = grammar.patterns().branch(*number);
+                        let first = self.after(place);
+                        let is_found = self.matches_right(inner, first, None);
+                        if is_found && let Some(bindings) = &mut bindings {
+                            self.matches_right(inner, first, Some(bindings));
+                        }
+                        here = self.after_branch(place);
+                        if is_found {
+                            break;
+                        }
+                    }
+                    _ if symbol == OPEN => here = self.after_branch(place),
+                    element => {
+                        if !self.passes(*element, place) {
+                            return false;
+                        }
+                        if let Some(bindings) = &mut bindings {
+                            bindings.push(place);
+                        }
+                        here = self.after(place);
+                        break;
+                    }
+                }
+            }
+        }
+        true
+    }
+
+    /// Returns the first symbol, except for ignored modules, of what has replaced the symbols from `old` on.
+    fn first(&mut self, old: u32) -> Option<NewPlace> {
+        let end = self.new.begin + self.new.active.len();
+        let mut here = old as usize;
+        let found = loop {
+            if here >= end {
+                break None;
+            }
+            let place = here - self.new.begin;
+            if let Search::Found(found) = self.searches().firsts[place] {
+                break found;
+            }
+            if let Some(found) = self.first_from(narrow(here), 0) {
+                break Some(found);
+            }
+            here += 1;
+        };
+        let (begin, last) = (old as usize - self.new.begin, here.min(end - 1) - self.new.begin);
+        if begin <= last {
+            self.searches().firsts[begin..=last].fill(Search::Found(found));
+        }
+        found
+    }
+
+    /// Returns the first symbol after the one at `place`, except for ignored modules.
+    fn after(&mut self, place: NewPlace) -> Option<NewPlace> {
+        self.first_from(place.old, place.offset as usize + 1).or_else(|| self.first(place.old + 1))
+    }
+
+    /// Returns the first symbol after the branch that begins at `place`, except for ignored modules.
+    fn after_branch(&mut self, place: NewPlace) -> Option<NewPlace> {
+        if self.new.successor(place.old).is_none() {
+            return self.first(self.links.whole.right[place.old as usize] + 1);
+        }
+        let mut depth = 0_usize;
+        let symbols = self.symbols(place.old);
+        let closing = symbols[place.offset as usize..].iter().position(|symbol| {
+            match *symbol {
+                OPEN => depth += 1,
+                CLOSE => depth -= 1,
+                _ => {}
+            }
+            depth == 0
+        });
+        let offset = closing.map_or(symbols.len(), |closing| place.offset as usize + closing);
+        self.after(NewPlace { old: place.old, offset: narrow(offset) })
+    }
+
+    /// Returns the first symbol, except for ignored modules, from `offset` on among those that have replaced the symbol at
+    /// `old`.
+    fn first_from(&self, old: u32, offset: usize) -> Option<NewPlace> {
+        let ignored = self.ignored();
+        let rest = self.symbols(old).get(offset..)?;
+        let found = rest.iter().position(|symbol| *symbol <= END || !ignored.contains(*symbol))?;
+        Some(NewPlace { old, offset: narrow(offset + found) })
+    }
+
+    /// Returns the results of earlier searches. Memory is allocated at the first call.
+    fn searches(&mut self) -> &mut Searches {
+        let set = self.grammar.ignored_set(self.rule);
+        let count = self.new.active.len();
+        let all = &mut self.new.searches;
+        if all.len() <= set {
+            all.resize_with(set + 1, Searches::default);
+        }
+        let searches = &mut all[set];
+        if searches.lasts.is_empty() {
+            searches.lasts.resize(count, Search::Unknown);
+            searches.firsts.resize(count, Search::Unknown);
+        }
+        searches
+    }
+}
