@@ -23,6 +23,7 @@ mod literature;
 mod meaning;
 mod modules_as_tables;
 mod naive;
+mod new_contexts;
 mod parameters;
 mod parts;
 mod passes;

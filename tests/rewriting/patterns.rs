@@ -1,5 +1,5 @@
-//! Patterns with several predecessors, values, wildcards and ends, and cuts: random systems in Lua, compared with a plain
-//! implementation, and known answers.
+//! Patterns with several predecessors, values, wildcards and ends, cuts, rings and contexts in the new chain: random systems in
+//! Lua, compared with a plain implementation, and known answers.
 
 use std::fmt::Write as _;
 
@@ -69,8 +69,9 @@ fn script(system: &RandomSystem, steps: usize) -> String {
         let parameters: String = (0..*count).map(|index| format!(", \"v{index}?\"")).collect();
         let _ = writeln!(script, "local {name} = module(\"{name}\"{parameters})");
     }
-    let _ = writeln!(script, "local s = lsystem()\ns:axiom({})", lua(&system.axiom));
-    for name in &system.ignored {
+    let _ = writeln!(script, "local s = lsystem({{ ring = {} }})", system.settings.ring);
+    let _ = writeln!(script, "s:axiom({})", lua(&system.axiom));
+    for name in &system.settings.ignored {
         let _ = writeln!(script, "s:ignore(\"{name}\")");
     }
     for rule in &system.rules {
@@ -82,7 +83,11 @@ fn script(system: &RandomSystem, steps: usize) -> String {
             let _ = write!(options, "weight = {weight}, ");
         }
         if let Some(least) = rule.least {
-            let _ = write!(options, "when = function(this{formals}) return 0{sum} >= {least} end");
+            let _ = write!(options, "when = function(this{formals}) return 0{sum} >= {least} end, ");
+        }
+        if let Some(ignored) = &rule.ignored {
+            let names: Vec<String> = ignored.iter().map(|name| format!("\"{name}\"")).collect();
+            let _ = write!(options, "ignore = {{ {} }}", names.join(", "));
         }
         let keeps = rule.keeps.map_or_else(String::new, |most| format!("if sum <= {most} then return end"));
         let made: Vec<String> = rule.successor.iter().map(module_of).collect();
@@ -106,7 +111,7 @@ fn random_systems_derive_the_same_chains_in_lua_and_plainly() {
         let (mut expected, mut steps) = (axiom.clone(), 0);
         while steps < 3 && plain::modules(&expected) < 200 {
             let cut = plain::cut_branches(&expected, "Cut");
-            expected = plain::step(&cut, &system.rules, &system.ignored);
+            expected = plain::step(&cut, &system.rules, &system.settings);
             steps += 1;
         }
         let (threads, batch) = (1 + seed as usize % 2, [1, 2, 7, 4096][seed as usize / 2 % 4]);

@@ -415,7 +415,7 @@ impl Grammar {
 
     /// Returns the number of the set of symbols that the contexts of rule number `rule` skip.
     #[inline]
-    pub(crate) fn ignored_set(&self, rule: u16) -> usize {
+    pub fn ignored_set(&self, rule: u16) -> usize {
         self.ignored_numbers[usize::from(rule)]
     }
 

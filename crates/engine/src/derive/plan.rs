@@ -172,7 +172,7 @@ impl Derivation {
         let grammar_of = |phase, group: Option<&str>| {
             system.grammar(&machine.library, session.draws_random(), phase, group)
         };
-        let grammar = grammar_of(RulePhase::Rewriting, None);
+        let grammar = grammar_of(RulePhase::Rewriting, None)?;
         let key = ModuleKey::seed(system.seed.unwrap_or(options.seed));
         let mut axiom = system.axiom(machine, key, grammar.draws_random())?;
         if let Some(chain) = traced.and_then(|traced| traced.chain) {
@@ -197,14 +197,16 @@ impl Derivation {
             })
         };
         let decomposes = system.has_rules_in(RulePhase::Decomposition);
-        let groups = group_names.into_iter().map(|name| RuleGroup {
-            steps: step_plan(grammar_of(RulePhase::Rewriting, Some(&name))),
-            decomposition: decomposes.then(|| step_plan(grammar_of(RulePhase::Decomposition, Some(&name)))),
-            name,
+        let decomposition_of = |group: Option<&str>| {
+            decomposes.then(|| grammar_of(RulePhase::Decomposition, group).map(step_plan)).transpose()
+        };
+        let groups = group_names.into_iter().map(|name| {
+            let steps = step_plan(grammar_of(RulePhase::Rewriting, Some(&name))?);
+            Ok(RuleGroup { steps, decomposition: decomposition_of(Some(&name))?, name })
         });
-        let groups = groups.collect();
-        let decomposition = decomposes.then(|| Decomposition {
-            steps: step_plan(grammar_of(RulePhase::Decomposition, None)),
+        let groups = groups.collect::<Result<Vec<RuleGroup>>>()?;
+        let decomposition = decomposition_of(None)?.map(|steps| Decomposition {
+            steps,
             max_depth: system.max_depth,
             asks: system.asks_in(RulePhase::Decomposition),
         });

@@ -99,7 +99,7 @@ impl Rewriter for SystemRewriter<'_> {
                 session.draws_random(),
                 RulePhase::Rewriting,
                 None,
-            ),
+            )?,
             values: Arc::clone(&session.values),
             place: system.place.clone(),
             has_object: system.object.is_some(),

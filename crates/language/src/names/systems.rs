@@ -35,6 +35,7 @@ pub static LSYSTEM: LazyLock<Name> = LazyLock::new(|| {
                     "nil",
                     "Environments that all chains share, one or a list: interpretations change them, and rules read them.",
                 ),
+                field("ring", "boolean?", "false", "Makes the first and the last module of a chain neighbours in contexts."),
                 field("variables", "any", "nil", "Variables that hooks and interpretations assign; see `variables`."),
             ],
         )],
@@ -130,6 +131,18 @@ pub static RULE: LazyLock<Name> = LazyLock::new(|| {
             "string?",
             "nil",
             "The group of a rule, which applies only while its group is chosen by derive or use_group.",
+        ),
+        field(
+            "ignore",
+            "(string | { string })?",
+            "nil",
+            "Modules that the contexts of this rule ignore, instead of those of the system; none with {}.",
+        ),
+        field(
+            "consider",
+            "(string | { string })?",
+            "nil",
+            "The only modules that the contexts of this rule consider, instead of those of the system.",
         ),
     ])
 });

@@ -13,7 +13,9 @@ use crate::machine::types::methods_key;
 use crate::results::DerivedSystem;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_kit::{Locate, Object};
-use burgeon_rewriting::{FIRST_SYMBOL, Grammar, Rule, Symbol, Symbols};
+use burgeon_rewriting::{Grammar, Rule};
+
+use super::ignored::IgnoredModules;
 use burgeon_scene::CityClass;
 use mlua::{Function, Table, Value as LuaValue};
 
@@ -48,8 +50,10 @@ pub(crate) struct SystemDeclaration {
     pub(crate) environments: Vec<Arc<dyn Object>>,
     /// Number of the table of variables, if the system has one.
     pub(crate) variables: Option<usize>,
-    pub(crate) ignored: Vec<Symbol>,
-    pub(crate) considered: Option<Vec<Symbol>>,
+    /// Modules that contexts skip.
+    pub(crate) ignored: IgnoredModules,
+    /// Set if the first and the last module of a chain are neighbours.
+    pub(crate) ring: bool,
     /// Record of each derivation.
     pub(crate) derivations: RefCell<Vec<DerivationRecord>>,
     /// Declarations since the last derivation, with their locations.
@@ -104,6 +108,8 @@ pub(crate) struct DeclaredRule {
     /// Group of rules that are candidates only while the group is used; `None` for rules that always are.
     pub(crate) group: Option<Arc<str>>,
     pub(crate) guard: Option<Function>,
+    /// Modules that the contexts of this rule skip, if they are not those of the system.
+    pub(crate) ignored: Option<IgnoredModules>,
     /// Source text of the guard, if it is known.
     pub(crate) guard_text: Option<String>,
     pub(crate) successor: Function,
@@ -196,17 +202,6 @@ impl SystemDeclaration {
         }
     }
 
-    /// Returns the symbols that contexts skip.
-    pub(super) fn skipped_symbols(&self, symbols: &Symbols) -> Vec<Symbol> {
-        match &self.considered {
-            Some(considered) => (FIRST_SYMBOL..)
-                .take(symbols.names().count())
-                .filter(|symbol| !considered.contains(symbol) || self.ignored.contains(symbol))
-                .collect(),
-            None => self.ignored.clone(),
-        }
-    }
-
     /// Returns the names of the groups of rules, in the order of declaration.
     pub(crate) fn groups(&self) -> Vec<Arc<str>> {
         let mut groups: Vec<Arc<str>> = Vec::new();
@@ -219,24 +214,29 @@ impl SystemDeclaration {
     }
 
     /// Returns the rules of a phase in the form that machines share. The numbers of rules are those of all phases. Rules of
-    /// groups other than `group` are no candidates.
+    /// groups other than `group` are no candidates. Fails if the candidates cannot be applied in one step.
     pub(crate) fn grammar(
         &self,
         library: &Library,
         random: bool,
         phase: RulePhase,
         group: Option<&str>,
-    ) -> Grammar {
+    ) -> Result<Grammar> {
         let symbols = Arc::new(library.symbols.borrow().clone());
-        let ignored = self.skipped_symbols(&symbols);
+        let ignored = self.ignored.among(&symbols);
         // Weights of interpretation rules draw from the keys of modules, too.
         let random = random || self.interpretations.iter().any(|known| known.rule.weight.is_some());
-        let rules = self.rules.iter().map(|declared| declared.rule.clone()).collect();
-        let grammar = Grammar::new(symbols, rules, &ignored, random);
-        grammar.with_candidates(|number| {
+        let with_ignored = |declared: &DeclaredRule| match &declared.ignored {
+            Some(ignored) => declared.rule.clone().ignoring(ignored.among(&symbols)),
+            None => declared.rule.clone(),
+        };
+        let rules = self.rules.iter().map(with_ignored).collect();
+        let grammar = Grammar::new(Arc::clone(&symbols), rules, &ignored, random).with_ring(self.ring);
+        let grammar = grammar.with_candidates(|number| {
             let declared = &self.rules[usize::from(number)];
             declared.phase == phase && (declared.group.is_none() || declared.group.as_deref() == group)
-        })
+        });
+        grammar.in_one_direction()
     }
 
     /// Prepares `machine` for deriving this system: creates the drivers and freezes reachable tables.

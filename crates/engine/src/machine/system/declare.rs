@@ -17,6 +17,7 @@ use burgeon_language::RULE;
 use burgeon_language::analysis::QueryCall;
 use burgeon_rewriting::{MOST_RULES, Pattern, Rule, Symbols};
 
+use super::ignored::{IgnoredModules, named_in_option};
 use super::strings::{compile_successor, parse_pattern, string_axiom};
 use super::{
     DeclaredAxiom, DeclaredInterpretation, DeclaredRule, RulePhase, SourceHandle, SystemDeclaration,
@@ -93,10 +94,15 @@ impl SystemDeclaration {
                 ));
             }
         };
-        let RuleOptions { weight, guard, group } = match options {
-            Some(options) => rule_options(&options).map_err(named)?,
+        let RuleOptions { weight, guard, group, ignored } = match options {
+            Some(options) => rule_options(library, lua, &options).map_err(named)?,
             None => RuleOptions::default(),
         };
+        let has_new_contexts = pattern.has_new_left() || pattern.has_new_right();
+        if has_new_contexts && phase == RulePhase::Decomposition {
+            let error = Error::script("a decomposition has no contexts in the new chain");
+            return Err(named(error.help("write < and > instead of << and >>, or declare it with system:rule")));
+        }
         let place = Machine::place(lua);
         let session = std::sync::Arc::clone(&library.machine()?.session);
         let (successor, mut asks) = match arguments.pop() {
@@ -133,7 +139,7 @@ impl SystemDeclaration {
         let begin = guard.as_ref().and_then(begin_of);
         let guard_text = begin.and_then(|(file, line)| session.guard_text(&file, line));
         let rule = Rule::new(pattern, weight, guard.is_some(), place);
-        self.rules.push(DeclaredRule { rule, phase, group, guard, guard_text, successor, asks });
+        self.rules.push(DeclaredRule { rule, phase, group, guard, ignored, guard_text, successor, asks });
         Ok(())
     }
 
@@ -160,8 +166,12 @@ impl SystemDeclaration {
                 error.help("interpret each module, and write the others as contexts: A < B > C"),
             ));
         }
-        let RuleOptions { weight, guard, group } = match (arguments.len(), arguments.get(1)) {
-            (3, Some(LuaValue::Table(options))) => rule_options(options).map_err(named)?,
+        if pattern.has_new_left() || pattern.has_new_right() {
+            let error = Error::script("an interpretation has no contexts in the new chain");
+            return Err(named(error.help("write < and > instead of << and >>: a pass changes no modules")));
+        }
+        let RuleOptions { weight, guard, group, ignored } = match (arguments.len(), arguments.get(1)) {
+            (3, Some(LuaValue::Table(options))) => rule_options(library, lua, options).map_err(named)?,
             (3, _) => {
                 let error = Error::argument("the options of an interpretation must be a table");
                 return Err(named(error.help("write { weight = 2 }")));
@@ -200,7 +210,7 @@ impl SystemDeclaration {
             return Err(Error::limit(Limit::Size, format!("a system has at most {limit} interpretations"))
                 .help("use parameters of modules instead of many interpretations"));
         }
-        self.interpretations.push(DeclaredInterpretation { rule, guard, function });
+        self.interpretations.push(DeclaredInterpretation { rule, guard, ignored, function });
         Ok(())
     }
 }
@@ -243,10 +253,11 @@ struct RuleOptions {
     weight: Option<f64>,
     guard: Option<Function>,
     group: Option<Arc<str>>,
+    ignored: Option<IgnoredModules>,
 }
 
-fn rule_options(options: &Table) -> Result<RuleOptions> {
-    let RuleOptions { mut weight, mut guard, mut group } = RuleOptions::default();
+fn rule_options(library: &Library, lua: &Lua, options: &Table) -> Result<RuleOptions> {
+    let RuleOptions { mut weight, mut guard, mut group, mut ignored } = RuleOptions::default();
     for pair in options.pairs::<LuaValue, LuaValue>() {
         let (key, value) = pair.map_err(|error| Error::internal(error.to_string()))?;
         let key = key.to_string().unwrap_or_default();
@@ -267,6 +278,14 @@ fn rule_options(options: &Table) -> Result<RuleOptions> {
                 return Err(Error::argument(format!("group must be a name, not a {}", other.type_name()))
                     .help("write { group = \"grow\" }, and derive(5, \"grow\")"));
             }
+            ("ignore", value) => {
+                ignored.get_or_insert_with(IgnoredModules::default).ignored =
+                    named_in_option(library, lua, &value)?;
+            }
+            ("consider", value) => {
+                ignored.get_or_insert_with(IgnoredModules::default).considered =
+                    Some(named_in_option(library, lua, &value)?);
+            }
             ("when", LuaValue::Function(function)) => guard = Some(function),
             ("when", other) => {
                 return Err(Error::argument(format!("when must be a function, not a {}", other.type_name()))
@@ -279,7 +298,7 @@ fn rule_options(options: &Table) -> Result<RuleOptions> {
             }
         }
     }
-    Ok(RuleOptions { weight, guard, group })
+    Ok(RuleOptions { weight, guard, group, ignored })
 }
 
 /// Refuses a function with more parameters than the pattern provides.

@@ -14,13 +14,12 @@ use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::{Object, Value};
 use burgeon_language::{LSYSTEM, SYSTEM};
-use burgeon_rewriting::Symbol;
 use burgeon_scene::CityClass;
 
 use super::SystemDeclaration;
 use super::declaration::{MAX_DEPTH, RulePhase};
 use super::hooks::HookMoment;
-use super::strings::word_symbols;
+use super::ignored::{IgnoredModules, named_symbols};
 use crate::machine::environments::environments_of;
 
 /// Script value for a system.
@@ -51,8 +50,8 @@ impl SystemHandle {
             hooks: Vec::new(),
             environments: Vec::new(),
             variables: None,
-            ignored: Vec::new(),
-            considered: None,
+            ignored: IgnoredModules::default(),
+            ring: false,
             derivations: RefCell::default(),
             late: RefCell::default(),
             axiom_is_new: Cell::new(false),
@@ -69,6 +68,11 @@ impl SystemHandle {
                 ("interpret", _) => {
                     return Err(Error::argument("lsystem: interpret must be \"last\"")
                         .help("omit it to interpret after every step"));
+                }
+                ("ring", LuaValue::Boolean(ring)) => system.ring = ring,
+                ("ring", _) => {
+                    return Err(Error::argument("lsystem: ring must be true or false")
+                        .help("with ring = true, the first and the last module of a chain are neighbours"));
                 }
                 ("environment", value) => system.environments = environments_of(&value)?,
                 ("variables", value) => {
@@ -234,7 +238,7 @@ impl UserData for SystemHandle {
             let library = Rc::clone(&this.library);
             this.declare(lua, "ignore", |system| {
                 let symbols = named_symbols(&library, lua, &names)?;
-                system.ignored.extend(symbols);
+                system.ignored.ignored.extend(symbols);
                 Ok(())
             })?;
             Ok(this.again())
@@ -243,7 +247,7 @@ impl UserData for SystemHandle {
             let library = Rc::clone(&this.library);
             this.declare(lua, "consider", |system| {
                 let symbols = named_symbols(&library, lua, &names)?;
-                system.considered.get_or_insert_default().extend(symbols);
+                system.ignored.considered.get_or_insert_default().extend(symbols);
                 Ok(())
             })?;
             Ok(this.again())
@@ -314,24 +318,4 @@ impl SystemHandle {
     fn again(&self) -> Self {
         Self { library: Rc::clone(&self.library), index: self.index }
     }
-}
-
-fn named_symbols(library: &Library, lua: &Lua, names: &MultiValue) -> Result<Vec<Symbol>> {
-    let symbols = library.symbols.borrow();
-    let scope = library.scope_at(lua);
-    let mut found = Vec::new();
-    for name in names {
-        match name {
-            LuaValue::String(text) => {
-                for name in text.to_string_lossy().split_whitespace() {
-                    found.extend(word_symbols(name, &symbols, &scope)?);
-                }
-            }
-            _ => {
-                return Err(Error::argument("the arguments of ignore and consider must be names of modules")
-                    .help("write ignore(\"Turn\")"));
-            }
-        }
-    }
-    Ok(found)
 }

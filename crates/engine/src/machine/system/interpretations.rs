@@ -11,12 +11,16 @@ use crate::machine::types::ScriptTypeEntry;
 use burgeon_base::error::SourcePlace;
 use burgeon_kit::{Object, ScriptType, Value};
 use burgeon_rewriting::{CLOSE, END, Grammar, OPEN, PatternValue, Rule, Symbol};
+
+use super::ignored::IgnoredModules;
 use mlua::{Function, Table, Value as LuaValue};
 
 /// Interpretation rule as a script declares it.
 pub(crate) struct DeclaredInterpretation {
     pub(crate) rule: Rule,
     pub(crate) guard: Option<Function>,
+    /// Modules that the contexts of this rule skip, if they are not those of the system.
+    pub(crate) ignored: Option<IgnoredModules>,
     pub(crate) function: Function,
 }
 
@@ -90,9 +94,14 @@ impl SystemDeclaration {
         let rules = || self.interpretations.iter().map(|known| &known.rule);
         if rules().any(Rule::has_contexts) {
             let symbols = Arc::new(library.symbols.borrow().clone());
-            let ignored = self.skipped_symbols(&symbols);
-            found.grammar =
-                Some(Arc::new(Grammar::new(symbols, rules().cloned().collect(), &ignored, false)));
+            let with_ignored = |known: &DeclaredInterpretation| match &known.ignored {
+                Some(ignored) => known.rule.clone().ignoring(ignored.among(&symbols)),
+                None => known.rule.clone(),
+            };
+            let rules = self.interpretations.iter().map(with_ignored).collect();
+            let ignored = self.ignored.among(&symbols);
+            let grammar = Grammar::new(Arc::clone(&symbols), rules, &ignored, false).with_ring(self.ring);
+            found.grammar = Some(Arc::new(grammar));
         }
         found
     }

@@ -8,6 +8,7 @@ mod declaration;
 mod declare;
 mod handle;
 mod hooks;
+mod ignored;
 mod interpretations;
 mod lazy;
 mod module_string;

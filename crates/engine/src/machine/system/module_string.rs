@@ -404,6 +404,8 @@ impl<'a> StringReader<'a> {
                 '\n' => items.push(StringItem::Break),
                 '<' | '>' => {
                     self.is_right = letter == '>';
+                    // << and >> are separators of patterns, too.
+                    self.at += usize::from(self.is_pattern && self.text[self.at..].starts_with(letter));
                     items.push(StringItem::Separator(&self.text[begin..self.at]));
                 }
                 letter if self.is_pattern && self.is_separator(letter, items.is_empty()) => {

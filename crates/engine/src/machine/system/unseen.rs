@@ -74,10 +74,16 @@ impl SystemDeclaration {
             let warn =
                 |warning: Warning| machine.warn(warning.at(rule.place.clone()).rule(&rule.pattern.text));
             let earlier = sure.forestalls(rule, &around, guard);
-            if let Some(symbol) = rule.contexts().iter().find_map(|item| skipped_symbol(grammar, item)) {
+            if let Some(symbol) = rule.contexts().iter().find_map(|item| skipped_symbol(grammar, number(index), item)) {
                 let name = grammar.symbols().display_name(symbol);
-                let (text, help) = match self.considered {
-                    Some(_) if !self.ignored.contains(&symbol) => (
+                let own = self.rules[index].ignored.as_ref();
+                let ignored = own.unwrap_or(&self.ignored);
+                let (text, help) = match ignored.considered {
+                    _ if own.is_some() => (
+                        format!("{name} is ignored by this rule, so this context never occurs"),
+                        "change the options ignore and consider of the rule, or its context".to_owned(),
+                    ),
+                    Some(_) if !ignored.ignored.contains(&symbol) => (
                         format!("{name} is not among the modules to consider, so this context never occurs"),
                         format!("add it: system:consider(\"{name}\")"),
                     ),
@@ -174,8 +180,8 @@ impl SystemDeclaration {
         // Without interpretations, an object draws only modules of the standard library, if it draws any.
         let draws = !self.interpretations.is_empty() || standard.iter().any(is_a);
         let is_used = !draws
-            || self.ignored.contains(&symbol)
-            || self.considered.as_ref().is_some_and(|considered| considered.contains(&symbol))
+            || self.ignored.names(symbol)
+            || self.rules.iter().filter_map(|rule| rule.ignored.as_ref()).any(|own| own.names(symbol))
             || self.rules.iter().any(|declared| names(&declared.rule.pattern, symbol))
             || self.interpretations.iter().any(|declared| names(&declared.rule.pattern, symbol));
         if is_used {
@@ -197,8 +203,15 @@ impl SystemDeclaration {
     }
 }
 
-/// Predecessor, left and right context, without parameter names.
-type PatternElements = [Vec<ContextElement>; 3];
+/// Predecessor and contexts, without parameter names.
+#[derive(Clone, Default, PartialEq, Eq, Hash)]
+struct PatternElements {
+    predecessors: Vec<ContextElement>,
+    /// Left and right context in the old chain, and in the new chain.
+    contexts: [Vec<ContextElement>; 4],
+    /// Number of the set of modules that the contexts skip.
+    ignored: usize,
+}
 
 /// Number of the first rule with an equivalent guard; `None` without a guard.
 type GuardClass = Option<usize>;
@@ -269,7 +282,8 @@ impl<'a> CandidateRules<'a> {
     /// Returns an earlier rule that always takes precedence over `rule`: without contexts or with equal
     /// contexts, and without a guard; or with equal contexts and an equivalent `guard`.
     fn forestalls(&self, rule: &Rule, around: &PatternElements, guard: GuardClass) -> Option<&'a Rule> {
-        let anywhere = [vec![ContextElement::Module(rule.pattern.symbol)], Vec::new(), Vec::new()];
+        let mut anywhere = PatternElements::default();
+        anywhere.predecessors.push(ContextElement::Module(rule.pattern.symbol));
         let places = if rule.weight.is_some() { BEFORE_ALL..=BEFORE_ALL } else { BEFORE_ALL..=WEIGHTED };
         let of = |around: &PatternElements, guard: GuardClass| {
             self.rules.get(&(around.clone(), guard))?[places.clone()].iter().flatten().next().copied()
@@ -294,14 +308,29 @@ impl<'a> CandidateRules<'a> {
 
 /// Returns the elements of the pattern of rule `index`.
 fn around(grammar: &Grammar, index: usize) -> PatternElements {
-    let number = u16::try_from(index).unwrap_or(u16::MAX);
-    [grammar.predecessors_of(number), grammar.left_of(number), grammar.right_of(number)].map(<[_]>::to_vec)
+    let rule = number(index);
+    let contexts = [
+        grammar.left_of(rule),
+        grammar.right_of(rule),
+        grammar.new_left_of(rule),
+        grammar.new_right_of(rule),
+    ];
+    let has_contexts = contexts.iter().any(|context| !context.is_empty());
+    PatternElements {
+        predecessors: grammar.predecessors_of(rule).to_vec(),
+        contexts: contexts.map(<[_]>::to_vec),
+        ignored: if has_contexts { grammar.ignored_set(rule) } else { 0 },
+    }
 }
 
-/// Returns a symbol of a context module if contexts skip all that it matches.
-fn skipped_symbol(grammar: &Grammar, item: &Item) -> Option<Symbol> {
+fn number(index: usize) -> u16 {
+    u16::try_from(index).unwrap_or(u16::MAX)
+}
+
+/// Returns a symbol of a context module if the contexts of a rule skip all that it matches.
+fn skipped_symbol(grammar: &Grammar, rule: u16, item: &Item) -> Option<Symbol> {
     let symbols = item.symbols.listed()?;
-    symbols.first().copied().filter(|_| symbols.iter().all(|symbol| grammar.is_skipped(*symbol)))
+    symbols.first().copied().filter(|_| symbols.iter().all(|symbol| grammar.is_ignored(rule, *symbol)))
 }
 
 /// Returns true if a rule applies only where a module with this symbol is.
