@@ -19,7 +19,8 @@ fn a_left_context_in_the_new_chain_carries_a_value_along_the_whole_chain_in_one_
     // The old neighbour is B, the new one A.
     let both = "s:rule('A << B < B', [[ return C() ]]) s:rule('A << B', [[ return A() ]])";
     assert_eq!(after("A(), B(), B(), B()", both), "A A C B");
-    let erased = "s:rule('C', [[ return nil ]]) s:rule('N(a) << N(b)', function(this, a, b) return N(a + b) end)";
+    let erased =
+        "s:rule('C', [[ return nil ]]) s:rule('N(a) << N(b)', function(this, a, b) return N(a + b) end)";
     assert_eq!(after("N(1), C(), C(), N(2)", erased), "N(1) N(3)");
     let inside = "s:rule('C', [[ return A(), { B() }, X() ]]) s:rule('A << N(b)', [[ return B() ]])";
     assert_eq!(after("C(), N(1)", inside), "A [ B ] X B");
@@ -94,14 +95,23 @@ fn new_contexts_that_no_step_can_match_are_refused() {
         ))
     };
     let both = told("s:rule('A << B', [[ return A() ]]) s:rule('A >> B', [[ return A() ]])");
-    assert!(both.contains("\"A << B\" sees the new chain before it, and \"A >> B\" the new chain after it"), "{both}");
+    assert!(
+        both.contains("\"A << B\" sees the new chain before it, and \"A >> B\" the new chain after it"),
+        "{both}"
+    );
     assert!(both.contains("main.lua:2") && both.contains("group"), "{both}");
     let one = told("s:rule('A << B >> A', [[ return A() ]])");
     assert!(one.contains("the rule \"A << B >> A\""), "{one}");
     let run = told("s:rule('A << B', [[ return A() ]]) s:rule('A B', [[ return A() ]])");
     assert!(run.contains("several modules at once"), "{run}");
-    assert!(told("s:decompose('A << B', [[ return A() ]])").contains("a decomposition has no contexts in the new"));
-    assert!(told("s:interpret('A << B', function() end)").contains("an interpretation has no contexts in the new"));
+    assert!(
+        told("s:decompose('A << B', [[ return A() ]])")
+            .contains("a decomposition has no contexts in the new")
+    );
+    assert!(
+        told("s:interpret('A << B', function() end)")
+            .contains("an interpretation has no contexts in the new")
+    );
     assert!(told("s:rule('A < A << B', [[ return A() ]])").contains("new left << left < predecessor"));
     assert!(told("s:rule('A >> B > A', [[ return A() ]])").contains("new left << left < predecessor"));
     assert!(told("s:rule('A << B <', [[ return A() ]])").contains("malformed pattern"));
@@ -118,7 +128,10 @@ fn errors_of_rules_with_new_contexts_name_the_module_and_the_line() {
          end)
          s:derive(1)",
     );
-    assert!(told.contains("too much") && told.contains("main.lua:3") && told.contains("N(3), step 1"), "{told}");
+    assert!(
+        told.contains("too much") && told.contains("main.lua:3") && told.contains("N(3), step 1"),
+        "{told}"
+    );
 }
 
 #[test]
@@ -174,7 +187,8 @@ fn a_rule_can_ignore_other_modules_than_the_system() {
     assert_eq!(after("A(), C(), W(1), B()", &rule("consider = { 'A', 'W' }")), "A C W(1) B");
     let others = format!("{} s:rule('A < C', [[ return N(2) ]])", rule("ignore = 'C'"));
     assert_eq!(after("A(), X(), C(), B()", &others), "A X N(2) B");
-    let told = error("local A = module('A') local s = lsystem() s:axiom(A()) s:rule('A', { ignore = 1 }, 'A')");
+    let told =
+        error("local A = module('A') local s = lsystem() s:axiom(A()) s:rule('A', { ignore = 1 }, 'A')");
     assert!(told.contains("ignore and consider take names of modules"), "{told}");
     let run = run("local A, B = module('A'), module('B') local s = lsystem() s:axiom(A(), B())
         s:rule('A < B', { ignore = 'A' }, [[ return A() ]]) s:derive(1)");

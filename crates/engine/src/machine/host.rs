@@ -3,10 +3,11 @@
 use std::rc::Rc;
 use std::sync::Arc;
 
-use mlua::{Buffer, Lua, LuaString, MultiValue, Table, Value as LuaValue, Variadic};
+use mlua::{Buffer, Lua, MultiValue, Table, Value as LuaValue, Variadic};
 
 use super::current::WorkState;
 use super::native;
+use super::table_classes::vector_of;
 use crate::machine::convert::{to_argument, to_lua, to_value};
 use crate::machine::library::Library;
 use crate::machine::types::{ObjectHandle, claim};
@@ -29,8 +30,8 @@ const TOP: u8 = 0;
 /// Slot of a child object, method number, application, and arguments.
 type HostCall = (Option<usize>, usize, usize, MultiValue);
 
-/// Method number, method name, object, application whose guard makes the call (if any), and arguments.
-type ObjectCall = (usize, LuaString, LuaValue, Option<usize>, MultiValue);
+/// Object, application whose guard makes the call (if any), and arguments.
+type ObjectCall = (LuaValue, Option<usize>, MultiValue);
 
 pub(crate) fn functions(lua: &Lua, current: &Rc<WorkState>, library: &Rc<Library>) -> mlua::Result<Table> {
     let host = lua.create_table()?;
@@ -255,7 +256,7 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Li
     host.set(
         "call",
         lua.create_function(move |lua, (slot, method, application, arguments): HostCall| {
-            let arguments = values(&arguments)?;
+            let arguments = values(lua, &arguments)?;
             let answer = state
                 .call(slot, method, application, &arguments, || super::Machine::place(lua))
                 .map_err(mlua::Error::external)?;
@@ -265,75 +266,100 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Li
     let owner = Rc::clone(library);
     let state = Rc::clone(current);
     host.set(
-        "call_object",
-        lua.create_function(move |lua, (number, name, object, guard, arguments): ObjectCall| {
-            let name = name.to_str()?;
-            let (_, method) = name.split_once(':').unwrap_or(("", &name));
-            let LuaValue::UserData(data) = &object else {
-                return Err(mlua::Error::external(
-                    Error::argument(format!("{name} needs its object"))
-                        .help(format!("call it with a colon: object:{method}()")),
-                ));
-            };
-            let handle = data.borrow::<ObjectHandle>()?;
-            // A type that inherits from another type numbers its methods differently.
-            let kind = handle.0.kind();
-            let known = kind.methods.get(number).filter(|known| *known.name == *method);
-            let Some(method) = known.or_else(|| kind.method(method)) else {
-                return Err(mlua::Error::external(handle.0.kind().unknown_method(method)));
-            };
-            let environments = state.environments.borrow().clone();
-            let environment = environments.as_ref().and_then(|all| {
-                let systems = owner.systems.try_borrow().ok()?;
-                all.state_of(&systems.get(state.system.get()?)?.environments, &handle.0)
-            });
-            match &method.call {
-                Call::Read(read) => {
-                    let given = values(&arguments)?;
-                    take_deferred();
-                    let answer = match environment {
-                        Some(environment) => read(&**environment.read().recover(), &given),
-                        None => read(&*handle.0, &given),
-                    };
-                    let answer = answer.map_err(mlua::Error::external)?;
-                    let machine = owner.machine().map_err(mlua::Error::external)?;
-                    take_deferred().into_iter().for_each(|warning| machine.warn(warning));
-                    let place = guard.and_then(|guard| state.noted_place(guard));
-                    if let Some(place) =
-                        place.filter(|_| handle.0.kind().has_capability::<dyn ObjectContent>())
-                    {
-                        let given: Vec<String> = given.iter().map(Value::to_string).collect();
-                        let this = Value::Object(Arc::clone(&handle.0));
-                        let text = format!("{this}:{}({}): {answer}", method.name, given.join(", "));
-                        state.session.rows.note_answer(place, text);
-                    }
-                    // The complete result stays alive, so a collection would free nothing of it.
-                    let is_long = matches!(&answer, Value::Table(table) if table.entries.len() > LONG);
-                    let pauses = is_long && lua.gc_is_running();
-                    if pauses {
-                        lua.gc_stop();
-                    }
-                    let made = to_lua(lua, &answer, false);
-                    if pauses {
-                        lua.gc_restart();
-                    }
-                    made
-                }
-                Call::Write { values: write, .. } if handle.0.kind().has_capability::<dyn Environment>() => {
-                    let Some(environment) = environment else {
-                        return Err(mlua::Error::external(no_environment(&name)));
-                    };
-                    let given = values(&arguments)?;
-                    let answer = write(&mut **environment.write().recover(), &given);
-                    to_lua(lua, &answer.map_err(mlua::Error::external)?, false)
-                }
-                Call::Write { .. } | Call::Script { .. } => Err(mlua::Error::external(Error::scope(
-                    format!("{name} is a write method, so only interpretation rules can call it"),
-                ))),
-            }
+        "object_method",
+        lua.create_function(move |lua, (number, name): (usize, String)| {
+            let method = ObjectMethod { number, name, state: Rc::clone(&state), library: Rc::clone(&owner) };
+            lua.create_function(move |lua, (object, guard, arguments): ObjectCall| {
+                method.call(lua, &object, guard, &arguments)
+            })
         })?,
     )?;
     Ok(())
+}
+
+/// Method of an object that is not the drawn one.
+struct ObjectMethod {
+    /// Number among the methods of its type.
+    number: usize,
+    /// Name of the type and of the method.
+    name: String,
+    state: Rc<WorkState>,
+    library: Rc<Library>,
+}
+
+impl ObjectMethod {
+    /// Calls the method with `arguments`. `guard` is the application whose guard calls it, if one does.
+    fn call(
+        &self,
+        lua: &Lua,
+        object: &LuaValue,
+        guard: Option<usize>,
+        arguments: &MultiValue,
+    ) -> mlua::Result<LuaValue> {
+        let (_, own_name) = self.name.split_once(':').unwrap_or(("", &self.name));
+        let LuaValue::UserData(data) = object else {
+            return Err(mlua::Error::external(
+                Error::argument(format!("{} needs its object", self.name))
+                    .help(format!("call it with a colon: object:{own_name}()")),
+            ));
+        };
+        let handle = data.borrow::<ObjectHandle>()?;
+        // A type that inherits from another type numbers its methods differently.
+        let kind = handle.0.kind();
+        let known = kind.methods.get(self.number).filter(|known| *known.name == *own_name);
+        let Some(method) = known.or_else(|| kind.method(own_name)) else {
+            return Err(mlua::Error::external(kind.unknown_method(own_name)));
+        };
+        let environments = self.state.environments.borrow();
+        let environment = environments.as_ref().and_then(|all| {
+            let systems = self.library.systems.try_borrow().ok()?;
+            all.state_of(&systems.get(self.state.system.get()?)?.environments, &handle.0)
+        });
+        match &method.call {
+            Call::Read(read) => {
+                let given = values(lua, arguments)?;
+                take_deferred();
+                let answer = match environment {
+                    Some(environment) => read(&**environment.read().recover(), &given),
+                    None => read(&*handle.0, &given),
+                };
+                let answer = answer.map_err(mlua::Error::external)?;
+                for warning in take_deferred() {
+                    self.library.machine().map_err(mlua::Error::external)?.warn(warning);
+                }
+                let place = guard.and_then(|guard| self.state.noted_place(guard));
+                if let Some(place) = place.filter(|_| kind.has_capability::<dyn ObjectContent>()) {
+                    let given: Vec<String> = given.iter().map(Value::to_string).collect();
+                    let this = Value::Object(Arc::clone(&handle.0));
+                    let text = format!("{this}:{}({}): {answer}", method.name, given.join(", "));
+                    self.state.session.rows.note_answer(place, text);
+                }
+                // The complete result stays alive, so a collection would free nothing of it.
+                let is_long = matches!(&answer, Value::Table(table) if table.entries.len() > LONG);
+                let pauses = is_long && lua.gc_is_running();
+                if pauses {
+                    lua.gc_stop();
+                }
+                let made = to_lua(lua, &answer, false);
+                if pauses {
+                    lua.gc_restart();
+                }
+                made
+            }
+            Call::Write { values: write, .. } if kind.has_capability::<dyn Environment>() => {
+                let Some(environment) = environment else {
+                    return Err(mlua::Error::external(no_environment(&self.name)));
+                };
+                let given = values(lua, arguments)?;
+                let answer = write(&mut **environment.write().recover(), &given);
+                to_lua(lua, &answer.map_err(mlua::Error::external)?, false)
+            }
+            Call::Write { .. } | Call::Script { .. } => Err(mlua::Error::external(Error::scope(format!(
+                "{} is a write method, so only interpretation rules can call it",
+                self.name
+            )))),
+        }
+    }
 }
 
 /// Returns the error for a change of an environment that the system does not have.
@@ -449,6 +475,13 @@ fn to_table(lua: &Lua, kept: &burgeon_kit::Table) -> mlua::Result<Table> {
     Ok(table)
 }
 
-fn values(arguments: &MultiValue) -> mlua::Result<Vec<Value>> {
-    arguments.iter().map(|value| to_argument(value).map_err(mlua::Error::external)).collect()
+fn values(lua: &Lua, arguments: &MultiValue) -> mlua::Result<Vec<Value>> {
+    let value = |value: &LuaValue| match value {
+        LuaValue::Table(table) => match vector_of(lua, table) {
+            Some(vector) => Ok(vector),
+            None => to_argument(value),
+        },
+        value => to_argument(value),
+    };
+    arguments.iter().map(|given| value(given).map_err(mlua::Error::external)).collect()
 }

@@ -1,15 +1,25 @@
 //! Table classes of the standard library, such as vectors: their tables keep their operators as parameters.
 
-use mlua::{Function, Lua, MultiValue, Table as LuaTable};
+use mlua::{Function, Lua, LuaString, MultiValue, Table as LuaTable, Value as LuaValue};
 use rustc_hash::FxHashMap;
 
-use burgeon_kit::{Table, TableKey};
+use burgeon_kit::{Parameter, Table, TableKey, Value, Vector};
 
 use super::convert::to_lua;
 
 /// Table classes of a virtual machine, by name.
 #[derive(Default)]
-struct TableClasses(FxHashMap<String, TableClass>);
+struct TableClasses {
+    by_name: FxHashMap<String, TableClass>,
+    vectors: Option<VectorClass>,
+}
+
+/// Class of vectors, which many calls have as arguments.
+struct VectorClass {
+    /// Address of the metatable, which the class keeps alive.
+    metatable: usize,
+    fields: [LuaString; 3],
+}
 
 struct TableClass {
     metatable: LuaTable,
@@ -30,7 +40,11 @@ pub(super) fn declare_class(
 ) -> mlua::Result<()> {
     metatable.raw_set("__class", name.as_str())?;
     let mut classes = lua.remove_app_data::<TableClasses>().unwrap_or_default();
-    classes.0.insert(name, TableClass { metatable, make, fields });
+    if let ("vec", [x, y, z]) = (name.as_str(), fields.as_slice()) {
+        let fields = [lua.create_string(x)?, lua.create_string(y)?, lua.create_string(z)?];
+        classes.vectors = Some(VectorClass { metatable: metatable.to_pointer() as usize, fields });
+    }
+    classes.by_name.insert(name, TableClass { metatable, make, fields });
     lua.set_app_data(classes);
     Ok(())
 }
@@ -39,7 +53,7 @@ pub(super) fn declare_class(
 pub(super) fn made_of_class(lua: &Lua, table: &Table, freeze: bool) -> mlua::Result<Option<LuaTable>> {
     let Some(class) = &table.class else { return Ok(None) };
     let Some(make) = lua.app_data_ref::<TableClasses>().and_then(|classes| {
-        let class = classes.0.get(&**class)?;
+        let class = classes.by_name.get(&**class)?;
         let names = table.entries.iter().map(|(key, _)| match key {
             TableKey::Name(name) => Some(&**name),
             TableKey::Index(_) => None,
@@ -52,7 +66,21 @@ pub(super) fn made_of_class(lua: &Lua, table: &Table, freeze: bool) -> mlua::Res
     make.call(values.collect::<mlua::Result<MultiValue>>()?).map(Some)
 }
 
+/// Returns the value of a table that is a vector of numbers.
+pub(super) fn vector_of(lua: &Lua, table: &LuaTable) -> Option<Value> {
+    let metatable = table.metatable()?.to_pointer() as usize;
+    let classes = lua.app_data_ref::<TableClasses>()?;
+    let vectors = classes.vectors.as_ref().filter(|known| known.metatable == metatable)?;
+    let part = |place: usize| match table.raw_get(&vectors.fields[place]) {
+        Ok(LuaValue::Number(part)) => Some(part),
+        #[allow(clippy::cast_precision_loss, reason = "Luau's own numbers are f64")]
+        Ok(LuaValue::Integer(part)) => Some(part as f64),
+        _ => None,
+    };
+    Some(Vector::from([part(0)?, part(1)?, part(2)?]).into_value())
+}
+
 /// Returns the metatable of a class.
 pub(super) fn metatable_of(lua: &Lua, class: &str) -> Option<LuaTable> {
-    lua.app_data_ref::<TableClasses>()?.0.get(class).map(|class| class.metatable.clone())
+    lua.app_data_ref::<TableClasses>()?.by_name.get(class).map(|class| class.metatable.clone())
 }

@@ -1,6 +1,6 @@
 //! Vectors and scales as types of fields and arguments.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use glam::DVec3;
 
@@ -13,6 +13,36 @@ pub struct Vector(pub DVec3);
 /// A scale for each axis, or one scale for all axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisScale(pub DVec3);
+
+/// Names in the tables of all vectors.
+struct VectorNames {
+    class: Arc<str>,
+    parts: [Arc<str>; 3],
+}
+
+static NAMES: LazyLock<VectorNames> =
+    LazyLock::new(|| VectorNames { class: "vec".into(), parts: ["x", "y", "z"].map(Into::into) });
+
+/// Returns the vector of a table that [`Vector::into_value`] has made, if its numbers are finite.
+fn finite_vector(table: &Table) -> Option<DVec3> {
+    let VectorNames { class, parts } = &*NAMES;
+    if !table.class.as_ref().is_some_and(|known| Arc::ptr_eq(known, class)) {
+        return None;
+    }
+    let [x, y, z] = table.entries.as_slice() else { return None };
+    let number = |(key, value): &(TableKey, Value), name: &Arc<str>| match (key, value) {
+        (TableKey::Name(key), Value::Number(number)) if Arc::ptr_eq(key, name) => Some(*number),
+        _ => None,
+    };
+    let vector = DVec3::new(number(x, &parts[0])?, number(y, &parts[1])?, number(z, &parts[2])?);
+    vector.is_finite().then_some(vector)
+}
+
+impl From<[f64; 3]> for Vector {
+    fn from(parts: [f64; 3]) -> Self {
+        Self(DVec3::from_array(parts))
+    }
+}
 
 impl Default for AxisScale {
     fn default() -> Self {
@@ -55,6 +85,9 @@ impl Parameter for Vector {
             return Ok(Self(position));
         }
         let Value::Table(table) = value else { return Err(what()) };
+        if let Some(vector) = finite_vector(&table) {
+            return Ok(Self(vector));
+        }
         let mut parts = table.list();
         if parts.is_empty() {
             parts = ["x", "y", "z"].iter().filter_map(|name| table.get(name).cloned()).collect();
@@ -74,9 +107,10 @@ impl Parameter for Vector {
     }
 
     fn into_value(self) -> Value {
-        let entries = [("x", self.0.x), ("y", self.0.y), ("z", self.0.z)];
-        let entries = entries.map(|(name, part)| (TableKey::Name(name.into()), Value::Number(part))).to_vec();
-        Value::Table(Arc::new(Table { class: Some("vec".into()), entries }))
+        let VectorNames { class, parts: [x, y, z] } = &*NAMES;
+        let entry = |name: &Arc<str>, part: f64| (TableKey::Name(Arc::clone(name)), Value::Number(part));
+        let entries = vec![entry(x, self.0.x), entry(y, self.0.y), entry(z, self.0.z)];
+        Value::Table(Arc::new(Table { class: Some(Arc::clone(class)), entries }))
     }
 
     fn written(self) -> String {
@@ -101,6 +135,17 @@ impl Parameter for DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_vector_is_read_from_its_own_table_and_from_others() {
+        let vector = Vector::from([1.0, -2.0, 0.5]);
+        assert_eq!(Vector::from_value(vector.into_value()).ok(), Some(vector));
+        assert!(Vector::from_value(Vector::from([1.0, f64::NAN, 0.0]).into_value()).is_err());
+        let list =
+            [3.0, 4.0].iter().zip(1..).map(|(part, place)| (TableKey::Index(place), Value::Number(*part)));
+        let list = Value::Table(Arc::new(Table { class: None, entries: list.collect() }));
+        assert_eq!(Vector::from_value(list).ok(), Some(Vector::from([3.0, 4.0, 0.0])));
+    }
 
     #[test]
     fn a_scale_is_one_number_or_one_for_each_axis() {

@@ -101,7 +101,9 @@ impl SystemDeclaration {
         let has_new_contexts = pattern.has_new_left() || pattern.has_new_right();
         if has_new_contexts && phase == RulePhase::Decomposition {
             let error = Error::script("a decomposition has no contexts in the new chain");
-            return Err(named(error.help("write < and > instead of << and >>, or declare it with system:rule")));
+            return Err(named(
+                error.help("write < and > instead of << and >>, or declare it with system:rule"),
+            ));
         }
         let place = Machine::place(lua);
         let session = std::sync::Arc::clone(&library.machine()?.session);

@@ -74,7 +74,9 @@ impl SystemDeclaration {
             let warn =
                 |warning: Warning| machine.warn(warning.at(rule.place.clone()).rule(&rule.pattern.text));
             let earlier = sure.forestalls(rule, &around, guard);
-            if let Some(symbol) = rule.contexts().iter().find_map(|item| skipped_symbol(grammar, number(index), item)) {
+            if let Some(symbol) =
+                rule.contexts().iter().find_map(|item| skipped_symbol(grammar, number(index), item))
+            {
                 let name = grammar.symbols().display_name(symbol);
                 let own = self.rules[index].ignored.as_ref();
                 let ignored = own.unwrap_or(&self.ignored);
