@@ -5,7 +5,7 @@ use smallvec::SmallVec;
 use crate::batch::{ChainPiece, NO_RULE, Scratch, narrow};
 use crate::chain::{CLOSE, Chain, END, OPEN, Symbol};
 use crate::context::{CompiledPatterns, ContextElement};
-use crate::grammar::Grammar;
+use crate::grammar::{Grammar, NewContexts};
 use crate::ignored::IgnoredSet;
 use crate::links::{Links, NONE};
 use crate::successors::Successor;
@@ -420,9 +420,12 @@ impl NewMatcher<'_> {
             all.resize_with(set + 1, Searches::default);
         }
         let searches = &mut all[set];
-        if searches.lasts.is_empty() {
-            searches.lasts.resize(count, Search::Unknown);
-            searches.firsts.resize(count, Search::Unknown);
+        let column = match self.grammar.new_contexts() {
+            NewContexts::Right => &mut searches.firsts,
+            _ => &mut searches.lasts,
+        };
+        if column.is_empty() {
+            column.resize(count, Search::Unknown);
         }
         searches
     }

@@ -1,5 +1,7 @@
 //! Prelude: the Lua side of the hot path, and globals of scripts.
 
+use std::cell::RefCell;
+
 use std::sync::LazyLock;
 
 use mlua::chunk::ChunkMode;
@@ -99,12 +101,39 @@ pub(crate) struct Prelude {
     pub is_module: Function,
     points: Function,
     unread: Function,
-    input: Function,
-    counts: Function,
+    input: GrowingColumn,
+    counts: GrowingColumn,
     randoms: Function,
-    entries: Function,
+    entries: GrowingColumn,
     outputs: Function,
     recorded: Function,
+}
+
+/// Column of the prelude that is only replaced by a longer one.
+struct GrowingColumn {
+    /// `(size)`: returns a buffer of at least `size` bytes.
+    grow: Function,
+    /// Last buffer, and its number of bytes.
+    last: RefCell<Option<(Buffer, usize)>>,
+}
+
+impl GrowingColumn {
+    fn new(grow: Function) -> Self {
+        Self { grow, last: RefCell::default() }
+    }
+
+    /// Returns the column, at least `size` bytes long.
+    fn of_size(&self, size: usize) -> mlua::Result<Buffer> {
+        let mut last = self.last.borrow_mut();
+        if let Some((buffer, length)) = &*last
+            && *length >= size
+        {
+            return Ok(buffer.clone());
+        }
+        let buffer: Buffer = self.grow.call(size)?;
+        *last = Some((buffer.clone(), buffer.len()));
+        Ok(buffer)
+    }
 }
 
 impl Prelude {
@@ -145,10 +174,10 @@ impl Prelude {
             is_module: table.get("is_module")?,
             points: table.get("points")?,
             unread: table.get("unread")?,
-            input: table.get("input")?,
-            counts: table.get("counts")?,
+            input: GrowingColumn::new(table.get("input")?),
+            counts: GrowingColumn::new(table.get("counts")?),
             randoms: table.get("randoms")?,
-            entries: table.get("entries")?,
+            entries: GrowingColumn::new(table.get("entries")?),
             outputs: table.get("outputs")?,
             recorded: table.get("recorded")?,
         })
@@ -162,12 +191,12 @@ impl Prelude {
 
     /// Returns the column of arguments, at least `size` bytes long.
     pub(crate) fn input(&self, size: usize) -> mlua::Result<Buffer> {
-        self.input.call(size)
+        self.input.of_size(size)
     }
 
     /// Returns the column of counts, at least `size` bytes long.
     pub(crate) fn counts(&self, size: usize) -> mlua::Result<Buffer> {
-        self.counts.call(size)
+        self.counts.of_size(size)
     }
 
     /// Returns the column of random numbers, `each` per application.
@@ -177,7 +206,7 @@ impl Prelude {
 
     /// Returns the column of the interpretation rule of each entry.
     pub(crate) fn entries(&self, size: usize) -> mlua::Result<Buffer> {
-        self.entries.call(size)
+        self.entries.of_size(size)
     }
 
     /// Returns the columns of new symbols and parameters, and the column of their order with its length.
