@@ -42,6 +42,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "terrain/dig" shows "terrain:dig";
     "terrain/flatten" shows "terrain:flatten";
     "terrain/river" shows "terrain:river";
+    "turtle/add_tropism" shows "turtle:add_tropism";
     "turtle/advance" shows "turtle:advance";
     "turtle/begin_polygon" shows "turtle:begin_polygon" "turtle:point" "turtle:end_polygon";
     "turtle/begin_cylinder" shows "turtle:begin_cylinder" "turtle:end_cylinder";

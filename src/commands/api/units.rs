@@ -47,7 +47,7 @@ const COUNTS: [&str; 37] = [
 ];
 
 /// Fractions, probabilities, weights and factors.
-const FACTORS: [&str; 66] = [
+const FACTORS: [&str; 67] = [
     ".amount",
     ".metallic",
     ".noise",
@@ -109,6 +109,7 @@ const FACTORS: [&str; 66] = [
     "template.weight",
     "terrain.plants.size",
     "turtle.elasticity",
+    "turtle:add_tropism elasticity",
     "turtle:elasticity elasticity",
     "turtle:place scale",
     "turtle:surface scale",

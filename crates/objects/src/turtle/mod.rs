@@ -10,5 +10,6 @@ mod options;
 mod state;
 #[cfg(test)]
 mod tests;
+mod tropism;
 
 pub use object::Turtle;

@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use glam::{DAffine3, DQuat, DVec3};
+use glam::{DAffine3, DVec3};
 
 use super::angles::Angles;
 use super::cylinder::{OpenCylinder, already_open, not_open};
@@ -175,6 +175,12 @@ impl Turtle {
     pub fn tropism(&mut self, direction: Vector, elasticity: f64) {
         self.state.tropism = direction.0.normalize_or_zero();
         self.state.elasticity = elasticity;
+    }
+
+    /// Adds a tropism to the others: the heading bends by `elasticity` until it makes `angle` (degrees) with `direction`, 0
+    /// unless given. With an angle of 90, branches grow across the direction.
+    pub fn add_tropism(&mut self, direction: Vector, elasticity: f64, angle: Option<f64>) -> Result<()> {
+        self.state.add_tropism(direction.0, elasticity, angle.unwrap_or(0.0))
     }
 
     /// Sets the strength with which the heading bends with each step drawn.
@@ -418,20 +424,8 @@ impl Turtle {
             self.lift();
             self.state.frame.forward(length);
         }
-        if self.state.elasticity != 0.0 {
-            self.bend();
-        }
+        self.state.bend();
         Ok(())
-    }
-
-    /// Bends the heading as in *The Algorithmic Beauty of Plants*, section 2.1: by elasticity times |H x T|.
-    fn bend(&mut self) {
-        let axis = self.state.frame.heading.cross(self.state.tropism);
-        let torque = axis.length();
-        if torque > 1e-9 {
-            let turn = DQuat::from_axis_angle(axis / torque, self.state.elasticity * torque);
-            self.state.frame.rotate(turn);
-        }
     }
 
     /// Ends the branch that is being drawn.

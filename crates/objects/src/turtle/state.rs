@@ -8,6 +8,7 @@ use glam::DVec3;
 
 use super::cylinder::OpenCylinder;
 use super::options::TurtleOptions;
+use super::tropism::Tropism;
 use crate::surface::plain_material;
 
 /// Frame, width, material and open shapes of a turtle, which a branch restores.
@@ -19,6 +20,8 @@ pub(super) struct TurtleState {
     pub(super) part: usize,
     pub(super) tropism: DVec3,
     pub(super) elasticity: f64,
+    /// Tropisms in addition to that one.
+    pub(super) more_tropisms: Vec<Tropism>,
     /// Branch that is being drawn.
     pub(super) strand: Option<Branch>,
     /// Contour of generalised cylinders; a circle if there is none.
@@ -47,6 +50,7 @@ impl TurtleState {
             part: drawing.material(&material),
             tropism: options.tropism.0.normalize_or_zero(),
             elasticity: options.elasticity,
+            more_tropisms: Vec::new(),
             strand: None,
             contour: None,
             cylinder: None,

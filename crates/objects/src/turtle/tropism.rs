@@ -1,0 +1,123 @@
+//! Tropisms: directions towards which the heading bends with each step.
+
+use burgeon_geometry::Frame;
+use glam::{DQuat, DVec3};
+
+use super::state::TurtleState;
+use burgeon_base::error::{Error, Limit, Result};
+
+/// Maximum number of tropisms of a turtle.
+const MOST_TROPISMS: usize = 100;
+
+/// Maximum angle of a bend (radians), as in cpfg.
+const LARGEST: f64 = 1.0;
+
+/// Tropism that bends the heading until it makes an angle with a direction.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Tropism {
+    /// Direction of length 1, or zero.
+    pub direction: DVec3,
+    pub elasticity: f64,
+    /// Preferred angle between the heading and the direction (radians).
+    pub angle: f64,
+}
+
+impl Tropism {
+    /// Returns the direction in which this tropism pulls the heading of `frame`, of the length of its elasticity.
+    ///
+    /// It lies in the plane of the heading and the direction, at the preferred angle. If the heading is parallel to the direction,
+    /// the heading turns about the left.
+    fn pull(&self, frame: &Frame) -> DVec3 {
+        let across = frame.heading - self.direction * self.direction.dot(frame.heading);
+        let across =
+            across.try_normalize().unwrap_or_else(|| frame.left.cross(self.direction).normalize_or_zero());
+        let (sin, cos) = self.angle.sin_cos();
+        (self.direction * cos + across * sin) * self.elasticity
+    }
+}
+
+impl TurtleState {
+    /// Adds a tropism to the others, whose preferred angle is `angle` (degrees).
+    pub(super) fn add_tropism(&mut self, direction: DVec3, elasticity: f64, angle: f64) -> Result<()> {
+        if self.more_tropisms.len() == MOST_TROPISMS {
+            return Err(Error::limit(Limit::Size, format!("a turtle has at most {MOST_TROPISMS} tropisms"))
+                .help("add them once, at the beginning of a branch or of the chain"));
+        }
+        let direction = direction.normalize_or_zero();
+        self.more_tropisms.push(Tropism { direction, elasticity, angle: angle.to_radians() });
+        Ok(())
+    }
+
+    /// Bends the heading after a step.
+    pub(super) fn bend(&mut self) {
+        if !self.more_tropisms.is_empty() {
+            let main = Tropism { direction: self.tropism, elasticity: self.elasticity, angle: 0.0 };
+            bend_together(&mut self.frame, self.more_tropisms.iter().copied().chain([main]));
+        } else if self.elasticity != 0.0 {
+            bend_towards(&mut self.frame, self.tropism, self.elasticity);
+        }
+    }
+}
+
+/// Bends the heading as in *The Algorithmic Beauty of Plants*, section 2.1: by elasticity times |H x T|.
+fn bend_towards(frame: &mut Frame, direction: DVec3, elasticity: f64) {
+    let axis = frame.heading.cross(direction);
+    let torque = axis.length();
+    if torque > 1e-9 {
+        frame.rotate(DQuat::from_axis_angle(axis / torque, elasticity * torque));
+    }
+}
+
+/// Bends the heading of `frame` as several tropisms pull it together: about H x V by |H x V|, where V is the sum of their
+/// pulls.
+fn bend_together(frame: &mut Frame, tropisms: impl Iterator<Item = Tropism>) {
+    let pull: DVec3 = tropisms.map(|tropism| tropism.pull(frame)).sum();
+    let axis = frame.heading.cross(pull);
+    let torque = axis.length();
+    if torque > 1e-9 {
+        frame.rotate(DQuat::from_axis_angle(axis / torque, torque.min(LARGEST)));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tropism(direction: DVec3, elasticity: f64, angle: f64) -> Tropism {
+        Tropism { direction, elasticity, angle: angle.to_radians() }
+    }
+
+    fn frame(heading: DVec3) -> Frame {
+        let mut frame = Frame::default();
+        frame.face(heading);
+        frame
+    }
+
+    #[test]
+    fn a_heading_converges_to_the_preferred_angle() {
+        for angle in [0.0, 30.0, 90.0, 120.0] {
+            for heading in [DVec3::Z, DVec3::X, DVec3::new(0.3, -0.2, -0.9).normalize()] {
+                let mut frame = frame(heading);
+                (0..200)
+                    .for_each(|_| bend_together(&mut frame, std::iter::once(tropism(DVec3::Z, 0.2, angle))));
+                let found = frame.heading.angle_between(DVec3::Z).to_degrees();
+                assert!((found - angle).abs() < 1e-3, "{found} instead of {angle} from {heading}");
+            }
+        }
+    }
+
+    #[test]
+    fn equal_tropisms_balance_between_their_directions() {
+        let mut frame = frame(DVec3::new(0.1, 0.0, 1.0).normalize());
+        let both = [tropism(DVec3::X, 0.2, 0.0), tropism(DVec3::Y, 0.2, 0.0)];
+        (0..200).for_each(|_| bend_together(&mut frame, both.into_iter()));
+        assert!((frame.heading - DVec3::new(1.0, 1.0, 0.0).normalize()).length() < 1e-6, "{}", frame.heading);
+    }
+
+    #[test]
+    fn a_strong_tropism_bends_by_at_most_one_radian() {
+        let mut frame = frame(DVec3::X);
+        bend_together(&mut frame, std::iter::once(tropism(DVec3::Z, 50.0, 0.0)));
+        assert!((frame.heading.angle_between(DVec3::X) - 1.0).abs() < 1e-9);
+    }
+}
