@@ -21,6 +21,7 @@ mod interpretation;
 mod lineage;
 mod literature;
 mod meaning;
+mod module_lists;
 mod modules_as_tables;
 mod naive;
 mod new_contexts;

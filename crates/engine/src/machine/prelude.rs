@@ -9,7 +9,7 @@ use mlua::{Buffer, Function, Lua, Table};
 
 use super::native::as_bytecode;
 use crate::machine::system::UNREAD;
-use crate::machine::types::POINTS;
+use crate::machine::types::{POINTS, READ_MODULE};
 use burgeon_rewriting::Successors;
 
 /// Parts of the prelude: one chunk of Luau, in which each part uses the locals of the parts before it.
@@ -101,6 +101,7 @@ pub(crate) struct Prelude {
     pub is_module: Function,
     points: Function,
     unread: Function,
+    read_module: Function,
     input: GrowingColumn,
     counts: GrowingColumn,
     randoms: Function,
@@ -174,6 +175,7 @@ impl Prelude {
             is_module: table.get("is_module")?,
             points: table.get("points")?,
             unread: table.get("unread")?,
+            read_module: table.get("read_module")?,
             input: GrowingColumn::new(table.get("input")?),
             counts: GrowingColumn::new(table.get("counts")?),
             randoms: table.get("randoms")?,
@@ -183,8 +185,9 @@ impl Prelude {
         })
     }
 
-    /// Stores the functions that make features and their geometries in the registry, for sources.
+    /// Stores the functions that make features, their geometries and modules of derived chains in the registry.
     pub(super) fn keep_features(&self, lua: &Lua) -> mlua::Result<()> {
+        lua.set_named_registry_value(READ_MODULE, &self.read_module)?;
         lua.set_named_registry_value(UNREAD, &self.unread)?;
         lua.set_named_registry_value(POINTS, &self.points)
     }

@@ -172,8 +172,13 @@ impl DerivedSystem {
     /// Returns the chains as text for the script, and marks the chains as read: the script may use any of
     /// their modules.
     pub(crate) fn read_chains(&self) -> String {
-        self.uses.read.store(true, Ordering::Relaxed);
+        self.note_read();
         self.chain_text()
+    }
+
+    /// Marks the chains as read: the script may use any of their modules.
+    pub(crate) fn note_read(&self) {
+        self.uses.read.store(true, Ordering::Relaxed);
     }
 
     /// Returns true if the script has read the chains.

@@ -7,6 +7,7 @@ use mlua::{AnyUserData, Lua, LuaString, MetaMethod, Table, UserData, UserDataMet
 use rustc_hash::FxHashMap;
 
 use super::geometries::geometry_field;
+use super::module_lists::{chain_number, module_list};
 use crate::machine::convert::to_lua;
 use crate::machine::table_of;
 use crate::results::DerivedSystem;
@@ -197,6 +198,14 @@ impl DerivedHandle {
                 let table = lua.create_sequence_from(lines.lines())?;
                 table.set_readonly(true);
                 Ok(LuaValue::Table(table))
+            }
+            "list" => {
+                let derived = Arc::clone(derived);
+                let list = move |lua: &Lua, (_, number): (LuaValue, LuaValue)| {
+                    derived.note_read();
+                    module_list(lua, &derived, chain_number(&number).map_err(mlua::Error::external)?)
+                };
+                Ok(LuaValue::Function(lua.create_function(list)?))
             }
             "variables" => {
                 let table = match &derived.variables {
