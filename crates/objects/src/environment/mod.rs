@@ -5,11 +5,15 @@
 
 mod attractors;
 mod discs;
+mod obstacles;
 mod place_key;
+mod prism;
 mod shadow_voxels;
+mod solid;
 #[cfg(test)]
 mod tests;
 
 pub use attractors::{AttractorOptions, Attractors};
 pub use discs::{DiscOptions, Discs};
+pub use obstacles::Obstacles;
 pub use shadow_voxels::{ShadowVoxelOptions, ShadowVoxels};
