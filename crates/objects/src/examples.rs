@@ -7,6 +7,8 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "attractors" shows "attractors" "attractors:add" "attractors:count" "attractors:direction" "attractors:remaining";
     "discs" shows "discs" "discs:add" "discs:dominated";
     "shadow_voxels" shows "shadow_voxels" "shadow_voxels:shade" "shadow_voxels:light" "shadow_voxels:brightest";
+    "obstacles" shows "obstacles" "obstacles:sphere" "obstacles:contains" "obstacles:distance";
+    "soil" shows "soil" "soil:take" "soil:taken" "soil:gradient";
     "extruder" shows "extruder";
     "footprint" shows "footprint";
     "planet" shows "planet";

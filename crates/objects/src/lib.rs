@@ -27,7 +27,8 @@ pub use curves::ramp::{RampObject, RampOptions};
 pub use curves::surface::{SplineSurfaceOptions, SurfaceObject};
 pub use elevation::{Elevation, ElevationOptions};
 pub use environment::{
-    AttractorOptions, Attractors, DiscOptions, Discs, Obstacles, ShadowVoxelOptions, ShadowVoxels,
+    AttractorOptions, Attractors, DiscOptions, Discs, Obstacles, ShadowVoxelOptions, ShadowVoxels, Soil,
+    SoilOptions,
 };
 pub use examples::{EXAMPLES, PLAIN_EXAMPLES};
 pub use extruder::Extruder;
@@ -84,6 +85,7 @@ pub fn registry() -> Registry {
         Attractors::kind(),
         Discs::kind(),
         Obstacles::kind(),
+        Soil::kind(),
     ];
     own.into_iter().chain(facade::kinds()).map(Arc::clone).collect()
 }
@@ -93,6 +95,6 @@ mod tests {
     #[test]
     fn no_type_is_left_out_for_its_name() {
         super::registry().check().expect("each has a name of its own");
-        assert_eq!(super::registry().kinds().count(), 21 + super::facade::kinds().len());
+        assert_eq!(super::registry().kinds().count(), 22 + super::facade::kinds().len());
     }
 }
