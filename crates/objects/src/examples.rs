@@ -110,9 +110,12 @@ pub const PLAIN_EXAMPLES: &[ScriptExample] = examples! {
         "network:junctions" "network:blocks" "network:lots" "network:height" "network:verge"
         "network:sites" "network:face";
     "network/walk" shows "network:grow_to" "network:walk" "network:turn" "network:move_to";
+    "obstacles/hit" shows "obstacles:box" "obstacles:prism" "obstacles:mesh" "obstacles:count" "obstacles:nearest"
+        "obstacles:normal" "obstacles:hit";
     "planet/height" shows "planet:focus" "planet:height" "planet:surface" "planet:symbol"
         "planet:heights";
     "ramp/slope" shows "ramp:slope" "ramp:at" "ramp:integral" "ramp:mix";
+    "soil/total" shows "soil:add" "soil:diffuse" "soil:amount" "soil:total";
     "streets/distance" shows "streets:distance";
     "surface/normal" shows "surface:normal" "surface:point" "surface:mix";
     "terrain/height" shows "terrain:focus" "terrain:height" "terrain:normal" "terrain:slope"

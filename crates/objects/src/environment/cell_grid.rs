@@ -107,6 +107,8 @@ impl CellGrid {
     /// centre.
     fn for_each(&self, center: DVec3, radius: f64, mut use_cell: impl FnMut(usize, DVec3)) -> Result<()> {
         let own = self.cell_at(center);
+        // Cells at the same distance count alike, in spite of rounding.
+        let square = radius * radius * (1.0 + 1e-9);
         let [from, to] = [-radius, radius].map(|reach| (center + reach - self.low) / self.cell);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the grid")]
         let bound = |at: f64, count: usize| at.floor().clamp(0.0, count as f64) as usize;
@@ -124,7 +126,7 @@ impl CellGrid {
                 }
                 for x in range(0) {
                     let at = self.center([x, y, z]);
-                    if at.distance_squared(center) <= radius * radius || own == Some([x, y, z]) {
+                    if at.distance_squared(center) <= square || own == Some([x, y, z]) {
                         use_cell(self.index([x, y, z]), at);
                     }
                 }

@@ -4,7 +4,7 @@ use burgeon_base::random::Stream;
 use burgeon_geometry::sphere;
 use burgeon_kit::Model;
 use burgeon_kit::{Environment as _, Object as _, Vector};
-use burgeon_scene::{Instance, Mesh, Scene};
+use burgeon_scene::{Instance, Material, Mesh, Scene};
 use glam::{DAffine3, DVec3};
 use std::sync::Arc;
 
@@ -193,7 +193,12 @@ fn instances<const COUNT: usize>(places: [DVec3; COUNT]) -> Vec<Instance> {
 fn balls(centers: [DVec3; 2]) -> Arc<Model> {
     let mut mesh = Mesh::default();
     sphere(mesh.part(0), DVec3::ZERO, 1.0, 32).unwrap();
-    let scene = Scene { meshes: vec![mesh], instances: instances(centers), ..Scene::default() };
+    let scene = Scene {
+        materials: vec![Material::default()],
+        meshes: vec![mesh],
+        instances: instances(centers),
+        ..Scene::default()
+    };
     Arc::new(Model::new(scene))
 }
 
@@ -224,17 +229,23 @@ fn obstacles_refuse_solids_without_size_and_open_models() {
     let mut open = Mesh::default();
     sphere(open.part(0), DVec3::ZERO, 1.0, 6).unwrap();
     open.part(0).truncate(usize::MAX, 5);
-    let open = Scene { meshes: vec![open], instances: instances([DVec3::ZERO]), ..Scene::default() };
+    let open = Scene {
+        materials: vec![Material::default()],
+        meshes: vec![open],
+        instances: instances([DVec3::ZERO]),
+        ..Scene::default()
+    };
     let line = burgeon_data::Geometry::line(vec![DVec3::ZERO, DVec3::X]).unwrap();
     let said = [
-        none.r#box(at(0.0), at(1.0)).unwrap_err(),
-        none.sphere(at(0.0), 0.0).unwrap_err(),
-        none.sphere(at(0.0), f64::NAN).unwrap_err(),
-        none.prism(line, 2.0, None).unwrap_err(),
+        none.r#box(at(0.0), at(1.0)).err().unwrap(),
+        none.sphere(at(0.0), 0.0).err().unwrap(),
+        none.sphere(at(0.0), f64::NAN).err().unwrap(),
+        none.prism(line, 2.0, None).err().unwrap(),
         none.mesh(balls([DVec3::ZERO; 2]), None, Some(burgeon_kit::AxisScale(DVec3::new(1.0, -1.0, 1.0))))
-            .unwrap_err(),
-        none.mesh(Arc::new(Model::new(open)), None, None).unwrap_err(),
-        none.nearest(at(0.0)).unwrap_err(),
+            .err()
+            .unwrap(),
+        none.mesh(Arc::new(Model::new(open)), None, None).err().unwrap(),
+        none.nearest(at(0.0)).err().unwrap(),
     ];
     let said: Vec<String> =
         said.iter().map(|error| format!("{} | {}", error.message(), error.remedy().unwrap())).collect();

@@ -1,0 +1,106 @@
+--!strict
+-- Vines that climb a gate: each tip tries several ways on, keeps to the surface and away from other vines, and never grows
+-- into the stone.
+-- Source: N. Greene, Voxel space automata: modeling with stochastic growth processes in voxel space, 1989.
+local steps = param("steps", { default = 34, min = 1, max = 60, step = 1, doc = "Steps of the derivation" })
+local reach = param("reach", { default = 0.1, min = 0.03, max = 0.4, unit = "m", doc = "Maximum distance from the stone" })
+
+local gap, stride = 0.03, 0.12
+
+-- The gate: two pillars, a lintel, and a ball on each pillar.
+local Block, Ball = module("Block", "low", "size"), module("Ball", "place", "radius")
+local gate = lsystem({ object = extruder({ sides = 4, smooth = false, color = "#b5a793" }) })
+gate:axiom(
+  Block(vec(-1.2, 0, 0), vec(0.8, 0.8, 0.25)),
+  Block(vec(1.2, 0, 0), vec(0.8, 0.8, 0.25)),
+  Block(vec(-1.2, 0, 0), vec(0.6, 0.6, 2.2)),
+  Block(vec(1.2, 0, 0), vec(0.6, 0.6, 2.2)),
+  Block(vec(0, 0, 2.2), vec(3.4, 0.7, 0.35))
+)
+gate:interpret("Block(low, size)", function(this, low, size)
+  this:jump(low):rectangle(size.x, size.y):extrude(size.z)
+end)
+local left, right = vec(-1.2, 0, 2.85), vec(1.2, 0, 2.85)
+local stone = obstacles():mesh(gate:derive(0)):sphere(left, 0.36):sphere(right, 0.36)
+
+local density = shadow_voxels({ size = 0.16, depth = 1, decay = 0, strength = 0.25 })
+local Tip, Shoot, Leaf = module("Tip", "way", "rank"), module("Shoot", "to", "age"), module("Leaf", "size", "turn")
+local Start, End = module("Start", "place"), module("End")
+local vines = lsystem({
+  object = turtle({ width = 0.02, sides = 5, color = "#6a5238" }),
+  environment = { stone, density },
+})
+
+vines:axiom(source({ 1, 2, 3, 4, 5, 6 }), function(number)
+  local side = number % 2 == 0 and 1 or -1
+  local turn = math.rad(60 * number + 20)
+  local foot = vec(1.2 * side + 0.6 * math.cos(turn), 0.6 * math.sin(turn), 0)
+  return Ball(side < 0 and left or right, 0.36), Start(foot), Tip(vec(-math.cos(turn), -math.sin(turn), 0.6), 0)
+end)
+
+-- Returns the best of several places to grow to, or nil if all are in the stone, too far from it, or crowded.
+local function best_place(place: Vector, way: Vector): Vector?
+  local best, score = nil, -math.huge
+  for _ = 1, 14 do
+    local to = way:unit() + vec(random(-1, 1), random(-1, 1), random(-0.7, 1.1)) * 0.8
+    local next = place + to:unit() * stride
+    next = next + stone:normal(next) * (gap - stone:distance(next)) * 0.7
+    local away = stone:distance(next)
+    local room = density:light(next)
+    local is_free = next.z > 0 and away > gap / 2 and stone:hit(place, next) == nil and next:distance(place) > stride / 3
+    if is_free and (away < reach or place.z < 0.3) and room > 0.3 then
+      local value = room + 0.25 * next.z - 3 * away + random(0, 0.5)
+      if value > score then
+        best, score = next, value
+      end
+    end
+  end
+  return best
+end
+
+vines:rule("Tip(way, rank)", function(this, way, rank: number)
+  local place = this:position()
+  local to = best_place(place, way)
+  if not to then
+    return End()
+  end
+  local on = to - place
+  local leaf = Leaf(random(0.05, 0.085), random(0, 360))
+  if rank < 4 and random() < 0.22 then
+    local aside = on:cross(stone:normal(place)) * (random() < 0.5 and 1 or -1)
+    return Shoot(on, 0), leaf, { Tip(on + aside, rank + 1) }, Tip(on, rank)
+  end
+  return Shoot(on, 0), leaf, Tip(on, rank)
+end)
+vines:rule("Shoot(to, age)", function(_, to, age: number)
+  return Shoot(to, age + 1)
+end)
+
+vines:interpret("Ball(place, radius)", function(this, place, radius)
+  this:color("#b5a793"):jump(place):sphere(radius)
+end)
+vines:interpret("Start(place)", function(this, place)
+  this:jump(place)
+end)
+vines:interpret("Shoot(to, age)", function(this, to, age)
+  density:shade(this:position())
+  this:face(to):width(0.012 + 0.0011 * age):color("#6a5238"):forward(to:length())
+end)
+vines:interpret("Leaf(size, turn)", function(this, size, turn)
+  local green = mix("#3c6b2c", "#86ad4a", random())
+  this:face(stone:normal(this:position()) + vec(0, 0, 0.35)):roll(turn):color(green)
+  local points = {}
+  for corner = 0, 6 do
+    local angle = math.rad(corner * 360 / 7)
+    local span = size * (1 + 0.35 * math.cos(angle))
+    points[corner + 1] = vec(span * math.cos(angle), span * math.sin(angle), 0.04)
+  end
+  this:mesh(points, { { 1, 2, 3, 4, 5, 6, 7 } })
+end)
+
+local derived = vines:derive(steps)
+-- The vines have climbed the gate, and crowding has limited the number of shoots.
+expect(derived.counts.Shoot > 600, true)
+expect(derived.counts.Shoot == derived.counts.Leaf, true)
+
+-- Picture: --azimuth 205 --elevation 12

@@ -1,0 +1,85 @@
+--!strict
+-- Roots that seek water: a tip turns towards wet soil, branches where it finds much water, and ends in dry soil. Two springs
+-- water a dry section of the ground, and the water spreads.
+-- Source: R. Mech and P. Prusinkiewicz, Visual models of plants interacting with their environment, 1996.
+local steps = param("steps", { default = 34, min = 1, max = 60, step = 1, doc = "Steps of the derivation" })
+local need = param("need", { default = 0.25, min = 0, max = 1, doc = "Share of its need with which a tip grows" })
+
+local size, cell = vec(4, 0.8, 3), 0.1
+local ground = soil({ size = size, cell = cell, amount = 0.25, diffusion = 0.0004 })
+
+local Section, Spring, Spent = module("Section"), module("Spring", "place", "radius", "amount"), module("Spent")
+local Tip, Segment, Plant = module("Tip", "rank"), module("Segment", "way", "age"), module("Plant")
+local roots = lsystem({ object = turtle({ width = 0.02, sides = 6, color = "#e8d3a8" }), environment = ground })
+
+roots:axiom(
+  Section(),
+  Plant(),
+  Spring(vec(-1.1, 0, -1.3), 0.6, 900),
+  Spring(vec(1.2, 0, -2.3), 0.5, 700),
+  { Pitch(180), Tip(0) },
+  { Pitch(140), Tip(1) },
+  { Pitch(-140), Tip(1) }
+)
+
+-- A spring flows before the first step only.
+roots:rule("Spring", function()
+  return nil
+end)
+roots:rule("Tip(rank)", function(this, rank: number)
+  local place = this:position()
+  local share = ground:taken(place) / 0.5
+  if share < need then
+    return Spent()
+  end
+  local wet = ground:gradient(place, 0.6)
+  local way = this:heading() * 0.7 + wet * 0.5 + vec(random(-0.4, 0.4), random(-0.3, 0.3), random(-0.45, 0.25))
+  if rank < 5 and share > 0.6 and random() < 0.3 then
+    local aside = this:heading():cross(vec(0, 1, 0)) * (random() < 0.5 and 1 or -1)
+    return Segment(way, 0), { Segment(way + aside, 0), Tip(rank + 1) }, Tip(rank)
+  end
+  return Segment(way, 0), Tip(rank)
+end)
+roots:rule("Segment(way, age)", function(_, way, age: number)
+  return Segment(way, age + 1)
+end)
+
+roots:interpret("Spring(place, radius, amount)", function(_, place, radius, amount)
+  ground:add(place, radius, amount)
+end)
+roots:interpret("Tip(rank)", function(this)
+  ground:take(this:position(), 0.15, 0.5)
+end)
+roots:interpret("Segment(way, age)", function(this, way, age)
+  this:face(way):width(0.012 + 0.0016 * age):color("#e8d3a8"):forward(0.11)
+end)
+
+-- The section behind the roots: the wetter, the darker.
+roots:interpret("Section", function(this)
+  local points, faces, colors = {}, {}, {}
+  for x = -size.x / 2, size.x / 2 - cell / 2, cell do
+    for z = -size.z, -cell / 2, cell do
+      local first = #points
+      for number, corner in { vec(x, 0.4, z), vec(x + cell, 0.4, z), vec(x + cell, 0.4, z + cell), vec(x, 0.4, z + cell) } do
+        points[first + number] = corner
+      end
+      faces[#faces + 1] = { first + 1, first + 2, first + 3, first + 4 }
+      local wet = math.min(1, ground:amount(vec(x + cell / 2, 0.05, z + cell / 2)) / 1.2)
+      colors[#colors + 1] = mix("#a9855a", "#2f3a4c", math.floor(wet * 40) / 40)
+    end
+  end
+  this:mesh(points, faces, { colors = colors })
+end)
+roots:interpret("Plant", function(this)
+  this:color("#5d8f3a")
+  for number = 1, 9 do
+    this:jump(vec(0, 0, 0)):face(vec(0.5 * math.sin(number * 2.4), 0.5 * math.cos(number * 2.4), 1)):width(0.03)
+    this:forward(0.3 + 0.05 * (number % 4)):sphere(0.05)
+  end
+  this:jump(vec(0, 0, 0)):face(vec(0, 0, 1))
+end)
+
+local derived = roots:derive(steps)
+expect(derived.counts.Segment > 200, true)
+
+-- Picture: --azimuth 180 --elevation 2
