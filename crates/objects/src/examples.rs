@@ -14,6 +14,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "planet" shows "planet";
     "terrain" shows "terrain";
     "turtle" shows "turtle";
+    "obstacles/mesh" shows "obstacles:mesh";
     "extruder/advance" shows "extruder:advance";
     "extruder/bend" shows "extruder:bend";
     "extruder/caps" shows "extruder:caps" "extruder.caps";
@@ -110,7 +111,7 @@ pub const PLAIN_EXAMPLES: &[ScriptExample] = examples! {
         "network:junctions" "network:blocks" "network:lots" "network:height" "network:verge"
         "network:sites" "network:face";
     "network/walk" shows "network:grow_to" "network:walk" "network:turn" "network:move_to";
-    "obstacles/hit" shows "obstacles:box" "obstacles:prism" "obstacles:mesh" "obstacles:count" "obstacles:nearest"
+    "obstacles/hit" shows "obstacles:box" "obstacles:prism" "obstacles:count" "obstacles:nearest"
         "obstacles:normal" "obstacles:hit";
     "planet/height" shows "planet:focus" "planet:height" "planet:surface" "planet:symbol"
         "planet:heights";

@@ -9,17 +9,17 @@ local size, cell = vec(4, 0.8, 3), 0.1
 local ground = soil({ size = size, cell = cell, amount = 0.25, diffusion = 0.0004 })
 
 local Section, Spring, Spent = module("Section"), module("Spring", "place", "radius", "amount"), module("Spent")
-local Tip, Segment, Plant = module("Tip", "rank"), module("Segment", "way", "age"), module("Plant")
+local Tip, Segment, Plant = module("Tip", "rank"), module("Segment", "way", "rank", "age"), module("Plant")
 local roots = lsystem({ object = turtle({ width = 0.02, sides = 6, color = "#e8d3a8" }), environment = ground })
 
 roots:axiom(
   Section(),
   Plant(),
-  Spring(vec(-1.1, 0, -1.3), 0.6, 900),
-  Spring(vec(1.2, 0, -2.3), 0.5, 700),
+  Spring(vec(-1.1, 0, -1.3), 0.6, 3000),
+  Spring(vec(1.2, 0, -2.3), 0.55, 2500),
   { Pitch(180), Tip(0) },
-  { Pitch(140), Tip(1) },
-  { Pitch(-140), Tip(1) }
+  { Pitch(125), Tip(1) },
+  { Pitch(-125), Tip(1) }
 )
 
 -- A spring flows before the first step only.
@@ -28,30 +28,30 @@ roots:rule("Spring", function()
 end)
 roots:rule("Tip(rank)", function(this, rank: number)
   local place = this:position()
-  local share = ground:taken(place) / 0.5
+  local share = ground:taken(place) / 0.4
   if share < need then
     return Spent()
   end
   local wet = ground:gradient(place, 0.6)
-  local way = this:heading() * 0.7 + wet * 0.5 + vec(random(-0.4, 0.4), random(-0.3, 0.3), random(-0.45, 0.25))
-  if rank < 5 and share > 0.6 and random() < 0.3 then
+  local way = this:heading() + wet * 0.35 + vec(random(-0.35, 0.35), random(-0.25, 0.25), random(-0.4, 0.25))
+  if rank < 4 and share > 0.6 and random() < 0.22 then
     local aside = this:heading():cross(vec(0, 1, 0)) * (random() < 0.5 and 1 or -1)
-    return Segment(way, 0), { Segment(way + aside, 0), Tip(rank + 1) }, Tip(rank)
+    return Segment(way, rank, 0), { Segment(way + aside * 1.2, rank + 1, 0), Tip(rank + 1) }, Tip(rank)
   end
-  return Segment(way, 0), Tip(rank)
+  return Segment(way, rank, 0), Tip(rank)
 end)
-roots:rule("Segment(way, age)", function(_, way, age: number)
-  return Segment(way, age + 1)
+roots:rule("Segment(way, rank, age)", function(_, way, rank, age: number)
+  return Segment(way, rank, age + 1)
 end)
 
 roots:interpret("Spring(place, radius, amount)", function(_, place, radius, amount)
   ground:add(place, radius, amount)
 end)
 roots:interpret("Tip(rank)", function(this)
-  ground:take(this:position(), 0.15, 0.5)
+  ground:take(this:position(), 0.15, 0.4)
 end)
-roots:interpret("Segment(way, age)", function(this, way, age)
-  this:face(way):width(0.012 + 0.0016 * age):color("#e8d3a8"):forward(0.11)
+roots:interpret("Segment(way, rank, age)", function(this, way, rank, age)
+  this:face(way):width(0.008 + 0.0022 * age * 0.65 ^ rank):color("#e8d3a8"):forward(0.1)
 end)
 
 -- The section behind the roots: the wetter, the darker.
@@ -64,7 +64,7 @@ roots:interpret("Section", function(this)
         points[first + number] = corner
       end
       faces[#faces + 1] = { first + 1, first + 2, first + 3, first + 4 }
-      local wet = math.min(1, ground:amount(vec(x + cell / 2, 0.05, z + cell / 2)) / 1.2)
+      local wet = math.min(1, ground:amount(vec(x + cell / 2, 0.05, z + cell / 2)) / 2.5)
       colors[#colors + 1] = mix("#a9855a", "#2f3a4c", math.floor(wet * 40) / 40)
     end
   end
@@ -72,9 +72,13 @@ roots:interpret("Section", function(this)
 end)
 roots:interpret("Plant", function(this)
   this:color("#5d8f3a")
-  for number = 1, 9 do
-    this:jump(vec(0, 0, 0)):face(vec(0.5 * math.sin(number * 2.4), 0.5 * math.cos(number * 2.4), 1)):width(0.03)
-    this:forward(0.3 + 0.05 * (number % 4)):sphere(0.05)
+  for number = 1, 24 do
+    local turn, lean = number * 2.4, 0.15 + 0.02 * number
+    this:jump(vec(0, 0, 0)):face(vec(lean * math.sin(turn), lean * math.cos(turn), 1))
+    for part = 0, 5 do
+      local on = this:heading() + vec(math.sin(turn), math.cos(turn), -0.5) * 0.14
+      this:width(0.035 - 0.005 * part):face(on):forward(0.13)
+    end
   end
   this:jump(vec(0, 0, 0)):face(vec(0, 0, 1))
 end)

@@ -47,7 +47,7 @@ const COUNTS: [&str; 37] = [
 ];
 
 /// Fractions, probabilities, weights and factors.
-const FACTORS: [&str; 66] = [
+const FACTORS: [&str; 67] = [
     ".amount",
     ".metallic",
     ".noise",
@@ -91,6 +91,7 @@ const FACTORS: [&str; 66] = [
     "noise x",
     "noise y",
     "noise z",
+    "obstacles:mesh scale",
     "planet.closeness",
     "planet.error",
     "ramp:mix t",
@@ -159,7 +160,7 @@ const NUMBERS: [&str; 38] = [
 ];
 
 /// Values in any unit that the script or the file uses.
-const ANY: [&str; 36] = [
+const ANY: [&str; 39] = [
     "beta a",
     "beta b",
     "beta r",
@@ -192,8 +193,11 @@ const ANY: [&str; 36] = [
     "remap low",
     "remap to",
     "remap x",
-    "stream ...",
+    "soil.amount",
+    "soil:add amount",
+    "soil:take amount",
     "source.within",
+    "stream ...",
     "surface.u_knots",
     "surface.v_knots",
 ];

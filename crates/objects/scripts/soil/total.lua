@@ -2,7 +2,7 @@
 local ground = soil({ size = { 2, 2, 1 }, cell = 0.25 })
 local Root, Rain = module("Root"), module("Rain")
 local garden = lsystem({ object = turtle(), environment = ground })
-garden:axiom(Pitch(180), G(0.5), Root(), Rain())
+garden:axiom(Pitch(180), F(0.5), Root(), Rain())
 garden:interpret("Root", function(this)
   ground:take(this:position(), 0.3, 2)
 end)
