@@ -10,7 +10,13 @@ local ground = soil({ size = size, cell = cell, amount = 0.25, diffusion = 0.000
 
 local Section, Spring, Spent = module("Section"), module("Spring", "place", "radius", "amount"), module("Spent")
 local Tip, Segment, Plant = module("Tip", "rank"), module("Segment", "way", "rank", "age"), module("Plant")
-local roots = lsystem({ object = turtle({ width = 0.02, sides = 6, color = "#e8d3a8" }), environment = ground })
+local Level = module("Level")
+local budget = variables({ given = 0, taken = 0, left = 0 })
+local roots = lsystem({
+  object = turtle({ width = 0.02, sides = 6, color = "#e8d3a8" }),
+  environment = ground,
+  variables = budget,
+})
 
 roots:axiom(
   Section(),
@@ -19,7 +25,8 @@ roots:axiom(
   Spring(vec(1.2, 0, -2.3), 0.55, 2500),
   { Pitch(180), Tip(0) },
   { Pitch(125), Tip(1) },
-  { Pitch(-125), Tip(1) }
+  { Pitch(-125), Tip(1) },
+  Level()
 )
 
 -- A spring flows before the first step only.
@@ -45,10 +52,13 @@ roots:rule("Segment(way, rank, age)", function(_, way, rank, age: number)
 end)
 
 roots:interpret("Spring(place, radius, amount)", function(_, place, radius, amount)
-  ground:add(place, radius, amount)
+  budget.given += ground:add(place, radius, amount)
 end)
 roots:interpret("Tip(rank)", function(this)
-  ground:take(this:position(), 0.15, 0.4)
+  budget.taken += ground:take(this:position(), 0.15, 0.4)
+end)
+roots:interpret("Level", function()
+  budget.left = ground:total()
 end)
 roots:interpret("Segment(way, rank, age)", function(this, way, rank, age)
   this:face(way):width(0.008 + 0.0022 * age * 0.65 ^ rank):color("#e8d3a8"):forward(0.1)
@@ -84,6 +94,13 @@ roots:interpret("Plant", function(this)
 end)
 
 local derived = roots:derive(steps)
-expect(derived.counts.Segment > 200, true)
+-- No water is lost: the roots have what the ground and the springs gave.
+local cells = size.x * size.y * size.z / cell ^ 3
+local spent = derived.variables
+expect(spent.given, 5500)
+expect(spent.left + spent.taken, 0.25 * cells + spent.given, 1e-6)
+expect(spent.taken > 500, true)
+-- Some tips have ended in dry soil, and others still grow.
+expect(derived.counts.Spent > 10 and derived.counts.Tip > 20, true)
 
 -- Picture: --azimuth 180 --elevation 2

@@ -99,7 +99,8 @@ impl Obstacles {
     }
 
     /// Returns these obstacles and a model with a closed surface: the result of a system, or a file. Its origin is at
-    /// `position` (m, the origin unless given), and it is scaled by `scale` (1 unless given).
+    /// `position` (m, the origin unless given), and it is scaled by `scale` (1 unless given). An open surface is refused,
+    /// and a model that draws nothing adds no solid.
     pub fn mesh(
         &self,
         model: Arc<Model>,
@@ -115,6 +116,10 @@ impl Obstacles {
                 text(scale)
             ))
             .help(format!("give a scale above 0, and coordinates below {FARTHEST:e} m")));
+        }
+        // A system that draws nothing causes a warning of its own, and a check of a script draws nothing.
+        if model.size() == 0 {
+            return Ok(self.clone());
         }
         let placed = DAffine3::from_scale_rotation_translation(scale, DQuat::IDENTITY, position);
         let mesh = mesh_of(&model, placed).map_err(|error| error.about("obstacles:mesh"))?;
@@ -141,14 +146,17 @@ impl Obstacles {
 
     /// Returns the point (m) of the nearest surface to a place. Fails if there are no obstacles.
     pub fn nearest(&self, place: Vector) -> Result<DVec3> {
-        let (near, _) = self.surface(place.0)?.ok_or_else(|| none("nearest"))?;
+        let (near, _) = self.surface(place.0)?.ok_or_else(|| {
+            Error::argument("obstacles:nearest: there are no obstacles")
+                .help("add a solid: obstacles():box({ 0, 0, 0 }, { 1, 1, 2 })")
+        })?;
         Ok(near.position)
     }
 
     /// Returns the direction away from the obstacles at a place, of length 1: that in which the distance grows most. On a
-    /// surface, it is the normal. Fails if there are no obstacles.
+    /// surface, it is the normal; if there are no obstacles, the zero vector.
     pub fn normal(&self, place: Vector) -> Result<DVec3> {
-        let (near, is_inside) = self.surface(place.0)?.ok_or_else(|| none("normal"))?;
+        let Some((near, is_inside)) = self.surface(place.0)? else { return Ok(DVec3::ZERO) };
         let away = place.0 - near.position;
         if away.length() <= TOUCHING {
             return Ok(near.normal);
@@ -275,9 +283,4 @@ fn is_near(place: DVec3) -> bool {
 fn text(place: DVec3) -> String {
     let [x, y, z] = place.to_array();
     format!("{{{x:?}, {y:?}, {z:?}}}")
-}
-
-fn none(method: &str) -> Error {
-    Error::argument(format!("obstacles:{method}: there are no obstacles"))
-        .help("add a solid: obstacles():box({ 0, 0, 0 }, { 1, 1, 2 })")
 }

@@ -249,8 +249,18 @@ fn obstacles_refuse_solids_without_size_and_open_models() {
     ];
     let said: Vec<String> =
         said.iter().map(|error| format!("{} | {}", error.message(), error.remedy().unwrap())).collect();
-    insta::assert_snapshot!(said.join("\n"));
+    insta::assert_snapshot!(said.join("\n"), @r#"
+    obstacles:box: the corners are {0.0, 0.0, 0.0} and {1.0, 0.0, 0.0} | give a low and a high corner, with x, y and z that increase and are below 1e9 m
+    obstacles:sphere: the centre is {0.0, 0.0, 0.0} and the radius 0 | give a radius above 0, and numbers below 1e9 m
+    obstacles:sphere: the centre is {0.0, 0.0, 0.0} and the radius NaN | give a radius above 0, and numbers below 1e9 m
+    obstacles:prism: the geometry contains no area | give a polygon, such as a plan
+    obstacles:mesh: the position is {0.0, 0.0, 0.0} and the scale {1.0, -1.0, 1.0} | give a scale above 0, and coordinates below 1e9 m
+    obstacles:mesh: the mesh has 7 open edges, such as from {0.000, 0.000, 1.000} to {0.866, 0.000, 0.500} (m) | close the surface, with caps and without gaps, and orient all faces outwards
+    obstacles:nearest: there are no obstacles | add a solid: obstacles():box({ 0, 0, 0 }, { 1, 1, 2 })
+    "#);
     assert_eq!(none.distance(at(0.0)).unwrap(), f64::INFINITY);
+    assert_eq!(none.normal(at(0.0)).unwrap(), DVec3::ZERO);
+    assert_eq!(none.mesh(Arc::new(Model::new(Scene::default())), None, None).unwrap().count(), 0);
     assert_eq!(none.hit(at(0.0), at(1.0)).unwrap(), None);
 }
 
