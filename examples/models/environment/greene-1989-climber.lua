@@ -46,6 +46,8 @@ vines:axiom(source({ -1, -0.8, 1.1, 1.35 }), function(x)
   return Start(vec(x, -0.5, 0)), Tip(vec(0, 0.4, 0.9), 0)
 end)
 
+vines:ignore("End")
+
 -- Returns the best of several places to grow to, or nil if all are in the stone, too far from it, or crowded.
 local function best_place(place: Vector, way: Vector): Vector?
   local best, score = nil, -math.huge

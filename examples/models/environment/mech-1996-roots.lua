@@ -29,6 +29,8 @@ roots:axiom(
   Level()
 )
 
+roots:ignore("Spent")
+
 -- A spring flows before the first step only.
 roots:rule("Spring", function()
   return nil
