@@ -21,16 +21,16 @@ const TRIANGLE_BYTES: usize = 400;
 /// meshes whose triangles are all inverted. Results for places on the surface may be either.
 #[derive(Debug, Clone)]
 pub struct ClosedMesh {
-    tree: RTree<MeshTriangle>,
+    tree: RTree<ClosedMeshTriangle>,
     /// Bounding box (m).
     bounds: [DVec3; 2],
 }
 
 /// Corners of a triangle (m).
 #[derive(Debug, Clone)]
-struct MeshTriangle([DVec3; 3]);
+struct ClosedMeshTriangle([DVec3; 3]);
 
-impl RTreeObject for MeshTriangle {
+impl RTreeObject for ClosedMeshTriangle {
     type Envelope = AABB<[f64; 3]>;
 
     fn envelope(&self) -> Self::Envelope {
@@ -39,7 +39,7 @@ impl RTreeObject for MeshTriangle {
     }
 }
 
-impl PointDistance for MeshTriangle {
+impl PointDistance for ClosedMeshTriangle {
     fn distance_2(&self, place: &[f64; 3]) -> f64 {
         let place = DVec3::from_array(*place);
         nearest_on_triangle(place, self.0).distance_squared(place)
@@ -76,7 +76,7 @@ impl ClosedMesh {
             .iter()
             .flatten()
             .fold([*first; 2], |[low, high], place| [low.min(*place), high.max(*place)]);
-        Ok(Self { tree: RTree::bulk_load(triangles.into_iter().map(MeshTriangle).collect()), bounds })
+        Ok(Self { tree: RTree::bulk_load(triangles.into_iter().map(ClosedMeshTriangle).collect()), bounds })
     }
 
     /// Returns the minimum and maximum corner (m) of the bounding box.
@@ -105,7 +105,7 @@ impl ClosedMesh {
 
     /// Returns the point (m) of the surface that is nearest to a place (m), with the normal of a triangle at this point.
     pub fn nearest(&self, place: DVec3) -> Option<(DVec3, DVec3)> {
-        let MeshTriangle(corners) = self.tree.nearest_neighbor(&place.to_array())?;
+        let ClosedMeshTriangle(corners) = self.tree.nearest_neighbor(&place.to_array())?;
         let [a, b, c] = *corners;
         Some((nearest_on_triangle(place, *corners), (b - a).cross(c - a).normalize_or_zero()))
     }

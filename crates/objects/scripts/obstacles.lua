@@ -9,6 +9,11 @@ hedge:rule("Bud(length)", function(this, length: number)
   if place.z > 1 and not shape:contains(tip) then
     return F(-shape:distance(place)), Cut()
   end
-  return F(length), { Turn(50), Bud(length * 0.85) }, Roll(90), { Turn(-40), Bud(length * 0.85) }, Roll(70), Bud(length)
+  return F(length),
+    { Turn(50), Bud(length * 0.85) },
+    Roll(90),
+    { Turn(-40), Bud(length * 0.85) },
+    Roll(70),
+    Bud(length)
 end)
 hedge:derive(9)

@@ -2,7 +2,15 @@
 local ground = soil({ size = { 4, 4, 3 }, cell = 0.2, amount = 1, diffusion = 0.002 })
 local Tip, Step = module("Tip", "width"), module("Step", "x", "y", "z")
 local roots = lsystem({ object = turtle({ sides = 6, color = "#b08d62" }), environment = ground })
-roots:axiom(Turn(90), Pitch(90), Tip(0.12), Roll(120), { Pitch(50), Tip(0.1) }, Roll(120), { Pitch(50), Tip(0.1) })
+roots:axiom(
+  Turn(90),
+  Pitch(90),
+  Tip(0.12),
+  Roll(120),
+  { Pitch(50), Tip(0.1) },
+  Roll(120),
+  { Pitch(50), Tip(0.1) }
+)
 roots:rule("Tip(width)", function(this, width: number)
   local place = this:position()
   local found = ground:taken(place)

@@ -27,7 +27,7 @@ pub use curves::ramp::{RampObject, RampOptions};
 pub use curves::surface::{SplineSurfaceOptions, SurfaceObject};
 pub use elevation::{Elevation, ElevationOptions};
 pub use environment::{
-    AttractorOptions, Attractors, DiscOptions, Discs, Obstacles, ShadowVoxelOptions, ShadowVoxels, Soil,
+    AttractorOptions, Attractors, DiscOptions, Discs, ObstacleSolids, ShadowVoxelOptions, ShadowVoxels, Soil,
     SoilOptions,
 };
 pub use examples::{EXAMPLES, PLAIN_EXAMPLES};
@@ -84,7 +84,7 @@ pub fn registry() -> Registry {
         ShadowVoxels::kind(),
         Attractors::kind(),
         Discs::kind(),
-        Obstacles::kind(),
+        ObstacleSolids::kind(),
         Soil::kind(),
     ];
     own.into_iter().chain(facade::kinds()).map(Arc::clone).collect()

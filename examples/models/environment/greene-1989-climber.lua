@@ -3,7 +3,10 @@
 -- into the stone.
 -- Source: N. Greene, Voxel space automata: modeling with stochastic growth processes in voxel space, 1989.
 local steps = param("steps", { default = 40, min = 1, max = 60, step = 1, doc = "Steps of the derivation" })
-local reach = param("reach", { default = 0.1, min = 0.03, max = 0.4, unit = "m", doc = "Maximum distance from the stone" })
+local reach = param(
+  "reach",
+  { default = 0.1, min = 0.03, max = 0.4, unit = "m", doc = "Maximum distance from the stone" }
+)
 
 local gap, stride = 0.03, 0.12
 
@@ -33,7 +36,8 @@ site:derive(0)
 
 -- Light of a voxel falls with the number of shoots in it.
 local density = shadow_voxels({ size = 0.2, depth = 1, decay = 0, strength = 0.25 })
-local Tip, Shoot, Leaf = module("Tip", "way", "rank"), module("Shoot", "to", "age"), module("Leaf", "size", "turn")
+local Tip, Shoot, Leaf =
+  module("Tip", "way", "rank"), module("Shoot", "to", "age"), module("Leaf", "size", "turn")
 local Start, End = module("Start", "place"), module("End")
 local inside = variables({ count = 0 })
 local vines = lsystem({
@@ -57,7 +61,10 @@ local function best_place(place: Vector, way: Vector): Vector?
     next = next + stone:normal(next) * (gap - stone:distance(next)) * 0.7
     local away = stone:distance(next)
     local room = density:light(next)
-    local is_free = next.z > 0 and away > gap / 2 and stone:hit(place, next) == nil and next:distance(place) > stride / 3
+    local is_free = next.z > 0
+      and away > gap / 2
+      and stone:hit(place, next) == nil
+      and next:distance(place) > stride / 3
     if is_free and (away < reach or place.z < 0.3) and room > 0.3 then
       local value = room + 0.25 * next.z - 3 * away + random(0, 0.5)
       if value > score then

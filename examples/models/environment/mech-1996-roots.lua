@@ -3,12 +3,14 @@
 -- water a dry section of the ground, and the water spreads.
 -- Source: R. Mech and P. Prusinkiewicz, Visual models of plants interacting with their environment, 1996.
 local steps = param("steps", { default = 34, min = 1, max = 60, step = 1, doc = "Steps of the derivation" })
-local need = param("need", { default = 0.25, min = 0, max = 1, doc = "Share of its need with which a tip grows" })
+local need =
+  param("need", { default = 0.25, min = 0, max = 1, doc = "Share of its need with which a tip grows" })
 
 local size, cell = vec(4, 0.8, 3), 0.1
 local ground = soil({ size = size, cell = cell, amount = 0.25, diffusion = 0.0004 })
 
-local Section, Spring, Spent = module("Section"), module("Spring", "place", "radius", "amount"), module("Spent")
+local Section, Spring, Spent =
+  module("Section"), module("Spring", "place", "radius", "amount"), module("Spent")
 local Tip, Segment, Plant = module("Tip", "rank"), module("Segment", "way", "rank", "age"), module("Plant")
 local Level = module("Level")
 local budget = variables({ given = 0, taken = 0, left = 0 })
@@ -72,8 +74,8 @@ roots:interpret("Section", function(this)
   for x = -size.x / 2, size.x / 2 - cell / 2, cell do
     for z = -size.z, -cell / 2, cell do
       local first = #points
-      for number, corner in { vec(x, 0.4, z), vec(x + cell, 0.4, z), vec(x + cell, 0.4, z + cell), vec(x, 0.4, z + cell) } do
-        points[first + number] = corner
+      for corner, at in { vec(0, 0, 0), vec(1, 0, 0), vec(1, 0, 1), vec(0, 0, 1) } do
+        points[first + corner] = vec(x, size.y / 2, z) + at * cell
       end
       faces[#faces + 1] = { first + 1, first + 2, first + 3, first + 4 }
       local wet = math.min(1, ground:amount(vec(x + cell / 2, 0.05, z + cell / 2)) / 2.5)

@@ -17,6 +17,6 @@ mod tests;
 
 pub use attractors::{AttractorOptions, Attractors};
 pub use discs::{DiscOptions, Discs};
-pub use obstacles::Obstacles;
+pub use obstacles::ObstacleSolids;
 pub use shadow_voxels::{ShadowVoxelOptions, ShadowVoxels};
 pub use soil::{Soil, SoilOptions};

@@ -11,7 +11,7 @@ use glam::{DAffine3, DQuat, DVec3};
 use rstar::RTree;
 
 use super::prism::prism;
-use super::solid::{IndexedSolid, Solid, SurfacePoint};
+use super::solid::{IndexedSolid, Solid, SolidSurfacePoint};
 
 /// Largest absolute coordinate (m) of a solid.
 const FARTHEST: f64 = 1e9;
@@ -29,7 +29,7 @@ const TOUCHING: f64 = 1e-9;
     can(Environment),
     example = include_str!("../../scripts/obstacles.lua"),
 )]
-pub struct Obstacles {
+pub struct ObstacleSolids {
     last: Option<Arc<SolidLink>>,
     /// Spatial index of all solids, built by the first question.
     index: OnceLock<Arc<RTree<IndexedSolid>>>,
@@ -54,7 +54,7 @@ impl Drop for SolidLink {
 }
 
 #[methods("obstacles")]
-impl Obstacles {
+impl ObstacleSolids {
     /// Returns these obstacles and a box with sides along the axes, from its corner `low` to its corner `high` (m).
     pub fn r#box(&self, low: Vector, high: Vector) -> Result<Self> {
         let size = high.0 - low.0;
@@ -183,16 +183,16 @@ impl Obstacles {
     }
 }
 
-impl Obstacles {
+impl ObstacleSolids {
     /// Creates obstacles without solids.
     ///
     /// ```
     /// use burgeon_kit::Vector;
-    /// use burgeon_objects::Obstacles;
+    /// use burgeon_objects::ObstacleSolids;
     /// use glam::DVec3;
     ///
     /// let at = |x: f64, y: f64, z: f64| Vector(DVec3::new(x, y, z));
-    /// let garden = Obstacles::new().r#box(at(0.0, 0.0, 0.0), at(1.0, 4.0, 2.0))?.sphere(at(5.0, 0.0, 1.0), 1.0)?;
+    /// let garden = ObstacleSolids::new().r#box(at(0.0, 0.0, 0.0), at(1.0, 4.0, 2.0))?.sphere(at(5.0, 0.0, 1.0), 1.0)?;
     /// assert!(garden.contains(at(0.5, 1.0, 1.0))? && !garden.contains(at(2.0, 1.0, 1.0))?);
     /// assert_eq!(garden.distance(at(3.0, 0.0, 1.0))?, 1.0);
     /// assert_eq!(garden.hit(at(3.0, 0.0, 1.0), at(-1.0, 0.0, 1.0))?, Some(0.5));
@@ -231,8 +231,8 @@ impl Obstacles {
     }
 
     /// Returns the nearest point of the surfaces, and true if the place is in an obstacle; `None` if there are none.
-    fn surface(&self, place: DVec3) -> Result<Option<(SurfacePoint, bool)>> {
-        let depth = |near: &SurfacePoint| near.position.distance_squared(place);
+    fn surface(&self, place: DVec3) -> Result<Option<(SolidSurfacePoint, bool)>> {
+        let depth = |near: &SolidSurfacePoint| near.position.distance_squared(place);
         let inside = self.around(place)?.map(|solid| solid.nearest(place));
         if let Some(deepest) = inside.max_by(|a, b| depth(a).total_cmp(&depth(b))) {
             return Ok(Some((deepest, true)));
@@ -242,13 +242,13 @@ impl Obstacles {
     }
 }
 
-impl Environment for Obstacles {
+impl Environment for ObstacleSolids {
     fn end_pass(&mut self) -> Result<()> {
         Ok(())
     }
 }
 
-impl Answer for Obstacles {
+impl Answer for ObstacleSolids {
     fn luau() -> String {
         "Obstacles".into()
     }

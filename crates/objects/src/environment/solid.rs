@@ -19,7 +19,7 @@ pub(super) enum Solid {
 
 /// Nearest point of a surface.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct SurfacePoint {
+pub(super) struct SolidSurfacePoint {
     /// Position (m).
     pub position: DVec3,
     /// Unit normal, outwards.
@@ -46,16 +46,16 @@ impl Solid {
     }
 
     /// Returns the nearest point of the surface to a place (m).
-    pub(super) fn nearest(&self, place: DVec3) -> SurfacePoint {
+    pub(super) fn nearest(&self, place: DVec3) -> SolidSurfacePoint {
         match self {
             Self::Cuboid(corners) => nearest_of_cuboid(*corners, place),
             Self::Ball(center, radius) => {
                 let normal = (place - center).try_normalize().unwrap_or(DVec3::Z);
-                SurfacePoint { position: center + normal * radius, normal }
+                SolidSurfacePoint { position: center + normal * radius, normal }
             }
             Self::Mesh(mesh) => {
                 let (position, normal) = mesh.nearest(place).unwrap_or((mesh.bounds()[0], DVec3::Z));
-                SurfacePoint { position, normal }
+                SolidSurfacePoint { position, normal }
             }
         }
     }
@@ -74,7 +74,7 @@ impl Solid {
 }
 
 /// Returns the nearest point of the surface of a box.
-fn nearest_of_cuboid([low, high]: [DVec3; 2], place: DVec3) -> SurfacePoint {
+fn nearest_of_cuboid([low, high]: [DVec3; 2], place: DVec3) -> SolidSurfacePoint {
     let mut position = place.clamp(low, high);
     let outside = place - position;
     let depths = [place - low, high - place].map(|depth| depth.to_array());
@@ -87,7 +87,7 @@ fn nearest_of_cuboid([low, high]: [DVec3; 2], place: DVec3) -> SurfacePoint {
     if outside == DVec3::ZERO {
         position[axis] = [low, high][side][axis];
     }
-    SurfacePoint { position, normal }
+    SolidSurfacePoint { position, normal }
 }
 
 /// Returns the share of a segment (m) from outside at which it meets a ball.

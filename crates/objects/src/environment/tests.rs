@@ -110,7 +110,7 @@ fn to_cuboid(place: DVec3, low: DVec3, high: DVec3) -> f64 {
 fn distances_and_hits_of_obstacles_are_those_of_a_scan_of_all_solids() {
     let (mut inside, mut hits) = (0, 0);
     for seed in 0..10 {
-        let mut all = Obstacles::new();
+        let mut all = ObstacleSolids::new();
         let mut solids: Vec<Box<dyn Fn(DVec3) -> f64>> = Vec::new();
         for pair in places(seed, 60, 10.0).chunks_exact(2) {
             let (place, size) = (pair[0], pair[1].abs() * 0.3 + 0.05);
@@ -207,7 +207,7 @@ fn a_model_is_an_obstacle_with_all_its_instances_at_its_place_and_scale() {
     let model = balls([DVec3::ZERO, DVec3::X * 1.5]);
     let at = Vector(DVec3::new(10.0, 0.0, 3.0));
     let all =
-        Obstacles::new().mesh(model, Some(at), Some(burgeon_kit::AxisScale(DVec3::splat(2.0)))).unwrap();
+        ObstacleSolids::new().mesh(model, Some(at), Some(burgeon_kit::AxisScale(DVec3::splat(2.0)))).unwrap();
     for place in places(5, 3000, 10.0).into_iter().map(|place| place + DVec3::new(11.0, 0.0, 3.0)) {
         let distances = [10.0, 13.0].map(|x| place.distance(DVec3::new(x, 0.0, 3.0)) - 2.0);
         let expected = distances[0].min(distances[1]);
@@ -225,7 +225,7 @@ fn a_model_is_an_obstacle_with_all_its_instances_at_its_place_and_scale() {
 #[test]
 fn obstacles_refuse_solids_without_size_and_open_models() {
     let at = |x: f64| Vector(DVec3::new(x, 0.0, 0.0));
-    let none = Obstacles::new();
+    let none = ObstacleSolids::new();
     let mut open = Mesh::default();
     sphere(open.part(0), DVec3::ZERO, 1.0, 6).unwrap();
     open.part(0).truncate(usize::MAX, 5);
@@ -266,7 +266,7 @@ fn obstacles_refuse_solids_without_size_and_open_models() {
 
 #[test]
 fn a_long_chain_of_obstacles_shares_its_solids() {
-    let mut all = Obstacles::new();
+    let mut all = ObstacleSolids::new();
     for number in 0..200_000 {
         all = all.sphere(Vector(DVec3::X * f64::from(number)), 0.25).unwrap();
     }
