@@ -103,6 +103,75 @@ fn each_derivation_begins_with_the_environment_that_the_script_has_made() {
 }
 
 #[test]
+fn roots_share_the_water_in_the_order_of_the_chains() {
+    // A cell holds 4: the first root takes 3 of it, the second one the rest. A root in another cell takes 3.
+    let script = "local ground = soil({ size = { 2, 1, 1 }, cell = 1, amount = 4 })
+        local At, Root, Got = module('At', 'x', 'z'), module('Root'), module('Got', 'taken', 'left')
+        local s = lsystem({ object = turtle(), environment = ground })
+        s:axiom(source({ -0.5, -0.6, 0.5 }), function(x) return At(x, -0.5), Root() end)
+        s:interpret('At(x, z)', function(this, x, z) this:jump(vec(x, 0, z)) end)
+        s:interpret('Root', function(this) ground:take(this:position(), 0, 3) end)
+        s:rule('Root', function(this)
+          return Got(ground:taken(this:position()), ground:amount(this:position()))
+        end)
+        s:derive(1)\n";
+    for threads in [1, 3] {
+        let made = all_chains(&run_with(script, divided(threads, 1)));
+        let expected = ["At(-0.5,-0.5) Got(3,0)", "At(-0.6,-0.5) Got(1,0)", "At(0.5,-0.5) Got(3,1)"];
+        assert_eq!(made.split_whitespace().collect::<Vec<_>>().join(" "), expected.join(" "));
+    }
+}
+
+#[test]
+fn water_that_is_taken_does_not_return_in_the_next_pass_but_in_the_next_derivation() {
+    let run = run("local ground = soil({ size = { 3, 1, 1 }, cell = 1, amount = 10, diffusion = 1000 })
+        local Root, Left = module('Root'), module('Left', 'water')
+        local s = lsystem({ object = turtle(), environment = ground })
+        s:axiom(Pitch(180), G(0.5), Root(), Left(30))
+        s:interpret('Root', function(this) ground:take(this:position(), 0, 6) end)
+        s:rule('Left(water)', function(this, water) return Left(math.round(ground:total())) end)
+        s:derive(1)
+        s:derive(3)\n");
+    let chains: Vec<String> =
+        run.systems.iter().map(|system| system.chain_text().trim().to_owned()).collect();
+    // Diffusion leaves nearly the same in each of the three cells: 8, then 6, then 4.
+    assert!(chains[0].ends_with("Root Left(24)") && chains[1].ends_with("Root Left(12)"), "{chains:?}");
+}
+
+#[test]
+fn rules_and_the_top_level_read_obstacles_with_or_without_the_option() {
+    let script = |option: &str| {
+        format!(
+            "local Part = module('Part')
+            local post = lsystem({{ object = extruder({{ sides = 4 }}) }})
+            post:axiom(Part())
+            post:interpret('Part', function(this) this:extrude(2) end)
+            local ground = obstacles():box({{ -9, -9, -1 }}, {{ 9, 9, 0 }})
+            local stone = ground:mesh(post:derive(0), {{ -3, 0, 0 }}):sphere({{ 0, -4, 1 }}, 1.25)
+            expect(ground:count(), 1) expect(stone:count(), 3)
+            expect(stone:contains({{ -3, 0, 1 }}), true) expect(ground:contains({{ -3, 0, 1 }}), false)
+            local Tip, Stop = module('Tip', 'turn'), module('Stop', 'share')
+            local s = lsystem({{ object = turtle(){option} }})
+            s:axiom(source({{ 0, 90, 180 }}), function(turn) return G(1), Pitch(90), Turn(turn), Tip(turn) end)
+            s:rule('Tip(turn)', function(this, turn)
+              local place = this:position()
+              local share = stone:hit(place, place + this:heading())
+              if share then return Stop(math.round(share * 1000) / 1000) end
+              return F(1), Tip(turn)
+            end)
+            s:derive(5)\n"
+        )
+    };
+    let plain = all_chains(&run_with(&script(""), divided(1, 4096)));
+    let expected =
+        ["F(1) F(1) F(1) F(1) F(1) Tip(0)", "Turn(90) F(1) Stop(1)", "Turn(180) F(1) F(1) Stop(0.75)"];
+    assert!(expected.iter().all(|chain| plain.contains(chain)), "{plain}");
+    for (threads, batch) in [(1, 1), (3, 1), (3, 2)] {
+        assert_eq!(all_chains(&run_with(&script(", environment = stone"), divided(threads, batch))), plain);
+    }
+}
+
+#[test]
 fn misuse_is_refused_with_the_line_and_the_remedy() {
     let head = "local light = shadow_voxels() local other = shadow_voxels() local A = module('A')\n";
     let system = "local s = lsystem({ object = turtle(), environment = light }) s:axiom(A())\n";
@@ -123,6 +192,16 @@ fn misuse_is_refused_with_the_line_and_the_remedy() {
         of("shadow_voxels({ size = 0 })"),
         of("attractors({ points = { vec(0, 0, 0) }, kill = -1 })"),
         of("discs({ overlap = 2 })"),
+        of("soil({ cell = 0 })"),
+        of("soil({ size = { 1, 0, 1 } })"),
+        of("soil({ size = { 1000, 1000, 1000 } })"),
+        of("soil({ amount = -1 })"),
+        of("soil():take({ 0, 0, 0 }, 1, 1)"),
+        of("obstacles():sphere({ 0, 0, 0 }, -1)"),
+        of("obstacles():box({ 0, 0, 0 }, { 1, 1, 0 })"),
+        of("obstacles():mesh(shadow_voxels())"),
+        of("obstacles():prism(point(0, 0), 3)"),
+        of("obstacles():nearest({ 0, 0, 0 })"),
     ];
     let after_path =
         |line: &String| line.split_once("main.lua:").map_or("", |(_, rest)| rest).to_owned() + "\n";
@@ -140,5 +219,15 @@ fn misuse_is_refused_with_the_line_and_the_remedy() {
     2: shadow_voxels: size is 0 |   help: give a length above 0
     2: attractors: kill is -1 |   help: give a distance (m) of at least 0
     2: discs: overlap is 2 |   help: give a part of the radius from 0 to 1
+    2: soil: cell is 0 |   help: give a length (m) above 0
+    2: soil: size is {1.0, 0.0, 1.0} |   help: give three lengths (m) above 0
+    2: soil: the grid of 10000 by 10000 by 10000 cells is too large |   help: use larger cells
+    2: soil: amount is -1 |   help: give a number of at least 0
+    2: soil:take is a write method, so only interpretation rules can call it |   help: use system:interpret(pattern, function(this, ...) ... end)
+    2: obstacles:sphere: the centre is {0.0, 0.0, 0.0} and the radius -1 |   help: give a radius above 0, and numbers below 1e9 m
+    2: obstacles:box: the corners are {0.0, 0.0, 0.0} and {1.0, 1.0, 0.0} |   help: give a low and a high corner, with x, y and z that increase and are below 1e9 m
+    2: obstacles:mesh: model must be what derive returned, or model("window.glb"), not a shadow_voxels
+    2: obstacles:prism: the geometry contains no area |   help: give a polygon, such as a plan
+    2: obstacles:nearest: there are no obstacles |   help: add a solid: obstacles():box({ 0, 0, 0 }, { 1, 1, 2 })
     "#);
 }

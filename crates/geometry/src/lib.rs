@@ -3,6 +3,7 @@
 //! Input: points, outlines and cross-sections in metres. Output: faces, lines and meshes, closed or with a
 //! list of their open edges. This crate never reads a file, draws a random number or reads a module.
 
+mod closed_mesh;
 mod cross_section;
 mod curves;
 mod face;
@@ -19,6 +20,7 @@ pub mod solid;
 mod sweeps;
 mod union;
 
+pub use closed_mesh::{AlongSegment, ClosedMesh};
 pub use cross_section::point::SectionPoint;
 pub use cross_section::section::{MOST_POINTS, Section};
 pub use curves::curve::{Curve, CurveKind};

@@ -7,11 +7,14 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "attractors" shows "attractors" "attractors:add" "attractors:count" "attractors:direction" "attractors:remaining";
     "discs" shows "discs" "discs:add" "discs:dominated";
     "shadow_voxels" shows "shadow_voxels" "shadow_voxels:shade" "shadow_voxels:light" "shadow_voxels:brightest";
+    "obstacles" shows "obstacles" "obstacles:sphere" "obstacles:contains" "obstacles:distance";
+    "soil" shows "soil" "soil:take" "soil:taken" "soil:gradient";
     "extruder" shows "extruder";
     "footprint" shows "footprint";
     "planet" shows "planet";
     "terrain" shows "terrain";
     "turtle" shows "turtle";
+    "obstacles/mesh" shows "obstacles:mesh";
     "extruder/advance" shows "extruder:advance";
     "extruder/bend" shows "extruder:bend";
     "extruder/caps" shows "extruder:caps" "extruder.caps";
@@ -109,9 +112,12 @@ pub const PLAIN_EXAMPLES: &[ScriptExample] = examples! {
         "network:junctions" "network:blocks" "network:lots" "network:height" "network:verge"
         "network:sites" "network:face";
     "network/walk" shows "network:grow_to" "network:walk" "network:turn" "network:move_to";
+    "obstacles/hit" shows "obstacles:box" "obstacles:prism" "obstacles:count" "obstacles:nearest"
+        "obstacles:normal" "obstacles:hit";
     "planet/height" shows "planet:focus" "planet:height" "planet:surface" "planet:symbol"
         "planet:heights";
     "ramp/slope" shows "ramp:slope" "ramp:at" "ramp:integral" "ramp:mix";
+    "soil/total" shows "soil:add" "soil:diffuse" "soil:amount" "soil:total";
     "streets/distance" shows "streets:distance";
     "surface/normal" shows "surface:normal" "surface:point" "surface:mix";
     "terrain/height" shows "terrain:focus" "terrain:height" "terrain:normal" "terrain:slope"

@@ -26,7 +26,10 @@ pub use curves::curve::{CurveObject, CurveOptions};
 pub use curves::ramp::{RampObject, RampOptions};
 pub use curves::surface::{SplineSurfaceOptions, SurfaceObject};
 pub use elevation::{Elevation, ElevationOptions};
-pub use environment::{AttractorOptions, Attractors, DiscOptions, Discs, ShadowVoxelOptions, ShadowVoxels};
+pub use environment::{
+    AttractorOptions, Attractors, DiscOptions, Discs, ObstacleSolids, ShadowVoxelOptions, ShadowVoxels, Soil,
+    SoilOptions,
+};
 pub use examples::{EXAMPLES, PLAIN_EXAMPLES};
 pub use extruder::Extruder;
 pub use facade::{Facade, Template, Templates, Wall};
@@ -81,6 +84,8 @@ pub fn registry() -> Registry {
         ShadowVoxels::kind(),
         Attractors::kind(),
         Discs::kind(),
+        ObstacleSolids::kind(),
+        Soil::kind(),
     ];
     own.into_iter().chain(facade::kinds()).map(Arc::clone).collect()
 }
@@ -90,6 +95,6 @@ mod tests {
     #[test]
     fn no_type_is_left_out_for_its_name() {
         super::registry().check().expect("each has a name of its own");
-        assert_eq!(super::registry().kinds().count(), 20 + super::facade::kinds().len());
+        assert_eq!(super::registry().kinds().count(), 22 + super::facade::kinds().len());
     }
 }

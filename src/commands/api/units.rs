@@ -91,6 +91,7 @@ const FACTORS: [&str; 67] = [
     "noise x",
     "noise y",
     "noise z",
+    "obstacles:mesh scale",
     "planet.closeness",
     "planet.error",
     "ramp:mix t",
@@ -160,7 +161,7 @@ const NUMBERS: [&str; 38] = [
 ];
 
 /// Values in any unit that the script or the file uses.
-const ANY: [&str; 36] = [
+const ANY: [&str; 39] = [
     "beta a",
     "beta b",
     "beta r",
@@ -193,8 +194,11 @@ const ANY: [&str; 36] = [
     "remap low",
     "remap to",
     "remap x",
-    "stream ...",
+    "soil.amount",
+    "soil:add amount",
+    "soil:take amount",
     "source.within",
+    "stream ...",
     "surface.u_knots",
     "surface.v_knots",
 ];

@@ -1,8 +1,12 @@
 //! Environments against plain searches over all pairs.
 
 use burgeon_base::random::Stream;
+use burgeon_geometry::sphere;
+use burgeon_kit::Model;
 use burgeon_kit::{Environment as _, Object as _, Vector};
-use glam::DVec3;
+use burgeon_scene::{Instance, Material, Mesh, Scene};
+use glam::{DAffine3, DVec3};
+use std::sync::Arc;
 
 use super::*;
 
@@ -94,4 +98,182 @@ fn the_weaker_of_two_discs_that_overlap_is_dominated() {
             assert_eq!(ground.dominated(Vector(*place)), expected);
         }
     }
+}
+
+/// Returns the signed distance (m) to a box.
+fn to_cuboid(place: DVec3, low: DVec3, high: DVec3) -> f64 {
+    let beyond = (place - low.midpoint(high)).abs() - (high - low) / 2.0;
+    beyond.max(DVec3::ZERO).length() + beyond.max_element().min(0.0)
+}
+
+#[test]
+fn distances_and_hits_of_obstacles_are_those_of_a_scan_of_all_solids() {
+    let (mut inside, mut hits) = (0, 0);
+    for seed in 0..10 {
+        let mut all = ObstacleSolids::new();
+        let mut solids: Vec<Box<dyn Fn(DVec3) -> f64>> = Vec::new();
+        for pair in places(seed, 60, 10.0).chunks_exact(2) {
+            let (place, size) = (pair[0], pair[1].abs() * 0.3 + 0.05);
+            match solids.len() % 3 {
+                0 => {
+                    all = all.sphere(Vector(place), size.x).unwrap();
+                    solids.push(Box::new(move |at| at.distance(place) - size.x));
+                }
+                1 => {
+                    all = all.r#box(Vector(place - size), Vector(place + size)).unwrap();
+                    solids.push(Box::new(move |at| to_cuboid(at, place - size, place + size)));
+                }
+                _ => {
+                    // Counter-clockwise and clockwise rings.
+                    let turn = if seed % 2 == 0 { 1.0 } else { -1.0 };
+                    let corners = [(1.0, turn), (-1.0, turn), (-1.0, -turn), (1.0, -turn)];
+                    let corners =
+                        corners.map(|(x, y)| place + DVec3::new(x * size.x, y * size.y, 7.0)).to_vec();
+                    let area = burgeon_data::Geometry::polygon(vec![corners]).unwrap();
+                    let [low, high] = [place - size, place + size];
+                    all = all.prism(area, high.z - low.z, Some(low.z)).unwrap();
+                    solids.push(Box::new(move |at| to_cuboid(at, low, high)));
+                }
+            }
+        }
+        assert_eq!(all.count(), 30);
+        let distance = |at: DVec3| {
+            let inside = solids.iter().map(|solid| solid(at)).filter(|distance| *distance <= 0.0);
+            inside
+                .reduce(f64::min)
+                .unwrap_or_else(|| solids.iter().map(|solid| solid(at)).fold(f64::INFINITY, f64::min))
+        };
+        for pair in places(seed + 40, 400, 12.0).chunks_exact(2) {
+            let [from, to] = [pair[0], pair[1]];
+            let expected = distance(from);
+            assert!((all.distance(Vector(from)).unwrap() - expected).abs() < 1e-9, "{from}");
+            assert_eq!(all.contains(Vector(from)).unwrap(), expected <= 0.0);
+            inside += u32::from(expected <= 0.0);
+            let nearest = all.nearest(Vector(from)).unwrap();
+            assert!((nearest.distance(from) - expected.abs()).abs() < 1e-9);
+            // The distance grows along the normal.
+            let on = from + all.normal(Vector(from)).unwrap() * 1e-6;
+            assert!((distance(on) - expected - 1e-6).abs() < 1e-9, "{from}");
+            let first =
+                (0..=2000).map(|step| f64::from(step) / 2000.0).find(|t| distance(from.lerp(to, *t)) <= 0.0);
+            match (all.hit(Vector(from), Vector(to)).unwrap(), first) {
+                (Some(share), Some(first)) => {
+                    hits += 1;
+                    // A shorter part of the segment may be in another obstacle before.
+                    assert!(
+                        share <= first + 1e-9 && distance(from.lerp(to, share)) < 1e-9,
+                        "{share} {first}"
+                    );
+                    let before = distance(from.lerp(to, share - 1e-6));
+                    assert!(share == 0.0 || before > 0.0);
+                }
+                (Some(share), None) => assert!(distance(from.lerp(to, share)).abs() < 1e-9, "{share}"),
+                (share, first) => assert_eq!(share, first),
+            }
+        }
+    }
+    assert!(inside > 50 && hits > 500, "{inside} {hits}");
+}
+
+/// Returns instances of the first mesh.
+fn instances<const COUNT: usize>(places: [DVec3; COUNT]) -> Vec<Instance> {
+    let instance = |place| Instance {
+        mesh: 0,
+        transform: DAffine3::from_translation(place),
+        name: String::new(),
+        feature: None,
+        origin: None,
+        placement: None,
+        meaning: None,
+    };
+    places.map(instance).to_vec()
+}
+
+/// Returns a model of two balls with a radius of 1 m.
+fn balls(centers: [DVec3; 2]) -> Arc<Model> {
+    let mut mesh = Mesh::default();
+    sphere(mesh.part(0), DVec3::ZERO, 1.0, 32).unwrap();
+    let scene = Scene {
+        materials: vec![Material::default()],
+        meshes: vec![mesh],
+        instances: instances(centers),
+        ..Scene::default()
+    };
+    Arc::new(Model::new(scene))
+}
+
+#[test]
+fn a_model_is_an_obstacle_with_all_its_instances_at_its_place_and_scale() {
+    let model = balls([DVec3::ZERO, DVec3::X * 1.5]);
+    let at = Vector(DVec3::new(10.0, 0.0, 3.0));
+    let all =
+        ObstacleSolids::new().mesh(model, Some(at), Some(burgeon_kit::AxisScale(DVec3::splat(2.0)))).unwrap();
+    for place in places(5, 3000, 10.0).into_iter().map(|place| place + DVec3::new(11.0, 0.0, 3.0)) {
+        let distances = [10.0, 13.0].map(|x| place.distance(DVec3::new(x, 0.0, 3.0)) - 2.0);
+        let expected = distances[0].min(distances[1]);
+        // The balls have flat faces, at most 2 * (1 - cos(180 / 32 degrees)) below the sphere.
+        if expected.abs() > 0.03 {
+            assert_eq!(all.contains(Vector(place)).unwrap(), expected < 0.0, "{place}");
+        }
+        if expected > 0.03 {
+            let distance = all.distance(Vector(place)).unwrap();
+            assert!((distance - expected).abs() < 0.03, "{distance} {expected}");
+        }
+    }
+}
+
+#[test]
+fn obstacles_refuse_solids_without_size_and_open_models() {
+    let at = |x: f64| Vector(DVec3::new(x, 0.0, 0.0));
+    let none = ObstacleSolids::new();
+    let mut open = Mesh::default();
+    sphere(open.part(0), DVec3::ZERO, 1.0, 6).unwrap();
+    open.part(0).truncate(usize::MAX, 5);
+    let open = Scene {
+        materials: vec![Material::default()],
+        meshes: vec![open],
+        instances: instances([DVec3::ZERO]),
+        ..Scene::default()
+    };
+    let line = burgeon_data::Geometry::line(vec![DVec3::ZERO, DVec3::X]).unwrap();
+    let said = [
+        none.r#box(at(0.0), at(1.0)).err().unwrap(),
+        none.sphere(at(0.0), 0.0).err().unwrap(),
+        none.sphere(at(0.0), f64::NAN).err().unwrap(),
+        none.prism(line, 2.0, None).err().unwrap(),
+        none.mesh(balls([DVec3::ZERO; 2]), None, Some(burgeon_kit::AxisScale(DVec3::new(1.0, -1.0, 1.0))))
+            .err()
+            .unwrap(),
+        none.mesh(Arc::new(Model::new(open)), None, None).err().unwrap(),
+        none.nearest(at(0.0)).err().unwrap(),
+    ];
+    let said: Vec<String> =
+        said.iter().map(|error| format!("{} | {}", error.message(), error.remedy().unwrap())).collect();
+    insta::assert_snapshot!(said.join("\n"), @r#"
+    obstacles:box: the corners are {0.0, 0.0, 0.0} and {1.0, 0.0, 0.0} | give a low and a high corner, with x, y and z that increase and are below 1e9 m
+    obstacles:sphere: the centre is {0.0, 0.0, 0.0} and the radius 0 | give a radius above 0, and numbers below 1e9 m
+    obstacles:sphere: the centre is {0.0, 0.0, 0.0} and the radius NaN | give a radius above 0, and numbers below 1e9 m
+    obstacles:prism: the geometry contains no area | give a polygon, such as a plan
+    obstacles:mesh: the position is {0.0, 0.0, 0.0} and the scale {1.0, -1.0, 1.0} | give a scale above 0, and coordinates below 1e9 m
+    obstacles:mesh: the mesh has 7 open edges, such as from {0.000, 0.000, 1.000} to {0.866, 0.000, 0.500} (m) | close the surface, with caps and without gaps, and orient all faces outwards
+    obstacles:nearest: there are no obstacles | add a solid: obstacles():box({ 0, 0, 0 }, { 1, 1, 2 })
+    "#);
+    assert_eq!(none.distance(at(0.0)).unwrap(), f64::INFINITY);
+    assert_eq!(none.normal(at(0.0)).unwrap(), DVec3::ZERO);
+    assert_eq!(none.mesh(Arc::new(Model::new(Scene::default())), None, None).unwrap().count(), 0);
+    assert_eq!(none.hit(at(0.0), at(1.0)).unwrap(), None);
+}
+
+#[test]
+fn a_long_chain_of_obstacles_shares_its_solids() {
+    let mut all = ObstacleSolids::new();
+    for number in 0..200_000 {
+        all = all.sphere(Vector(DVec3::X * f64::from(number)), 0.25).unwrap();
+    }
+    let before = all.clone();
+    all = all.sphere(Vector(DVec3::Y * 9.0), 1.0).unwrap();
+    assert_eq!(before.distance(Vector(DVec3::Y * 9.0)).unwrap(), 8.75);
+    assert_eq!(all.distance(Vector(DVec3::Y * 9.0)).unwrap(), -1.0);
+    drop(all);
+    assert!(before.contains(Vector(DVec3::X * 70_000.0)).unwrap());
 }

@@ -1,0 +1,23 @@
+-- A vine that climbs around the model of a column.
+local Part, Apex, Face = module("Part"), module("Apex", "way"), module("Face", "way")
+local tower = lsystem({ object = extruder({ sides = 12, color = "#b5a793" }) })
+tower:axiom(Part())
+tower:interpret("Part", function(this)
+  this:scale(0.6):extrude(2.4)
+end)
+local column = tower:derive(0)
+local stone = obstacles():mesh(column)
+
+local vine = lsystem({ object = turtle({ width = 0.05, color = "#5d8f3c" }) })
+vine:axiom(Place(column), G(0.1), Face(vec(1, -1, 0)), G(0.7), Apex(vec(1, 0, 0.3)))
+vine:rule("Apex(way)", function(this, way)
+  local place = this:position()
+  local away = stone:normal(place)
+  local along = way - away * way:dot(away)
+  local on = along:unit() + away * (0.08 - stone:distance(place)) * 2
+  return Face(on), F(0.15), { Face(away + vec(0, 0, 0.4)), F(0.06), Sphere(0.06) }, Apex(vec(on.x, on.y, 0.3))
+end)
+vine:interpret("Face(way)", function(this, way)
+  this:face(way)
+end)
+vine:derive(60)
