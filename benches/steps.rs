@@ -1,4 +1,5 @@
-//! CPU time of many steps that change little: growth at one place, with and without contexts, and questions for a place.
+//! CPU time of many steps that change little: growth at one place, with and without contexts, and questions for a place. Then the
+//! CPU time of a step on many modules that see the new chain, or that ask an environment.
 //!
 //! `cargo bench --bench steps`. If the cost of a step is the cost of what changes, twice as many steps take twice as long.
 
@@ -30,7 +31,46 @@ const SYSTEMS: [(&str, usize, &str); 6] = [
     ),
 ];
 
+/// Systems of which one step changes many modules, with their number.
+const WIDE: [(&str, usize, &str); 3] = [
+    (
+        "new contexts along one axis",
+        1_000_000,
+        "local list = table.create(1000000, F()) s:axiom(B(0), sequence(list))
+         s:rule('B(n) << F', function(_, n) return B(n + 1) end)",
+    ),
+    (
+        "new contexts in 10,000 branches",
+        1_000_000,
+        "local list, branch = { B(0) }, table.create(100, F())
+         for i = 1, 10000 do list[i + 1] = branch end
+         s:axiom(sequence(list))
+         s:rule('B(n) << F', function(_, n) return B(n + 1) end)",
+    ),
+    (
+        "light of 100,000 tips",
+        100_000,
+        "local light = shadow_voxels({ size = 0.25, depth = 10 })
+         s = lsystem({ object = turtle(), environment = light })
+         local list = table.create(100000)
+         for i = 1, 100000 do list[i] = B(i) end
+         s:axiom(sequence(list))
+         s:rule('B(n)', function(_, n)
+           return if light:light(vec(n % 300, n // 300, n % 7)) < 0 then B(0) else B(n)
+         end)
+         s:interpret('B(n)', function(_, n) light:shade(vec(n % 300, n // 300, n % 7)) end)",
+    ),
+];
+
 fn main() {
+    println!("CPU time                       a step (s)   million modules a second");
+    for (name, modules, rules) in WIDE {
+        let (one, more) = (seconds(rules, 1), seconds(rules, 3));
+        let none = seconds(rules, 0);
+        // A rule with a context in the new chain changes the chain only once.
+        let step = if name.starts_with("light") { (more - one) / 2.0 } else { one - none };
+        println!("{name:32} {step:8.3} {:12.2}", modules as f64 / step / 1e6);
+    }
     println!("CPU seconds            steps/8    steps/4    steps/2      steps   a step (us)");
     for (name, most, rules) in SYSTEMS {
         let times = [8, 4, 2, 1].map(|divisor| seconds(rules, most / divisor));
