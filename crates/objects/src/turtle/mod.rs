@@ -5,6 +5,7 @@
 
 mod angles;
 mod cylinder;
+mod joined;
 mod object;
 mod options;
 mod state;
