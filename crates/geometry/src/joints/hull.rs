@@ -9,14 +9,15 @@ const NONE: u32 = u32::MAX;
 /// Returns the triangles of the convex hull of `points`, counter-clockwise seen from outside; `None` if the points lie
 /// in a plane.
 ///
-/// The points lie on a sphere up to rounding, so all of them are corners of the hull. Points are added one by one: the
+/// The points lie on the unit sphere up to rounding, so all of them are corners of the hull. Points are added one by one: the
 /// faces that a point sees are replaced by faces to the edges around them. The predicate is exact (J. Shewchuk,
 /// "Adaptive Precision Floating-Point Arithmetic", 1997), so the result is closed for any input.
 pub(super) fn sphere_hull(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
     let first = first_tetrahedron(points)?;
     let [a, b, c, d] = first.map(|index| index as u32);
-    let mut faces = vec![[a, b, c], [a, c, d], [a, d, b], [b, d, c]];
-    let mut kept: Vec<[u32; 3]> = Vec::new();
+    let first_faces = [[a, b, c], [a, c, d], [a, d, b], [b, d, c]];
+    let mut faces: Vec<HullFace> = first_faces.map(|face| HullFace::new(points, face)).into();
+    let mut kept: Vec<HullFace> = Vec::with_capacity(2 * points.len());
     let mut seen: Vec<[u32; 3]> = Vec::new();
     let mut next = vec![NONE; points.len()];
     for index in 0..points.len() {
@@ -26,8 +27,11 @@ pub(super) fn sphere_hull(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
         kept.clear();
         seen.clear();
         for face in &faces {
-            let sees = side(points, *face, index) > 0.0;
-            if sees { &mut seen } else { &mut kept }.push(*face);
+            if face.is_seen(points, index) {
+                seen.push(face.corners);
+            } else {
+                kept.push(*face);
+            }
         }
         // The horizon: edges of faces that the point sees, whose opposite edge belongs to a face that it does not see.
         for face in &seen {
@@ -38,7 +42,7 @@ pub(super) fn sphere_hull(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
                         return None;
                     }
                     next[from as usize] = to;
-                    kept.push([from, to, index as u32]);
+                    kept.push(HullFace::new(points, [from, to, index as u32]));
                 }
             }
         }
@@ -47,7 +51,37 @@ pub(super) fn sphere_hull(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
         }
         std::mem::swap(&mut faces, &mut kept);
     }
-    Some(faces)
+    Some(faces.into_iter().map(|face| face.corners).collect())
+}
+
+/// Minimum distance of a point from the plane of a face, times twice the area of the face, that rounding cannot
+/// invert, for coordinates up to 1.
+const CERTAIN: f64 = 1e-13;
+
+/// A face of the hull with its plane.
+#[derive(Clone, Copy)]
+struct HullFace {
+    corners: [u32; 3],
+    /// Outward normal, as long as twice the area.
+    normal: DVec3,
+    /// Product of the normal and a corner.
+    offset: f64,
+}
+
+impl HullFace {
+    #[inline]
+    fn new(points: &[DVec3], corners: [u32; 3]) -> Self {
+        let [a, b, c] = corners.map(|corner| points[corner as usize]);
+        let normal = (b - a).cross(c - a);
+        Self { corners, normal, offset: normal.dot(a) }
+    }
+
+    /// Returns true if point number `index` lies outside of the face.
+    #[inline]
+    fn is_seen(&self, points: &[DVec3], index: usize) -> bool {
+        let distance = self.normal.dot(points[index]) - self.offset;
+        if distance.abs() > CERTAIN { distance > 0.0 } else { side(points, self.corners, index) > 0.0 }
+    }
 }
 
 /// Returns the edges of a face, in its direction.

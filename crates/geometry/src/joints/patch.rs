@@ -252,13 +252,16 @@ impl Patch {
         self.vertices.resize(self.points.len(), [NONE; 3]);
         for triangle in &self.triangles {
             let us = triangle.map(|corner| places[corner as usize].0);
-            let middle = triangle.iter().map(|&corner| self.points[corner as usize]).sum::<DVec3>() / 3.0;
-            let away = middle - joint.centre;
-            let turn = away.dot(up).atan2(away.dot(side)) / std::f64::consts::TAU;
-            let near = (turn.rem_euclid(1.0) - 0.5) * first.around;
+            // A triangle across the seam is on the side of its middle.
+            let crosses =
+                us.iter().copied().fold(f64::MIN, f64::max) - us.iter().copied().fold(f64::MAX, f64::min);
+            let crosses = crosses > first.around / 2.0;
+            let lifted = us.map(|u| if crosses && u < 0.0 { u + first.around } else { u });
+            let back = if lifted.iter().sum::<f64>() / 3.0 > first.around / 2.0 { first.around } else { 0.0 };
             let mut corners = [0; 3];
             for (index, &corner) in triangle.iter().enumerate() {
-                let shift = ((near - us[index]) / first.around.max(1e-9)).round().clamp(-1.0, 1.0);
+                let shift = (lifted[index] - back - us[index]) / first.around.max(f64::MIN_POSITIVE);
+                let shift = shift.round().clamp(-1.0, 1.0);
                 let vertex = &mut self.vertices[corner as usize][(shift + 1.0) as usize];
                 if *vertex == NONE {
                     *vertex = part.positions.len() as u32;

@@ -188,9 +188,12 @@ fn move_ring(tree: &TubeTree, centre: DVec3, ring: &mut JointRing) {
     add_points(route, &frame, &mut ring.points);
     let way = frame.centre - centre;
     ring.direction = way.try_normalize().unwrap_or(frame.tangent);
-    let widest = |cone: f64, point: &DVec3| cone.max(ring.direction.angle_between(*point - centre));
-    let too_close = way.length() <= 2.0 * rounding(centre);
-    ring.cone = if too_close { FRAC_PI_2 } else { ring.points.iter().fold(0.0, widest) };
+    if way.length() <= 2.0 * rounding(centre) {
+        ring.cone = FRAC_PI_2;
+        return;
+    }
+    let cosine = |point: &DVec3| (*point - centre).normalize_or_zero().dot(ring.direction);
+    ring.cone = ring.points.iter().map(cosine).fold(1.0, f64::min).acos();
 }
 
 /// Adds the points (m) of the ring at `frame`.
@@ -263,22 +266,23 @@ fn connect(tree: &TubeTree, rings: &[JointRing]) -> Option<Vec<[u32; 3]>> {
 
 /// Adds the points of a circle with the half angle `cone` on the unit sphere, in the directions of the ring's points.
 fn add_circle(ring: &JointRing, centre: DVec3, cone: f64, points: &mut Vec<DVec3>) {
-    let x = ring.direction.any_orthonormal_vector();
-    let y = ring.direction.cross(x);
-    let azimuth = |point: &DVec3| (*point - centre).dot(y).atan2((*point - centre).dot(x));
+    let flat = |point: &DVec3| (*point - centre).reject_from_normalized(ring.direction).normalize_or_zero();
     let count = ring.points.len();
+    let first = points.len();
+    points.extend(ring.points.iter().map(flat));
     // Seen from outside, the points of a ring at the start of an edge are counter-clockwise.
-    let turn = if ring.end.end == 0 { 1.0 } else { -1.0 };
-    let mut angles: Vec<f64> = ring.points.iter().map(azimuth).collect();
-    let steps = |index: usize| ((angles[(index + 1) % count] - angles[index]) * turn).rem_euclid(TAU);
-    let least = TAU / count as f64 * 0.05;
-    let sum: f64 = (0..count).map(steps).sum();
-    if (0..count).any(|index| steps(index) < least) || sum > 1.5 * TAU {
+    let axis = if ring.end.end == 0 { ring.direction } else { -ring.direction };
+    let turn = |index: usize| points[first + index].cross(points[first + (index + 1) % count]).dot(axis);
+    let least = (TAU / count as f64).sin().abs() * 0.05;
+    if (0..count).any(|index| turn(index) < least) {
         // The ring is not star-shaped from the joint, so its points are distributed evenly.
-        let first = angles[0];
-        angles = (0..count).map(|index| first + turn * TAU * index as f64 / count as f64).collect();
+        let x = points[first].try_normalize().unwrap_or_else(|| axis.any_orthonormal_vector());
+        let y = axis.cross(x);
+        for index in 0..count {
+            let (sin, cos) = (TAU * index as f64 / count as f64).sin_cos();
+            points[first + index] = x * cos + y * sin;
+        }
     }
     let (sin, cos) = cone.sin_cos();
-    let place = |angle: &f64| ring.direction * cos + (x * angle.cos() + y * angle.sin()) * sin;
-    points.extend(angles.iter().map(place));
+    points[first..].iter_mut().for_each(|point| *point = ring.direction * cos + *point * sin);
 }

@@ -2,14 +2,12 @@
 
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
-use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 
 use super::axis::{AxisPoint, JoinedTubes, JointAxis};
 use super::tubes::joined_tubes;
-use crate::curves::curve::{Curve, CurveKind};
 use crate::solid::{check, volume};
 use crate::sweeps::cylinder::CylinderPoint;
 use burgeon_scene::Part;
