@@ -1,4 +1,4 @@
-//! Geometry without rules or scripts: frames, curves, cross-sections, sweeps, straight skeletons and roofs.
+//! Geometry without rules or scripts: frames, curves, cross-sections, sweeps, trees of tubes, straight skeletons and roofs.
 //!
 //! Input: points, outlines and cross-sections in metres. Output: faces, lines and meshes, closed or with a
 //! list of their open edges. This crate never reads a file, draws a random number or reads a module.

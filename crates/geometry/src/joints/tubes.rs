@@ -64,13 +64,7 @@ pub fn joined_tubes(part: &mut Part, axes: &[JointAxis], sides: usize) -> Result
         tube.add(part, &tree, index, &mut found, &mut ends)?;
     }
     let mut patch = Patch::default();
-    let steps = if sides <= 6 {
-        2
-    } else if sides <= 16 {
-        3
-    } else {
-        4
-    };
+    let steps = piece_count(sides);
     for (index, joint) in tree.joints.iter().enumerate() {
         check(part, index)?;
         let before = part.triangles.len();
@@ -80,6 +74,15 @@ pub fn joined_tubes(part: &mut Part, axes: &[JointAxis], sides: usize) -> Result
         found.joints += usize::from(!joint.faces.is_empty());
     }
     Ok(found)
+}
+
+/// Returns the number of pieces of each curve between two rings with this number of `sides`.
+fn piece_count(sides: usize) -> u32 {
+    match sides {
+        0..=8 => 2,
+        9..=16 => 3,
+        _ => 4,
+    }
 }
 
 /// Fails if the run is cancelled or if the part is full.

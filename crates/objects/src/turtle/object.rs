@@ -1,6 +1,5 @@
 //! The turtle: walks, turns and draws branches, polygons and instances.
 
-use std::any::Any;
 use std::sync::Arc;
 
 use glam::{DAffine3, DQuat, DVec3};
@@ -16,9 +15,7 @@ use crate::curves::surface::SurfaceObject;
 use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Frame, Strand, face, sphere};
-use burgeon_kit::{
-    AxisScale, Color, Drawing, DrawingMark, Locate, Model, ObjectPlace, Rewind, Vector, methods, object,
-};
+use burgeon_kit::{AxisScale, Color, Drawing, Locate, Model, ObjectPlace, Vector, methods, object};
 use burgeon_scene::Material;
 
 /// A turtle as in The Algorithmic Beauty of Plants, which draws round branches in three dimensions.
@@ -52,13 +49,13 @@ use burgeon_scene::Material;
 )]
 pub struct Turtle {
     options: TurtleOptions,
-    state: TurtleState,
-    stack: Vec<TurtleState>,
-    drawing: Drawing,
+    pub(super) state: TurtleState,
+    pub(super) stack: Vec<TurtleState>,
+    pub(super) drawing: Drawing,
     angles: Angles,
-    polygons: Vec<Vec<DVec3>>,
+    pub(super) polygons: Vec<Vec<DVec3>>,
     /// Branches that the end draws as one surface, if `turtle.joints` is "smooth".
-    joined: Option<JoinedBranches>,
+    pub(super) joined: Option<JoinedBranches>,
 }
 
 #[methods("turtle")]
@@ -303,42 +300,6 @@ impl Locate for Turtle {
     fn place(&self) -> ObjectPlace {
         let Frame { heading, left, up, .. } = self.state.frame;
         ObjectPlace { position: self.position(), heading, left, up }
-    }
-}
-
-/// State of a turtle in a pass, without what it has drawn.
-struct TurtleMark {
-    state: TurtleState,
-    stack: Vec<TurtleState>,
-    polygons: Vec<Vec<DVec3>>,
-    joined: Option<JoinedBranches>,
-    drawing: DrawingMark,
-}
-
-impl Rewind for Turtle {
-    fn mark_size(&self) -> usize {
-        let joined = self.joined.as_ref().map_or(0, JoinedBranches::size);
-        self.stack.len() + joined + self.polygons.iter().map(Vec::len).sum::<usize>()
-    }
-
-    fn mark(&self) -> Box<dyn Any + Send + Sync> {
-        Box::new(TurtleMark {
-            state: self.state.clone(),
-            stack: self.stack.clone(),
-            polygons: self.polygons.clone(),
-            joined: self.joined.clone(),
-            drawing: self.drawing.mark(),
-        })
-    }
-
-    fn rewind(&mut self, mark: &(dyn Any + Send + Sync)) -> bool {
-        let Some(mark) = mark.downcast_ref::<TurtleMark>() else { return false };
-        self.state.clone_from(&mark.state);
-        self.stack.clone_from(&mark.stack);
-        self.polygons.clone_from(&mark.polygons);
-        self.joined.clone_from(&mark.joined);
-        self.drawing.rewind(&mark.drawing);
-        true
     }
 }
 
