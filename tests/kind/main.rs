@@ -5,6 +5,7 @@
 #![allow(unreachable_pub, reason = "what scripts can use is public")]
 
 mod fuse;
+mod joints;
 mod orchard;
 
 use std::path::{Path, PathBuf};

@@ -63,7 +63,10 @@ fn each_chain_of_a_source_has_a_list() {
         t:derive(0)";
     assert_eq!(chains(script), ["A(3) [ A(-3) ] A(2)"]);
     let told = error(&script.replace("list(3)", "list(4)"));
-    assert!(told.contains("no chain number 4") && told.contains("derived:list(1) to derived:list(3)"), "{told}");
+    assert!(
+        told.contains("no chain number 4") && told.contains("derived:list(1) to derived:list(3)"),
+        "{told}"
+    );
     assert!(error(&script.replace("list(3)", "list('x')")).contains("takes the number of a chain"));
     assert!(error(&script.replace("list(3)", "list(0)")).contains("takes the number of a chain"));
 }

@@ -1,4 +1,4 @@
-//! Geometry without rules or scripts: frames, curves, cross-sections, sweeps, straight skeletons and roofs.
+//! Geometry without rules or scripts: frames, curves, cross-sections, sweeps, trees of tubes, straight skeletons and roofs.
 //!
 //! Input: points, outlines and cross-sections in metres. Output: faces, lines and meshes, closed or with a
 //! list of their open edges. This crate never reads a file, draws a random number or reads a module.
@@ -8,6 +8,7 @@ mod cross_section;
 mod curves;
 mod face;
 mod frame;
+mod joints;
 mod limits;
 pub mod overlay;
 mod patches;
@@ -28,6 +29,8 @@ pub use curves::frames::rotation_minimizing;
 pub use curves::ramp::{Ramp, RampKind};
 pub use face::{CornerShading, face, shaded_face, sphere};
 pub use frame::Frame;
+pub use joints::axis::{AxisPoint, JoinedTubes, JointAxis};
+pub use joints::tubes::joined_tubes;
 pub use patches::surface::{SplineSurface, SurfaceGrid, SurfaceKind};
 pub use planar::{Line, Point, Polygon, Ring, Rings, hull};
 pub use plans::plan::Plan;

@@ -52,6 +52,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "turtle/contour" shows "turtle:contour";
     "turtle/face" shows "turtle:face";
     "turtle/forward" shows "turtle:forward" "turtle.step" "turtle:color" "turtle.color";
+    "turtle/joints" shows "turtle.joints";
     "turtle/jump" shows "turtle:jump" "turtle.position";
     "turtle/level" shows "turtle:level";
     "turtle/mesh" shows "turtle:mesh";

@@ -21,26 +21,26 @@ const MOST: usize = 64;
 const PROBES: usize = 8;
 
 /// A ring across the axis.
-pub(super) struct AxisRing {
+pub(crate) struct AxisRing {
     /// Position on the axis (m).
-    pub(super) centre: DVec3,
+    pub(crate) centre: DVec3,
     /// Unit tangent of the axis.
-    pub(super) tangent: DVec3,
+    pub(crate) tangent: DVec3,
     /// Direction of the contour's x, perpendicular to the tangent.
-    pub(super) side: DVec3,
+    pub(crate) side: DVec3,
     /// Radius (m).
-    pub(super) radius: f64,
+    pub(crate) radius: f64,
     /// Distance (m) from the start along the axis.
-    pub(super) distance: f64,
+    pub(crate) distance: f64,
     /// Control point before the ring.
-    pub(super) control: usize,
+    pub(crate) control: usize,
     /// Part of the contour of the next control point, from 0 to 1.
-    pub(super) part: f64,
+    pub(crate) part: f64,
 }
 
 /// Returns the rings of the axis through `points`, of which those at the position of their predecessor are left out;
 /// none if fewer than 2 remain. `side` is the direction of the contour's x at the start.
-pub(super) fn rings(points: &mut Vec<CylinderPoint>, side: DVec3) -> Result<Vec<AxisRing>> {
+pub(crate) fn rings(points: &mut Vec<CylinderPoint>, side: DVec3) -> Result<Vec<AxisRing>> {
     // The last of several points at one position counts, as the width of a branch does.
     points.dedup_by(|next, kept| {
         let same = next.position.distance(kept.position) <= NOTHING;

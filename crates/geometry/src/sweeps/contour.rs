@@ -42,15 +42,15 @@ pub fn check_contour(curve: &Curve) -> Result<()> {
 
 /// A place on all contours of a cylinder.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct ContourPlace {
+pub(crate) struct ContourPlace {
     /// Part of the length, from 0 to below 1.
-    pub(super) at: f64,
+    pub(crate) at: f64,
     /// Set at a corner, where the surface has an edge.
-    pub(super) sharp: bool,
+    pub(crate) sharp: bool,
 }
 
 /// Returns the common places of `contours`, in order: `sides` even ones or more, and all corners.
-pub(super) fn places<'a>(
+pub(crate) fn places<'a>(
     contours: impl IntoIterator<Item = &'a Curve> + Clone,
     sides: usize,
 ) -> Vec<ContourPlace> {
@@ -83,7 +83,7 @@ fn corners(curve: &Curve) -> Vec<f64> {
 }
 
 /// Returns the points of a contour at `places`, counter-clockwise; those of a circle with radius 1 without a contour.
-pub(super) fn sample(contour: Option<&Curve>, places: &[ContourPlace]) -> Vec<DVec2> {
+pub(crate) fn sample(contour: Option<&Curve>, places: &[ContourPlace]) -> Vec<DVec2> {
     let Some(curve) = contour else {
         return places.iter().map(|place| DVec2::from_angle(place.at * TAU)).collect();
     };

@@ -2,7 +2,7 @@
 //!
 //! Input: a section and stations, or a strand of points. Output: closed meshes, or a list of their open edges.
 
-mod axis;
+pub(crate) mod axis;
 pub(crate) mod contour;
 pub(crate) mod cylinder;
 pub(crate) mod options;

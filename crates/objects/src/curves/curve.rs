@@ -88,7 +88,7 @@ impl CurveObject {
     /// # Ok::<(), burgeon_base::Error>(())
     /// ```
     pub fn new(options: CurveOptions) -> Result<Self> {
-        let kind = variant("curve", &options.kind, &KINDS)?;
+        let kind = variant("curve", "kind", &options.kind, &KINDS)?;
         let points: Vec<DVec3> = options.points.iter().map(|point| point.0).collect();
         let curve = Curve::new(&points, kind, options.closed).map_err(|error| error.about("curve"))?;
         Ok(Self::from(curve))

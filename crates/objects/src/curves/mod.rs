@@ -2,7 +2,7 @@
 //!
 //! Input: points of scripts. Output: immutable objects with read methods. Nothing here draws by itself.
 
-mod choice;
+pub(crate) mod choice;
 pub(crate) mod curve;
 pub(crate) mod ramp;
 pub(crate) mod surface;

@@ -79,7 +79,7 @@ impl RampObject {
     /// # Ok::<(), burgeon_base::Error>(())
     /// ```
     pub fn new(options: RampOptions) -> Result<Self> {
-        let kind = variant("ramp", &options.kind, &KINDS)?;
+        let kind = variant("ramp", "kind", &options.kind, &KINDS)?;
         let points: Vec<DVec2> = options.points.iter().map(|point| point.0.truncate()).collect();
         let ramp = Ramp::new(&points, kind).map_err(|error| error.about("ramp"))?;
         Ok(Self { ramp: Arc::new(ramp) })

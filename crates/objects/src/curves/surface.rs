@@ -91,7 +91,7 @@ impl SurfaceObject {
     /// # Ok::<(), burgeon_base::Error>(())
     /// ```
     pub fn new(options: SplineSurfaceOptions) -> Result<Self> {
-        let kind = variant("surface", &options.kind, &KINDS)?;
+        let kind = variant("surface", "kind", &options.kind, &KINDS)?;
         let divisions = options.divisions;
         if !(1..=MOST_DIVISIONS).contains(&divisions) {
             let message = format!("surface: divisions must be from 1 to {MOST_DIVISIONS}, not {divisions}");

@@ -1,12 +1,14 @@
 //! The turtle: walks, turns and draws branches, polygons, generalised cylinders, surfaces and instances.
 //!
-//! Input: the calls of scripts. Output: closed branches and cylinders, and open polygons and surfaces. Shapes already drawn
-//! never change.
+//! Input: the calls of scripts. Output: closed branches and cylinders, which the end of a pass can join, and open polygons
+//! and surfaces. Shapes already drawn never change.
 
 mod angles;
 mod cylinder;
+mod joined;
 mod object;
 mod options;
+mod rewind;
 mod state;
 #[cfg(test)]
 mod tests;

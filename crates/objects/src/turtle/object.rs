@@ -1,12 +1,12 @@
 //! The turtle: walks, turns and draws branches, polygons and instances.
 
-use std::any::Any;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 
 use super::angles::Angles;
 use super::cylinder::{OpenCylinder, already_open, not_open};
+use super::joined::JoinedBranches;
 use super::options::TurtleOptions;
 use super::state::{Branch, TurtleState};
 use crate::MaterialOptions;
@@ -15,9 +15,7 @@ use crate::curves::surface::SurfaceObject;
 use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Frame, Strand, face, sphere};
-use burgeon_kit::{
-    AxisScale, Color, Drawing, DrawingMark, Locate, Model, ObjectPlace, Rewind, Vector, methods, object,
-};
+use burgeon_kit::{AxisScale, Color, Drawing, Locate, Model, ObjectPlace, Rewind, Vector, methods, object};
 use burgeon_scene::Material;
 
 /// A turtle as in The Algorithmic Beauty of Plants, which draws round branches in three dimensions.
@@ -51,11 +49,13 @@ use burgeon_scene::Material;
 )]
 pub struct Turtle {
     options: TurtleOptions,
-    state: TurtleState,
-    stack: Vec<TurtleState>,
-    drawing: Drawing,
+    pub(super) state: TurtleState,
+    pub(super) stack: Vec<TurtleState>,
+    pub(super) drawing: Drawing,
     angles: Angles,
-    polygons: Vec<Vec<DVec3>>,
+    pub(super) polygons: Vec<Vec<DVec3>>,
+    /// Branches that the end draws as one surface, if `turtle.joints` is "smooth".
+    pub(super) joined: Option<JoinedBranches>,
 }
 
 #[methods("turtle")]
@@ -67,7 +67,7 @@ impl Turtle {
 
     /// Moves forward by `length` (m, turtle.step unless given) without drawing.
     pub fn advance(&mut self, length: Option<f64>) {
-        self.lift();
+        self.leave();
         self.state.frame.forward(length.unwrap_or(self.options.step));
     }
 
@@ -131,7 +131,7 @@ impl Turtle {
 
     /// Moves to a position (m) without drawing.
     pub fn jump(&mut self, position: Vector) {
-        self.lift();
+        self.leave();
         self.state.frame.position = position.0 - self.drawing.origin();
     }
 
@@ -190,7 +190,7 @@ impl Turtle {
 
     /// Begins a polygon: `point` adds its corners, `end_polygon` fills it.
     pub fn begin_polygon(&mut self) {
-        self.lift();
+        self.leave();
         self.polygons.push(Vec::new());
     }
 
@@ -217,8 +217,12 @@ impl Turtle {
     /// It does not twist: turns about the heading have no effect on it. Moving without drawing adds no point.
     pub fn begin_cylinder(&mut self) -> Result<()> {
         self.lift();
-        if self.state.cylinder.is_some() {
+        if self.state.cylinder.is_some() || self.state.joined.in_cylinder {
             return Err(already_open());
+        }
+        if let Some(joined) = &mut self.joined {
+            joined.begin(&mut self.state, self.drawing.maker(), true);
+            return Ok(());
         }
         let cylinder = OpenCylinder::begin(&self.drawing, self.state.part, &self.state.frame);
         self.state.cylinder = Some(Box::new(cylinder));
@@ -236,7 +240,8 @@ impl Turtle {
 
     /// Completes and draws the generalised cylinder: one closed surface, with flat ends, or tips where the width is 0.
     pub fn end_cylinder(&mut self) -> Result<()> {
-        if self.state.cylinder.is_none() { Err(not_open()) } else { self.close_cylinder() }
+        let is_open = self.state.cylinder.is_some() || self.state.joined.in_cylinder;
+        if is_open { self.close_cylinder() } else { Err(not_open()) }
     }
 
     /// Draws a surface in the turtle's frame, with this `scale` (1 unless given), which may be a vector with a scale for
@@ -304,38 +309,6 @@ impl Locate for Turtle {
     }
 }
 
-/// State of a turtle in a pass, without what it has drawn.
-struct TurtleMark {
-    state: TurtleState,
-    stack: Vec<TurtleState>,
-    polygons: Vec<Vec<DVec3>>,
-    drawing: DrawingMark,
-}
-
-impl Rewind for Turtle {
-    fn mark_size(&self) -> usize {
-        self.stack.len() + self.polygons.iter().map(Vec::len).sum::<usize>()
-    }
-
-    fn mark(&self) -> Box<dyn Any + Send + Sync> {
-        Box::new(TurtleMark {
-            state: self.state.clone(),
-            stack: self.stack.clone(),
-            polygons: self.polygons.clone(),
-            drawing: self.drawing.mark(),
-        })
-    }
-
-    fn rewind(&mut self, mark: &(dyn Any + Send + Sync)) -> bool {
-        let Some(mark) = mark.downcast_ref::<TurtleMark>() else { return false };
-        self.state.clone_from(&mark.state);
-        self.stack.clone_from(&mark.stack);
-        self.polygons.clone_from(&mark.polygons);
-        self.drawing.rewind(&mark.drawing);
-        true
-    }
-}
-
 #[cold]
 fn no_polygon(method: &str) -> Error {
     Error::script(format!("turtle:{method}: no polygon is open")).help("begin it with BeginPolygon()")
@@ -356,6 +329,7 @@ impl Turtle {
         if options.heading.0.length_squared() < 1e-24 {
             return Err(Error::argument("turtle: heading has no length"));
         }
+        let joined = options.joins()?.then(JoinedBranches::default);
         let mut drawing = Drawing::at(options.position.0);
         let state = TurtleState::begin(&options, &mut drawing);
         Ok(Self {
@@ -365,6 +339,7 @@ impl Turtle {
             drawing,
             angles: Angles::default(),
             polygons: Vec::new(),
+            joined,
         })
     }
 
@@ -395,12 +370,20 @@ impl Turtle {
 
     /// Draws the open cylinder, if there is one.
     fn close_cylinder(&mut self) -> Result<()> {
+        self.state.joined.end_cylinder();
         let cylinder = self.state.cylinder.take();
         cylinder.map_or(Ok(()), |cylinder| cylinder.draw(&mut self.drawing, self.options.sides))
     }
 
     fn draw(&mut self, length: f64) -> Result<()> {
-        if self.state.cylinder.is_some() && self.polygons.is_empty() {
+        if let Some(joined) = &mut self.joined
+            && self.polygons.is_empty()
+            && (self.state.width > 0.0 || self.state.joined.in_cylinder)
+        {
+            joined.prepare(&mut self.state, self.drawing.maker());
+            self.state.frame.forward(length);
+            joined.add_point(&mut self.state, self.drawing.maker());
+        } else if self.state.cylinder.is_some() && self.polygons.is_empty() {
             self.state.frame.forward(length);
             self.control();
         } else if self.polygons.is_empty() && self.state.width > 0.0 {
@@ -421,11 +404,17 @@ impl Turtle {
                 *maker = self.drawing.maker();
             }
         } else {
-            self.lift();
+            self.leave();
             self.state.frame.forward(length);
         }
         self.state.bend();
         Ok(())
+    }
+
+    /// Ends the branch that is being drawn, because the turtle moves without drawing.
+    fn leave(&mut self) {
+        self.lift();
+        self.state.joined.leave();
     }
 
     /// Ends the branch that is being drawn.
@@ -442,13 +431,18 @@ impl Turtle {
         self.drawing.clear();
         self.state = TurtleState::begin(&self.options, &mut self.drawing);
         self.polygons.clear();
+        self.joined.iter_mut().for_each(JoinedBranches::clear);
     }
 
     fn open_branch(&mut self) {
+        if let Some(joined) = &mut self.joined {
+            joined.open(&mut self.state, self.drawing.maker());
+        }
         // The new branch starts without a strand; the strand in the copy continues after the branch.
         let cylinder = self.state.cylinder.take();
         self.stack.push(self.state.clone());
         self.state.strand = None;
+        self.state.joined.end_cylinder();
         if let Some(outer) = self.stack.last_mut() {
             outer.cylinder = cylinder;
         }
@@ -470,6 +464,9 @@ impl Turtle {
     fn finish(&mut self) -> Result<()> {
         self.lift();
         self.close_cylinder()?;
+        if let Some(joined) = &mut self.joined {
+            joined.draw(&mut self.drawing, self.options.sides)?;
+        }
         if let Some(open) = self.polygons.first() {
             return Err(Error::script(format!(
                 "a polygon of {} corners is still open at the end",

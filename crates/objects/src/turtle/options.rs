@@ -1,7 +1,10 @@
 //! Fields of the turtle's constructor.
 
+use burgeon_base::error::Result;
 use burgeon_kit::{Color, Vector, fields};
 use glam::DVec3;
+
+use crate::curves::choice::variant;
 
 /// Fields of `turtle { ... }`.
 #[fields("turtle")]
@@ -18,6 +21,10 @@ pub struct TurtleOptions {
     /// Number of faces around branches.
     #[default(8)]
     pub sides: u32,
+    /// Joints of branches: "separate", so that each branch is a closed tube that begins inside its parent; or "smooth", so that
+    /// all branches of one material are one closed surface, which the end of the chain draws.
+    #[default("separate".into())]
+    pub joints: String,
     /// Colour of the surfaces.
     #[default(Color([0.22, 0.13, 0.07, 1.0]))]
     pub color: Color,
@@ -41,4 +48,11 @@ pub struct TurtleOptions {
     /// Strength of the bending, from 0; 0.2 is strong.
     #[default(0.0)]
     pub elasticity: f64,
+}
+
+impl TurtleOptions {
+    /// Returns true if branches are one surface; fails if `joints` is unknown.
+    pub(super) fn joins(&self) -> Result<bool> {
+        variant("turtle", "joints", &self.joints, &[("separate", false), ("smooth", true)])
+    }
 }

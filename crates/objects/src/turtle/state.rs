@@ -7,6 +7,7 @@ use burgeon_kit::Drawing;
 use glam::DVec3;
 
 use super::cylinder::OpenCylinder;
+use super::joined::BranchPlace;
 use super::options::TurtleOptions;
 use super::tropism::Tropism;
 use crate::surface::plain_material;
@@ -28,6 +29,8 @@ pub(super) struct TurtleState {
     pub(super) contour: Option<Arc<Curve>>,
     /// Generalised cylinder that is being drawn.
     pub(super) cylinder: Option<Box<OpenCylinder>>,
+    /// Place among the branches that the end draws as one surface.
+    pub(super) joined: BranchPlace,
 }
 
 /// A strand, the part that it is drawn into, and the module that drew its last segment.
@@ -54,6 +57,7 @@ impl TurtleState {
             strand: None,
             contour: None,
             cylinder: None,
+            joined: BranchPlace::default(),
         }
     }
 }

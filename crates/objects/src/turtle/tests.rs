@@ -1,13 +1,14 @@
-//! Tests of generalised cylinders and surfaces that a turtle draws.
+//! Tests of generalised cylinders, surfaces and joints that a turtle draws.
 
 use std::sync::Arc;
 
 use burgeon_geometry::solid::{area, check, volume};
-use burgeon_kit::{AxisScale, Draw as _, Object, Vector};
+use burgeon_kit::{AxisScale, Color, Draw as _, Object, Rewind as _, Vector};
 use burgeon_scene::Part;
 use glam::DVec3;
 
 use super::Turtle;
+use super::options::TurtleOptions;
 use crate::{CurveObject, CurveOptions, SplineSurfaceOptions, SurfaceObject};
 
 fn turtle() -> Turtle {
@@ -100,4 +101,136 @@ fn a_surface_is_drawn_at_the_turtles_frame_and_visible_from_both_sides() {
     assert!(turtle.drawing().material_of(1).double_sided && !turtle.drawing().material_of(0).double_sided);
     assert!(parts[0].positions.iter().all(|at| at.z == 3.0));
     assert!(parts[0].positions.contains(&glam::Vec3::new(2.0, 3.0, 3.0)));
+}
+
+/// Returns the number of connected surfaces of `parts`.
+fn bodies(parts: &[&Part]) -> usize {
+    let mut known = std::collections::BTreeMap::new();
+    let mut above: Vec<usize> = Vec::new();
+    let top = |above: &[usize], mut at: usize| {
+        while above[at] != at {
+            at = above[at];
+        }
+        at
+    };
+    for part in parts {
+        for triangle in &part.triangles {
+            let corners = triangle.map(|corner| {
+                let at = part.positions[corner as usize] + glam::Vec3::ZERO;
+                *known.entry(at.to_array().map(f32::to_bits)).or_insert_with(|| {
+                    above.push(above.len());
+                    above.len() - 1
+                })
+            });
+            let [a, b, c] = corners.map(|corner| top(&above, corner));
+            above[b] = a;
+            let c = top(&above, c);
+            above[c] = a;
+        }
+    }
+    (0..above.len()).filter(|&at| above[at] == at).count()
+}
+
+fn joined(joints: &str) -> Turtle {
+    Turtle::new(TurtleOptions { joints: joints.into(), ..TurtleOptions::default() }).expect("a turtle")
+}
+
+/// Draws a trunk of two steps with a branch and a generalised cylinder in the middle, and a fork without a trunk at the
+/// end.
+fn draw_tree(turtle: &mut Turtle) {
+    let step = |turtle: &mut Turtle| turtle.forward(Some(1.0)).expect("a step");
+    step(turtle);
+    turtle.push();
+    turtle.turn(Some(60.0));
+    step(turtle);
+    step(turtle);
+    turtle.pop().expect("the end of a branch");
+    turtle.push();
+    turtle.turn(Some(-70.0));
+    turtle.width(0.06).expect("a width");
+    turtle.begin_cylinder().expect("a beginning");
+    step(turtle);
+    turtle.pitch(Some(40.0));
+    step(turtle);
+    turtle.pop().expect("the end of a branch");
+    step(turtle);
+    for angle in [40.0, -40.0] {
+        turtle.push();
+        turtle.turn(Some(angle));
+        step(turtle);
+        turtle.pop().expect("the end of a branch");
+    }
+}
+
+#[test]
+fn with_smooth_joints_all_branches_and_cylinders_are_one_surface() {
+    let [separate, smooth] = ["separate", "smooth"].map(|joints| {
+        let mut turtle = joined(joints);
+        draw_tree(&mut turtle);
+        turtle.end().expect("the end of the pass");
+        assert!(check(drawn(&turtle)).is_solid(), "{joints}");
+        (bodies(&drawn(&turtle)), volume(drawn(&turtle)))
+    });
+    assert_eq!((separate.0, smooth.0), (5, 1));
+    let ratio = smooth.1 / separate.1;
+    assert!((0.9..1.0).contains(&ratio), "they do not overlap: {ratio}");
+}
+
+#[test]
+fn another_material_or_a_move_without_drawing_begins_another_surface() {
+    for turn in [false, true] {
+        let mut turtle = joined("smooth");
+        turtle.forward(Some(1.0)).expect("a step");
+        turtle.push();
+        turtle.turn(Some(90.0));
+        if turn {
+            turtle.color(Color([1.0, 0.0, 0.0, 1.0]));
+        } else {
+            turtle.advance(Some(0.5));
+        }
+        turtle.forward(Some(1.0)).expect("a step");
+        turtle.pop().expect("the end of a branch");
+        turtle.forward(Some(1.0)).expect("a step");
+        turtle.end().expect("the end of the pass");
+        assert!(check(drawn(&turtle)).is_solid());
+        assert_eq!((drawn(&turtle).len(), bodies(&drawn(&turtle))), (1 + usize::from(turn), 2));
+    }
+}
+
+#[test]
+fn branches_at_the_start_join_without_a_trunk_and_a_cylinder_must_end_before_another_begins() {
+    let mut turtle = joined("smooth");
+    for angle in [90.0, -30.0] {
+        turtle.push();
+        turtle.turn(Some(angle));
+        turtle.begin_cylinder().expect("a beginning");
+        turtle.forward(Some(1.0)).expect("a step");
+        assert!(turtle.begin_cylinder().is_err(), "one is open");
+        turtle.end_cylinder().expect("an end");
+        assert!(turtle.end_cylinder().is_err(), "none is open");
+        turtle.forward(Some(1.0)).expect("a step");
+        turtle.pop().expect("the end of a branch");
+    }
+    turtle.end().expect("the end of the pass");
+    assert_eq!(bodies(&drawn(&turtle)), 1);
+    let error = Turtle::new(TurtleOptions { joints: "smoth".into(), ..TurtleOptions::default() });
+    let error = error.err().expect("unknown");
+    assert_eq!(error.message(), "turtle: unknown joints \"smoth\"");
+    assert!(error.remedy().is_some_and(|remedy| remedy.contains("smooth")));
+}
+
+#[test]
+fn a_turtle_that_returns_to_a_mark_draws_the_same_joints() {
+    let bytes = |turtle: &Turtle| drawn(turtle).iter().map(|part| (*part).clone()).collect::<Vec<_>>();
+    let mut turtle = joined("smooth");
+    turtle.forward(Some(1.0)).expect("a step");
+    let mark = turtle.mark();
+    assert!(turtle.mark_size() > 1);
+    draw_tree(&mut turtle);
+    turtle.end().expect("the end of the pass");
+    let first = bytes(&turtle);
+    assert!(turtle.rewind(&*mark));
+    draw_tree(&mut turtle);
+    turtle.end().expect("the end of the pass");
+    assert!(first == bytes(&turtle) && !first.is_empty());
 }

@@ -1,0 +1,125 @@
+//! Branches that are drawn as one surface with smooth joints.
+
+use burgeon_base::error::Result;
+use burgeon_geometry::{AxisPoint, CylinderPoint, JointAxis, joined_tubes};
+use burgeon_kit::Drawing;
+
+use super::state::TurtleState;
+
+/// The place of a turtle among the branches that are not yet drawn.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct BranchPlace {
+    /// Point of a branch at which the turtle is.
+    at: Option<AxisPoint>,
+    /// Branch that grows with each step.
+    growing: Option<usize>,
+    /// Set while the growing branch is a generalised cylinder.
+    pub(super) in_cylinder: bool,
+}
+
+impl BranchPlace {
+    /// Leaves the branch, because the turtle moves without drawing. A generalised cylinder continues after that.
+    pub(super) fn leave(&mut self) {
+        self.at = None;
+        if !self.in_cylinder {
+            self.growing = None;
+        }
+    }
+
+    /// Completes the generalised cylinder.
+    pub(super) fn end_cylinder(&mut self) {
+        (self.growing, self.in_cylinder) = (None, false);
+    }
+}
+
+/// Branches that the end of the pass draws.
+#[derive(Debug, Clone, Default)]
+pub(super) struct JoinedBranches {
+    axes: Vec<JointAxis>,
+    /// Part of the drawing of each axis, and the modules that drew to its points.
+    drawn: Vec<(usize, Vec<u32>)>,
+    /// Number of points of all axes.
+    points: usize,
+}
+
+impl JoinedBranches {
+    /// Returns the number of points of all branches.
+    pub(super) fn size(&self) -> usize {
+        self.points
+    }
+
+    /// Removes all branches.
+    pub(super) fn clear(&mut self) {
+        *self = Self::default();
+    }
+
+    /// Begins a branch at the turtle's position. It is joined to the branch there, if that has the same material.
+    pub(super) fn begin(&mut self, state: &mut TurtleState, maker: u32, in_cylinder: bool) {
+        let parent = state.joined.at.filter(|at| self.drawn[at.axis].0 == state.part);
+        // The x direction of a cylinder's contour is to the right, the seam of a straight branch to the left.
+        let side = if in_cylinder { -state.frame.left } else { state.frame.left };
+        self.axes.push(JointAxis { points: Vec::new(), side, parent, smooth: in_cylinder });
+        self.drawn.push((state.part, Vec::new()));
+        state.joined = BranchPlace { at: None, growing: Some(self.axes.len() - 1), in_cylinder };
+        self.add_point(state, maker);
+    }
+
+    /// Begins branches in brackets: without a branch at the turtle's position, its branches join there.
+    pub(super) fn open(&mut self, state: &mut TurtleState, maker: u32) {
+        if state.joined.at.is_none() && !state.joined.in_cylinder {
+            self.begin(state, maker, false);
+            state.joined.growing = None;
+        }
+    }
+
+    /// Prepares a step of the turtle: begins a branch, unless one with the same material is growing.
+    pub(super) fn prepare(&mut self, state: &mut TurtleState, maker: u32) {
+        let BranchPlace { growing, in_cylinder, .. } = state.joined;
+        if growing.is_none_or(|axis| !in_cylinder && self.drawn[axis].0 != state.part) {
+            self.begin(state, maker, false);
+        }
+    }
+
+    /// Adds the turtle's position to the growing branch.
+    pub(super) fn add_point(&mut self, state: &mut TurtleState, maker: u32) {
+        let Some(axis) = state.joined.growing else { return };
+        let contour = if state.joined.in_cylinder { state.contour.clone() } else { None };
+        let points = &mut self.axes[axis].points;
+        points.push(CylinderPoint { position: state.frame.position, radius: state.width / 2.0, contour });
+        self.drawn[axis].1.push(maker);
+        self.points += 1;
+        state.joined.at = Some(AxisPoint { axis, point: self.axes[axis].points.len() - 1 });
+    }
+
+    /// Draws all branches with at least this number of `sides`, a surface for each tree of one material, and removes
+    /// them.
+    pub(super) fn draw(&mut self, drawing: &mut Drawing, sides: u32) -> Result<()> {
+        let Self { axes, drawn, .. } = std::mem::take(self);
+        let mut parts: Vec<usize> = drawn.iter().map(|(part, _)| *part).collect();
+        parts.sort_unstable();
+        parts.dedup();
+        // A branch and its parent have the same part.
+        let mut numbers = vec![0; axes.len()];
+        let mut trees: Vec<(Vec<JointAxis>, Vec<usize>)> = vec![Default::default(); parts.len()];
+        for (index, mut axis) in axes.into_iter().enumerate() {
+            let Ok(tree) = parts.binary_search(&drawn[index].0) else { continue };
+            let (axes, indices) = &mut trees[tree];
+            axis.parent = axis.parent.map(|at| AxisPoint { axis: numbers[at.axis], ..at });
+            numbers[index] = axes.len();
+            axes.push(axis);
+            indices.push(index);
+        }
+        for (part, (axes, indices)) in parts.into_iter().zip(trees) {
+            let maker = drawing.maker();
+            let mut count = drawing.part(part).triangles.len();
+            drawing.made(maker, part, count);
+            let found = joined_tubes(drawing.part(part), &axes, sides as usize)?;
+            for (to, triangles) in found.runs {
+                count += triangles;
+                let makers = &drawn[indices[to.axis]].1;
+                drawing.made(makers.get(to.point).copied().unwrap_or(maker), part, count);
+            }
+        }
+        Ok(())
+    }
+}
