@@ -4,8 +4,8 @@ local Bud = module("Bud", "length")
 local hedge = lsystem({ object = turtle({ width = 0.03, sides = 6, color = "#5d8f3c" }) })
 hedge:axiom(F(0.8), Bud(0.4))
 hedge:rule("Bud(length)", function(this, length: number)
-  local place = this:position()
-  local tip = place + this:heading() * length
+  local place: Vector, heading: Vector = this:position(), this:heading()
+  local tip = place + heading * length
   if place.z > 1 and not shape:contains(tip) then
     return F(-shape:distance(place)), Cut()
   end

@@ -38,16 +38,17 @@ roots:rule("Spring", function()
   return nil
 end)
 roots:rule("Tip(rank)", function(this, rank: number)
-  local place = this:position()
+  local place: Vector, heading: Vector = this:position(), this:heading()
   local share = ground:taken(place) / 0.4
   if share < need then
     return Spent()
   end
-  local wet = ground:gradient(place, 0.6)
-  local way = this:heading() + wet * 0.35 + vec(random(-0.35, 0.35), random(-0.25, 0.25), random(-0.4, 0.25))
+  local wet: Vector = ground:gradient(place, 0.6)
+  local way = heading + wet * 0.35 + vec(random(-0.35, 0.35), random(-0.25, 0.25), random(-0.4, 0.25))
   if rank < 4 and share > 0.6 and random() < 0.22 then
-    local aside = this:heading():cross(vec(0, 1, 0)) * (random() < 0.5 and 1 or -1)
-    return Segment(way, rank, 0), { Segment(way + aside * 1.2, rank + 1, 0), Tip(rank + 1) }, Tip(rank)
+    local side = if random() < 0.5 then 1.2 else -1.2
+    local aside = heading:cross(vec(0, 1, 0)) * side
+    return Segment(way, rank, 0), { Segment(way + aside, rank + 1, 0), Tip(rank + 1) }, Tip(rank)
   end
   return Segment(way, rank, 0), Tip(rank)
 end)

@@ -29,6 +29,7 @@ impl Writer {
             // The first argument is either the options table or the value of the field. Luau infers neither from a
             // union.
             (Construct::Fields(_), Some(first)) => format!("{first}: any, options: {options}?"),
+            (Construct::Fields(_), None) if kind.fields.is_empty() => String::new(),
             (Construct::Fields(_), None) => format!("options: {options}?"),
         })
     }
