@@ -47,7 +47,7 @@ const COUNTS: [&str; 37] = [
 ];
 
 /// Fractions, probabilities, weights and factors.
-const FACTORS: [&str; 67] = [
+const FACTORS: [&str; 68] = [
     ".amount",
     ".metallic",
     ".noise",
