@@ -134,7 +134,7 @@ fn a_malformed_pattern_shows_the_place() {
         A(x) > B > B
                  ^
       | s:rule("A(x) > B > B", function() return B() end)
-      help: a pattern is: left context < predecessor > right context
+      help: a pattern is: left context < predecessor > right context; contexts in the new chain stand outside of these: new left << left < predecessor > right >> new right
     "#);
     assert_snapshot!(pattern("A(x) > []"), @r#"
     error: s.lua:3: malformed pattern: unexpected '[' at character 8

@@ -75,7 +75,8 @@ fn with_smooth_joints_the_exported_file_of_a_tree_is_one_closed_manifold_body() 
         assert!(models[0] == models[1], "it depends on the number of threads");
         surface(&models[0])
     });
-    assert!(found[0].0 > 20, "{found:?}");
+    // Tubes that share corners count as one body.
+    assert!(found[0].0 > 5, "{found:?}");
     assert_eq!(found[1], (1, 0, 2));
 }
 
@@ -90,7 +91,7 @@ fn a_triangle_of_a_joint_names_the_module_that_drew_it() {
     for triangle in (0..count).step_by(count / 50) {
         let picked = pick(&script, &options(1), &run.scene, Pick { instance: 0, part: 0, triangle }).unwrap();
         let path = picked.drawn.map(|drawn| drawn.path).unwrap_or_default();
-        let name = path.first().map(|it| it.module.text.split('(').next().unwrap_or_default().to_owned());
+        let name = path.last().map(|it| it.module.text.split('(').next().unwrap_or_default().to_owned());
         *names.entry(name.unwrap_or_default()).or_default() += 1;
     }
     assert!(names.contains_key("F") && names.contains_key("Apex") && !names.contains_key(""), "{names:?}");

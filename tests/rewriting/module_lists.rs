@@ -5,14 +5,14 @@ use super::scripts::{chain, chain_of_each, chains, error, run};
 const PLANT: &str = "local Leaf, Stem, Fruit = module('Leaf', 'age', 'kind?'), module('Stem'), module('Fruit', 'size')
     local plant = lsystem()
     plant:axiom(Leaf(0))
-    plant:rule('Leaf(age)', function(this, age) return Stem(), { Leaf(age + 1, if age > 1 then 'old' else nil) }, Leaf(age + 1) end)\n";
+    plant:rule('Leaf(age, _)', function(this, age) return Stem(), { Leaf(age + 1, if age > 1 then 'old' else nil) }, Leaf(age + 1) end)\n";
 
 #[test]
 fn a_list_has_the_modules_and_branches_of_the_chain() {
     run(&format!(
         "{PLANT}
          local derived = plant:derive(2)
-         local list = derived:list()
+         local list = derived:chain()
          expect(derived.chains[1], 'Stem [ Stem [ Leaf(2) ] Leaf(2) ] Stem [ Leaf(2) ] Leaf(2)')
          expect(#list, 5)
          expect(list[1].name, 'Stem')
@@ -20,7 +20,7 @@ fn a_list_has_the_modules_and_branches_of_the_chain() {
          expect(list[2][2][1].age, 2)
          expect(list[5].kind == nil and list[5].size == nil, true)
          expect(tostring(list[5]), 'Leaf(2)')
-         expect(plant:derive(3):list()[2][1].name, 'Stem')"
+         expect(plant:derive(3):chain()[2][1].name, 'Stem')"
     ));
 }
 
@@ -42,9 +42,9 @@ fn a_changed_list_is_an_axiom() {
            return kept
          end
          local first = plant:derive(3)
-         plant:axiom(sequence(pruned(first:list())))
+         plant:axiom(sequence(pruned(first:chain())))
          plant:derive(0)
-         plant:axiom(sequence(first:list()))
+         plant:axiom(sequence(first:chain()))
          plant:derive(0)"
     );
     let chains = chain_of_each(&script);
@@ -59,16 +59,16 @@ fn each_chain_of_a_source_has_a_list() {
         s:axiom(source({ { n = 1 }, { n = 2 }, { n = 3 } }), function(feature) return A(feature.n), { A(-feature.n) } end)
         local derived = s:derive(0)
         local t = lsystem()
-        t:axiom(sequence(derived:list(3)), A(#derived:list(2)))
+        t:axiom(sequence(derived:chain(3)), A(#derived:chain(2)))
         t:derive(0)";
     assert_eq!(chains(script), ["A(3) [ A(-3) ] A(2)"]);
-    let told = error(&script.replace("list(3)", "list(4)"));
+    let told = error(&script.replace("chain(3)", "chain(4)"));
     assert!(
-        told.contains("no chain number 4") && told.contains("derived:list(1) to derived:list(3)"),
+        told.contains("no chain number 4") && told.contains("derived:chain(1) to derived:chain(3)"),
         "{told}"
     );
-    assert!(error(&script.replace("list(3)", "list('x')")).contains("takes the number of a chain"));
-    assert!(error(&script.replace("list(3)", "list(0)")).contains("takes the number of a chain"));
+    assert!(error(&script.replace("chain(3)", "chain('x')")).contains("takes the number of a chain"));
+    assert!(error(&script.replace("chain(3)", "chain(0)")).contains("takes the number of a chain"));
 }
 
 #[test]
@@ -76,7 +76,7 @@ fn long_and_deep_chains_are_read_within_the_limits() {
     run("local A, B = module('A'), module('B', 'x') local s = lsystem()
          s:axiom(A())
          s:rule('A', function() return B(1), { A() } end)
-         local depth, list = 0, s:derive(3000):list()
+         local depth, list = 0, s:derive(3000):chain()
          while list do
            depth += 1
            list = list[2] or (list[1] and list[1].name == nil and list[1])
@@ -85,7 +85,7 @@ fn long_and_deep_chains_are_read_within_the_limits() {
     let deep = error(
         "local A = module('A') local s = lsystem() s:axiom(A())
          s:rule('A', function() return { A() } end)
-         s:axiom(sequence(s:derive(300):list())) s:derive(0)",
+         s:axiom(sequence(s:derive(300):chain())) s:derive(0)",
     );
     assert!(deep.contains("nested more than 200 deep"), "{deep}");
 }

@@ -27,7 +27,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "color" shows "color";
     "consider" shows "system:consider";
     "decompose" shows "system:decompose";
-    "derived" shows "derived" "derived:list";
+    "derived" shows "derived" "derived:chain";
     "ease" shows "ease" "ease.in" "ease.out" "ease.inout" "ease.smooth" "ease.sine" "ease.back";
     "expect" shows "expect";
     "extend" shows "extend";

@@ -338,7 +338,7 @@ struct RewritePhase<'a> {
 impl Phase<Stepper> for RewritePhase<'_> {
     fn run(&self, stepper: &mut Stepper, chain: Arc<Chain>, step: usize) -> Result<PhaseOutcome> {
         let stop = Stop::new();
-        if stepper.is_sparse(&chain) {
+        if stepper.begin_series(&chain) {
             let outcome = stepper.perform(
                 self.system,
                 &stop,

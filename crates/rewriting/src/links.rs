@@ -267,6 +267,6 @@ fn join_branches(branch: &mut [u32], symbols: &[Symbol], ignored: &IgnoredSet) {
 }
 
 /// Converts an index to 32 bits; the limit on modules keeps chains below 2^32 symbols.
-fn narrow(index: usize) -> u32 {
+pub(super) fn narrow(index: usize) -> u32 {
     u32::try_from(index).unwrap_or(NONE)
 }

@@ -1,14 +1,15 @@
 //! The chain that a step writes, while it is incomplete: matching of contexts in it.
 
+use std::ops::Range;
+
 use smallvec::SmallVec;
 
-use crate::batch::{ChainPiece, NO_RULE, Scratch, narrow};
 use crate::chain::{CLOSE, Chain, END, OPEN, Symbol};
 use crate::context::{CompiledPatterns, ContextElement};
 use crate::grammar::{Grammar, NewContexts};
 use crate::ignored::IgnoredSet;
-use crate::links::{Links, NONE};
-use crate::successors::Successor;
+use crate::links::{Links, NONE, narrow};
+use crate::successors::{ModuleOrder, Successor, Successors};
 use crate::text::ShowParameters;
 
 /// Symbol of the new chain.
@@ -34,18 +35,18 @@ struct WrittenSuccessor {
 
 /// Result of a search that begins at each symbol of the old chain.
 #[derive(Debug, Clone, Copy)]
-enum Search {
+enum ChainSearch {
     Unknown,
     Found(Option<NewPlace>),
 }
 
 /// Results of the searches for the rules that ignore the same symbols.
 #[derive(Debug, Default)]
-struct Searches {
+struct ChainSearches {
     /// Last module, on the path to the axiom, of what has replaced the symbol or one before it.
-    lasts: Vec<Search>,
+    lasts: Vec<ChainSearch>,
     /// First symbol of what has replaced the symbol or one after it.
-    firsts: Vec<Search>,
+    firsts: Vec<ChainSearch>,
 }
 
 /// Successors of a piece that have been written so far. The other symbols are as in the old chain.
@@ -60,22 +61,27 @@ pub(crate) struct NewChain {
     symbols: Vec<Symbol>,
     params: Vec<f64>,
     constants: Vec<f64>,
-    /// Searches by set of ignored symbols.
-    searches: Vec<Searches>,
+    /// ChainSearches by set of ignored symbols.
+    searches: Vec<ChainSearches>,
 }
 
 impl NewChain {
-    /// Clears the chain for the piece of a chain with these active modules.
-    pub(crate) fn start(&mut self, piece: ChainPiece, scratch: &Scratch, links: &Links) {
-        let begin = piece.begin.module;
-        self.begin = begin;
+    /// Clears the chain for a piece of the old chain: its symbols `piece`, of which the active modules are at the indices
+    /// `active`, ascending.
+    pub(crate) fn start(
+        &mut self,
+        piece: Range<usize>,
+        active: impl ExactSizeIterator<Item = usize>,
+        links: &Links,
+    ) {
+        self.begin = piece.start;
         self.active.clear();
-        self.active.resize(piece.end - begin, NONE);
-        for (index, active) in scratch.active.iter().enumerate() {
-            self.active[active.module as usize - begin] = narrow(index);
-        }
+        self.active.resize(piece.len(), NONE);
         self.successors.clear();
-        self.successors.resize(scratch.active.len(), None);
+        self.successors.resize(active.len(), None);
+        for (index, module) in active.enumerate() {
+            self.active[module - piece.start] = narrow(index);
+        }
         self.symbols.clear();
         self.params.clear();
         self.constants.clone_from(&links.constants);
@@ -90,9 +96,8 @@ impl NewChain {
         }
     }
 
-    /// Adds the successors of all applications of a rule, and removes them from the `scratch`.
-    pub(crate) fn take_group(&mut self, rule: usize, scratch: &mut Scratch, arities: &[u8]) {
-        let group = &mut scratch.groups[rule];
+    /// Adds the successors of all applications of a rule, and removes them from its `group`.
+    pub(crate) fn take_group(&mut self, group: &mut Successors, arranged: &mut ModuleOrder, arities: &[u8]) {
         group.rewind();
         let members = std::mem::take(&mut group.members);
         for member in &members {
@@ -108,8 +113,8 @@ impl NewChain {
                     group.param_at += shape.params;
                 }
                 Successor::Ordered(end) => {
-                    group.arrange(end, arities, &mut scratch.arranged, &mut self.params);
-                    self.symbols.extend_from_slice(&scratch.arranged.symbols);
+                    group.arrange(end, arities, arranged, &mut self.params);
+                    self.symbols.extend_from_slice(&arranged.symbols);
                 }
                 Successor::UpTo(end) => {
                     let symbols = &group.symbols[group.symbol_at..end];
@@ -129,23 +134,15 @@ impl NewChain {
         group.members.clear();
     }
 
-    /// Fills the groups of `scratch` with the successors of all active modules, in their order.
-    pub(crate) fn fill_groups(&self, scratch: &mut Scratch) {
-        for group in &mut scratch.groups {
-            group.clear();
-            group.members.clear();
-        }
-        for (index, active) in scratch.active.iter().enumerate().filter(|(_, active)| active.rule != NO_RULE)
-        {
-            let group = &mut scratch.groups[usize::from(active.rule)];
-            group.members.push(narrow(index));
-            match &self.successors[index] {
-                None => group.keep(),
-                Some(successor) => {
-                    group.symbols.extend_from_slice(&self.symbols[successor.begin..successor.end]);
-                    group.params.extend_from_slice(&self.params[successor.first_param..successor.last_param]);
-                    group.end();
-                }
+    /// Adds the successor of active module `index` to the `group` of its rule.
+    pub(crate) fn add_to(&self, group: &mut Successors, index: usize) {
+        group.members.push(narrow(index));
+        match &self.successors[index] {
+            None => group.keep(),
+            Some(successor) => {
+                group.symbols.extend_from_slice(&self.symbols[successor.begin..successor.end]);
+                group.params.extend_from_slice(&self.params[successor.first_param..successor.last_param]);
+                group.end();
             }
         }
     }
@@ -264,7 +261,7 @@ impl NewMatcher<'_> {
                 break None;
             }
             let place = here as usize - self.new.begin;
-            if let Search::Found(found) = self.searches().lasts[place] {
+            if let ChainSearch::Found(found) = self.searches().lasts[place] {
                 break found;
             }
             let length = self.symbols(here).len();
@@ -277,12 +274,12 @@ impl NewMatcher<'_> {
         here = old;
         while here != end {
             let place = here as usize - self.new.begin;
-            self.searches().lasts[place] = Search::Found(found);
+            self.searches().lasts[place] = ChainSearch::Found(found);
             here = self.links.whole.left[here as usize];
         }
         if end != NONE {
             let place = end as usize - self.new.begin;
-            self.searches().lasts[place] = Search::Found(found);
+            self.searches().lasts[place] = ChainSearch::Found(found);
         }
         found
     }
@@ -363,7 +360,7 @@ impl NewMatcher<'_> {
                 break None;
             }
             let place = here - self.new.begin;
-            if let Search::Found(found) = self.searches().firsts[place] {
+            if let ChainSearch::Found(found) = self.searches().firsts[place] {
                 break found;
             }
             if let Some(found) = self.first_from(narrow(here), 0) {
@@ -373,7 +370,7 @@ impl NewMatcher<'_> {
         };
         let (begin, last) = (old as usize - self.new.begin, here.min(end - 1) - self.new.begin);
         if begin <= last {
-            self.searches().firsts[begin..=last].fill(Search::Found(found));
+            self.searches().firsts[begin..=last].fill(ChainSearch::Found(found));
         }
         found
     }
@@ -412,12 +409,12 @@ impl NewMatcher<'_> {
     }
 
     /// Returns the results of earlier searches. Memory is allocated at the first call.
-    fn searches(&mut self) -> &mut Searches {
+    fn searches(&mut self) -> &mut ChainSearches {
         let set = self.grammar.ignored_set(self.rule);
         let count = self.new.active.len();
         let all = &mut self.new.searches;
         if all.len() <= set {
-            all.resize_with(set + 1, Searches::default);
+            all.resize_with(set + 1, ChainSearches::default);
         }
         let searches = &mut all[set];
         let column = match self.grammar.new_contexts() {
@@ -425,7 +422,7 @@ impl NewMatcher<'_> {
             _ => &mut searches.lasts,
         };
         if column.is_empty() {
-            column.resize(count, Search::Unknown);
+            column.resize(count, ChainSearch::Unknown);
         }
         searches
     }

@@ -62,7 +62,8 @@ impl Batch<'_> {
     /// Rewrites the modules of `scratch.delayed`, after all others of `piece` have been rewritten.
     pub(crate) fn rewrite_delayed(&self, piece: ChainPiece, scratch: &mut Scratch) -> Result<()> {
         let grammar = &self.plan.grammar;
-        self.new_chain.borrow_mut().start(piece, scratch, self.links);
+        let active = scratch.active.iter().map(|active| active.module as usize);
+        self.new_chain.borrow_mut().start(piece.begin.module..piece.end, active, self.links);
         let mut times = vec![Duration::ZERO; scratch.groups.len()];
         self.take_written(scratch, &mut times);
         let mut delayed = std::mem::take(&mut scratch.delayed);
@@ -91,19 +92,25 @@ impl Batch<'_> {
             self.take_written(scratch, &mut times);
         }
         scratch.delayed = delayed;
-        self.new_chain.borrow().fill_groups(scratch);
         for (group, time) in scratch.groups.iter_mut().zip(times) {
+            group.clear();
+            group.members.clear();
             group.time = time;
+        }
+        for (index, active) in scratch.active.iter().enumerate().filter(|(_, active)| active.rule != NO_RULE)
+        {
+            self.new_chain.borrow().add_to(&mut scratch.groups[usize::from(active.rule)], index);
         }
         Ok(())
     }
 
     /// Moves the successors that the rules have written to the new chain.
     fn take_written(&self, scratch: &mut Scratch, times: &mut [Duration]) {
-        for (rule, time) in times.iter_mut().enumerate() {
-            if !scratch.groups[rule].members.is_empty() {
-                *time += scratch.groups[rule].time;
-                self.new_chain.borrow_mut().take_group(rule, scratch, self.plan.grammar.arities());
+        let arities = self.plan.grammar.arities();
+        for (group, time) in scratch.groups.iter_mut().zip(times) {
+            if !group.members.is_empty() {
+                *time += group.time;
+                self.new_chain.borrow_mut().take_group(group, &mut scratch.arranged, arities);
             }
         }
     }

@@ -65,9 +65,9 @@ struct StepChanges {
 }
 
 impl Stepper {
-    /// Returns true if [`perform`](Self::perform) is faster than steps on the whole chain: if the last step has changed
-    /// little of a long `chain`.
-    pub fn is_sparse(&mut self, chain: &Chain) -> bool {
+    /// Decides whether [`perform`](Self::perform) is to do the next steps, and counts the steps that it was not: true if the
+    /// last step has changed little of a long `chain`, so that it is faster than steps on the whole chain.
+    pub fn begin_series(&mut self, chain: &Chain) -> bool {
         let size = self.segment_size();
         let applied = self.applied_last.map_or(usize::MAX, |applied| applied.saturating_mul(4 * size));
         if chain.symbols.len() < FEWEST * size

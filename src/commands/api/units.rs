@@ -119,9 +119,10 @@ const FACTORS: [&str; 68] = [
 ];
 
 /// Indices, codes and seeds.
-const NUMBERS: [&str; 38] = [
+const NUMBERS: [&str; 39] = [
     ".seed",
     "Paint number",
+    "derived:chain number",
     "discs:add vigor",
     "elevation.crs",
     "extruder:mesh faces",

@@ -49,7 +49,7 @@ pub(super) struct Rewrite;
 
 impl Phase<DerivationState<'_>> for Rewrite {
     fn run(&self, state: &mut DerivationState<'_>, chain: Arc<Chain>, number: usize) -> Result<PhaseOutcome> {
-        if !state.has_cut && state.performs_series() && state.stepper.is_sparse(&chain) {
+        if !state.has_cut && state.performs_series() && state.stepper.begin_series(&chain) {
             return perform_series(state, chain, number);
         }
         let Derivation { plan, declared, .. } = state.derivation;

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3, Vec2};
 use super::axis::JoinedTubes;
 use super::placement::{add_points, least_radius};
 use super::route::{Route, RouteFrame};
-use super::tree::{Edge, TubeTree};
+use super::tree::{TubeEdge, TubeTree};
 use burgeon_base::error::Result;
 use burgeon_scene::Part;
 
@@ -110,7 +110,7 @@ impl Tube {
     }
 
     /// Gathers the rings of an edge, and their points.
-    fn gather(&mut self, route: &Route, edge: &Edge) {
+    fn gather(&mut self, route: &Route, edge: &TubeEdge) {
         self.rings.clear();
         self.grid.clear();
         let [start, end] = [0, 1].map(|end| {

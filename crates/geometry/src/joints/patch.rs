@@ -20,7 +20,7 @@ const SMOOTHING: (usize, f64) = (3, 0.4);
 
 /// A patch under construction.
 #[derive(Default)]
-pub(super) struct Patch {
+pub(super) struct JointPatch {
     points: Vec<DVec3>,
     normals: Vec<DVec3>,
     /// Direction along the tube towards the joint at each point of a ring, and the maximum length (m) of a handle.
@@ -34,7 +34,7 @@ pub(super) struct Patch {
     rows: [Vec<u32>; 2],
 }
 
-impl Patch {
+impl JointPatch {
     /// Adds the patch of a joint; `steps` is the number of pieces of each curve, at least 2.
     pub(super) fn add(
         &mut self,

@@ -15,7 +15,7 @@ const STRETCH: usize = 1024;
 
 /// A part of an axis between two joints, or between a joint and an end of the axis.
 #[derive(Debug)]
-pub(super) struct Edge {
+pub(super) struct TubeEdge {
     pub(super) axis: usize,
     /// First and last control point.
     pub(super) controls: [usize; 2],
@@ -27,7 +27,7 @@ pub(super) struct Edge {
     pub(super) cuts: [Option<RouteFrame>; 2],
 }
 
-impl Edge {
+impl TubeEdge {
     /// Returns the length (m).
     pub(super) fn length(&self) -> f64 {
         self.span[1] - self.span[0]
@@ -60,7 +60,7 @@ pub(super) struct TubeTree {
     pub(super) routes: Vec<Route>,
     /// Index of the last given point of each control point of each axis.
     given: Vec<Vec<usize>>,
-    pub(super) edges: Vec<Edge>,
+    pub(super) edges: Vec<TubeEdge>,
     pub(super) joints: Vec<JointPlace>,
     /// Ends of edges that do not fit into their joint.
     pub(super) separate: Vec<EdgeEnd>,
@@ -135,7 +135,7 @@ impl TubeTree {
         }
         let marks = &self.routes[axis].marks;
         let span = [marks[from.0], marks[to.0]];
-        self.edges.push(Edge { axis, controls: [from.0, to.0], span, joints, cuts: [None; 2] });
+        self.edges.push(TubeEdge { axis, controls: [from.0, to.0], span, joints, cuts: [None; 2] });
     }
 }
 

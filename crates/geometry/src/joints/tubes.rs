@@ -2,7 +2,7 @@
 
 use super::axis::{JoinedTubes, JointAxis};
 use super::body::{EndRings, Tube};
-use super::patch::Patch;
+use super::patch::JointPatch;
 use super::placement::place_rings;
 use super::tree::TubeTree;
 use crate::sweeps::strand::MOST_SIDES;
@@ -63,7 +63,7 @@ pub fn joined_tubes(part: &mut Part, axes: &[JointAxis], sides: usize) -> Result
         check(part, index)?;
         tube.add(part, &tree, index, &mut found, &mut ends)?;
     }
-    let mut patch = Patch::default();
+    let mut patch = JointPatch::default();
     let steps = piece_count(sides);
     for (index, joint) in tree.joints.iter().enumerate() {
         check(part, index)?;

@@ -168,11 +168,11 @@ pub static DERIVED: LazyLock<Name> = LazyLock::new(|| {
         Field::new("variables", "{ [string]: any }", "The variables of the system after the last step."),
     ])
     .functions([Name::function(
-        "list",
+        "chain",
         "Returns a chain, the first unless given, as a list of modules, in which each branch is a list. A module has its name and \
          its parameters: module.name, module.length. Changed lists are axioms: system:axiom(sequence(list)).",
     )
-    .form([argument("chain", "number?")], "{ any }")])
+    .form([argument("number", "number?")], "{ any }")])
 });
 
 /// State of a derivation in a hook.

@@ -199,7 +199,7 @@ impl DerivedHandle {
                 table.set_readonly(true);
                 Ok(LuaValue::Table(table))
             }
-            "list" => {
+            "chain" => {
                 let derived = Arc::clone(derived);
                 let list = move |lua: &Lua, (_, number): (LuaValue, LuaValue)| {
                     derived.note_read();

@@ -23,8 +23,8 @@ pub(super) fn module_list(lua: &Lua, derived: &DerivedSystem, number: usize) -> 
         let text = format!("the derived system has no chain number {number}");
         return Err(mlua::Error::external(Error::argument(text).help(match chains {
             0 => "it has no chains".to_owned(),
-            1 => "it has one chain: derived:list()".to_owned(),
-            _ => format!("it has {chains} chains: derived:list(1) to derived:list({chains})"),
+            1 => "it has one chain: derived:chain()".to_owned(),
+            _ => format!("it has {chains} chains: derived:chain(1) to derived:chain({chains})"),
         })));
     };
     let make: Function = lua.named_registry_value(READ_MODULE)?;
@@ -75,7 +75,7 @@ pub(super) fn chain_number(value: &LuaValue) -> Result<usize> {
     match value {
         LuaValue::Nil => Ok(1),
         LuaValue::Integer(number) if *number > 0 => Ok(usize::try_from(*number).unwrap_or(usize::MAX)),
-        _ => Err(Error::argument("derived:list takes the number of a chain, from 1")
-            .help("write derived:list() for the first chain")),
+        _ => Err(Error::argument("derived:chain takes the number of a chain, from 1")
+            .help("write derived:chain() for the first chain")),
     }
 }
