@@ -15,7 +15,7 @@ use crate::curves::surface::SurfaceObject;
 use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Frame, Strand, face, sphere};
-use burgeon_kit::{AxisScale, Color, Drawing, Locate, Model, ObjectPlace, Vector, methods, object};
+use burgeon_kit::{AxisScale, Color, Drawing, Locate, Model, ObjectPlace, Rewind, Vector, methods, object};
 use burgeon_scene::Material;
 
 /// A turtle as in The Algorithmic Beauty of Plants, which draws round branches in three dimensions.
