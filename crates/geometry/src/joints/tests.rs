@@ -124,10 +124,9 @@ fn a_fork_of_equal_branches_is_one_body_at_all_angles_from_10_to_170_degrees() {
         };
         let (part, found) = joined(&[trunk, arm(1.0), arm(-1.0)], 12);
         assert_eq!((topology(&part), found.joints, found.separate.len()), (ONE, 1, 0), "{degrees}");
-        assert!(check([&part]).is_solid() && inverted(&part) <= 3, "{degrees} {}", inverted(&part));
+        assert!(check([&part]).is_solid() && inverted(&part) == 0, "{degrees}");
         let expected = polygon(12) * (3.0 * 0.04 + 12.0 * 0.07 / 3.0);
         let ratio = volume([&part]) / expected;
-        println!("{degrees} {ratio} {}", inverted(&part));
         assert!((0.85..1.1).contains(&ratio), "{degrees}: {ratio}");
     }
 }
@@ -172,7 +171,7 @@ fn polygon_perimeter(sides: usize) -> f64 {
 }
 
 #[test]
-fn a_hundred_thousand_segments_become_one_body_in_about_a_second() {
+fn a_tree_of_many_segments_is_one_body() {
     let mut axes = Vec::new();
     let mut ends = vec![(DVec3::ZERO, DVec3::Z, 0.5, 8.0, None)];
     while axes.len() < 50_000 {
