@@ -400,10 +400,10 @@ fn a_system_tells_what_it_takes() {
         said.starts_with("error: s.lua:") && said.contains(": an axiom must contain only modules, but "),
         "{said}"
     );
-    assert_snapshot!(refused_rules("print(s:derive(0).chain)"), @r"
-    error: s.lua:3: unknown field `chain` of a derived system
-      | print(s:derive(0).chain)
-      help: did you mean chains?
+    assert_snapshot!(refused_rules("print(s:derive(0).step)"), @r"
+    error: s.lua:3: unknown field `step` of a derived system
+      | print(s:derive(0).step)
+      help: did you mean steps?
     ");
 }
 

@@ -1,6 +1,6 @@
 //! Tests of trees of tubes: closedness, manifold surfaces, volumes, joints of known shapes, and bodies that do not fit.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{PI, TAU};
 
 use glam::{DVec3, Vec3};
@@ -22,6 +22,7 @@ struct Topology {
     bad_edges: usize,
 }
 
+/// Bodies are connected by edges: two of them may touch at a point, such as the tips of two branches.
 fn topology(part: &Part) -> Topology {
     let mut known: BTreeMap<[u32; 3], usize> = BTreeMap::new();
     let mut welded = Vec::new();
@@ -29,7 +30,9 @@ fn topology(part: &Part) -> Topology {
         let next = known.len();
         welded.push(*known.entry((*position + Vec3::ZERO).to_array().map(f32::to_bits)).or_insert(next));
     }
-    let mut above: Vec<usize> = (0..known.len()).collect();
+    let triangles: Vec<[usize; 3]> =
+        part.triangles.iter().map(|triangle| triangle.map(|corner| welded[corner as usize])).collect();
+    let mut above: Vec<usize> = (0..triangles.len()).collect();
     fn top(above: &mut [usize], mut at: usize) -> usize {
         while above[at] != at {
             above[at] = above[above[at]];
@@ -37,23 +40,28 @@ fn topology(part: &Part) -> Topology {
         }
         at
     }
-    let mut edges: BTreeMap<(usize, usize), [usize; 2]> = BTreeMap::new();
-    let mut used = vec![false; known.len()];
-    for triangle in &part.triangles {
-        let corners = triangle.map(|corner| welded[corner as usize]);
+    // The number of triangles in each direction, and the first of them.
+    let mut edges: BTreeMap<(usize, usize), ([usize; 2], usize)> = BTreeMap::new();
+    for (index, corners) in triangles.iter().enumerate() {
         for side in 0..3 {
             let (from, to) = (corners[side], corners[(side + 1) % 3]);
-            edges.entry((from.min(to), from.max(to))).or_default()[usize::from(from < to)] += 1;
-            let (a, b) = (top(&mut above, from), top(&mut above, to));
+            let edge = edges.entry((from.min(to), from.max(to))).or_insert(([0; 2], index));
+            edge.0[usize::from(from < to)] += 1;
+            let (a, b) = (top(&mut above, edge.1), top(&mut above, index));
             above[a] = b;
-            used[from] = true;
         }
     }
-    let count = used.iter().filter(|it| **it).count();
+    let mut corners = BTreeSet::new();
+    let mut bodies = BTreeSet::new();
+    for (index, triangle) in triangles.iter().enumerate() {
+        let body = top(&mut above, index);
+        bodies.insert(body);
+        corners.extend(triangle.map(|corner| (corner, body)));
+    }
     Topology {
-        bodies: (0..used.len()).filter(|&at| used[at] && above[at] == at).count(),
-        euler: count as i64 - edges.len() as i64 + part.triangles.len() as i64,
-        bad_edges: edges.values().filter(|sides| **sides != [1, 1]).count(),
+        bodies: bodies.len(),
+        euler: corners.len() as i64 - edges.len() as i64 + triangles.len() as i64,
+        bad_edges: edges.values().filter(|(sides, _)| *sides != [1, 1]).count(),
     }
 }
 
@@ -124,10 +132,9 @@ fn a_fork_of_equal_branches_is_one_body_at_all_angles_from_10_to_170_degrees() {
         };
         let (part, found) = joined(&[trunk, arm(1.0), arm(-1.0)], 12);
         assert_eq!((topology(&part), found.joints, found.separate.len()), (ONE, 1, 0), "{degrees}");
-        assert!(check([&part]).is_solid() && inverted(&part) <= 3, "{degrees} {}", inverted(&part));
+        assert!(check([&part]).is_solid() && inverted(&part) == 0, "{degrees}");
         let expected = polygon(12) * (3.0 * 0.04 + 12.0 * 0.07 / 3.0);
         let ratio = volume([&part]) / expected;
-        println!("{degrees} {ratio} {}", inverted(&part));
         assert!((0.85..1.1).contains(&ratio), "{degrees}: {ratio}");
     }
 }
@@ -172,10 +179,10 @@ fn polygon_perimeter(sides: usize) -> f64 {
 }
 
 #[test]
-fn a_hundred_thousand_segments_become_one_body_in_about_a_second() {
+fn a_tree_of_many_segments_is_one_body() {
     let mut axes = Vec::new();
     let mut ends = vec![(DVec3::ZERO, DVec3::Z, 0.5, 8.0, None)];
-    while axes.len() < 50_000 {
+    while axes.len() < 3000 {
         let mut next = Vec::new();
         for (from, way, radius, length, parent) in ends {
             let index = axes.len();
@@ -190,16 +197,9 @@ fn a_hundred_thousand_segments_become_one_body_in_about_a_second() {
         }
         ends = next;
     }
-    let start = std::time::Instant::now();
     let (part, found) = joined(&axes, 8);
-    println!(
-        "{} axes {:?} {} triangles, {} joints",
-        axes.len(),
-        start.elapsed(),
-        part.triangles.len(),
-        found.joints
-    );
-    println!("separate {}", found.separate.len());
+    assert!(axes.len() > 3000 && found.joints > axes.len() / 3);
+    assert_eq!((topology(&part), found.separate.len()), (ONE, 0));
 }
 
 /// Random trees: for each axis its parent (a number and a point), its steps and radii.
