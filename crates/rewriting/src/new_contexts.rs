@@ -120,12 +120,13 @@ impl Batch<'_> {
         let mut rounds = vec![0; scratch.active.len()];
         let mut open: Vec<u32> = Vec::new();
         let mut round = 0;
-        let symbols = &self.chain.symbols;
+        let places = piece.begin.module..piece.end;
+        let symbols = &self.chain.symbols[places.clone()];
         let module = |index: &u32| scratch.active[*index as usize].module;
         if self.plan.grammar.new_contexts() == NewContexts::Left {
             let mut delayed = delayed.iter().peekable();
-            for place in piece.begin.module..piece.end {
-                match symbols[place] {
+            for (place, symbol) in places.zip(symbols) {
+                match *symbol {
                     OPEN => open.push(round),
                     CLOSE => round = open.pop().unwrap_or_default(),
                     END => round = 0,
@@ -139,8 +140,8 @@ impl Batch<'_> {
             }
         } else {
             let mut delayed = delayed.iter().rev().peekable();
-            for place in (piece.begin.module..piece.end).rev() {
-                match symbols[place] {
+            for (place, symbol) in places.zip(symbols).rev() {
+                match *symbol {
                     CLOSE => open.push(std::mem::take(&mut round)),
                     OPEN => round = round.max(open.pop().unwrap_or_default()),
                     END => round = 0,

@@ -84,9 +84,9 @@ impl Tube {
             self.add_row(part, route, row);
         }
         let mut ring_ends = [None; 2];
-        for end in 0..2 {
-            if edge.cuts[end].is_some() {
-                ring_ends[end] = Some(self.store(route, if end == 0 { 0 } else { last }, ends));
+        for ((ring_end, cut), row) in ring_ends.iter_mut().zip(&edge.cuts).zip([0, last]) {
+            if cut.is_some() {
+                *ring_end = Some(self.store(route, row, ends));
             }
         }
         ends.of.push(ring_ends);
