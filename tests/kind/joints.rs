@@ -15,7 +15,7 @@ tree:rule("Apex(length, width)", function(this, length, width)
   return Width(width), F(length), { Turn(), next }, { Turn(-40), Pitch(20), next }, Roll(70), F(length), next
 end)
 tree:interpret("Apex(length, width)", function(this, length, width)
-  this:width(0):forward(length)
+  this:width(width):forward(length)
 end)
 tree:derive(3)
 "#;
@@ -88,7 +88,7 @@ fn a_triangle_of_a_joint_names_the_module_that_drew_it() {
     let run = burgeon::run(&script, options(1)).unwrap();
     let count = run.scene.meshes[0].parts[0].triangles.len();
     let mut names: BTreeMap<String, usize> = BTreeMap::new();
-    for triangle in (0..count).step_by(count / 150) {
+    for triangle in (0..count).step_by(count / 50) {
         let picked = pick(&script, &options(1), &run.scene, Pick { instance: 0, part: 0, triangle }).unwrap();
         let path = picked.drawn.map(|drawn| drawn.path).unwrap_or_default();
         let name = path.last().map(|it| it.module.text.split('(').next().unwrap_or_default().to_owned());
