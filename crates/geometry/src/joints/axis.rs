@@ -29,7 +29,7 @@ pub struct AxisPoint {
     pub point: usize,
 }
 
-/// Result of [`joined_tubes`](super::joined_tubes).
+/// Result of [`joined_tubes`](crate::joined_tubes).
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct JoinedTubes {
     /// Runs of the added triangles: the control point to which they lead, and their number.
