@@ -65,8 +65,8 @@ struct StepChanges {
 }
 
 impl Stepper {
-    /// Decides whether [`perform`](Self::perform) is to do the next steps, and counts the steps that it was not: true if the
-    /// last step has changed little of a long `chain`, so that it is faster than steps on the whole chain.
+    /// Returns true if [`perform`](Self::perform) is to perform the next steps, because the last step has changed little of a
+    /// long `chain`. After a series in which most of the chain changed, it returns false for some steps.
     pub fn begin_series(&mut self, chain: &Chain) -> bool {
         let size = self.segment_size();
         let applied = self.applied_last.map_or(usize::MAX, |applied| applied.saturating_mul(4 * size));
