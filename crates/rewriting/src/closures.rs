@@ -4,7 +4,8 @@ use std::cell::Cell;
 use std::sync::Arc;
 
 use crate::chain::{CLOSE, Chain, DEEPEST, END, OPEN, Symbol};
-use crate::grammar::{Grammar, MOST_RULES, Rule};
+use crate::events::EventSeries;
+use crate::grammar::{Grammar, MOST_RULES, Propensity, Rule};
 use crate::key::{KeyPart, ModuleKey};
 use crate::ordinals::Ordinals;
 use crate::pattern::Pattern;
@@ -23,6 +24,7 @@ use burgeon_base::random::Stream;
 
 type SuccessorClosure = Box<dyn Fn(&AppliedModule<'_>, &mut Successors)>;
 type GuardClosure = Box<dyn Fn(&AppliedModule<'_>) -> bool>;
+type PropensityClosure = Box<dyn Fn(&AppliedModule<'_>) -> f64>;
 
 /// Module to which a closure is applied.
 #[derive(Debug)]
@@ -117,6 +119,7 @@ pub struct ClosureSystem {
     rules: Vec<Rule>,
     successors: Vec<SuccessorClosure>,
     guards: Vec<Option<GuardClosure>>,
+    propensities: Vec<Option<PropensityClosure>>,
     ignored: Vec<Symbol>,
     ring: bool,
     limit: usize,
@@ -131,6 +134,7 @@ impl ClosureSystem {
             rules: Vec::new(),
             successors: Vec::new(),
             guards: Vec::new(),
+            propensities: Vec::new(),
             ignored: Vec::new(),
             ring: false,
             limit: 100_000_000,
@@ -180,6 +184,37 @@ impl ClosureSystem {
         self.add(pattern, Some(weight), None, Box::new(successor))
     }
 
+    /// Adds a rule that is applied to one module at a time, at the rate `propensity` (events per unit of time). If one rule has
+    /// a propensity, all rules need one, and a step is one event.
+    ///
+    /// The decay of a thousand atoms, which live for one unit of time on average:
+    ///
+    /// ```
+    /// use burgeon_rewriting::ClosureSystem;
+    ///
+    /// let mut matter = ClosureSystem::new(0);
+    /// let (atom, rest) = (matter.module("Atom", &[])?, matter.module("Rest", &[])?);
+    /// matter.rule_with_propensity("Atom", |_| 1.0, move |_, out| out.push(rest, &[]))?;
+    /// let chain = matter.chain(|out| (0..1000).for_each(|_| out.push(atom, &[])))?;
+    /// let chain = matter.derive_until(chain, 1.0)?;
+    /// let left = chain.symbols.iter().filter(|symbol| **symbol == atom).count();
+    /// assert!((320..420).contains(&left), "{left}, expected 1000/e");
+    /// # Ok::<(), burgeon_base::Error>(())
+    /// ```
+    pub fn rule_with_propensity(
+        &mut self,
+        pattern: &str,
+        propensity: impl Fn(&AppliedModule<'_>) -> f64 + 'static,
+        successor: impl Fn(&AppliedModule<'_>, &mut Successors) + 'static,
+    ) -> Result<()> {
+        self.add(pattern, None, None, Box::new(successor))?;
+        if let (Some(rule), Some(last)) = (self.rules.pop(), self.propensities.last_mut()) {
+            self.rules.push(rule.with_propensity(Propensity::Computed));
+            *last = Some(Box::new(propensity));
+        }
+        Ok(())
+    }
+
     fn add(
         &mut self,
         pattern: &str,
@@ -195,6 +230,7 @@ impl ClosureSystem {
         self.rules.push(Rule::new(pattern, weight, guard.is_some(), None));
         self.successors.push(successor);
         self.guards.push(guard);
+        self.propensities.push(None);
         Ok(())
     }
 
@@ -290,10 +326,24 @@ impl ClosureSystem {
     ///
     /// A guard must always return the same for the same arguments, because it is not called again while nothing around its
     /// module changes.
-    pub fn derive(&self, mut chain: Chain, steps: usize) -> Result<Chain> {
+    pub fn derive(&self, chain: Chain, steps: usize) -> Result<Chain> {
+        self.derive_within(chain, steps, f64::INFINITY)
+    }
+
+    /// Derives a chain of rules with propensities until `time`; events that would occur later do not. Fails if a rule has no
+    /// propensity. An example is at [`rule_with_propensity`](Self::rule_with_propensity).
+    pub fn derive_until(&self, chain: Chain, time: f64) -> Result<Chain> {
+        if self.propensities.iter().any(Option::is_none) {
+            return Err(Error::argument("without propensities, a derivation has no time")
+                .help("add the rules by rule_with_propensity"));
+        }
+        self.derive_within(chain, usize::MAX, time)
+    }
+
+    fn derive_within(&self, mut chain: Chain, steps: usize, until: f64) -> Result<Chain> {
         let grammar = Grammar::new(Arc::new(self.symbols.clone()), self.rules.clone(), &self.ignored, true)
             .with_ring(self.ring)
-            .in_one_direction()?;
+            .with_compatible_rules()?;
         chain.mark(BATCH, grammar.arities());
         let chains = chain.symbols.iter().filter(|symbol| **symbol == END).count();
         let plan = Arc::new(StepPlan {
@@ -308,7 +358,7 @@ impl ClosureSystem {
         let mut stepper = Stepper::new(plan);
         let phases = Phases {
             first: Vec::new(),
-            each: vec![Box::new(RewritePhase { system: self, last: steps })],
+            each: vec![Box::new(RewritePhase { system: self, last: steps, until })],
             last: Vec::new(),
         };
         let derived = derive(&phases, &mut stepper, Arc::new(chain), 0, steps)?;
@@ -333,11 +383,25 @@ struct RewritePhase<'a> {
     system: &'a ClosureSystem,
     /// Number of the last step.
     last: usize,
+    /// Time of the last event at most.
+    until: f64,
 }
 
 impl Phase<Stepper> for RewritePhase<'_> {
     fn run(&self, stepper: &mut Stepper, chain: Arc<Chain>, step: usize) -> Result<PhaseOutcome> {
         let stop = Stop::new();
+        if stepper.plan.grammar.has_events() {
+            let mut series = EventSeries {
+                first: step,
+                last: self.last,
+                until: self.until,
+                is_changed: false,
+                ends_at: &[],
+                watch: &mut |_, _| true,
+            };
+            let outcome = stepper.perform_events(self.system, &stop, &chain, &mut series)?;
+            return Ok(outcome.into_phase_outcome());
+        }
         if stepper.begin_series(&chain) {
             let outcome = stepper.perform(
                 self.system,
@@ -396,6 +460,17 @@ impl Rules for ClosureSystem {
     fn guard(&self, applications: &Applications<'_>, holds: &mut Vec<u32>) -> Result<(), RuleFailure> {
         if let Some(guard) = &self.guards[usize::from(applications.rule)] {
             holds.extend(self.each(applications).map(|module| u32::from(guard(&module))));
+        }
+        Ok(())
+    }
+
+    fn propensity(
+        &self,
+        applications: &Applications<'_>,
+        propensities: &mut Vec<f64>,
+    ) -> Result<(), RuleFailure> {
+        if let Some(propensity) = &self.propensities[usize::from(applications.rule)] {
+            propensities.extend(self.each(applications).map(|module| propensity(&module)));
         }
         Ok(())
     }

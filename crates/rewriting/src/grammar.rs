@@ -7,10 +7,19 @@ use super::context::{CompiledPatterns, ContextElement};
 use super::ignored::IgnoredSet;
 use super::pattern::{Item, Pattern};
 use super::symbols::Symbols;
-use burgeon_base::error::{Error, Result, SourcePlace};
+use burgeon_base::error::SourcePlace;
 
 /// Maximum number of rules of a system, because they are numbered in 16 bits.
 pub const MOST_RULES: usize = 65_000;
+
+/// Rate at which a rule applies to each of its modules (events per unit of time).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Propensity {
+    /// The same for all modules.
+    Constant(f64),
+    /// Result of a function of the rule, see [`Rules::propensity`](crate::Rules::propensity).
+    Computed,
+}
 
 /// A production without its successor, which is a function in each of the script's virtual machines.
 #[derive(Debug, Clone)]
@@ -25,6 +34,7 @@ pub struct Rule {
     pub place: Option<SourcePlace>,
     /// Symbols that the contexts of this rule skip, if they are not those of the system.
     ignored: Option<Vec<Symbol>>,
+    propensity: Option<Propensity>,
     contexts: Vec<Item>,
     has_contexts: bool,
     has_new_contexts: bool,
@@ -50,6 +60,7 @@ impl Rule {
             guarded,
             place,
             ignored: None,
+            propensity: None,
             contexts,
             has_contexts,
             has_new_contexts,
@@ -76,6 +87,18 @@ impl Rule {
     #[must_use]
     pub fn ignoring(self, symbols: Vec<Symbol>) -> Self {
         Self { ignored: Some(symbols), ..self }
+    }
+
+    /// Returns the rule that applies to one module at a time, at a rate.
+    #[must_use]
+    pub fn with_propensity(self, propensity: Propensity) -> Self {
+        Self { propensity: Some(propensity), ..self }
+    }
+
+    /// Returns the rate of the rule, if it applies to one module at a time.
+    #[inline]
+    pub fn propensity(&self) -> Option<Propensity> {
+        self.propensity
     }
 
     /// Returns true if the rule has a context in the chain that the step writes.
@@ -174,6 +197,7 @@ pub struct Grammar {
     /// Contexts in the chain that a step writes.
     new_contexts: NewContexts,
     runs: bool,
+    events: bool,
     random: bool,
 }
 
@@ -192,8 +216,8 @@ impl Grammar {
     /// Creates a grammar of `rules` in the order of declaration, at most [`MOST_RULES`]. A rule of weight 0 is never a
     /// candidate, so it never applies.
     ///
-    /// `ignored` lists the symbols that contexts skip. `random` is set if successors may use random numbers; weighted
-    /// rules are detected automatically.
+    /// `ignored` lists the symbols that contexts skip. `random` is set if successors may use random numbers; rules
+    /// with weights or propensities are detected automatically.
     pub fn new(symbols: Arc<Symbols>, rules: Vec<Rule>, ignored: &[Symbol], random: bool) -> Self {
         let arities = symbols.arities();
         let mut sets = vec![IgnoredSet::new(ignored, arities.len())];
@@ -209,7 +233,7 @@ impl Grammar {
         let ignored_numbers = ignored_numbers.collect();
         let mut patterns = CompiledPatterns::default();
         rules.iter().for_each(|rule| patterns.add(&rule.pattern));
-        let random = random || rules.iter().any(|rule| rule.weight.is_some());
+        let random = random || rules.iter().any(|rule| rule.weight.is_some() || rule.propensity.is_some());
         let grammar = Self {
             rules,
             by_symbol: Vec::new(),
@@ -225,6 +249,7 @@ impl Grammar {
             right: 0,
             new_contexts: NewContexts::None,
             runs: false,
+            events: false,
             random,
         };
         grammar.with_candidates(|_| true)
@@ -254,7 +279,7 @@ impl Grammar {
     #[must_use]
     pub fn with_candidates(mut self, is_candidate: impl Fn(u16) -> bool) -> Self {
         let mut by_symbol = vec![Vec::new(); self.arities.len()];
-        (self.left, self.right, self.runs) = (0, 0, false);
+        (self.left, self.right, self.runs, self.events) = (0, 0, false, false);
         self.new_contexts = NewContexts::None;
         for ignored in &mut self.ignored {
             (ignored.needs_left, ignored.needs_right) = (false, false);
@@ -269,6 +294,7 @@ impl Grammar {
             ignored.needs_right |= right > 0;
             if rule.weight != Some(0.0) {
                 self.runs |= rule.pattern.has_run();
+                self.events |= rule.propensity.is_some();
                 if rule.pattern.has_new_left() {
                     self.new_contexts = NewContexts::Left;
                 } else if rule.pattern.has_new_right() {
@@ -283,49 +309,9 @@ impl Grammar {
         self
     }
 
-    /// Returns the grammar if its candidates can be applied in one step.
-    ///
-    /// Fails if some have left contexts in the new chain and others right contexts, or if some rewrite several modules at
-    /// once and others have contexts in the new chain.
-    ///
-    /// ```
-    /// use burgeon_rewriting::ClosureSystem;
-    ///
-    /// let mut system = ClosureSystem::new(0);
-    /// let (a, b) = (system.module("A", &[])?, system.module("B", &[])?);
-    /// system.rule("A << B", move |_, out| out.push(a, &[]))?;
-    /// let chain = |system: &ClosureSystem| system.chain(|out| [a, b, b].iter().for_each(|it| out.push(*it, &[])));
-    /// assert_eq!(system.text(&system.derive(chain(&system)?, 1)?), "A A A\n");
-    /// system.rule("A >> B", move |_, out| out.push(a, &[]))?;
-    /// let error = system.derive(chain(&system)?, 1).expect_err("two directions");
-    /// assert!(error.message().contains("A >> B"), "{error}");
-    /// # Ok::<(), burgeon_base::Error>(())
-    /// ```
-    pub fn in_one_direction(self) -> Result<Self> {
-        let rules = || self.by_symbol.iter().flatten().map(|number| &self.rules[usize::from(*number)]);
-        let left = rules().find(|rule| rule.pattern.has_new_left());
-        let right = rules().find(|rule| rule.pattern.has_new_right());
-        let run = rules().find(|rule| rule.pattern.has_run());
-        let conflict = match (left, right, run) {
-            (Some(left), Some(right), _) => {
-                (left, right, "sees the new chain before it", "the new chain after it")
-            }
-            (Some(new), None, Some(run)) | (None, Some(new), Some(run)) => {
-                (new, run, "sees the new chain", "rewrites several modules at once")
-            }
-            _ => return Ok(self),
-        };
-        let (first, second, what, other) = conflict;
-        let text = match std::ptr::eq(first, second) {
-            true => format!("the rule \"{}\" {what}, and {other}", first.pattern.text),
-            false => format!(
-                "the rule \"{}\" {what}, and \"{}\" {other}, in the same step",
-                first.pattern.text, second.pattern.text
-            ),
-        };
-        let error = Error::argument(text).at(second.place.clone()).rule(&second.pattern.text);
-        Err(error
-            .help("put the rules in groups that are derived in turn: s:rule(pattern, { group = \"up\" }, f)"))
+    /// Returns the numbers of the rules that can be chosen, by symbol.
+    pub(crate) fn candidates(&self) -> impl Iterator<Item = u16> + '_ {
+        self.by_symbol.iter().flatten().copied()
     }
 
     /// Returns the declared modules.
@@ -453,6 +439,12 @@ impl Grammar {
     #[inline]
     pub fn new_contexts(&self) -> NewContexts {
         self.new_contexts
+    }
+
+    /// Returns true if each step rewrites one module of each chain, drawn by the propensities of the rules.
+    #[inline]
+    pub fn has_events(&self) -> bool {
+        self.events
     }
 
     /// Returns true if a rule rewrites several modules at once.

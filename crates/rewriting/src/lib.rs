@@ -42,14 +42,18 @@
 #[doc = include_str!("../README.md")]
 mod readme {}
 
+mod amounts;
 mod batch;
 mod chain;
 mod choice;
 mod choose;
 mod closures;
 mod column_value;
+mod compatible;
 mod context;
 mod cut;
+mod event_chain;
+mod events;
 mod failed_chains;
 mod grammar;
 mod ignored;
@@ -64,6 +68,7 @@ mod pattern;
 mod pattern_reader;
 mod phases;
 mod plan;
+mod propensities;
 mod rules;
 mod runs;
 mod segments;
@@ -85,8 +90,9 @@ pub use closures::{AppliedModule, ClosureSystem};
 pub use column_value::ColumnValue;
 pub use context::ContextElement;
 pub use cut::{CutChain, cut};
+pub use events::{EventSeries, EventsOutcome};
 pub use failed_chains::FailedChains;
-pub use grammar::{Choice, Grammar, MOST_RULES, NewContexts, Rule};
+pub use grammar::{Choice, Grammar, MOST_RULES, NewContexts, Propensity, Rule};
 pub use key::{KeyPart, ModuleKey};
 pub use links::Links;
 pub use matching::{Bindings, ContextMatcher};

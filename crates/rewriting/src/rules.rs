@@ -55,6 +55,19 @@ pub trait Rules {
     /// does not hold. After a failure, `holds` contains the numbers of the applications before it.
     fn guard(&self, applications: &Applications<'_>, holds: &mut Vec<u32>) -> Result<(), RuleFailure>;
 
+    /// Calls the propensity of a rule for each application, in order, and adds each result to `propensities`. After a failure,
+    /// it contains the results of the applications before it.
+    ///
+    /// Only called for rules with [`Propensity::Computed`](crate::Propensity::Computed). The default fails.
+    fn propensity(
+        &self,
+        applications: &Applications<'_>,
+        propensities: &mut Vec<f64>,
+    ) -> Result<(), RuleFailure> {
+        let _ = (applications, propensities);
+        Err(Error::argument("these rules compute no propensities").help("use constant propensities").into())
+    }
+
     /// Returns the formatter of module parameters in errors.
     fn parameters(&self) -> &dyn ShowParameters {
         &PlainNumbers

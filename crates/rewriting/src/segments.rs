@@ -20,6 +20,13 @@ pub(crate) struct ChainSegment {
     pub reach: Range<usize>,
 }
 
+impl ChainSegment {
+    /// Returns true if a symbol of the segment has rules.
+    pub(crate) fn has_rules(&self) -> bool {
+        self.has_rules
+    }
+}
+
 /// Brackets of a segment without a partner, and the number of its ends of chains.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) struct Brackets {
@@ -108,23 +115,44 @@ impl SegmentedChain {
     }
 
     /// Divides those of the segments at the indices `changed`, which are ascending, that have become long, and joins all
-    /// segments if many have become short. All segments are awake after that.
+    /// segments if many have become short. The parts, or all segments after joining, are awake if they have rules.
     pub(crate) fn balance(&mut self, changed: &[usize], grammar: &Grammar) {
-        let is_long = |index: &&usize| self.segments[**index].chain.symbols.len() > 2 * self.size;
-        let long: Vec<usize> = changed.iter().filter(is_long).copied().collect();
-        for index in long.iter().rev() {
-            let mut parts = Vec::new();
-            divide(&self.segments[*index].chain, grammar, self.size, &mut parts);
-            self.segments.splice(index..=index, parts);
+        for index in changed.iter().rev() {
+            self.divide(*index, grammar);
         }
-        if self.segments.len() > 64 && self.segments.len() * self.size > 4 * self.symbols {
-            *self = Self::new(&self.joined(), grammar, self.size);
-        } else if !long.is_empty() && grammar.has_contexts() {
-            // The indices of the segments in reach have changed.
-            for segment in &mut self.segments {
-                segment.is_resting = !segment.has_rules;
-            }
+        if self.is_sparse() {
+            self.join(grammar);
         }
+    }
+
+    /// Divides the whole chain anew.
+    pub(crate) fn join(&mut self, grammar: &Grammar) {
+        *self = Self::new(&self.joined(), grammar, self.size);
+    }
+
+    /// Divides the segment at `index` if it has become long. Returns the number of its parts.
+    pub(crate) fn divide(&mut self, index: usize, grammar: &Grammar) -> usize {
+        if self.segments[index].chain.symbols.len() <= 2 * self.size {
+            return 1;
+        }
+        let mut parts = Vec::new();
+        divide(&self.segments[index].chain, grammar, self.size, &mut parts);
+        let count = parts.len();
+        for segment in &mut self.segments {
+            let reach = &mut segment.reach;
+            *reach = match reach.start > index {
+                true => reach.start + count - 1..reach.end + count - 1,
+                false if reach.end > index => reach.start..reach.end + count - 1,
+                false => continue,
+            };
+        }
+        self.segments.splice(index..=index, parts);
+        count
+    }
+
+    /// Returns true if many segments have become short.
+    pub(crate) fn is_sparse(&self) -> bool {
+        self.segments.len() > 64 && self.segments.len() * self.size > 4 * self.symbols
     }
 }
 

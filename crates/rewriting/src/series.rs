@@ -81,7 +81,8 @@ impl Stepper {
         self.pause.pass()
     }
 
-    fn segment_size(&self) -> usize {
+    /// Returns the number of symbols of a new segment.
+    pub(crate) fn segment_size(&self) -> usize {
         self.plan.batch.clamp(1, SEGMENT)
     }
 

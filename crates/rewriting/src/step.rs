@@ -6,6 +6,7 @@ use std::sync::{Arc, Condvar, Mutex};
 
 use crate::batch::{Batch, ChainPiece, Scratch};
 use crate::chain::{Chain, END, Mark};
+use crate::event_chain::EventState;
 use crate::grammar::NewContexts;
 use crate::links::Links;
 use crate::new_contexts::pieces_at_ends;
@@ -140,6 +141,7 @@ pub struct Stepper {
     /// Number of applications of rules in the last step, if there was one.
     pub(crate) applied_last: Option<usize>,
     pub(crate) pause: SeriesPause,
+    pub(crate) events: EventState,
 }
 
 impl Stepper {
@@ -154,6 +156,7 @@ impl Stepper {
             outputs: Vec::new(),
             applied_last: None,
             pause: SeriesPause::default(),
+            events: EventState::default(),
         }
     }
 
@@ -161,6 +164,7 @@ impl Stepper {
     pub fn set_plan(&mut self, plan: &Arc<StepPlan>) {
         self.plan = Arc::clone(plan);
         self.applied_last = None;
+        self.events.forget_chains();
     }
 
     /// Adds the work of the rules in the steps of an earlier derivation that this one continues.
@@ -321,7 +325,7 @@ fn append<T: Copy>(array: &mut Vec<T>, items: &[T], [read, all]: [usize; 2]) {
 }
 
 /// Merges the chain's marks into pieces of at least `size` symbols.
-fn pieces(chain: &Chain, size: usize) -> Vec<ChainPiece> {
+pub(crate) fn pieces(chain: &Chain, size: usize) -> Vec<ChainPiece> {
     let mut pieces: Vec<ChainPiece> = Vec::new();
     for mark in &chain.marks {
         match pieces.last_mut() {

@@ -9,6 +9,7 @@ use burgeon_rewriting::{
     Scratch, ShowParameters, Signature, StepPlan, StepWork, Stepper, Successors, Symbol, Symbols, cut,
 };
 
+use crate::events::propensity;
 use crate::plain::{Application, Part, PlainModule, PlainRule, PlainValue};
 use crate::systems::{MODULES, RandomSystem, TEXTS};
 
@@ -49,7 +50,7 @@ fn unpack(stored: f64) -> PlainValue {
 }
 
 /// Functions of the rules of a system.
-struct Functions {
+pub(crate) struct Functions {
     system: RandomSystem,
     symbols: Symbols,
     /// Number of arguments of each rule.
@@ -57,6 +58,11 @@ struct Functions {
 }
 
 impl Functions {
+    /// Returns the number of parameters by symbol.
+    pub(crate) fn arities(&self) -> Vec<u8> {
+        self.symbols.arities()
+    }
+
     fn arguments(&self, applications: &Applications<'_>, index: usize) -> Vec<PlainValue> {
         let count = self.counts[usize::from(applications.rule)];
         applications.arguments[index * count..][..count].iter().map(|stored| unpack(*stored)).collect()
@@ -87,6 +93,16 @@ impl Rules for Functions {
         holds.extend(
             (0..applications.count).map(|index| u32::from(rule.holds(&self.arguments(applications, index)))),
         );
+        Ok(())
+    }
+
+    fn propensity(
+        &self,
+        applications: &Applications<'_>,
+        propensities: &mut Vec<f64>,
+    ) -> Result<(), RuleFailure> {
+        let each = (0..applications.count).map(|index| self.arguments(applications, index));
+        propensities.extend(each.map(|arguments| propensity(&arguments)));
         Ok(())
     }
 
@@ -158,6 +174,73 @@ impl Helpers for TestThreads<'_> {
     }
 }
 
+/// A system as the crate has it.
+pub(crate) struct Prepared {
+    pub functions: Arc<Functions>,
+    pub rules: Vec<Rule>,
+    pub ignored: Vec<Symbol>,
+    /// Axiom; the key of its end is the default.
+    pub chain: Chain,
+}
+
+impl Prepared {
+    pub(crate) fn new(system: &RandomSystem, axiom: &[Part]) -> Self {
+        let mut symbols = Symbols::default();
+        for (name, count) in MODULES {
+            let parameters: Vec<String> = (0..count).map(|index| format!("v{index}")).collect();
+            symbols.declare(Signature::new(name, &parameters).expect("a name")).expect("a new name");
+        }
+        let find = |names: &[&str]| -> Vec<Symbol> {
+            names.iter().map(|name| symbols.find(name).expect("a declared module")).collect()
+        };
+        let rules = system.rules.iter().map(|rule| {
+            let (text, _) = rule.pattern.text();
+            let pattern = Pattern::parse(&text, &symbols).unwrap_or_else(|error| panic!("{error}: {text}"));
+            let declared = Rule::new(pattern, rule.weight, rule.least.is_some(), None);
+            match &rule.ignored {
+                Some(names) => declared.ignoring(find(names)),
+                None => declared,
+            }
+        });
+        let rules = rules.collect();
+        let ignored = find(&system.settings.ignored);
+        let mut chain = Chain::default();
+        write(axiom, &symbols, &mut |symbol, params| {
+            chain.symbols.push(symbol);
+            chain.params.extend_from_slice(params);
+        });
+        chain.symbols.push(END);
+        let mut keys = Vec::new();
+        gather_keys(axiom, &mut keys);
+        let mut keys = keys.into_iter();
+        let mut of_symbol = |symbol: &Symbol| if *symbol > END { keys.next() } else { None };
+        chain.keys = chain.symbols.iter().map(|symbol| of_symbol(symbol).unwrap_or_default()).collect();
+        let counts = system.rules.iter().map(|rule| rule.pattern.text().1).collect();
+        let functions = Arc::new(Functions { system: system.clone(), symbols, counts });
+        Self { functions, rules, ignored, chain }
+    }
+
+    /// Returns the plan of steps by `rules`, with pieces of `batch` symbols.
+    pub(crate) fn plan(&self, rules: Vec<Rule>, batch: usize, traced: bool) -> Arc<StepPlan> {
+        let symbols = Arc::new(self.functions.symbols.clone());
+        let ring = self.functions.system.settings.ring;
+        Arc::new(StepPlan {
+            grammar: Grammar::new(symbols, rules, &self.ignored, true).with_ring(ring),
+            failed: None,
+            chains: 1,
+            batch,
+            limit: 1_000_000,
+            traced,
+            notes_places: false,
+        })
+    }
+
+    /// Returns the parts of a chain.
+    pub(crate) fn read(&self, chain: &Chain) -> Vec<Part> {
+        read(chain, &self.functions.symbols)
+    }
+}
+
 /// Derives a system in the crate, and returns its chain after each step.
 pub(crate) fn derive(
     system: &RandomSystem,
@@ -165,52 +248,12 @@ pub(crate) fn derive(
     steps: usize,
     (threads, batch): (usize, usize),
 ) -> Vec<Vec<Part>> {
-    let mut symbols = Symbols::default();
-    for (name, count) in MODULES {
-        let parameters: Vec<String> = (0..count).map(|index| format!("v{index}")).collect();
-        symbols.declare(Signature::new(name, &parameters).expect("a name")).expect("a new name");
-    }
-    let find = |names: &[&str]| -> Vec<Symbol> {
-        names.iter().map(|name| symbols.find(name).expect("a declared module")).collect()
-    };
-    let rules = system.rules.iter().map(|rule| {
-        let (text, _) = rule.pattern.text();
-        let pattern = Pattern::parse(&text, &symbols).unwrap_or_else(|error| panic!("{error}: {text}"));
-        let declared = Rule::new(pattern, rule.weight, rule.least.is_some(), None);
-        match &rule.ignored {
-            Some(names) => declared.ignoring(find(names)),
-            None => declared,
-        }
-    });
-    let rules = rules.collect();
-    let ignored = find(&system.settings.ignored);
-    let grammar =
-        Grammar::new(Arc::new(symbols.clone()), rules, &ignored, true).with_ring(system.settings.ring);
-    let arities = symbols.arities();
-    let mut chain = Chain::default();
-    write(axiom, &symbols, &mut |symbol, params| {
-        chain.symbols.push(symbol);
-        chain.params.extend_from_slice(params);
-    });
-    chain.symbols.push(END);
-    let mut keys = Vec::new();
-    gather_keys(axiom, &mut keys);
-    let mut keys = keys.into_iter();
-    let mut of_symbol = |symbol: &Symbol| if *symbol > END { keys.next() } else { None };
-    chain.keys = chain.symbols.iter().map(|symbol| of_symbol(symbol).unwrap_or_default()).collect();
-    let counts = system.rules.iter().map(|rule| rule.pattern.text().1).collect();
-    let functions = Arc::new(Functions { system: system.clone(), symbols: symbols.clone(), counts });
-    let plan = StepPlan {
-        grammar,
-        failed: None,
-        chains: 1,
-        batch,
-        limit: 1_000_000,
-        traced: true,
-        notes_places: false,
-    };
-    let mut stepper = Stepper::new(Arc::new(plan));
-    let cut_symbol = symbols.find("Cut").expect("a declared module");
+    let prepared = Prepared::new(system, axiom);
+    let Prepared { functions, chain, .. } = &prepared;
+    let mut chain = chain.clone();
+    let arities = functions.symbols.arities();
+    let mut stepper = Stepper::new(prepared.plan(prepared.rules.clone(), batch, true));
+    let cut_symbol = functions.symbols.find("Cut").expect("a declared module");
     let mut chains = Vec::new();
     for number in 1..=steps {
         if let Some(made) = cut(&chain, cut_symbol, &arities) {
@@ -218,13 +261,13 @@ pub(crate) fn derive(
         }
         chain.mark(batch, &arities);
         let before = Arc::new(chain);
-        let helpers = TestThreads { functions: &functions, threads };
-        let outcome = stepper.step(&*functions, &helpers, &Stop::new(), &before, number).expect("a step");
+        let helpers = TestThreads { functions, threads };
+        let outcome = stepper.step(&**functions, &helpers, &Stop::new(), &before, number).expect("a step");
         let counted: usize = outcome.applied.iter().map(|(_, count)| *count as usize).sum();
         assert_eq!(outcome.applied.len(), before.symbols.len());
         assert_eq!(counted, outcome.chain.symbols.len(), "each symbol has an origin");
         chain = outcome.chain;
-        chains.push(read(&chain, &symbols));
+        chains.push(prepared.read(&chain));
         stepper.reuse(before);
     }
     chains

@@ -1,6 +1,7 @@
 //! Patterns with several predecessors, values, wildcards, ends, cuts, rings and contexts in the new chain: the crate and a
 //! plain implementation derive the same chains.
 
+mod events;
 mod functions;
 mod plain;
 mod systems;

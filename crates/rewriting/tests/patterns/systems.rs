@@ -159,6 +159,30 @@ impl RandomSystem {
     }
 }
 
+impl RandomSystem {
+    /// Returns a system whose rules are single events. The contexts of some systems reach only modules on the path.
+    pub(crate) fn of_events(dice: &mut Dice) -> Self {
+        let mut system = Self::new(dice);
+        let is_near = dice.chance(0.6);
+        system.settings.ring &= !is_near;
+        let size = 20 + dice.below(60);
+        system.axiom = parts(dice, size, 0);
+        for rule in &mut system.rules {
+            rule.weight = None;
+            (rule.pattern.new_left, rule.pattern.new_right) = (PlainLeft::default(), Vec::new());
+            if is_near {
+                rule.ignored = None;
+                rule.pattern.predecessors.truncate(1);
+                rule.pattern.right.retain(|context| matches!(context, PlainContext::Module(_)));
+            }
+            let (_, arguments) = rule.pattern.text();
+            let count = dice.below(4);
+            rule.successor = (0..count).map(|_| template(dice, arguments)).collect();
+        }
+        system
+    }
+}
+
 fn parts(dice: &mut Dice, size: usize, depth: usize) -> Vec<Part> {
     let part = |dice: &mut Dice| {
         if depth < 4 && dice.chance(0.25) {

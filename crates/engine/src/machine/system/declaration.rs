@@ -236,7 +236,7 @@ impl SystemDeclaration {
             let declared = &self.rules[usize::from(number)];
             declared.phase == phase && (declared.group.is_none() || declared.group.as_deref() == group)
         });
-        grammar.in_one_direction()
+        grammar.with_compatible_rules()
     }
 
     /// Prepares `machine` for deriving this system: creates the drivers and freezes reachable tables.
