@@ -5,8 +5,8 @@ use burgeon_base::random::Stream;
 /// Number of binary digits after the point.
 const DIGITS: i32 = 64;
 
-/// Maximum propensity. The sum of 2^34 propensities then still fits an [`Amount`].
-pub(crate) const MOST_PROPENSITY: f64 = 1e9;
+/// Maximum propensity of a rule (events per unit of time). The sums of all modules of a chain then stay exact.
+pub const MOST_PROPENSITY: f64 = 1e9;
 
 /// Propensity, or sum of propensities, in units of 2^-64. Additions are exact, so that sums are equal for any order and
 /// division of a chain.

@@ -390,7 +390,7 @@ struct RewritePhase<'a> {
 impl Phase<Stepper> for RewritePhase<'_> {
     fn run(&self, stepper: &mut Stepper, chain: Arc<Chain>, step: usize) -> Result<PhaseOutcome> {
         let stop = Stop::new();
-        if stepper.plan.grammar.has_events() {
+        if stepper.has_events() {
             let mut series = EventSeries {
                 first: step,
                 last: self.last,

@@ -20,6 +20,9 @@ use burgeon_base::Stop;
 use burgeon_base::error::Result;
 use burgeon_base::random::Stream;
 
+/// Maximum number of symbols of a new segment, whose possible events are found again after each event in it.
+const SEGMENT: usize = 64;
+
 /// Request for events.
 #[allow(missing_debug_implementations, reason = "contains a function")]
 pub struct EventSeries<'a> {
@@ -87,6 +90,11 @@ impl NextEvent {
 }
 
 impl Stepper {
+    /// Returns true if each step rewrites one module of each chain, drawn by the propensities of the rules.
+    pub fn has_events(&self) -> bool {
+        self.plan.grammar.has_events()
+    }
+
     /// Returns the time of each chain, the sum of the waiting times of its events; empty before the first step.
     pub fn event_times(&self) -> &[f64] {
         &self.events.times
@@ -114,7 +122,7 @@ impl Stepper {
         let is_known = state.whole.take().is_some_and(|whole| Arc::ptr_eq(&whole, chain));
         if !is_known {
             let divided = Chains { chain, begins: chain.starts(plan.grammar.arities()) };
-            let size = self.segment_size();
+            let size = plan.batch.clamp(1, SEGMENT);
             let chains = divided.each().enumerate();
             state.chains =
                 chains.map(|(number, chain)| EventChain::new(&chain, number, &plan, size)).collect();

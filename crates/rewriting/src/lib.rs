@@ -83,6 +83,7 @@ mod text;
 mod uses;
 mod windows;
 
+pub use amounts::MOST_PROPENSITY;
 pub use batch::{NO_RULE, Scratch};
 pub use chain::{CLOSE, Chain, DEEPEST, END, Mark, OPEN, Symbol};
 pub use choice::Candidates;

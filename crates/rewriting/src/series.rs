@@ -81,8 +81,7 @@ impl Stepper {
         self.pause.pass()
     }
 
-    /// Returns the number of symbols of a new segment.
-    pub(crate) fn segment_size(&self) -> usize {
+    fn segment_size(&self) -> usize {
         self.plan.batch.clamp(1, SEGMENT)
     }
 

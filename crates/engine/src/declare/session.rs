@@ -22,7 +22,8 @@ use burgeon_base::warning::{Warning, Warnings};
 use burgeon_kit::Values;
 use burgeon_language::CallForm;
 use burgeon_language::analysis::{
-    Analysis, CheckedFile, QueryCall, call_problems, has_metatables, inspects_tables, observes_steps,
+    Analysis, CheckedFile, QueryCall, asks_for_chains, call_problems, has_metatables, inspects_tables,
+    observes_steps,
 };
 use burgeon_packages::{PackageSearch, Packages};
 use burgeon_rewriting::Symbol;
@@ -43,6 +44,8 @@ struct ScriptFacts {
     metatables: AtomicBool,
     /// Set if rules of a file may print, or ask for the chain.
     observes_steps: AtomicBool,
+    /// Set if rules may ask for the chain before a step.
+    asks_for_chains: AtomicBool,
 }
 
 /// Run of a script.
@@ -290,6 +293,11 @@ impl Session {
         self.facts.observes_steps.load(Ordering::Acquire)
     }
 
+    /// Returns true if functions of rules may ask for the chain before a step.
+    pub(crate) fn asks_for_chains(&self) -> bool {
+        self.facts.asks_for_chains.load(Ordering::Acquire)
+    }
+
     /// Returns true if the functions that begin at a line of a file have no side effects.
     pub(crate) fn is_pure(&self, file: &str, line: usize) -> bool {
         !self.facts.metatables.load(Ordering::Acquire)
@@ -383,6 +391,7 @@ impl Session {
         self.facts.metatables.fetch_or(has_metatables(&analysis.text), Ordering::AcqRel);
         self.facts.inspects_tables.fetch_or(inspects_tables(&analysis.text), Ordering::AcqRel);
         self.facts.observes_steps.fetch_or(observes_steps(&analysis.text), Ordering::AcqRel);
+        self.facts.asks_for_chains.fetch_or(asks_for_chains(&analysis.text), Ordering::AcqRel);
     }
 
     /// Records that a placeholder module has been made.

@@ -51,6 +51,7 @@ impl CheckpointWriter {
             || !derivation.hooks.is_empty()
             || derivation.plan.variables().is_some()
             || derivation.plan.environments.is_some()
+            || derivation.plan.has_events()
             || session.may_stop()
         {
             return None;

@@ -112,6 +112,23 @@ impl Rules for LuaRules<'_> {
         asked
     }
 
+    fn propensity(
+        &self,
+        applications: &Applications<'_>,
+        propensities: &mut Vec<f64>,
+    ) -> Result<(), RuleFailure> {
+        self.prepare(applications)?;
+        let column = self.machine.prelude().counts(applications.count * 8);
+        let column = column.map_err(|error| self.machine.translate(error))?;
+        let Some(propensity) = &self.declared.propensities[usize::from(applications.rule)] else {
+            return Ok(());
+        };
+        let asked = self.call::<()>(propensity, applications);
+        let done = asked.as_ref().map_or_else(|failure| failure.at, |()| applications.count);
+        read_column(column, done, propensities)?;
+        asked
+    }
+
     fn parameters(&self) -> &dyn ShowParameters {
         &*self.machine.session.values
     }

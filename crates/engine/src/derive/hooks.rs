@@ -24,6 +24,7 @@ impl Phase<DerivationState<'_>> for RunHooks {
         machine.current.environments.replace(plan.environments.clone());
         let view = HookView {
             step: number,
+            time: state.time(),
             chain: Arc::clone(&chain),
             symbols: Arc::clone(plan.steps.grammar.symbols()),
             groups: plan.groups.iter().map(|group| Arc::clone(&group.name)).collect(),

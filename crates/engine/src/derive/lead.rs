@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::phases::{DerivationResults, derive};
 use super::plan::{Derivation, DerivationPlan};
 use super::threads::{LeadingMachine, ThreadPool};
-use crate::machine::{Axiom, Machine, Objects};
+use crate::machine::{Axiom, DerivationRequest, Machine, Objects};
 use crate::results::{DerivedSystem, Remark, RowFeatures, RuleName, SystemUses, Trace};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::locks::LockRecovery;
@@ -19,15 +19,14 @@ pub(super) enum Ending {
     Traced(Box<Trace>),
 }
 
-/// Derives system `index` of the machine's script by at most `steps` steps, or until nothing changes, with the rules of a
-/// group.
+/// Derives system `index` of the machine's script.
 pub(super) fn lead(
     machine: &Machine,
     threads: &ThreadPool,
     index: usize,
-    steps: (Option<usize>, Option<&str>),
+    request: DerivationRequest<'_>,
 ) -> Result<Ending> {
-    let mut derivation = Derivation::plan(machine, index, steps)?;
+    let mut derivation = Derivation::plan(machine, index, request)?;
     machine.load_variables(derivation.plan.variables().as_deref())?;
     let chain = std::mem::take(&mut derivation.axiom.chain);
     let grown = derive(LeadingMachine { machine, threads }, &derivation, chain)?;
@@ -91,6 +90,7 @@ fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -
         objects,
         features: axiom.features,
         steps: grown.steps_made,
+        time: grown.time,
         times: grown.times,
         rules: grown.rules,
         place,

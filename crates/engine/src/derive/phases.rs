@@ -25,6 +25,8 @@ pub(super) struct DerivationResults {
     pub chain: Arc<Chain>,
     /// Number of steps.
     pub steps_made: usize,
+    /// Time of the last event, the latest of all chains.
+    pub time: f64,
     pub times: Times,
     pub rules: Vec<RuleReport>,
     pub warnings: Vec<Warning>,
@@ -93,11 +95,13 @@ pub(super) fn derive(
     // If the last pass reads the number of the step, the derivation continues with the same chain to its last step.
     let steps_made = if state.pass.reads_step { derivation.limit } else { derived.steps };
     let uses = state.uses();
+    let time = state.time();
     let later = state.later;
     state.first.retain(|warning| later.iter().all(|other| !other.says_the_same(warning)));
     Ok(DerivationResults {
         chain: derived.chain,
         steps_made,
+        time,
         times: state.times,
         rules: reports(plan, &uses, &state.interpretations),
         warnings: state.first.into_iter().chain(later).collect(),

@@ -5,14 +5,14 @@ use std::sync::{Arc, RwLock};
 use super::rewriter::SystemRewriter;
 use crate::declare::TraceRequest;
 use crate::machine::{
-    Axiom, Environments, HookFunction, HookMoment, Interpretations, Machine, ModulePlaces, Objects,
-    RulePhase, SystemFunctions, group_number,
+    Axiom, DerivationRequest, Environments, HookFunction, HookMoment, Interpretations, Machine, ModulePlaces,
+    Objects, RulePhase, SystemFunctions, group_number,
 };
 use crate::results::VariableValues;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::Warning;
-use burgeon_rewriting::{ModuleKey, StepPlan, Symbol};
+use burgeon_rewriting::{Grammar, ModuleKey, StepPlan, Symbol};
 
 /// Rules that apply repeatedly after the axiom and after each step.
 pub(crate) struct Decomposition {
@@ -92,6 +92,12 @@ impl DerivationPlan {
         }
     }
 
+    /// Returns true if rules have propensities.
+    pub(super) fn has_events(&self) -> bool {
+        let groups = self.groups.iter().map(|group| &group.steps);
+        groups.chain([&self.steps]).any(|steps| steps.grammar.has_events())
+    }
+
     /// Marks self-expanding objects as checked only.
     pub(super) fn sketch(&self) -> Result<()> {
         let Some(objects) = &self.objects else { return Ok(()) };
@@ -143,6 +149,8 @@ pub(super) struct Derivation {
     pub draws: bool,
     /// Maximum number of steps.
     pub limit: usize,
+    /// Time at which a derivation by events ends.
+    pub until: f64,
     /// Number of the group of rules with which the derivation begins; `None` for the rules without a group.
     pub group: Option<usize>,
     /// Key of the random numbers of hooks.
@@ -152,13 +160,9 @@ pub(super) struct Derivation {
 }
 
 impl Derivation {
-    /// Plans the derivation of system `index` by at most `steps` steps, which begins with the rules of `group`: initial
-    /// chains, rules and objects.
-    pub(super) fn plan(
-        machine: &Machine,
-        index: usize,
-        (steps, group): (Option<usize>, Option<&str>),
-    ) -> Result<Self> {
+    /// Plans the derivation of system `index`: initial chains, rules and objects.
+    pub(super) fn plan(machine: &Machine, index: usize, request: DerivationRequest<'_>) -> Result<Self> {
+        let DerivationRequest { steps, group, time } = request;
         let session = &machine.session;
         let options = &session.options;
         let traced = options.reports.trace.filter(|traced| traced.system == index);
@@ -177,6 +181,9 @@ impl Derivation {
         let mut axiom = system.axiom(machine, key, grammar.draws_random())?;
         if let Some(chain) = traced.and_then(|traced| traced.chain) {
             axiom = axiom.only(chain, grammar.arities());
+        }
+        if grammar.has_events() {
+            system.advance_continued(&mut axiom.chain);
         }
         let objects = std::mem::take(&mut axiom.objects);
         // If the system has only one feature, the error is more helpful than an empty model.
@@ -205,6 +212,12 @@ impl Derivation {
             Ok(RuleGroup { steps, decomposition: decomposition_of(Some(&name))?, name })
         });
         let groups = groups.collect::<Result<Vec<RuleGroup>>>()?;
+        if time.is_some()
+            && !groups.iter().map(|group| &group.steps.grammar).chain([&grammar]).any(Grammar::has_events)
+        {
+            return Err(Error::argument("derive: a time needs rules with propensities")
+                .help("give the rules propensities, { propensity = 0.5 }, or derive a number of steps"));
+        }
         let decomposition = decomposition_of(None)?.map(|steps| Decomposition {
             steps,
             max_depth: system.max_depth,
@@ -254,6 +267,7 @@ impl Derivation {
             draws_afresh,
             draws: draws_afresh && system.object.is_some(),
             limit: if options.check { 0 } else { limit.unwrap_or(usize::MAX) },
+            until: time.unwrap_or(f64::INFINITY),
             group,
             key,
             hooks: system.hooks_by_moment(),

@@ -7,12 +7,13 @@ use super::passes::Interpret;
 use super::pending::{Resolution, resolve};
 use super::plan::{Decomposition, Derivation};
 use super::state::DerivationState;
-use super::step::{perform, step};
+use super::step::{perform, perform_events, step};
 use crate::machine::stops_at_depth;
 use crate::results::Step;
 use burgeon_base::error::Result;
 use burgeon_rewriting::{
-    Chain, CutChain, PLACEHOLDERS, Phase, PhaseOutcome, StepSeries, Stepper, cut, module_brief, placeholder,
+    Chain, CutChain, EventSeries, PLACEHOLDERS, Phase, PhaseOutcome, StepSeries, Stepper, cut, module_brief,
+    placeholder,
 };
 
 /// Removes the modules that cut branches, with what follows them in their branches.
@@ -49,6 +50,9 @@ pub(super) struct Rewrite;
 
 impl Phase<DerivationState<'_>> for Rewrite {
     fn run(&self, state: &mut DerivationState<'_>, chain: Arc<Chain>, number: usize) -> Result<PhaseOutcome> {
+        if state.stepper.has_events() {
+            return perform_events_of(state, chain, number);
+        }
         if !state.has_cut && state.performs_series() && state.stepper.begin_series(&chain) {
             return perform_series(state, chain, number);
         }
@@ -60,7 +64,7 @@ impl Phase<DerivationState<'_>> for Rewrite {
         let mut outcome = step(state.leader, plan, &mut state.stepper, declared, &chain, number)?;
         plan.set_places(None);
         state.times.rewriting += begin.elapsed();
-        state.record(&chain, &mut outcome, number);
+        state.record(&chain, std::mem::take(&mut outcome.applied), number);
         state.previous = Some(chain);
         let reads_step = outcome.reads_step || state.pass.reads_step || state.decomposition_reads_step;
         // An environment can change although no module does.
@@ -118,6 +122,52 @@ fn perform_series(state: &mut DerivationState<'_>, chain: Arc<Chain>, number: us
     })
 }
 
+/// Performs events from step `number` on: several, if nothing observes the chains between them.
+fn perform_events_of(
+    state: &mut DerivationState<'_>,
+    chain: Arc<Chain>,
+    number: usize,
+) -> Result<PhaseOutcome> {
+    let Derivation { plan, declared, limit, until, last_only, .. } = state.derivation;
+    let machine = state.leader.machine;
+    let session = &machine.session;
+    let begin = Instant::now();
+    let ends_at: Vec<_> = (0..PLACEHOLDERS).map(placeholder).chain(plan.cut).collect();
+    let is_observed = !state.performs_events_together();
+    let has_changed_variables = std::mem::take(&mut state.variables_changed);
+    let evolves = plan.environments.is_some();
+    let is_asked = !*last_only && plan.objects.is_some();
+    let mut outcome = perform_events(
+        machine,
+        plan,
+        &mut state.stepper,
+        declared,
+        &chain,
+        &mut EventSeries {
+            first: number,
+            last: if is_observed { number } else { *limit },
+            until: *until,
+            is_changed: has_changed_variables || evolves || is_asked || session.asks_for_chains(),
+            ends_at: &ends_at,
+            watch: &mut |number, symbols| {
+                session.progress.note(number, *limit, symbols);
+                !session.has_many_unused()
+            },
+        },
+    )?;
+    plan.set_places(None);
+    state.times.read += outcome.read;
+    state.times.rewriting += begin.elapsed();
+    state.record(&chain, std::mem::take(&mut outcome.applied), number);
+    state.previous = Some(chain);
+    // Hooks and environments can make events possible although no module changes.
+    let reads_step = state.pass.reads_step || state.decomposition_reads_step;
+    let varies = has_changed_variables || state.has_step_hooks() || evolves || reads_step || state.has_cut;
+    let is_over = state.stepper.event_times().iter().all(|time| time >= until);
+    let phase = outcome.into_phase_outcome();
+    Ok(PhaseOutcome { settled: phase.settled && (!varies || is_over), ..phase })
+}
+
 /// Applies the decomposition rules until none applies, or up to the maximum depth.
 pub(super) struct Decompose;
 
@@ -154,7 +204,7 @@ impl Phase<DerivationState<'_>> for Decompose {
                 break;
             }
             state.times.read += chain.symbols.len();
-            state.record(&chain, &mut outcome, number);
+            state.record(&chain, std::mem::take(&mut outcome.applied), number);
             decomposer.reuse(chain);
             chain = Resolve.run(state, Arc::new(outcome.chain), number)?.chain;
         }

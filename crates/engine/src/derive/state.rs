@@ -13,7 +13,7 @@ use crate::machine::HookMoment;
 use crate::results::{RowFeatures, Step, Times};
 use burgeon_base::warning::Warning;
 use burgeon_kit::{Object, Rewind};
-use burgeon_rewriting::{Chain, StepOutcome, Stepper, Use};
+use burgeon_rewriting::{Chain, Stepper, Use};
 
 /// State of a derivation, shared by its phases.
 pub(super) struct DerivationState<'a> {
@@ -69,12 +69,23 @@ impl DerivationState<'_> {
 
     /// Returns true if nothing observes the chains between the steps, so that several steps can run in one phase.
     pub(super) fn performs_series(&self) -> bool {
+        self.performs_events_together() && !self.leader.machine.session.observes_steps()
+    }
+
+    /// Returns true if nothing needs the chains between events, so that several events can occur in one phase. Text that
+    /// their functions print is in order in any case.
+    pub(super) fn performs_events_together(&self) -> bool {
         let Derivation { plan, last_only, .. } = self.derivation;
         (*last_only || plan.objects.is_none())
             && self.decomposer.is_none()
             && self.features.is_none()
             && !self.has_step_hooks()
-            && !self.leader.machine.session.observes_steps()
+            && !self.leader.machine.session.asks_for_chains()
+    }
+
+    /// Returns the time of the last event, the latest of all chains; 0 without events.
+    pub(super) fn time(&self) -> f64 {
+        self.stepper.event_times().iter().fold(0.0, |latest, time| latest.max(*time))
     }
 
     /// Returns true if a pass draws what the pass before has drawn, as far as the chain is the same.
@@ -104,14 +115,13 @@ impl DerivationState<'_> {
         }
     }
 
-    /// Records a step on `chain` for features and the lineage.
-    pub(super) fn record(&mut self, chain: &Chain, outcome: &mut StepOutcome, number: usize) {
+    /// Records a step on `chain` for features and the lineage. `applied` has the rule and the number of successors of each symbol.
+    pub(super) fn record(&mut self, chain: &Chain, applied: Vec<(u16, u32)>, number: usize) {
         if let Some(features) = &self.features {
-            features.borrow_mut().step(&outcome.applied);
+            features.borrow_mut().step(&applied);
         }
         if self.derivation.traced.is_some() {
             let before = self.traced_chain(chain);
-            let applied = std::mem::take(&mut outcome.applied);
             let asked = self.leader.machine.session.rows.take_noted();
             self.steps.push(Step { number, chain: before, applied, answers: Vec::new(), asked });
         }

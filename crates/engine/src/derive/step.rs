@@ -7,7 +7,9 @@ use super::plan::DerivationPlan;
 use super::threads::{LeadingMachine, ThreadJob};
 use crate::machine::{Machine, SystemFunctions};
 use burgeon_base::error::Result;
-use burgeon_rewriting::{Chain, Helpers, SeriesOutcome, StepOutcome, StepSeries, StepWork, Stepper};
+use burgeon_rewriting::{
+    Chain, EventSeries, EventsOutcome, Helpers, SeriesOutcome, StepOutcome, StepSeries, StepWork, Stepper,
+};
 
 /// Number of pieces of a chain from which rewriting takes longer than starting a helper.
 const MANY: usize = 16;
@@ -56,6 +58,20 @@ pub(super) fn perform(
     enter(machine, plan)?;
     let rules = LuaRules { machine, declared, bounded: plan.bounded };
     stepper.perform(&rules, &machine.session.stop, chain, series)
+}
+
+/// Performs events on `chain` with the functions `declared` of the leading machine.
+pub(super) fn perform_events(
+    machine: &Machine,
+    plan: &Arc<DerivationPlan>,
+    stepper: &mut Stepper,
+    declared: &SystemFunctions,
+    chain: &Arc<Chain>,
+    series: &mut EventSeries<'_>,
+) -> Result<EventsOutcome> {
+    enter(machine, plan)?;
+    let rules = LuaRules { machine, declared, bounded: plan.bounded };
+    stepper.perform_events(&rules, &machine.session.stop, chain, series)
 }
 
 /// Prepares the leading machine for calls of the functions of a system.

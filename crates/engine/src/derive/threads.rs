@@ -15,7 +15,7 @@ use super::interpret::InterpretationPass;
 use super::lead::{Ending, lead};
 use super::plan::DerivationPlan;
 use crate::declare::Session;
-use crate::machine::{Driver, Machine, SystemFunctions, Watchdog};
+use crate::machine::{DerivationRequest, Driver, Machine, SystemFunctions, Watchdog};
 use crate::results::{DerivedSystem, Trace};
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::Prefetch;
@@ -178,7 +178,7 @@ impl Driver for ThreadPool {
         &self,
         machine: &Machine,
         index: usize,
-        steps: (Option<usize>, Option<&str>),
+        request: DerivationRequest<'_>,
     ) -> Result<Arc<DerivedSystem>> {
         let problems: Vec<Error> = machine.library.problems.borrow_mut().drain(..).collect();
         if !problems.is_empty() {
@@ -187,7 +187,7 @@ impl Driver for ThreadPool {
         if let Some(derived) = self.follow(machine, index)? {
             return Ok(derived);
         }
-        let derived = lead(machine, self, index, steps).and_then(|ended| match ended {
+        let derived = lead(machine, self, index, request).and_then(|ended| match ended {
             Ending::Derived(derived) => Ok(Arc::from(derived)),
             Ending::Traced(trace) => {
                 self.trace.replace(Some(*trace));

@@ -15,6 +15,8 @@ use burgeon_rewriting::{Chain, ModuleKey, Symbols};
 /// State of a derivation that a hook reads, and its requests.
 pub(crate) struct HookView {
     pub(crate) step: usize,
+    /// Time of the last event, the latest of all chains.
+    pub(crate) time: f64,
     pub(crate) chain: Arc<Chain>,
     pub(crate) symbols: Arc<Symbols>,
     /// Names of the groups of rules.
@@ -69,6 +71,7 @@ pub(super) fn add_hooks(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlu
             let number = |count: usize| LuaValue::Number(count as f64);
             Ok(match name.as_str() {
                 "step" => number(view.step),
+                "time" => LuaValue::Number(view.time),
                 "modules" => number(view.chain.modules()),
                 "counts" => {
                     let counts = lua.create_table()?;

@@ -22,8 +22,6 @@ use burgeon_rewriting::{CLOSE, ColumnValue, DEEPEST, OPEN, Symbol, module_brief,
 /// Number of entries from which the conversion of a result pauses garbage collection.
 const LONG: usize = 256;
 
-/// Phase of the prelude in which guards run.
-const GUARD: u8 = 2;
 /// Phase of the prelude at the top level.
 const TOP: u8 = 0;
 
@@ -164,10 +162,6 @@ fn add_applications(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::R
         "random",
         lua.create_function(move |_, (phase, application, drawn): (u8, usize, usize)| match phase {
             TOP => Ok(state.top.borrow_mut().uniform()),
-            GUARD => Err(mlua::Error::external(
-                Error::scope("a guard cannot use random numbers")
-                    .help("call random in the successor, or set the weights of the rules: { weight = 2 }"),
-            )),
             _ => state.draw(application, drawn).map_err(mlua::Error::external),
         })?,
     )?;

@@ -33,7 +33,7 @@ mod watchdog;
 
 pub use blank::make_ready;
 pub(crate) use current::{Flusher, WorkState};
-pub(crate) use driver::Driver;
+pub(crate) use driver::{DerivationRequest, Driver};
 pub(crate) use environments::Environments;
 pub(crate) use hooks::{HookView, group_number};
 pub(crate) use module_places::ModulePlaces;

@@ -49,6 +49,8 @@ pub(crate) struct Prelude {
     pub driver: Function,
     /// `(guard, arity, places)`: returns a function that evaluates the guard for a batch.
     pub guard_driver: Function,
+    /// `(propensity, arity, places)`: returns the function that evaluates the propensity of a rule for a batch.
+    pub propensity_driver: Function,
     /// `(rules, standards, max_depth)`: removes the interpretation rules of the last system, and sets the rule and the
     /// method of the standard library of each symbol, and the maximum depth of interpretations that return modules.
     pub interpretations: Function,
@@ -151,6 +153,7 @@ impl Prelude {
             pending: table.get("pending")?,
             driver: table.get("driver")?,
             guard_driver: table.get("guard_driver")?,
+            propensity_driver: table.get("propensity_driver")?,
             interpretations: table.get("interpretations")?,
             interpreter: table.get("interpreter")?,
             candidates: table.get("candidates")?,

@@ -61,6 +61,8 @@ pub struct DerivedSystem {
     pub features: Vec<Option<String>>,
     /// Number of derivation steps.
     pub steps: usize,
+    /// Time of the last event; of several chains, the latest. 0 without rules with propensities.
+    pub time: f64,
     /// Time spent on the derivation.
     pub times: Times,
     /// Statistics of the rules and interpretation rules, in the order of declaration.

@@ -17,7 +17,7 @@ use full_moon::tokenizer::TokenReference;
 
 use super::blocks::ScopeWalk;
 use super::inference::Inference;
-use super::syntax::{string_of, text_of};
+use super::syntax::{is_function_option, string_of, text_of};
 use super::walk::FunctionRole;
 use crate::Literal;
 use burgeon_base::error::{Error, SourcePlace};
@@ -232,7 +232,7 @@ impl<'a> CallCheck<'a> {
                 for field in table.fields() {
                     match field {
                         Field::NameKey { key, value, .. } => match &**value {
-                            Expression::Function(function) if text_of(key) == "when" => {
+                            Expression::Function(function) if is_function_option(&text_of(key)) => {
                                 self.role = FunctionRole::Guard;
                                 self.function(function.body(), kind);
                                 self.role = outer.0;

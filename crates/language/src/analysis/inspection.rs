@@ -16,6 +16,11 @@ pub fn observes_steps(text: &str) -> bool {
     contains_word(text, &OBSERVERS)
 }
 
+/// Returns true if functions of a script may ask for the chain before a step.
+pub fn asks_for_chains(text: &str) -> bool {
+    contains_word(text, &["query"])
+}
+
 fn contains_word(text: &str, words: &[&str]) -> bool {
     let apart = |letter: Option<char>| letter.is_none_or(|it| !it.is_alphanumeric() && it != '_');
     words.iter().any(|name| {

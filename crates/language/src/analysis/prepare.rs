@@ -8,7 +8,7 @@ use full_moon::tokenizer::{StringLiteralQuoteType, TokenReference, TokenType};
 use std::sync::atomic::Ordering;
 
 use super::blocks::ScopeWalk;
-use super::syntax::{end_of, first_position, is_open, string_of, text_of};
+use super::syntax::{end_of, first_position, is_function_option, is_open, string_of, text_of};
 use super::walk::{Fact, Function, FunctionRole, Variable, Walk};
 use crate::CallForm;
 use burgeon_kit::Argument;
@@ -64,7 +64,7 @@ impl Walk<'_> {
                     for field in table.fields() {
                         match field {
                             Field::NameKey { key, value, .. } => match &**value {
-                                Expression::Function(function) if text_of(key) == "when" => {
+                                Expression::Function(function) if is_function_option(&text_of(key)) => {
                                     self.prepare_function(value, function.body(), FunctionRole::Guard);
                                 }
                                 value => self.expression(value),

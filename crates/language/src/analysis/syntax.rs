@@ -34,6 +34,11 @@ pub(super) fn is_open(expression: &Expression) -> bool {
     }
 }
 
+/// Returns true if the option of a rule with this name can be a function.
+pub(super) fn is_function_option(name: &str) -> bool {
+    matches!(name, "when" | "propensity")
+}
+
 pub(super) fn text_of(token: &TokenReference) -> String {
     token.token().to_string()
 }

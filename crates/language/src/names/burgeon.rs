@@ -5,14 +5,14 @@ use std::sync::LazyLock;
 use burgeon_kit::{Argument, Field};
 
 use super::name::{Name, Operator, field};
-use super::systems::{DERIVED, LSYSTEM, NOW, RULE, SYSTEM};
+use super::systems::{DERIVE, DERIVED, LSYSTEM, NOW, RULE, SYSTEM};
 use crate::form::argument;
 
 /// Returns all names of this file.
 pub(super) fn names() -> Vec<Name> {
     let shared = [
-        &*PARAM, &OBJECT, &EXTEND, &LSYSTEM, &SYSTEM, &RULE, &DERIVED, &NOW, &SOURCE, &LAYER, &QUERY,
-        &FRAGMENT, &VECTOR,
+        &*PARAM, &OBJECT, &EXTEND, &LSYSTEM, &SYSTEM, &RULE, &DERIVE, &DERIVED, &NOW, &SOURCE, &LAYER,
+        &QUERY, &FRAGMENT, &VECTOR,
     ];
     let mut names: Vec<Name> = shared.into_iter().cloned().collect();
     names.extend([

@@ -14,4 +14,4 @@ pub use burgeon::{EXTEND, LAYER, OBJECT, PARAM, SOURCE, VECTOR};
 pub use list::{deprecated_names, is_pure_function, library_effect, names};
 pub use luau::LOCKED;
 pub use name::{Effect, Name, NameKind, Operator};
-pub use systems::{DERIVED, LSYSTEM, NOW, RULE, SYSTEM};
+pub use systems::{DERIVE, DERIVED, LSYSTEM, NOW, RULE, SYSTEM};

@@ -102,7 +102,8 @@ pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
             "Applies the rules step by step; without a number of steps, until no rule applies. With a group, the rules of this \
              group and those without a group apply.",
         )
-        .form([argument("steps", "number?"), argument("group", "string?")], "Derived"),
+        .form([argument("steps", "number?"), argument("group", "string?")], "Derived")
+        .form([options("{ ... }", DERIVE.fields.clone())], "Derived"),
     ])
 });
 
@@ -127,6 +128,13 @@ pub static RULE: LazyLock<Name> = LazyLock::new(|| {
             "The guard: the rule applies only if this function returns true.",
         ),
         field(
+            "propensity",
+            "(number | ((this: T, ...any) -> number))?",
+            "nil",
+            "The rate of the rule at each module (events per unit of time): each step then applies one rule to one module, drawn \
+             in proportion to the propensities of all.",
+        ),
+        field(
             "group",
             "string?",
             "nil",
@@ -147,6 +155,15 @@ pub static RULE: LazyLock<Name> = LazyLock::new(|| {
     ])
 });
 
+/// Options of `system:derive`.
+pub static DERIVE: LazyLock<Name> = LazyLock::new(|| {
+    Name::return_value("derive", "{ ... }", "Options of system:derive.").fields([
+        field("steps", "number?", "nil", "Maximum number of steps."),
+        field("time", "number?", "nil", "Time at which a derivation of rules with propensities ends."),
+        field("group", "string?", "nil", "Group of rules with which the derivation begins."),
+    ])
+});
+
 /// Fields of a derived system.
 pub static DERIVED: LazyLock<Name> = LazyLock::new(|| {
     Name::return_value(
@@ -159,6 +176,7 @@ pub static DERIVED: LazyLock<Name> = LazyLock::new(|| {
         Field::new("objects", "{ any }", "The objects that the chains drew with."),
         Field::new("chains", "{ string }", "The chains as text."),
         Field::new("steps", "number", "Number of steps."),
+        Field::new("time", "number", "Time of the last event of rules with propensities, the latest of all chains."),
         Field::new("modules", "number", "Number of modules in the chains."),
         Field::new(
             "counts",
@@ -179,6 +197,11 @@ pub static DERIVED: LazyLock<Name> = LazyLock::new(|| {
 pub static NOW: LazyLock<Name> = LazyLock::new(|| {
     Name::return_value("now", "Now", "The state of a derivation, which a hook gets.").fields([
         Field::new("step", "number", "Number of the step, from 1; 0 in at_start."),
+        Field::new(
+            "time",
+            "number",
+            "Time of the last event of rules with propensities, the latest of all chains.",
+        ),
         Field::new("modules", "number", "Number of modules in the chains."),
         Field::new("counts", "{ [string]: number }", "Number of modules of each name in the chains."),
     ])

@@ -114,6 +114,15 @@ impl SystemDeclaration {
         Ok(axiom)
     }
 
+    /// Gives the ends of the chains new keys if they continue those of a derived system, so that their events are not drawn with
+    /// the same random numbers again.
+    pub(crate) fn advance_continued(&self, chain: &mut Chain) {
+        if let Some(DeclaredAxiom::Derived(_)) = self.axiom {
+            let ends = chain.keys.iter_mut().zip(&chain.symbols).filter(|(_, symbol)| **symbol == END);
+            ends.for_each(|(key, _)| *key = key.advance());
+        }
+    }
+
     /// Makes the initial chains of the chains of a derived system, with their features and copies of their objects.
     fn continue_chains(
         &self,

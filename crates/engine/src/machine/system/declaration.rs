@@ -108,6 +108,8 @@ pub(crate) struct DeclaredRule {
     /// Group of rules that are candidates only while the group is used; `None` for rules that always are.
     pub(crate) group: Option<Arc<str>>,
     pub(crate) guard: Option<Function>,
+    /// Function that returns the propensity, if it is not a number.
+    pub(crate) propensity: Option<Function>,
     /// Modules that the contexts of this rule skip, if they are not those of the system.
     pub(crate) ignored: Option<IgnoredModules>,
     /// Source text of the guard, if it is known.
@@ -117,12 +119,22 @@ pub(crate) struct DeclaredRule {
     pub(crate) asks: bool,
 }
 
+/// Functions for batches of each rule.
+#[derive(Default)]
+struct BatchFunctions {
+    drivers: Vec<Function>,
+    guards: Vec<Option<Function>>,
+    propensities: Vec<Option<Function>>,
+}
+
 /// Functions of a system's rules, prepared for derivation in one machine.
 pub(crate) struct SystemFunctions {
     /// Function that applies each rule to a batch.
     pub drivers: Vec<Function>,
     /// Function that evaluates the guard of each rule for a batch.
     pub guards: Vec<Option<Function>>,
+    /// Function that evaluates the propensity of each rule for a batch.
+    pub propensities: Vec<Option<Function>>,
     /// Keeps tables that the rules can reach frozen.
     _frozen: TableFreeze,
 }
@@ -191,6 +203,8 @@ impl SystemDeclaration {
             Some(("decomposition rules", "declare the rules with system:rule"))
         } else if self.rules.iter().any(|declared| declared.group.is_some()) {
             Some(("groups of rules", "declare the rules without a group"))
+        } else if self.rules.iter().any(|declared| declared.rule.propensity().is_some()) {
+            Some(("propensities", "use weights, or derive a system of its own"))
         } else if self.variables.is_some() {
             Some(("variables", "pass values in parameters of modules"))
         } else if !self.environments.is_empty() {
@@ -242,10 +256,10 @@ impl SystemDeclaration {
     /// Prepares `machine` for deriving this system: creates the drivers and freezes reachable tables.
     pub(crate) fn prepare(&self, machine: &Machine) -> Result<SystemFunctions> {
         let mut reached = Vec::new();
-        let (drivers, guards) =
+        let BatchFunctions { drivers, guards, propensities } =
             self.prepare_functions(machine, &mut reached).map_err(|error| machine.translate(error))?;
         let frozen = freeze(machine.lua(), &machine.library.stateless.borrow(), &reached)?;
-        Ok(SystemFunctions { drivers, guards, _frozen: frozen })
+        Ok(SystemFunctions { drivers, guards, propensities, _frozen: frozen })
     }
 
     /// Switches `machine` to this system: sets `this` and the interpretation rules.
@@ -278,28 +292,26 @@ impl SystemDeclaration {
         &self,
         machine: &Machine,
         reached: &mut Vec<ReachableFunction>,
-    ) -> mlua::Result<(Vec<Function>, Vec<Option<Function>>)> {
+    ) -> mlua::Result<BatchFunctions> {
         let prelude = machine.prelude();
-        let mut drivers = Vec::new();
-        let mut guards = Vec::new();
+        let mut made = BatchFunctions::default();
         for declared in &self.rules {
             let arity = declared.rule.arguments();
             let symbols = machine.library.symbols.borrow();
             let places = argument_places(machine.lua(), &declared.rule.pattern, &symbols)?;
-            drivers.push(prelude.driver.call((&declared.successor, arity, &places))?);
+            made.drivers.push(prelude.driver.call((&declared.successor, arity, &places))?);
             let reach = |function: &Function| ReachableFunction {
                 function: function.clone(),
                 name: declared.rule.pattern.text.clone(),
                 place: declared.rule.place.clone(),
             };
             reached.push(reach(&declared.successor));
-            guards.push(match &declared.guard {
-                Some(guard) => {
-                    reached.push(reach(guard));
-                    Some(prelude.guard_driver.call((guard, arity, places))?)
-                }
-                None => None,
-            });
+            reached.extend(declared.guard.iter().chain(&declared.propensity).map(reach));
+            let driver_of = |driver: &Function, function: &Option<Function>| {
+                function.as_ref().map(|function| driver.call((function, arity, &places))).transpose()
+            };
+            made.guards.push(driver_of(&prelude.guard_driver, &declared.guard)?);
+            made.propensities.push(driver_of(&prelude.propensity_driver, &declared.propensity)?);
         }
         for known in self.interpretations.iter().filter(|_| self.object.is_some()) {
             reached.extend(std::iter::once(&known.function).chain(&known.guard).map(|function| {
@@ -319,6 +331,6 @@ impl SystemDeclaration {
             let (name, function) = (format!("{of}: {}", known.name), known.function.clone());
             reached.push(ReachableFunction { function, name, place: None });
         }
-        Ok((drivers, guards))
+        Ok(made)
     }
 }

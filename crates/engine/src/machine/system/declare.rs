@@ -15,7 +15,7 @@ use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::Value;
 use burgeon_language::RULE;
 use burgeon_language::analysis::QueryCall;
-use burgeon_rewriting::{MOST_RULES, Pattern, Rule, Symbols};
+use burgeon_rewriting::{MOST_PROPENSITY, MOST_RULES, Pattern, Propensity, Rule, Symbols};
 
 use super::ignored::{IgnoredModules, named_in_option};
 use super::strings::{compile_successor, parse_pattern, string_axiom};
@@ -94,10 +94,19 @@ impl SystemDeclaration {
                 ));
             }
         };
-        let RuleOptions { weight, guard, group, ignored } = match options {
+        let RuleOptions { weight, guard, propensity, group, ignored } = match options {
             Some(options) => rule_options(library, lua, &options).map_err(named)?,
             None => RuleOptions::default(),
         };
+        if phase == RulePhase::Decomposition && propensity.is_some() {
+            let error =
+                Error::argument("a decomposition has no propensity, because it applies in every step");
+            return Err(named(error.help("declare the rule with system:rule")));
+        }
+        if weight.is_some() && propensity.is_some() {
+            let error = Error::argument("a rule has a weight or a propensity, not both");
+            return Err(named(error.help("multiply the propensity by the weight")));
+        }
         let has_new_contexts = pattern.has_new_left() || pattern.has_new_right();
         if has_new_contexts && phase == RulePhase::Decomposition {
             let error = Error::script("a decomposition has no contexts in the new chain");
@@ -138,10 +147,34 @@ impl SystemDeclaration {
             check_queries(library, guard, &pattern).map_err(named)?;
             asks |= may_ask(&session, guard);
         }
+        let (propensity, rate_function) = match propensity {
+            Some(DeclaredPropensity::Function(function)) => {
+                check_parameters(&function, &pattern, "the propensity").map_err(named)?;
+                check_queries(library, &function, &pattern).map_err(named)?;
+                asks |= may_ask(&session, &function);
+                (Some(Propensity::Computed), Some(function))
+            }
+            Some(DeclaredPropensity::Number(number)) => (Some(Propensity::Constant(number)), None),
+            None => (None, None),
+        };
         let begin = guard.as_ref().and_then(begin_of);
         let guard_text = begin.and_then(|(file, line)| session.guard_text(&file, line));
-        let rule = Rule::new(pattern, weight, guard.is_some(), place);
-        self.rules.push(DeclaredRule { rule, phase, group, guard, ignored, guard_text, successor, asks });
+        let mut rule = Rule::new(pattern, weight, guard.is_some(), place);
+        if let Some(propensity) = propensity {
+            rule = rule.with_propensity(propensity);
+        }
+        let propensity = rate_function;
+        self.rules.push(DeclaredRule {
+            rule,
+            phase,
+            group,
+            guard,
+            propensity,
+            ignored,
+            guard_text,
+            successor,
+            asks,
+        });
         Ok(())
     }
 
@@ -172,18 +205,25 @@ impl SystemDeclaration {
             let error = Error::script("an interpretation has no contexts in the new chain");
             return Err(named(error.help("write < and > instead of << and >>: a pass changes no modules")));
         }
-        let RuleOptions { weight, guard, group, ignored } = match (arguments.len(), arguments.get(1)) {
-            (3, Some(LuaValue::Table(options))) => rule_options(library, lua, options).map_err(named)?,
-            (3, _) => {
-                let error = Error::argument("the options of an interpretation must be a table");
-                return Err(named(error.help("write { weight = 2 }")));
-            }
-            (1 | 2, _) => RuleOptions::default(),
-            (count, _) => {
-                let error = Error::argument(format!("interpret takes 2 or 3 arguments, not {count}"));
-                return Err(named(error.help(usage)));
-            }
-        };
+        let RuleOptions { weight, guard, propensity, group, ignored } =
+            match (arguments.len(), arguments.get(1)) {
+                (3, Some(LuaValue::Table(options))) => rule_options(library, lua, options).map_err(named)?,
+                (3, _) => {
+                    let error = Error::argument("the options of an interpretation must be a table");
+                    return Err(named(error.help("write { weight = 2 }")));
+                }
+                (1 | 2, _) => RuleOptions::default(),
+                (count, _) => {
+                    let error = Error::argument(format!("interpret takes 2 or 3 arguments, not {count}"));
+                    return Err(named(error.help(usage)));
+                }
+            };
+        if propensity.is_some() {
+            return Err(named(Error::argument(
+                "an interpretation has no propensity, because it rewrites nothing",
+            ))
+            .help("give the propensity to rules; interpretations can have weights"));
+        }
         if group.is_some() {
             return Err(named(Error::argument("an interpretation has no group"))
                 .help("groups are for rules; use a guard that reads a variable"));
@@ -254,12 +294,20 @@ fn may_ask(session: &Session, function: &Function) -> bool {
 struct RuleOptions {
     weight: Option<f64>,
     guard: Option<Function>,
+    propensity: Option<DeclaredPropensity>,
     group: Option<Arc<str>>,
     ignored: Option<IgnoredModules>,
 }
 
+/// Rate of a rule, as a script gives it.
+enum DeclaredPropensity {
+    Number(f64),
+    Function(Function),
+}
+
 fn rule_options(library: &Library, lua: &Lua, options: &Table) -> Result<RuleOptions> {
-    let RuleOptions { mut weight, mut guard, mut group, mut ignored } = RuleOptions::default();
+    let RuleOptions { mut weight, mut guard, mut propensity, mut group, mut ignored } =
+        RuleOptions::default();
     for pair in options.pairs::<LuaValue, LuaValue>() {
         let (key, value) = pair.map_err(|error| Error::internal(error.to_string()))?;
         let key = key.to_string().unwrap_or_default();
@@ -273,6 +321,22 @@ fn rule_options(library: &Library, lua: &Lua, options: &Table) -> Result<RuleOpt
                     .help("a rule with weight 0 is never chosen"));
                 }
             },
+            ("propensity", LuaValue::Function(function)) => {
+                propensity = Some(DeclaredPropensity::Function(function));
+            }
+            ("propensity", value) => {
+                match to_value(&value, false)? {
+                    Value::Number(number) if (0.0..=MOST_PROPENSITY).contains(&number) => {
+                        propensity = Some(DeclaredPropensity::Number(number));
+                    }
+                    other => {
+                        return Err(Error::argument(format!(
+                        "propensity must be a number from 0 to {MOST_PROPENSITY:e} or a function, not {other}"
+                    ))
+                    .help("write { propensity = 0.3 } or { propensity = function(this, x) return 0.1 * x end }"));
+                    }
+                }
+            }
             ("group", LuaValue::String(name)) if !name.as_bytes().is_empty() => {
                 group = Some(name.to_string_lossy().into());
             }
@@ -300,7 +364,7 @@ fn rule_options(library: &Library, lua: &Lua, options: &Table) -> Result<RuleOpt
             }
         }
     }
-    Ok(RuleOptions { weight, guard, group, ignored })
+    Ok(RuleOptions { weight, guard, propensity, group, ignored })
 }
 
 /// Refuses a function with more parameters than the pattern provides.

@@ -6,10 +6,10 @@ use std::sync::Arc;
 
 use mlua::{Lua, MultiValue, Table, UserData, UserDataMethods, UserDataRef, Value as LuaValue};
 
-use crate::machine::Machine;
 use crate::machine::convert::to_value;
 use crate::machine::library::Library;
 use crate::machine::types::{DerivedHandle, ObjectHandle, object_of_system};
+use crate::machine::{DerivationRequest, Machine};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::{Object, Value};
@@ -18,6 +18,7 @@ use burgeon_scene::CityClass;
 
 use super::SystemDeclaration;
 use super::declaration::{MAX_DEPTH, RulePhase};
+use super::derive_arguments::DeriveArguments;
 use super::hooks::HookMoment;
 use super::ignored::{IgnoredModules, named_symbols};
 use crate::machine::environments::environments_of;
@@ -257,38 +258,11 @@ impl UserData for SystemHandle {
             |lua, (this, steps, group): (UserDataRef<Self>, LuaValue, LuaValue)| {
                 let machine = this.library.machine().map_err(mlua::Error::external)?;
                 machine.refuse_in_rules("derive").map_err(mlua::Error::external)?;
-                let steps = match to_value(&steps, false).map_err(mlua::Error::external)? {
-                    Value::Nil => None,
-                    #[allow(
-                        clippy::cast_possible_truncation,
-                        clippy::cast_sign_loss,
-                        reason = "the range is checked"
-                    )]
-                    Value::Number(steps) if steps.fract() == 0.0 && (0.0..1e9).contains(&steps) => {
-                        Some(steps as usize)
-                    }
-                    other => {
-                        return Err(mlua::Error::external(
-                            Error::argument(format!(
-                                "derive needs an integer number of steps of at least 0, not {other}"
-                            ))
-                            .help("omit it to derive until no rule applies"),
-                        ));
-                    }
-                };
-                let group = match group {
-                    LuaValue::Nil => None,
-                    LuaValue::String(name) => Some(name.to_string_lossy()),
-                    other => {
-                        let message =
-                            format!("derive needs the name of a group, not a {}", other.type_name());
-                        let error = Error::argument(message).help("write system:derive(5, \"grow\")");
-                        return Err(mlua::Error::external(error));
-                    }
-                };
+                let DeriveArguments { steps, group, time } =
+                    DeriveArguments::read(&steps, &group).map_err(mlua::Error::external)?;
                 let derived = machine
                     .driver
-                    .derive(&machine, this.index, (steps, group.as_deref()))
+                    .derive(&machine, this.index, DerivationRequest { steps, group: group.as_deref(), time })
                     .map_err(|error| mlua::Error::external(error.at(Machine::place(lua))))?;
                 Ok(DerivedHandle(derived))
             },

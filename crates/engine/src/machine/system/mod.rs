@@ -6,6 +6,7 @@
 mod axiom;
 mod declaration;
 mod declare;
+mod derive_arguments;
 mod handle;
 mod hooks;
 mod ignored;

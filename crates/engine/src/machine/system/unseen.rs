@@ -13,7 +13,7 @@ use crate::machine::types::object_of_system;
 use crate::results::DerivedSystem;
 use burgeon_base::error::SourcePlace;
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_rewriting::{ContextElement, FIRST_SYMBOL, Grammar, Item, Pattern, Rule, Symbol};
+use burgeon_rewriting::{ContextElement, FIRST_SYMBOL, Grammar, Item, Pattern, Propensity, Rule, Symbol};
 
 use super::{DeclaredRule, DerivationRecord, RulePhase, SystemDeclaration};
 
@@ -61,6 +61,7 @@ impl SystemDeclaration {
         let group_of = |index: usize| self.rules[index].group.as_deref();
         let can_apply = |(index, rule): &(usize, &Rule)| {
             rule.weight != Some(0.0)
+                && rule.propensity() != Some(Propensity::Constant(0.0))
                 && self.rules[*index].phase == phase
                 && (group_of(*index).is_none() || group_of(*index) == group)
         };
@@ -286,6 +287,10 @@ impl<'a> CandidateRules<'a> {
     fn forestalls(&self, rule: &Rule, around: &PatternElements, guard: GuardClass) -> Option<&'a Rule> {
         let mut anywhere = PatternElements::default();
         anywhere.predecessors.push(ContextElement::Module(rule.pattern.symbol));
+        // All rules with a propensity can apply.
+        if rule.propensity().is_some() {
+            return None;
+        }
         let places = if rule.weight.is_some() { BEFORE_ALL..=BEFORE_ALL } else { BEFORE_ALL..=WEIGHTED };
         let of = |around: &PatternElements, guard: GuardClass| {
             self.rules.get(&(around.clone(), guard))?[places.clone()].iter().flatten().next().copied()

@@ -184,6 +184,7 @@ impl DerivedHandle {
         let number = |count: usize| Ok(LuaValue::Number(count as f64));
         match name {
             "steps" => number(derived.steps),
+            "time" => Ok(LuaValue::Number(derived.time)),
             "modules" => number(derived.modules()),
             "counts" => {
                 let counts = lua.create_table()?;
