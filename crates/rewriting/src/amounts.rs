@@ -83,6 +83,14 @@ impl AmountTree {
         }
     }
 
+    /// Replaces the amount at `index` by `parts` amounts of 0.
+    pub(crate) fn divide(&mut self, index: usize, parts: usize) {
+        let leaves = self.sums.len() / 2;
+        let mut amounts = self.sums[leaves..leaves + self.count].to_vec();
+        amounts.splice(index..=index, std::iter::repeat_n(Amount::ZERO, parts));
+        self.fill(amounts.into_iter());
+    }
+
     /// Replaces the amount at `index`.
     pub(crate) fn set(&mut self, index: usize, amount: Amount) {
         let mut at = self.sums.len() / 2 + index;

@@ -189,10 +189,7 @@ impl EventChain {
             }
             self.stale.extend(index + 1..index + parts);
             self.events.splice(index..=index, std::iter::repeat_with(Vec::new).take(parts));
-            let sum = |events: &Vec<PossibleEvent>| {
-                events.iter().fold(Amount::ZERO, |sum, event| sum.plus(event.amount))
-            };
-            self.amounts.fill(self.events.iter().map(sum));
+            self.amounts.divide(index, parts);
         }
     }
 

@@ -29,7 +29,7 @@ mod walk;
 
 pub use files::{CheckedFile, call_problems};
 pub use globals::Globals;
-pub use inspection::{calls_with_text, inspects_tables, observes_steps};
+pub use inspection::{asks_for_chains, calls_with_text, inspects_tables, observes_steps};
 pub use parameters::sql_parameters;
 pub use pure::has_metatables;
 pub use script::{Analysis, Compile, ScriptReader, analyse, split_line};
