@@ -13,6 +13,7 @@ mod determinism;
 mod distributions;
 mod edits;
 mod environments;
+mod events;
 mod expectations;
 mod fragments;
 mod generate;

@@ -3,12 +3,16 @@
 
 use std::fmt::Write as _;
 
+use burgeon::rewriting::ModuleKey;
+
 use super::scripts::{all_chains, chain, chain_of_each, divided, error, run, try_run};
 use plain::{Part, PlainValue};
 use systems::{MODULES, Origin, RandomSystem, Template};
 
 #[path = "../../crates/rewriting/tests/patterns/plain.rs"]
 pub(crate) mod plain;
+#[path = "../../crates/rewriting/tests/patterns/plain_events.rs"]
+mod plain_events;
 #[path = "../../crates/rewriting/tests/patterns/systems.rs"]
 mod systems;
 
@@ -62,7 +66,7 @@ fn module_of(template: &Template) -> String {
 }
 
 /// Returns a script that derives the system.
-fn script(system: &RandomSystem, steps: usize) -> String {
+fn script(system: &RandomSystem, steps: usize, are_events: bool) -> String {
     let mut script =
         String::from("local function n(v: any) return if type(v) == 'number' then v else 0 end\n");
     for (name, count) in MODULES.iter().filter(|(name, _)| *name != "Cut") {
@@ -74,13 +78,24 @@ fn script(system: &RandomSystem, steps: usize) -> String {
     for name in &system.settings.ignored {
         let _ = writeln!(script, "s:ignore(\"{name}\")");
     }
-    for rule in &system.rules {
+    for (number, rule) in system.rules.iter().enumerate() {
         let (pattern, count) = rule.pattern.text();
         let formals: String = (1..=count).map(|number| format!(", p{number}: any")).collect();
         let sum: String = (1..=count).map(|number| format!(" + n(p{number})")).collect();
         let mut options = String::new();
         if let Some(weight) = rule.weight {
             let _ = write!(options, "weight = {weight}, ");
+        }
+        if are_events && number % 2 == 0 {
+            let _ = write!(options, "propensity = {}, ", plain_events::rate(number, &[]));
+        } else if are_events {
+            let _ = write!(
+                options,
+                "propensity = function(this{formals})
+                   local sum = 0{sum}
+                   return if math.floor(sum * 8) % 3 == 2 then 0 else math.min(math.abs(sum) + 0.1, 1e6)
+                 end, "
+            );
         }
         if let Some(least) = rule.least {
             let _ = write!(options, "when = function(this{formals}) return 0{sum} >= {least} end, ");
@@ -115,13 +130,45 @@ fn random_systems_derive_the_same_chains_in_lua_and_plainly() {
             steps += 1;
         }
         let (threads, batch) = (1 + seed as usize % 2, [1, 2, 7, 4096][seed as usize / 2 % 4]);
-        let text_of = script(&system, steps);
+        let text_of = script(&system, steps, false);
         let run =
             try_run(&text_of, divided(threads, batch)).unwrap_or_else(|error| panic!("{error}\n{text_of}"));
         assert_eq!(all_chains(&run).trim_end(), text(&expected), "seed {seed}: {text_of}");
         changed += usize::from(expected != axiom);
     }
     assert!(changed > 300, "{changed}");
+}
+
+#[test]
+fn random_systems_of_events_derive_the_same_chains_in_lua_and_plainly() {
+    let (mut changed, mut ended) = (0, 0);
+    for seed in 0..200 {
+        let system = RandomSystem::of_events(&mut systems::Dice::new(seed));
+        let (mut expected, mut steps, mut time) = (plain::axiom(system.axiom.clone(), 0), 0, 0.0);
+        let axiom = expected.clone();
+        while steps < 20 {
+            let cut = plain::cut_branches(&expected, "Cut");
+            let next = plain_events::plain_event(&system, &cut, (steps + 1, time), ModuleKey::seed(0));
+            // A step that only cuts branches counts, too.
+            let has_cut = cut != expected;
+            (expected, time) = match next {
+                Some(next) => next,
+                None if has_cut => (cut, time),
+                None => break,
+            };
+            steps += 1;
+        }
+        ended += usize::from(steps < 20);
+        let division = [(1, 1), (2, 2), (1, 7), (2, 4096)][seed as usize % 4];
+        let text_of = script(&system, 20, true);
+        let run = try_run(&text_of, divided(division.0, division.1))
+            .unwrap_or_else(|error| panic!("{error}\n{text_of}"));
+        assert_eq!(all_chains(&run).trim_end(), text(&expected), "seed {seed}: {text_of}");
+        assert_eq!(run.systems[0].time.to_bits(), time.to_bits(), "seed {seed}: {text_of}");
+        assert_eq!(run.systems[0].steps, steps, "seed {seed}: {text_of}");
+        changed += usize::from(expected != axiom);
+    }
+    assert!(changed > 100 && ended > 5, "{changed} {ended}");
 }
 
 /// Returns the chain after one step of a system of a few modules that ignores X.

@@ -61,6 +61,8 @@ pub(crate) struct Batch<'a> {
     pub chain: &'a Chain,
     pub links: &'a Links,
     pub step: &'a StepNumber,
+    /// Time of each chain, if rules have propensities.
+    pub times: &'a [f64],
     pub stop: &'a Stop,
     /// Successors so far, if rules have contexts in the new chain.
     pub new_chain: RefCell<NewChain>,
@@ -122,6 +124,7 @@ impl Batch<'_> {
             places: &scratch.places,
             weighted: declared.weight.is_some(),
             step: self.step,
+            times: self.times,
         }
     }
 

@@ -114,7 +114,7 @@ impl EventChain {
             work.stop.check()?;
             let mut events = std::mem::take(&mut self.events[index]);
             events.clear();
-            let begin = self.with_batch(work, step, index, |batch, piece, scratch, _| {
+            let begin = self.with_batch(work, (step, &[]), index, |batch, piece, scratch, _| {
                 read += piece.end - piece.begin.module;
                 batch.find_events(piece, scratch, &mut events)?;
                 Ok(piece.begin)
@@ -135,12 +135,12 @@ impl EventChain {
         &mut self,
         work: &mut EventWork<'_>,
         step: &StepNumber,
-        stream: &mut Stream,
+        (stream, times): (&mut Stream, &[f64]),
         ends_at: &[Symbol],
     ) -> Result<EventChanges> {
         let (index, rest) = self.amounts.find(self.amounts.total().draw(stream));
         let Some(event) = drawn_event(&self.events[index], rest) else { return Ok(EventChanges::default()) };
-        let mut output = self.with_batch(work, step, index, |batch, piece, scratch, spare| {
+        let mut output = self.with_batch(work, (step, times), index, |batch, piece, scratch, spare| {
             scratch.active.clear();
             scratch.active.push(Active {
                 module: event.module + narrow(piece.begin.module),
@@ -197,7 +197,7 @@ impl EventChain {
     fn with_batch<T>(
         &mut self,
         work: &mut EventWork<'_>,
-        step: &StepNumber,
+        (step, times): (&StepNumber, &[f64]),
         index: usize,
         act: impl FnOnce(&Batch<'_>, ChainPiece, &mut Scratch, &mut Output) -> Result<T>,
     ) -> Result<T> {
@@ -217,7 +217,7 @@ impl EventChain {
             }
         };
         let (rules, plan, stop, links) = (work.rules, work.plan, work.stop, &*work.links);
-        let batch = Batch { rules, plan, chain, links, step, stop, new_chain: RefCell::default() };
+        let batch = Batch { rules, plan, chain, links, step, times, stop, new_chain: RefCell::default() };
         act(&batch, piece, work.scratch, &mut work.spare)
     }
 }

@@ -155,7 +155,8 @@ impl Stepper {
             stop.check()?;
             let (finding, applying) = (StepNumber::new(number), StepNumber::new(number));
             let (mut occurs, mut is_watched, mut symbols) = (false, false, 0);
-            for ((chain, time), key) in state.chains.iter_mut().zip(&mut state.times).zip(&keys) {
+            for (index, (chain, key)) in state.chains.iter_mut().zip(&keys).enumerate() {
+                let time = &mut state.times[index];
                 let (total, read) = chain.find_events(&mut work, &finding)?;
                 outcome.read += read;
                 let mut next = match total {
@@ -169,8 +170,12 @@ impl Stepper {
                 if let Some(mut next) = next {
                     occurs = true;
                     *time = next.time;
-                    let changes =
-                        chain.apply_event(&mut work, &applying, &mut next.stream, series.ends_at)?;
+                    let changes = chain.apply_event(
+                        &mut work,
+                        &applying,
+                        (&mut next.stream, &state.times),
+                        series.ends_at,
+                    )?;
                     outcome.read += changes.read;
                     is_watched |= changes.is_watched;
                     uses.append(&mut work.spare.uses);
@@ -225,19 +230,20 @@ impl Stepper {
         let (finding, applying) = (StepNumber::new(number), StepNumber::new(number));
         self.links.build_with(chain, grammar, rules.parameters());
         let links = std::mem::take(&mut self.links);
-        let batch = |step| Batch {
+        let batch = |step, times| Batch {
             rules,
             plan: &plan,
             chain,
             links: &links,
             step,
+            times,
             stop,
             new_chain: RefCell::default(),
         };
         let mut events = Vec::new();
         for piece in pieces(chain, plan.batch) {
             stop.check()?;
-            batch(&finding).find_events(piece, &mut self.scratch, &mut events)?;
+            batch(&finding, &[]).find_events(piece, &mut self.scratch, &mut events)?;
         }
         let chosen = self.choose_events(chain, &events, series);
         let occurs = !chosen.is_empty();
@@ -249,7 +255,8 @@ impl Stepper {
             read: chain.symbols.len(),
             applied: Vec::new(),
         };
-        let batch = batch(&applying);
+        let times = self.events.times.clone();
+        let batch = batch(&applying, &times);
         let whole = ChainPiece { begin: Mark::default(), end: chain.symbols.len() };
         self.scratch.active = chosen;
         batch.apply_events(&mut self.scratch)?;

@@ -26,6 +26,8 @@ pub struct Applications<'a> {
     pub weighted: bool,
     /// Number of the step that is running.
     pub step: &'a StepNumber,
+    /// Time of each chain; empty unless an event of a rule with a propensity occurs.
+    pub times: &'a [f64],
 }
 
 /// Failure of a function.

@@ -184,8 +184,16 @@ impl Stepper {
                     }
                     false => &segment.chain,
                 };
-                let batch =
-                    Batch { rules, plan: &plan, chain, links, step, stop, new_chain: RefCell::default() };
+                let batch = Batch {
+                    rules,
+                    plan: &plan,
+                    chain,
+                    links,
+                    step,
+                    times: &[],
+                    stop,
+                    new_chain: RefCell::default(),
+                };
                 let spare = self.outputs.pop().unwrap_or_default();
                 let output = batch.rewrite(piece, &mut self.scratch, spare)?;
                 pieces.segments[index].reach = reach;

@@ -52,6 +52,7 @@ impl StepWork {
             chain: &self.chain,
             links: &self.links,
             step: &self.step,
+            times: &[],
             stop,
             new_chain: RefCell::default(),
         };

@@ -18,6 +18,7 @@ impl LuaRules<'_> {
     fn prepare(&self, applications: &Applications<'_>) -> Result<()> {
         let current = &self.machine.current;
         current.begin_step(applications.step.number(), self.bounded);
+        current.set_times(applications.times);
         current.places.borrow_mut().clear();
         current.places.borrow_mut().extend_from_slice(applications.places);
         if !applications.chains.is_empty() {

@@ -40,7 +40,7 @@ impl Phase<DerivationState<'_>> for Interpret {
             state.leader,
             plan,
             &chain,
-            (step, number),
+            (step, number, state.stepper.event_times()),
             uses,
             &mut state.later,
             memory,

@@ -102,6 +102,7 @@ impl DerivationState<'_> {
             && plan.interpretations.grammar.is_none()
             && plan.variables().is_none()
             && plan.environments.is_none()
+            && !plan.has_events()
             && !self.leader.machine.session.observes_steps()
             && plan.objects.as_ref().is_some_and(|objects| objects.read(0, rewinds).unwrap_or(false))
     }

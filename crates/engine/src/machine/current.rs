@@ -62,6 +62,8 @@ pub(crate) struct WorkState {
     pub objects: RefCell<Option<Arc<Objects>>>,
     /// Chain of each application in the batch.
     pub chains: RefCell<Vec<u32>>,
+    /// Time of each chain, if the rules of the system have propensities.
+    times: RefCell<Vec<f64>>,
     /// Random key of each application in the batch.
     pub keys: RefCell<Vec<ModuleKey>>,
     /// Index in the chain of each application in the batch, if queries are recorded or places are known.
@@ -104,6 +106,7 @@ impl WorkState {
             system: Cell::new(None),
             objects: RefCell::default(),
             chains: RefCell::default(),
+            times: RefCell::default(),
             keys: RefCell::default(),
             places: RefCell::default(),
             located: RefCell::default(),
@@ -182,6 +185,21 @@ impl WorkState {
     /// Returns true if a function has read the number of the step since [`WorkState::begin_step`].
     pub(crate) fn has_read_step(&self) -> bool {
         self.step.get().is_some_and(|step| step.read)
+    }
+
+    /// Sets the time of each chain for the next calls; empty if the rules of the system have no propensities.
+    pub(crate) fn set_times(&self, times: &[f64]) {
+        let mut known = self.times.borrow_mut();
+        known.clear();
+        known.extend_from_slice(times);
+    }
+
+    /// Returns the time of the chain of an application. Fails if it has none.
+    pub(crate) fn time_of(&self, application: usize) -> Result<f64> {
+        self.times.borrow().get(self.chain_of(application)).copied().ok_or_else(|| {
+            Error::scope("time() needs rules with propensities, because only their derivations have a time")
+                .help("give the rules propensities, { propensity = 0.5 }, or use step()")
+        })
     }
 
     /// Requests that the step that is running is the last.

@@ -58,6 +58,9 @@ pub(super) fn add_streams(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> m
     )?;
     let state = Rc::clone(current);
     host.set("step", lua.create_function(move |_, ()| state.read_step().map_err(mlua::Error::external))?)?;
+    let state = Rc::clone(current);
+    let time = move |_: &Lua, application: usize| state.time_of(application).map_err(mlua::Error::external);
+    host.set("time", lua.create_function(time)?)?;
     Ok(())
 }
 

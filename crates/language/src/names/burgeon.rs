@@ -77,6 +77,13 @@ pub(super) fn names() -> Vec<Name> {
         .form([], "number")
         .pure(),
         Name::global(
+            "time",
+            "Returns the time of the event that is happening, in a rule with a propensity; in an interpretation, the time of the \
+             chain.",
+        )
+        .form([], "number")
+        .pure(),
+        Name::global(
             "stop",
             "Ends the derivation after the step that is running. Rules, interpretations and hooks can call it.",
         )

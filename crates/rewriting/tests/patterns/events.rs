@@ -5,63 +5,10 @@ use std::sync::Arc;
 use burgeon_base::Stop;
 
 use super::functions::Prepared;
-use super::plain::{self, Part, PlainValue};
-use super::systems::{Dice, RandomSystem, sum};
-use crate::rewriting::{EventSeries, KeyPart, ModuleKey, Propensity, Rule, Stepper};
-
-/// Returns the propensity of a rule for these arguments. Some are 0.
-pub(crate) fn propensity(arguments: &[PlainValue]) -> f64 {
-    let sum = sum(arguments);
-    if (sum * 8.0).floor() % 3.0 == 2.0 { 0.0 } else { (sum.abs() + 0.1).min(1e6) }
-}
-
-/// Returns the propensity of an event; every other rule has the same for all modules.
-fn rate(rule: usize, arguments: &[PlainValue]) -> f64 {
-    if rule % 2 == 0 { 0.5 * (rule + 1) as f64 } else { propensity(arguments) }
-}
-
-/// Returns the upper 128 bits of a product, by long multiplication of digits of 32 bits.
-fn high_product(a: u128, b: u128) -> u128 {
-    let digits = |number: u128| -> Vec<u128> { (0..4).map(|at| number >> (32 * at) & 0xFFFF_FFFF).collect() };
-    let mut product = [0_u128; 9];
-    for (i, x) in digits(a).into_iter().enumerate() {
-        for (j, y) in digits(b).into_iter().enumerate() {
-            product[i + j] += x * y & 0xFFFF_FFFF;
-            product[i + j + 1] += x * y >> 32;
-        }
-    }
-    for at in 0..8 {
-        product[at + 1] += product[at] >> 32;
-        product[at] &= 0xFFFF_FFFF;
-    }
-    (0..4).map(|at| product[4 + at] << (32 * at)).sum()
-}
-
-/// Performs the event of a step plainly. Returns the chain after it and its time; `None` if no event can occur.
-fn plain_event(system: &RandomSystem, chain: &[Part], step: usize, time: f64) -> Option<(Vec<Part>, f64)> {
-    let events = plain::events(chain, &system.rules, &system.settings);
-    let amounts: Vec<u128> = events
-        .iter()
-        .map(|event| (rate(event.rule, &event.arguments) * 18_446_744_073_709_551_616.0) as u128)
-        .collect();
-    let total: u128 = amounts.iter().sum();
-    if total == 0 {
-        return None;
-    }
-    let key = ModuleKey::default().substream(KeyPart::Text(b"events")).child(step);
-    let mut stream = key.stream();
-    let waiting = -(1.0 - stream.uniform()).ln() / (total as f64 / 18_446_744_073_709_551_616.0);
-    let mut bits = || (stream.uniform() * 9_007_199_254_740_992.0) as u128;
-    let fraction = bits() << 75 | bits() << 22;
-    let mut drawn = high_product(total, fraction);
-    let chosen = events.iter().zip(amounts).find(|(_, amount)| {
-        let is_here = drawn < *amount;
-        drawn = drawn.wrapping_sub(*amount);
-        is_here
-    });
-    let (event, _) = chosen.expect("the place is less than the sum");
-    Some((plain::apply_event(chain, &system.rules, event), time + waiting))
-}
+use super::plain::{self, Part};
+use super::plain_events::{plain_event, rate};
+use super::systems::{Dice, RandomSystem};
+use crate::rewriting::{EventSeries, ModuleKey, Propensity, Rule, Stepper};
 
 /// Performs `steps` events in the crate, `together` in each request. Returns the chain and the time after each request.
 fn crate_events(
@@ -120,7 +67,7 @@ fn the_crate_and_a_plain_implementation_draw_the_same_events() {
         let mut expected = vec![(axiom.clone(), 0.0)];
         while expected.len() < 30 {
             let (chain, time) = expected.last().expect("the axiom");
-            match plain_event(&system, chain, expected.len(), *time) {
+            match plain_event(&system, chain, (expected.len(), *time), ModuleKey::default()) {
                 Some(next) => expected.push(next),
                 None => break,
             }

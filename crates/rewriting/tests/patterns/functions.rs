@@ -9,8 +9,8 @@ use burgeon_rewriting::{
     Scratch, ShowParameters, Signature, StepPlan, StepWork, Stepper, Successors, Symbol, Symbols, cut,
 };
 
-use crate::events::propensity;
 use crate::plain::{Application, Part, PlainModule, PlainRule, PlainValue};
+use crate::plain_events::propensity;
 use crate::systems::{MODULES, RandomSystem, TEXTS};
 
 /// Texts of a system, by their handles.

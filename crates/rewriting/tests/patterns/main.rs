@@ -4,6 +4,7 @@
 mod events;
 mod functions;
 mod plain;
+mod plain_events;
 mod systems;
 
 use burgeon_rewriting as rewriting;

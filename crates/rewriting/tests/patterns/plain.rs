@@ -185,7 +185,7 @@ impl PlainPattern {
     }
 
     /// Returns the arguments of the rule at `place`, if it matches.
-    fn bind(&self, place: &Place<'_>, ignored: &[&str]) -> Option<Vec<PlainValue>> {
+    pub(crate) fn bind(&self, place: &Place<'_>, ignored: &[&str]) -> Option<Vec<PlainValue>> {
         let mut own = Vec::new();
         for (distance, wanted) in self.predecessors.iter().enumerate() {
             match place.parts.get(place.position + distance)? {
@@ -236,20 +236,20 @@ impl PlainLeft {
 }
 
 /// Module at which rules are chosen, with the chain around it.
-struct Place<'a> {
+pub(crate) struct Place<'a> {
     /// Modules from the axiom to the module.
-    path: &'a [&'a PlainModule],
+    pub path: &'a [&'a PlainModule],
     /// Branch or chain with the module.
-    parts: &'a [Part],
-    position: usize,
+    pub parts: &'a [Part],
+    pub position: usize,
     /// Set if the module is on the main axis.
-    is_main: bool,
+    pub is_main: bool,
     /// The chain if it is a ring, otherwise nothing.
-    ring: &'a [Part],
+    pub ring: &'a [Part],
     /// Modules on the path to the module that this step has written.
-    written: &'a [PlainModule],
+    pub written: &'a [PlainModule],
     /// Parts after the module in its branch that this step has written.
-    after: &'a [Part],
+    pub after: &'a [Part],
 }
 
 /// Returns the arguments of `contexts` if `parts` begin with them.
@@ -283,10 +283,10 @@ pub(crate) fn step<R: PlainRule>(chain: &[Part], rules: &[R], settings: &PlainSe
 }
 
 /// Step of a system.
-struct Walk<'r, R> {
-    rules: &'r [R],
-    settings: &'r PlainSettings,
-    ring: &'r [Part],
+pub(crate) struct Walk<'r, R> {
+    pub rules: &'r [R],
+    pub settings: &'r PlainSettings,
+    pub ring: &'r [Part],
 }
 
 impl<R: PlainRule> Walk<'_, R> {
@@ -400,78 +400,6 @@ impl<R: PlainRule> Walk<'_, R> {
     }
 }
 
-/// Rule that can be applied to a module.
-pub(crate) struct PlainEvent {
-    /// Number of the rule.
-    pub rule: usize,
-    pub arguments: Vec<PlainValue>,
-    key: ModuleKey,
-    /// Indices of the branches that contain the module, from the outermost, and the index of the module.
-    at: Vec<usize>,
-}
-
-/// Returns all applications of rules to the modules of a chain, in its order and that of the rules.
-pub(crate) fn events<R: PlainRule>(chain: &[Part], rules: &[R], settings: &PlainSettings) -> Vec<PlainEvent> {
-    let walk = Walk { rules, settings, ring: if settings.ring { chain } else { &[] } };
-    let mut found = Vec::new();
-    walk.collect_events(chain, &mut Vec::new(), &mut Vec::new(), &mut found);
-    found
-}
-
-impl<R: PlainRule> Walk<'_, R> {
-    fn collect_events<'a>(
-        &self,
-        parts: &'a [Part],
-        path: &mut Vec<&'a PlainModule>,
-        at: &mut Vec<usize>,
-        found: &mut Vec<PlainEvent>,
-    ) {
-        let (depth, is_main, ring) = (path.len(), at.is_empty(), self.ring);
-        for (position, part) in parts.iter().enumerate() {
-            at.push(position);
-            match part {
-                Part::Branch(inner) => self.collect_events(inner, path, at, found),
-                Part::Module(module) => {
-                    let place = Place { path, parts, position, is_main, ring, written: &[], after: &[] };
-                    for (rule, declared) in self.rules.iter().enumerate() {
-                        let ignored = declared.ignored().unwrap_or(&self.settings.ignored);
-                        let arguments = declared.pattern().bind(&place, ignored);
-                        if let Some(arguments) = arguments.filter(|arguments| declared.holds(arguments)) {
-                            found.push(PlainEvent { rule, arguments, key: module.key, at: at.clone() });
-                        }
-                    }
-                    path.push(module);
-                }
-            }
-            at.pop();
-        }
-        path.truncate(depth);
-    }
-}
-
-/// Returns the chain after an event.
-pub(crate) fn apply_event<R: PlainRule>(chain: &[Part], rules: &[R], event: &PlainEvent) -> Vec<Part> {
-    let (mut chain, rule) = (chain.to_vec(), &rules[event.rule]);
-    let [branches @ .., position] = event.at.as_slice() else { return chain };
-    let inner = branches.iter().fold(&mut chain, |parts, index| match &mut parts[*index] {
-        Part::Branch(inner) => inner,
-        Part::Module(_) => unreachable!("the index of a branch"),
-    });
-    let application = Application { arguments: &event.arguments, key: event.key, weighted: false };
-    match rule.successor(&application) {
-        Some(successor) => {
-            let made = keyed(successor, event.key, &mut HashMap::new());
-            inner.splice(*position..position + rule.pattern().predecessors.len(), made);
-        }
-        None => {
-            if let Part::Module(module) = &mut inner[*position] {
-                module.key = module.key.advance();
-            }
-        }
-    }
-    chain
-}
-
 /// Returns the hash of the name of a module of the script.
 fn name_hash(name: &str) -> u64 {
     let mut symbols = Symbols::default();
@@ -480,7 +408,7 @@ fn name_hash(name: &str) -> u64 {
 }
 
 /// Returns a successor with the keys of its modules; `made` counts the modules so far by name.
-fn keyed(parts: Vec<Part>, parent: ModuleKey, made: &mut HashMap<String, usize>) -> Vec<Part> {
+pub(crate) fn keyed(parts: Vec<Part>, parent: ModuleKey, made: &mut HashMap<String, usize>) -> Vec<Part> {
     let with_key = |part| match part {
         Part::Module(module) => {
             let ordinal = made.entry(module.name.to_string()).or_default();

@@ -70,6 +70,8 @@ pub(crate) struct InterpretationPass {
     pub step: usize,
     /// Number that `step()` returns.
     number: usize,
+    /// Time of each chain, if the rules have propensities.
+    times: Vec<f64>,
     /// Set if an interpretation rule has read that number.
     reads_step: AtomicBool,
     /// Set if an interpretation rule has requested that the step is the last.
@@ -101,14 +103,14 @@ pub(crate) struct PassOutcome {
 }
 
 impl InterpretationPass {
-    /// Interprets `chain` after `step` steps, where `step()` returns `number`. Adds the work of each rule to `uses`,
+    /// Interprets `chain` after `step` steps, where `step()` returns `number`, and `time()` one of `times`. Adds the work of each rule to `uses`,
     /// and the warnings of the objects to `said`. With the `memory` of the last pass, only what follows the first change of
     /// the chain is interpreted.
     pub(crate) fn pass(
         LeadingMachine { machine, threads }: LeadingMachine<'_>,
         plan: &Arc<DerivationPlan>,
         chain: &Arc<Chain>,
-        (step, number): (usize, usize),
+        (step, number, times): (usize, usize, &[f64]),
         uses: &mut [Use],
         said: &mut Vec<Warning>,
         mut memory: Option<&mut PassMemory>,
@@ -146,6 +148,7 @@ impl InterpretationPass {
             chain: Arc::clone(chain),
             step,
             number,
+            times: times.to_vec(),
             reads_step: AtomicBool::new(false),
             is_last: AtomicBool::new(false),
             pieces,
@@ -230,6 +233,7 @@ impl InterpretationPass {
         }
         machine.current.flusher.replace(Some(Box::new(applier)));
         machine.current.begin_step(self.number, self.plan.bounded);
+        machine.current.set_times(&self.times);
         let result = self.run(machine, begin, end);
         self.reads_step.fetch_or(machine.current.has_read_step(), Ordering::Relaxed);
         self.is_last.fetch_or(machine.current.take_end(), Ordering::Relaxed);
