@@ -162,7 +162,11 @@ fn perform_events_of(
     state.previous = Some(chain);
     // Hooks and environments can make events possible although no module changes.
     let reads_step = state.pass.reads_step || state.decomposition_reads_step;
-    let varies = has_changed_variables || state.has_step_hooks() || evolves || reads_step || state.has_cut;
+    let is_first = outcome.steps == 0;
+    let varies = is_first && (has_changed_variables || state.has_cut)
+        || state.has_step_hooks()
+        || evolves
+        || reads_step;
     let is_over = state.stepper.event_times().iter().all(|time| time >= until);
     let phase = outcome.into_phase_outcome();
     Ok(PhaseOutcome { settled: phase.settled && (!varies || is_over), ..phase })
