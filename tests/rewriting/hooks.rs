@@ -264,6 +264,70 @@ fn a_chain_that_is_continued_keeps_its_variables() {
 }
 
 #[test]
+fn a_hook_that_returns_modules_replaces_the_chain_before_the_rules_run() {
+    let script = format!(
+        "{DECLARED}
+         local s = lsystem {{}}
+         s:axiom(A(), {{ C() }}, B(1))
+         s:rule('B(n)', function(this, n) return B(n + 1) end)
+         s:before_step(function(now)
+             local list = now.chain
+             table.insert(list, 1, B(10 * now.step))
+             return sequence(list)
+         end)
+         s:derive(2)"
+    );
+    assert_eq!(chain(&script), "B(21) B(12) A [ C ] B(3)");
+    let first = script.replace("before_step", "at_start").replace("derive(2)", "derive(0)");
+    assert_eq!(chain(&first), "B(0) A [ C ] B(1)");
+    let erased = script.replace("return sequence(list)", "return {}");
+    assert_eq!(chain(&erased), "[ ]", "a table is a branch");
+}
+
+#[test]
+fn modules_that_a_hook_keeps_have_their_random_numbers_and_new_ones_have_others() {
+    let script = |hook: &str| {
+        format!(
+            "local A, B = module('A', 'x'), module('B')
+             local s = lsystem {{}}
+             s:axiom(A(0), {{ A(0) }}, A(0))
+             s:rule('A', function() return A(random()) end)
+             {hook}
+             s:derive(3)"
+        )
+    };
+    let plain = chain(&script(""));
+    let kept = chain(&script(
+        "s:before_step(function(now) local list = now.chain table.insert(list, 1, B()) return sequence(list) end)",
+    ));
+    assert_eq!(kept, format!("B B B {plain}"));
+    let made = chain(&script("s:before_step(function(now) return sequence(now.chain), A(0) end)"));
+    let numbers: Vec<&str> = made.split(' ').filter(|part| part.starts_with("A(")).collect();
+    assert!(made.starts_with(&plain), "{made}");
+    assert_eq!(numbers.len(), 6);
+    let mut different = numbers.clone();
+    different.sort_unstable();
+    different.dedup();
+    assert_eq!(different.len(), 6, "{made}");
+}
+
+#[test]
+fn a_replaced_chain_is_drawn_and_recorded() {
+    let script = format!(
+        "{DECLARED}
+         local s = lsystem {{ object = turtle() }}
+         s:axiom(A())
+         s:interpret('C', function(this) this:forward(1) end)
+         s:before_step(function(now) return C(), {{ C() }}, C() end)
+         s:derive(1)"
+    );
+    let mut options = burgeon::options();
+    options.reports.records = true;
+    let run = run_with(&script, options);
+    assert!(run.scene.triangles() > 0);
+}
+
+#[test]
 fn misuse_says_where_and_what_to_do() {
     let system = |text: &str| {
         format!(
@@ -305,6 +369,17 @@ s:derive(2)"
         ("s:before_step(function() s:derive(1) end)", "can be called only at the top level"),
         ("s:before_step(function() error('broken') end)", "broken"),
         ("s:before_step(function() query('select n from B', B) end)", "a hook makes no modules"),
+        (
+            "s:before_step(function() return 3 end)",
+            "the chain that a hook returns must contain only modules, but one item is the number 3",
+        ),
+        ("s:after_step(function() return A() end)", "after_step cannot replace the chain"),
+        ("s:at_end(function() return A() end)", "at_end cannot replace the chain"),
+        ("s:before_step(function() return A(), nil, A() end)", "must contain only modules"),
+        (
+            "s:axiom(source({ { id = 'x' }, { id = 'y' } }), function() return A() end) s:before_step(function(now) return sequence(now.chain) end)",
+            "this system has several",
+        ),
         ("variables(3)", "takes a table of names"),
         ("variables({ 1 })", "a variable needs a name"),
         ("lsystem({ variables = { time = 0 } })", "must be a result of variables"),

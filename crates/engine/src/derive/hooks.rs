@@ -5,8 +5,8 @@ use std::sync::Arc;
 use super::state::DerivationState;
 use crate::machine::{HookFunction, HookMoment, HookView};
 use crate::results::VariableValues;
-use burgeon_base::error::Result;
-use burgeon_rewriting::{Chain, KeyPart, Phase, PhaseOutcome};
+use burgeon_base::error::{Error, Limit, Result};
+use burgeon_rewriting::{Chain, KeyPart, NO_RULE, Phase, PhaseOutcome};
 
 /// Runs the hooks for a moment.
 pub(super) struct RunHooks(pub HookMoment, pub Vec<HookFunction>);
@@ -30,12 +30,19 @@ impl Phase<DerivationState<'_>> for RunHooks {
             groups: plan.groups.iter().map(|group| Arc::clone(&group.name)).collect(),
             group: state.group,
             is_last: false,
+            may_replace: plan.steps.chains == 1
+                && matches!(moment, HookMoment::Start | HookMoment::BeforeStep),
+            read: None,
         };
         let key = state.derivation.key.at_place(number).substream(KeyPart::Text(moment.method().as_bytes()));
         let view = machine.run_hooks(hooks, moment.method(), view, key)?;
         state.use_group(view.group);
         state.take_variables();
-        Ok(PhaseOutcome { is_last: view.is_last, ..PhaseOutcome::next(chain) })
+        let made = match Arc::ptr_eq(&view.chain, &chain) {
+            true => chain,
+            false => state.replace_chain(&chain, Arc::unwrap_or_clone(view.chain), number)?,
+        };
+        Ok(PhaseOutcome { is_last: view.is_last, ..PhaseOutcome::next(made) })
     }
 }
 
@@ -54,6 +61,26 @@ impl DerivationState<'_> {
         if let Some((decomposer, steps)) = self.decomposer.as_mut().zip(decomposition) {
             decomposer.set_plan(steps);
         }
+    }
+
+    /// Returns the chain that a hook has `made` in place of `chain`, for the phases that follow.
+    fn replace_chain(&mut self, chain: &Chain, mut made: Chain, number: usize) -> Result<Arc<Chain>> {
+        let plan = &self.derivation.plan;
+        if made.symbols.len() > plan.steps.limit {
+            let text = format!("the chain of a hook exceeds {} modules", plan.steps.limit);
+            return Err(Error::limit(Limit::Modules, text).help("raise the limit: --module-limit N"));
+        }
+        made.mark(plan.steps.batch, plan.steps.grammar.arities());
+        plan.set_places(None);
+        // Modules have no origin among those before, so all belong to the first.
+        let mut applied = vec![(NO_RULE, 0); chain.symbols.len()];
+        if let Some(first) = applied.first_mut() {
+            first.1 = u32::try_from(made.symbols.len()).unwrap_or(u32::MAX);
+        }
+        self.record(chain, applied, number);
+        let made = Arc::new(made);
+        self.publish(&made);
+        Ok(made)
     }
 
     /// Publishes the variables that a hook or an interpretation has assigned.

@@ -3,14 +3,15 @@
 use std::rc::Rc;
 use std::sync::Arc;
 
-use mlua::{Lua, Table, Value as LuaValue};
+use mlua::{Lua, MultiValue, Table, Value as LuaValue};
 
 use super::Machine;
 use super::current::WorkState;
-use super::system::HookFunction;
+use super::system::{HookFunction, replaced_chain};
+use super::types::{ReadChain, ReadableChain};
 use burgeon_base::error::{Error, Result};
 use burgeon_language::NOW;
-use burgeon_rewriting::{Chain, ModuleKey, Symbols};
+use burgeon_rewriting::{Chain, END, ModuleKey, Symbols};
 
 /// State of a derivation that a hook reads, and its requests.
 pub(crate) struct HookView {
@@ -25,10 +26,15 @@ pub(crate) struct HookView {
     pub(crate) group: Option<usize>,
     /// Set once a hook has requested that no step follows.
     pub(crate) is_last: bool,
+    /// Set if there is one chain, and the hooks run before anything sees it.
+    pub(crate) may_replace: bool,
+    /// The chain as a list, once a hook has read it.
+    pub(crate) read: Option<ReadChain>,
 }
 
 impl Machine {
-    /// Calls hooks one after the other, with random numbers from `key`. Returns the state with their requests.
+    /// Calls hooks one after the other, with random numbers from `key`. Returns the state with their requests. A hook that returns
+    /// modules replaces the chain.
     pub(crate) fn run_hooks(
         &self,
         hooks: &[HookFunction],
@@ -42,10 +48,19 @@ impl Machine {
             for (index, (function, place)) in hooks.iter().enumerate() {
                 self.current.keys.replace(vec![key.child(index)]);
                 self.current.used.set(0);
-                if let Err(error) = self.call::<()>(&self.prelude().run_hook, (function, step)) {
-                    // If ending the hook fails too, the machine is dropped with the run.
-                    let _ = self.prelude().finish.call::<()>(());
-                    return Err(self.translate(error).at(place.clone()).rule(format!("{method} (hook)")));
+                let named = |error: Error| error.at(place.clone()).rule(format!("{method} (hook)"));
+                match self.call::<MultiValue>(&self.prelude().run_hook, (function, step)) {
+                    Ok(returned) => {
+                        let returned: Vec<LuaValue> = returned.into_iter().collect();
+                        if returned.iter().any(|value| !value.is_nil()) {
+                            self.replace_chain(&returned, method, key.child(index)).map_err(named)?;
+                        }
+                    }
+                    Err(error) => {
+                        // If ending the hook fails too, the machine is dropped with the run.
+                        let _ = self.prelude().finish.call::<()>(());
+                        return Err(named(self.translate(error)));
+                    }
                 }
             }
             Ok(())
@@ -56,6 +71,28 @@ impl Machine {
         let mut view = view.ok_or_else(|| Error::internal("a hook has lost its derivation"))?;
         view.is_last |= self.current.take_end();
         Ok(view)
+    }
+
+    /// Replaces the chain by the modules that a hook has `returned`. New modules have random keys from `key`.
+    fn replace_chain(&self, returned: &[LuaValue], method: &str, key: ModuleKey) -> Result<()> {
+        let mut hook = self.current.hook.borrow_mut();
+        let view = hook.as_mut().ok_or_else(|| Error::internal("a hook has lost its derivation"))?;
+        if !view.may_replace {
+            return Err(match method {
+                "at_start" | "before_step" => {
+                    Error::script("a hook can replace the chain only of a system with one chain")
+                        .help("use rules, which see each chain")
+                }
+                _ => Error::script(format!("{method} cannot replace the chain, because it has been drawn"))
+                    .help(
+                        "return the modules from before_step; after the derivation, change derived:chain()",
+                    ),
+            });
+        }
+        let chain = replaced_chain(self, returned, &view.chain, view.read.as_ref(), key)?;
+        view.chain = Arc::new(chain);
+        view.read = None;
+        Ok(())
     }
 }
 
@@ -72,6 +109,10 @@ pub(super) fn add_hooks(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlu
             Ok(match name.as_str() {
                 "step" => number(view.step),
                 "time" => LuaValue::Number(view.time),
+                "chain" => {
+                    drop(hook);
+                    LuaValue::Table(read_chain(lua, &state).map_err(mlua::Error::external)?)
+                }
                 "modules" => number(view.chain.modules()),
                 "counts" => {
                     let counts = lua.create_table()?;
@@ -111,6 +152,27 @@ pub(super) fn add_hooks(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlu
             Ok(())
         })?,
     )
+}
+
+/// Returns the chain of the hook that runs as a list of modules, which is read once.
+fn read_chain(lua: &Lua, state: &WorkState) -> Result<Table> {
+    let mut hook = state.hook.borrow_mut();
+    let view = hook.as_mut().ok_or_else(|| Error::internal("no hook runs"))?;
+    if let Some(read) = &view.read {
+        return Ok(read.list.clone());
+    }
+    if view.chain.symbols.iter().filter(|symbol| **symbol == END).count() != 1 {
+        return Err(Error::script(
+            "now.chain is the chain of a system with one chain, but this system has several",
+        )
+        .help("read their modules with query, such as query(\"select n from A\")"));
+    }
+    let readable =
+        ReadableChain { chain: &view.chain, symbols: &view.symbols, values: &state.session.values };
+    let read = ReadChain::read(lua, &readable).map_err(|error| Error::other(error.to_string()))?;
+    let list = read.list.clone();
+    view.read = Some(read);
+    Ok(list)
 }
 
 /// Returns the number of the group of rules called `name`.

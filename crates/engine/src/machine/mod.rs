@@ -43,7 +43,7 @@ pub(crate) use system::{
     Axiom, HookFunction, HookMoment, Interpretations, RulePhase, SystemFunctions, returns_value,
     stops_at_depth,
 };
-pub(crate) use types::Objects;
+pub(crate) use types::{Objects, ReadChain};
 pub(crate) use variables::table_of;
 pub use virtual_machine::Machine;
 pub(crate) use virtual_machine::{compile, read_column, write_column};

@@ -49,7 +49,7 @@ pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
     let successor = || argument("successor", "((this: T, ...any) -> ...Module) | string");
     let draw = || argument("draw", "(this: T, ...any) -> ...any");
     let hook =
-        |name, doc| Name::function(name, doc).form([argument("hook", "(now: Now) -> ()")], "System<T>");
+        |name, doc| Name::function(name, doc).form([argument("hook", "(now: Now) -> ...any")], "System<T>");
     Name::return_value(
         "system",
         "System<T>",
@@ -89,7 +89,7 @@ pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
         hook(
             "before_step",
             "Adds a hook: a function that runs before the rules of each step. Hooks read the state of the derivation, assign \
-             variables, and call stop() and use_group(name).",
+             variables, and call stop() and use_group(name). If it returns modules, they replace the chain.",
         ),
         hook("after_step", "Adds a hook: a function that runs after each step and its interpretation."),
         hook("at_end", "Adds a hook: a function that runs after the last step and its interpretation."),
@@ -204,5 +204,10 @@ pub static NOW: LazyLock<Name> = LazyLock::new(|| {
         ),
         Field::new("modules", "number", "Number of modules in the chains."),
         Field::new("counts", "{ [string]: number }", "Number of modules of each name in the chains."),
+        Field::new(
+            "chain",
+            "{ any }",
+            "The chain as a list of modules, in which each branch is a list; only of one chain.",
+        ),
     ])
 });

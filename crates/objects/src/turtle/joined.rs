@@ -1,6 +1,7 @@
 //! Branches that are drawn as one surface with smooth joints.
 
 use burgeon_base::error::Result;
+use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{AxisPoint, CylinderPoint, JointAxis, joined_tubes};
 use burgeon_kit::Drawing;
 
@@ -92,8 +93,8 @@ impl JoinedBranches {
     }
 
     /// Draws all branches with at least this number of `sides`, a surface for each tree of one material, and removes
-    /// them.
-    pub(super) fn draw(&mut self, drawing: &mut Drawing, sides: u32) -> Result<()> {
+    /// them. Returns a warning if some have no smooth joint.
+    pub(super) fn draw(&mut self, drawing: &mut Drawing, sides: u32) -> Result<Option<Warning>> {
         let Self { axes, drawn, .. } = std::mem::take(self);
         let mut parts: Vec<usize> = drawn.iter().map(|(part, _)| *part).collect();
         parts.sort_unstable();
@@ -109,17 +110,33 @@ impl JoinedBranches {
             axes.push(axis);
             indices.push(index);
         }
+        let (mut joints, mut separate) = (0, 0);
         for (part, (axes, indices)) in parts.into_iter().zip(trees) {
             let maker = drawing.maker();
             let mut count = drawing.part(part).triangles.len();
             drawing.made(maker, part, count);
             let found = joined_tubes(drawing.part(part), &axes, sides as usize)?;
+            joints += found.joints;
+            separate += found.separate.len();
             for (to, triangles) in found.runs {
                 count += triangles;
                 let makers = &drawn[indices[to.axis]].1;
                 drawing.made(makers.get(to.point).copied().unwrap_or(maker), part, count);
             }
         }
-        Ok(())
+        Ok((separate > 0).then(|| without_joint(separate, joints)))
     }
+}
+
+/// Returns the warning for branches that do not fit into their joints.
+fn without_joint(separate: usize, joints: usize) -> Warning {
+    let branches = match separate {
+        1 => "1 branch does not fit into its joint, so it is a closed tube of its own".to_owned(),
+        count => {
+            format!("{count} branches do not fit into their joints, so they are closed tubes of their own")
+        }
+    };
+    let text = format!("{branches}; smooth joints: {joints}");
+    Warning::new(WarningKind::Doubtful, text)
+        .help("make these branches longer than the radius of their parent, or their angles larger, or branches thinner")
 }

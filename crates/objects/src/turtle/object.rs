@@ -14,8 +14,11 @@ use crate::curves::curve::CurveObject;
 use crate::curves::surface::SurfaceObject;
 use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use burgeon_base::error::{Error, Result};
+use burgeon_base::warning::Warning;
 use burgeon_geometry::{Frame, Strand, face, sphere};
-use burgeon_kit::{AxisScale, Color, Drawing, Locate, Model, ObjectPlace, Rewind, Vector, methods, object};
+use burgeon_kit::{
+    AxisScale, Color, Drawing, Locate, Model, ObjectPlace, Rewind, Vector, Warn, methods, object,
+};
 use burgeon_scene::Material;
 
 /// A turtle as in The Algorithmic Beauty of Plants, which draws round branches in three dimensions.
@@ -40,7 +43,7 @@ use burgeon_scene::Material;
     options = TurtleOptions,
     example = include_str!("../../scripts/turtle.lua"),
     draws,
-    can(Locate, Rewind),
+    can(Warn, Locate, Rewind),
     begins_empty,
     begin = restart,
     push = open_branch,
@@ -56,6 +59,7 @@ pub struct Turtle {
     pub(super) polygons: Vec<Vec<DVec3>>,
     /// Branches that the end draws as one surface, if `turtle.joints` is "smooth".
     pub(super) joined: Option<JoinedBranches>,
+    pub(super) warnings: Vec<Warning>,
 }
 
 #[methods("turtle")]
@@ -302,6 +306,12 @@ impl Turtle {
     }
 }
 
+impl Warn for Turtle {
+    fn take_warnings(&mut self) -> Vec<Warning> {
+        std::mem::take(&mut self.warnings)
+    }
+}
+
 impl Locate for Turtle {
     fn place(&self) -> ObjectPlace {
         let Frame { heading, left, up, .. } = self.state.frame;
@@ -340,6 +350,7 @@ impl Turtle {
             angles: Angles::default(),
             polygons: Vec::new(),
             joined,
+            warnings: Vec::new(),
         })
     }
 
@@ -432,6 +443,7 @@ impl Turtle {
         self.state = TurtleState::begin(&self.options, &mut self.drawing);
         self.polygons.clear();
         self.joined.iter_mut().for_each(JoinedBranches::clear);
+        self.warnings.clear();
     }
 
     fn open_branch(&mut self) {
@@ -465,7 +477,7 @@ impl Turtle {
         self.lift();
         self.close_cylinder()?;
         if let Some(joined) = &mut self.joined {
-            joined.draw(&mut self.drawing, self.options.sides)?;
+            self.warnings.extend(joined.draw(&mut self.drawing, self.options.sides)?);
         }
         if let Some(open) = self.polygons.first() {
             return Err(Error::script(format!(

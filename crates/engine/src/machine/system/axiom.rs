@@ -9,10 +9,11 @@ use crate::machine::convert::to_value;
 use crate::machine::types::ObjectHandle;
 use crate::results::VariableValues;
 use crate::results::{DerivedSystem, Remark, SourceFeatures};
-use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::error::{Error, Result};
 use burgeon_kit::{Object, Prefetch, Value};
-use burgeon_rewriting::{CLOSE, Chain, DEEPEST, END, ModuleKey, OPEN, Ordinals, Symbol};
+use burgeon_rewriting::{Chain, END, ModuleKey, Ordinals};
 
+use super::chain_builder::ChainBuilder;
 use super::lazy::is_feature;
 use super::selection::{FeatureRole, PartSelection};
 use super::source::{each_feature, layer_of, refused_of, shown};
@@ -84,7 +85,7 @@ impl SystemDeclaration {
 
     fn first_chains(&self, machine: &Machine, key: ModuleKey, random: bool) -> Result<Axiom> {
         let mut axiom = Axiom::default();
-        let mut builder = Builder { machine, chain: &mut axiom.chain, random };
+        let mut builder = ChainBuilder { machine, chain: &mut axiom.chain, random, kept: None };
         match &self.axiom {
             None if self.object.as_ref().is_some_and(|object| object.expands()) => {
                 builder.push(END, &[], key);
@@ -263,7 +264,7 @@ impl SystemDeclaration {
             axiom.objects.extend(object.map(|object| prepared(machine, &*object, key)));
             axiom.features.push(Some(id));
             axiom.known.push(layer.as_ref(), index - 1, value);
-            let mut builder = Builder { machine, chain: &mut axiom.chain, random };
+            let mut builder = ChainBuilder { machine, chain: &mut axiom.chain, random, kept: None };
             builder.list(&made, key)?;
             builder.push(END, &[], key);
             Ok(())
@@ -327,105 +328,4 @@ fn prepared(machine: &Machine, object: &dyn Object, key: ModuleKey) -> Box<dyn O
     object.seed(key.0);
     object.set_detail(machine.session.options.lod);
     object
-}
-
-/// Number of symbols between two checks for cancellation.
-const STRETCH: usize = 4096;
-
-/// Builder that appends modules made outside of rules to a chain.
-struct Builder<'a> {
-    machine: &'a Machine,
-    chain: &'a mut Chain,
-    random: bool,
-}
-
-impl Builder<'_> {
-    fn push(&mut self, symbol: Symbol, params: &[f64], key: ModuleKey) {
-        self.chain.symbols.push(symbol);
-        self.chain.params.extend_from_slice(params);
-        if self.random {
-            self.chain.keys.push(key);
-        }
-    }
-
-    fn list(&mut self, items: &[LuaValue], key: ModuleKey) -> Result<()> {
-        self.items(&mut items.iter().cloned().map(Ok), key, &mut Ordinals::default(), 0)
-    }
-
-    /// Adds the items of a list. They are read one by one, because a machine can hold only a million of them at a time.
-    fn items(
-        &mut self,
-        items: &mut dyn Iterator<Item = mlua::Result<LuaValue>>,
-        key: ModuleKey,
-        ordinals: &mut Ordinals,
-        depth: usize,
-    ) -> Result<()> {
-        for item in items {
-            let item = item.map_err(|error| self.machine.translate(error))?;
-            if self.chain.symbols.len().is_multiple_of(STRETCH) {
-                self.machine.session.stop.check()?;
-            }
-            let LuaValue::Table(table) = &item else {
-                let what = match to_value(&item, false) {
-                    Ok(value @ (Value::Number(_) | Value::Boolean(_) | Value::Text(_))) => {
-                        format!("{} {value}", value.describe().replacen('a', "the", 1))
-                    }
-                    Ok(value) => value.describe().to_owned(),
-                    Err(_) => format!("a {}", item.type_name()),
-                };
-                return Err(Error::argument(format!(
-                    "an axiom must contain only modules, but one item is {what}"
-                ))
-                .help("write system:axiom(A(1), { B() })"));
-            };
-            let elements = self.machine.prelude().elements.call::<Option<Table>>(table);
-            let elements = elements.map_err(|error| self.machine.translate(error))?;
-            if let Some(elements) = elements.filter(|_| depth < DEEPEST) {
-                self.items(&mut elements.sequence_values(), key, ordinals, depth + 1)?;
-                continue;
-            }
-            let is_module = self
-                .machine
-                .prelude()
-                .is_module
-                .call::<bool>(table)
-                .map_err(|error| self.machine.translate(error))?;
-            if !is_module {
-                if depth == DEEPEST {
-                    return Err(Error::limit(
-                        Limit::Size,
-                        format!("branches are nested more than {DEEPEST} deep, or a branch contains itself"),
-                    )
-                    .help("use a rule to add the rest step by step"));
-                }
-                self.push(OPEN, &[], key);
-                self.items(&mut table.sequence_values(), key, ordinals, depth + 1)?;
-                self.push(CLOSE, &[], key);
-                continue;
-            }
-            let read = |index: usize| {
-                table.raw_get::<LuaValue>(index).map_err(|error| self.machine.translate(error))
-            };
-            let symbol = match read(1)? {
-                LuaValue::Integer(symbol) => Symbol::try_from(symbol).unwrap_or(END),
-                #[allow(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "written by the prelude"
-                )]
-                LuaValue::Number(symbol) => symbol as Symbol,
-                _ => END,
-            };
-            let (arity, name) = {
-                let symbols = self.machine.library.symbols.borrow();
-                (symbols.signature(symbol).arity(), symbols.name_hash(symbol))
-            };
-            let mut params = Vec::with_capacity(arity);
-            for index in 0..arity {
-                params.push(self.machine.session.values.pack(to_value(&read(index + 3)?, true)?));
-            }
-            self.push(symbol, &params, key.successor(name, ordinals.next(symbol)));
-        }
-        Ok(())
-    }
 }

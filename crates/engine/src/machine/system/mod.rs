@@ -4,6 +4,7 @@
 //! runs no rules.
 
 mod axiom;
+mod chain_builder;
 mod declaration;
 mod declare;
 mod derive_arguments;
@@ -19,6 +20,7 @@ mod strings;
 mod unseen;
 
 pub(crate) use axiom::Axiom;
+pub(crate) use chain_builder::replaced_chain;
 pub(super) use declaration::{DeclaredAxiom, DeclaredRule, DerivationRecord};
 pub(crate) use declaration::{RulePhase, SystemDeclaration, SystemFunctions};
 pub(crate) use declare::{returns_value, stops_at_depth};

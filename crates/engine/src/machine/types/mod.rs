@@ -19,5 +19,5 @@ pub(super) use handles::{DerivedHandle, methods_key};
 pub(crate) use handles::{ObjectHandle, Objects};
 pub(super) use kinds::{install_kind, named_fields, no_table};
 pub(super) use mentions::object_of_system;
-pub(crate) use module_lists::READ_MODULE;
+pub(crate) use module_lists::{READ_MODULE, ReadChain, ReadableChain};
 pub(super) use script_types::{ScriptTypeEntry, declare_type};
