@@ -1,4 +1,4 @@
-//! CPU time of many steps that change little: growth at one place, with and without contexts, and questions for a place. Then the
+//! CPU time of many steps that change little: growth at one place, with and without contexts, questions for a place, and events. Then the
 //! CPU time of a step on many modules that see the new chain, or that ask an environment.
 //!
 //! `cargo bench --bench steps`. If the cost of a step is the cost of what changes, twice as many steps take twice as long.
@@ -9,7 +9,7 @@ use burgeon::script::RunOptions;
 use cpu_time::ThreadTime;
 
 /// Systems that add modules at one place, with the largest number of steps.
-const SYSTEMS: [(&str, usize, &str); 6] = [
+const SYSTEMS: [(&str, usize, &str); 9] = [
     ("growth", 80_000, "s:axiom(A()) s:rule('A', function() return F(), A() end)"),
     ("nested branches", 80_000, "s:axiom(A()) s:rule('A', function() return F(), { A() } end)"),
     ("left context", 80_000, "s:axiom(F(), A()) s:rule('F < A', function() return F(), A() end)"),
@@ -28,6 +28,21 @@ const SYSTEMS: [(&str, usize, &str); 6] = [
         20_000,
         "local list = table.create(1000000, F()) list[500000] = B(0) s:axiom(sequence(list))
          s:rule('B(n)', function(_, n) return B(n + 1) end)",
+    ),
+    ("events from one module", 80_000, "s:axiom(A()) s:rule('A', { propensity = 1 }, function() return A(), A() end)"),
+    (
+        "events among a million modules",
+        20_000,
+        "s:axiom(sequence(table.create(1000000, B(1))))
+         s:rule('B(n)', { propensity = function(_, n) return n end }, function(_, n) return B(n + 1) end)",
+    ),
+    (
+        "events with contexts, a million modules",
+        20_000,
+        "local list = table.create(1000000, F()) for i = 500, 1000000, 1000 do list[i] = A() end
+         s:axiom(sequence(list))
+         s:rule('A < F', { propensity = 1 }, function() return A() end)
+         s:rule('F > A', { propensity = 2 }, function() return A() end)",
     ),
 ];
 

@@ -45,6 +45,24 @@ pub(super) fn silent(scripts: &[&str]) {
 }
 
 #[test]
+fn a_branch_without_a_smooth_joint_is_counted() {
+    let tree = |branch: &str| {
+        format!(
+            "local s = lsystem({{ object = turtle({{ joints = \"smooth\", width = 0.2 }}) }})\ns:axiom(F(1), {branch}, F(1))\ns:derive(0)"
+        )
+    };
+    silent(&[&tree("{ Turn(60), F(0.5) }")]);
+    insta::assert_snapshot!(warned(&[&tree("{ Turn(60), F(0.05) }")]), @r#"
+    local s = lsystem({ object = turtle({ joints = "smooth", width = 0.2 }) })
+    s:axiom(F(1), { Turn(60), F(0.05) }, F(1))
+    s:derive(0)
+    warning: s.lua:1: 1 branch does not fit into its joint, so it is a closed tube of its own; smooth joints: 1
+      | local s = lsystem({ object = turtle({ joints = "smooth", width = 0.2 }) })
+      help: make these branches longer than the radius of their parent, or their angles larger, or branches thinner
+    "#);
+}
+
+#[test]
 fn modules_that_an_interpretation_returns_are_drawn_without_a_warning() {
     silent(&[
         &with(
