@@ -27,12 +27,12 @@
 //! terrain    uses ──► base, geometry, kit, rewriting, scene
 //! objects    uses ──► base, data, geometry, kit, rewriting, scene, spatial, streets, terrain
 //! packages   uses ──► base
-//! language   uses ──► base, kit, packages, rewriting
+//! language   uses ──► base, kit, rewriting
 //! engine     uses ──► base, kit, language, packages, rewriting, scene, spatial
 //! picture    uses ──► base, scene
 //! export     uses ──► base, data, picture, scene
 //! watch      uses ──► base
-//! live       uses ──► base, engine, export, kit, picture, rewriting, scene, watch
+//! live       uses ──► base, engine, export, picture, scene, watch
 //! burgeon    uses ──► base, data, engine, export, geometry, kit, language, live, objects, packages, picture, rewriting, scene, sources, spatial, terrain, watch
 //! ```
 //!
