@@ -24,7 +24,7 @@
 //! spatial    uses ──► base, geometry, kit
 //! data       uses ──► base, kit, spatial
 //! sources    uses ──► base, data, geometry, kit, spatial
-//! terrain    uses ──► base, geometry, kit, rewriting, scene
+//! terrain    uses ──► base, geometry, scene
 //! objects    uses ──► base, data, geometry, kit, rewriting, scene, spatial, streets, terrain
 //! packages   uses ──► base
 //! language   uses ──► base, kit, rewriting

@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use burgeon_base::ModuleKey;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::random::Stream;
 use burgeon_kit::{Expectation, Parameter, Seed, Table, TableKey, Value, fields, methods, object};
-use burgeon_rewriting::ModuleKey;
 
 /// Fields of `universe { ... }`.
 #[fields("universe")]

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use burgeon_base::MemoryOwner;
+use burgeon_base::ModuleKey;
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::listed;
@@ -11,7 +12,6 @@ use burgeon_data::Geometry;
 use burgeon_geometry::Rings;
 use burgeon_geometry::planar::twice_area;
 use burgeon_kit::{Answer, Expectation, Parameter, Seed, Table, TableKey, Value, fields};
-use burgeon_rewriting::ModuleKey;
 use burgeon_spatial::PolygonArgument;
 use burgeon_streets::{FARTHEST, Lot, LotOptions, LotPattern, LotUse, PieceId, StreetBlock, StreetNetwork};
 use glam::DVec2;

@@ -5,8 +5,7 @@ use std::sync::Arc;
 use burgeon_base::error::{did_you_mean, nearest};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::{Expectation, Parameter, System, Table, TableKey, Value};
-use burgeon_rewriting::Symbol;
-use burgeon_terrain::{DivisionRules, LevelRules, NumberRange, Quadrants, RuleTable};
+use burgeon_terrain::{CellSymbol, DivisionRules, LevelRules, NumberRange, Quadrants, RuleTable};
 
 /// The rules of a terrain, by level; the first layer starts at level 0.
 #[derive(Debug, Clone, Default)]
@@ -112,7 +111,7 @@ fn rule_table(table: &Table) -> Result<RuleTable, Expectation> {
         let TableKey::Name(name) = key else { return Err(Expectation::new(WHAT)) };
         names.push(name.to_string());
     }
-    if names.is_empty() || names.len() > usize::from(Symbol::MAX) {
+    if names.is_empty() || names.len() > usize::from(CellSymbol::MAX) {
         return Err(Expectation::new(WHAT));
     }
     let mut rules = Vec::new();
@@ -155,7 +154,8 @@ fn quadrants(rule: &Table, name: &str, names: &[String]) -> Result<Quadrants, Ex
                 "a table whose rule for {name} has names of symbols, not {value}"
             )));
         };
-        let found = names.iter().position(|known| *known == **text).and_then(|at| Symbol::try_from(at).ok());
+        let found =
+            names.iter().position(|known| *known == **text).and_then(|at| CellSymbol::try_from(at).ok());
         *into = found.ok_or_else(|| {
             let near = nearest(text, names.iter().map(String::as_str));
             let near = near.map(|near| format!(" ({})", did_you_mean(near))).unwrap_or_default();
@@ -286,7 +286,7 @@ impl RuleLayer {
             }
             LayerRules::System(system) => (DivisionRules::System(system.index), 0, Vec::new()),
         };
-        let start = Symbol::try_from(start).unwrap_or(0);
+        let start = CellSymbol::try_from(start).unwrap_or(0);
         let names = match &self.rules {
             LayerRules::Table(table) => Arc::new(table.names.clone()),
             LayerRules::System(_) => Arc::default(),

@@ -6,12 +6,11 @@ use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
-use super::block::{Area, Block};
-use super::world::{Begin, Divide};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::memory::allocate_zeroed;
 use burgeon_kit::{RewriteOutcome, Rewriter, RuleSet};
 use burgeon_rewriting::{Chain, ColumnValue, END, FIRST_SYMBOL, Mark, ModuleKey, NO_RULE, module_brief};
+use burgeon_terrain::{Area, Begin, Block, Divide};
 
 /// Name of the parameter for the cell's height.
 const HEIGHT: &str = "height";
@@ -22,7 +21,7 @@ const FORM: &str = "form";
 const STRIP: usize = 1 << 17;
 
 /// Division of cells by the rules of a script's systems.
-pub struct Cells<'a> {
+pub(crate) struct Cells<'a> {
     rewriter: &'a dyn Rewriter,
     systems: RefCell<FxHashMap<usize, Arc<CellSystem>>>,
 }
@@ -40,7 +39,7 @@ struct CellSystem {
 
 impl<'a> Cells<'a> {
     /// Creates a division by the rules that `rewriter` applies.
-    pub fn new(rewriter: &'a dyn Rewriter) -> Self {
+    pub(crate) fn new(rewriter: &'a dyn Rewriter) -> Self {
         Self { rewriter, systems: RefCell::default() }
     }
 

@@ -1,6 +1,6 @@
 //! Keys of random numbers, which depend only on the seed and the lineage of a module.
 
-use burgeon_base::random::Stream;
+use crate::random::Stream;
 
 /// Hash of the seed and a module's lineage.
 ///
@@ -9,7 +9,7 @@ use burgeon_base::random::Stream;
 /// change, and when modules with other names are added to the successor.
 ///
 /// ```
-/// use burgeon_rewriting::ModuleKey;
+/// use burgeon_base::ModuleKey;
 ///
 /// let house = ModuleKey::seed(1).feature("house 12");
 /// // The random numbers of a house do not depend on the other houses.
@@ -32,8 +32,14 @@ impl ModuleKey {
         Self(id.bytes().fold(mix(self.0 ^ 0xFEA7), |key, byte| mix(key ^ u64::from(byte))))
     }
 
+    /// Returns the hash of the name of a module, which may belong to a package.
+    pub fn name_hash(package: Option<&str>, name: &str) -> u64 {
+        let bytes = package.unwrap_or_default().bytes().chain([0]).chain(name.bytes());
+        bytes.fold(mix(0x4E4D), |hash, byte| mix(hash ^ u64::from(byte)))
+    }
+
     /// Returns the key of a successor's module: number `ordinal`, from 0, among the modules with the same name. `name` is
-    /// the hash of the name (see [`Symbols::name_hash`](crate::Symbols::name_hash)).
+    /// the [hash](Self::name_hash) of the name.
     #[must_use]
     #[inline]
     pub fn successor(self, name: u64, ordinal: usize) -> Self {
@@ -101,12 +107,6 @@ pub enum KeyPart<'a> {
 }
 
 const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
-
-/// Returns the hash of the name of a module, which may belong to a package.
-pub(crate) fn name_hash(package: Option<&str>, name: &str) -> u64 {
-    let bytes = package.unwrap_or_default().bytes().chain([0]).chain(name.bytes());
-    bytes.fold(mix(0x4E4D), |hash, byte| mix(hash ^ u64::from(byte)))
-}
 
 /// Mixes bits with the finaliser of `SplitMix64` (Steele, Lea and Flood, "Fast splittable pseudorandom number
 /// generators", 2014).

@@ -1,11 +1,14 @@
-//! Script values of views.
+//! Views as arguments of methods.
 
 use std::sync::Arc;
 
-use crate::{TileRing, View};
 use burgeon_kit::{Expectation, Parameter, Table, TableKey, Value};
+use burgeon_terrain::{TileRing, View};
 
-impl Parameter for View {
+/// Argument of methods that is a view.
+pub struct ViewArgument(pub View);
+
+impl Parameter for ViewArgument {
     fn luau() -> String {
         "{ cell: number, rings: { { number } } }".into()
     }
@@ -41,14 +44,14 @@ impl Parameter for View {
         if rings.windows(2).any(|pair| pair[0].across >= pair[1].across || pair[0].levels < pair[1].levels) {
             return Err(Expectation::new("a view with growing rings that are divided less with distance"));
         }
-        Ok(Self { cell, rings })
+        Ok(Self(View { cell, rings }))
     }
 
     fn into_value(self) -> Value {
         let ring = |ring: &TileRing| vec![f64::from(ring.across), f64::from(ring.levels)];
-        let rings = self.rings.iter().map(ring).collect::<Vec<_>>().into_value();
+        let rings = self.0.rings.iter().map(ring).collect::<Vec<_>>().into_value();
         let entries = vec![
-            (TableKey::Name("cell".into()), Value::Number(self.cell)),
+            (TableKey::Name("cell".into()), Value::Number(self.0.cell)),
             (TableKey::Name("rings".into()), rings),
         ];
         Value::Table(Arc::new(Table { class: None, entries }))
