@@ -30,7 +30,7 @@
 //! language   uses ──► base, kit, rewriting
 //! engine     uses ──► base, kit, language, packages, rewriting, scene, spatial
 //! picture    uses ──► base, scene
-//! export     uses ──► base, data, picture, scene
+//! export     uses ──► base, picture, scene, spatial
 //! watch      uses ──► base
 //! live       uses ──► base, engine, export, picture, scene, watch
 //! burgeon    uses ──► base, data, engine, export, geometry, kit, language, live, objects, packages, picture, rewriting, scene, sources, spatial, terrain, watch
@@ -41,7 +41,8 @@
 //! - [`scene`]: a [`Scene`](scene::Scene) of meshes and instances, ready for export.
 //! - [`geometry`]: lines, rings and polygons, frames, cross-sections, sweeps, straight skeletons and roofs, independent
 //!   of rules and scripts.
-//! - [`spatial`]: a [`Geometry`](spatial::Geometry) as a value, with the operations of OGC Simple Features.
+//! - [`spatial`]: a [`Geometry`](spatial::Geometry) as a value, with the operations of OGC Simple Features, and
+//!   coordinate reference systems.
 //! - [`data`]: data files, read into a [`Layer`](data::Layer) of features in metres, or into a
 //!   [`Relief`](data::elevation::Relief) of measured heights.
 //! - [`sources`]: sources of scripts, and SQL over them: a [`Database`](sources::sql::Database) returns a

@@ -12,9 +12,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use burgeon::data::elevation::{Raster, Relief};
-use burgeon::data::{Geometry, GeometryKind, Layer, Source, SourceOptions};
+use burgeon::data::{Layer, Source, SourceOptions};
 use burgeon::geometry::{Plan, Rings};
 use burgeon::objects::Elevation;
+use burgeon::spatial::{Geometry, GeometryKind};
 use glam::{DVec2, DVec3};
 
 #[path = "terrain/measured.rs"]

@@ -7,9 +7,10 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use burgeon::data::{Layer, ReferenceFrame, Source, SourceOptions};
+use burgeon::data::{Layer, Source, SourceOptions};
 use burgeon::picture::Picture;
 use burgeon::script::{RunInputs, RunOptions};
+use burgeon::spatial::ReferenceFrame;
 use burgeon::{Run, export};
 
 const README: &str = include_str!("../README.md");

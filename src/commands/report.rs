@@ -6,8 +6,8 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use burgeon::data::{ReferenceFrame, WORLD_AXES};
 use burgeon::script::{Param, Setting};
+use burgeon::spatial::{ReferenceFrame, WORLD_AXES};
 use burgeon::text::escaped_lines;
 use burgeon::text::grouped;
 use burgeon::{Error, Result, Run, Warning};

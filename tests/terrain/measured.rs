@@ -5,11 +5,11 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use burgeon::data::elevation::{Raster, Relief, SampleGrid};
-use burgeon::data::{Crs, ReferenceFrame};
 use burgeon::objects::Elevation;
 use burgeon::random::Stream;
 use burgeon::rewriting::ModuleKey;
 use burgeon::scene::Part;
+use burgeon::spatial::{Crs, ReferenceFrame};
 use burgeon::terrain::{
     DivisionRules, Edit, Edits, Ground, GroundCuts, GroundMesh, HeightSource, LevelRules, NumberRange,
     Quadrants, RuleTable, Tables, TileRing, View, World,

@@ -123,27 +123,6 @@ pub(crate) mod condition {
     }
 }
 
-pub(crate) mod output {
-    use super::{Result, left_out};
-    use crate::frame::ReferenceFrame;
-    use crate::output::RecordTable;
-    use burgeon_base::stop::Stop;
-
-    /// Fails, because GeoPackages are available only with the feature `data`.
-    pub fn check_geopackage() -> Result<()> {
-        left_out()
-    }
-
-    /// Fails, because GeoPackages need the feature `data`.
-    pub fn write_geopackage(
-        _tables: &[RecordTable],
-        _frame: Option<&ReferenceFrame>,
-        _stop: &Stop,
-    ) -> Result<Vec<u8>> {
-        left_out()
-    }
-}
-
 pub(crate) mod geotiff {
     use super::{Error, Result, left_out};
     use crate::heights::RasterHeader;

@@ -210,7 +210,7 @@ impl LayerListing {
         }
         Ok(Self {
             name: table.layer.clone(),
-            crs: table.crs.as_ref().map(super::Crs::name).map_err(Clone::clone),
+            crs: table.crs.as_ref().map(burgeon_spatial::Crs::name).map_err(Clone::clone),
             records: table.records,
             kinds,
             empty: table.empty,
@@ -334,8 +334,9 @@ impl AttributeListing {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Crs, Geometry, Layer};
+    use super::super::{Geometry, Layer};
     use super::*;
+    use burgeon_spatial::Crs;
 
     #[test]
     fn a_listing_leaves_out_the_places_that_every_run_leaves_out() {

@@ -3,10 +3,10 @@
 use std::fmt;
 use std::sync::Arc;
 
-use burgeon_data::{Attribute, Features, Geometry, Layer};
+use burgeon_data::{Attribute, Features, Layer};
 use burgeon_geometry::Line;
 use burgeon_kit::{Expectation, Parameter, Table, Value};
-use burgeon_spatial::Lines;
+use burgeon_spatial::{Geometry, Lines};
 use glam::DVec3;
 
 /// Maximum nesting depth of lists.

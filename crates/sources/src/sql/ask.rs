@@ -14,7 +14,7 @@ use crate::sql::prepared_statement::{AnswerColumn, PreparedStatement, StatementS
 use crate::sql::rewrite::SqlType;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result as BurgeonResult};
-use burgeon_data::ReferenceFrame;
+use burgeon_spatial::ReferenceFrame;
 
 /// The reason for a failed query.
 pub(crate) enum QueryFailure {

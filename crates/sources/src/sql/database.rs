@@ -23,7 +23,8 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::shown;
-use burgeon_data::{Layer, ReferenceFrame};
+use burgeon_data::Layer;
+use burgeon_spatial::ReferenceFrame;
 
 /// Maximum number of rewritten statements that are kept.
 const STATEMENTS: usize = 500;

@@ -14,7 +14,7 @@ use crate::sql::statement_text::quote_name;
 use crate::sql::tables::{free, write};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
-use burgeon_data::ReferenceFrame;
+use burgeon_spatial::ReferenceFrame;
 
 /// Rows that become a table of a [`Database`](crate::sql::Database).
 #[derive(Debug, Clone, Default)]

@@ -14,8 +14,8 @@ use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_data::ReferenceFrame;
 use burgeon_kit::{ModuleTable, QueryRows, SourceQuery, SourceRequest};
+use burgeon_spatial::ReferenceFrame;
 
 /// Database with its tables.
 pub(super) struct SourceDatabase {

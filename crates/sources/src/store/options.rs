@@ -1,8 +1,9 @@
 //! Options of `source`.
 
 use burgeon_base::error::{Error, Result};
-use burgeon_data::{GeometryKind, SourceOptions};
+use burgeon_data::SourceOptions;
 use burgeon_kit::{Table, TableKey, Value};
+use burgeon_spatial::GeometryKind;
 
 /// Names of the options.
 const OPTIONS: [&str; 9] = ["where", "tags", "within", "limit", "id", "kind", "crs", "layer", "table"];

@@ -1,8 +1,7 @@
 //! Functions that create geometries, and functions that convert them to other formats.
 
-use burgeon_data::Crs;
 use burgeon_geometry::Rings;
-use burgeon_spatial::{Geometry, wkb};
+use burgeon_spatial::{Crs, Geometry, wkb};
 use glam::DVec3;
 
 use super::call::{FunctionCall, FunctionResult};

@@ -11,7 +11,8 @@ use crate::sql::place::Move;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
-use burgeon_data::{Attribute, Crs, FeatureTable, LayerListing, Listing, SourceOptions};
+use burgeon_data::{Attribute, FeatureTable, LayerListing, Listing, SourceOptions};
+use burgeon_spatial::Crs;
 
 impl Server {
     /// Reads the selected part of a layer in the order of its keys, as [`Source::read`](burgeon_data::Source::read)

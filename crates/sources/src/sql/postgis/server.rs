@@ -20,7 +20,7 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::shown;
-use burgeon_data::{Crs, ReferenceFrame};
+use burgeon_spatial::{Crs, ReferenceFrame};
 
 /// Maximum silence of a server before the connection is considered dead.
 const SILENCE: Duration = Duration::from_secs(30);

@@ -1,4 +1,4 @@
-//! Replacement for projections in programs built without the feature `data`.
+//! Replacement for projections in programs built without the feature `projections`.
 
 use burgeon_base::error::{Error, Result};
 
@@ -6,7 +6,7 @@ fn left_out<T>() -> Result<T> {
     Err(Error::left_out("data formats", "data"))
 }
 
-/// Projection; never constructed without the feature `data`.
+/// Projection; never constructed without the feature `projections`.
 #[derive(Clone)]
 pub(crate) enum Projection {}
 
@@ -24,7 +24,8 @@ pub(crate) fn find_system(_code: u32) -> Result<Option<(u16, String)>> {
     left_out()
 }
 
-pub(crate) fn definition(_code: u16) -> Result<Option<String>> {
+/// Fails, because the EPSG registry needs the feature `projections`.
+pub fn definition(_code: u16) -> Result<Option<String>> {
     left_out()
 }
 

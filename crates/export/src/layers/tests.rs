@@ -2,10 +2,10 @@ use glam::DVec3;
 use proptest::prelude::*;
 
 use super::*;
-use crate::{Attribute, Crs, FeatureTable, Layer, ReferenceFrame, Source, SourceOptions, write_geopackage};
 use burgeon_base::stop::Stop;
+use burgeon_data::{FeatureTable, Layer, Source, SourceOptions};
 use burgeon_geometry::Rings;
-use burgeon_spatial::Geometry;
+use burgeon_spatial::{Attribute, Crs, Geometry, Record, RecordTable, ReferenceFrame};
 
 /// Returns the frame at a position in a coordinate system.
 fn frame(code: u32, [x, y]: [f64; 2]) -> ReferenceFrame {

@@ -1,7 +1,6 @@
 //! Types of columns, determined from their values.
 
-use super::RecordTable;
-use burgeon_kit::Attribute;
+use burgeon_spatial::{Attribute, RecordTable};
 
 /// Type of the values in a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,8 +21,8 @@ const LARGEST: f64 = 9_007_199_254_740_992.0;
 /// Returns the type of each column in `table`; a column without values is text.
 ///
 /// ```
-/// use burgeon_data::Attribute;
-/// use burgeon_data::output::{ColumnKind, Record, RecordTable, column_kinds};
+/// use burgeon_export::layers::{ColumnKind, column_kinds};
+/// use burgeon_spatial::{Attribute, Record, RecordTable};
 ///
 /// let record = |values: [f64; 2]| {
 ///     let values = values.into_iter().map(Attribute::Number).enumerate().collect();

@@ -4,10 +4,10 @@ use std::fmt;
 
 use serde_json::{Value, json};
 
-use super::crs::prj::IN_METRES;
-use super::crs::projection::definition;
-use crate::crs::Crs;
-use crate::frame::ReferenceFrame;
+use super::frame::ReferenceFrame;
+use super::prj::IN_METRES;
+use super::projection::definition;
+use super::system::Crs;
 
 /// Axes of a run's coordinates.
 pub const WORLD_AXES: &str = "x east, y north, z up (m)";
@@ -27,7 +27,7 @@ impl ReferenceFrame {
     /// Returns the position of the origin.
     ///
     /// ```
-    /// use burgeon_data::{Crs, ReferenceFrame};
+    /// use burgeon_spatial::{Crs, ReferenceFrame};
     ///
     /// let place = ReferenceFrame::around(&Crs::epsg(3067)?, [385_423.0, 6_671_463.0], "a town")?.world_place();
     /// assert_eq!((&*place.crs, place.origin), ("EPSG:3067", [385_400.0, 6_671_500.0]));
@@ -90,7 +90,7 @@ impl WorldPlace {
     /// Returns the position as JSON: `crs`, `origin`, `longitude`, `latitude`.
     ///
     /// ```
-    /// use burgeon_data::{Crs, ReferenceFrame};
+    /// use burgeon_spatial::{Crs, ReferenceFrame};
     ///
     /// let frame = ReferenceFrame::around(&Crs::epsg(3067)?, [385_420.0, 6_671_480.0], "the town")?;
     /// let place = frame.world_place().to_json();

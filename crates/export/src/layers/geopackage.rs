@@ -4,14 +4,11 @@ use glam::DVec3;
 use rusqlite::types::Value as Cell;
 use rusqlite::{Connection, params, params_from_iter};
 
-use super::geopackage::quote;
-use crate::crs::projection::definition;
-use crate::frame::ReferenceFrame;
-use crate::output::{ColumnKind, OutputPlacement, Record, RecordTable, column_kinds};
+use super::{ColumnKind, OutputPlacement, column_kinds};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::stop::Stop;
-use burgeon_kit::Attribute;
-use burgeon_spatial::Geometry;
+use burgeon_spatial::crs::definition;
+use burgeon_spatial::{Attribute, Geometry, Record, RecordTable, ReferenceFrame};
 
 /// Tables of every GeoPackage. The time of change is constant, so the same layers yield the same bytes.
 const SCHEMA: &str = "
@@ -259,6 +256,11 @@ fn unique_name(name: &str, taken: &[String]) -> String {
 
 fn join_boxes(a: LayerBox, b: LayerBox) -> LayerBox {
     [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])]
+}
+
+/// Returns a name as SQL writes it, in double quotes.
+fn quote(name: &str) -> String {
+    format!("\"{}\"", name.replace('"', "\"\""))
 }
 
 /// Returns the triggers that update the R-tree of a layer when other programs change it, as the standard requires.

@@ -147,7 +147,7 @@ pub(super) fn lacks_shift(definition: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Crs, Geometry, Layer, ReferenceFrame, SourceOptions};
+    use crate::crs::{Crs, ReferenceFrame};
 
     /// Returns longitude and latitude of a point in a coordinate system.
     fn degrees(code: u32, at: [f64; 2]) -> [f64; 2] {
@@ -202,26 +202,6 @@ mod tests {
             assert!(error.message().contains("EPSG withdrew"), "{error}");
             assert!(error.remedy().unwrap().contains(&format!("crs = {other}")), "{error}");
             assert!(Crs::epsg(other.into()).is_ok(), "{other}");
-        }
-    }
-
-    #[test]
-    fn a_datum_without_a_shift_is_told_where_other_coordinates_are_derived() {
-        let layer = |code: u32, at: [f64; 2], frame: &mut Option<ReferenceFrame>| {
-            let mut table = crate::FeatureTable::new("a", "a", Crs::epsg(code), &SourceOptions::default());
-            table.push("p", vec![Geometry::point([at[0], at[1], 0.0])], Vec::new()).unwrap();
-            Layer::new(table, frame).unwrap().notes
-        };
-        // Anguilla 1957.
-        let mut frame = None;
-        let notes = layer(2000, [400_000.0, 2_014_000.0], &mut frame);
-        assert!(notes[0].contains("no shift from Anguilla 1957 to WGS 84 is known"), "{notes:?}");
-        // More coordinates of the same system lie right beside each other.
-        assert!(layer(2000, [400_100.0, 2_014_000.0], &mut frame).is_empty());
-        for (code, at) in
-            [(3067, [385_000.0, 6_672_000.0]), (5514, [-740_000.0, -1_040_000.0]), (4326, [7.0, 44.0])]
-        {
-            assert!(layer(code, at, &mut None).is_empty(), "{code}");
         }
     }
 }

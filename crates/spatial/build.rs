@@ -1,6 +1,6 @@
 //! Compresses the definitions of the EPSG registry: as constants, they would take up a fifth of the program.
 
-#[cfg(feature = "data")]
+#[cfg(feature = "projections")]
 fn main() -> std::io::Result<()> {
     use std::fmt::Write as _;
     use std::io::Write as _;
@@ -24,7 +24,7 @@ fn main() -> std::io::Result<()> {
     std::fs::write(folder.join("epsg.rs"), blocks)
 }
 
-#[cfg(not(feature = "data"))]
+#[cfg(not(feature = "projections"))]
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
 }

@@ -5,11 +5,9 @@ use std::io::{self, Write};
 use glam::DVec3;
 use serde_json::{Map, Value as Json, json};
 
-use super::{OutputPlacement, Record, RecordTable};
-use crate::frame::ReferenceFrame;
+use super::place::OutputPlacement;
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::Attribute;
-use burgeon_spatial::Geometry;
+use burgeon_spatial::{Attribute, Geometry, Record, RecordTable, ReferenceFrame};
 
 /// Writes `tables` as one feature collection. If there are several tables, the property `layer` of each feature
 /// contains the name of its table.
@@ -18,8 +16,8 @@ use burgeon_spatial::Geometry;
 /// with a position on Earth, and if a position has no longitude and latitude.
 ///
 /// ```
-/// use burgeon_data::output::{Record, RecordTable, write_geojson};
-/// use burgeon_data::{Attribute, Crs, Geometry, ReferenceFrame};
+/// use burgeon_export::layers::write_geojson;
+/// use burgeon_spatial::{Attribute, Crs, Geometry, Record, RecordTable, ReferenceFrame};
 /// use glam::DVec3;
 ///
 /// let frame = ReferenceFrame::around(&Crs::epsg(4326)?, [27.0, 60.0], "the town")?;

@@ -20,11 +20,8 @@ const SAME_DATUM: f64 = 0.5;
 /// End of the name of a projection whose unit was changed to metres.
 pub(crate) const IN_METRES: &str = " in metres";
 
-/// Remedy for a coordinate system of a data file that is not known.
-pub(crate) const NAME_IT: &str = "specify its EPSG code: source(file, { crs = 3067 })";
-
 /// Returns the coordinate system of a text; `label` and the remedy are used in messages.
-pub(crate) fn crs_of_text(text: &str, label: &str, remedy: &str) -> Result<Crs> {
+pub fn crs_of_text(text: &str, label: &str, remedy: &str) -> Result<Crs> {
     let unknown = |name: &str| {
         Error::data(format!("{label}: unknown coordinate system \"{}\"", shown(name))).help(remedy)
     };
@@ -79,7 +76,7 @@ pub(crate) fn crs_of_text(text: &str, label: &str, remedy: &str) -> Result<Crs> 
 
 /// Returns the length (m) of the unit of heights in the text of a compound system; `None` if the text has no vertical
 /// system. `label` and the remedy are used in messages.
-pub(crate) fn height_unit(text: &str, label: &str, remedy: &str) -> Result<Option<f64>> {
+pub fn height_unit(text: &str, label: &str, remedy: &str) -> Result<Option<f64>> {
     let nodes = TextNode::read_all(text);
     let is_vertical = |node: &&TextNode| vertical::KEYWORDS.contains(&&*node.word);
     let Some(found) =

@@ -14,7 +14,7 @@ pub(super) fn unit(system: &TextNode) -> Option<f64> {
 }
 
 /// Returns the length (m) of the unit of a vertical coordinate system with an EPSG code. Most are in metres.
-pub(crate) fn unit_of_system(code: u16) -> f64 {
+pub fn unit_of_system(code: u16) -> f64 {
     match code {
         // NGVD29, NAVD88 and mean sea level in US survey feet.
         5702 | 6360 | 8052 => 1200.0 / 3937.0,

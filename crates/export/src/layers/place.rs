@@ -2,9 +2,8 @@
 
 use glam::DVec3;
 
-use crate::crs::Crs;
-use crate::frame::{Passage, ReferenceFrame};
 use burgeon_base::error::{Error, Result};
+use burgeon_spatial::{Crs, Passage, ReferenceFrame};
 
 /// Transformation of a run's coordinates to a coordinate system that other programs support.
 pub struct OutputPlacement<'a> {
@@ -32,8 +31,8 @@ impl<'a> OutputPlacement<'a> {
     /// Fails if the run's centre has no longitude and latitude.
     ///
     /// ```
-    /// use burgeon_data::output::OutputPlacement;
-    /// use burgeon_data::{Crs, ReferenceFrame};
+    /// use burgeon_export::layers::OutputPlacement;
+    /// use burgeon_spatial::{Crs, ReferenceFrame};
     ///
     /// let frame = ReferenceFrame::around(&Crs::epsg(4326)?, [27.0, 60.0], "the town")?;
     /// assert_eq!(OutputPlacement::metric(Some(&frame))?.code, Some(32_635));

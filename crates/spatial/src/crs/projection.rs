@@ -44,7 +44,7 @@ pub(crate) fn unshifted_datum(code: Option<u16>, proj: &str) -> Option<String> {
 }
 
 /// Returns the definition of a coordinate system in well-known text, if the registry contains it.
-pub(crate) fn definition(code: u16) -> Result<Option<String>> {
+pub fn definition(code: u16) -> Result<Option<String>> {
     Ok(entry(u32::from(code))?.map(|found| found.text))
 }
 

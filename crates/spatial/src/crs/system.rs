@@ -4,7 +4,7 @@ use super::projection::{Projection, find_system, unshifted_datum};
 use burgeon_base::error::{Error, Result};
 
 /// Remedy for a coordinate system that cannot be used.
-pub(crate) const REMEDY: &str =
+pub const REMEDY: &str =
     "specify the correct one: source(file, { crs = 4326 }), or convert the file to EPSG:4326";
 
 /// Remedy for a datum without a known shift.
@@ -17,7 +17,7 @@ pub struct Crs {
     /// EPSG code.
     pub code: Option<u16>,
     name: String,
-    pub(crate) definition: String,
+    pub(super) definition: String,
     is_geographic: bool,
     /// Approximate length of one unit (m).
     metres: f64,
@@ -27,7 +27,7 @@ impl Crs {
     /// Returns the coordinate system with the EPSG code `code`.
     ///
     /// ```
-    /// use burgeon_data::Crs;
+    /// use burgeon_spatial::Crs;
     ///
     /// assert!(Crs::epsg(4326)?.is_geographic() && !Crs::epsg(3067)?.is_geographic());
     /// // A former code of Web Mercator.
@@ -62,7 +62,7 @@ impl Crs {
     }
 
     /// Returns a projection without an EPSG code that has a PROJ definition. Fails if the definition is unusable.
-    #[cfg(feature = "data")]
+    #[cfg(feature = "projections")]
     pub(crate) fn of_definition(name: &str, definition: &str) -> Result<Self> {
         let crs = Self::of_parts(None, name.to_owned(), definition.to_owned());
         crs.projection().map(|_| crs)
@@ -89,7 +89,7 @@ impl Crs {
     }
 
     /// Returns the approximate length of one unit (m).
-    pub(crate) fn metres(&self) -> f64 {
+    pub fn metres(&self) -> f64 {
         self.metres
     }
 
@@ -116,7 +116,7 @@ impl Crs {
 
     /// Returns the message that positions in longitude and latitude, and in other coordinate systems, are inaccurate, if
     /// no shift from the datum to WGS 84 is known. `shown` is the file with these coordinates.
-    pub(crate) fn shift_note(&self, shown: &str) -> Option<[String; 2]> {
+    pub fn shift_note(&self, shown: &str) -> Option<[String; 2]> {
         let datum = self.unshifted_datum()?;
         let text = format!(
             "{shown} is in {}: no shift from {datum} to WGS 84 is known; positions in longitude and latitude, and in other coordinate systems, may be off by some hundred metres",
