@@ -23,7 +23,7 @@
 //! streets    uses ──► base, geometry
 //! spatial    uses ──► base, geometry, kit
 //! data       uses ──► base, kit, spatial
-//! sources    uses ──► base, data, geometry, kit, spatial
+//! sources    uses ──► base, data, kit, spatial
 //! terrain    uses ──► base, geometry, scene
 //! objects    uses ──► base, data, geometry, kit, rewriting, scene, spatial, streets, terrain
 //! packages   uses ──► base

@@ -33,6 +33,7 @@ mod reach;
 mod records;
 mod relation;
 mod scripting;
+mod simplification;
 mod skeleton;
 mod topology;
 mod validity;
@@ -42,6 +43,7 @@ pub mod wkb;
 pub mod wkt;
 
 pub use buffer::{BufferCap, BufferJoin, BufferOptions};
+pub use burgeon_geometry::Rings;
 pub use burgeon_kit::Attribute;
 pub use crs::{Crs, Passage, ReferenceFrame, WORLD_AXES, WorldPlace};
 pub use geometry::{FARTHEST, Geometry};

@@ -4,8 +4,7 @@ use proptest::prelude::*;
 use super::*;
 use burgeon_base::stop::Stop;
 use burgeon_data::{FeatureTable, Layer, Source, SourceOptions};
-use burgeon_geometry::Rings;
-use burgeon_spatial::{Attribute, Crs, Geometry, Record, RecordTable, ReferenceFrame};
+use burgeon_spatial::{Attribute, Crs, Geometry, Record, RecordTable, ReferenceFrame, Rings};
 
 /// Returns the frame at a position in a coordinate system.
 fn frame(code: u32, [x, y]: [f64; 2]) -> ReferenceFrame {

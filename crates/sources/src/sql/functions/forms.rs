@@ -1,7 +1,6 @@
 //! Functions that create geometries, and functions that convert them to other formats.
 
-use burgeon_geometry::Rings;
-use burgeon_spatial::{Crs, Geometry, wkb};
+use burgeon_spatial::{Crs, Geometry, Rings, wkb};
 use glam::DVec3;
 
 use super::call::{FunctionCall, FunctionResult};

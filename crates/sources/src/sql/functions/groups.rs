@@ -3,8 +3,7 @@
 use std::panic::AssertUnwindSafe;
 use std::sync::Arc;
 
-use burgeon_geometry::Rings;
-use burgeon_spatial::Geometry;
+use burgeon_spatial::{Geometry, Rings};
 use glam::DVec3;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
