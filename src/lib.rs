@@ -31,9 +31,8 @@
 //! engine     uses ──► base, kit, language, packages, rewriting, scene, spatial
 //! picture    uses ──► base, scene
 //! export     uses ──► base, picture, scene, spatial
-//! watch      uses ──► base
-//! live       uses ──► base, engine, export, picture, scene, watch
-//! burgeon    uses ──► base, data, engine, export, geometry, kit, language, live, objects, packages, picture, rewriting, scene, sources, spatial, terrain, watch
+//! live       uses ──► base, engine, export, picture, scene
+//! burgeon    uses ──► base, data, engine, export, geometry, kit, language, live, objects, packages, picture, rewriting, scene, sources, spatial, terrain
 //! ```
 //!
 //! - [`error`], [`warning`](mod@warning) and [`text`]: errors, warnings and human-readable text. [`Stop`] cancels work;
@@ -156,7 +155,7 @@ pub use burgeon_geometry as geometry;
 pub use burgeon_kit as kit;
 pub use burgeon_language as language;
 pub use burgeon_live as live;
-pub use burgeon_live::{films, presets, variations};
+pub use burgeon_live::{films, presets, variations, watch};
 pub use burgeon_objects as objects;
 pub use burgeon_packages as packages;
 pub use burgeon_picture as picture;
@@ -165,7 +164,6 @@ pub use burgeon_scene as scene;
 pub use burgeon_sources as sources;
 pub use burgeon_spatial as spatial;
 pub use burgeon_terrain as terrain;
-pub use burgeon_watch as watch;
 
 /// Returns all object types and sources of Burgeon.
 pub fn registry() -> kit::Registry {

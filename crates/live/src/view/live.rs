@@ -15,8 +15,8 @@ use super::settings::{Notice, PORT, Settings};
 use super::state::{DueRun, ServerState};
 use super::token::{Keep, Token};
 use super::{changes, connections, tools, work};
+use crate::watch::Watch;
 use burgeon_base::error::{Error, Result};
-use burgeon_watch::Watch;
 
 /// Number of ports to try after an occupied one.
 const TRIES: u16 = 100;

@@ -16,6 +16,7 @@ use super::state::{ActiveRun, LiveState, PresentModel, ServerState};
 use super::urls::model_url;
 use super::{Notice, describe};
 use crate::presets::Presets;
+use crate::watch::{Watch, unsettled};
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::panic_message;
@@ -23,7 +24,6 @@ use burgeon_base::warning::Warning;
 use burgeon_engine::run::{Run, run_session};
 use burgeon_engine::script::{Limits, Session, make_ready};
 use burgeon_export::gltf::{self, Layout};
-use burgeon_watch::{Watch, unsettled};
 
 /// Interval of progress reports to pages.
 const TICK: Duration = Duration::from_millis(100);

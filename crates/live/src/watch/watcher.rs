@@ -1,15 +1,4 @@
-//! Watches the files that determine the result of a run, and reports changes of their content.
-//!
-//! Input: paths of files and folders, which need not exist. Output: a [`Change`] soon after the content of one of them
-//! changes, or after it is created or deleted. The content of a folder is the names in it. A save that changes nothing
-//! is never reported, and only regular files are opened.
-//!
-//! Folders are watched instead of files, because most editors save by renaming a new file over the old one (`folders`).
-//! The effect of an event is determined by comparing contents (`files`).
-
-mod database;
-mod files;
-mod folders;
+//! Watch of files and folders, and waits for files that are being written.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -17,9 +6,9 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant, SystemTime};
 
+use super::files::{self, WatchedFiles};
+use super::folders::{self, AnyWatcher, Folders, Handler, Sign};
 use burgeon_base::error::{Error, Result};
-use files::WatchedFiles;
-use folders::{AnyWatcher, Folders, Handler, Sign};
 
 /// Quiet time after an event before files are compared, unless the event marks the end of a save. Editors save in
 /// several steps.
@@ -60,7 +49,7 @@ pub struct Change {
 /// A file that has just been written in place may be incomplete. A caller that cannot read it should try again.
 ///
 /// ```
-/// use burgeon_watch::unsettled;
+/// use burgeon_live::watch::unsettled;
 /// use std::time::{Duration, SystemTime};
 ///
 /// let file = tempfile::NamedTempFile::new()?;
@@ -81,7 +70,7 @@ pub fn unsettled<'a>(files: impl IntoIterator<Item = &'a Path>) -> Option<Durati
 ///
 /// ```
 /// use burgeon_base::Error;
-/// use burgeon_watch::settled;
+/// use burgeon_live::watch::settled;
 ///
 /// let file = tempfile::NamedTempFile::new()?;
 /// std::fs::write(file.path(), "42")?;
@@ -108,7 +97,7 @@ pub fn settled<T>(path: &Path, read: impl Fn() -> Result<T>) -> Result<T> {
 /// Watches files in a separate thread until it is dropped.
 ///
 /// ```
-/// use burgeon_watch::Watch;
+/// use burgeon_live::watch::Watch;
 /// use std::sync::mpsc::channel;
 /// use std::time::Duration;
 ///
@@ -197,7 +186,7 @@ impl Watch {
     /// last look, which was not before `since`. New files that have changed since are reported as changed.
     ///
     /// ```
-    /// use burgeon_watch::Watch;
+    /// use burgeon_live::watch::Watch;
     /// use std::sync::mpsc::channel;
     /// use std::time::{Duration, SystemTime};
     ///
