@@ -7,8 +7,8 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use burgeon::data::{Layer, Source, SourceOptions};
-use burgeon::spatial::{BufferOptions, Geometry, union_all};
+use burgeon_data::{Layer, Source, SourceOptions};
+use burgeon_spatial::{BufferOptions, Geometry, union_all};
 use rstar::primitives::{GeomWithData, Line, Rectangle};
 use rstar::{AABB, RTree};
 

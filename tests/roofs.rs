@@ -5,12 +5,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use burgeon::data::{Layer, Source, SourceOptions};
-use burgeon::geometry::skeleton::{Pace, Skeleton};
-use burgeon::geometry::{Plan, Rings, solid};
 use burgeon::kit::{Call, Object, Parameter, Table, TableKey, Value};
 use burgeon::objects::Footprint;
-use burgeon::spatial::{PolygonArgument, rings};
+use burgeon_data::{Layer, Source, SourceOptions};
+use burgeon_geometry::skeleton::{Pace, Skeleton};
+use burgeon_geometry::{Plan, Rings, solid};
+use burgeon_spatial::{PolygonArgument, rings};
 use glam::DVec3;
 
 const KINDS: [&str; 10] =

@@ -45,7 +45,7 @@ pub mod wkt;
 pub use buffer::{BufferCap, BufferJoin, BufferOptions};
 pub use burgeon_geometry::Rings;
 pub use burgeon_kit::Attribute;
-pub use crs::{Crs, Passage, ReferenceFrame, WORLD_AXES, WorldPlace};
+pub use crs::{Crs, Passage, ReferenceFrame, WorldPlace};
 pub use geometry::{FARTHEST, Geometry};
 pub use kind::GeometryKind;
 pub use overlay::union_all;

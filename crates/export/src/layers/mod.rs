@@ -8,7 +8,7 @@ mod geojson;
 #[cfg_attr(not(feature = "data"), path = "absent_geopackage.rs")]
 mod geopackage;
 mod place;
-#[cfg(all(test, feature = "data"))]
+#[cfg(test)]
 mod tests;
 mod write;
 

@@ -1,3 +1,7 @@
+//! Tests of layers: what is written reads back.
+
+#![cfg(feature = "data")]
+
 use glam::DVec3;
 use proptest::prelude::*;
 

@@ -25,4 +25,4 @@ pub use projection::definition;
 pub use system::{Crs, REMEDY};
 #[cfg(feature = "projections")]
 pub use vertical::unit_of_system;
-pub use world_place::{WORLD_AXES, WorldPlace};
+pub use world_place::WorldPlace;

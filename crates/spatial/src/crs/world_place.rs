@@ -9,9 +9,6 @@ use super::prj::IN_METRES;
 use super::projection::definition;
 use super::system::Crs;
 
-/// Axes of a run's coordinates.
-pub const WORLD_AXES: &str = "x east, y north, z up (m)";
-
 /// Georeference of a run's coordinates: the origin in a coordinate system.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WorldPlace {
