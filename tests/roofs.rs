@@ -59,7 +59,7 @@ fn build(rings: &Rings, kind: &str, eaves: &str, overhang: f64) -> Vec<String> {
     raise(&mut *house, kind, eaves, overhang);
     let check = solid::check(house.drawing_mut().unwrap().parts());
     assert!(check.is_solid(), "{kind} {eaves} {overhang}: {check:?} over {rings:?}");
-    house.notes().iter().map(|note| note.what.clone()).collect()
+    house.notes().iter().map(|note| note.message().to_owned()).collect()
 }
 
 /// Builds a building with walls of 3 m.

@@ -149,9 +149,9 @@ pub struct RunOptions {
     /// Set to end the run before the first derivation, after all declarations have been read.
     pub check: bool,
     /// Set to treat warnings and faulty data as errors. Otherwise faulty features are skipped, and
-    /// [`DerivedSystem::remarks`] lists them.
+    /// [`DerivedSystem::feature_warnings`] lists them.
     ///
-    /// [`DerivedSystem::remarks`]: crate::results::DerivedSystem::remarks
+    /// [`DerivedSystem::feature_warnings`]: crate::results::DerivedSystem::feature_warnings
     pub strict: bool,
     /// Number of worker threads; the number of cores if `None`.
     pub threads: Option<usize>,

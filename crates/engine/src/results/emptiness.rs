@@ -65,11 +65,12 @@ fn is_interpreted(system: &DerivedSystem) -> bool {
 /// Returns the warning about skipped features of a system, with the first reason. Features that the source
 /// has already reported are not counted.
 pub(crate) fn left_out(system: &DerivedSystem) -> Option<Warning> {
-    let mut skipped = system.remarks.iter().filter(|remark| remark.skipped && !remark.unread);
+    let mut skipped =
+        system.feature_warnings.iter().filter(|warning| warning.kind() == WarningKind::SkippedFeature);
     let first = skipped.next()?;
-    let (count, why) = (1 + skipped.count(), &first.why);
-    let id = first.feature.as_deref().map_or_else(String::new, |id| format!(" {}", shown(id)));
-    let source = if first.source.is_empty() { String::new() } else { format!(" of {}", first.source) };
+    let (count, why) = (1 + skipped.count(), first.cause());
+    let id = first.feature().map_or_else(String::new, |id| format!(" {}", shown(id)));
+    let source = if first.source().is_empty() { String::new() } else { format!(" of {}", first.source()) };
     let text = match count {
         1 => format!("skipped feature{id}{source}: {why}"),
         _ => format!("skipped {count} of {} features, e.g. feature{id}{source}: {why}", system.given),
