@@ -302,7 +302,7 @@ pub(crate) fn query(bytes: &[u8], folder: &Path) -> bool {
     let _ = tables.plan(&sql, &budget);
     let answer = tables.query(&sql, &[("g", place), ("n", Cell::Number(1.0))], &budget);
     let Ok(answer) = answer else { return false };
-    assert!(answer.rows.iter().all(|row| row.len() == answer.names.len()));
+    assert!(answer.iter().all(|row| row.len() == answer.names.len()));
     true
 }
 

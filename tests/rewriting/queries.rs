@@ -48,7 +48,7 @@ impl RowSource for Items {
         };
         let values = kept.flat_map(row).collect();
         let name = |field: &&str| Arc::from(field.rsplit(" as ").next().unwrap_or_default());
-        Ok(QueryRows { names: fields.iter().map(name).collect(), values })
+        Ok(QueryRows::new(fields.iter().map(name).collect::<Vec<_>>(), values))
     }
 }
 

@@ -21,7 +21,7 @@ mod warning_kind;
 pub mod work;
 
 pub use account::{MemoryAccount, MemoryOwner};
-pub use budget::{Budget, MemoryReservation};
+pub use budget::{Budget, BudgetCharge, MemoryReservation};
 pub use error::{Error, Result};
 pub use module_key::{KeyPart, ModuleKey};
 pub use stop::Stop;

@@ -148,7 +148,7 @@ fn features(answer: &ServerAnswer, mut table: FeatureTable, wanted: &SourceOptio
     };
     let wrong = answer.faults.iter().filter(|fault| fault.column == 1);
     let wrong: FxHashMap<usize, &str> = wrong.map(|fault| (fault.row, fault.why.as_str())).collect();
-    for (row, number) in answer.rows.rows.iter().zip(1usize..) {
+    for (row, number) in answer.rows.iter().zip(1usize..) {
         let key = text(&row[0]).unwrap_or_else(|| number.to_string());
         let id = id.and_then(|id| text(&row[id + 2])).unwrap_or(key);
         if let Some(why) = wrong.get(&(number - 1)) {

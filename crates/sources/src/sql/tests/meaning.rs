@@ -341,7 +341,7 @@ fn expressions_give_what_they_give_in_postgresql_or_are_refused() {
         match database.query(&statement(expression), &[], &budget()) {
             Ok(answer) => {
                 assert!(!expression.starts_with('!'), "{expression}: {answer}");
-                let mut values: Vec<String> = answer.rows.iter().map(|row| row[1].to_string()).collect();
+                let mut values: Vec<String> = answer.iter().map(|row| row[1].to_string()).collect();
                 values.dedup();
                 told += &format!("    {}\n", values.join("\n    "));
             }
