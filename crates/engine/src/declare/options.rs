@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use super::{FeaturePart, Preset};
 use crate::checkpoints::DerivationStore;
-use crate::questions::RowSource;
+use crate::queries::RowSource;
 use burgeon_base::stop::Stop;
 use burgeon_kit::Registry;
 

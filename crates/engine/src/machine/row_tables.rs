@@ -1,4 +1,4 @@
-//! Rust functions for `prelude/questions.luau`: SQL queries of scripts, and their results.
+//! Rust functions for `prelude/queries.luau`: SQL queries of scripts, and their results.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -10,7 +10,7 @@ use rustc_hash::FxHashMap;
 use super::convert::{to_lua, to_value};
 use super::library::Library;
 use super::{Machine, WorkState};
-use crate::questions::Question;
+use crate::queries::SqlQuery;
 use burgeon_kit::{QueryRows, Value};
 use burgeon_language::analysis::sql_parameters;
 use burgeon_rewriting::{Pattern, Symbols};
@@ -25,8 +25,8 @@ struct RowTables {
     values: usize,
 }
 
-/// Adds the functions that [`prelude/questions.luau`](self) calls.
-pub(super) fn add_questions(
+/// Adds the functions that [`prelude/queries.luau`](self) calls.
+pub(super) fn add_queries(
     lua: &Lua,
     host: &Table,
     current: &Rc<WorkState>,
@@ -61,7 +61,7 @@ pub(super) fn add_questions(
                     _ => None,
                 };
                 let scope = library.question_scope(&state.session, |session| Machine::asker(lua, session));
-                let question = Question::new(sql.to_string_lossy().into(), values).asked_in(scope);
+                let question = SqlQuery::new(sql.to_string_lossy().into(), values).asked_in(scope);
                 let rows = match at_top {
                     true => state.session.ask_about(&question, &state.chains_derived.borrow(), true),
                     false => state.session.ask(&question),
@@ -107,7 +107,7 @@ fn row_tables(lua: &Lua, rows: &QueryRows) -> mlua::Result<Table> {
     Ok(list)
 }
 
-/// Returns the argument indices of a rule with this pattern, by name, for `prelude/questions.luau`.
+/// Returns the argument indices of a rule with this pattern, by name, for `prelude/queries.luau`.
 pub(super) fn argument_places(lua: &Lua, pattern: &Pattern, symbols: &Symbols) -> mlua::Result<Table> {
     let places = lua.create_table()?;
     for (place, name) in pattern.arguments(symbols) {

@@ -7,10 +7,10 @@
 mod cache;
 mod chains;
 mod fit;
-mod question;
+mod sql_query;
 
 pub(crate) use cache::{AskedRows, RowCache};
 pub(crate) use chains::ChainView;
 pub(crate) use chains::NamedModule;
 pub(crate) use fit::{fit, listed};
-pub use question::{Question, RowSource};
+pub use sql_query::{RowSource, SqlQuery};

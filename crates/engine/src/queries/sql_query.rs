@@ -14,7 +14,7 @@ use burgeon_language::analysis::sql_parameters;
 
 /// SQL text with the values of its parameters. Two queries are equal if text, values and scope are equal.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Question {
+pub struct SqlQuery {
     /// Cached hash of text and values: values can be large, and lookups need the hash repeatedly.
     hash: u64,
     sql: Arc<str>,
@@ -23,13 +23,13 @@ pub struct Question {
     scope: Option<Arc<NameScope>>,
 }
 
-impl Hash for Question {
+impl Hash for SqlQuery {
     fn hash<H: Hasher>(&self, state: &mut H) {
         state.write_u64(self.hash);
     }
 }
 
-impl Question {
+impl SqlQuery {
     /// Creates a query with the text `sql` and parameter `values` by name. Missing values are NULL.
     pub fn new(sql: Arc<str>, values: Option<Arc<Table>>) -> Self {
         let values = values.filter(|values| !values.entries.is_empty());
@@ -80,7 +80,7 @@ impl Question {
     }
 }
 
-impl fmt::Display for Question {
+impl fmt::Display for SqlQuery {
     /// Writes the text, followed by the parameter values.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.sql)?;
@@ -97,7 +97,7 @@ impl fmt::Display for Question {
 /// Source of query results, such as a database.
 pub trait RowSource: Send + Sync {
     /// Returns the rows of `question`, at most `most`, always in the same order.
-    fn rows(&self, question: &Question, most: usize) -> Result<QueryRows>;
+    fn rows(&self, question: &SqlQuery, most: usize) -> Result<QueryRows>;
 }
 
 impl fmt::Debug for dyn RowSource {

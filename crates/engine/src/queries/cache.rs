@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use rustc_hash::FxHashMap;
 
-use super::{Question, RowSource};
+use super::{RowSource, SqlQuery};
 use burgeon_base::error::Result;
 use burgeon_base::locks::LockRecovery;
 use burgeon_kit::QueryRows;
@@ -23,7 +23,7 @@ type Slot = Arc<OnceLock<Result<Arc<QueryRows>>>>;
 /// every virtual machine must see the same rows.
 #[derive(Default)]
 pub(crate) struct RowCache {
-    known: Mutex<FxHashMap<(Question, u64), CacheEntry>>,
+    known: Mutex<FxHashMap<(SqlQuery, u64), CacheEntry>>,
     /// Words of SQL texts that may name modules.
     words: Mutex<FxHashMap<Arc<str>, Arc<[String]>>>,
     /// Set once a query has named modules of the chains.
@@ -52,7 +52,7 @@ pub(crate) struct AskedRows<'a> {
 
 impl RowCache {
     /// Returns the result of `question`.
-    pub(crate) fn ask(&self, question: &Question, asked: &AskedRows<'_>) -> Result<Arc<QueryRows>> {
+    pub(crate) fn ask(&self, question: &SqlQuery, asked: &AskedRows<'_>) -> Result<Arc<QueryRows>> {
         let slot = {
             let mut known = self.known.lock().recover();
             let kept = known
@@ -73,7 +73,7 @@ impl RowCache {
     }
 
     /// Records a query of a rule for the module at `place` in the current step, with its number of rows.
-    pub(crate) fn note(&self, place: usize, question: &Question, rows: usize) {
+    pub(crate) fn note(&self, place: usize, question: &SqlQuery, rows: usize) {
         self.note_answer(place, format!("{question}: {rows} row{}", if rows == 1 { "" } else { "s" }));
     }
 
@@ -130,7 +130,7 @@ mod tests {
     struct CountedSource(AtomicUsize);
 
     impl RowSource for CountedSource {
-        fn rows(&self, question: &Question, _: usize) -> Result<QueryRows> {
+        fn rows(&self, question: &SqlQuery, _: usize) -> Result<QueryRows> {
             self.0.fetch_add(1, Ordering::Relaxed);
             match question.sql() {
                 "wrong" => Err(Error::argument("it is wrong")),
@@ -144,7 +144,7 @@ mod tests {
         let (kept, source) = (RowCache::default(), CountedSource::default());
         let ask = |sql: &str| {
             let asked = AskedRows { source: &source, most: 10, view: 0, stays: false };
-            kept.ask(&Question::new(sql.into(), None), &asked)
+            kept.ask(&SqlQuery::new(sql.into(), None), &asked)
         };
         std::thread::scope(|scope| {
             for _ in 0..8 {
