@@ -113,7 +113,8 @@ fn region() {
 /// Finds the nearest road of every building, by the segments of the roads.
 fn town() {
     let Some(path) = shared("helsinki.gpkg") else { return };
-    let names = Source::open(&path, "helsinki").unwrap().layers();
+    let source = Source::open(&path, "helsinki").unwrap();
+    let names = source.layers();
     println!("helsinki: {}", names.join(", "));
     let Some(roads) = names.iter().find(|name| name.contains("road") || name.contains("street")) else {
         return;

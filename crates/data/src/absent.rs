@@ -22,7 +22,7 @@ impl GeoPackage {
         left_out().map_err(|error: Error| error.about(name))
     }
 
-    pub(crate) fn layers(&self) -> Vec<String> {
+    pub(crate) fn layers(&self) -> Vec<&str> {
         match *self {}
     }
 
@@ -42,7 +42,7 @@ macro_rules! absent {
                 left_out().map_err(|error: Error| error.about(name))
             }
 
-            pub(crate) fn layers(&self) -> Vec<String> {
+            pub(crate) fn layers(&self) -> Vec<&str> {
                 match *self {}
             }
 
@@ -73,7 +73,7 @@ impl OsmFile {
         left_out().map_err(|error: Error| error.about(&file.name))
     }
 
-    pub(crate) fn layers(&self) -> Vec<String> {
+    pub(crate) fn layers(&self) -> Vec<&str> {
         match *self {}
     }
 

@@ -98,20 +98,20 @@ impl Listing {
             Source::GeoPackage(package) => {
                 for layer in package.layers() {
                     let Source::GeoPackage(package) = open()? else { continue };
-                    layers.push(LayerListing::of(package.read(&layer, &wanted)?)?);
+                    layers.push(LayerListing::of(package.read(layer, &wanted)?)?);
                     budget.settle(before, 0);
                 }
             }
             Source::FlatGeobuf(file) => layers.push(LayerListing::of(file.read(&wanted)?)?),
             Source::Layered(file) => {
                 for layer in file.layers() {
-                    layers.push(LayerListing::of(file.read(&layer, &wanted)?)?);
+                    layers.push(LayerListing::of(file.read(layer, &wanted)?)?);
                     budget.settle(before, 0);
                 }
             }
             Source::Osm(file) => {
                 for layer in file.layers() {
-                    let wanted = SourceOptions { layer: Some(layer), ..wanted.clone() };
+                    let wanted = SourceOptions { layer: Some(layer.to_owned()), ..wanted.clone() };
                     let layer = LayerListing::of(file.read(&wanted)?)?;
                     // Only layers with content in the extract are listed.
                     if layer.records > 0 || layer.refused.is_some() {

@@ -389,7 +389,7 @@ mod tests {
     }
 
     fn read<T: Parameter>(value: &Value) -> T {
-        T::from_value(value.clone()).unwrap()
+        T::read_value(value).unwrap()
     }
 
     #[test]

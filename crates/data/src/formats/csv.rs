@@ -80,8 +80,8 @@ impl LayeredFile for CsvFile {
         "CSV"
     }
 
-    fn layers(&self) -> Vec<String> {
-        vec![self.layer.clone()]
+    fn layers(&self) -> Vec<&str> {
+        vec![&self.layer]
     }
 
     fn read(&self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {

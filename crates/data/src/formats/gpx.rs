@@ -78,8 +78,8 @@ impl LayeredFile for GpxFile {
         "GPX"
     }
 
-    fn layers(&self) -> Vec<String> {
-        self.layers.iter().map(|layer| (*layer).to_owned()).collect()
+    fn layers(&self) -> Vec<&str> {
+        self.layers.iter().copied().collect()
     }
 
     fn read(&self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {

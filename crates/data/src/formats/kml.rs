@@ -61,8 +61,8 @@ impl LayeredFile for KmlFile {
         "KML"
     }
 
-    fn layers(&self) -> Vec<String> {
-        vec![self.layer.clone()]
+    fn layers(&self) -> Vec<&str> {
+        vec![&self.layer]
     }
 
     fn read(&self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {

@@ -105,6 +105,11 @@ pub(crate) struct SystemUses {
 }
 
 impl DerivedSystem {
+    /// Returns `warning` with the location where the system was created, and the line that called it.
+    pub fn locate(&self, warning: Warning) -> Warning {
+        warning.at(self.place.clone()).called_at(self.caller.clone())
+    }
+
     /// Returns the number of modules in all chains, without brackets.
     pub fn modules(&self) -> usize {
         self.modules

@@ -62,7 +62,7 @@ fn read(bytes: &[u8], extension: &str, layer: Option<&str>) -> (FeatureTable, Ve
     let path = folder.path().join(format!("a.{extension}"));
     std::fs::write(&path, bytes).unwrap();
     let source = Source::open(&path, "a").unwrap();
-    let layers = source.layers();
+    let layers = source.layers().into_iter().map(str::to_owned).collect();
     let wanted = SourceOptions { layer: layer.map(str::to_owned), ..SourceOptions::default() };
     (source.read("a", &wanted).unwrap(), layers)
 }

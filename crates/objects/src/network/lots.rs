@@ -89,7 +89,7 @@ impl Parameter for BlockArea {
                 Some(Value::Number(id)) => Some(Value::Number(*id).to_string()),
                 _ => None,
             };
-            return Ok(Self { id, rings: PolygonArgument::from_value(geometry.clone())?.0 });
+            return Ok(Self { id, rings: PolygonArgument::read_value(geometry)?.0 });
         }
         Ok(Self { id: None, rings: PolygonArgument::from_value(value)?.0 })
     }

@@ -27,8 +27,7 @@ impl Parameter for ViewArgument {
         {
             return Err(what());
         }
-        let cell =
-            table.get("cell").map(|cell| f64::from_value(cell.clone())).transpose().map_err(|_| what())?;
+        let cell = table.get("cell").map(f64::read_value).transpose().map_err(|_| what())?;
         let cell = cell.filter(|cell| *cell > 0.0).ok_or_else(what)?;
         let rings = Vec::<Vec<u32>>::from_value(table.get("rings").cloned().unwrap_or(Value::Nil));
         let rings = rings.map_err(|_| what())?.into_iter().map(|ring| match ring.as_slice() {

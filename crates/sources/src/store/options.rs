@@ -70,7 +70,7 @@ fn corners(value: &Value) -> Result<[f64; 4]> {
     };
     let corners = match numbers[..] {
         [Value::Number(west), Value::Number(south), Value::Number(east), Value::Number(north)] => {
-            Some([west, south, east, north])
+            Some([*west, *south, *east, *north])
         }
         _ => None,
     };

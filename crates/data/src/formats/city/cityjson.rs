@@ -199,8 +199,8 @@ impl LayeredFile for CityJson {
         "CityJSON"
     }
 
-    fn layers(&self) -> Vec<String> {
-        self.types.clone()
+    fn layers(&self) -> Vec<&str> {
+        self.types.iter().map(String::as_str).collect()
     }
 
     fn read(&self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {

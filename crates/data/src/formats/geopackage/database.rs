@@ -70,8 +70,8 @@ impl GeoPackage {
         Ok(Self { connection, state, name, layers })
     }
 
-    pub(crate) fn layers(&self) -> Vec<String> {
-        self.layers.iter().map(|layer| layer.table.clone()).collect()
+    pub(crate) fn layers(&self) -> Vec<&str> {
+        self.layers.iter().map(|layer| layer.table.as_str()).collect()
     }
 
     pub(crate) fn read(self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {

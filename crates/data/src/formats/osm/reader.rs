@@ -47,8 +47,8 @@ impl OsmFile {
         Ok(Self { blobs: BlobFile::open(file, &name, &wanted.budget)?, name, stem })
     }
 
-    pub(crate) fn layers(&self) -> Vec<String> {
-        LAYERS.iter().map(|layer| layer.name.to_owned()).collect()
+    pub(crate) fn layers(&self) -> Vec<&str> {
+        LAYERS.iter().map(|layer| layer.name).collect()
     }
 
     pub(crate) fn read(&self, wanted: &SourceOptions) -> Result<FeatureTable> {

@@ -33,7 +33,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         |call| {
             let options = if call.len() == 3 { buffer_options(call)? } else { BufferOptions::default() };
             let made = call.geometry(0)?.geometry.buffer(call.number(1)?, &options);
-            made.map(FunctionResult::Geometry).map_err(|error| error.message().to_owned())
+            made.map(FunctionResult::Geometry).map_err(|error| error.into_message())
         },
     ),
     function(
@@ -49,7 +49,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
                 return Err(call.wrong_geometry(0, "a line"));
             }
             let made = line.geometry.offset(distance, &options);
-            made.map(FunctionResult::Geometry).map_err(|error| error.message().to_owned())
+            made.map(FunctionResult::Geometry).map_err(|error| error.into_message())
         },
     ),
     function(
