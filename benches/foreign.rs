@@ -9,11 +9,11 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use burgeon::Budget;
-use burgeon::data::{Layer, Source, SourceOptions};
-use burgeon::geometry::{Plan, Rings};
 use burgeon::picture::Picture;
 use burgeon::random::Stream;
 use burgeon::script::{Limits, RunOptions};
+use burgeon_data::{Layer, Source, SourceOptions};
+use burgeon_geometry::{Plan, Rings};
 use glam::DVec3;
 
 const VILLAGE: &str = include_str!("../examples/data/village.geojson");

@@ -11,12 +11,12 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use burgeon::data::{Layer, Source, SourceOptions};
-use burgeon::geometry::skeleton::{Pace, Skeleton};
-use burgeon::geometry::{Plan, Polygon, Rings, solid};
 use burgeon::kit::{Call, Parameter, Table, TableKey, Value};
 use burgeon::objects::Footprint;
-use burgeon::spatial::{PolygonArgument, rings};
+use burgeon_data::{Layer, Source, SourceOptions};
+use burgeon_geometry::skeleton::{Pace, Skeleton};
+use burgeon_geometry::{Plan, Polygon, Rings, solid};
+use burgeon_spatial::{PolygonArgument, rings};
 use glam::{DVec2, Vec3};
 
 #[allow(dead_code, reason = "the tests use the rest")]
@@ -64,7 +64,7 @@ fn town() -> Option<Vec<Polygon>> {
     let wanted = SourceOptions { layer: Some("buildings".into()), ..SourceOptions::default() };
     let table = Source::open(&path, "france").ok()?.read("france", &wanted).ok()?;
     let layer = Layer::new(table, &mut None).ok()?;
-    let plan = |feature: &burgeon::data::Feature| Some(Plan::new(rings(&feature.geometry)?).ok()?.flat());
+    let plan = |feature: &burgeon_data::Feature| Some(Plan::new(rings(&feature.geometry)?).ok()?.flat());
     Some(layer.features.iter().filter_map(plan).collect())
 }
 

@@ -7,8 +7,8 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use burgeon::data::{Layer, Source, SourceOptions};
-use burgeon::spatial::{BufferOptions, Geometry, union_all};
+use burgeon_data::{Layer, Source, SourceOptions};
+use burgeon_spatial::{BufferOptions, Geometry, union_all};
 use rstar::primitives::{GeomWithData, Line, Rectangle};
 use rstar::{AABB, RTree};
 
@@ -113,7 +113,8 @@ fn region() {
 /// Finds the nearest road of every building, by the segments of the roads.
 fn town() {
     let Some(path) = shared("helsinki.gpkg") else { return };
-    let names = Source::open(&path, "helsinki").unwrap().layers();
+    let source = Source::open(&path, "helsinki").unwrap();
+    let names = source.layers();
     println!("helsinki: {}", names.join(", "));
     let Some(roads) = names.iter().find(|name| name.contains("road") || name.contains("street")) else {
         return;

@@ -29,7 +29,11 @@ const SYSTEMS: [(&str, usize, &str); 9] = [
         "local list = table.create(1000000, F()) list[500000] = B(0) s:axiom(sequence(list))
          s:rule('B(n)', function(_, n) return B(n + 1) end)",
     ),
-    ("events from one module", 80_000, "s:axiom(A()) s:rule('A', { propensity = 1 }, function() return A(), A() end)"),
+    (
+        "events from one module",
+        80_000,
+        "s:axiom(A()) s:rule('A', { propensity = 1 }, function() return A(), A() end)",
+    ),
     (
         "events among a million modules",
         20_000,

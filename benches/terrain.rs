@@ -16,11 +16,11 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use burgeon::random::Stream;
-use burgeon::rewriting::ModuleKey;
 use burgeon::terrain::{
     Area, DivisionRules, Ground, GroundCuts, GroundMesh, LevelRules, NumberRange, Quadrants, RuleTable,
     Tables, TileRing, View, World,
 };
+use burgeon_rewriting::ModuleKey;
 use cpu_time::ProcessTime;
 use glam::DVec2;
 

@@ -6,10 +6,10 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use burgeon::geometry::sphere;
 use burgeon::kit::{Drawing, methods, object};
 use burgeon::scene::Material;
 use burgeon::script::RunOptions;
+use burgeon_geometry::sphere;
 use cpu_time::ProcessTime;
 use glam::DVec3;
 

@@ -5,12 +5,12 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use burgeon::geometry::sphere;
 use burgeon::kit::{Color, Drawing, Registry, methods, object};
 use burgeon::picture::Picture;
 use burgeon::scene::Material;
 use burgeon::script::RunOptions;
 use burgeon::{Result, export};
+use burgeon_geometry::sphere;
 use glam::DVec3;
 
 /// Balls stacked on each other.

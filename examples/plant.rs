@@ -5,7 +5,7 @@
 use std::fmt::Write as _;
 
 use burgeon::Result;
-use burgeon::rewriting::{CLOSE, Chain, ClosureSystem, OPEN, Symbol};
+use burgeon_rewriting::{CLOSE, Chain, ClosureSystem, OPEN, Symbol};
 
 /// Number of derivation steps.
 const STEPS: usize = 9;

@@ -7,10 +7,10 @@ cd "$(dirname "$0")/.."
 export CARGO_PROFILE_RELEASE_OVERFLOW_CHECKS=true CARGO_PROFILE_RELEASE_DEBUG_ASSERTIONS=true
 seconds=${1:-60} seed=${2:-$RANDOM} failed=0
 # Debug assertions of i_overlay hold of areas that fit its grid, and of tangles they may not.
-cargo build --quiet --release --package burgeon-fuzz --target-dir target/fuzz \
+cargo build --quiet --release --example fuzz --target-dir target/fuzz \
   --config profile.release.package.i_overlay.debug-assertions=false
 echo "seed $seed"
 for folder in fuzz/corpus/*/; do
-  target/fuzz/release/burgeon-fuzz "$(basename "$folder")" "$seconds" "$seed" || failed=1
+  target/fuzz/release/examples/fuzz "$(basename "$folder")" "$seconds" "$seed" || failed=1
 done
 exit "$failed"

@@ -23,31 +23,23 @@
 //! streets    uses ──► base, geometry
 //! spatial    uses ──► base, geometry, kit
 //! data       uses ──► base, kit, spatial
-//! sources    uses ──► base, data, geometry, kit, spatial
-//! terrain    uses ──► base, geometry, kit, rewriting, scene
+//! sources    uses ──► base, data, kit, spatial
+//! terrain    uses ──► base, geometry, scene
 //! objects    uses ──► base, data, geometry, kit, rewriting, scene, spatial, streets, terrain
 //! packages   uses ──► base
-//! language   uses ──► base, kit, packages, rewriting
+//! language   uses ──► base, kit, rewriting
 //! engine     uses ──► base, kit, language, packages, rewriting, scene, spatial
 //! picture    uses ──► base, scene
-//! export     uses ──► base, data, picture, scene
-//! watch      uses ──► base
-//! live       uses ──► base, engine, export, kit, picture, rewriting, scene, watch
-//! burgeon    uses ──► base, data, engine, export, geometry, kit, language, live, objects, packages, picture, rewriting, scene, sources, spatial, terrain, watch
+//! export     uses ──► base, picture, scene, spatial
+//! live       uses ──► base, engine, export, picture, scene
+//! burgeon    uses ──► base, engine, export, kit, language, live, objects, packages, picture, scene, sources, terrain
 //! ```
 //!
 //! - [`error`], [`warning`](mod@warning) and [`text`]: errors, warnings and human-readable text. [`Stop`] cancels work;
 //!   a [`Budget`] limits the memory and time for reading untrusted bytes.
 //! - [`scene`]: a [`Scene`](scene::Scene) of meshes and instances, ready for export.
-//! - [`geometry`]: lines, rings and polygons, frames, cross-sections, sweeps, straight skeletons and roofs, independent
-//!   of rules and scripts.
-//! - [`spatial`]: a [`Geometry`](spatial::Geometry) as a value, with the operations of OGC Simple Features.
-//! - [`data`]: data files, read into a [`Layer`](data::Layer) of features in metres, or into a
-//!   [`Relief`](data::elevation::Relief) of measured heights.
 //! - [`sources`]: sources of scripts, and SQL over them: a [`Database`](sources::sql::Database) returns a
 //!   [`QueryAnswer`](sources::sql::QueryAnswer).
-//! - [`rewriting`]: L-systems without Lua. A [`Grammar`](rewriting::Grammar) of [`Pattern`](rewriting::Pattern)s matches along a
-//!   [`Chain`](rewriting::Chain), and a [`Stepper`](rewriting::Stepper) makes the next one.
 //! - [`kit`]: the interface of objects. A [`Kind`](kit::Kind) in a [`Registry`](kit::Registry) describes the fields and
 //!   methods of an [`Object`](kit::Object).
 //! - [`language`]: the scripting API, described once: [`names`](language::names), and the definition file for editors.
@@ -67,6 +59,16 @@
 //! - [`films`]: runs of a script over the values of a parameter, and a model from all sides, as frames of a film.
 //! - [`live`]: a [`Live`](live::Live) server shows the scene in the browser, and updates it on every save. It requires
 //!   the feature `live`, which is enabled by default.
+//!
+//! A program without scripts uses the other crates directly:
+//!
+//! - `burgeon-rewriting`: L-systems without Lua. A grammar of patterns matches along a chain, and a stepper makes the next
+//!   one.
+//! - `burgeon-geometry`: lines, rings and polygons, frames, cross-sections, sweeps, straight skeletons and roofs.
+//! - `burgeon-streets`: planar street networks, their surfaces and blocks.
+//! - `burgeon-spatial`: geometries as values, with the operations of OGC Simple Features, and coordinate reference
+//!   systems.
+//! - `burgeon-data`: data files, read into layers of features in metres, or into measured heights.
 //!
 //! [`run()`] executes all stages, from a file to a scene:
 //!
@@ -145,26 +147,21 @@
 pub use burgeon_base::{
     Budget, Error, MemoryReservation, Result, Stop, Warning, WarningKind, error, locks, random, text, warning,
 };
-pub use burgeon_data as data;
 pub use burgeon_engine::each_part;
 pub use burgeon_engine::run::{Run, RunTimes, run, run_session};
 pub use burgeon_engine::{ScriptCheck, check, check_package, declared_types, declared_types_of_package};
 pub use burgeon_engine::{results, script, trace};
 pub use burgeon_export as export;
-pub use burgeon_geometry as geometry;
 pub use burgeon_kit as kit;
 pub use burgeon_language as language;
 pub use burgeon_live as live;
-pub use burgeon_live::{films, presets, variations};
+pub use burgeon_live::{films, presets, variations, watch};
 pub use burgeon_objects as objects;
 pub use burgeon_packages as packages;
 pub use burgeon_picture as picture;
-pub use burgeon_rewriting as rewriting;
 pub use burgeon_scene as scene;
 pub use burgeon_sources as sources;
-pub use burgeon_spatial as spatial;
 pub use burgeon_terrain as terrain;
-pub use burgeon_watch as watch;
 
 /// Returns all object types and sources of Burgeon.
 pub fn registry() -> kit::Registry {

@@ -11,10 +11,11 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use burgeon::data::elevation::{Raster, Relief};
-use burgeon::data::{Geometry, GeometryKind, Layer, Source, SourceOptions};
-use burgeon::geometry::{Plan, Rings};
 use burgeon::objects::Elevation;
+use burgeon_data::elevation::{Raster, Relief};
+use burgeon_data::{Layer, Source, SourceOptions};
+use burgeon_geometry::{Plan, Rings};
+use burgeon_spatial::{Geometry, GeometryKind};
 use glam::{DVec2, DVec3};
 
 #[path = "terrain/measured.rs"]
@@ -70,7 +71,7 @@ fn the_buildings_of_france_are_all_there_with_their_areas() {
     let france = layer(&path, "buildings", None);
     // 15,608 records, some of several parts; counted with Python's sqlite3 and struct.
     assert_eq!(france.features.len(), 15_617);
-    let rings = |feature: &burgeon::data::Feature| match &feature.geometry {
+    let rings = |feature: &burgeon_data::Feature| match &feature.geometry {
         Geometry::Polygon(rings) => rings.len(),
         _ => 0,
     };
@@ -208,8 +209,8 @@ fn the_same_features_are_read_from_every_format_that_another_program_writes() {
                     let column = table.names.iter().position(|known| known == name).unwrap();
                     let found = feature.attributes.iter().find(|(number, _)| *number == column).unwrap();
                     match &found.1 {
-                        burgeon::data::Attribute::Number(number) => number.to_string(),
-                        burgeon::data::Attribute::Text(text) => text.to_string(),
+                        burgeon_data::Attribute::Number(number) => number.to_string(),
+                        burgeon_data::Attribute::Text(text) => text.to_string(),
                         other => format!("{other:?}"),
                     }
                 };

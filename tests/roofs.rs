@@ -5,12 +5,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use burgeon::data::{Layer, Source, SourceOptions};
-use burgeon::geometry::skeleton::{Pace, Skeleton};
-use burgeon::geometry::{Plan, Rings, solid};
 use burgeon::kit::{Call, Object, Parameter, Table, TableKey, Value};
 use burgeon::objects::Footprint;
-use burgeon::spatial::{PolygonArgument, rings};
+use burgeon_data::{Layer, Source, SourceOptions};
+use burgeon_geometry::skeleton::{Pace, Skeleton};
+use burgeon_geometry::{Plan, Rings, solid};
+use burgeon_spatial::{PolygonArgument, rings};
 use glam::DVec3;
 
 const KINDS: [&str; 10] =
@@ -59,7 +59,7 @@ fn build(rings: &Rings, kind: &str, eaves: &str, overhang: f64) -> Vec<String> {
     raise(&mut *house, kind, eaves, overhang);
     let check = solid::check(house.drawing_mut().unwrap().parts());
     assert!(check.is_solid(), "{kind} {eaves} {overhang}: {check:?} over {rings:?}");
-    house.notes().iter().map(|note| note.what.clone()).collect()
+    house.notes().iter().map(|note| note.message().to_owned()).collect()
 }
 
 /// Builds a building with walls of 3 m.

@@ -7,10 +7,11 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use burgeon::data::{Layer, ReferenceFrame, Source, SourceOptions};
 use burgeon::picture::Picture;
 use burgeon::script::{RunInputs, RunOptions};
 use burgeon::{Run, export};
+use burgeon_data::{Layer, Source, SourceOptions};
+use burgeon_spatial::ReferenceFrame;
 
 const README: &str = include_str!("../README.md");
 

@@ -1,4 +1,4 @@
-//! Has the readers of foreign bytes look at damaged ones: `burgeon-fuzz TARGET SECONDS [SEED]`; `fuzz/run.sh` runs all.
+//! Has the readers of foreign bytes look at damaged ones: `fuzz TARGET SECONDS [SEED]`; `fuzz/run.sh` runs all.
 //!
 //! Inputs are those in `fuzz/corpus/TARGET`, damaged; one that a reader takes joins them for the rest of the run.
 //! What makes a reader panic, or keeps it longer than [`PATIENCE`], is left in `fuzz/found`, and the exit status is 1.
@@ -31,11 +31,11 @@ fn main() -> ExitCode {
     let wanted = arguments.first().and_then(|name| TARGETS.iter().find(|target| target.name == name));
     let seconds = arguments.get(1).and_then(|seconds| seconds.parse().ok());
     let (Some(target), Some(seconds)) = (wanted, seconds) else {
-        println!("burgeon-fuzz TARGET SECONDS [SEED]; the targets are\n{}", names.join("\n"));
+        println!("fuzz TARGET SECONDS [SEED]; the targets are\n{}", names.join("\n"));
         return ExitCode::from(2);
     };
     let seed = arguments.get(2).and_then(|seed| seed.parse().ok()).unwrap_or(1);
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folder = &Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz");
     let mut inputs: Vec<Vec<u8>> = Vec::new();
     let mut paths: Vec<PathBuf> = std::fs::read_dir(folder.join("corpus").join(target.name))
         .unwrap()

@@ -6,18 +6,18 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, SystemTime};
 
-use burgeon::data::elevation::{HeightOptions as WantedHeights, Raster, Relief};
-use burgeon::data::{Layer, Listing, Source, SourceOptions};
 use burgeon::kit::{Construct, LoadRequest, Resources, Table};
 use burgeon::packages::{Manifest, install, is_name};
 use burgeon::presets::Presets;
-use burgeon::rewriting::{Pattern, Signature, Symbols};
 use burgeon::script::{Limits, Print, RunOptions, RunReports};
 use burgeon::sources::sql::postgis::ServerAddress;
 use burgeon::sources::sql::{Cell, Database};
-use burgeon::spatial::{BufferOptions, Geometry};
 use burgeon::terrain::{Edits, World};
 use burgeon::{Budget, Error, Result};
+use burgeon_data::elevation::{HeightOptions as WantedHeights, Raster, Relief};
+use burgeon_data::{Layer, Listing, Source, SourceOptions};
+use burgeon_rewriting::{Pattern, Signature, Symbols};
+use burgeon_spatial::{BufferOptions, Geometry};
 use rusqlite::Connection;
 
 /// What a package says of itself.
@@ -302,7 +302,7 @@ pub(crate) fn query(bytes: &[u8], folder: &Path) -> bool {
     let _ = tables.plan(&sql, &budget);
     let answer = tables.query(&sql, &[("g", place), ("n", Cell::Number(1.0))], &budget);
     let Ok(answer) = answer else { return false };
-    assert!(answer.rows.iter().all(|row| row.len() == answer.names.len()));
+    assert!(answer.iter().all(|row| row.len() == answer.names.len()));
     true
 }
 

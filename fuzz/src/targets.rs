@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use burgeon::spatial::Geometry;
+use burgeon_spatial::Geometry;
 use readers::{
     address, budget, computed, condition, edits, heights, hgt, image, layer, manifest, model, osm, package,
     pattern, presets, query, raw, script, shapefile, wkb,

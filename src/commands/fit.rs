@@ -8,12 +8,10 @@ use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use burgeon::data::elevation::{HeightOptions, Raster};
-use burgeon::export;
 use burgeon::locks::LockRecovery;
 use burgeon::terrain::fit::{FitResult, Search, Target};
 use burgeon::text::grouped;
-use burgeon::{Budget, Error, Result};
+use burgeon::{Budget, Error, Result, export, sources};
 use clap::Args;
 use serde_json::json;
 
@@ -216,23 +214,9 @@ fn target(name: &str) -> Result<Target> {
         return Target::named(name);
     }
     // Only the shape of the terrain matters: both maps are scaled, so any position and any height range are suitable.
-    let range = |height: f64| is_png(path).then_some(height);
-    let wanted = HeightOptions {
-        low: range(0.0),
-        high: range(1.0),
-        bounds: Some([0.0, 0.0, 1e6, 1e6]),
-        anywhere: true,
-        ..HeightOptions::default()
-    };
-    let raster = Raster::open(path, name, &wanted, &Budget::default())?;
+    let raster = sources::read_height_shape(path, name, &Budget::default())?;
     let heights: Vec<f64> = raster.heights.iter().map(|height| f64::from(*height)).collect();
     Target::resample(raster.columns, raster.rows, &heights, ACROSS)
-}
-
-/// Returns true if the file at `path` begins as a PNG; false if it cannot be read, which a later read reports.
-fn is_png(path: &Path) -> bool {
-    let mut head = [0; 4];
-    File::open(path).and_then(|mut file| file.read_exact(&mut head)).is_ok() && &head == b"\x89PNG"
 }
 
 fn message(

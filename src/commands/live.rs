@@ -3,7 +3,7 @@
 use std::sync::mpsc::channel;
 
 use burgeon::Result;
-use burgeon::live::{Editor, Live, Notice, PORT, Settings, Token, browse, has_display};
+use burgeon::live::{Editor, Live, LiveEvent, PORT, Settings, Token, browse, has_display};
 use burgeon::text::grouped;
 use clap::Args;
 use serde_json::json;
@@ -82,17 +82,17 @@ impl LiveCommand {
 }
 
 /// Prints notices to standard error.
-fn tell(told: &Notice) {
+fn tell(told: &LiveEvent) {
     match told {
-        Notice::Model { triangles, modules, total } => report::eprint(&format!(
+        LiveEvent::Model { triangles, modules, total } => report::eprint(&format!(
             "{} triangles, {} modules in {}\n",
             grouped(*triangles),
             grouped(*modules),
             report::time(*total)
         )),
-        Notice::Failed(error) => report::error(error, false),
-        Notice::Warning(warning) => report::eprint(&report::warnings([warning])),
-        Notice::Waiting(text) | Notice::Note(text) => report::eprint(&format!("{text}\n")),
+        LiveEvent::Failed(error) => report::error(error, false),
+        LiveEvent::Warning(warning) => report::eprint(&report::warnings([warning])),
+        LiveEvent::Waiting(text) | LiveEvent::Text(text) => report::eprint(&format!("{text}\n")),
     }
 }
 

@@ -6,12 +6,15 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use burgeon::data::{ReferenceFrame, WORLD_AXES};
 use burgeon::script::{Param, Setting};
+use burgeon::sources::ReferenceFrame;
 use burgeon::text::escaped_lines;
 use burgeon::text::grouped;
 use burgeon::{Error, Result, Run, Warning};
 use serde_json::json;
+
+/// Axes of a run's coordinates.
+const WORLD_AXES: &str = "x east, y north, z up (m)";
 
 /// Prints an error to stderr, with the line of the script where it occurred. With `json`, prints JSON to stdout if
 /// possible.

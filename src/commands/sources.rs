@@ -1,10 +1,9 @@
 //! `burgeon sources`: lists the content of data files.
 
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::path::PathBuf;
 use std::time::Duration;
 
-use burgeon::data::Listing;
+use burgeon::sources::{Listing, list_content};
 use burgeon::{Budget, Error, Result};
 use clap::Args;
 use serde_json::json;
@@ -45,7 +44,7 @@ impl SourcesCommand {
         let time = Duration::from_secs_f64(self.time_limit);
         let budget = Budget::within(time, self.memory_limit as usize * 1_000_000);
         for file in &self.files {
-            match listing(file, &budget) {
+            match list_content(file, &budget) {
                 Ok(listing) => listings.push(listing),
                 Err(error) => problems.push(error),
             }
@@ -63,25 +62,4 @@ impl SourcesCommand {
         }
         Ok(())
     }
-}
-
-/// Lists the content of a file, or of the database at an address.
-fn listing(file: &Path, budget: &Arc<Budget>) -> Result<Listing> {
-    match file.to_str() {
-        Some(text) if text.starts_with("postgres://") || text.starts_with("postgresql://") => {
-            database(text, budget)
-        }
-        _ => Listing::read(file, budget),
-    }
-}
-
-#[cfg(feature = "postgis")]
-fn database(address: &str, budget: &Arc<Budget>) -> Result<Listing> {
-    use burgeon::sources::sql::postgis::{Server, ServerAddress};
-    Server::new(&ServerAddress::parse(address)?, None).listing(budget)
-}
-
-#[cfg(not(feature = "postgis"))]
-fn database(_: &str, _: &Arc<Budget>) -> Result<Listing> {
-    Err(Error::left_out("databases", "postgis"))
 }

@@ -283,7 +283,8 @@ fn the_oldest_rust_is_the_same_wherever_it_is_stated() {
     for file in ["README.md", ".ci/run"] {
         assert!(text(file).contains(&format!("Rust {oldest}")), "{file} does not name Rust {oldest}");
     }
-    for member in members().into_iter().map(|member| format!("crates/{member}")).chain(["fuzz".to_owned()]) {
+    for member in members() {
+        let member = format!("crates/{member}");
         let manifest = text(format!("{member}/Cargo.toml"));
         for inherited in
             ["rust-version.workspace = true", "license.workspace = true", "[lints]\nworkspace = true"]

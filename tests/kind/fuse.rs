@@ -2,7 +2,8 @@
 
 use burgeon::kit::{Drawing, Warn, methods, object};
 use burgeon::scene::Material;
-use burgeon::{Result, Warning, WarningKind, geometry};
+use burgeon::{Result, Warning, WarningKind};
+use burgeon_geometry as geometry;
 use glam::DVec3;
 
 /// A ball that may panic.

@@ -5,14 +5,14 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use burgeon::Result;
-use burgeon::data::{Features, Geometry, Layer};
-use burgeon::geometry::sphere;
 use burgeon::kit::{
     Drawing, Expand, Expectation, Object, Parameter, Prefetch, Rewriter, Table, Value, Vector, methods,
     object,
 };
 use burgeon::scene::Material;
-use burgeon::spatial::GeometryObject;
+use burgeon_data::{Features, Layer};
+use burgeon_geometry::sphere;
+use burgeon_spatial::{Geometry, GeometryObject};
 use glam::{DVec2, DVec3};
 
 /// Number of centres that were looked up in the prefetch.

@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use burgeon::rewriting::ClosureSystem;
+use burgeon_rewriting::ClosureSystem;
 
 use super::generate::Dice;
 use super::scripts::{all_chains, divided, try_run};
@@ -55,8 +55,8 @@ fn with_closures(seed: u64, rules: &[RulePlan], steps: usize) -> String {
     let symbols = NAMES.map(|name| system.module(name, &["x"]).expect("a module"));
     for rule in rules {
         let made = rule.successor.clone();
-        let successor = move |module: &burgeon::rewriting::AppliedModule<'_>,
-                              out: &mut burgeon::rewriting::Successors| {
+        let successor = move |module: &burgeon_rewriting::AppliedModule<'_>,
+                              out: &mut burgeon_rewriting::Successors| {
             let sum: f64 = module.arguments.iter().sum();
             for (name, factor, draws, branch) in &made {
                 let drawn = if *draws { module.random() } else { 0.0 };

@@ -1,7 +1,7 @@
 //! Random chains, patterns and rules that are hard for an engine, for tests and benches.
 
-use burgeon::rewriting::{Bindings, CLOSE, ContextMatcher};
-use burgeon::rewriting::{
+use burgeon_rewriting::{Bindings, CLOSE, ContextMatcher};
+use burgeon_rewriting::{
     Chain, END, FIRST_SYMBOL, Grammar, Links, ModuleKey, OPEN, Pattern, Rule, Signature, Symbols,
 };
 

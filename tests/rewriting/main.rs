@@ -1,6 +1,6 @@
 //! Rewriting from a script to its chains, tested against the laws of the design and the literature.
 
-use burgeon::rewriting;
+use burgeon_rewriting as rewriting;
 
 mod candidates;
 mod chains_as_axioms;

@@ -47,7 +47,7 @@ fn check(script: &Path, count: usize, reach: f64) -> usize {
             if system.features.iter().any(Option::is_some) || number == 1 {
                 chain.push_str(&system.chain_text());
                 given += system.given;
-                remarks.extend(system.remarks.iter().map(|remark| format!("{remark:?}")));
+                remarks.extend(system.feature_warnings.iter().map(|remark| format!("{remark:?}")));
             }
         }
     }
@@ -61,8 +61,12 @@ fn check(script: &Path, count: usize, reach: f64) -> usize {
         assert_eq!(chains[index], system.chain_text(), "system {index}");
     }
     assert_eq!(given, whole.systems.iter().map(|system| system.given).sum::<usize>());
-    let mut all: Vec<String> =
-        whole.systems.iter().flat_map(|it| &it.remarks).map(|remark| format!("{remark:?}")).collect();
+    let mut all: Vec<String> = whole
+        .systems
+        .iter()
+        .flat_map(|it| &it.feature_warnings)
+        .map(|remark| format!("{remark:?}"))
+        .collect();
     all.sort();
     remarks.sort();
     assert_eq!(remarks, all);

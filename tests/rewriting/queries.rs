@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use burgeon::kit::QueryRows;
 use burgeon::kit::Value;
-use burgeon::script::{Question, RowSource, RunOptions};
+use burgeon::script::{RowSource, RunOptions, SqlQuery};
 
 use super::scripts::{all_chains, divided, lines, run_with, try_run};
 
@@ -17,7 +17,7 @@ struct Items {
 }
 
 impl RowSource for Items {
-    fn rows(&self, question: &Question, _: usize) -> burgeon::Result<QueryRows> {
+    fn rows(&self, question: &SqlQuery, _: usize) -> burgeon::Result<QueryRows> {
         self.asked.fetch_add(1, Ordering::Relaxed);
         let n = question.values()?.into_iter().find(|(name, _)| *name == "n").map(|(_, value)| value);
         let limit = match n {
@@ -46,9 +46,9 @@ impl RowSource for Items {
             };
             fields.iter().map(value).collect::<Vec<_>>()
         };
-        let values = kept.flat_map(row).collect();
+        let values: Vec<Value> = kept.flat_map(row).collect();
         let name = |field: &&str| Arc::from(field.rsplit(" as ").next().unwrap_or_default());
-        Ok(QueryRows { names: fields.iter().map(name).collect(), values })
+        Ok(QueryRows::new(fields.iter().map(name).collect::<Vec<_>>(), values))
     }
 }
 

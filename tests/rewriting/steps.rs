@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use burgeon::rewriting::ClosureSystem;
 use burgeon::script::{DerivationStore, Print, RunOptions};
 use burgeon::{Result, Run};
+use burgeon_rewriting::ClosureSystem;
 
 use super::scripts::{all_chains, chain, divided, error, run, run_with, try_run};
 

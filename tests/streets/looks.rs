@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use burgeon::data::{Attribute, Source, SourceOptions};
+use burgeon_data::{Attribute, Source, SourceOptions};
 use burgeon_streets::StreetNetwork;
 use glam::DVec2;
 

@@ -4,16 +4,16 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use burgeon::data::elevation::{Raster, Relief, SampleGrid};
-use burgeon::data::{Crs, ReferenceFrame};
 use burgeon::objects::Elevation;
 use burgeon::random::Stream;
-use burgeon::rewriting::ModuleKey;
 use burgeon::scene::Part;
 use burgeon::terrain::{
     DivisionRules, Edit, Edits, Ground, GroundCuts, GroundMesh, HeightSource, LevelRules, NumberRange,
     Quadrants, RuleTable, Tables, TileRing, View, World,
 };
+use burgeon_data::elevation::{Raster, Relief, SampleGrid};
+use burgeon_rewriting::ModuleKey;
+use burgeon_spatial::{Crs, ReferenceFrame};
 use glam::{DVec2, DVec3};
 
 /// Maximum distances of the ground and of its triangles from the samples (m).

@@ -184,6 +184,34 @@ impl Drop for MemoryReservation<'_> {
     }
 }
 
+/// Memory of a result that grows, which is returned to its budget on drop. The default charges no budget.
+#[derive(Debug, Default)]
+pub struct BudgetCharge(Option<(Arc<Budget>, usize)>);
+
+impl BudgetCharge {
+    /// Creates a charge of 0 bytes.
+    pub fn new(budget: &Arc<Budget>) -> Self {
+        Self(Some((Arc::clone(budget), 0)))
+    }
+
+    /// Takes `bytes` more. Fails if the memory or time limit is exceeded.
+    pub fn take(&mut self, bytes: usize) -> Result<()> {
+        let Some((budget, taken)) = &mut self.0 else { return Ok(()) };
+        budget.tick()?;
+        budget.take(bytes)?;
+        *taken += bytes;
+        Ok(())
+    }
+}
+
+impl Drop for BudgetCharge {
+    fn drop(&mut self) {
+        if let Some((budget, taken)) = &self.0 {
+            budget.give(*taken);
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

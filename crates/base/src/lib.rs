@@ -11,6 +11,7 @@ pub mod error;
 pub mod files;
 pub mod locks;
 pub mod memory;
+mod module_key;
 pub mod names;
 pub mod random;
 pub mod stop;
@@ -20,8 +21,9 @@ mod warning_kind;
 pub mod work;
 
 pub use account::{MemoryAccount, MemoryOwner};
-pub use budget::{Budget, MemoryReservation};
+pub use budget::{Budget, BudgetCharge, MemoryReservation};
 pub use error::{Error, Result};
+pub use module_key::{KeyPart, ModuleKey};
 pub use stop::Stop;
 pub use warning::Warning;
 pub use warning_kind::WarningKind;

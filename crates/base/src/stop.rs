@@ -23,7 +23,7 @@ thread_local! {
 /// let part = Stop::under(Some(Arc::clone(&run)));
 /// assert!(part.check().is_ok());
 /// run.stop(Error::cancellation("the window was closed"));
-/// assert_eq!(part.check().map_err(|error| error.message().to_owned()), Err("the window was closed".into()));
+/// assert_eq!(part.check().map_err(|error| error.into_message()), Err("the window was closed".into()));
 /// ```
 #[derive(Debug, Default)]
 pub struct Stop {

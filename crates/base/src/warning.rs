@@ -16,7 +16,8 @@
 //! - *A file*: the loaded data keeps its warnings. The function with which a script loads the file passes them to its
 //!   machine, so every run reports them, even if it does not read the file again.
 //!
-//! A `Note` of the report covers problems of single features.
+//! Problems of single features are warnings [of the feature](Warning::of_feature) with a [cause](Warning::with_cause). The
+//! report lists them, not `Run::warnings`: an object returns them from `Report::notes`.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -61,6 +62,16 @@ pub struct Warning {
     count: usize,
     of_all: bool,
     of_pass: bool,
+    cause: String,
+    feature: Option<WarnedFeature>,
+}
+
+/// Feature of a warning.
+#[derive(Debug, Clone)]
+struct WarnedFeature {
+    /// Source; empty for a list of the script and for a chain without a feature.
+    source: String,
+    id: Option<String>,
 }
 
 impl Warning {
@@ -72,7 +83,15 @@ impl Warning {
             count: 1,
             of_all: false,
             of_pass: false,
+            cause: String::new(),
+            feature: None,
         }
+    }
+
+    /// Creates a warning about a result that differs from the request: `what` replaces it, such as "a flat roof instead of
+    /// a hip roof".
+    pub fn simplification(what: impl fmt::Display) -> Self {
+        Self::new(WarningKind::SimplifiedFeature, what)
     }
 
     /// Sets the remedy, unless it is already set.
@@ -126,6 +145,43 @@ impl Warning {
     /// Returns true if a later interpretation pass replaces the warning.
     pub fn is_of_pass(&self) -> bool {
         self.of_pass
+    }
+
+    /// Sets the reason for this object or feature. The message has no details of it, so that equal changes can be counted.
+    #[must_use]
+    pub fn with_cause(self, cause: impl Into<String>) -> Self {
+        Self { cause: cause.into(), ..self }
+    }
+
+    /// Returns the reason for this object or feature; may be empty.
+    pub fn cause(&self) -> &str {
+        &self.cause
+    }
+
+    /// Sets the feature: its source, which is empty for a list of the script and for a chain without a feature, and its id
+    /// if the chain came from a feature.
+    ///
+    /// ```
+    /// use burgeon_base::Warning;
+    ///
+    /// let flat = Warning::simplification("a flat roof instead of a hip roof").with_cause("too narrow");
+    /// let flat = flat.of_feature("town.gpkg:houses", Some("7"));
+    /// assert_eq!((flat.source(), flat.feature(), flat.cause()), ("town.gpkg:houses", Some("7"), "too narrow"));
+    /// ```
+    #[must_use]
+    pub fn of_feature(self, source: &str, id: Option<&str>) -> Self {
+        let feature = WarnedFeature { source: source.to_owned(), id: id.map(str::to_owned) };
+        Self { feature: Some(feature), ..self }
+    }
+
+    /// Returns the source of the feature; empty if it has none.
+    pub fn source(&self) -> &str {
+        self.feature.as_ref().map_or("", |feature| &feature.source)
+    }
+
+    /// Returns the id of the feature, if the chain came from a feature.
+    pub fn feature(&self) -> Option<&str> {
+        self.feature.as_ref()?.id.as_deref()
     }
 
     /// Returns the kind.

@@ -44,6 +44,12 @@ pub enum WarningKind {
     ReplacedTwice,
     /// An installed package that cannot be used.
     BrokenPackage,
+    /// A feature that was skipped because of its data.
+    SkippedFeature,
+    /// A feature that was skipped because it could not be read; its source has already reported it.
+    UnreadFeature,
+    /// A feature or an object whose result differs from the request.
+    SimplifiedFeature,
     /// A warning that a script gives with `warn`.
     Script,
 }
@@ -77,6 +83,9 @@ impl WarningKind {
             Self::HiddenPackage => "warning.hidden-package",
             Self::ReplacedTwice => "warning.replaced-twice",
             Self::BrokenPackage => "warning.broken-package",
+            Self::SkippedFeature => "warning.skipped-feature",
+            Self::UnreadFeature => "warning.unread-feature",
+            Self::SimplifiedFeature => "warning.simplified-feature",
             Self::Script => "warning.script",
         }
     }

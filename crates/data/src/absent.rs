@@ -22,7 +22,7 @@ impl GeoPackage {
         left_out().map_err(|error: Error| error.about(name))
     }
 
-    pub(crate) fn layers(&self) -> Vec<String> {
+    pub(crate) fn layers(&self) -> Vec<&str> {
         match *self {}
     }
 
@@ -42,7 +42,7 @@ macro_rules! absent {
                 left_out().map_err(|error: Error| error.about(name))
             }
 
-            pub(crate) fn layers(&self) -> Vec<String> {
+            pub(crate) fn layers(&self) -> Vec<&str> {
                 match *self {}
             }
 
@@ -73,7 +73,7 @@ impl OsmFile {
         left_out().map_err(|error: Error| error.about(&file.name))
     }
 
-    pub(crate) fn layers(&self) -> Vec<String> {
+    pub(crate) fn layers(&self) -> Vec<&str> {
         match *self {}
     }
 
@@ -119,27 +119,6 @@ pub(crate) mod condition {
         _condition: &str,
         _wanted: &SourceOptions,
     ) -> Result<Vec<usize>> {
-        left_out()
-    }
-}
-
-pub(crate) mod output {
-    use super::{Result, left_out};
-    use crate::frame::ReferenceFrame;
-    use crate::output::RecordTable;
-    use burgeon_base::stop::Stop;
-
-    /// Fails, because GeoPackages are available only with the feature `data`.
-    pub fn check_geopackage() -> Result<()> {
-        left_out()
-    }
-
-    /// Fails, because GeoPackages need the feature `data`.
-    pub fn write_geopackage(
-        _tables: &[RecordTable],
-        _frame: Option<&ReferenceFrame>,
-        _stop: &Stop,
-    ) -> Result<Vec<u8>> {
         left_out()
     }
 }

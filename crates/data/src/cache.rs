@@ -7,13 +7,13 @@ use std::sync::{Arc, Mutex};
 
 use super::companions;
 use super::elevation::{HeightOptions, Raster};
-use crate::frame::ReferenceFrame;
 use crate::layer::Layer;
 use crate::source_options::SourceOptions;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 use burgeon_base::files;
 use burgeon_base::locks::LockRecovery;
+use burgeon_spatial::ReferenceFrame;
 
 /// Maximum number of cached layers.
 const MOST: usize = 16;

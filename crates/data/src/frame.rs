@@ -1,138 +1,62 @@
-//! Common projection and origin of all sources in a run.
+//! Frames of tables: the most suitable one, and the transformation into one.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::crs::projection::Projection;
-use super::crs::{Crs, REMEDY};
 use super::features::feature::Feature;
 use super::features::table::FeatureTable;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{number, shown};
+use burgeon_spatial::crs::REMEDY;
+use burgeon_spatial::{Crs, ReferenceFrame};
 
-/// Maximum absolute coordinate (m) relative to the origin.
-pub(super) const FARTHEST: f64 = 2_000_000.0;
-
-/// Projection and origin of a run.
-#[derive(Clone)]
-pub struct ReferenceFrame {
-    /// Name.
-    pub name: String,
-    /// Origin in the projection (m), in multiples of 100.
-    pub origin: [f64; 2],
-    /// Centre (longitude and latitude in degrees) of a transverse Mercator projection specific to the run.
-    pub middle: Option<[f64; 2]>,
-    /// EPSG code of the projection; `None` if it has none, or if its unit was changed to metres.
-    pub epsg: Option<u16>,
-    definition: String,
-    projection: Projection,
+/// Returns the most suitable frame for `table`. Features with impossible positions are removed from the table.
+///
+/// A projected layer keeps its projection, in metres. A geographic layer, or a layer in Mercator projection, whose
+/// lengths are too long, is projected by a transverse Mercator projection around its centre, rounded to 0.1
+/// degrees. Lengths are then accurate to 1e-5 within 25 km of the centre, and north is up, whereas a UTM zone would
+/// shorten all lengths by 4e-4 and rotate north by up to 3 degrees.
+///
+/// If features are too far apart for one model, those around the median decide.
+pub(crate) fn frame_for(table: &mut FeatureTable) -> Result<ReferenceFrame> {
+    let crs = table.crs.clone()?;
+    refuse_odd_degrees(&crs, table)?;
+    let (place, half) = centre(&crs, table, |_| true)?;
+    let frame = ReferenceFrame::around(&crs, place, &table.shown)?;
+    // Half of the maximum distance is close enough in any projection.
+    if half * crs.metres() < ReferenceFrame::FARTHEST / 2.0 {
+        return Ok(frame);
+    }
+    let reached = |frame: &ReferenceFrame| -> Result<Vec<bool>> {
+        let passage = frame.passage(&crs)?;
+        let near = |at: &DVec3| ReferenceFrame::is_near(passage.enter([at[0], at[1]]));
+        Ok(table.features.par_iter().map(|feature| feature.geometry.points().all(near)).collect())
+    };
+    if reached(&frame)?.iter().all(|near| *near) {
+        return Ok(frame);
+    }
+    let middle = ReferenceFrame::around(&crs, median(&crs, table), &table.shown)?;
+    let near = reached(&middle)?;
+    let mut each = near.iter();
+    let Ok((place, _)) = centre(&crs, table, |_| each.next().is_some_and(|near| *near)) else {
+        return Ok(frame);
+    };
+    let better = ReferenceFrame::around(&crs, place, &table.shown)?;
+    let kept = reached(&better)?.iter().zip(&near).all(|(here, there)| here | !there);
+    Ok(if kept { better } else { middle })
 }
 
-impl ReferenceFrame {
-    /// Returns the most suitable frame for `table`. Features with impossible positions are removed from the table.
-    ///
-    /// A projected layer keeps its projection, in metres. A geographic layer, or a layer in Mercator projection, whose
-    /// lengths are too long, is projected by a transverse Mercator projection around its centre, rounded to 0.1
-    /// degrees. Lengths are then accurate to 1e-5 within 25 km of the centre, and north is up, whereas a UTM zone would
-    /// shorten all lengths by 4e-4 and rotate north by up to 3 degrees.
-    ///
-    /// If features are too far apart for one model, those around the median decide.
-    pub fn new(table: &mut FeatureTable) -> Result<Self> {
-        let crs = table.crs.clone()?;
-        refuse_odd_degrees(&crs, table)?;
-        let (place, half) = centre(&crs, table, |_| true)?;
-        let frame = Self::around(&crs, place, &table.shown)?;
-        // Half of the maximum distance is close enough in any projection.
-        if half * crs.metres() < FARTHEST / 2.0 {
-            return Ok(frame);
-        }
-        let reached = |frame: &Self| -> Result<Vec<bool>> {
-            let passage = frame.passage(&crs)?;
-            let near = |at: &DVec3| is_near(passage.enter([at[0], at[1]]));
-            Ok(table.features.par_iter().map(|feature| feature.geometry.points().all(near)).collect())
-        };
-        if reached(&frame)?.iter().all(|near| *near) {
-            return Ok(frame);
-        }
-        let middle = Self::around(&crs, median(&crs, table), &table.shown)?;
-        let near = reached(&middle)?;
-        let mut each = near.iter();
-        let Ok((place, _)) = centre(&crs, table, |_| each.next().is_some_and(|near| *near)) else {
-            return Ok(frame);
-        };
-        let better = Self::around(&crs, place, &table.shown)?;
-        let kept = reached(&better)?.iter().zip(&near).all(|(here, there)| here | !there);
-        Ok(if kept { better } else { middle })
-    }
-
-    /// Returns the most suitable frame around the point `x`, `y` of `crs`, called `shown` in messages.
-    /// ```
-    /// use burgeon_data::{Crs, ReferenceFrame};
-    ///
-    /// // Finland's projection has its middle at 27 degrees east, where its metres say 500,000.
-    /// let frame = ReferenceFrame::around(&Crs::epsg(3067)?, [500_040.0, 6_671_460.0], "a place")?;
-    /// assert_eq!((frame.epsg, frame.origin), (Some(3067), [500_000.0, 6_671_500.0]));
-    /// let degrees = Crs::epsg(4326)?;
-    /// let passage = frame.passage(&degrees)?;
-    /// let [x, y] = passage.enter([27.0, 60.18]);
-    /// assert!(x.abs() < 1e-6);
-    /// let back = passage.leave([x, y]);
-    /// assert!((back[0] - 27.0).abs() < 1e-9 && (back[1] - 60.18).abs() < 1e-9);
-    /// # Ok::<(), burgeon_base::error::Error>(())
-    /// ```
-    pub fn around(crs: &Crs, [x, y]: [f64; 2], shown: &str) -> Result<Self> {
-        let source = crs.projection()?;
-        let (name, definition, middle, epsg) = if crs.is_true() {
-            let definition = crs.in_metres();
-            let epsg = crs.code.filter(|_| normal(&definition) == normal(&crs.definition));
-            (crs.name(), definition, None, epsg)
-        } else {
-            let degrees = if crs.is_geographic() {
-                [x, y]
-            } else {
-                let mut point = (x, y, 0.0);
-                source.bring(&Crs::epsg(4326)?.projection()?, &mut point).map_err(|error| {
-                    Error::data(format!("{shown} cannot be projected: {error}")).help(REMEDY)
-                })?;
-                [point.0.to_degrees(), point.1.to_degrees()]
-            };
-            let middle = degrees.map(|angle| (angle * 10.0).round() / 10.0);
-            let crs = Crs::around(middle);
-            (crs.name(), crs.definition, Some(middle), None)
-        };
-        let cannot = |why| Error::argument(format!("{name} cannot be used: {why}")).help(REMEDY);
-        let projection = Projection::new(&definition, cannot)?;
-        let mut frame = Self { name, origin: [0.0; 2], middle, epsg, definition, projection };
-        let centre = frame.passage(crs)?.enter([x, y]);
-        frame.origin = centre.map(|value| (value / 100.0).round() * 100.0);
-        if frame.origin.iter().any(|value| !value.is_finite()) {
-            return Err(Error::data(format!("{shown} cannot be projected to {}", frame.name)).help(REMEDY));
-        }
-        Ok(frame)
-    }
-
-    /// Returns the PROJ definition of the projection.
-    pub fn definition(&self) -> &str {
-        &self.definition
-    }
-
-    /// Returns the transformation from `crs` into this frame and back.
-    pub fn passage(&self, crs: &Crs) -> Result<Passage<'_>> {
-        let stays = normal(&crs.definition) == normal(&self.definition);
-        Ok(Passage { frame: self, outside: crs.projection()?, unit: crs.unit(), stays })
-    }
-
-    /// Transforms the features of `table` into this frame; features without a position in it are removed.
-    pub(super) fn bring(&self, table: &mut FeatureTable) -> Result<()> {
-        let crs = table.crs.clone()?;
-        refuse_odd_degrees(&crs, table)?;
-        let passage = self.passage(&crs)?;
-        let name = table.shown.clone();
-        table.refuse_those(|feature| {
+/// Transforms the features of `table` into `frame`; features without a position in it are removed.
+pub(crate) fn bring_into(frame: &ReferenceFrame, table: &mut FeatureTable) -> Result<()> {
+    let crs = table.crs.clone()?;
+    refuse_odd_degrees(&crs, table)?;
+    let passage = frame.passage(&crs)?;
+    let name = table.shown.clone();
+    table.refuse_those(|feature| {
             let place = |point: &mut DVec3| -> Option<DVec3> {
                 let was = *point;
                 [point.x, point.y] = passage.enter([was.x, was.y]);
-                let near = is_near([point.x, point.y]) && was.z.abs() <= FARTHEST;
+                let near = ReferenceFrame::is_near([point.x, point.y]) && was.z.abs() <= ReferenceFrame::FARTHEST;
                 (!near).then_some(was)
             };
             let at = feature.geometry.points_mut().find_map(place)?;
@@ -144,60 +68,10 @@ impl ReferenceFrame {
                     "all sources of a run share one model; check the coordinates and the coordinate system, or read a part",
                 )
             } else {
-                Error::data(format!("{feature} cannot be projected from {} to {}, at {at}", crs.name(), self.name))
+                Error::data(format!("{feature} cannot be projected from {} to {}, at {at}", crs.name(), frame.name))
                     .help(REMEDY)
             })
         })
-    }
-}
-
-/// Returns true if a position in a frame (m) is close enough for a model.
-fn is_near(place: [f64; 2]) -> bool {
-    // A comparison with NaN is false.
-    place.iter().all(|value| value.abs() <= FARTHEST)
-}
-
-/// Transformation from a coordinate system into a frame and back.
-pub struct Passage<'a> {
-    frame: &'a ReferenceFrame,
-    outside: Projection,
-    /// Factor that converts the coordinates of the other system to radians, or 1.
-    unit: f64,
-    /// Set if both have the same projection, so only the origin differs.
-    pub stays: bool,
-}
-
-impl Passage<'_> {
-    /// Returns the position in the frame (m) of a point in the coordinate system; NaN if it cannot be projected.
-    pub fn enter(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let mut point = (x * self.unit, y * self.unit, 0.0);
-        if self.stays {
-            point = (x, y, 0.0);
-        } else if self.outside.bring(&self.frame.projection, &mut point).is_err() {
-            return [f64::NAN; 2];
-        }
-        [point.0 - self.frame.origin[0], point.1 - self.frame.origin[1]]
-    }
-
-    /// Returns the point in the coordinate system at a position in the frame (m); NaN if it cannot be projected.
-    pub fn leave(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let mut point = (x + self.frame.origin[0], y + self.frame.origin[1], 0.0);
-        if self.stays {
-            return [point.0, point.1];
-        }
-        match self.frame.projection.bring(&self.outside, &mut point) {
-            Ok(()) => [point.0 / self.unit, point.1 / self.unit],
-            Err(_) => [f64::NAN; 2],
-        }
-    }
-}
-
-/// Returns the sorted parts of a definition, without those that have no effect here.
-fn normal(definition: &str) -> Vec<&str> {
-    let mut parts: Vec<&str> = definition.split_whitespace().collect();
-    parts.retain(|part| !matches!(*part, "+no_defs" | "+type=crs"));
-    parts.sort_unstable();
-    parts
 }
 
 /// Removes features with coordinates that are not finite, or not valid degrees.
@@ -282,7 +156,7 @@ mod tests {
     }
 
     fn placed(frame: &ReferenceFrame, mut table: FeatureTable) -> Vec<[f64; 3]> {
-        frame.bring(&mut table).unwrap();
+        bring_into(frame, &mut table).unwrap();
         table.features.iter().flat_map(|feature| feature.geometry.points().map(DVec3::to_array)).collect()
     }
 
@@ -291,7 +165,7 @@ mod tests {
         // A second of latitude at 45 degrees is 30.87 m, one of longitude 21.90 m.
         let second = 1.0 / 3600.0;
         let points = [[7.0, 45.0], [7.0, 45.0 + second], [7.0 + second, 45.0]];
-        let frame = ReferenceFrame::new(&mut table(4326, &points)).unwrap();
+        let frame = frame_for(&mut table(4326, &points)).unwrap();
         let [a, b, c] = placed(&frame, table(4326, &points))[..] else { panic!("three") };
         assert!((b[1] - a[1] - 30.8702).abs() < 1e-3 && (b[0] - a[0]).abs() < 1e-6, "{a:?} {b:?}");
         assert!((c[0] - a[0] - 21.9014).abs() < 1e-3 && (c[1] - a[1]).abs() < 1e-2, "{a:?} {c:?}");
@@ -301,18 +175,18 @@ mod tests {
     #[test]
     fn projected_metres_stay_and_feet_and_mercator_become_metres() {
         let corner = [385_423.178, 6_671_463.227];
-        let frame = ReferenceFrame::new(&mut table(3067, &[corner])).unwrap();
+        let frame = frame_for(&mut table(3067, &[corner])).unwrap();
         assert_eq!((frame.origin, frame.name.as_str()), ([385_400.0, 6_671_500.0], "EPSG:3067"));
         let at = placed(&frame, table(3067, &[corner]))[0];
         assert_eq!(at[..2], [corner[0] - 385_400.0, corner[1] - 6_671_500.0]);
         // EPSG:2272 uses feet of 0.3048006 m.
         let feet = [[2_690_000.0, 235_000.0], [2_690_100.0, 235_000.0]];
-        let frame = ReferenceFrame::new(&mut table(2272, &feet)).unwrap();
+        let frame = frame_for(&mut table(2272, &feet)).unwrap();
         let [a, b] = placed(&frame, table(2272, &feet))[..] else { panic!("two") };
         assert!((b[0] - a[0] - 30.480_06).abs() < 1e-4, "{a:?} {b:?}");
         // At 60 degrees, Mercator lengths are twice the true lengths.
         let mercator = [[1_113_194.908, 8_399_737.89], [1_113_294.908, 8_399_737.89]];
-        let frame = ReferenceFrame::new(&mut table(3857, &mercator)).unwrap();
+        let frame = frame_for(&mut table(3857, &mercator)).unwrap();
         let [a, b] = placed(&frame, table(3857, &mercator))[..] else { panic!("two") };
         assert!((b[0] - a[0] - 50.0).abs() < 0.3, "{a:?} {b:?}");
     }
@@ -321,22 +195,18 @@ mod tests {
     fn another_coordinate_system_comes_into_the_first_ones_frame() {
         // According to PROJ 9, 385600, 6671500 in EPSG:3067 is at about 24.93802 E, 60.16435 N; the round trip is
         // exact.
-        let frame = ReferenceFrame::new(&mut table(3067, &[[385_600.0, 6_671_500.0]])).unwrap();
+        let frame = frame_for(&mut table(3067, &[[385_600.0, 6_671_500.0]])).unwrap();
         let wgs = Crs::epsg(4326).unwrap();
-        let mut point = (385_600.0, 6_671_500.0, 0.0);
-        frame.projection.bring(&wgs.projection().unwrap(), &mut point).unwrap();
-        let [degrees] = placed(&frame, table(4326, &[[point.0.to_degrees(), point.1.to_degrees()]]))[..]
-        else {
-            panic!("one")
-        };
+        let point = frame.passage(&wgs).unwrap().leave([0.0; 2]);
+        let [degrees] = placed(&frame, table(4326, &[point]))[..] else { panic!("one") };
         assert!(degrees[0].abs() < 1e-3 && degrees[1].abs() < 1e-3, "{degrees:?}");
-        assert!((24.9..25.0).contains(&point.0.to_degrees()) && (60.1..60.2).contains(&point.1.to_degrees()));
+        assert!((24.9..25.0).contains(&point[0]) && (60.1..60.2).contains(&point[1]));
     }
 
     #[test]
     fn a_layer_across_the_date_line_stays_together() {
         let points = [[179.9, -16.0], [-179.9, -16.0]];
-        let frame = ReferenceFrame::new(&mut table(4326, &points)).unwrap();
+        let frame = frame_for(&mut table(4326, &points)).unwrap();
         let [a, b] = placed(&frame, table(4326, &points))[..] else { panic!("two") };
         assert!((b[0] - a[0] - 21_400.0).abs() < 50.0, "{a:?} {b:?}");
     }
@@ -382,5 +252,25 @@ mod tests {
         assert!(told(12, 1.0, 1.0).contains("unknown coordinate system EPSG:12"));
         assert!(told(4978, 1.0, 1.0).contains("cannot be used"));
         assert!(told(99_999, 1.0, 1.0).contains("unknown coordinate system EPSG:99999"));
+    }
+
+    #[test]
+    fn a_datum_without_a_shift_is_told_where_other_coordinates_are_derived() {
+        let layer = |code: u32, at: [f64; 2], frame: &mut Option<ReferenceFrame>| {
+            let mut table = FeatureTable::new("a", "a", Crs::epsg(code), &crate::SourceOptions::default());
+            table.push("p", vec![Geometry::point([at[0], at[1], 0.0])], Vec::new()).unwrap();
+            Layer::new(table, frame).unwrap().notes
+        };
+        // Anguilla 1957.
+        let mut frame = None;
+        let notes = layer(2000, [400_000.0, 2_014_000.0], &mut frame);
+        assert!(notes[0].contains("no shift from Anguilla 1957 to WGS 84 is known"), "{notes:?}");
+        // More coordinates of the same system lie right beside each other.
+        assert!(layer(2000, [400_100.0, 2_014_000.0], &mut frame).is_empty());
+        for (code, at) in
+            [(3067, [385_000.0, 6_672_000.0]), (5514, [-740_000.0, -1_040_000.0]), (4326, [7.0, 44.0])]
+        {
+            assert!(layer(code, at, &mut None).is_empty(), "{code}");
+        }
     }
 }

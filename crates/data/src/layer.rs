@@ -4,10 +4,11 @@ use rayon::prelude::*;
 
 use super::features::feature::Feature;
 use super::features::table::FeatureTable;
-use super::frame::ReferenceFrame;
+use super::frame::{bring_into, frame_for};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 use burgeon_base::warning::{Warning, WarningKind};
+use burgeon_spatial::ReferenceFrame;
 
 /// Features of a data file, in metres relative to the run's origin.
 #[derive(Debug)]
@@ -111,7 +112,7 @@ impl Layer {
         left(&table)?;
         let found = match frame {
             Some(frame) => frame.clone(),
-            None => ReferenceFrame::new(&mut table).or_else(|error| left(&table).and(Err(error)))?,
+            None => frame_for(&mut table).or_else(|error| left(&table).and(Err(error)))?,
         };
         if let Ok(crs) = &table.crs
             && (frame.is_none() || !found.passage(crs)?.stays)
@@ -119,7 +120,7 @@ impl Layer {
             let note = crs.shift_note(&table.shown);
             table.notes.extend(note.map(|[text, remedy]| format!("{text}; {remedy}")));
         }
-        found.bring(&mut table)?;
+        bring_into(&found, &mut table)?;
         // A feature that determines the frame must have a position in it.
         left(&table)?;
         let frame = frame.insert(found);
@@ -181,9 +182,10 @@ fn around([a, b]: [[f64; 3]; 2], [c, d]: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
 mod tests {
     use glam::DVec3;
 
-    use super::super::{Crs, Geometry};
+    use super::super::Geometry;
     use super::*;
     use burgeon_geometry::Rings;
+    use burgeon_spatial::Crs;
 
     #[test]
     fn outer_rings_turn_left_and_holes_turn_right() {

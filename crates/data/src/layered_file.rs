@@ -10,7 +10,7 @@ pub trait LayeredFile: Send {
     fn format(&self) -> &'static str;
 
     /// Returns the names of the layers.
-    fn layers(&self) -> Vec<String>;
+    fn layers(&self) -> Vec<&str>;
 
     /// Reads the features of a layer that `wanted` selects, in file order.
     fn read(&self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable>;

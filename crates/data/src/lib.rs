@@ -9,7 +9,6 @@ mod cache;
 mod codepages;
 mod companions;
 mod content;
-mod crs;
 pub mod elevation;
 mod features;
 mod foreign;
@@ -22,12 +21,10 @@ mod layer;
 mod layer_choice;
 mod layered_file;
 mod listing;
-pub mod output;
 mod script_features;
 mod source;
 mod source_options;
 mod tags;
-mod world_place;
 
 use std::path::Path;
 
@@ -35,13 +32,10 @@ pub use burgeon_kit::Attribute;
 pub use burgeon_spatial::{Geometry, GeometryKind};
 pub use cache::Cache;
 pub use companions::companions;
-pub use crs::Crs;
 pub use features::{Feature, FeatureId, FeatureTable};
-pub use formats::output::{check_geopackage, write_geopackage};
 pub use formats::{FlatGeobuf, GeoPackage, OsmFile};
 #[cfg(feature = "data")]
 pub use formats::{PackageState, TableShape};
-pub use frame::{Passage, ReferenceFrame};
 pub use layer::Layer;
 pub use layered_file::LayeredFile;
 pub use listing::nearest_file;
@@ -50,7 +44,6 @@ pub use script_features::Features;
 pub use source::Source;
 pub use source_options::SourceOptions;
 pub use tags::{TagFilter, TagTest};
-pub use world_place::{WORLD_AXES, WorldPlace};
 
 /// Extensions of data files.
 pub const EXTENSIONS: [&str; 23] = [

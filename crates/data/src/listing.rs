@@ -98,20 +98,20 @@ impl Listing {
             Source::GeoPackage(package) => {
                 for layer in package.layers() {
                     let Source::GeoPackage(package) = open()? else { continue };
-                    layers.push(LayerListing::of(package.read(&layer, &wanted)?)?);
+                    layers.push(LayerListing::of(package.read(layer, &wanted)?)?);
                     budget.settle(before, 0);
                 }
             }
             Source::FlatGeobuf(file) => layers.push(LayerListing::of(file.read(&wanted)?)?),
             Source::Layered(file) => {
                 for layer in file.layers() {
-                    layers.push(LayerListing::of(file.read(&layer, &wanted)?)?);
+                    layers.push(LayerListing::of(file.read(layer, &wanted)?)?);
                     budget.settle(before, 0);
                 }
             }
             Source::Osm(file) => {
                 for layer in file.layers() {
-                    let wanted = SourceOptions { layer: Some(layer), ..wanted.clone() };
+                    let wanted = SourceOptions { layer: Some(layer.to_owned()), ..wanted.clone() };
                     let layer = LayerListing::of(file.read(&wanted)?)?;
                     // Only layers with content in the extract are listed.
                     if layer.records > 0 || layer.refused.is_some() {
@@ -210,7 +210,7 @@ impl LayerListing {
         }
         Ok(Self {
             name: table.layer.clone(),
-            crs: table.crs.as_ref().map(super::Crs::name).map_err(Clone::clone),
+            crs: table.crs.as_ref().map(burgeon_spatial::Crs::name).map_err(Clone::clone),
             records: table.records,
             kinds,
             empty: table.empty,
@@ -334,8 +334,9 @@ impl AttributeListing {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Crs, Geometry, Layer};
+    use super::super::{Geometry, Layer};
     use super::*;
+    use burgeon_spatial::Crs;
 
     #[test]
     fn a_listing_leaves_out_the_places_that_every_run_leaves_out() {

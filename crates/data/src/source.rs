@@ -162,9 +162,9 @@ impl Source {
     }
 
     /// Returns the names of the layers.
-    pub fn layers(&self) -> Vec<String> {
+    pub fn layers(&self) -> Vec<&str> {
         match self {
-            Self::GeoJson(table) => vec![table.layer.clone()],
+            Self::GeoJson(table) => vec![table.layer.as_str()],
             Self::GeoPackage(package) => package.layers(),
             Self::FlatGeobuf(file) => file.layers(),
             Self::Layered(file) => file.layers(),
@@ -182,7 +182,7 @@ impl Source {
     /// std::fs::write(&path, "id,kind,longitude,latitude\n7,oak,24.9,60.2\n8,elm,24.9,60.3\n")?;
     /// let (condition, id) = (Some("kind = 'elm'".to_owned()), Some("id".to_owned()));
     /// let source = Source::open(&path, "trees.csv")?;
-    /// assert_eq!((source.format(), source.layers()), ("CSV", vec!["trees".to_owned()]));
+    /// assert_eq!((source.format(), source.layers()), ("CSV", vec!["trees"]));
     /// let elms = source.read("trees.csv", &SourceOptions { condition, id, ..SourceOptions::default() })?;
     /// assert_eq!((elms.features.len(), elms.features[0].id.as_str()), (1, "8"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -210,7 +210,7 @@ impl Source {
                 file.read(&layer, wanted)?
             }
             Self::GeoJson(table) => {
-                choose_layer(name, std::slice::from_ref(&table.layer), wanted.layer.as_deref())?;
+                choose_layer(name, &[table.layer.as_str()], wanted.layer.as_deref())?;
                 *table
             }
         };

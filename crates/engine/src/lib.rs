@@ -10,7 +10,7 @@ mod derive;
 mod machine;
 mod parts;
 mod placeholders;
-mod questions;
+mod queries;
 pub mod results;
 pub mod run;
 pub mod trace;
@@ -23,7 +23,7 @@ pub mod script {
         RunProgress, RunReports, Session, Setting, TraceRequest, api_version,
     };
     pub use crate::machine::{Machine, Watchdog, make_ready};
-    pub use crate::questions::{Question, RowSource};
+    pub use crate::queries::{RowSource, SqlQuery};
 }
 
 pub use check::{ScriptCheck, check, check_package, declared_types, declared_types_of_package};

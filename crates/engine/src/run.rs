@@ -41,7 +41,7 @@ impl Run {
     pub fn report(&self) -> FeatureReport {
         let mut report = FeatureReport::default();
         for system in &self.systems {
-            report.add(system.given, &system.remarks);
+            report.add(system.given, &system.feature_warnings);
         }
         report
     }

@@ -1,9 +1,9 @@
 //! Input of an export: the scene and the facts about it.
 
-use burgeon_data::ReferenceFrame;
-use burgeon_data::output::RecordTable;
 use burgeon_picture::Picture;
 use burgeon_scene::{CityClass, Scene};
+use burgeon_spatial::RecordTable;
+use burgeon_spatial::ReferenceFrame;
 
 /// Input of an export, from a run.
 #[derive(Clone, Copy)]

@@ -117,20 +117,20 @@ pub static FORMATS: [Format; 9] = [
         needs: &[Layers],
         has_metadata: false,
         has_textures: false,
-        write: layers::write_geojson,
+        write: layers::write_geojson_file,
     },
     Format {
         file: FileFormat {
             extensions: &["gpkg"],
             title: "GeoPackage, layers of modules",
             companion: None,
-            check: burgeon_data::check_geopackage,
+            check: layers::check_geopackage,
         },
         media_type: "application/geopackage+sqlite3",
         needs: &[Layers],
         has_metadata: false,
         has_textures: false,
-        write: layers::write_geopackage,
+        write: layers::write_geopackage_file,
     },
 ];
 

@@ -29,7 +29,7 @@ mod format;
 mod formats;
 pub mod gltf;
 pub mod heights;
-mod layers;
+pub mod layers;
 pub mod obj;
 mod render;
 pub mod svg;

@@ -14,7 +14,6 @@ mod distance;
 mod example;
 mod fields;
 mod makers;
-mod note;
 mod registry;
 mod script_types;
 mod seed;
@@ -34,7 +33,6 @@ pub use contract::{
 pub use example::ScriptExample;
 pub use fields::{Fields, TableOf};
 pub use makers::Makers;
-pub use note::Note;
 pub use registry::Registry;
 pub use script_types::{ScriptField, ScriptObject, ScriptType};
 pub use seed::Seed;

@@ -1,7 +1,7 @@
 //! Seeds from scripts.
 
 use super::{Expectation, Parameter, Value};
-use burgeon_rewriting::ModuleKey;
+use burgeon_base::ModuleKey;
 
 /// Seed of random numbers: 64 bits, as a number or a string.
 ///

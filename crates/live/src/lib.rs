@@ -1,7 +1,7 @@
 //! Ways to look at a script beside a single run: the live view, presets, variations and films.
 //!
 //! Input: a script, its presets file, and commands of pages. Output: a page that shows the present model, the presets, and
-//! thumbnails of many runs; or the frames of a film. The server, which needs the feature `server`, answers only this machine's user, writes only
+//! thumbnails of many runs; the frames of a film; or changes of the script's files. The server, which needs the feature `server`, answers only this machine's user, writes only
 //! presets to the script's folder, and never lets a page wait for a run.
 
 pub mod films;
@@ -9,6 +9,7 @@ pub mod presets;
 pub mod variations;
 #[cfg(feature = "server")]
 mod view;
+pub mod watch;
 
 #[cfg(feature = "server")]
 pub use view::*;

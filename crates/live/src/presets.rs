@@ -24,10 +24,10 @@ use serde::de::{Deserializer, MapAccess, Visitor};
 use serde_json::value::RawValue;
 use serde_json::{Map, Number, Value};
 
+use crate::watch::settled;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::names::{has_bidi_controls, normal_form};
 use burgeon_engine::script::{Preset, Setting};
-use burgeon_watch::settled;
 
 /// Maximum size (bytes) of a presets file.
 const LARGEST: u64 = 16_000_000;

@@ -6,10 +6,11 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use burgeon_base::error::{Error, Result};
+use burgeon_data::Cache;
 use burgeon_data::elevation::{HeightOptions, Raster, Relief};
-use burgeon_data::{Cache, ReferenceFrame};
 use burgeon_kit::{Expectation, LoadRequest, LoadedObject, Loader, fields, methods, object};
 use burgeon_kit::{Parameter, Table, Value, Vector};
+use burgeon_spatial::ReferenceFrame;
 use burgeon_terrain::HeightSource;
 
 /// Name of the only supported encoding of heights as colours.

@@ -1,6 +1,7 @@
 //! The object types that Burgeon provides, one type per file.
 //!
-//! Input: values from scripts. Output: geometry for the scene. An object never depends on Lua or chains.
+//! Input: values from scripts. Output: geometry for the scene. An object never depends on Lua, and only
+//! the cells of a terrain are chains, which a `Rewriter` rewrites.
 //!
 //! A new type is a new file and a line in [`registry`]: a struct with `#[object]`, and `#[methods]` for the methods
 //! that scripts may call. CONTRIBUTING.md lists the other steps, such as examples and the reference page.

@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use burgeon_base::ModuleKey;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::random::Stream;
 use burgeon_kit::{Expectation, Parameter, Seed, Table, TableKey, Value, fields, methods, object};
-use burgeon_rewriting::ModuleKey;
 
 /// Fields of `universe { ... }`.
 #[fields("universe")]
@@ -389,7 +389,7 @@ mod tests {
     }
 
     fn read<T: Parameter>(value: &Value) -> T {
-        T::from_value(value.clone()).unwrap()
+        T::read_value(value).unwrap()
     }
 
     #[test]

@@ -4,7 +4,6 @@ use std::cell::RefCell;
 use std::time::{Duration, Instant};
 
 use crate::chain::{Chain, Mark};
-use crate::key::ModuleKey;
 use crate::links::Links;
 use crate::matching::{Bindings, ContextMatcher};
 use crate::new_chain::NewChain;
@@ -15,6 +14,7 @@ use crate::rules::{Applications, RuleFailure, Rules};
 use crate::step_number::StepNumber;
 use crate::successors::{ModuleOrder, Successors};
 use crate::text::module_brief;
+use burgeon_base::ModuleKey;
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
 

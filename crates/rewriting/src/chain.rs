@@ -1,6 +1,6 @@
 //! Chains in columns: all chains of a system are stored one after the other in a structure of arrays.
 
-use super::key::ModuleKey;
+use burgeon_base::ModuleKey;
 
 /// Symbol of a module.
 pub type Symbol = u16;

@@ -6,7 +6,6 @@ use std::sync::Arc;
 use crate::chain::{CLOSE, Chain, DEEPEST, END, OPEN, Symbol};
 use crate::events::EventSeries;
 use crate::grammar::{Grammar, MOST_RULES, Propensity, Rule};
-use crate::key::{KeyPart, ModuleKey};
 use crate::ordinals::Ordinals;
 use crate::pattern::Pattern;
 use crate::phases::{Phase, PhaseOutcome, Phases, derive};
@@ -21,6 +20,7 @@ use crate::text::{PlainNumbers, chain_text};
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::random::Stream;
+use burgeon_base::{KeyPart, ModuleKey};
 
 type SuccessorClosure = Box<dyn Fn(&AppliedModule<'_>, &mut Successors)>;
 type GuardClosure = Box<dyn Fn(&AppliedModule<'_>) -> bool>;

@@ -67,8 +67,8 @@ fn end_of_branch(symbols: &[Symbol], index: usize) -> usize {
 mod tests {
     use super::*;
     use crate::chain::Mark;
-    use crate::key::ModuleKey;
     use crate::symbols::FIRST_SYMBOL;
+    use burgeon_base::ModuleKey;
 
     #[test]
     fn a_cut_takes_the_parameters_and_keys_of_what_it_erases() {

@@ -9,16 +9,16 @@ use crate::amounts::Amount;
 use crate::batch::{Active, Batch, ChainPiece};
 use crate::chain::{Chain, END, Mark, Symbol};
 use crate::event_chain::{EventChain, EventWork, drawn_event};
-use crate::key::{KeyPart, ModuleKey};
+
 use crate::phases::PhaseOutcome;
 use crate::propensities::PossibleEvent;
 use crate::rules::Rules;
 use crate::step::{Stepper, pieces};
 use crate::step_number::StepNumber;
 use crate::windows::ContextWindow;
-use burgeon_base::Stop;
 use burgeon_base::error::Result;
 use burgeon_base::random::Stream;
+use burgeon_base::{KeyPart, ModuleKey, Stop};
 
 /// Maximum number of symbols of a new segment, whose possible events are found again after each event in it.
 const SEGMENT: usize = 64;

@@ -1,9 +1,9 @@
 //! Functions of rules, which are called for batches of modules.
 
-use crate::key::ModuleKey;
 use crate::step_number::StepNumber;
 use crate::successors::Successors;
 use crate::text::{PlainNumbers, ShowParameters};
+use burgeon_base::ModuleKey;
 use burgeon_base::error::{Error, Result};
 
 /// Modules to which one rule is applied in one call.

@@ -2,10 +2,10 @@
 
 use crate::batch::{Batch, ChainPiece, NO_RULE, Scratch, narrow, narrow_rule};
 use crate::chain::{Chain, END, Symbol};
-use crate::key::ModuleKey;
 use crate::output::Output;
 use crate::successors::Successor;
 use crate::uses::Use;
+use burgeon_base::ModuleKey;
 
 impl Batch<'_> {
     /// Returns the part of the next chain that replaces `piece`.

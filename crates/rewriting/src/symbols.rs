@@ -7,7 +7,7 @@ use std::sync::Arc;
 use rustc_hash::FxHashMap;
 
 use super::chain::{Chain, END, Symbol};
-use crate::key::name_hash;
+use burgeon_base::ModuleKey;
 use burgeon_base::error::{Error, Limit, Result};
 
 /// Number of symbols that are reserved for placeholders: modules that a phase replaces by other modules.
@@ -243,7 +243,7 @@ impl Symbols {
     /// other declarations.
     pub fn name_hash(&self, symbol: Symbol) -> u64 {
         match symbol.checked_sub(FIRST_PLACEHOLDER).map(usize::from) {
-            Some(index) => name_hash(self.owners[index].as_deref(), &self.signatures[index].name),
+            Some(index) => ModuleKey::name_hash(self.owners[index].as_deref(), &self.signatures[index].name),
             None => 0,
         }
     }

@@ -59,7 +59,7 @@ fn neighbours(folder: &Path, file: &str) -> Vec<[Geometry; 2]> {
         Cell::Geometry(geometry) => geometry.as_ref().clone(),
         other => panic!("{other} is no geometry"),
     };
-    let pairs = answer.rows.iter().map(|row| [&row[0], &row[1]].map(geometry));
+    let pairs = answer.iter().map(|row| [&row[0], &row[1]].map(geometry));
     pairs.filter(|pair| pair.iter().all(Geometry::is_valid)).collect()
 }
 

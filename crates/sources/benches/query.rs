@@ -14,7 +14,8 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use burgeon_base::Budget;
-use burgeon_sources::sql::{Cell, Database, QueryAnswer};
+use burgeon_kit::QueryRows;
+use burgeon_sources::sql::{Cell, Database};
 
 /// Allocator of the program.
 #[global_allocator]
@@ -84,7 +85,7 @@ fn folder() -> PathBuf {
 }
 
 /// Returns the best time (ms) of `times` runs, and the last result.
-fn best(times: usize, mut work: impl FnMut() -> Arc<QueryAnswer>) -> (f64, Arc<QueryAnswer>) {
+fn best(times: usize, mut work: impl FnMut() -> QueryRows<Cell>) -> (f64, QueryRows<Cell>) {
     let mut least = f64::INFINITY;
     let mut answer = work();
     for _ in 0..times {
@@ -118,7 +119,7 @@ fn fill(address: &str, folder: &Path) {
         let city = if schema == "france" { "city" } else { "''" };
         let sql = format!("SELECT fid, ST_AsText(geom), {city} AS city FROM {layer}");
         let mut batch = String::new();
-        for row in &database.query(&sql, &[], &budget).unwrap().rows {
+        for row in database.query(&sql, &[], &budget).unwrap().iter() {
             let text = |cell: &Cell| match cell {
                 Cell::Text(text) => format!("'{}'", text.replace('\'', "''")),
                 _ => "NULL".to_owned(),
@@ -181,8 +182,8 @@ fn main() {
         database.query(sql, &[], &budget).unwrap();
         let first = begin.elapsed().as_secs_f64() * 1000.0;
         let (least, answer) = best(5, || database.query(sql, &[], &budget).unwrap());
-        let there = beside(tables[0].0, sql, answer.rows.len());
-        println!("{about:34} {:>8} {first:>10.1} {least:>10.1} {there:>11}", answer.rows.len());
+        let there = beside(tables[0].0, sql, answer.len());
+        println!("{about:34} {:>8} {first:>10.1} {least:>10.1} {there:>11}", answer.len());
         if let Some((group, most)) = most {
             match groups.iter_mut().find(|(known, ..)| known == group) {
                 Some((_, taken, _)) => *taken += least,
@@ -196,8 +197,8 @@ fn main() {
     }
     let items = database.query("SELECT geom FROM furniture", &[], &budget).unwrap();
     let (least, _) = best(5, || {
-        let mut last = Arc::default();
-        for row in &items.rows {
+        let mut last = QueryRows::default();
+        for row in items.iter() {
             let at: [(&str, Cell); 1] = [("g", row[0].clone())];
             last = database
                 .query("SELECT fid FROM roads ORDER BY ST_Distance(geom, $g) LIMIT 1", &at, &budget)
@@ -205,7 +206,7 @@ fn main() {
         }
         last
     });
-    println!("{:34} {:>8} {:>10} {least:>10.1}", "furniture, a question for each", items.rows.len(), "");
+    println!("{:34} {:>8} {:>10} {least:>10.1}", "furniture, a question for each", items.len(), "");
     for (group, taken, most) in &groups {
         let verdict = if taken <= most { "met" } else { "missed" };
         println!("{group}: {taken:.1} ms, of at most {most:.0}: {verdict}");

@@ -5,13 +5,18 @@
 //! statement reads only the tables that were added.
 //!
 //! - [`DataSources`] is the provider, which a program adds to its registry.
+//! - [`list_content`] lists files and databases without a script. The results of a run contain its [`ReferenceFrame`].
 //! - [`sql`] queries layers in an embedded database, in a subset of PostGIS's dialect.
 //! - [`sql::postgis`] queries PostGIS servers.
 
+mod listing;
 #[cfg(feature = "data")]
 pub mod sql;
 mod store;
 
+pub use burgeon_data::Listing;
+pub use burgeon_spatial::ReferenceFrame;
+pub use listing::{list_content, read_height_shape};
 pub use store::DataSources;
 
 #[cfg(doc)]

@@ -8,14 +8,18 @@
 //! Operations are horizontal. Their accuracy does not depend on the distance from the origin, because each
 //! operation works relative to a local origin. Points keep their heights; a new point has the height of the
 //! nearest point on the lines and borders of its sources.
+//!
+//! Coordinate reference systems are in [`crs`]: a [`ReferenceFrame`] places the metres of a run on Earth.
 #![recursion_limit = "256"]
 
 mod buffer;
+pub mod crs;
 mod edges;
 mod fragments;
 mod geometry;
 #[cfg(test)]
 mod geos;
+pub mod height_files;
 mod kind;
 mod lines;
 mod measure;
@@ -29,6 +33,7 @@ mod reach;
 mod records;
 mod relation;
 mod scripting;
+mod simplification;
 mod skeleton;
 mod topology;
 mod validity;
@@ -38,6 +43,9 @@ pub mod wkb;
 pub mod wkt;
 
 pub use buffer::{BufferCap, BufferJoin, BufferOptions};
+pub use burgeon_geometry::Rings;
+pub use burgeon_kit::Attribute;
+pub use crs::{Crs, Passage, ReferenceFrame, WorldPlace};
 pub use geometry::{FARTHEST, Geometry};
 pub use kind::GeometryKind;
 pub use overlay::union_all;

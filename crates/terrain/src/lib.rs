@@ -13,14 +13,12 @@ pub mod fit;
 pub mod globe;
 mod mesh;
 mod river;
-mod script;
 #[cfg(test)]
 mod tests;
 mod tiles;
 
 pub use channel::Channel;
-pub use division::block::{Area, Block};
-pub use division::cells::Cells;
+pub use division::block::{Area, Block, CellSymbol};
 pub use division::height_source::HeightSource;
 pub use division::noise::{octaves, octaves_around};
 pub use division::table::{NumberRange, Quadrants, RuleTable};

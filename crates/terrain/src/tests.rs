@@ -6,8 +6,9 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::*;
+use crate::CellSymbol;
+use burgeon_base::ModuleKey;
 use burgeon_base::random::Stream;
-use burgeon_rewriting::{ModuleKey, Symbol};
 use burgeon_scene::Part;
 
 /// Returns a rule table of four symbols.
@@ -21,7 +22,7 @@ fn table(seed: u64, drawn: bool) -> RuleTable {
         Quadrants {
             weight: 1.0,
             change: std::array::from_fn(|_| change()),
-            symbols: std::array::from_fn(|_| Symbol::try_from(stream.below(4)).unwrap()),
+            symbols: std::array::from_fn(|_| CellSymbol::try_from(stream.below(4)).unwrap()),
             decay: std::array::from_fn(|_| NumberRange::exactly(0.4 + 0.2 * stream.uniform())),
         }
     };
@@ -114,7 +115,7 @@ fn a_rule_table_gives_what_its_text_says() {
     // Recursive reference implementation for single cells.
     fn naive(
         table: &RuleTable,
-        (symbol, height, decay): (Symbol, f64, f64),
+        (symbol, height, decay): (CellSymbol, f64, f64),
         levels: u32,
         x: usize,
         y: usize,

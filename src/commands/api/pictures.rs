@@ -5,14 +5,13 @@ use std::path::Path;
 
 use crate::commands::report;
 use burgeon::export::PNG;
-use burgeon::geometry::face;
 use burgeon::kit::ScriptExample;
 use burgeon::objects::EXAMPLES;
 use burgeon::picture::Picture;
 use burgeon::scene::{Instance, Material, Mesh, Part, Scene, image};
 use burgeon::script::{Print, RunOptions, RunReports};
 use burgeon::{Error, Result, Stop, export};
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DVec3, Vec2};
 
 /// Width and height (pixels).
 const SIZE: (u32, u32) = (480, 300);
@@ -92,7 +91,7 @@ fn picture(example: &ScriptExample) -> Result<Vec<u8>> {
     let _ = std::fs::remove_dir_all(&folder);
     let mut scene = run?.scene;
     if example.name.starts_with("extruder") || example.name.starts_with("turtle") {
-        add_axes(&mut scene)?;
+        add_axes(&mut scene);
     }
     let (width, height) = SIZE;
     let bytes = export::png(&scene, &Picture { width, height, ..Picture::default() }, &Stop::default())?;
@@ -100,7 +99,7 @@ fn picture(example: &ScriptExample) -> Result<Vec<u8>> {
 }
 
 /// Adds the axes at the origin: x red, y green and z blue, each 1 m long.
-fn add_axes(scene: &mut Scene) -> Result<()> {
+fn add_axes(scene: &mut Scene) {
     let mut mesh = Mesh { name: "axes".to_owned(), ..Mesh::default() };
     for (along, color) in [
         (DVec3::X, [0.75, 0.05, 0.05, 1.0]),
@@ -109,7 +108,7 @@ fn add_axes(scene: &mut Scene) -> Result<()> {
     ] {
         let material = Material { base_color: color, ..Material::default() };
         let mut part = Part { material: scene.material(&material), ..Part::default() };
-        arrow(&mut part, along)?;
+        arrow(&mut part, along);
         mesh.parts.push(part);
     }
     scene.meshes.push(mesh);
@@ -122,11 +121,10 @@ fn add_axes(scene: &mut Scene) -> Result<()> {
         placement: None,
         meaning: None,
     });
-    Ok(())
 }
 
 /// Adds an arrow of 1 m from the origin in the direction `along`.
-fn arrow(part: &mut Part, along: DVec3) -> Result<()> {
+fn arrow(part: &mut Part, along: DVec3) {
     let side = DVec3::new(along.y, along.z, along.x);
     let up = along.cross(side);
     let ring = |at: f64, radius: f64| [side, up, -side, -up].map(|out| along * at + out * radius);
@@ -134,10 +132,22 @@ fn arrow(part: &mut Part, along: DVec3) -> Result<()> {
     let tip = along;
     for number in 0..4 {
         let next = (number + 1) % 4;
-        face(part, &[foot[number], foot[next], neck[next], neck[number]])?;
-        face(part, &[neck[number], neck[next], head[next], head[number]])?;
-        face(part, &[head[number], head[next], tip])?;
+        add_face(part, &[foot[number], foot[next], neck[next], neck[number]]);
+        add_face(part, &[neck[number], neck[next], head[next], head[number]]);
+        add_face(part, &[head[number], head[next], tip]);
     }
     let [a, b, c, d] = foot;
-    face(part, &[d, c, b, a])
+    add_face(part, &[d, c, b, a]);
+}
+
+/// Adds a flat convex face, whose normal follows the right-hand rule.
+fn add_face(part: &mut Part, corners: &[DVec3]) {
+    let base = u32::try_from(part.positions.len()).unwrap_or(u32::MAX);
+    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
+    for corner in corners {
+        part.positions.push(corner.as_vec3());
+        part.normals.push(normal.into());
+        part.uvs.push(Vec2::ZERO);
+    }
+    part.triangles.extend((base + 1..).take(corners.len() - 2).map(|second| [base, second, second + 1]));
 }

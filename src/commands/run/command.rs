@@ -209,9 +209,11 @@ impl RunCommand {
         if self.writes(Need::Layers) && is_bare() {
             let text = "no layers to write: no module of the final chains has a geometry";
             let warning = Warning::new(WarningKind::EmptyModel, text)
-                .at(run.systems.first().and_then(|system| system.place.clone()))
-                .called_at(run.systems.first().and_then(|system| system.caller.clone()))
                 .help("pass a geometry, such as Lot(feature.geometry, area)");
+            let warning = match run.systems.first() {
+                Some(system) => system.locate(warning),
+                None => warning,
+            };
             if session.options.strict {
                 return Err(warning.into_error());
             }

@@ -145,6 +145,11 @@ impl Error {
         self
     }
 
+    /// Returns the message alone.
+    pub fn into_message(self) -> String {
+        self.0.message
+    }
+
     /// Replaces the message.
     #[must_use]
     pub fn saying(mut self, message: impl fmt::Display) -> Self {

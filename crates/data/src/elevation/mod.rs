@@ -24,7 +24,6 @@ mod tests;
 #[cfg(test)]
 mod tiff_tests;
 
-pub use crate::heights::names::{png_text, tiff_key};
 pub use crate::heights::{HeightOptions, MOST, SampleGrid};
 pub use missing::UndeclaredMarks;
 pub use raster::Raster;

@@ -1,10 +1,10 @@
 //! Mosaic of several rasters whose samples are on one grid.
 
 use super::raster::Raster;
-use crate::crs::Crs;
 use crate::heights::{MOST, SampleGrid, count};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
+use burgeon_spatial::Crs;
 
 /// Tolerance (samples) for the alignment of samples with the grid.
 const TOLERANCE: f64 = 0.02;
@@ -220,9 +220,9 @@ pub(super) fn extend(raster: &mut Raster) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ReferenceFrame;
     use crate::elevation::Relief;
     use crate::heights::narrow;
+    use burgeon_spatial::ReferenceFrame;
     use glam::DVec2;
     use std::sync::Arc;
 

@@ -8,13 +8,13 @@ use super::missing::take_out;
 use super::raster::Raster;
 use super::{fill, format, mosaic};
 use crate::companions;
-use crate::crs::Crs;
-use crate::crs::prj::{crs_of_text, height_unit};
 use crate::heights::marks::is_negative_mark;
 use crate::heights::{HeightOptions, RasterHeader, SampleGrid, count, narrow};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::text::number;
+use burgeon_spatial::Crs;
+use burgeon_spatial::crs::{crs_of_text, height_unit};
 
 /// Maximum file size (bytes).
 const LARGEST: u64 = 2_000_000_000;

@@ -1,10 +1,10 @@
 //! Raster of heights in the coordinates of its file.
 
 use super::missing::UndeclaredMarks;
-use crate::crs::Crs;
 use crate::heights::{SampleGrid, count};
 use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, WarningKind};
+use burgeon_spatial::Crs;
 
 /// Heights without holes, in rows from north to south.
 #[derive(Debug, Clone)]

@@ -5,12 +5,11 @@ use std::sync::Arc;
 
 use glam::{DMat2, DVec2, DVec3};
 
-use super::super::frame::FARTHEST;
 use super::lattice::Lattice;
 use super::raster::Raster;
-use crate::frame::ReferenceFrame;
 use crate::heights::{SampleGrid, count};
 use burgeon_base::error::{Error, Result};
+use burgeon_spatial::ReferenceFrame;
 
 /// Number of parts into which each edge is divided to compute the bounding box.
 const PIECES: usize = 256;
@@ -308,7 +307,7 @@ fn around(points: &[DVec2]) -> (DVec2, DVec2) {
 /// Fails if the raster is too far from the origin, or has no finite position.
 fn check_near(raster: &Raster, low: DVec2, high: DVec2) -> Result<()> {
     let corners = [low.x, low.y, high.x, high.y];
-    if corners.iter().all(|value| value.abs() <= FARTHEST) {
+    if corners.iter().all(|value| value.abs() <= ReferenceFrame::FARTHEST) {
         return Ok(());
     }
     let [west, south, ..] = raster.bounds();
@@ -353,8 +352,8 @@ fn changes(t: f64) -> [f64; 4] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::Crs;
     use super::*;
+    use burgeon_spatial::Crs;
 
     /// Returns a raster of `columns` by `rows` heights at `first` with `step`, computed by `height`.
     fn raster(

@@ -36,8 +36,9 @@ pub(crate) fn derived_id(parts: &[Geometry], attributes: &[(usize, Attribute)], 
 
 #[cfg(test)]
 mod tests {
-    use crate::{Attribute, Crs, Feature, FeatureTable, Geometry, SourceOptions};
+    use crate::{Attribute, Feature, FeatureTable, Geometry, SourceOptions};
     use burgeon_base::error::Error;
+    use burgeon_spatial::Crs;
 
     #[test]
     fn features_without_ids_keep_theirs_whatever_comes_and_goes_around_them() {

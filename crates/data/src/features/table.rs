@@ -10,12 +10,12 @@ use super::derived_id::derived_id;
 use super::feature::Feature;
 use super::selection::FeatureSelection;
 use super::taken_ids::TakenIds;
-use crate::crs::Crs;
 use crate::source_options::SourceOptions;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
 use burgeon_kit::Attribute;
+use burgeon_spatial::Crs;
 use burgeon_spatial::{Geometry, GeometryKind};
 
 /// Layer as stored in its file.

@@ -99,7 +99,8 @@ impl TakenIds {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Crs, FeatureTable, Geometry, SourceOptions};
+    use crate::{FeatureTable, Geometry, SourceOptions};
+    use burgeon_spatial::Crs;
 
     #[test]
     fn parts_and_repeated_ids_are_numbered_on() {

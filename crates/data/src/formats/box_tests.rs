@@ -1,8 +1,8 @@
 //! Tests of the box that selects features: each format keeps those whose geometry touches it.
 
-use crate::output::{Record, RecordTable};
-use crate::{Geometry, Source, SourceOptions, write_geopackage};
+use crate::{Geometry, Source, SourceOptions};
 use burgeon_base::stop::Stop;
+use burgeon_spatial::{Record, RecordTable};
 
 /// Geometries whose bounding boxes intersect [`BOX`]: two that touch it, then three that do not.
 const TEXTS: [&str; 5] = [
@@ -97,7 +97,7 @@ fn only_geometries_that_touch_the_box_are_read_in_each_format() {
         values: Vec::new(),
     });
     let table = RecordTable { name: "Lot".into(), columns: Vec::new(), records: records.collect() };
-    let package = write_geopackage(&[table], None, &Stop::default()).unwrap();
+    let package = burgeon_export::layers::write_geopackage(&[table], None, &Stop::default()).unwrap();
     let collection = |text: &str| {
         format!(
             "<gml:FeatureCollection xmlns:gml='http://www.opengis.net/gml'>{text}</gml:FeatureCollection>"

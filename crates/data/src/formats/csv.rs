@@ -9,13 +9,13 @@ use std::io::{BufRead, BufReader};
 
 use crate::codepages::{CodePage, WESTERN};
 use crate::content::{ContentReader, DataFile};
-use crate::crs::Crs;
 use crate::features::table::FeatureTable;
 use crate::formats::typing::TextTypes;
 use crate::layered_file::LayeredFile;
 use crate::source_options::SourceOptions;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
+use burgeon_spatial::Crs;
 use burgeon_spatial::Geometry;
 use glam::DVec3;
 
@@ -80,8 +80,8 @@ impl LayeredFile for CsvFile {
         "CSV"
     }
 
-    fn layers(&self) -> Vec<String> {
-        vec![self.layer.clone()]
+    fn layers(&self) -> Vec<&str> {
+        vec![&self.layer]
     }
 
     fn read(&self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {

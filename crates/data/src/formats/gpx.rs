@@ -5,7 +5,6 @@
 use glam::DVec3;
 
 use crate::content::DataFile;
-use crate::crs::Crs;
 use crate::features::table::FeatureTable;
 use crate::formats::typing::TextTypes;
 use crate::formats::xml::{Element, Xml, XmlPiece};
@@ -13,6 +12,7 @@ use crate::layered_file::LayeredFile;
 use crate::source_options::SourceOptions;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
+use burgeon_spatial::Crs;
 use burgeon_spatial::Geometry;
 
 /// Layers, with the element names of their features.
@@ -78,8 +78,8 @@ impl LayeredFile for GpxFile {
         "GPX"
     }
 
-    fn layers(&self) -> Vec<String> {
-        self.layers.iter().map(|layer| (*layer).to_owned()).collect()
+    fn layers(&self) -> Vec<&str> {
+        self.layers.iter().copied().collect()
     }
 
     fn read(&self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {

@@ -8,7 +8,6 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::content::DataFile;
-use crate::crs::Crs;
 use crate::features::table::FeatureTable;
 use crate::formats::typing::TextTypes;
 use crate::formats::xml::{Element, Xml, XmlPiece};
@@ -18,6 +17,7 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 use burgeon_kit::Attribute;
+use burgeon_spatial::Crs;
 use burgeon_spatial::Geometry;
 
 /// KML file.
@@ -61,8 +61,8 @@ impl LayeredFile for KmlFile {
         "KML"
     }
 
-    fn layers(&self) -> Vec<String> {
-        vec![self.layer.clone()]
+    fn layers(&self) -> Vec<&str> {
+        vec![&self.layer]
     }
 
     fn read(&self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {

@@ -16,7 +16,6 @@ mod gpx;
 mod kml;
 mod opening;
 mod osm;
-pub(crate) mod output;
 mod packed;
 pub(crate) mod png;
 mod shapefile;

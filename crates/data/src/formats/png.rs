@@ -5,10 +5,10 @@ use std::io::Cursor;
 use ::png::{BitDepth, ColorType, Decoder, DecodingError, Limits, Transformations};
 
 use super::packed::{DEFLATED, can_hold, cannot_hold};
-use crate::heights::names::png_text as text;
 use crate::heights::{HeightOptions, MOST, RasterHeader, check_size, narrow};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
+use burgeon_spatial::height_files::png_text as text;
 
 /// PNG in memory that is being read.
 type PngDecoder<'a> = Decoder<Cursor<&'a [u8]>>;

@@ -143,7 +143,7 @@ fn members(
     let _held = (text.len() > LARGE)
         .then(|| budget.hold(text.len().saturating_mul(4)))
         .transpose()
-        .map_err(|error| error.message().to_owned())?;
+        .map_err(|error| error.into_message())?;
     match kind {
         "Point" => parts.push(Geometry::point(read_as(text, PointSeed(budget))?)),
         "MultiPoint" => {

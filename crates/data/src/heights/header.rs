@@ -1,9 +1,9 @@
 //! Header of a file of heights.
 
 use super::MOST;
-use crate::crs::Crs;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
+use burgeon_spatial::Crs;
 
 /// Positions of samples, in the units of a coordinate system.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,9 +1,9 @@
 //! Reader of SRTM tiles (`.hgt`): a square degree of big-endian 16-bit heights, named after its south-west corner.
 
 use super::{HeightOptions, RasterHeader, SampleGrid, check_size, count};
-use crate::crs::Crs;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
+use burgeon_spatial::Crs;
 
 /// Marker of an unknown height.
 const MISSING: i16 = -32768;

@@ -7,7 +7,6 @@ pub(crate) mod ascii;
 mod header;
 pub(crate) mod hgt;
 pub(crate) mod marks;
-pub(crate) mod names;
 mod options;
 pub(crate) mod raw;
 

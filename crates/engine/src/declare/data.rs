@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use super::file_access::{FileAccess, find_all};
 use super::session::Session;
-use crate::questions::{ChainView, NamedModule, Question, RowSource};
+use crate::queries::{ChainView, NamedModule, RowSource, SqlQuery};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, ErrorKind, Result};
 use burgeon_base::locks::LockRecovery;
@@ -178,7 +178,7 @@ pub(super) struct ModuleRows<'a> {
 impl ModuleRows<'_> {
     /// Adds suggestions to an error about a missing table: modules of this name in several packages, or a
     /// module with a similar name.
-    fn explain(&self, error: Error, question: &Question) -> Error {
+    fn explain(&self, error: Error, question: &SqlQuery) -> Error {
         let ErrorKind::NotFound { what: "table", name, suggestion: None } = error.kind() else {
             return error;
         };
@@ -196,7 +196,7 @@ impl ModuleRows<'_> {
 }
 
 impl RowSource for ModuleRows<'_> {
-    fn rows(&self, question: &Question, most: usize) -> Result<QueryRows> {
+    fn rows(&self, question: &SqlQuery, most: usize) -> Result<QueryRows> {
         let data = &self.session.data;
         let tables: Vec<ChainTable<'_>> =
             self.modules.iter().map(|module| ChainTable::new(self.session, self.view, module)).collect();

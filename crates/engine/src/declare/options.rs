@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use super::{FeaturePart, Preset};
 use crate::checkpoints::DerivationStore;
-use crate::questions::RowSource;
+use crate::queries::RowSource;
 use burgeon_base::stop::Stop;
 use burgeon_kit::Registry;
 
@@ -149,9 +149,9 @@ pub struct RunOptions {
     /// Set to end the run before the first derivation, after all declarations have been read.
     pub check: bool,
     /// Set to treat warnings and faulty data as errors. Otherwise faulty features are skipped, and
-    /// [`DerivedSystem::remarks`] lists them.
+    /// [`DerivedSystem::feature_warnings`] lists them.
     ///
-    /// [`DerivedSystem::remarks`]: crate::results::DerivedSystem::remarks
+    /// [`DerivedSystem::feature_warnings`]: crate::results::DerivedSystem::feature_warnings
     pub strict: bool,
     /// Number of worker threads; the number of cores if `None`.
     pub threads: Option<usize>,

@@ -139,7 +139,7 @@ impl Param {
         let number = |field: &str| -> Result<Option<f64>> {
             match options.get(field) {
                 None => Ok(None),
-                Some(value) => f64::from_value(value.clone())
+                Some(value) => f64::read_value(value)
                     .map(Some)
                     .map_err(|expected| expected.refuse(&format!("param {name}"), field, value)),
             }
@@ -147,7 +147,7 @@ impl Param {
         let text = |field: &str| -> Result<String> {
             match options.get(field) {
                 None => Ok(String::new()),
-                Some(value) => String::from_value(value.clone())
+                Some(value) => String::read_value(value)
                     .map_err(|expected| expected.refuse(&format!("param {name}"), field, value)),
             }
         };
@@ -171,7 +171,7 @@ impl Param {
                 )));
             }
             (Some(Value::Text(default)), Some(choices)) => {
-                let choices = Vec::<String>::from_value(choices.clone())
+                let choices = Vec::<String>::read_value(choices)
                     .map_err(|expected| expected.refuse(&format!("param {name}"), "choices", choices))?;
                 (Setting::Text(default.to_string()), Control::Choice(choices))
             }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::data::ModuleRows;
 use super::session::Session;
-use crate::questions::{AskedRows, ChainView, Question, RowSource};
+use crate::queries::{AskedRows, ChainView, RowSource, SqlQuery};
 use burgeon_base::error::Result;
 use burgeon_base::locks::LockRecovery;
 use burgeon_kit::QueryRows;
@@ -20,7 +20,7 @@ impl Session {
     }
 
     /// Returns the rows of a query of a rule or an interpretation; equal while they are cached.
-    pub(crate) fn ask(&self, question: &Question) -> Result<Arc<QueryRows>> {
+    pub(crate) fn ask(&self, question: &SqlQuery) -> Result<Arc<QueryRows>> {
         let view = Arc::clone(&self.chains.lock().recover());
         self.ask_about(question, &view, false)
     }
@@ -29,7 +29,7 @@ impl Session {
     /// if `stays` is set.
     pub(crate) fn ask_about(
         &self,
-        question: &Question,
+        question: &SqlQuery,
         view: &ChainView,
         stays: bool,
     ) -> Result<Arc<QueryRows>> {

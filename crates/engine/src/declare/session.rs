@@ -14,7 +14,7 @@ use super::positions::RandomPositions;
 use super::progress::RunProgress;
 use super::scripts::{ScriptFiles, SourceFile, own_params, read_stdlib, unreadable};
 use super::types::DeclaredTypes;
-use crate::questions::{ChainView, RowCache};
+use crate::queries::{ChainView, RowCache};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::stop::Stop;

@@ -6,9 +6,10 @@ use super::phases::{DerivationResults, derive};
 use super::plan::{Derivation, DerivationPlan};
 use super::threads::{LeadingMachine, ThreadPool};
 use crate::machine::{Axiom, DerivationRequest, Machine, Objects};
-use crate::results::{DerivedSystem, Remark, RowFeatures, RuleName, SystemUses, Trace};
+use crate::results::{DerivedSystem, RowFeatures, RuleName, SystemUses, Trace, skipped_feature};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::locks::LockRecovery;
+use burgeon_base::warning::Warning;
 use burgeon_kit::{Drawing, Object};
 
 /// Result of a derivation.
@@ -70,10 +71,10 @@ fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -
     let left_out = objects.as_ref().map(|objects| objects.failed().list()).unwrap_or_default();
     let objects = match objects {
         Some(objects) => {
-            let mut remarks = Vec::new();
-            let objects = shared(objects, &axiom, rows.as_mut(), &mut remarks)?;
+            let mut warnings = Vec::new();
+            let objects = shared(objects, &axiom, rows.as_mut(), &mut warnings)?;
             // Features skipped earlier come first; the chains follow in their order.
-            axiom.remarks.append(&mut remarks);
+            axiom.feature_warnings.append(&mut warnings);
             objects
         }
         None => Vec::new(),
@@ -96,7 +97,7 @@ fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -
         place,
         caller,
         given: axiom.given,
-        remarks: axiom.remarks,
+        feature_warnings: axiom.feature_warnings,
         city,
         source: axiom.known,
         rows,
@@ -109,13 +110,13 @@ fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -
     Ok(Ending::Derived(derived))
 }
 
-/// Returns the objects after the last pass, and adds their skipped and simplified features to `remarks`.
+/// Returns the objects after the last pass, and adds the warnings about skipped and simplified features to `warnings`.
 /// Fails if all objects have failed.
 fn shared(
     objects: Objects,
     axiom: &Axiom,
     rows: Option<&mut RowFeatures>,
-    remarks: &mut Vec<Remark>,
+    warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Arc<dyn Object>>> {
     let mut makers = Vec::new();
     let mut settled: Vec<Arc<dyn Object>> = Vec::new();
@@ -124,12 +125,12 @@ fn shared(
         let feature = axiom.features.get(index).and_then(Option::as_deref);
         if let Some(error) = failure {
             object.begin();
-            remarks.push(Remark::skipped(&axiom.source, feature, &error));
+            warnings.push(skipped_feature(&axiom.source, feature, &error));
             failed += 1;
             first.get_or_insert(error);
         } else {
-            let notes = object.notes().iter();
-            remarks.extend(notes.map(|note| Remark::simplified(&axiom.source, feature, note)));
+            let notes = object.notes().iter().cloned();
+            warnings.extend(notes.map(|note| note.of_feature(&axiom.source, feature)));
         }
         if rows.is_some() {
             makers.push(object.drawing_mut().and_then(Drawing::take_makers));

@@ -8,7 +8,7 @@ use super::hooks::HookView;
 use super::module_places::ModulePlaces;
 use crate::declare::Session;
 use crate::machine::types::Objects;
-use crate::questions::ChainView;
+use crate::queries::ChainView;
 use crate::results::VariableValues;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::random::Stream;

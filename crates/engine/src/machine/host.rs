@@ -41,7 +41,7 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<WorkState>, library: &Rc<Library
     add_methods(lua, &host, current, library)?;
     add_script_objects(lua, &host, current, library)?;
     super::streams::add_streams(lua, &host, current)?;
-    super::questions::add_questions(lua, &host, current, library)?;
+    super::row_tables::add_queries(lua, &host, current, library)?;
     super::hooks::add_hooks(lua, &host, current)?;
     super::variables::add_variables(lua, &host, current, library)?;
     Ok(host)

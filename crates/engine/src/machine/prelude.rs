@@ -23,7 +23,7 @@ const PARTS: [&str; 15] = [
     include_str!("prelude/held_objects.luau"),
     include_str!("prelude/declarations.luau"),
     include_str!("prelude/interpretation.luau"),
-    include_str!("prelude/questions.luau"),
+    include_str!("prelude/queries.luau"),
     include_str!("prelude/randoms.luau"),
     include_str!("prelude/distributions.luau"),
     include_str!("prelude/hooks.luau"),

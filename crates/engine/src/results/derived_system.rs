@@ -5,7 +5,6 @@ use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use super::records::{SourceFeatures, drop_indices};
-use super::remark::Remark;
 use super::row_features::RowFeatures;
 use super::trace::RuleName;
 use super::variables::VariableValues;
@@ -73,8 +72,8 @@ pub struct DerivedSystem {
     pub caller: Option<SourcePlace>,
     /// Number of input features, including skipped features.
     pub given: usize,
-    /// Skipped and simplified features: first the features without a chain, then the chains in order.
-    pub remarks: Vec<Remark>,
+    /// Warnings about skipped and simplified features: first the features without a chain, then the chains in order.
+    pub feature_warnings: Vec<Warning>,
     /// Class of the chains as CityJSON objects, if the script sets one.
     pub city: Option<CityClass>,
     pub(crate) source: SourceFeatures,
@@ -108,6 +107,11 @@ pub(crate) struct SystemUses {
 }
 
 impl DerivedSystem {
+    /// Returns `warning` with the location where the system was created, and the line that called it.
+    pub fn locate(&self, warning: Warning) -> Warning {
+        warning.at(self.place.clone()).called_at(self.caller.clone())
+    }
+
     /// Returns the number of modules in all chains, without brackets.
     pub fn modules(&self) -> usize {
         self.modules
@@ -129,9 +133,10 @@ impl DerivedSystem {
         let place = |chain: &usize| chain - chains.partition_point(|dropped| dropped < chain);
         let left_out = self.left_out.iter().filter(|chain| chains.binary_search(chain).is_err());
         self.left_out = left_out.map(place).collect();
-        let dropped: Vec<Option<String>> =
-            chains.iter().filter_map(|chain| self.features.get(*chain).cloned()).collect();
-        self.remarks.retain(|remark| remark.feature.is_none() || !dropped.contains(&remark.feature));
+        let dropped: Vec<Option<&str>> =
+            chains.iter().filter_map(|chain| Some(self.features.get(*chain)?.as_deref())).collect();
+        self.feature_warnings
+            .retain(|warning| warning.feature().is_none() || !dropped.contains(&warning.feature()));
         drop_indices(&mut self.objects, chains);
         drop_indices(&mut self.features, chains);
         self.source.drop_chains(chains);

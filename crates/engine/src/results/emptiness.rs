@@ -33,7 +33,7 @@ pub(crate) fn emptiness(warnings: &[Warning], systems: &[Arc<DerivedSystem>]) ->
         "no module of its final chain is drawn: add system:interpret(pattern, function(this, ...) ... end)"
     };
     let warning = Warning::new(WarningKind::EmptyModel, "the model is empty: this system draws nothing");
-    Some(warning.at(drawing.place.clone()).called_at(drawing.caller.clone()).help(help))
+    Some(drawing.locate(warning).help(help))
 }
 
 /// Advice for interpretations that draw nothing.
@@ -47,7 +47,7 @@ pub(crate) fn idleness(session: &Session, scene: &Scene, system: &DerivedSystem)
         return None;
     }
     let warning = Warning::new(WarningKind::DrawsNothing, "this system draws nothing");
-    Some(warning.at(system.place.clone()).called_at(system.caller.clone()).help(NO_EXTENT))
+    Some(system.locate(warning).help(NO_EXTENT))
 }
 
 /// Returns true if the options neither limit the steps or the features nor reduce the level of detail.
@@ -65,16 +65,16 @@ fn is_interpreted(system: &DerivedSystem) -> bool {
 /// Returns the warning about skipped features of a system, with the first reason. Features that the source
 /// has already reported are not counted.
 pub(crate) fn left_out(system: &DerivedSystem) -> Option<Warning> {
-    let mut skipped = system.remarks.iter().filter(|remark| remark.skipped && !remark.unread);
+    let mut skipped =
+        system.feature_warnings.iter().filter(|warning| warning.kind() == WarningKind::SkippedFeature);
     let first = skipped.next()?;
-    let (count, why) = (1 + skipped.count(), &first.why);
-    let id = first.feature.as_deref().map_or_else(String::new, |id| format!(" {}", shown(id)));
-    let source = if first.source.is_empty() { String::new() } else { format!(" of {}", first.source) };
+    let (count, why) = (1 + skipped.count(), first.cause());
+    let id = first.feature().map_or_else(String::new, |id| format!(" {}", shown(id)));
+    let source = if first.source().is_empty() { String::new() } else { format!(" of {}", first.source()) };
     let text = match count {
         1 => format!("skipped feature{id}{source}: {why}"),
         _ => format!("skipped {count} of {} features, e.g. feature{id}{source}: {why}", system.given),
     };
     let warning = Warning::new(WarningKind::Data, text);
-    let warning = warning.at(system.place.clone()).called_at(system.caller.clone());
-    Some(warning.help("--report FILE lists all; with --strict they are errors"))
+    Some(system.locate(warning).help("--report FILE lists all; with --strict they are errors"))
 }

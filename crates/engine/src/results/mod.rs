@@ -6,9 +6,9 @@
 
 mod derived_system;
 mod emptiness;
+mod feature_report;
 mod layers;
 mod records;
-mod remark;
 mod row_features;
 mod trace;
 mod variables;
@@ -17,9 +17,10 @@ pub use burgeon_rewriting::Use;
 pub(crate) use derived_system::SystemUses;
 pub use derived_system::{DerivedSystem, RuleReport, Times};
 pub(crate) use emptiness::{emptiness, idleness, is_whole, left_out, tells_of_emptiness};
+pub use feature_report::FeatureReport;
+pub(crate) use feature_report::{skipped_feature, unread_feature};
 pub use layers::layers;
 pub(crate) use records::SourceFeatures;
-pub use remark::{FeatureReport, Remark};
 pub(crate) use row_features::RowFeatures;
 pub use trace::{Ancestor, Module, RuleName, RuleProducts, Trace};
 pub(crate) use trace::{PendingAnswer, RESOLVED};

@@ -139,7 +139,7 @@ fn json(value: &Value) -> serde_json::Value {
         Value::Table(table) => {
             let list = table.list();
             if list.len() == table.entries.len() {
-                return list.iter().map(json).collect();
+                return list.into_iter().map(json).collect();
             }
             let name = |key: &TableKey| match key {
                 TableKey::Index(index) => index.to_string(),

@@ -3,9 +3,9 @@
 use std::io::{self, Write as _};
 use std::path::Path;
 
+use crate::layers::OutputPlacement;
 use burgeon_base::error::Result;
-use burgeon_data::Attribute;
-use burgeon_data::output::OutputPlacement;
+use burgeon_spatial::Attribute;
 use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;

@@ -1,8 +1,9 @@
 //! City objects: their ids, classes and shapes.
 
+use crate::layers::OutputPlacement;
 use burgeon_base::error::{Error, Result};
-use burgeon_data::output::{OutputPlacement, Record};
 use burgeon_scene::{CityClass, Instance, Origin, Scene, SurfaceMeaning};
+use burgeon_spatial::Record;
 use glam::{DAffine3, DMat3, DVec3};
 use rustc_hash::FxHashMap;
 

@@ -1,9 +1,9 @@
 use std::collections::HashSet;
 
 use burgeon_base::stop::Stop;
-use burgeon_data::output::{Record, RecordTable};
-use burgeon_data::{Attribute, Crs, ReferenceFrame};
 use burgeon_scene::{CityClass, Origin, Scene, SurfaceMeaning};
+use burgeon_spatial::{Attribute, Crs, ReferenceFrame};
+use burgeon_spatial::{Record, RecordTable};
 use glam::DVec3;
 use serde_json::{Value as Json, json};
 

@@ -6,9 +6,10 @@
 //!
 //! Specification: Cesium GS, "3D Metadata Specification" and the three extensions of glTF, 2023.
 
-use burgeon_data::Attribute;
-use burgeon_data::output::{ColumnKind, RecordTable, column_kinds};
+use crate::layers::{ColumnKind, column_kinds};
 use burgeon_scene::{Instance, Scene};
+use burgeon_spatial::Attribute;
+use burgeon_spatial::RecordTable;
 use gltf_json as json;
 use rustc_hash::FxHashSet;
 use serde_json::{Map, Value as Json, json};

@@ -3,9 +3,9 @@
 use std::collections::HashSet;
 
 use burgeon_base::stop::Stop;
-use burgeon_data::Attribute;
-use burgeon_data::output::{Record, RecordTable};
 use burgeon_scene::{Origin, Scene};
+use burgeon_spatial::Attribute;
+use burgeon_spatial::{Record, RecordTable};
 use proptest::prelude::*;
 use serde_json::{Value as Json, json};
 

@@ -1,6 +1,6 @@
 //! Grids of heights.
 
-use burgeon_data::ReferenceFrame;
+use burgeon_spatial::ReferenceFrame;
 use glam::DVec2;
 
 /// Grid of heights of a run's terrain.

@@ -9,7 +9,7 @@ use tiff::tags::Tag;
 use super::super::Out;
 use super::height_map::{HeightMap, narrow};
 use burgeon_base::error::Result;
-use burgeon_data::elevation::{png_text, tiff_key};
+use burgeon_spatial::height_files::{png_text, tiff_key};
 
 /// Succeeds, because both formats are available.
 pub(super) fn check() -> Result<()> {

@@ -7,7 +7,7 @@ use super::formats::{HEIGHT_FORMATS, HeightFormat};
 use super::height_map::HeightMap;
 use crate::{Files, extension_list};
 use burgeon_base::error::{Error, Result};
-use burgeon_data::ReferenceFrame;
+use burgeon_spatial::ReferenceFrame;
 
 /// Writes `map` to the future file `path`, in the format of its extension.
 ///
@@ -92,8 +92,8 @@ mod tests {
         write(map, path, &mut files)?;
         files.publish()
     }
-    use burgeon_data::Crs;
     use burgeon_data::elevation::{HeightOptions, Raster};
+    use burgeon_spatial::Crs;
     use glam::DVec2;
 
     /// Returns hills of 12 by `rows` heights.

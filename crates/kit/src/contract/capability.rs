@@ -6,7 +6,7 @@
 use std::any::{Any, TypeId};
 use std::sync::Arc;
 
-use crate::{Drawing, Note, Object, Rewriter, Value};
+use crate::{Drawing, Object, Rewriter, Value};
 use burgeon_base::error::Result;
 use burgeon_base::warning::Warning;
 use burgeon_scene::Scene;
@@ -137,8 +137,9 @@ pub trait Warn {
 
 /// Capability to report results that differ from the request.
 pub trait Report {
-    /// Returns the report entries since the pass began.
-    fn notes(&self) -> &[Note];
+    /// Returns the report entries since the pass began, of the kind
+    /// [`SimplifiedFeature`](burgeon_base::WarningKind::SimplifiedFeature).
+    fn notes(&self) -> &[Warning];
 }
 
 /// Capability to provide features for layered files.

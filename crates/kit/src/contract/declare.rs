@@ -62,10 +62,10 @@ impl<'a> Arguments<'a> {
 
     /// Reads the next argument, called `name` in messages.
     pub fn next<T: Parameter>(&mut self, name: &str) -> Result<T> {
-        let value = self.values.get(self.taken).cloned().unwrap_or(Value::Nil);
+        let value = self.values.get(self.taken).unwrap_or(&Value::Nil);
         self.taken += 1;
-        T::from_value(value.clone())
-            .map_err(|expected| expected.refuse(&format!("{}:{}", self.kind, self.method), name, &value))
+        T::read_value(value)
+            .map_err(|expected| expected.refuse(&format!("{}:{}", self.kind, self.method), name, value))
     }
 
     /// Fails if arguments remain.
@@ -118,7 +118,7 @@ impl<'a> Numbers<'a> {
             ColumnValue::Nil => Value::Nil,
             ColumnValue::Handle(_) => Value::Table(std::sync::Arc::default()),
         };
-        T::from_value(value.clone())
+        T::read_value(&value)
             .map_err(|expected| expected.refuse(&format!("{}:{}", self.kind, self.method), name, &value))
     }
 

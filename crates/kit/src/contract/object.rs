@@ -4,7 +4,7 @@ use std::any::Any;
 use std::sync::Arc;
 
 use super::capability::{Draw, Expand, HasLayers, LevelOfDetail, Report, Show, Warn};
-use crate::{Drawing, Kind, Note, Rewriter, Value};
+use crate::{Drawing, Kind, Rewriter, Value};
 use burgeon_base::error::Result;
 use burgeon_base::warning::Warning;
 use burgeon_scene::Scene;
@@ -118,7 +118,7 @@ impl dyn Object {
     }
 
     /// Returns the report entries since the pass began.
-    pub fn notes(&self) -> &[Note] {
+    pub fn notes(&self) -> &[Warning] {
         self.capability::<dyn Report>().map_or(&[], |it| it.notes())
     }
 }

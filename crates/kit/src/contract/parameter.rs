@@ -91,6 +91,11 @@ pub trait Parameter: Sized {
     /// Converts a script's value.
     fn from_value(value: Value) -> Result<Self, Expectation>;
 
+    /// Converts a script's value that stays with the caller.
+    fn read_value(value: &Value) -> Result<Self, Expectation> {
+        Self::from_value(value.clone())
+    }
+
     /// Converts a column's number; `None` if [`Parameter::from_value`] must refuse it.
     fn from_number(_: f64) -> Option<Self> {
         None
@@ -383,9 +388,9 @@ impl<T: Parameter> Parameter for Vec<T> {
                         if index % STRETCH == STRETCH - 1 && Stop::check_current().is_err() {
                             return Err(what());
                         }
-                        T::from_value(value.clone()).map_err(|inner| {
+                        T::read_value(value).map_err(|inner| {
                             let what = format!("a list whose item {} is {}", index + 1, inner.what);
-                            Expectation { what, ..inner }.found(&value)
+                            Expectation { what, ..inner }.found(value)
                         })
                     })
                     .collect()

@@ -114,11 +114,11 @@ impl Table {
     }
 
     /// Returns the entries 1, 2, 3 and so on, up to the first missing index.
-    pub fn list(&self) -> Vec<Value> {
+    pub fn list(&self) -> Vec<&Value> {
         let mut list = Vec::new();
         for (key, value) in &self.entries {
             if matches!(key, TableKey::Index(index) if usize::try_from(*index) == Ok(list.len() + 1)) {
-                list.push(value.clone());
+                list.push(value);
             }
         }
         list

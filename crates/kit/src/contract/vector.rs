@@ -59,7 +59,7 @@ impl Parameter for AxisScale {
         match value {
             Value::Number(_) => f64::from_value(value).map(|scale| Self(DVec3::splat(scale))),
             value => {
-                let found = Vector::from_value(value.clone());
+                let found = Vector::read_value(&value);
                 found.map(|Vector(scale)| Self(scale)).map_err(|_| {
                     Expectation::new("a number, or a vector with a scale for each axis").found(&value)
                 })
@@ -90,13 +90,13 @@ impl Parameter for Vector {
         }
         let mut parts = table.list();
         if parts.is_empty() {
-            parts = ["x", "y", "z"].iter().filter_map(|name| table.get(name).cloned()).collect();
+            parts = ["x", "y", "z"].iter().filter_map(|name| table.get(name)).collect();
         }
-        let number = |part: Value| match part {
+        let number = |part: &Value| match part {
             Value::Number(number) if !number.is_finite() => {
                 Err(Expectation::new("a vector of finite numbers").found(&Value::Table(Arc::clone(&table))))
             }
-            part => f64::from_value(part).map_err(|_| what()),
+            part => f64::read_value(part).map_err(|_| what()),
         };
         let numbers: Vec<f64> = parts.into_iter().map(number).collect::<Result<_, _>>()?;
         match numbers.as_slice() {

@@ -209,7 +209,7 @@ impl ScriptField {
 /// Reads the entry `part` of a declaration.
 fn read<T: Parameter>(owner: &str, table: &Table, part: &str) -> Result<Option<T>> {
     let Some(value) = table.get(part) else { return Ok(None) };
-    T::from_value(value.clone()).map(Some).map_err(|expected| expected.refuse(owner, part, value))
+    T::read_value(value).map(Some).map_err(|expected| expected.refuse(owner, part, value))
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::declare::{as_mut, as_ref};
-use crate::{Draw, Drawing, Kind, LevelOfDetail, Note, Object, Report, ScriptType, Table, Value, Warn};
+use crate::{Draw, Drawing, Kind, LevelOfDetail, Object, Report, ScriptType, Table, Value, Warn};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
 use burgeon_macros::methods;
@@ -22,7 +22,7 @@ pub struct ScriptObject {
     /// Drawing of the object, if it has no base object that draws.
     drawing: Drawing,
     detail: u8,
-    notes: Vec<Note>,
+    notes: Vec<Warning>,
 }
 
 /// Maximum number of report entries that one object keeps per pass.
@@ -34,7 +34,7 @@ impl ScriptObject {
     pub fn note(&mut self, what: String, why: Option<String>) {
         // An endless loop must not fill the memory, and more entries of one object are not useful.
         if self.notes.len() < MOST_NOTES {
-            self.notes.push(Note::new(what, why.unwrap_or_default()));
+            self.notes.push(Warning::simplification(what).with_cause(why.unwrap_or_default()));
         }
     }
 
@@ -254,7 +254,7 @@ impl LevelOfDetail for ScriptObject {
 }
 
 impl Report for ScriptObject {
-    fn notes(&self) -> &[Note] {
+    fn notes(&self) -> &[Warning] {
         &self.notes
     }
 }

@@ -10,7 +10,6 @@ use super::walk::{Facts, QueryCall, Walk};
 use crate::CallForm;
 use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Limit, SourcePlace};
-use burgeon_packages::FileName;
 use full_moon::ast::Ast;
 use full_moon::node::Node;
 use full_moon::tokenizer::TokenType;
@@ -233,7 +232,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
 /// Returns the string literals that have the form of a package file name, with their lines.
 fn package_names(ast: &Ast) -> Vec<(String, usize)> {
     let texts = ast.nodes().tokens().filter_map(|token| match token.token_type() {
-        TokenType::StringLiteral { literal, .. } if FileName::is_meant(literal) => {
+        TokenType::StringLiteral { literal, .. } if literal.starts_with('@') => {
             Some((literal.to_string(), token.start_position()?.line()))
         }
         _ => None,

@@ -2,7 +2,7 @@
 
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::text::grouped;
-use burgeon_kit::Value;
+use burgeon_engine::script::Setting;
 
 /// Maximum number of frames unless a caller allows more.
 pub const MOST_FRAMES: u32 = 10_000;
@@ -72,7 +72,7 @@ impl FrameAxis {
 
     /// Returns a label for frame `number`, such as `frame 3, time 1.5`.
     pub fn label(&self, number: u32) -> String {
-        format!("frame {number}, {} {}", self.name, Value::Number(self.value(number)))
+        format!("frame {number}, {} {}", self.name, Setting::Number(self.value(number)))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Axis of variations, and its notation: `1..16`, `twist=0..90:10`, `kind=a,b`.
 
 use burgeon_base::error::{Error, Limit, Result};
-use burgeon_kit::Value;
+use burgeon_engine::script::Setting;
 
 /// Maximum number of variations.
 pub const MOST: usize = 256;
@@ -127,7 +127,7 @@ fn range(low: &str, high: &str) -> Result<Vec<String>> {
     check_count(count, "use a larger step: LOW..HIGH:STEP")?;
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 256")]
     let count = count as usize;
-    Ok((0..count).map(|i| Value::Number(rounded(low + i as f64 * step)).to_string()).collect())
+    Ok((0..count).map(|i| Setting::Number(rounded(low + i as f64 * step)).to_string()).collect())
 }
 
 /// Rounds `number` to 13 significant digits, which removes the error of adding decimal fractions.

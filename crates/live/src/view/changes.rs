@@ -4,9 +4,9 @@ use super::message::Cause;
 use super::state::{DueRun, ServerState};
 use super::tools;
 use crate::presets::Presets;
+use crate::watch::Change;
 use burgeon_base::error::Error;
 use burgeon_base::locks::LockRecovery;
-use burgeon_watch::Change;
 
 /// Handles changed files.
 pub(super) fn handle_changes(state: &ServerState, change: &Change) {

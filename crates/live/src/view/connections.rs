@@ -17,7 +17,7 @@ use hyper_util::rt::{TokioIo, TokioTimer};
 use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::Notify;
 
-use super::Notice;
+use super::LiveEvent;
 use super::server::{Site, answer};
 use burgeon_base::locks::LockRecovery;
 
@@ -76,7 +76,7 @@ pub(super) async fn serve(listener: TcpListener, site: Arc<Site>) {
             // Too many open files are the most likely cause.
             Err(error) => {
                 if !std::mem::replace(&mut notices, true) {
-                    site.state.tell(&Notice::Note(format!("a connection has to wait: {error}")));
+                    site.state.tell(&LiveEvent::Text(format!("a connection has to wait: {error}")));
                 }
                 unproven.close_all();
                 tokio::time::sleep(PAUSE).await;

@@ -11,12 +11,12 @@ use tokio::sync::Semaphore;
 
 use super::message::Cause;
 use super::server::Site;
-use super::settings::{Notice, PORT, Settings};
+use super::settings::{LiveEvent, PORT, Settings};
 use super::state::{DueRun, ServerState};
 use super::token::{Keep, Token};
 use super::{changes, connections, tools, work};
+use crate::watch::Watch;
 use burgeon_base::error::{Error, Result};
-use burgeon_watch::Watch;
 
 /// Number of ports to try after an occupied one.
 const TRIES: u16 = 100;
@@ -51,7 +51,7 @@ impl Live {
         let watch = Watch::new(
             work::constant_inputs(&state),
             move |change| changes::handle_changes(&seen, &change),
-            move |why| complained.tell(&Notice::Note(why.to_owned())),
+            move |why| complained.tell(&LiveEvent::Text(why.to_owned())),
         )?;
         state.lock().post(DueRun { cause: Cause::Start, files: Vec::new(), at: Instant::now() });
         let thread = |name: &str, work: Box<dyn FnOnce(&ServerState) + Send>| {

@@ -38,5 +38,5 @@ mod work;
 
 pub use live::Live;
 pub use open::{Editor, browse, has_display};
-pub use settings::{Notice, PORT, Settings};
+pub use settings::{LiveEvent, PORT, Settings};
 pub use token::Token;

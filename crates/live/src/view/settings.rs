@@ -1,4 +1,4 @@
-//! Settings of the live view's server, and its notices.
+//! Settings of the live view's server, and its events for the process that started it.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -25,13 +25,13 @@ pub struct Settings {
     pub token: Option<Token>,
     /// Editor that opens lines of the script.
     pub editor: Option<Editor>,
-    /// Receiver of notices. It is called from several threads.
-    pub tell: Box<dyn Fn(&Notice) + Send + Sync>,
+    /// Receiver of events. It is called from several threads.
+    pub tell: Box<dyn Fn(&LiveEvent) + Send + Sync>,
 }
 
-/// Notice to the process that started the server.
+/// Event for the process that started the server.
 #[derive(Debug, Clone)]
-pub enum Notice {
+pub enum LiveEvent {
     /// Completion of a new model.
     Model {
         /// Number of visible triangles.
@@ -48,5 +48,5 @@ pub enum Notice {
     /// Absence of the script file.
     Waiting(String),
     /// Other information.
-    Note(String),
+    Text(String),
 }

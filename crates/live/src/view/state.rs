@@ -14,7 +14,7 @@ use super::message::{Cause, Event, Hello, ModelMessage};
 use super::open::Editor;
 use super::request::{Inputs, Request};
 use super::urls::picture_url;
-use super::{Notice, Settings, export};
+use super::{LiveEvent, Settings, export};
 use burgeon_base::error::{Error, SourcePlace};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::stop::Stop;
@@ -45,7 +45,7 @@ pub(super) struct ServerState {
     pub script: PathBuf,
     pub options: RunOptions,
     pub editor: Option<Editor>,
-    tell: Box<dyn Fn(&Notice) + Send + Sync>,
+    tell: Box<dyn Fn(&LiveEvent) + Send + Sync>,
     inner: Mutex<LiveState>,
     /// Condition that wakes the worker and the thread that reports progress.
     pub wake: Condvar,
@@ -217,7 +217,7 @@ impl ServerState {
     }
 
     /// Sends a notice to the process that started the server.
-    pub(super) fn tell(&self, notice: &Notice) {
+    pub(super) fn tell(&self, notice: &LiveEvent) {
         (self.tell)(notice);
     }
 

@@ -18,21 +18,15 @@ use burgeon_engine::results::{DerivedSystem, RuleName};
 use burgeon_engine::run::Run;
 use burgeon_engine::script::RunOptions;
 use burgeon_engine::trace as engine;
-use burgeon_rewriting::END;
 
 /// Time limit for finding the origin of a triangle or the result of a line.
 const PATIENCE: Duration = Duration::from_secs(30);
 
 /// Returns the number of modules of each symbol that occurs, the most frequent first.
 pub(super) fn symbols(system: &DerivedSystem) -> Vec<CountMessage> {
-    let mut counts = vec![0; system.symbols.arities().len()];
-    for symbol in &system.chain.symbols {
-        counts[usize::from(*symbol)] += 1;
-    }
-    let found = (0u16..).zip(counts).filter(|(symbol, count)| *symbol > END && *count > 0);
-    let mut found: Vec<CountMessage> = found
-        .map(|(symbol, count)| CountMessage { name: system.symbols.display_name(symbol).to_owned(), count })
-        .collect();
+    let found = system.symbols.counts(&system.chain).into_iter().filter(|(_, count)| *count > 0);
+    let mut found: Vec<CountMessage> =
+        found.map(|(name, count)| CountMessage { name: name.to_owned(), count }).collect();
     found.sort_by_key(|symbol| std::cmp::Reverse(symbol.count));
     found
 }

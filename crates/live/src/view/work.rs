@@ -14,8 +14,9 @@ use super::message::{Cause, Event, ModelMessage, ParamMessage};
 use super::request::Inputs;
 use super::state::{ActiveRun, LiveState, PresentModel, ServerState};
 use super::urls::model_url;
-use super::{Notice, describe};
+use super::{LiveEvent, describe};
 use crate::presets::Presets;
+use crate::watch::{Watch, unsettled};
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::panic_message;
@@ -23,7 +24,6 @@ use burgeon_base::warning::Warning;
 use burgeon_engine::run::{Run, run_session};
 use burgeon_engine::script::{Limits, Session, make_ready};
 use burgeon_export::gltf::{self, Layout};
-use burgeon_watch::{Watch, unsettled};
 
 /// Interval of progress reports to pages.
 const TICK: Duration = Duration::from_millis(100);
@@ -285,7 +285,7 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
         RunOutcome::Missing => {
             let text = format!("script not found: {}", state.script.display());
             inner.end_badly(state, job, Event::Waiting { text: text.clone() });
-            notices.push(Notice::Waiting(text));
+            notices.push(LiveEvent::Waiting(text));
         }
         RunOutcome::Failed(error) => {
             let number = error.problems().count();
@@ -296,7 +296,7 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
             let seed = inner.request.seed().to_string();
             let event = Event::Error { run, cause, text, errors, number, params, seed };
             inner.end_badly(state, job, event);
-            notices.push(Notice::Failed(error));
+            notices.push(LiveEvent::Failed(error));
         }
         RunOutcome::NewModel(made) => {
             let NewModel { run, file, mut message } = *made;
@@ -307,7 +307,7 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
             message.preset = inner.request.preset();
             let ModelFile { content, layout, note } = file;
             let old = content.map(|(hash, bytes)| inner.keep(hash, bytes));
-            notices.push(Notice::Model {
+            notices.push(LiveEvent::Model {
                 triangles: message.triangles,
                 modules: message.modules,
                 total: Duration::from_secs_f64(message.times.total / 1e3),
@@ -324,7 +324,7 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
             notices.extend(inner.new_warnings(&run.warnings));
             let remark = describe::remark(state, &run).map(|(text, help)| format!("{text}: {help}"));
             let new: BTreeSet<String> = remark.into_iter().chain(note).collect();
-            notices.extend(new.difference(&inner.notes).cloned().map(Notice::Note));
+            notices.extend(new.difference(&inner.notes).cloned().map(LiveEvent::Text));
             inner.notes = new;
             let (run, inputs, layout) = (Arc::new(run), job.inputs.clone(), Arc::new(layout));
             let model = PresentModel { run, request, inputs, layout, message };
@@ -356,16 +356,16 @@ impl LiveState {
     }
 
     /// Returns the warnings that the previous run did not have.
-    fn new_warnings(&mut self, warnings: &[Warning]) -> Vec<Notice> {
+    fn new_warnings(&mut self, warnings: &[Warning]) -> Vec<LiveEvent> {
         let text = |it: &Warning| format!("{:?} {}", it.place(), it.message());
         let new = warnings.iter().filter(|warning| !self.warnings.contains(&text(warning)));
-        let notices = new.cloned().map(Notice::Warning).collect();
+        let notices = new.cloned().map(LiveEvent::Warning).collect();
         self.warnings = warnings.iter().map(text).collect();
         notices
     }
 
     /// Reports values that the script no longer accepts, once each.
-    fn tell_left_out(&mut self, state: &ServerState, left_out: &[(String, Error)]) -> Vec<Notice> {
+    fn tell_left_out(&mut self, state: &ServerState, left_out: &[(String, Error)]) -> Vec<LiveEvent> {
         let texts: Vec<String> = left_out
             .iter()
             .map(|(name, error)| format!("the value of {name} is not used: {error}"))
@@ -373,7 +373,7 @@ impl LiveState {
         let mut notices = Vec::new();
         for text in texts.iter().filter(|text| !self.left_out.contains(*text)) {
             state.send(&Event::Note { text: text.clone() });
-            notices.push(Notice::Note(text.clone()));
+            notices.push(LiveEvent::Text(text.clone()));
         }
         self.left_out = texts.into_iter().collect();
         notices

@@ -4,9 +4,9 @@ use std::sync::{Arc, OnceLock};
 
 use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Result};
-use burgeon_data::Geometry;
 use burgeon_geometry::{AlongSegment, ClosedMesh};
 use burgeon_kit::{Answer, AxisScale, Environment, Model, Value, Vector, methods, object};
+use burgeon_spatial::Geometry;
 use glam::{DAffine3, DQuat, DVec3};
 use rstar::RTree;
 

@@ -1,8 +1,8 @@
 //! Prisms over areas, as closed meshes.
 
 use burgeon_base::error::{Error, Result};
-use burgeon_data::Geometry;
 use burgeon_geometry::{ClosedMesh, Polygon};
+use burgeon_spatial::Geometry;
 use glam::DVec2;
 
 /// Returns the prism over each polygon of an area, between the heights `low` and `high` (m).

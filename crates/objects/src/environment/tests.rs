@@ -129,7 +129,7 @@ fn distances_and_hits_of_obstacles_are_those_of_a_scan_of_all_solids() {
                     let corners = [(1.0, turn), (-1.0, turn), (-1.0, -turn), (1.0, -turn)];
                     let corners =
                         corners.map(|(x, y)| place + DVec3::new(x * size.x, y * size.y, 7.0)).to_vec();
-                    let area = burgeon_data::Geometry::polygon(vec![corners]).unwrap();
+                    let area = burgeon_spatial::Geometry::polygon(vec![corners]).unwrap();
                     let [low, high] = [place - size, place + size];
                     all = all.prism(area, high.z - low.z, Some(low.z)).unwrap();
                     solids.push(Box::new(move |at| to_cuboid(at, low, high)));
@@ -235,7 +235,7 @@ fn obstacles_refuse_solids_without_size_and_open_models() {
         instances: instances([DVec3::ZERO]),
         ..Scene::default()
     };
-    let line = burgeon_data::Geometry::line(vec![DVec3::ZERO, DVec3::X]).unwrap();
+    let line = burgeon_spatial::Geometry::line(vec![DVec3::ZERO, DVec3::X]).unwrap();
     let said = [
         none.r#box(at(0.0), at(1.0)).err().unwrap(),
         none.sphere(at(0.0), 0.0).err().unwrap(),

@@ -75,7 +75,7 @@ fn windows(blocks: &[BlockSketch]) -> Vec<Vec<DVec3>> {
             house.walls(Some(walls.into())).expect("walls");
         }
         house.end().expect("an end");
-        assert_eq!(house.notes, []);
+        assert!(house.notes.is_empty(), "{:?}", house.notes);
         let origin = house.origin();
         let mut found: Vec<DVec3> = Vec::new();
         for part in house.drawing.parts() {

@@ -216,7 +216,7 @@ fn an_overhang_that_gives_way_tells_whether_a_neighbour_is_the_cause() {
         house.walls(None).expect("walls");
         let roof = [("kind", text("hip")), ("overhang", number(0.6))];
         house.roof(Some(Arc::new(table(&roof)).into())).expect("a roof");
-        house.notes.iter().map(|note| format!("{}: {}", note.what, note.why)).collect::<Vec<_>>()
+        house.notes.iter().map(|note| format!("{}: {}", note.message(), note.cause())).collect::<Vec<_>>()
     };
     assert_eq!(notes(&[&angle]), [""; 0]);
     assert_eq!(

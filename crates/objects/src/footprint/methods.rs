@@ -8,7 +8,8 @@ use super::state::Shell;
 use super::walls::Walls;
 use crate::MaterialOptions;
 use burgeon_base::error::Result;
-use burgeon_kit::{Note, TableOf, Value, Vector, methods};
+use burgeon_base::warning::Warning;
+use burgeon_kit::{TableOf, Value, Vector, methods};
 
 #[methods("footprint")]
 impl Footprint {
@@ -126,7 +127,7 @@ impl Footprint {
         self.raised = 0;
         self.plain = None;
         let (repairs, trouble) = self.plan.repairs();
-        self.notes = repairs.iter().map(|what| Note::new(*what, trouble)).collect();
+        self.notes = repairs.iter().map(|what| Warning::simplification(what).with_cause(trouble)).collect();
     }
 
     pub(super) fn finish(&mut self) -> Result<()> {

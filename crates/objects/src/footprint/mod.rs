@@ -1,6 +1,6 @@
 //! The footprint: a plan on the ground, from which groundwork, walls and a roof rise.
 //!
-//! Input: a polygon, its neighbours and the ground. Output: a closed building, with a [`Note`](burgeon_kit::Note) for
+//! Input: a polygon, its neighbours and the ground. Output: a closed building, with a [`Warning`](burgeon_base::Warning) for
 //! each deviation from the script. A building is never skipped without a report.
 
 mod checks;

@@ -9,9 +9,10 @@ use super::prefetch::{LocalPlan, PlanPrefetch};
 use super::state::{Edges, Plain, Shell, Side};
 use crate::MaterialOptions;
 use burgeon_base::error::{Error, Result};
+use burgeon_base::warning::Warning;
 use burgeon_geometry::Plan;
 use burgeon_kit::declare::as_mut;
-use burgeon_kit::{Color, Drawing, LevelOfDetail, Note, Object, Report, Table, Value, Vector, object};
+use burgeon_kit::{Color, Drawing, LevelOfDetail, Object, Report, Table, Value, Vector, object};
 use burgeon_scene::Material;
 use burgeon_spatial::GeometryObject;
 use glam::DVec3;
@@ -74,7 +75,7 @@ pub struct Footprint {
     pub(super) raised: u64,
     /// Walls that are still to be drawn.
     pub(super) plain: Option<Plain>,
-    pub(super) notes: Vec<Note>,
+    pub(super) notes: Vec<Warning>,
 }
 
 impl Footprint {
@@ -200,7 +201,7 @@ impl LevelOfDetail for Footprint {
 }
 
 impl Report for Footprint {
-    fn notes(&self) -> &[Note] {
+    fn notes(&self) -> &[Warning] {
         &self.notes
     }
 }

@@ -50,7 +50,7 @@ impl Parameter for EdgeKeywords {
         let edge = |(key, words): &(TableKey, Value)| {
             let TableKey::Index(number) = key else { return Err(what()) };
             let number = usize::try_from(*number).map_err(|_| what())?;
-            Ok((number, Vec::<String>::from_value(words.clone()).map_err(|_| what())?))
+            Ok((number, Vec::<String>::read_value(words).map_err(|_| what())?))
         };
         table.entries.iter().map(edge).collect::<Result<_, _>>().map(Self)
     }

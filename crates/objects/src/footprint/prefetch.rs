@@ -121,8 +121,9 @@ impl Prefetch for PlanPrefetch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use burgeon_data::{Feature, Features, Geometry, Layer};
+    use burgeon_data::{Feature, Features, Layer};
     use burgeon_geometry::{Polygon, Rings};
+    use burgeon_spatial::Geometry;
 
     /// Returns squares on a line, every seventh of which has no area.
     fn squares(count: u32) -> Arc<Layer> {

@@ -13,8 +13,9 @@ use crate::facade::template::BLIND;
 use crate::facade::{FacadeFace, FacadeLayout, FaceMesh, Joiner, Rectangle, Template, Templates};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::random::Stream;
+use burgeon_base::warning::Warning;
 use burgeon_geometry::{Ring, SAME, fill};
-use burgeon_kit::{Color, Note, fields};
+use burgeon_kit::{Color, fields};
 use burgeon_scene::{Material, Part, SurfaceMeaning};
 
 /// Options of `footprint:walls { ... }`.
@@ -271,7 +272,7 @@ impl Footprint {
                 first.x,
                 first.y
             );
-            self.notes.push(Note::new("plain walls where no template fits", why));
+            self.notes.push(Warning::simplification("plain walls where no template fits").with_cause(why));
         }
         Ok(())
     }

@@ -8,9 +8,9 @@ use super::object::Network;
 use crate::terrain::{GroundStreets, StreetsOnGround};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_data::Geometry;
 use burgeon_geometry::Polygon;
 use burgeon_kit::{Answer, Expectation, Parameter, Table, TableKey, Value, Vector};
+use burgeon_spatial::Geometry;
 use burgeon_streets::{SlopeOptions, StreetArea, StreetFit, StreetFooting, StreetPiece, VergeKind};
 use burgeon_terrain::{Edit, GroundBed, GroundCut, GroundCuts};
 

@@ -3,10 +3,10 @@
 use std::fmt;
 use std::sync::Arc;
 
-use burgeon_data::{Attribute, Features, Geometry, Layer};
+use burgeon_data::{Attribute, Features, Layer};
 use burgeon_geometry::Line;
 use burgeon_kit::{Expectation, Parameter, Table, Value};
-use burgeon_spatial::Lines;
+use burgeon_spatial::{Geometry, Lines};
 use glam::DVec3;
 
 /// Maximum nesting depth of lists.
@@ -214,14 +214,14 @@ impl StreetLines {
             }
             _ => false,
         };
-        if depth > DEEPEST || list.len() != table.entries.len() || !list.iter().any(is_nested) {
+        if depth > DEEPEST || list.len() != table.entries.len() || !list.iter().copied().any(is_nested) {
             self.add(Lines::from_value(value)?, &LineFacts::None, None);
             return Ok(());
         }
         // An invalid item of a list does not affect the other items.
         let (mut good, mut bad) = (0, None);
         for (number, item) in (1..).zip(list) {
-            match self.collect(item, depth + 1) {
+            match self.collect(item.clone(), depth + 1) {
                 Ok(()) => good += 1,
                 Err(error) => {
                     let (count, _) = self.refused.get_or_insert_with(|| (0, error.item(number)));

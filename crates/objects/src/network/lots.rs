@@ -3,16 +3,15 @@
 use std::sync::Arc;
 
 use burgeon_base::MemoryOwner;
+use burgeon_base::ModuleKey;
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::listed;
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_data::Geometry;
 use burgeon_geometry::Rings;
 use burgeon_geometry::planar::twice_area;
 use burgeon_kit::{Answer, Expectation, Parameter, Seed, Table, TableKey, Value, fields};
-use burgeon_rewriting::ModuleKey;
-use burgeon_spatial::PolygonArgument;
+use burgeon_spatial::{Geometry, PolygonArgument};
 use burgeon_streets::{FARTHEST, Lot, LotOptions, LotPattern, LotUse, PieceId, StreetBlock, StreetNetwork};
 use glam::DVec2;
 use rayon::prelude::*;
@@ -90,7 +89,7 @@ impl Parameter for BlockArea {
                 Some(Value::Number(id)) => Some(Value::Number(*id).to_string()),
                 _ => None,
             };
-            return Ok(Self { id, rings: PolygonArgument::from_value(geometry.clone())?.0 });
+            return Ok(Self { id, rings: PolygonArgument::read_value(geometry)?.0 });
         }
         Ok(Self { id: None, rings: PolygonArgument::from_value(value)?.0 })
     }

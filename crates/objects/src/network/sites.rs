@@ -1,11 +1,11 @@
 //! Sites next to streets as features for scripts, which can be the source of a system.
 
+use burgeon_base::ModuleKey;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind, defer_warning};
-use burgeon_data::Geometry;
 use burgeon_geometry::Rings;
 use burgeon_kit::{Answer, Parameter, Seed, Value, Vector, fields};
-use burgeon_rewriting::ModuleKey;
+use burgeon_spatial::Geometry;
 use burgeon_streets::{SiteOptions, StreetSite};
 use glam::DVec3;
 

@@ -1,7 +1,7 @@
 //! Streets and junctions as features for scripts and layer files.
 
-use burgeon_data::Geometry;
 use burgeon_kit::{Answer, HasLayers, Parameter, Value};
+use burgeon_spatial::Geometry;
 use burgeon_streets::{JunctionId, StreetKind, StreetStretch};
 use glam::{DVec2, DVec3};
 

@@ -4,16 +4,16 @@ use std::sync::Arc;
 
 use super::looks;
 use super::options::PlanetOptions;
+use crate::terrain::cells::Cells;
 use crate::terrain::{lost_focus, round_length, rules};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
 use burgeon_base::warning::Warning;
-use burgeon_base::{MemoryOwner, Stop};
+use burgeon_base::{MemoryOwner, ModuleKey, Stop};
 use burgeon_kit::{Expand, Rewriter, Show, Vector, Warn, methods, object};
-use burgeon_rewriting::ModuleKey;
 use burgeon_scene::{Instance, Material, Mesh, Scene, Upright};
+use burgeon_terrain::World;
 use burgeon_terrain::globe::{DEEPEST, DETAIL, Globe, GlobeMesh, GlobeView};
-use burgeon_terrain::{Cells, World};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 

@@ -7,9 +7,9 @@ use glam::DVec2;
 use super::options::TerrainOptions;
 use super::rules;
 use crate::Elevation;
+use burgeon_base::ModuleKey;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
-use burgeon_rewriting::ModuleKey;
 use burgeon_terrain::{DivisionRules, HeightSource, LevelRules, World};
 
 /// Creates the world that `options` describe. Fails if an option is invalid.

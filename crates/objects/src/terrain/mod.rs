@@ -4,6 +4,7 @@
 
 mod beds;
 mod build;
+pub(super) mod cells;
 mod edits;
 pub(super) mod looks;
 pub(super) mod mask;
@@ -15,6 +16,7 @@ pub(super) mod rules;
 mod show;
 mod sides;
 mod streets;
+mod view;
 mod water;
 
 pub use edits::EditFile;

@@ -3,16 +3,18 @@
 use std::sync::{Arc, OnceLock};
 
 use super::build;
+use super::cells::Cells;
 use super::options::TerrainOptions;
 use super::river::River;
 use super::streets::StreetsOnGround;
+use super::view::ViewArgument;
+use burgeon_base::ModuleKey;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::{Expand, ObjectParameter, Rewriter, Show, Vector, Warn, methods, object};
-use burgeon_rewriting::ModuleKey;
 use burgeon_spatial::Path;
-use burgeon_terrain::{Cells, Channel, DEEPEST, Drainage, Dry, Edit, Edits, Ground, GroundMap, View, World};
+use burgeon_terrain::{Channel, DEEPEST, Drainage, Dry, Edit, Edits, Ground, GroundMap, View, World};
 use glam::{DVec2, DVec3};
 
 /// Ground made by repeatedly dividing a square into quadrants, expanded in the view.
@@ -60,7 +62,8 @@ impl Terrain {
     /// Expands what `view` shows from the position at `x` (m) and `y` (m), and contracts everything else, when the pass
     /// ends. Until then, the ground is unchanged. Only the last call in a pass counts. A view is the size (m) of cells,
     /// and rings around the position: the width of each ring in cells, and the number of their divisions.
-    pub fn focus(&mut self, x: f64, y: f64, view: View) -> Result<()> {
+    pub fn focus(&mut self, x: f64, y: f64, view: ViewArgument) -> Result<()> {
+        let ViewArgument(view) = view;
         // Checks the view here, so that an error refers to this call.
         view.check(self.ground.world(), DVec2::new(x, y))?;
         let wanted = (DVec2::new(x, y), view);

@@ -7,11 +7,11 @@ use rayon::prelude::*;
 
 use super::beds::RiverBeds;
 use super::mask::{GroundPoint, Mask};
+use burgeon_base::ModuleKey;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::random::Stream;
 use burgeon_base::{MemoryOwner, Stop};
 use burgeon_kit::{Drawing, Expectation, Field, Model, Parameter, Table, Value, fields};
-use burgeon_rewriting::ModuleKey;
 use burgeon_terrain::Ground;
 
 /// Models that are scattered over the ground.

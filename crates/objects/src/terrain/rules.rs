@@ -5,8 +5,7 @@ use std::sync::Arc;
 use burgeon_base::error::{did_you_mean, nearest};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::{Expectation, Parameter, System, Table, TableKey, Value};
-use burgeon_rewriting::Symbol;
-use burgeon_terrain::{DivisionRules, LevelRules, NumberRange, Quadrants, RuleTable};
+use burgeon_terrain::{CellSymbol, DivisionRules, LevelRules, NumberRange, Quadrants, RuleTable};
 
 /// The rules of a terrain, by level; the first layer starts at level 0.
 #[derive(Debug, Clone, Default)]
@@ -66,8 +65,8 @@ impl Parameter for RuleLayers {
     }
 }
 
-fn layer(value: Value) -> Result<RuleLayer, Expectation> {
-    let Value::Table(table) = &value else { return Err(Expectation::new(WHAT)) };
+fn layer(value: &Value) -> Result<RuleLayer, Expectation> {
+    let Value::Table(table) = value else { return Err(Expectation::new(WHAT)) };
     let known = ["from", "rules", "start", "height", "decay"];
     for (key, _) in &table.entries {
         if !matches!(key, TableKey::Name(name) if known.contains(&&**name)) {
@@ -76,12 +75,12 @@ fn layer(value: Value) -> Result<RuleLayer, Expectation> {
     }
     let number = |name: &str| match table.get(name) {
         None => Ok(None),
-        Some(value) => f64::from_value(value.clone())
+        Some(value) => f64::read_value(value)
             .map(Some)
             .map_err(|_| Expectation::new(format!("a list with a number for each {name}"))),
     };
-    let from = table.get("from").map_or(Ok(0), |from| u32::from_value(from.clone()));
-    let start = table.get("start").map(|start| String::from_value(start.clone())).transpose();
+    let from = table.get("from").map_or(Ok(0), u32::read_value);
+    let start = table.get("start").map(String::read_value).transpose();
     Ok(RuleLayer {
         from: from
             .map_err(|_| Expectation::new("a list with a level, an integer of at least 0, for each from"))?,
@@ -112,7 +111,7 @@ fn rule_table(table: &Table) -> Result<RuleTable, Expectation> {
         let TableKey::Name(name) = key else { return Err(Expectation::new(WHAT)) };
         names.push(name.to_string());
     }
-    if names.is_empty() || names.len() > usize::from(Symbol::MAX) {
+    if names.is_empty() || names.len() > usize::from(CellSymbol::MAX) {
         return Err(Expectation::new(WHAT));
     }
     let mut rules = Vec::new();
@@ -143,19 +142,20 @@ fn rule_table(table: &Table) -> Result<RuleTable, Expectation> {
 fn quadrants(rule: &Table, name: &str, names: &[String]) -> Result<Quadrants, Expectation> {
     let list = rule.list();
     let count = list.len();
-    let four: [Value; 4] = list.try_into().map_err(|_| {
+    let four: [&Value; 4] = list.try_into().map_err(|_| {
         Expectation::new(format!(
             "a table whose rule for {name} has four symbols, one for each quadrant; it has {count}"
         ))
     })?;
     let mut symbols = [0; 4];
     for (into, value) in symbols.iter_mut().zip(four) {
-        let Value::Text(text) = &value else {
+        let Value::Text(text) = value else {
             return Err(Expectation::new(format!(
                 "a table whose rule for {name} has names of symbols, not {value}"
             )));
         };
-        let found = names.iter().position(|known| *known == **text).and_then(|at| Symbol::try_from(at).ok());
+        let found =
+            names.iter().position(|known| *known == **text).and_then(|at| CellSymbol::try_from(at).ok());
         *into = found.ok_or_else(|| {
             let near = nearest(text, names.iter().map(String::as_str));
             let near = near.map(|near| format!(" ({})", did_you_mean(near))).unwrap_or_default();
@@ -190,7 +190,7 @@ fn quadrants(rule: &Table, name: &str, names: &[String]) -> Result<Quadrants, Ex
             Some(_) => Err(wrong()),
         }
     };
-    let weight = rule.get("weight").map_or(Ok(1.0), |weight| f64::from_value(weight.clone()));
+    let weight = rule.get("weight").map_or(Ok(1.0), f64::read_value);
     let weight = weight.ok().filter(|weight| *weight > 0.0);
     Ok(Quadrants {
         weight: weight.ok_or_else(|| {
@@ -203,10 +203,10 @@ fn quadrants(rule: &Table, name: &str, names: &[String]) -> Result<Quadrants, Ex
 }
 
 /// Reads a finite number, or a range of numbers.
-fn draw(value: Value) -> Option<NumberRange> {
+fn draw(value: &Value) -> Option<NumberRange> {
     match value {
-        Value::Number(number) => number.is_finite().then(|| NumberRange::exactly(number)),
-        Value::Table(_) => match Vec::<f64>::from_value(value).ok()?.as_slice() {
+        Value::Number(number) => number.is_finite().then(|| NumberRange::exactly(*number)),
+        Value::Table(_) => match Vec::<f64>::read_value(value).ok()?.as_slice() {
             [low, high] if low <= high => Some(NumberRange { low: *low, high: *high }),
             _ => None,
         },
@@ -286,7 +286,7 @@ impl RuleLayer {
             }
             LayerRules::System(system) => (DivisionRules::System(system.index), 0, Vec::new()),
         };
-        let start = Symbol::try_from(start).unwrap_or(0);
+        let start = CellSymbol::try_from(start).unwrap_or(0);
         let names = match &self.rules {
             LayerRules::Table(table) => Arc::new(table.names.clone()),
             LayerRules::System(_) => Arc::default(),

@@ -6,10 +6,10 @@ use super::beds::RiverBeds;
 use super::object::Terrain;
 use super::streets::StreetsOnGround;
 use super::{looks, sides};
+use burgeon_base::ModuleKey;
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::{Drawing, Show};
-use burgeon_rewriting::ModuleKey;
 use burgeon_scene::{Instance, Material, Mesh, Part, Scene};
 use burgeon_terrain::{GroundCuts, GroundMesh};
 

@@ -6,15 +6,16 @@ use rusqlite::types::{ToSqlOutput, Value, ValueRef};
 use rusqlite::{CachedStatement, ToSql};
 
 use crate::sql::blob;
-use crate::sql::cell::{Cell, QueryAnswer, integer};
+use crate::sql::cell::{Cell, integer, push_row, sort_rows};
 use crate::sql::connection::DatabaseLink;
 use crate::sql::errors;
 use crate::sql::place;
 use crate::sql::prepared_statement::{AnswerColumn, PreparedStatement, StatementShape};
 use crate::sql::rewrite::SqlType;
-use burgeon_base::budget::Budget;
+use burgeon_base::budget::{Budget, BudgetCharge};
 use burgeon_base::error::{Error, Result as BurgeonResult};
-use burgeon_data::ReferenceFrame;
+use burgeon_kit::QueryRows;
+use burgeon_spatial::ReferenceFrame;
 
 /// The reason for a failed query.
 pub(crate) enum QueryFailure {
@@ -75,7 +76,7 @@ fn shape(
             _ => AnswerColumn::Plain,
         })
         .collect();
-    let mut names: Vec<String> = statement.column_names().map(str::to_owned).collect();
+    let mut names: Vec<Arc<str>> = statement.column_names().map(Arc::from).collect();
     if let Some(known) = prepared.rewritten.as_ref().filter(|_| as_rewritten) {
         if let Some(columns) = known.columns.as_ref().filter(|columns| columns.len() == kinds.len()) {
             for (kind, (_, known)) in kinds.iter_mut().zip(columns) {
@@ -89,7 +90,7 @@ fn shape(
         if known.names.len() == names.len() {
             for (name, known) in names.iter_mut().zip(&known.names) {
                 if let Some(known) = known {
-                    name.clone_from(known);
+                    *name = known.as_str().into();
                 }
             }
         }
@@ -109,7 +110,7 @@ pub(crate) fn rows(
     parameters: &[(&str, Cell)],
     frame: Option<&ReferenceFrame>,
     budget: &Arc<Budget>,
-) -> Result<Arc<QueryAnswer>, QueryFailure> {
+) -> Result<QueryRows<Cell>, QueryFailure> {
     let mut made = prepared.rewritten.iter().flat_map(|rewritten| &rewritten.made);
     for table in made.clone() {
         link.make(table, |statement| -> Result<(), QueryFailure> {
@@ -133,7 +134,7 @@ fn all_rows(
     parameters: &[(&str, Cell)],
     frame: Option<&ReferenceFrame>,
     budget: &Arc<Budget>,
-) -> Result<Arc<QueryAnswer>, QueryFailure> {
+) -> Result<QueryRows<Cell>, QueryFailure> {
     let (mut statement, as_rewritten) = prepare(link, prepared, false)?;
     if statement.column_count() == 0 {
         return Err(QueryFailure::Told(errors::only_reading()));
@@ -143,7 +144,8 @@ fn all_rows(
         let cell = errors::parameter(&prepared.original, name.as_deref(), parameters)?;
         statement.raw_bind_parameter(index, Bound { cell, frame })?;
     }
-    let mut answer = QueryAnswer::new(Arc::clone(&shape.names), budget);
+    let mut answer = QueryRows::new(Arc::clone(&shape.names), []);
+    answer.charge = BudgetCharge::new(budget);
     let mut rows = statement.raw_query();
     while let Some(row) = rows.next()? {
         let cell = |(index, kind): (usize, &AnswerColumn)| {
@@ -151,13 +153,13 @@ fn all_rows(
                 .map_err(|error| QueryFailure::Told(error.noting(&format!("column {}", answer.names[index]))))
         };
         let row = shape.kinds.iter().enumerate().map(cell).collect::<Result<Vec<Cell>, QueryFailure>>()?;
-        answer.push(row)?;
+        push_row(&mut answer, row)?;
     }
     let known = prepared.rewritten.as_ref().filter(|_| as_rewritten);
     if !known.is_some_and(|rewritten| rewritten.ordered) {
-        answer.sort();
+        sort_rows(&mut answer);
     }
-    Ok(Arc::new(answer))
+    Ok(answer)
 }
 
 /// Returns SQLite's query plan of a statement.

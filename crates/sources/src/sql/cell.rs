@@ -1,11 +1,11 @@
-//! The results of a query.
+//! Values of rows of SQL.
 
 use std::cmp::Ordering;
 use std::fmt;
 use std::sync::Arc;
 
-use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
+use burgeon_kit::QueryRows;
 use burgeon_spatial::Geometry;
 
 /// A value of a row, or of a parameter.
@@ -98,87 +98,42 @@ impl fmt::Display for Cell {
     }
 }
 
-/// Names of the columns that identify rows if a query does not specify their order.
-const IDS: [&str; 3] = ["fid", "id", "ogc_fid"];
-
-/// The rows of a query's result.
-#[derive(Debug, Default)]
-pub struct QueryAnswer {
-    /// Names of the columns, in order.
-    pub names: Arc<[String]>,
-    /// Rows, in order, each with a cell for every name.
-    pub rows: Vec<Vec<Cell>>,
-    /// Memory (bytes) charged to a budget until the result is dropped.
-    taken: Option<(Arc<Budget>, usize)>,
-}
-
-impl QueryAnswer {
-    /// Creates a result without rows, which charges its rows to a budget.
-    pub(crate) fn new(names: Arc<[String]>, budget: &Arc<Budget>) -> Self {
-        Self { names, rows: Vec::new(), taken: Some((Arc::clone(budget), 0)) }
-    }
-
-    /// Adds a row. Fails if the memory or time limit is exceeded.
-    pub(crate) fn push(&mut self, row: Vec<Cell>) -> Result<()> {
-        if self.rows.len() >= MOST_ROWS {
-            return Err(Error::limit(
-                burgeon_base::error::Limit::Size,
-                format!("a question has more than {MOST_ROWS} rows"),
-            )
-            .help("ask for fewer: WHERE ..., or LIMIT 1000"));
-        }
-        if let Some((budget, taken)) = &mut self.taken {
-            let weight = 24 + row.iter().map(Cell::weight).sum::<usize>();
-            budget.tick()?;
-            budget.take(weight)?;
-            *taken += weight;
-        }
-        self.rows.push(row);
-        Ok(())
-    }
-
-    /// Returns the index of the column that identifies rows, if there is one.
-    pub fn id(&self) -> Option<usize> {
-        IDS.iter().find_map(|id| self.names.iter().position(|name| name.eq_ignore_ascii_case(id)))
-    }
-
-    /// Sorts the rows by their id, and then by all columns.
-    pub(crate) fn sort(&mut self) {
-        let id = self.id();
-        self.rows.sort_by(|a, b| {
-            let first = id.map_or(Ordering::Equal, |id| a[id].order(&b[id]));
-            first.then_with(|| {
-                a.iter()
-                    .zip(b)
-                    .map(|(a, b)| a.order(b))
-                    .find(|order| order.is_ne())
-                    .unwrap_or(Ordering::Equal)
-            })
-        });
-    }
-}
-
 /// Maximum number of rows of a result.
 const MOST_ROWS: usize = 10_000_000;
 
-impl Drop for QueryAnswer {
-    fn drop(&mut self) {
-        if let Some((budget, taken)) = &self.taken {
-            budget.give(*taken);
-        }
+/// Adds a row to a result. Fails if it has too many rows, or if the memory or time limit is exceeded.
+pub(crate) fn push_row(rows: &mut QueryRows<Cell>, row: Vec<Cell>) -> Result<()> {
+    if rows.len() >= MOST_ROWS {
+        return Err(Error::limit(
+            burgeon_base::error::Limit::Size,
+            format!("a question has more than {MOST_ROWS} rows"),
+        )
+        .help("ask for fewer: WHERE ..., or LIMIT 1000"));
     }
+    rows.charge.take(24 + row.iter().map(Cell::weight).sum::<usize>())?;
+    rows.values.extend(row);
+    Ok(())
 }
 
-impl fmt::Display for QueryAnswer {
-    /// Writes a line of names, and one line for each row.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.names.join(" | "))?;
-        for row in &self.rows {
-            let cells: Vec<String> = row.iter().map(Cell::to_string).collect();
-            write!(f, "\n{}", cells.join(" | "))?;
-        }
-        Ok(())
+/// Sorts rows by their id, and then by all columns.
+pub(crate) fn sort_rows(rows: &mut QueryRows<Cell>) {
+    let id = rows.id();
+    let compare = |a: &[Cell], b: &[Cell]| {
+        let first = id.map_or(Ordering::Equal, |id| a[id].order(&b[id]));
+        first.then_with(|| {
+            let mut orders = a.iter().zip(b).map(|(a, b)| a.order(b));
+            orders.find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
+        })
+    };
+    let mut order: Vec<usize> = (0..rows.len()).collect();
+    order.sort_by(|a, b| compare(rows.row(*a), rows.row(*b)));
+    let width = rows.width();
+    let mut sorted = Vec::with_capacity(rows.values.len());
+    for index in order {
+        let row = &mut rows.values[index * width..][..width];
+        sorted.extend(row.iter_mut().map(|cell| std::mem::replace(cell, Cell::Null)));
     }
+    rows.values = sorted;
 }
 
 /// Converts a number without a fraction to an integer, so that it can be used as a row count and in integer division.

@@ -20,7 +20,8 @@ use crate::sql::statement_text::quote_name;
 use crate::sql::tables;
 use burgeon_base::error::Result;
 use burgeon_base::locks::LockRecovery;
-use burgeon_data::{PackageState, ReferenceFrame};
+use burgeon_data::PackageState;
+use burgeon_spatial::ReferenceFrame;
 
 /// Maximum length of a string or blob (bytes).
 const LONGEST: i32 = 200_000_000;

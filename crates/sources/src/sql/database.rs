@@ -9,13 +9,13 @@ use rusqlite::Connection;
 use rustc_hash::FxHashMap;
 
 use crate::sql::ask;
-use crate::sql::cell::{Cell, QueryAnswer};
+use crate::sql::cell::Cell;
 use crate::sql::connection::{AttachedFile, DatabaseLink, MOST_FILES, TableView, open_memory};
 use crate::sql::errors;
 use crate::sql::functions::Indexes;
 use crate::sql::prepared_statement::PreparedStatement;
 use crate::sql::rewrite::{self, Catalogue, Dialect, TableInfo};
-use crate::sql::row_table::RowTable;
+use crate::sql::row_table;
 use crate::sql::statement_text::quote_name;
 use crate::sql::tables::{self, FileLayer};
 use burgeon_base::WorkWithin;
@@ -23,7 +23,9 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::shown;
-use burgeon_data::{Layer, ReferenceFrame};
+use burgeon_data::Layer;
+use burgeon_kit::QueryRows;
+use burgeon_spatial::ReferenceFrame;
 
 /// Maximum number of rewritten statements that are kept.
 const STATEMENTS: usize = 500;
@@ -45,7 +47,7 @@ static MEMORIES: AtomicUsize = AtomicUsize::new(0);
 /// let sql = "SELECT ST_Area(ST_Buffer(ST_MakePoint(0, 0), $r)) > 3 AS large, $r * 2 AS width";
 /// let answer = database.query(sql, &[("r", Cell::Number(1.0))], &Arc::new(Budget::default()))?;
 /// assert_eq!(*answer.names, ["large", "width"]);
-/// assert_eq!(answer.rows, [[Cell::Boolean(true), Cell::Number(2.0)]]);
+/// assert_eq!(answer.values, [Cell::Boolean(true), Cell::Number(2.0)]);
 /// # Ok::<(), burgeon_base::error::Error>(())
 /// ```
 pub struct Database {
@@ -186,15 +188,16 @@ impl Database {
         Ok(())
     }
 
-    /// Adds a table of rows, and replaces the table of rows of the same name. No statement may be running.
+    /// Adds rows, whose geometries are in the run's metres, as a table called `name`, and replaces the rows of the same name. No statement may be running.
     ///
     /// Fails if a source has this name, or if the memory limit is exceeded.
-    pub fn set_rows(&self, table: &RowTable, budget: &Arc<Budget>) -> Result<()> {
+    pub fn set_rows(&self, name: &str, rows: &QueryRows<Cell>, budget: &Arc<Budget>) -> Result<()> {
         let mut tables = self.tables.write().recover();
-        tables.remove_rows(&table.name, &self.writer.lock().recover(), budget)?;
-        tables.is_there(&table.name, ROWS)?;
+        tables.remove_rows(name, &self.writer.lock().recover(), budget)?;
+        tables.is_there(name, ROWS)?;
         let before = budget.used_bytes();
-        let info = table.write(&self.writer.lock().recover(), self.frame.as_ref(), budget)?;
+        let info =
+            row_table::write_rows(name, rows, &self.writer.lock().recover(), self.frame.as_ref(), budget)?;
         tables.memory.insert(info.name.to_ascii_lowercase(), budget.used_bytes().saturating_sub(before));
         let prefix = format!("{}.", info.name);
         self.indexes.write().recover().retain(|index, _| !index.starts_with(&prefix));
@@ -211,7 +214,7 @@ impl Database {
         sql: &str,
         parameters: &[(&str, Cell)],
         budget: &Arc<Budget>,
-    ) -> Result<Arc<QueryAnswer>> {
+    ) -> Result<QueryRows<Cell>> {
         self.run_statement(sql, budget, |link, prepared| {
             ask::rows(link, prepared, parameters, self.frame.as_ref(), budget)
         })
@@ -224,7 +227,7 @@ impl Database {
         sql: &str,
         parameters: &[(&str, Cell)],
         budget: &Arc<Budget>,
-    ) -> Result<Arc<QueryAnswer>> {
+    ) -> Result<QueryRows<Cell>> {
         self.run_statement(sql, budget, |link, _| {
             let prepared =
                 PreparedStatement { original: sql.to_owned(), rewritten: None, shape: OnceLock::new() };

@@ -3,7 +3,6 @@
 //! Input: keys and blobs of a column. Output: the keys of rows whose boxes intersect a box, and of the rows nearest to
 //! a geometry. Rows without a geometry are included, because they come last when rows are ordered by distance.
 
-use burgeon_geometry::planar::{Point, foot};
 use geo::{BoundingRect, Coord, CoordsIter, Intersects, Line, LinesIter};
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, Envelope, PointDistance, RTree, RTreeObject};
@@ -365,8 +364,10 @@ fn square_box_distance(a: &AABB<[f64; 2]>, b: &AABB<[f64; 2]>) -> f64 {
 
 /// Returns the square of the distance between a point and a line.
 fn square_distance(line: &Line<f64>, at: Coord<f64>) -> f64 {
-    let part = foot([line.start, line.end], at.flat());
     let (along, to) = (line.end - line.start, at - line.start);
+    let squared = along.x * along.x + along.y * along.y;
+    let part =
+        if squared > 0.0 { ((to.x * along.x + to.y * along.y) / squared).clamp(0.0, 1.0) } else { 0.0 };
     let (x, y) = (to.x - along.x * part, to.y - along.y * part);
     x * x + y * y
 }

@@ -1,6 +1,6 @@
 //! SQL over layers of features, in an embedded database.
 //!
-//! Input: layers and GeoPackages in place; then statements with named parameters. Output: a [`QueryAnswer`] for each
+//! Input: layers and GeoPackages in place; then statements with named parameters. Output: [`QueryRows`](burgeon_kit::QueryRows) for each
 //! statement, with rows of [`Cell`]s in a fixed order.
 //!
 //! The functions are a subset of PostGIS: see [`FUNCTIONS`]. Spatial joins use an index in any notation: the statement
@@ -26,7 +26,6 @@ mod tables;
 #[cfg(test)]
 mod tests;
 
-pub use cell::{Cell, QueryAnswer};
+pub use cell::Cell;
 pub use database::{Database, names_table, rename_tables, table_words};
 pub use functions::{FUNCTIONS, SpatialFunction};
-pub use row_table::RowTable;

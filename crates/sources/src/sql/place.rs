@@ -1,8 +1,7 @@
 //! Moves geometries between metres relative to the run's origin and the coordinates in statements.
 
 use burgeon_base::error::{Error, Result};
-use burgeon_data::{Crs, ReferenceFrame};
-use burgeon_spatial::Geometry;
+use burgeon_spatial::{Crs, Geometry, ReferenceFrame};
 
 /// Converts a geometry from the projection's coordinates to the run's.
 pub(crate) fn enter(geometry: Geometry, frame: Option<&ReferenceFrame>) -> Geometry {
@@ -65,7 +64,7 @@ fn shift(mut geometry: Geometry, frame: Option<&ReferenceFrame>, sign: f64) -> G
 
 /// The transformation between a run and the coordinate system of a server.
 #[cfg(feature = "postgis")]
-pub(crate) struct Move<'a>(Option<burgeon_data::Passage<'a>>);
+pub(crate) struct Move<'a>(Option<burgeon_spatial::Passage<'a>>);
 
 #[cfg(feature = "postgis")]
 impl<'a> Move<'a> {
@@ -92,7 +91,7 @@ impl<'a> Move<'a> {
     fn move_points(
         &self,
         cell: crate::sql::Cell,
-        way: impl Fn(&burgeon_data::Passage<'_>, [f64; 2]) -> [f64; 2],
+        way: impl Fn(&burgeon_spatial::Passage<'_>, [f64; 2]) -> [f64; 2],
     ) -> crate::sql::Cell {
         use std::sync::Arc;
         match (cell, &self.0) {

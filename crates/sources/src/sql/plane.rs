@@ -1,7 +1,6 @@
 //! Conversion of geometries to the types of `geo`, for relations between two geometries.
 
-use burgeon_geometry::Rings;
-use burgeon_spatial::Geometry;
+use burgeon_spatial::{Geometry, Rings};
 use geo::{Coord, LineString, MultiLineString, MultiPoint, MultiPolygon, Point, Polygon};
 use glam::DVec3;
 

@@ -28,7 +28,7 @@ pub(crate) enum AnswerColumn {
 /// The columns and parameters of a statement.
 pub(crate) struct StatementShape {
     /// Names of the columns.
-    pub names: Arc<[String]>,
+    pub names: Arc<[Arc<str>]>,
     /// Types of the columns.
     pub kinds: Vec<AnswerColumn>,
     /// Names of the parameters, by number.

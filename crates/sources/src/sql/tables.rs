@@ -15,8 +15,8 @@ use crate::sql::statement_text::quote_name;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
-use burgeon_data::{Attribute, Crs, GeoPackage, Layer, PackageState, ReferenceFrame};
-use burgeon_spatial::Geometry;
+use burgeon_data::{Attribute, GeoPackage, Layer, PackageState};
+use burgeon_spatial::{Crs, Geometry, ReferenceFrame};
 use glam::DVec3;
 
 /// Maximum wait for readers before a write.

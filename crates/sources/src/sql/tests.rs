@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::*;
 use burgeon_base::budget::Budget;
+use burgeon_kit::QueryRows;
 use burgeon_spatial::Geometry;
 
 mod meaning;
@@ -105,6 +106,11 @@ pub(crate) fn database(folder: &Path, houses: usize) -> Database {
     database
 }
 
+/// Returns each row as a list.
+pub(crate) fn lists(rows: &QueryRows<Cell>) -> Vec<Vec<Cell>> {
+    rows.iter().map(<[Cell]>::to_vec).collect()
+}
+
 pub(crate) fn budget() -> Arc<Budget> {
     Budget::within(std::time::Duration::from_secs(60), 1_000_000_000)
 }
@@ -122,8 +128,8 @@ fn geometries_numbers_texts_and_nothing_come_back_as_they_are() {
     ];
     let sql = "SELECT $g AS g, $n AS n, $t AS t, $b AS b, $z AS z, ST_AsText($g) AS w, $n > 1 AS more";
     let answer = database.query(sql, &parameters, &budget()).unwrap();
-    assert_eq!(*answer.names, ["g", "n", "t", "b", "z", "w", "more"]);
-    let row = &answer.rows[0];
+    assert_eq!(answer.names.join(" "), "g n t b z w more");
+    let row = &answer.row(0);
     assert_eq!(row[0], Cell::Geometry(geometry));
     assert_eq!(row[1..5], [Cell::Number(1.5), Cell::Text("it's".into()), Cell::Number(1.0), Cell::Null]);
     assert_eq!(row[6], Cell::Boolean(true));
@@ -135,12 +141,12 @@ fn threads_ask_at_the_same_time() {
     let database = database(folder.path(), 500);
     let sql = "SELECT a.fid, b.fid AS other FROM houses a JOIN houses b ON a.fid < b.fid AND ST_Intersects(a.geom, b.geom)";
     let alone = database.query(sql, &[], &budget()).unwrap();
-    assert!(alone.rows.len() > 50, "{}", alone.rows.len());
+    assert!(alone.len() > 50, "{}", alone.len());
     std::thread::scope(|scope| {
         for _ in 0..6 {
             scope.spawn(|| {
                 for _ in 0..3 {
-                    assert_eq!(database.query(sql, &[], &budget()).unwrap().rows, alone.rows);
+                    assert_eq!(database.query(sql, &[], &budget()).unwrap().values, alone.values);
                 }
             });
         }
@@ -177,21 +183,21 @@ fn a_layer_of_another_format_is_a_table() {
     let sql = "SELECT a.id, a.name, a.height, a.open, a.geom, count(b.fid) AS near FROM huts a \
                LEFT JOIN huts b ON a.fid <> b.fid AND ST_DWithin(a.geom, b.geom, 3) GROUP BY a.fid";
     let answer = database.query(sql, &[], &budget()).unwrap();
-    assert_eq!(answer.rows.len(), 5);
+    assert_eq!(answer.len(), 5);
     assert_eq!(
-        answer.rows[1][..4],
+        answer.row(1)[..4],
         [Cell::Text("hut/1".into()), Cell::Text("Hut 1".into()), Cell::Number(3.0), Cell::Boolean(true)]
     );
-    let near: Vec<String> = answer.rows.iter().map(|row| row[5].to_string()).collect();
+    let near: Vec<String> = answer.iter().map(|row| row[5].to_string()).collect();
     assert_eq!(near, ["2", "3", "4", "3", "2"]);
     // Results are in metres relative to the origin, as in the layer.
-    let Cell::Geometry(geometry) = &answer.rows[1][4] else { panic!("a geometry") };
+    let Cell::Geometry(geometry) = &answer.row(1)[4] else { panic!("a geometry") };
     let known: Vec<_> = layer.features[1].geometry.points().copied().collect();
     assert!(geometry.points().zip(&known).all(|(a, b)| a.distance(*b) < 1e-6), "{geometry:?} {known:?}");
     // Parameters are in the same coordinates.
     let at = [("g", Cell::Geometry(Arc::clone(geometry)))];
     let found = database.query("SELECT id FROM huts WHERE ST_Intersects(geom, $g)", &at, &budget()).unwrap();
-    assert!(found.rows.contains(&vec![Cell::Text("hut/1".into())]), "{found}");
+    assert!(lists(&found).contains(&vec![Cell::Text("hut/1".into())]), "{found}");
     let error =
         database.add_layer("huts", &burgeon_data::Layer { shown: "other".into(), ..layer }, &budget());
     insta::assert_snapshot!(error.unwrap_err(), @r#"

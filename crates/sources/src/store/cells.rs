@@ -29,15 +29,16 @@ fn no_value(name: &str, value: &Value) -> Error {
 }
 
 /// Converts a query result to a script value.
-pub(super) fn value(cell: &Cell) -> Value {
+pub(super) fn value(cell: Cell) -> Value {
     match cell {
         Cell::Null => Value::Nil,
-        Cell::Boolean(value) => Value::Boolean(*value),
-        Cell::Number(value) => Value::Number(*value),
-        Cell::Text(text) => Value::Text(Arc::clone(text)),
-        Cell::Geometry(geometry) => Value::Object(Arc::new(GeometryObject::shared(Arc::clone(geometry)))),
+        Cell::Boolean(value) => Value::Boolean(value),
+        Cell::Number(value) => Value::Number(value),
+        Cell::Text(text) => Value::Text(text),
+        Cell::Geometry(geometry) => Value::Object(Arc::new(GeometryObject::shared(geometry))),
         Cell::List(cells) => {
-            let entries = cells.iter().zip(1..).map(|(cell, number)| (TableKey::Index(number), value(cell)));
+            let cells = cells.iter().cloned().zip(1..);
+            let entries = cells.map(|(cell, number)| (TableKey::Index(number), value(cell)));
             Value::Table(Arc::new(Table { class: None, entries: entries.collect() }))
         }
     }

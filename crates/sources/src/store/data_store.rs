@@ -11,10 +11,11 @@ use super::options::parse_options;
 use super::tables::{SourceTable, SourceTables, TableContent};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
-use burgeon_data::{Cache, Layer, ReferenceFrame, SourceOptions, companions};
+use burgeon_data::{Cache, Layer, SourceOptions, companions};
 use burgeon_kit::{
     FeatureSource, LoadServices, QueryRows, SourceQuery, SourceRequest, SourceStore, Table, Value,
 };
+use burgeon_spatial::ReferenceFrame;
 
 /// Loaded sources of a run, behind a lock.
 ///

@@ -8,14 +8,14 @@ use rustc_hash::FxHashMap;
 use super::cells::{cell, value};
 use super::data_store::LoadedSources;
 use super::tables::{SourceTables, TableContent};
-use crate::sql::{Cell, Database, RowTable, rename_tables};
+use crate::sql::{Cell, Database, rename_tables};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_data::ReferenceFrame;
 use burgeon_kit::{ModuleTable, QueryRows, SourceQuery, SourceRequest};
+use burgeon_spatial::ReferenceFrame;
 
 /// Database with its tables.
 pub(super) struct SourceDatabase {
@@ -85,7 +85,7 @@ impl SourceTables {
                 continue;
             }
             if known.modules.get(name) != Some(&module.state()) {
-                database.set_rows(&row_table(*module), request.budget)?;
+                database.set_rows(name, &module_rows(*module), request.budget)?;
                 known.modules.insert(name.to_owned(), module.state());
             }
             // The database interprets the part of a name before a point as a schema.
@@ -97,11 +97,12 @@ impl SourceTables {
     }
 }
 
-/// Returns modules as a table with one column per parameter. Lists, and objects other than geometries, are NULL.
-fn row_table(module: &dyn ModuleTable) -> RowTable {
+/// Returns modules as rows with one column per parameter. Lists, and objects other than geometries, are NULL.
+fn module_rows(module: &dyn ModuleTable) -> QueryRows<Cell> {
     let mut cells = Vec::new();
     module.values(&mut |value| cells.push(cell(module.name(), &value).unwrap_or(Cell::Null)));
-    RowTable { name: module.name().to_owned(), columns: module.columns().to_vec(), cells }
+    let names: Vec<Arc<str>> = module.columns().iter().map(|name| name.as_str().into()).collect();
+    QueryRows::new(names, cells)
 }
 
 /// Warns that a query reads the source `source` and not the modules, because both have the same name.
@@ -150,13 +151,10 @@ pub(super) fn rows(
     };
     #[cfg(not(feature = "postgis"))]
     let answer = database.query(&statement, &cells, request.budget)?;
-    if answer.rows.len() > query.most {
-        let (rows, most) = (grouped(answer.rows.len()), grouped(query.most));
+    if answer.len() > query.most {
+        let (rows, most) = (grouped(answer.len()), grouped(query.most));
         return Err(Error::limit(Limit::Modules, format!("the query gives {rows} rows, of at most {most}"))
             .help("ask for fewer: where ..., or limit 1000; or raise the limit: --module-limit N"));
     }
-    Ok(QueryRows {
-        names: answer.names.iter().map(|name| name.as_str().into()).collect(),
-        values: answer.rows.iter().flatten().map(value).collect(),
-    })
+    Ok(answer.map(value))
 }

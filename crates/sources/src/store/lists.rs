@@ -21,15 +21,15 @@ impl ScriptList {
     pub(super) fn new(features: &Value) -> Result<Self> {
         let mut made = Self::default();
         let Value::Table(list) = features else { return Ok(made) };
-        for (number, feature) in list.list().iter().enumerate() {
+        for (number, feature) in list.list().into_iter().enumerate() {
             let refuse = |why: &str| {
                 Error::argument(format!("feature {} of the list {why}, so it is in no table", number + 1))
                     .help("write { id = \"a\", geometry = polygon({ ... }), height = 3 }")
             };
             let Value::Table(feature) = feature else { return Err(refuse("is no table")) };
             let geometry = feature.get("geometry").ok_or_else(|| refuse("has no geometry"))?;
-            let shape = Shape::from_value(geometry.clone())
-                .map_err(|_| refuse("has no geometry that can be read"))?;
+            let shape =
+                Shape::read_value(geometry).map_err(|_| refuse("has no geometry that can be read"))?;
             let id = match feature.get("id") {
                 Some(Value::Text(id)) => id.to_string(),
                 Some(Value::Nil) | None => (number + 1).to_string(),

@@ -1,8 +1,9 @@
 //! Options of `source`.
 
 use burgeon_base::error::{Error, Result};
-use burgeon_data::{GeometryKind, SourceOptions};
+use burgeon_data::SourceOptions;
 use burgeon_kit::{Table, TableKey, Value};
+use burgeon_spatial::GeometryKind;
 
 /// Names of the options.
 const OPTIONS: [&str; 9] = ["where", "tags", "within", "limit", "id", "kind", "crs", "layer", "table"];
@@ -69,7 +70,7 @@ fn corners(value: &Value) -> Result<[f64; 4]> {
     };
     let corners = match numbers[..] {
         [Value::Number(west), Value::Number(south), Value::Number(east), Value::Number(north)] => {
-            Some([west, south, east, north])
+            Some([*west, *south, *east, *north])
         }
         _ => None,
     };

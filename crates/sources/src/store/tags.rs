@@ -18,7 +18,7 @@ pub(super) fn filter(value: &Value) -> Result<TagFilter> {
     if tables.len() < table.entries.len() {
         return Err(wrong("tags is a list of tables and has keys too".to_owned()));
     }
-    let alternatives = tables.iter().map(|table| match table {
+    let alternatives = tables.into_iter().map(|table| match table {
         Value::Table(table) => tests(table),
         other => Err(wrong(format!("a list of tags must have tables, not {}", other.describe()))),
     });
@@ -51,7 +51,7 @@ fn test(key: &str, value: &Value) -> Result<TagTest> {
         Value::Boolean(false) => TagTest::Unset,
         Value::Text(any) if **any == *"*" => TagTest::Any,
         Value::Table(list) if !list.entries.is_empty() && list.list().len() == list.entries.len() => {
-            TagTest::OneOf(list.list().iter().map(text).collect::<Result<_>>()?)
+            TagTest::OneOf(list.list().into_iter().map(text).collect::<Result<_>>()?)
         }
         Value::Table(_) => return Err(wrong(format!("tags: {key} is a table that is no list of texts"))),
         value => TagTest::OneOf(vec![text(value)?]),

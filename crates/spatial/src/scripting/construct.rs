@@ -28,7 +28,7 @@ fn geometry(given: &[Value]) -> Result<Value> {
     match given {
         [Value::Text(text)] => Geometry::from_wkt(text).map_err(|error| error.about("geometry"))?.answer(),
         [value @ (Value::Object(_) | Value::Table(_))] => {
-            let shape = Shape::from_value(value.clone());
+            let shape = Shape::read_value(value);
             let shape =
                 shape.map_err(|_| Expectation::new(what).refuse("geometry", "what it is given", value))?;
             shape.geometry().check().map_err(|error| error.about("geometry"))?;
@@ -43,7 +43,7 @@ fn geometry(given: &[Value]) -> Result<Value> {
 /// Makes a point from two or three numbers, or from a vector.
 fn point(given: &[Value]) -> Result<Value> {
     if let [value @ (Value::Table(_) | Value::Object(_))] = given {
-        let place = Vector::from_value(value.clone());
+        let place = Vector::read_value(value);
         let place = place.map_err(|error| error.refuse("point", "what it is given", value))?;
         return sound("point", Geometry::Point(Some(place.0)));
     }
@@ -53,7 +53,7 @@ fn point(given: &[Value]) -> Result<Value> {
     }
     let mut place = DVec3::ZERO;
     for ((value, name), number) in given.iter().zip(["x", "y", "z"]).zip(place.as_mut()) {
-        *number = f64::from_value(value.clone()).map_err(|error| error.refuse("point", name, value))?;
+        *number = f64::read_value(value).map_err(|error| error.refuse("point", name, value))?;
     }
     sound("point", Geometry::Point(Some(place)))
 }
@@ -72,7 +72,7 @@ fn line(given: &[Value]) -> Result<Value> {
 fn polygon(given: &[Value]) -> Result<Value> {
     let rings = match given {
         [value] => {
-            let polygon = PolygonArgument::from_value(value.clone());
+            let polygon = PolygonArgument::read_value(value);
             polygon.map_err(|error| error.refuse("polygon", "what it is given", value))?.0
         }
         _ => Rings(vec![points("polygon", given)?]),
@@ -96,7 +96,7 @@ fn polygon(given: &[Value]) -> Result<Value> {
 
 /// Reads points that are passed one by one or as a list.
 fn points(name: &str, given: &[Value]) -> Result<Vec<DVec3>> {
-    let one_by_one = |value: &Value| Vector::from_value(value.clone());
+    let one_by_one = |value: &Value| Vector::read_value(value);
     if let [only @ Value::Table(table)] = given
         && one_by_one(only).is_err()
     {
@@ -105,7 +105,7 @@ fn points(name: &str, given: &[Value]) -> Result<Vec<DVec3>> {
             return Err(Expectation::new("a list of points").refuse(name, "what it is given", only));
         }
         return items
-            .iter()
+            .into_iter()
             .enumerate()
             .map(|(index, item)| {
                 let number = format!("point {}", index + 1);

@@ -68,7 +68,7 @@ impl Lines {
                     return self.collect(points.clone(), depth + 1);
                 }
                 if let Some(rings) = table.get("rings") {
-                    let rings = Vec::<Vec<Vector>>::from_value(rings.clone()).map_err(|_| what())?;
+                    let rings = Vec::<Vec<Vector>>::read_value(rings).map_err(|_| what())?;
                     self.lines.extend(rings.into_iter().filter_map(|ring| around(positions(ring))));
                     return Ok(());
                 }
@@ -84,7 +84,7 @@ impl Lines {
                 let (mut good, mut bad) = (0, None);
                 for (number, item) in (1..).zip(list) {
                     let known = self.lines.len();
-                    match self.collect(item, depth + 1) {
+                    match self.collect(item.clone(), depth + 1) {
                         Ok(()) => good += 1,
                         Err(error) => {
                             self.lines.truncate(known);

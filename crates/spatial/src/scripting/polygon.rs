@@ -52,16 +52,9 @@ impl Parameter for PolygonArgument {
             (None, Some(Value::Text(kind))) => return Err(not_this(kind)),
             _ => value.clone(),
         };
-        let first = |value: &Value| match value {
-            Value::Table(table) => table.list().into_iter().next(),
-            _ => None,
-        };
-        let is_ring = |value: &Value| {
-            let number = first(value).and_then(|point| first(&point));
-            matches!(number, Some(Value::Number(_)))
-        };
-        let rings = Vec::<Vec<Vector>>::from_value(rings.clone()).or_else(|error| {
-            let ring = Vec::<Vector>::from_value(rings.clone());
+        let is_ring = |value: &Value| matches!(first(value).and_then(first), Some(Value::Number(_)));
+        let rings = Vec::<Vec<Vector>>::read_value(&rings).or_else(|error| {
+            let ring = Vec::<Vector>::read_value(&rings);
             ring.map(|ring| vec![ring]).map_err(|of_ring| if is_ring(&rings) { of_ring } else { error })
         })?;
         Ok(Self(rings.into_iter().map(positions).collect()))
@@ -69,6 +62,14 @@ impl Parameter for PolygonArgument {
 
     fn into_value(self) -> Value {
         self.0.iter().map(|ring| vectors(ring)).collect::<Vec<_>>().into_value()
+    }
+}
+
+/// Returns the first item of a list.
+fn first(value: &Value) -> Option<&Value> {
+    match value {
+        Value::Table(table) => table.list().into_iter().next(),
+        _ => None,
     }
 }
 
@@ -108,7 +109,7 @@ mod tests {
     #[test]
     fn what_is_no_polygon_is_refused_by_what_it_is() {
         let refuse = |value: Value| {
-            let refused = PolygonArgument::from_value(value.clone()).expect_err("no polygon");
+            let refused = PolygonArgument::read_value(value).expect_err("no polygon");
             refused.refuse("footprint", "geometry", &value).message().to_owned()
         };
         let line = vec![(TableKey::Name("kind".into()), Value::Text("line".into()))];

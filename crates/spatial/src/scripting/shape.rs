@@ -38,12 +38,12 @@ impl Parameter for Shape {
         };
         let Value::Table(table) = &value else { return object(value, "").map(Self).map_err(|_| what()) };
         if let Some(geometry) = table.get("geometry") {
-            return Self::from_value(geometry.clone());
+            return Self::read_value(geometry);
         }
         let made = if let Some(rings) = table.get("rings") {
-            Geometry::Polygon(PolygonArgument::from_value(rings.clone())?.0)
+            Geometry::Polygon(PolygonArgument::read_value(rings)?.0)
         } else if let Some(points) = table.get("points") {
-            let points: Vec<DVec3> = Vec::<DVec3>::from_value(points.clone())?;
+            let points: Vec<DVec3> = Vec::<DVec3>::read_value(points)?;
             if points.len() == 1 { Geometry::Point(points.first().copied()) } else { Geometry::Line(points) }
         } else {
             Geometry::Point(Some(Vector::from_value(value).map_err(|_| what())?.0))

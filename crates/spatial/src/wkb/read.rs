@@ -166,7 +166,7 @@ impl WkbReader<'_> {
     /// Reads a geometry. Lines of one point become empty, as do polygons without three points; such holes are
     /// omitted.
     fn geometry(&mut self, allowed: TypeFilter, depth: usize) -> Result<Geometry, String> {
-        self.budget.tick().map_err(|error| error.message().to_owned())?;
+        self.budget.tick().map_err(|error| error.into_message())?;
         if depth > DEEPEST {
             return Err(format!("is nested more than {DEEPEST} deep"));
         }
@@ -253,7 +253,7 @@ impl WkbReader<'_> {
                     let room = |count: usize| self.budget.take(count * 24);
                     add_arc(&mut points, arc, self.near, room)
                         .and_then(|()| self.budget.tick())
-                        .map_err(|error| error.message().to_owned())?;
+                        .map_err(|error| error.into_message())?;
                 }
                 Ok(points)
             }

@@ -1,6 +1,6 @@
 //! A rectangle of cells of one level, as a structure of arrays.
 
-use burgeon_rewriting::{ModuleKey, Symbol};
+use burgeon_base::ModuleKey;
 
 /// A rectangle of cells, by column from the west and row from the north.
 ///
@@ -149,6 +149,9 @@ fn count_of(count: usize) -> i64 {
     count as i64
 }
 
+/// Symbol of a cell, as an index of the names of its layer.
+pub type CellSymbol = u16;
+
 /// Cells of an area at one level of the tree, row by row.
 #[derive(Debug, Clone)]
 pub struct Block {
@@ -157,7 +160,7 @@ pub struct Block {
     /// Area of the cells.
     pub area: Area,
     /// Symbol of each cell.
-    pub symbols: Vec<Symbol>,
+    pub symbols: Vec<CellSymbol>,
     /// Height (m) of each cell.
     pub heights: Vec<f64>,
     /// Other parameters of each cell, `stride` per cell: for a rule table, the decay. Empty for cells that

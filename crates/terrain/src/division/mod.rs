@@ -4,7 +4,6 @@
 //! positions.
 
 pub(crate) mod block;
-pub(crate) mod cells;
 pub(crate) mod height_source;
 pub(crate) mod noise;
 pub(crate) mod table;

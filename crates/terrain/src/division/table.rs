@@ -3,9 +3,10 @@
 use rayon::prelude::*;
 
 use super::block::{Area, Block};
+use crate::division::block::CellSymbol;
+use burgeon_base::ModuleKey;
 use burgeon_base::memory::allocate_zeroed;
 use burgeon_base::random::Stream;
-use burgeon_rewriting::{ModuleKey, Symbol};
 
 /// A number, or the range of a random number.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,7 +39,7 @@ pub struct Quadrants {
     /// Weight of the rule among the rules of its symbol.
     pub weight: f64,
     /// Symbol of each quadrant.
-    pub symbols: [Symbol; 4],
+    pub symbols: [CellSymbol; 4],
     /// Addition to the cell's height, as a multiple of its decay.
     pub change: [NumberRange; 4],
     /// Factor of the cell's decay.
@@ -168,7 +169,7 @@ impl RuleTable {
 
 /// Two rows of quadrants.
 struct QuadrantRows<'a> {
-    symbols: &'a mut [Symbol],
+    symbols: &'a mut [CellSymbol],
     heights: &'a mut [f64],
     decays: Option<&'a mut [f64]>,
     keys: Option<&'a mut [ModuleKey]>,

@@ -8,10 +8,11 @@ use rayon::prelude::*;
 use super::block::{Area, Block};
 use super::height_source::HeightSource;
 use super::table::RuleTable;
+use crate::division::block::CellSymbol;
 use burgeon_base::MemoryOwner;
+use burgeon_base::ModuleKey;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::memory::allocate_zeroed;
-use burgeon_rewriting::{ModuleKey, Symbol};
 
 /// Maximum number of divisions of a world: its finest columns and rows are numbered in 31 bits.
 pub const DEEPEST: u32 = 30;
@@ -41,7 +42,7 @@ pub struct LevelRules {
     /// Rules.
     pub rules: DivisionRules,
     /// Symbol of all cells of that level.
-    pub start: Symbol,
+    pub start: CellSymbol,
     /// Addition to the height (m) of each cell.
     pub height: f64,
     /// Other parameters of each cell.
@@ -54,7 +55,7 @@ pub struct LevelRules {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Begin {
     /// Symbol.
-    pub symbol: Symbol,
+    pub symbol: CellSymbol,
     /// Height (m).
     pub height: f64,
     /// Other parameters, as many as the maximum of any cell of the system.
@@ -160,7 +161,7 @@ impl World {
     }
 
     /// Returns the name of a symbol of the cells of `level`; empty if no rules divide them.
-    pub fn name(&self, level: u32, symbol: Symbol) -> &str {
+    pub fn name(&self, level: u32, symbol: CellSymbol) -> &str {
         self.layer(level).names.get(usize::from(symbol)).map_or("", String::as_str)
     }
 

@@ -7,9 +7,9 @@ use glam::DVec2;
 
 use super::code::Code;
 use super::targets::Target;
+use crate::division::block::CellSymbol;
 use crate::{Area, DivisionRules, LevelRules, NumberRange, Quadrants, RuleTable, Tables, World};
 use burgeon_base::error::Result;
-use burgeon_rewriting::Symbol;
 
 /// A rule table whose map resembles a target.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,7 +74,7 @@ impl FitResult {
         let rule = |rule: &super::code::SymbolRule| {
             vec![Quadrants {
                 weight: 1.0,
-                symbols: rule.symbols.map(|symbol| Symbol::try_from(symbol).unwrap_or(0)),
+                symbols: rule.symbols.map(|symbol| CellSymbol::try_from(symbol).unwrap_or(0)),
                 change: rule.change.map(NumberRange::exactly),
                 decay: rule.factor.map(NumberRange::exactly),
             }]

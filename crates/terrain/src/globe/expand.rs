@@ -7,8 +7,8 @@
 use super::faces::{CubeCell, cell};
 use crate::division::block::{Area, Block};
 use crate::division::world::{Divide, World, smooth};
+use burgeon_base::ModuleKey;
 use burgeon_base::error::Result;
-use burgeon_rewriting::ModuleKey;
 
 /// An area of each face.
 pub(super) type Areas = [Area; 6];

@@ -7,15 +7,16 @@ use glam::{DVec2, DVec3};
 
 use super::leaves::DETAIL;
 use super::*;
+use crate::CellSymbol;
 use crate::{DivisionRules, LevelRules, NumberRange, Quadrants, RuleTable, Tables, Tile, World};
+use burgeon_base::ModuleKey;
 use burgeon_base::random::Stream;
-use burgeon_rewriting::{ModuleKey, Symbol};
 
 const RADIUS: f64 = 50_000.0;
 
 /// Returns rules of two symbols, equal for all quadrants, so that only the faces could cause edges.
 fn world(seed: u64, smooth: bool) -> World {
-    let rule = |symbol: Symbol, reach: f64, decay: f64| Quadrants {
+    let rule = |symbol: CellSymbol, reach: f64, decay: f64| Quadrants {
         weight: 1.0,
         symbols: [symbol; 4],
         change: [NumberRange { low: -reach, high: reach }; 4],

@@ -3,11 +3,11 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
+use crate::division::block::CellSymbol;
 use crate::division::block::{Area, Block};
 use crate::division::world::World;
 use crate::edits::local_edits::LocalEdits;
 use burgeon_base::MemoryOwner;
-use burgeon_rewriting::Symbol;
 
 /// Position of a tile in the world.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -32,7 +32,7 @@ pub struct Tile {
     /// Cells with known heights: the tile's own cells, and one more on each side within the world.
     area: Area,
     heights: Vec<f64>,
-    symbols: Vec<Symbol>,
+    symbols: Vec<CellSymbol>,
     /// Heights (m) of measured ground at the corners of its cells; empty if the ground is the surface of the
     /// cells.
     corners: Vec<f64>,
@@ -101,7 +101,7 @@ impl Tile {
     /// Returns the memory of the tile (bytes).
     pub fn bytes(&self) -> usize {
         let heights = self.heights.len() + self.corners.len();
-        size_of::<Self>() + heights * size_of::<f64>() + self.symbols.len() * size_of::<Symbol>()
+        size_of::<Self>() + heights * size_of::<f64>() + self.symbols.len() * size_of::<CellSymbol>()
     }
 
     /// Returns the height (m) of the surface at the centre of a cell of the tile's level; for unknown cells,
@@ -112,7 +112,7 @@ impl Tile {
     }
 
     /// Returns the symbol of one of the tile's own cells.
-    pub fn symbol(&self, x: i64, y: i64) -> Symbol {
+    pub fn symbol(&self, x: i64, y: i64) -> CellSymbol {
         self.symbols[Self::own_cells(self.place, self.detail).index(x, y)]
     }
 

@@ -12,7 +12,6 @@ use serde_json::value::RawValue;
 use super::boundaries::{CityGeometry, CityVertices, Transform, add_geometry};
 use super::model::{CityRecord, CityValue};
 use crate::content::DataFile;
-use crate::crs::Crs;
 use crate::features::table::FeatureTable;
 use crate::formats::typing::TextTypes;
 use crate::layered_file::LayeredFile;
@@ -21,6 +20,7 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 use burgeon_kit::Attribute;
+use burgeon_spatial::Crs;
 
 /// Maximum file size (bytes).
 const LARGEST: u64 = 1_000_000_000;
@@ -199,8 +199,8 @@ impl LayeredFile for CityJson {
         "CityJSON"
     }
 
-    fn layers(&self) -> Vec<String> {
-        self.types.clone()
+    fn layers(&self) -> Vec<&str> {
+        self.types.iter().map(String::as_str).collect()
     }
 
     fn read(&self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {

@@ -17,7 +17,7 @@ pub(super) fn read(
     depth: usize,
     parts: &mut Vec<Geometry>,
 ) -> Result<(), String> {
-    budget.tick().map_err(|error| error.message().to_owned())?;
+    budget.tick().map_err(|error| error.into_message())?;
     if depth > DEEPEST {
         return Err(format!("is nested more than {DEEPEST} deep"));
     }
@@ -58,7 +58,7 @@ fn points(table: &BufferTable<'_>, budget: &Budget) -> Result<Vec<DVec3>, String
     if !places.len().is_multiple_of(16) || !(heights.is_empty() || heights.len() * 2 == places.len()) {
         return Err("has points with a missing coordinate".to_owned());
     }
-    budget.take(places.len() * 3 / 2).map_err(|error| error.message().to_owned())?;
+    budget.take(places.len() * 3 / 2).map_err(|error| error.into_message())?;
     let mut heights = doubles(heights);
     let points = places.as_chunks::<16>().0.iter().map(|place| {
         let mut place = doubles(place);

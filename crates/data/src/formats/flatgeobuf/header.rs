@@ -1,9 +1,9 @@
 //! FlatGeobuf header: columns, number of features, and coordinate system.
 
 use super::buffer::{BufferDamage, BufferTable};
-use crate::crs::Crs;
 use burgeon_base::error::{Error, Result as Checked};
 use burgeon_base::text::shown;
+use burgeon_spatial::Crs;
 
 /// Header of the file.
 pub(super) struct LayerHeader {

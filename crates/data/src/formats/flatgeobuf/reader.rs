@@ -79,8 +79,8 @@ impl FlatGeobuf {
         Ok(Self { file, name: name.to_owned(), layer, header, levels, index, features, end })
     }
 
-    pub(crate) fn layers(&self) -> Vec<String> {
-        vec![self.layer.clone()]
+    pub(crate) fn layers(&self) -> Vec<&str> {
+        vec![&self.layer]
     }
 
     pub(crate) fn read(&self, wanted: &SourceOptions) -> Result<FeatureTable> {

@@ -6,7 +6,6 @@ use std::sync::Arc;
 use super::connection::{guard, quote, run_watched};
 use super::errors::{query_error, read_error};
 use super::state::PackageState;
-use crate::crs::Crs;
 use crate::features::table::FeatureTable;
 use crate::formats::blob::{envelope, read_blob};
 use crate::layer_choice::choose_layer;
@@ -15,6 +14,7 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 use burgeon_kit::Attribute;
+use burgeon_spatial::Crs;
 use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OptionalExtension};
 
@@ -70,8 +70,8 @@ impl GeoPackage {
         Ok(Self { connection, state, name, layers })
     }
 
-    pub(crate) fn layers(&self) -> Vec<String> {
-        self.layers.iter().map(|layer| layer.table.clone()).collect()
+    pub(crate) fn layers(&self) -> Vec<&str> {
+        self.layers.iter().map(|layer| layer.table.as_str()).collect()
     }
 
     pub(crate) fn read(self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {

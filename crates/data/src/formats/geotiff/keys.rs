@@ -3,9 +3,9 @@
 use tiff::tags::Tag;
 
 use super::parts::Tiff;
-use crate::crs::Crs;
-use crate::heights::names::tiff_key as keys;
 use burgeon_base::error::{Error, Result};
+use burgeon_spatial::Crs;
+use burgeon_spatial::height_files::tiff_key as keys;
 
 /// Remedy for a coordinate system that cannot be used.
 const NAME_IT: &str = "specify its EPSG code: elevation(file, { crs = 3067 }), or convert the file: gdalwarp -t_srs EPSG:4326 IN OUT.tif";

@@ -4,11 +4,11 @@ use tiff::tags::Tag;
 
 use super::keys::GeoKeys;
 use super::parts::Tiff;
-use crate::crs::vertical::unit_of_system;
 use crate::heights::marks::is_negative_mark;
-use crate::heights::names::tiff_key as keys;
 use crate::heights::narrow;
 use burgeon_base::error::{Error, Result};
+use burgeon_spatial::crs::unit_of_system;
+use burgeon_spatial::height_files::tiff_key as keys;
 
 /// GDAL metadata of a file and its bands, as XML.
 const METADATA: Tag = Tag::Unknown(42112);

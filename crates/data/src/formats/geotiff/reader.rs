@@ -11,10 +11,10 @@ use super::lzw::LZW;
 use super::meaning::Meaning;
 use super::parts::{Tiff, TiffParts};
 use crate::formats::packed::{DEFLATED, can_hold, cannot_hold};
-use crate::heights::names::tiff_key as keys;
 use crate::heights::{RasterHeader, SampleGrid, check_size, count};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
+use burgeon_spatial::height_files::tiff_key as keys;
 
 /// Maximum compression ratio of LZW, whose 12-bit codes represent fewer than 4,096 bytes each, and of any other
 /// compression.

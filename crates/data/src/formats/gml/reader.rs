@@ -119,8 +119,8 @@ impl LayeredFile for GmlFile {
         "GML"
     }
 
-    fn layers(&self) -> Vec<String> {
-        self.types.clone()
+    fn layers(&self) -> Vec<&str> {
+        self.types.iter().map(String::as_str).collect()
     }
 
     fn read(&self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {

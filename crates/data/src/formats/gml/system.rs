@@ -1,9 +1,9 @@
 //! Interpretation of `srsName`: the coordinate system and the order of coordinates.
 
 use super::axes::is_north_first;
-use crate::crs::Crs;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
+use burgeon_spatial::Crs;
 
 /// Coordinate system named in a file.
 #[derive(Debug, Clone, PartialEq)]

@@ -13,7 +13,6 @@ use super::places::Place;
 use super::shapes::{BuildResult, OsmRecord, build, known_bounds};
 use super::xml::{blocks, is_xml_extract};
 use crate::content::DataFile;
-use crate::crs::Crs;
 use crate::features::table::FeatureTable;
 use crate::source_options::SourceOptions;
 use burgeon_base::MemoryOwner;
@@ -21,6 +20,7 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
 use burgeon_kit::Attribute;
+use burgeon_spatial::Crs;
 
 /// Open OpenStreetMap extract.
 pub struct OsmFile {
@@ -47,8 +47,8 @@ impl OsmFile {
         Ok(Self { blobs: BlobFile::open(file, &name, &wanted.budget)?, name, stem })
     }
 
-    pub(crate) fn layers(&self) -> Vec<String> {
-        LAYERS.iter().map(|layer| layer.name.to_owned()).collect()
+    pub(crate) fn layers(&self) -> Vec<&str> {
+        LAYERS.iter().map(|layer| layer.name).collect()
     }
 
     pub(crate) fn read(&self, wanted: &SourceOptions) -> Result<FeatureTable> {

@@ -53,7 +53,7 @@ struct Graph {
 }
 
 fn tick(budget: &Budget) -> Result<(), String> {
-    budget.tick().map_err(|error| error.message().to_owned())
+    budget.tick().map_err(|error| error.into_message())
 }
 
 fn place_text(place: Place) -> String {
@@ -65,7 +65,7 @@ impl Graph {
     fn new<'w>(ways: impl Iterator<Item = &'w [Place]>, budget: &Budget) -> Result<Self, String> {
         let mut segments: Vec<[Place; 2]> = Vec::new();
         for way in ways {
-            budget.take(way.len() * 150).map_err(|error| error.message().to_owned())?;
+            budget.take(way.len() * 150).map_err(|error| error.into_message())?;
             let pairs = way.windows(2).filter(|pair| pair[0] != pair[1]);
             segments.extend(pairs.map(|pair| [pair[0].min(pair[1]), pair[0].max(pair[1])]));
         }

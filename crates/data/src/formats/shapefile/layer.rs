@@ -3,10 +3,13 @@
 use super::dbf::DbfReader;
 use super::shp::ShapeReader;
 use crate::content::DataFile;
-use crate::crs::prj::{NAME_IT, crs_of_text};
 use crate::features::table::FeatureTable;
 use crate::source_options::SourceOptions;
 use burgeon_base::error::{Error, Result};
+use burgeon_spatial::crs::crs_of_text;
+
+/// Remedy for a coordinate system of a data file that is not known.
+const NAME_IT: &str = "specify its EPSG code: source(file, { crs = 3067 })";
 
 /// Files of a layer.
 pub(super) struct ShapeFiles {

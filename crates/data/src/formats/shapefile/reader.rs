@@ -80,8 +80,8 @@ impl LayeredFile for Shapefile {
         "Shapefile"
     }
 
-    fn layers(&self) -> Vec<String> {
-        self.layers.iter().map(|layer| layer.layer.clone()).collect()
+    fn layers(&self) -> Vec<&str> {
+        self.layers.iter().map(|layer| layer.layer.as_str()).collect()
     }
 
     fn read(&self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::questions::{fit, listed};
+use crate::queries::{fit, listed};
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::Values;
 use burgeon_kit::{ObjectContent, Value};

@@ -8,7 +8,7 @@ use rustc_hash::FxHashMap;
 use crate::declare::Session;
 use crate::derive::threads::{ThreadJob, ThreadPool};
 use crate::machine::Machine;
-use crate::questions::{Question, fit, listed};
+use crate::queries::{SqlQuery, fit, listed};
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::{Prefetch, Value};
 use burgeon_kit::{QueryRows, Values};
@@ -20,13 +20,13 @@ const MANY: usize = 64;
 /// Queries of a step, without duplicates.
 #[derive(Default)]
 pub(super) struct QuestionSet {
-    questions: Vec<Question>,
-    numbers: FxHashMap<Question, usize>,
+    questions: Vec<SqlQuery>,
+    numbers: FxHashMap<SqlQuery, usize>,
 }
 
 impl QuestionSet {
     /// Adds a query and returns its number.
-    pub(super) fn add(&mut self, question: Question) -> usize {
+    pub(super) fn add(&mut self, question: SqlQuery) -> usize {
         *self.numbers.entry(question).or_insert_with_key(|question| {
             self.questions.push(question.clone());
             self.questions.len() - 1
@@ -53,7 +53,7 @@ impl QuestionSet {
 /// Queries that all threads run together.
 struct QuestionBatch {
     session: Arc<Session>,
-    questions: Vec<Question>,
+    questions: Vec<SqlQuery>,
     next: AtomicUsize,
 }
 

@@ -12,7 +12,7 @@ use crate::derive::plan::DerivationPlan;
 use crate::derive::threads::{LeadingMachine, ThreadPool};
 use crate::machine::Machine;
 use crate::placeholders::{FRAGMENT, QUERY};
-use crate::questions::Question;
+use crate::queries::SqlQuery;
 use crate::results::{PendingAnswer, RESOLVED, RowFeatures};
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::text::grouped;
@@ -154,7 +154,7 @@ impl Resolver<'_> {
         }
     }
 
-    fn question(&self, at: Mark) -> Result<Question> {
+    fn question(&self, at: Mark) -> Result<SqlQuery> {
         let values = match self.value(at, 2) {
             Value::Table(values) => Some(values),
             _ => None,
@@ -163,7 +163,7 @@ impl Resolver<'_> {
             .machine
             .library
             .question_scope(&self.machine.session, |session| session.package_of(&self.place(at)?.file));
-        Ok(Question::new(self.text(at, 0)?, values).asked_in(scope))
+        Ok(SqlQuery::new(self.text(at, 0)?, values).asked_in(scope))
     }
 
     /// Returns the symbol that the placeholder at `at` names in parameter `index`.

@@ -8,8 +8,9 @@ use crate::machine::Machine;
 use crate::machine::convert::to_value;
 use crate::machine::types::ObjectHandle;
 use crate::results::VariableValues;
-use crate::results::{DerivedSystem, Remark, SourceFeatures};
+use crate::results::{DerivedSystem, SourceFeatures, skipped_feature, unread_feature};
 use burgeon_base::error::{Error, Result};
+use burgeon_base::warning::Warning;
 use burgeon_kit::{Object, Prefetch, Value};
 use burgeon_rewriting::{Chain, END, ModuleKey, Ordinals};
 
@@ -34,7 +35,7 @@ pub(crate) struct Axiom {
     /// Number of input features, including skipped features.
     pub given: usize,
     /// Skipped features.
-    pub remarks: Vec<Remark>,
+    pub feature_warnings: Vec<Warning>,
     /// Indices of the chains that are only built for others near them, ascending.
     pub neighbors: Vec<usize>,
     /// Variables of the derivation that is continued.
@@ -196,7 +197,7 @@ impl SystemDeclaration {
         let is_first = machine.session.options.part.is_none_or(|part| part.number == 1);
         for (id, error) in refused_of(source).into_iter().filter(|_| is_first) {
             axiom.given += 1;
-            axiom.remarks.push(Remark { unread: true, ..Remark::skipped(&axiom.source, Some(&id), &error) });
+            axiom.feature_warnings.push(unread_feature(&axiom.source, &id, &error));
         }
         let each = |index: usize, feature: LuaValue, id: Option<&str>| {
             let from_file = id.is_some();
@@ -230,7 +231,7 @@ impl SystemDeclaration {
                         return Err(told);
                     }
                     if role == FeatureRole::Shown {
-                        axiom.remarks.push(Remark::skipped(&axiom.source, Some(&id), &error));
+                        axiom.feature_warnings.push(skipped_feature(&axiom.source, Some(&id), &error));
                         refused.get_or_insert(told);
                     }
                     return Ok(());

@@ -8,7 +8,7 @@ use super::hooks::DeclaredHook;
 use crate::machine::Machine;
 use crate::machine::freeze::{ReachableFunction, TableFreeze, freeze};
 use crate::machine::library::Library;
-use crate::machine::questions::argument_places;
+use crate::machine::row_tables::argument_places;
 use crate::machine::types::methods_key;
 use crate::results::DerivedSystem;
 use burgeon_base::error::{Error, Result, SourcePlace};

@@ -6,7 +6,7 @@ use super::SystemDeclaration;
 use crate::machine::Machine;
 use crate::machine::convert::to_lua;
 use crate::machine::library::Library;
-use crate::machine::questions::argument_places;
+use crate::machine::row_tables::argument_places;
 use crate::machine::types::ScriptTypeEntry;
 use burgeon_base::error::SourcePlace;
 use burgeon_kit::{Object, ScriptType, Value};

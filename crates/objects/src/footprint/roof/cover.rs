@@ -4,11 +4,11 @@ use super::options::Roof;
 use super::{kinds, replace};
 use crate::footprint::object::Footprint;
 use burgeon_base::error::{Error, Result};
+use burgeon_base::warning::Warning;
 use burgeon_geometry::roof::{
     Eaves, Patch, PatchKind, RoofCover, RoofShape, RoofSurface as SurfaceOf, STEEPEST_EAVES, Support,
 };
 use burgeon_geometry::{Plan, fill};
-use burgeon_kit::Note;
 use burgeon_scene::SurfaceMeaning;
 use glam::DVec3;
 
@@ -40,7 +40,8 @@ impl Footprint {
         let support = Support { walls: &walls, base, party: &party, juts: &juts, reach: &reach };
         let mut make = |shape: &RoofShape, support: &Support<'_>| shape.cover_on(support);
         let made = replace::cover(&shape, &options.kind, &support, &mut make);
-        let mut note = |what: String, why: String| self.notes.push(Note::new(what, why));
+        let mut note =
+            |what: String, why: String| self.notes.push(Warning::simplification(what).with_cause(why));
         if let Some((what, why)) = made.replaced {
             note(what, why);
         }

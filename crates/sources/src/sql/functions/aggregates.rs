@@ -45,9 +45,8 @@ impl Aggregate<GeometryGroup, Value> for GeometryGathering {
             ValueRef::Null => Ok(()),
             ValueRef::Blob(bytes) => {
                 let budget = self.state.budget();
-                let taken = budget
-                    .hold(4 * bytes.len())
-                    .map_err(|error| function_error(error.message().to_owned()))?;
+                let taken =
+                    budget.hold(4 * bytes.len()).map_err(|error| function_error(error.into_message()))?;
                 let parsed = self.state.geometry(bytes);
                 let parsed =
                     parsed.map_err(|why| function_error(format!("a geometry of the group {why}")))?;

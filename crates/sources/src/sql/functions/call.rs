@@ -81,7 +81,7 @@ pub(super) fn run_list(
     name: &str,
     run: impl FnOnce(&GeometryArgument, &Context<'_>) -> Result<Vec<Geometry>, String>,
 ) -> rusqlite::Result<KeyList> {
-    state.budget().tick().map_err(|error| function_error(error.message().to_owned()))?;
+    state.budget().tick().map_err(|error| function_error(error.into_message()))?;
     let told = |why: String| function_error(format!("{name}: {why}"));
     let foreign = foreign(context).map_err(told)?;
     let parsed = match context.get_raw(0) {
@@ -89,7 +89,7 @@ pub(super) fn run_list(
         ValueRef::Blob(bytes) => state.geometry(bytes).map_err(told)?,
         ValueRef::Text(text) => {
             let read = Geometry::from_wkt_within(&String::from_utf8_lossy(text), &state.budget());
-            Arc::new(GeometryArgument::from(read.map_err(|error| told(error.message().to_owned()))?))
+            Arc::new(GeometryArgument::from(read.map_err(|error| told(error.into_message()))?))
         }
         other => return Err(told(super::texts::wrong_argument(0, "a geometry", other))),
     };
@@ -146,7 +146,7 @@ impl FunctionCall<'_> {
                 let text = std::str::from_utf8(text).map_err(|_| self.wrong_argument(index, "a geometry"))?;
                 let read = Geometry::from_wkt_within(text, &self.state.budget());
                 read.map(|geometry| Arc::new(GeometryArgument::from(geometry)))
-                    .map_err(|error| error.message().to_owned())
+                    .map_err(|error| error.into_message())
             }
             _ => Err(self.wrong_argument(index, "a geometry")),
         }

@@ -1,8 +1,6 @@
 //! Functions that create geometries, and functions that convert them to other formats.
 
-use burgeon_data::Crs;
-use burgeon_geometry::Rings;
-use burgeon_spatial::{Geometry, wkb};
+use burgeon_spatial::{Crs, Geometry, Rings, wkb};
 use glam::DVec3;
 
 use super::call::{FunctionCall, FunctionResult};
@@ -59,7 +57,7 @@ pub(super) const FORMS: &[SpatialFunction] = &[
         "The geometry of well-known text.",
         |call| {
             let read = Geometry::from_wkt_within(call.text(0)?, &call.budget());
-            place_in_system(call, 1, read.map_err(|error| error.message().to_owned())?)
+            place_in_system(call, 1, read.map_err(|error| error.into_message())?)
         },
     ),
     function(
@@ -107,7 +105,7 @@ pub(super) const FORMS: &[SpatialFunction] = &[
             };
             let to = code(call, 1)?;
             let made = crate::sql::place::transform(&geometry.geometry, from, to, frame);
-            made.map(|made| FunctionResult::Placed(made, to)).map_err(|error| error.message().to_owned())
+            made.map(|made| FunctionResult::Placed(made, to)).map_err(|error| error.into_message())
         },
     ),
     function(
@@ -159,7 +157,7 @@ fn place_in_system(
     index: usize,
     geometry: Geometry,
 ) -> Result<FunctionResult, String> {
-    geometry.check().map_err(|error| error.message().to_owned())?;
+    geometry.check().map_err(|error| error.into_message())?;
     let own = if index < call.len() { code(call, index)? } else { call.foreign(0) };
     Ok(FunctionResult::Placed(geometry, own))
 }
@@ -176,7 +174,7 @@ fn code(call: &FunctionCall<'_>, index: usize) -> Result<Option<u32>, String> {
     if code == 0 || frame.epsg.is_some_and(|own| u32::from(own) == code) {
         return Ok(None);
     }
-    Crs::epsg(code).map_err(|error| error.message().to_owned())?;
+    Crs::epsg(code).map_err(|error| error.into_message())?;
     Ok(Some(code))
 }
 

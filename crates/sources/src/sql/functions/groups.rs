@@ -3,8 +3,7 @@
 use std::panic::AssertUnwindSafe;
 use std::sync::Arc;
 
-use burgeon_geometry::Rings;
-use burgeon_spatial::Geometry;
+use burgeon_spatial::{Geometry, Rings};
 use glam::DVec3;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
@@ -300,7 +299,7 @@ fn clusters(partition: &ClusterPartition, budget: &Budget) -> Result<Vec<Option<
             let [Some(a), Some(b)] = [&geometries[*index], &geometries[*other]] else { return false };
             index == other || a.geometry.distance(&b.geometry).is_some_and(|far| far <= *distance)
         });
-        budget.check().map_err(|error| error.message().to_owned())?;
+        budget.check().map_err(|error| error.into_message())?;
         if near.len() < *least {
             continue;
         }

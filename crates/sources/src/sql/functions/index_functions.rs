@@ -53,7 +53,7 @@ pub(super) fn register(connection: &Connection, state: &Arc<ConnectionState>) ->
 
 /// Returns the index that the first argument names.
 fn index(context: &Context<'_>, state: &ConnectionState) -> rusqlite::Result<Arc<SpatialIndex>> {
-    state.budget().tick().map_err(|error| function_error(error.message().to_owned()))?;
+    state.budget().tick().map_err(|error| function_error(error.into_message()))?;
     // SQLite keeps the auxiliary data while the statement runs.
     let found = context.get_or_create_aux(0, |name| -> Result<Arc<SpatialIndex>, rusqlite::Error> {
         let name = name.as_str().map_err(|error| function_error(error.to_string()))?;
@@ -83,7 +83,7 @@ fn geometry(
             let text = std::str::from_utf8(text).unwrap_or_default();
             let read = Geometry::from_wkt_within(text, &state.budget());
             read.map(|it| Some(Arc::new(GeometryArgument::from(it))))
-                .map_err(|error| function_error(error.message().to_owned()))
+                .map_err(|error| function_error(error.into_message()))
         }
         _ => Ok(None),
     }

@@ -3,8 +3,7 @@
 use std::rc::Rc;
 use std::sync::Arc;
 
-use burgeon_geometry::Rings;
-use burgeon_spatial::Geometry;
+use burgeon_spatial::{Geometry, Rings};
 use glam::DVec3;
 use rusqlite::Connection;
 use rusqlite::functions::{Context, FunctionFlags};

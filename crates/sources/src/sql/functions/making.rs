@@ -1,7 +1,6 @@
 //! Functions that derive geometries from others.
 
-use burgeon_geometry::Rings;
-use burgeon_spatial::{BufferCap, BufferJoin, BufferOptions, Geometry};
+use burgeon_spatial::{BufferCap, BufferJoin, BufferOptions, Geometry, Rings};
 use geo::LineLocatePoint;
 use glam::DVec3;
 
@@ -34,7 +33,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         |call| {
             let options = if call.len() == 3 { buffer_options(call)? } else { BufferOptions::default() };
             let made = call.geometry(0)?.geometry.buffer(call.number(1)?, &options);
-            made.map(FunctionResult::Geometry).map_err(|error| error.message().to_owned())
+            made.map(FunctionResult::Geometry).map_err(|error| error.into_message())
         },
     ),
     function(
@@ -50,7 +49,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
                 return Err(call.wrong_geometry(0, "a line"));
             }
             let made = line.geometry.offset(distance, &options);
-            made.map(FunctionResult::Geometry).map_err(|error| error.message().to_owned())
+            made.map(FunctionResult::Geometry).map_err(|error| error.into_message())
         },
     ),
     function(
@@ -279,12 +278,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         "(geometry, distance)",
         "geometry",
         "The geometry with fewer points; removed points are at most `distance` from the result.",
-        |call| {
-            Ok(FunctionResult::Geometry(super::simple::simplify(
-                &call.geometry(0)?.geometry,
-                call.number(1)?,
-            )))
-        },
+        |call| Ok(FunctionResult::Geometry(call.geometry(0)?.geometry.simplify_separately(call.number(1)?))),
     ),
     function(
         "ST_Reverse",

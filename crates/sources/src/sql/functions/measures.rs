@@ -1,7 +1,6 @@
 //! Functions that measure and describe geometries.
 
-use burgeon_geometry::Rings;
-use burgeon_spatial::Geometry;
+use burgeon_spatial::{Geometry, Rings};
 use glam::DVec3;
 
 use super::call::{FunctionCall, FunctionResult};

@@ -18,7 +18,6 @@ mod operators;
 mod parts;
 mod registry;
 mod relations;
-mod simple;
 mod spatial_function;
 mod state;
 mod table;

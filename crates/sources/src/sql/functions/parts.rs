@@ -71,6 +71,6 @@ pub(super) fn closed_line(ring: &[DVec3]) -> Geometry {
 }
 
 pub(super) fn check_geometry(geometry: Geometry) -> Result<FunctionResult, String> {
-    geometry.check().map_err(|error| error.message().to_owned())?;
+    geometry.check().map_err(|error| error.into_message())?;
     Ok(FunctionResult::Geometry(geometry))
 }

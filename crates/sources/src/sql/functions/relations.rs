@@ -136,10 +136,7 @@ pub(super) const RELATIONS: &[SpatialFunction] = &[
             if call.len() == 2 {
                 return Ok(FunctionResult::Text(relation.text().to_owned()));
             }
-            relation
-                .matches(call.text(2)?)
-                .map(FunctionResult::Boolean)
-                .map_err(|error| error.message().to_owned())
+            relation.matches(call.text(2)?).map(FunctionResult::Boolean).map_err(|error| error.into_message())
         },
     ),
     function(

@@ -52,7 +52,7 @@ pub(super) fn run(
     if (0..context.len()).any(|index| matches!(context.get_raw(index), ValueRef::Null)) {
         return Ok(Value::Null);
     }
-    state.budget().tick().map_err(|error| function_error(error.message().to_owned()))?;
+    state.budget().tick().map_err(|error| function_error(error.into_message()))?;
     let name = function.name;
     let told = |why: String| function_error(format!("{name}: {why}"));
     let foreign = foreign(context).map_err(told)?;

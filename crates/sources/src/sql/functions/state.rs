@@ -13,7 +13,7 @@ use crate::sql::index::SpatialIndex;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 use burgeon_base::locks::LockRecovery;
-use burgeon_data::ReferenceFrame;
+use burgeon_spatial::ReferenceFrame;
 
 /// The spatial indexes of all tables, by table and column.
 pub(crate) type Indexes = RwLock<BTreeMap<String, Arc<SpatialIndex>>>;

@@ -2,8 +2,7 @@
 
 use std::fmt::Write as _;
 
-use burgeon_geometry::Rings;
-use burgeon_spatial::Geometry;
+use burgeon_spatial::{Geometry, Rings};
 use glam::DVec3;
 
 use super::decimals::coordinate_text;

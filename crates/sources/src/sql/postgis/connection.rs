@@ -15,10 +15,11 @@ use super::cells::{BoundCell, ServerCell};
 use super::encryption::Encryption;
 use super::errors::{late, unreachable};
 use super::numbered::{NumberedStatement, ParameterTypes, number_parameters};
-use crate::sql::cell::{Cell, QueryAnswer};
+use crate::sql::cell::{Cell, push_row};
 use crate::sql::place::Move;
-use burgeon_base::budget::Budget;
+use burgeon_base::budget::{Budget, BudgetCharge};
 use burgeon_base::error::{Error, Result};
+use burgeon_kit::QueryRows;
 
 /// Interval between two checks of the budget.
 const PERIOD: Duration = Duration::from_millis(20);
@@ -43,7 +44,7 @@ pub(super) struct AskedStatement<'a> {
 
 /// The rows of a result, and the cells that cannot be read, which are null in the rows.
 pub(super) struct ServerAnswer {
-    pub(super) rows: QueryAnswer,
+    pub(super) rows: QueryRows<Cell>,
     pub(super) faults: Vec<CellFault>,
 }
 
@@ -232,14 +233,15 @@ impl ServerConnection {
                 }
             }
         };
-        let names: Vec<String> = statement.columns().iter().map(|column| column.name().to_owned()).collect();
+        let names: Vec<Arc<str>> = statement.columns().iter().map(|column| column.name().into()).collect();
         let width = names.len();
-        let mut answer = ServerAnswer { rows: QueryAnswer::new(names.into(), budget), faults: Vec::new() };
+        let mut answer = ServerAnswer { rows: QueryRows::new(names, []), faults: Vec::new() };
+        answer.rows.charge = BudgetCharge::new(budget);
         let rows = self.client.query_raw(&statement, bound.iter()).await;
         let mut rows = pin!(rows.map_err(|error| failed(error, &written.sql))?);
         while let Some(row) = poll_fn(|context| rows.as_mut().poll_next(context)).await {
             let row = row.map_err(|error| failed(error, &written.sql))?;
-            let number = answer.rows.rows.len();
+            let number = answer.rows.len();
             let cell = |index: usize| {
                 let cell: ServerCell = row.try_get(index).map_err(|error| {
                     use std::error::Error as _;
@@ -257,7 +259,8 @@ impl ServerConnection {
                     }
                 })
             };
-            answer.rows.push((0..width).map(cell).collect::<Result<_>>()?)?;
+            let cells = (0..width).map(cell).collect::<Result<_>>()?;
+            push_row(&mut answer.rows, cells)?;
         }
         Ok(answer)
     }

@@ -11,7 +11,8 @@ use crate::sql::place::Move;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
-use burgeon_data::{Attribute, Crs, FeatureTable, LayerListing, Listing, SourceOptions};
+use burgeon_data::{Attribute, FeatureTable, LayerListing, Listing, SourceOptions};
+use burgeon_spatial::Crs;
 
 impl Server {
     /// Reads the selected part of a layer in the order of its keys, as [`Source::read`](burgeon_data::Source::read)
@@ -147,7 +148,7 @@ fn features(answer: &ServerAnswer, mut table: FeatureTable, wanted: &SourceOptio
     };
     let wrong = answer.faults.iter().filter(|fault| fault.column == 1);
     let wrong: FxHashMap<usize, &str> = wrong.map(|fault| (fault.row, fault.why.as_str())).collect();
-    for (row, number) in answer.rows.rows.iter().zip(1usize..) {
+    for (row, number) in answer.rows.iter().zip(1usize..) {
         let key = text(&row[0]).unwrap_or_else(|| number.to_string());
         let id = id.and_then(|id| text(&row[id + 2])).unwrap_or(key);
         if let Some(why) = wrong.get(&(number - 1)) {

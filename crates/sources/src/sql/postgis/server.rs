@@ -12,7 +12,7 @@ use super::connection::{AskedStatement, CellFault, ServerAnswer, ServerConnectio
 use super::encryption;
 use super::errors::{is_lost, server_error};
 use super::tables::{self, ServerTables};
-use crate::sql::cell::{Cell, QueryAnswer};
+use crate::sql::cell::{Cell, sort_rows};
 use crate::sql::errors;
 use crate::sql::place::Move;
 use crate::sql::rewrite::{self, Catalogue, ChosenRows, Dialect, find_word};
@@ -20,7 +20,8 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::shown;
-use burgeon_data::{Crs, ReferenceFrame};
+use burgeon_kit::QueryRows;
+use burgeon_spatial::{Crs, ReferenceFrame};
 
 /// Maximum silence of a server before the connection is considered dead.
 const SILENCE: Duration = Duration::from_secs(30);
@@ -99,7 +100,7 @@ impl Server {
         parameters: &[(&str, Cell)],
         frame: Option<&ReferenceFrame>,
         budget: &Arc<Budget>,
-    ) -> Result<Arc<QueryAnswer>> {
+    ) -> Result<QueryRows<Cell>> {
         budget.check()?;
         errors::check_length(sql)?;
         let known = self.server_tables(budget)?;
@@ -129,19 +130,19 @@ impl Server {
             })?;
         if let Some(CellFault { row, column, why }) = faults.first() {
             let plain = |cell: &Cell| matches!(cell, Cell::Number(_) | Cell::Text(_));
-            let named = answer.id().or_else(|| answer.rows[*row].iter().position(plain));
+            let named = answer.id().or_else(|| answer.row(*row).iter().position(plain));
             let with = named.map_or_else(
                 || format!("row {}", row + 1),
-                |named| format!("the row with {} {}", answer.names[named], answer.rows[*row][named]),
+                |named| format!("the row with {} {}", answer.names[named], answer.row(*row)[named]),
             );
             let column = &answer.names[*column];
             return Err(Error::data(format!("SQL: the column {column} has a geometry that {why} ({with})"))
                 .help("repair it, or leave its row out: WHERE ..."));
         }
         if !ordered {
-            answer.sort();
+            sort_rows(&mut answer);
         }
-        Ok(Arc::new(answer))
+        Ok(answer)
     }
 
     /// Limits the visible part of a table to the part that was read.
@@ -181,11 +182,11 @@ impl Server {
             })
         };
         let answer = read(tables::POSTGIS)?;
-        if answer.rows.rows.is_empty() {
+        if answer.rows.is_empty() {
             return Err(Error::unavailable(format!("the database {} has no PostGIS", self.address))
                 .help("run there: CREATE EXTENSION postgis"));
         }
-        let schema = answer.rows.rows[0].first().map_or_else(String::new, |cell| match cell {
+        let schema = answer.rows.row(0).first().map_or_else(String::new, |cell| match cell {
             Cell::Text(schema) => schema.to_string(),
             _ => String::new(),
         });

@@ -3,8 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::cells::COME_AS_THEY_ARE;
-use crate::sql::cell::{Cell, QueryAnswer};
+use crate::sql::cell::Cell;
 use crate::sql::rewrite::{Catalogue, TableInfo, find_word};
+use burgeon_kit::QueryRows;
 
 /// Query for the schema of PostGIS, if it is installed.
 pub(super) const POSTGIS: &str = "SELECT n.nspname::text FROM pg_extension e JOIN pg_namespace n ON n.oid = e.extnamespace \
@@ -42,11 +43,11 @@ pub(super) struct ServerTables {
 }
 
 impl ServerTables {
-    pub(super) fn read(rows: &QueryAnswer) -> Self {
+    pub(super) fn read(rows: &QueryRows<Cell>) -> Self {
         let mut tables =
             Self { catalogue: Catalogue::new(), systems: BTreeMap::new(), foreign: BTreeSet::new() };
-        for row in &rows.rows {
-            if let [_, Cell::Text(schema), Cell::Text(table), visible, ..] = row.as_slice() {
+        for row in rows.iter() {
+            if let [_, Cell::Text(schema), Cell::Text(table), visible, ..] = row {
                 let qualified = format!("{schema}.{table}");
                 let is_visible = *visible == Cell::Boolean(true);
                 if is_visible {

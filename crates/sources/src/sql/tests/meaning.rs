@@ -314,9 +314,9 @@ pub(super) const STATEMENTS: [&str; 34] = [
 ];
 
 /// Returns the town in the projection of its package, and the projection.
-pub(super) fn town_in_frame(folder: &Path, houses: usize) -> (Database, burgeon_data::ReferenceFrame) {
-    let crs = burgeon_data::Crs::epsg(3067).unwrap();
-    let frame = burgeon_data::ReferenceFrame::around(&crs, [385_000.0, 6_672_000.0], "the town").unwrap();
+pub(super) fn town_in_frame(folder: &Path, houses: usize) -> (Database, burgeon_spatial::ReferenceFrame) {
+    let crs = burgeon_spatial::Crs::epsg(3067).unwrap();
+    let frame = burgeon_spatial::ReferenceFrame::around(&crs, [385_000.0, 6_672_000.0], "the town").unwrap();
     let database = Database::new(Some(frame.clone())).unwrap();
     let (path, budget) = (town(folder, houses), budget());
     for layer in ["houses", "roads", "lamps"] {
@@ -341,7 +341,7 @@ fn expressions_give_what_they_give_in_postgresql_or_are_refused() {
         match database.query(&statement(expression), &[], &budget()) {
             Ok(answer) => {
                 assert!(!expression.starts_with('!'), "{expression}: {answer}");
-                let mut values: Vec<String> = answer.rows.iter().map(|row| row[1].to_string()).collect();
+                let mut values: Vec<String> = answer.iter().map(|row| row[1].to_string()).collect();
                 values.dedup();
                 told += &format!("    {}\n", values.join("\n    "));
             }

@@ -85,7 +85,7 @@ fn tables_of_mixed_and_invalid_geometries_are_joined_and_none_is_lost() {
     let odd = format!("WITH odd(id, geom) AS (VALUES {})", odd.join(", "));
     let count = |sql: &str| {
         let answer = database.query(&format!("{odd} {sql}"), &[], &budget());
-        answer.unwrap_or_else(|error| panic!("{sql}: {error}")).rows.len()
+        answer.unwrap_or_else(|error| panic!("{sql}: {error}")).len()
     };
     assert_eq!(count("SELECT a.id, b.id AS other FROM odd a LEFT JOIN odd b ON a.id = b.id"), ODD.len());
     assert_eq!(count("SELECT id FROM odd WHERE ST_IsEmpty(geom)"), 5);
@@ -131,8 +131,5 @@ fn a_row_whose_geometry_cannot_be_read_is_named() {
     "
     );
     // An invalid geometry that is not read causes no error.
-    assert_eq!(
-        database.query("SELECT fid FROM houses WHERE fid = 17", &[], &budget()).unwrap().rows.len(),
-        1
-    );
+    assert_eq!(database.query("SELECT fid FROM houses WHERE fid = 17", &[], &budget()).unwrap().len(), 1);
 }

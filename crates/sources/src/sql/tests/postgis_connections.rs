@@ -49,7 +49,7 @@ pub(super) fn check_lost_connection(server: &Server) {
         )
         .unwrap();
     std::thread::sleep(std::time::Duration::from_millis(200));
-    assert!(!server.query("SELECT fid FROM lamps", &[], None, &budget()).unwrap().rows.is_empty());
+    assert!(!server.query("SELECT fid FROM lamps", &[], None, &budget()).unwrap().is_empty());
     let nobody = ServerAddress::parse("postgres://me:secret@127.0.0.1:1/nothing").unwrap();
     let error = Server::new(&nobody, None).query("SELECT 1", &[], None, &budget()).unwrap_err();
     assert_eq!(error.kind().code(), "unavailable");
@@ -71,6 +71,6 @@ pub(super) fn check_lost_connection(server: &Server) {
             });
             assert!(gone, "no query was active");
         });
-        assert_eq!(server.query(sql, &[], None, &budget()).unwrap().rows, known.rows);
+        assert_eq!(server.query(sql, &[], None, &budget()).unwrap().values, known.values);
     });
 }

@@ -58,8 +58,8 @@ fn a_statement_may_only_read() {
     assert!(!folder.path().join("stolen.db").exists());
     assert_eq!(std::fs::read(folder.path().join("town.gpkg")).unwrap(), before);
     assert_eq!(
-        database.query("SELECT count(*) FROM houses", &[], &budget()).unwrap().rows,
-        [[Cell::Number(30.0)]]
+        database.query("SELECT count(*) FROM houses", &[], &budget()).unwrap().values,
+        [Cell::Number(30.0)]
     );
 }
 
@@ -70,9 +70,9 @@ fn what_is_handed_over_is_never_part_of_the_statement() {
     let evil = "x' OR 1 = 1; DROP TABLE houses; --";
     let parameters = [("name", Cell::Text(evil.into()))];
     let answer = database.query("SELECT fid FROM houses WHERE name = $name", &parameters, &budget()).unwrap();
-    assert!(answer.rows.is_empty());
+    assert!(answer.is_empty());
     let answer = database.query("SELECT $name AS name", &parameters, &budget()).unwrap();
-    assert_eq!(answer.rows, [[Cell::Text(evil.into())]]);
+    assert_eq!(answer.values, [Cell::Text(evil.into())]);
 }
 
 #[test]
@@ -91,7 +91,7 @@ fn a_question_that_never_ends_is_stopped() {
         assert_eq!(error.kind().code(), "limit.time", "{sql}: {error}");
     }
     // The connection remains usable.
-    assert_eq!(database.query("SELECT 1 AS one", &[], &budget()).unwrap().rows, [[Cell::Number(1.0)]]);
+    assert_eq!(database.query("SELECT 1 AS one", &[], &budget()).unwrap().values, [Cell::Number(1.0)]);
 }
 
 #[test]

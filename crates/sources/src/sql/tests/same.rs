@@ -4,7 +4,7 @@ use super::*;
 
 /// Returns the rows of a statement that is not rewritten.
 fn plain_rows(database: &Database, sql: &str, parameters: &[(&str, Cell)]) -> Vec<Vec<Cell>> {
-    let mut rows = database.query_plainly(sql, parameters, &budget()).unwrap().rows.clone();
+    let mut rows = lists(&database.query_plainly(sql, parameters, &budget()).unwrap());
     rows.sort_by(|a, b| {
         a.iter().zip(b).map(|(a, b)| a.order(b)).find(|it| it.is_ne()).unwrap_or(std::cmp::Ordering::Equal)
     });
@@ -12,7 +12,7 @@ fn plain_rows(database: &Database, sql: &str, parameters: &[(&str, Cell)]) -> Ve
 }
 
 fn both(database: &Database, sql: &str, parameters: &[(&str, Cell)]) -> usize {
-    let mut rewritten = database.query(sql, parameters, &budget()).unwrap().rows.clone();
+    let mut rewritten = lists(&database.query(sql, parameters, &budget()).unwrap());
     // Booleans are recognized only if the statement was parsed.
     for cell in rewritten.iter_mut().flatten() {
         if let Cell::Boolean(value) = cell {
@@ -117,7 +117,7 @@ fn the_nearest_are_those_of_all_distances() {
             "SELECT a.fid, (SELECT b.fid FROM {b} b WHERE b.geom IS NOT NULL ORDER BY ST_Distance(b.geom, a.geom), b.fid LIMIT 1) AS n FROM {a} a WHERE a.geom IS NOT NULL"
         );
         let fast = database.query(&sql, &[], &budget()).unwrap();
-        assert_eq!(fast.rows, plain_rows(&database, &written, &[]), "{sql}");
+        assert_eq!(lists(&fast), plain_rows(&database, &written, &[]), "{sql}");
     }
     assert_eq!(count, 12);
     let at = [
@@ -138,7 +138,7 @@ fn rows_come_in_one_order_whatever_is_left_open() {
     let database = database(folder.path(), 120);
     let fids = |sql: &str| -> Vec<String> {
         let answer = database.query(sql, &[], &budget()).unwrap();
-        answer.rows.iter().map(|row| row[0].to_string()).collect()
+        answer.iter().map(|row| row[0].to_string()).collect()
     };
     assert_eq!(fids("SELECT levels FROM houses LIMIT 7"), ["1", "2", "3", "4", "5", "1", "2"]);
     assert_eq!(fids("SELECT fid FROM houses ORDER BY levels LIMIT 4"), ["1", "6", "11", "16"]);
@@ -153,7 +153,7 @@ fn rows_come_in_one_order_whatever_is_left_open() {
     let joined = database
         .query("SELECT b.fid, a.fid FROM houses a, lamps b WHERE a.fid < 3 AND b.fid < 3", &[], &budget())
         .unwrap();
-    let pairs: Vec<String> = joined.rows.iter().map(|row| format!("{}{}", row[0], row[1])).collect();
+    let pairs: Vec<String> = joined.iter().map(|row| format!("{}{}", row[0], row[1])).collect();
     assert_eq!(pairs, ["11", "12", "21", "22"]);
 }
 
@@ -283,7 +283,7 @@ fn subqueries_laterals_and_least_distances_give_the_rows_of_plain_statements() {
         for _ in 0..2 {
             let answer = database.query(written, &parameters, &budget());
             let answer = answer.unwrap_or_else(|error| panic!("{written}: {error}"));
-            let mut rows = answer.rows.clone();
+            let mut rows = lists(&answer);
             rows.sort_by(|a, b| {
                 a.iter()
                     .zip(b)

@@ -1,0 +1,19 @@
+//! Tables of records as layers: GeoJSON and GeoPackages.
+//!
+//! Input: a [`RecordTable`](burgeon_spatial::RecordTable) for each layer, in metres of a run's frame. Output: the same
+//! records georeferenced in a coordinate system that other programs support. The same tables yield the same bytes.
+
+mod column;
+mod geojson;
+#[cfg_attr(not(feature = "data"), path = "absent_geopackage.rs")]
+mod geopackage;
+mod place;
+#[cfg(test)]
+mod tests;
+mod write;
+
+pub use column::{ColumnKind, column_kinds};
+pub use geojson::write_geojson;
+pub use geopackage::{check_geopackage, write_geopackage};
+pub use place::OutputPlacement;
+pub(crate) use write::{write_geojson_file, write_geopackage_file};
