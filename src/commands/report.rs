@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use burgeon::script::{Param, Setting};
+use burgeon::script::Param;
 use burgeon::sources::ReferenceFrame;
 use burgeon::text::escaped_lines;
 use burgeon::text::grouped;
@@ -148,16 +148,7 @@ fn packages_json(packages: &[burgeon::scene::ScenePackage]) -> serde_json::Value
 
 /// Returns the parameters' values by name, as JSON.
 pub(crate) fn params_json(params: &[Param]) -> serde_json::Value {
-    params.iter().map(|param| (param.name.clone(), setting_json(&param.value))).collect()
-}
-
-/// Converts a parameter's value to JSON.
-pub(crate) fn setting_json(setting: &Setting) -> serde_json::Value {
-    match setting {
-        Setting::Number(number) => json!(number),
-        Setting::Boolean(value) => json!(value),
-        Setting::Text(text) => json!(text),
-    }
+    params.iter().map(|param| (param.name.clone(), param.value.to_json())).collect()
 }
 
 /// Returns the peak resident memory of this process (MB), if the system reports it.

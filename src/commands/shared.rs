@@ -7,7 +7,7 @@ use burgeon::packages::{FileName, PackageSearch, Packages};
 use burgeon::picture::{Background, Picture, ViewBall};
 use burgeon::presets::Presets;
 use burgeon::script::{
-    FeaturePart, Limits, ParamValues, Print, RunInputs, RunOptions, RunReports, api_version,
+    CurvesFile, FeaturePart, Limits, ParamValues, Print, RunInputs, RunOptions, RunReports, api_version,
 };
 use burgeon::{Error, Result};
 use clap::{Args, ValueEnum};
@@ -107,7 +107,8 @@ impl ScriptFlags {
     /// Returns the files that affect the result even if the script cannot be read.
     pub(crate) fn files(&self) -> Vec<PathBuf> {
         let presets = self.preset.as_ref().and_then(|name| Some(self.presets(name).ok()?.0));
-        std::iter::once(&self.script).chain(&self.stdlib).cloned().chain(presets).collect()
+        let curves = Some(CurvesFile::path_of(&self.script)).filter(|path| path.is_file());
+        std::iter::once(&self.script).chain(&self.stdlib).cloned().chain(presets).chain(curves).collect()
     }
 
     /// Returns the file of the preset `name`, and its name in the file: `@castle/grand` is in the presets.json of a

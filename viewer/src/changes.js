@@ -26,6 +26,11 @@ export class Changes {
     this.#pump();
   }
 
+  /** Asks the server for something that makes no model. */
+  ask(message, answer) {
+    this.#socket.ask(message, answer);
+  }
+
   /** Any other message that makes a model: reset, seed, steps, preset. */
   send(message) {
     if (message.type === 'reset' || message.action === 'load') delete this.#waiting.set;

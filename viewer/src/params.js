@@ -1,5 +1,6 @@
 // The parameters' controls. They are changed in place, so that a new model takes neither focus nor a drag away.
 
+import { CurveEditor } from './curve.js';
 import { find, make, say } from './dom.js';
 import { icon } from './icons.js';
 import { nearest, plain } from './format.js';
@@ -73,7 +74,9 @@ function kind({ control }) {
     ? `choice ${JSON.stringify(control.choices)}`
     : control.type === 'number'
       ? `number ${slides(control)}`
-      : control.type;
+      : control.type === 'points'
+        ? `points ${control.space} ${control.kind} ${control.closed}`
+        : control.type;
 }
 
 const slides = ({ min, max }) => Number.isFinite(min) && Number.isFinite(max) && min < max;
@@ -122,15 +125,19 @@ class Row {
     const { value, control, unit, text, changed, old_default: old } = param;
     this.param = param;
     this.input.limits?.(control);
-    if (!this.changes.holds(this.name) && !this.busy) this.input.put(value);
+    if (!this.changes.holds(this.name) && !this.busy && !this.input.busy?.()) this.input.put(value);
+    this.input.update?.(param);
     say(this.unit, unit === 'deg' ? '°' : (unit ?? ''));
     this.unit.title = unit ?? '';
     say(this.help, text ?? '');
     this.help.hidden = !text;
     this.element.classList.toggle('changed', changed);
     this.resetter.hidden = !changed;
-    this.resetter.title = `Back to ${shown(param.default)}`;
-    this.note.hidden = old === null || old === undefined;
+    this.resetter.title =
+      control.type === 'points'
+        ? `Back to the ${param.script_default ? 'saved drawing' : 'values of the script'}`
+        : `Back to ${shown(param.default)}`;
+    this.note.hidden = old === null || old === undefined || control.type === 'points';
     say(this.note, this.note.hidden ? '' : `script’s default is now ${shown(param.default)} (was ${shown(old)})`);
   }
 
@@ -141,7 +148,7 @@ class Row {
 
   /** Shows what the server has, unless something newer is on its way there. */
   putBack() {
-    if (!this.busy && !this.changes.holds(this.name)) this.input.put(this.param.value);
+    if (!this.busy && !this.input.busy?.() && !this.changes.holds(this.name)) this.input.put(this.param.value);
   }
 
   send(value) {
@@ -281,6 +288,18 @@ class Row {
       field: make('span'),
       below,
       put: (value) => radios.forEach((radio) => (radio.checked = radio.value === String(value))),
+    };
+  }
+
+  points(param) {
+    const editor = new CurveEditor(this, param);
+    return {
+      field: make('span', { class: 'curve-kind', text: param.control.kind }),
+      below: editor.element,
+      put: (points) => editor.put(points),
+      limits: (control) => editor.limits(control),
+      update: (param) => editor.update(param),
+      busy: () => editor.busy,
     };
   }
 

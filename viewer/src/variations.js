@@ -187,8 +187,8 @@ export class Variations {
       const swept = this.#parts.of.value;
       for (const [name, value] of Object.entries(params)) {
         const now = this.#all.find((param) => param.name === name)?.value;
-        if (name === swept || (now !== undefined && String(now) !== String(value)))
-          this.changes.set(name, String(value));
+        if (name === swept || (now !== undefined && written(now) !== written(value)))
+          this.changes.set(name, written(value));
       }
       if (seed !== this.seed.value) this.seed.use(seed);
     };
@@ -209,3 +209,6 @@ export class Variations {
     next.scrollIntoView({ block: 'nearest', inline: 'nearest' });
   }
 }
+
+/** A value as the server reads it. */
+const written = (value) => (Array.isArray(value) ? JSON.stringify(value) : String(value));

@@ -19,11 +19,13 @@ pub mod trace;
 pub mod script {
     pub use crate::checkpoints::DerivationStore;
     pub use crate::declare::{
-        API_VERSION, Control, FeaturePart, Limits, Param, ParamValues, Preset, Print, RunInputs, RunOptions,
-        RunProgress, RunReports, Session, Setting, TraceRequest, api_version,
+        API_VERSION, Control, CurvesFile, FeaturePart, JsonMembers, JsonText, Limits, Param, ParamValues,
+        PlacedPoints, PointControl, Preset, Print, RunInputs, RunOptions, RunProgress, RunReports, Session,
+        Setting, TraceRequest, api_version, short,
     };
     pub use crate::machine::{Machine, Watchdog, make_ready};
     pub use crate::queries::{RowSource, SqlQuery};
+    pub use burgeon_kit::PointRows;
 }
 
 pub use check::{ScriptCheck, check, check_package, declared_types, declared_types_of_package};

@@ -233,8 +233,9 @@ pub(crate) fn declare_with(
     ran
 }
 
-/// Refuses values for parameters that the script does not declare.
+/// Refuses values for parameters that the script does not declare, and warns of such values in the file of drawn curves.
 pub(crate) fn refuse_unknown(session: &Session, params: &[Param]) -> Result<()> {
+    session.curves().unused(session.script(), params).into_iter().for_each(|warning| session.warn(warning));
     for (name, _) in &session.options.params.set {
         match Param::find(params, name) {
             Ok(Some(_)) => {}

@@ -24,11 +24,12 @@ pub use color::Color;
 pub use contract::declare;
 pub use contract::{
     Answer, Argument, AxisScale, BeginPrefetch, Call, Capabilities, Capability, Construct, Constructor,
-    Deprecation, Draw, Drawing, DrawingMark, Environment, Expand, Expectation, Field, Gather, HasLayers,
-    Kind, KindDeclaration, LevelOfDetail, LoadRequest, LoadServices, LoadedObject, Loader, Locate, Make,
-    Method, Model, Object, ObjectContent, ObjectParameter, ObjectPlace, Parameter, Prefetch, ReadCall,
-    Report, Resources, Rewind, RewriteOutcome, Rewriter, RuleSet, Show, System, Table, TableKey, Value,
-    Values, Vector, Warn, Write, WriteNumbers, is_keyword, object,
+    ControlPoints, Deprecation, Draw, Drawing, DrawingMark, Environment, Expand, Expectation, Field, Gather,
+    HasControlPoints, HasLayers, Kind, KindDeclaration, LevelOfDetail, LoadRequest, LoadServices,
+    LoadedObject, Loader, Locate, Make, Method, Model, Object, ObjectContent, ObjectParameter, ObjectPlace,
+    Parameter, PointRows, PointSpace, Prefetch, ReadCall, Report, Resources, Rewind, RewriteOutcome,
+    Rewriter, RuleSet, Show, System, Table, TableKey, Value, Values, Vector, Warn, Write, WriteNumbers,
+    is_keyword, object,
 };
 pub use example::ScriptExample;
 pub use fields::{Fields, TableOf};

@@ -1,10 +1,13 @@
 //! Ways to look at a script beside a single run: the live view, presets, variations and films.
 //!
-//! Input: a script, its presets file, and commands of pages. Output: a page that shows the present model, the presets, and
-//! thumbnails of many runs; the frames of a film; or changes of the script's files. The server, which needs the feature `server`, answers only this machine's user, writes only
-//! presets to the script's folder, and never lets a page wait for a run.
+//! Input: a script, its files of presets and of drawn curves, and commands of pages. Output: a page that shows the present
+//! model, the presets, and thumbnails of many runs; the frames of a film; or changes of the script's files. The server, which
+//! needs the feature `server`, answers only this machine's user, writes only presets and drawn curves to the script's folder,
+//! and never lets a page wait for a run.
 
+pub mod curves;
 pub mod films;
+mod json_file;
 pub mod presets;
 pub mod variations;
 #[cfg(feature = "server")]

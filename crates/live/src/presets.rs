@@ -15,19 +15,16 @@
 //! Input: the path of a script, or a [`Preset`] to save. Output: its [`Presets`], and their file. A file in another
 //! format is rejected and never overwritten.
 
-use std::fmt;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use rustc_hash::FxHashSet;
-use serde::de::{Deserializer, MapAccess, Visitor};
 use serde_json::value::RawValue;
 use serde_json::{Map, Number, Value};
 
+use super::json_file::write_json;
 use crate::watch::settled;
-use burgeon_base::error::{Error, Limit, Result, SourcePlace};
+use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::names::{has_bidi_controls, normal_form};
-use burgeon_engine::script::{Preset, Setting};
+use burgeon_engine::script::{JsonText, Preset, Setting, short};
 
 /// Maximum size (bytes) of a presets file.
 const LARGEST: u64 = 16_000_000;
@@ -83,7 +80,7 @@ impl Presets {
             Err(error) => return Err(cannot(&error)),
         };
         let text = String::from_utf8(bytes).map_err(|_| cannot(&"stream did not contain valid UTF-8"))?;
-        let presets = PresetsFile { name: path.display().to_string(), text: &text }.presets()?;
+        let presets = parse(&JsonText::new(path.display().to_string(), &text))?;
         Ok(Self { path, presets })
     }
 
@@ -172,7 +169,7 @@ impl Presets {
             object.insert("params".into(), Value::Object(params.collect()));
             file.insert(preset.name.clone(), object.into());
         }
-        burgeon_export::write_file(&self.path, |out| writeln!(out, "{:#}", Value::Object(file)))
+        write_json(&self.path, &Value::Object(file))
     }
 }
 
@@ -187,8 +184,7 @@ fn value(setting: &Setting) -> Value {
         #[allow(clippy::cast_possible_truncation, reason = "whole and small enough to be exact")]
         Setting::Number(number) if number.fract() == 0.0 && number.abs() < 9e15 => (*number as i64).into(),
         Setting::Number(number) => Number::from_f64(*number).map_or(Value::Null, Value::Number),
-        Setting::Boolean(value) => (*value).into(),
-        Setting::Text(text) => text.as_str().into(),
+        Setting::Boolean(_) | Setting::Text(_) | Setting::Points(_) => setting.to_json(),
     }
 }
 
@@ -211,138 +207,73 @@ pub fn check_name(name: &str) -> Result<()> {
     )))
 }
 
-/// Presets file during parsing.
-struct PresetsFile<'a> {
-    name: String,
-    text: &'a str,
-}
-
-/// Members of a JSON object in their order, with their values as written.
-type PresetMembers<'a> = Vec<(String, &'a RawValue)>;
-
-impl<'a> PresetsFile<'a> {
-    fn presets(&self) -> Result<Vec<Preset>> {
-        let text = self.text.trim_start_matches('\u{feff}');
-        let file: &RawValue = serde_json::from_str(text).map_err(|error| {
-            let said = error.to_string();
-            let said = said.split(" at line ").next().unwrap_or_default();
-            let place = SourcePlace { file: self.name.clone(), line: error.line().max(1) };
-            Error::data(format!("this is not JSON: {said}"))
-                .at(Some(place))
-                .help("fix the file, or move it away")
-        })?;
-        let mut presets = Vec::new();
-        for (name, raw) in self.members(file, "the file", "{ \"name\": { \"seed\": 0, \"params\": {} } }")? {
-            let what = format!("preset {name}");
-            let mut preset = Preset { name, place: Some(self.place(raw)), ..Preset::default() };
-            for (key, raw) in self.members(raw, &what, "{ \"seed\": 0, \"params\": {} }")? {
-                match key.as_str() {
-                    "seed" => {
-                        let seed = serde_json::from_str(raw.get()).map_err(|_| {
-                            Error::data(format!("{what}: invalid seed {}", short(raw)))
-                                .help("write an integer of at least 0")
-                                .at(Some(self.place(raw)))
-                        })?;
-                        preset.seed = Some(seed);
-                    }
-                    "params" => {
-                        for (name, raw) in
-                            self.members(raw, &format!("{what}: params"), "{ \"height\": 3 }")?
-                        {
-                            preset.params.push((name.clone(), self.setting(raw, &what, &name)?));
-                            preset.places.push(self.place(raw));
-                        }
-                    }
-                    _ => {
-                        let message = format!("unknown field `{key}` in {what}");
-                        return Err(Error::not_found("field", &key, ["seed", "params"], message)
-                            .help("a preset has a seed and params; put parameters into params")
-                            .at(Some(self.place(raw))));
+/// Parses the presets of a file.
+fn parse(text: &JsonText<'_>) -> Result<Vec<Preset>> {
+    let mut presets = Vec::new();
+    for (name, raw) in
+        text.members(text.value()?, "the file", "{ \"name\": { \"seed\": 0, \"params\": {} } }")?
+    {
+        let what = format!("preset {name}");
+        let mut preset = Preset { name, place: Some(text.place(raw)), ..Preset::default() };
+        for (key, raw) in text.members(raw, &what, "{ \"seed\": 0, \"params\": {} }")? {
+            match key.as_str() {
+                "seed" => {
+                    let seed = serde_json::from_str(raw.get()).map_err(|_| {
+                        Error::data(format!("{what}: invalid seed {}", short(raw)))
+                            .help("write an integer of at least 0")
+                            .at(Some(text.place(raw)))
+                    })?;
+                    preset.seed = Some(seed);
+                }
+                "params" => {
+                    for (name, raw) in text.members(raw, &format!("{what}: params"), "{ \"height\": 3 }")? {
+                        let setting = read_setting(text, raw, &what, &name)?;
+                        preset.params.push((name, setting));
+                        preset.places.push(text.place(raw));
                     }
                 }
-            }
-            presets.push(preset);
-        }
-        Ok(presets)
-    }
-
-    /// Returns the members of `raw`, which must be an object without repeated names.
-    fn members(&self, raw: &'a RawValue, what: &str, form: &str) -> Result<PresetMembers<'a>> {
-        let refuse = |message: String, raw: &RawValue| Error::data(message).at(Some(self.place(raw)));
-        let members = if raw.get().starts_with('{') { read_members(raw.get()).ok() } else { None };
-        let members = members.ok_or_else(|| {
-            refuse(format!("{what} is {}, not an object", short(raw)), raw).help(format!("write {form}"))
-        })?;
-        let mut known = FxHashSet::default();
-        for (name, raw) in &members {
-            if !known.insert(normal_form(name)) {
-                return Err(refuse(format!("{what} has two members named `{name}`"), raw)
-                    .help("remove or rename one of them"));
+                _ => {
+                    let message = format!("unknown field `{key}` in {what}");
+                    return Err(Error::not_found("field", &key, ["seed", "params"], message)
+                        .help("a preset has a seed and params; put parameters into params")
+                        .at(Some(text.place(raw))));
+                }
             }
         }
-        Ok(members)
+        presets.push(preset);
     }
-
-    fn setting(&self, raw: &RawValue, what: &str, name: &str) -> Result<Setting> {
-        let read = match serde_json::from_str(raw.get()) {
-            Ok(Value::Number(number)) => {
-                number.as_f64().filter(|number| number.is_finite()).map(Setting::Number)
-            }
-            Ok(Value::Bool(value)) => Some(Setting::Boolean(value)),
-            Ok(Value::String(text)) => Some(Setting::Text(text)),
-            _ => None,
-        };
-        read.ok_or_else(|| {
-            Error::data(format!("{what}: invalid value {} for {name}", short(raw)))
-                .help("write a number, true, false or a string")
-                .at(Some(self.place(raw)))
-        })
-    }
-
-    /// Returns the line on which `raw`, a part of the text, begins.
-    fn place(&self, raw: &RawValue) -> SourcePlace {
-        let from = (raw.get().as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize);
-        let before = self.text.as_bytes().get(..from).unwrap_or_default();
-        let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
-        SourcePlace { file: self.name.clone(), line }
-    }
+    Ok(presets)
 }
 
-/// Returns the text of `raw`, shortened for messages.
-fn short(raw: &RawValue) -> String {
-    let text: String = raw.get().split_whitespace().collect::<Vec<_>>().join(" ");
-    if text.chars().count() <= 40 { text } else { text.chars().take(39).chain(['…']).collect() }
-}
-
-fn read_members(text: &str) -> serde_json::Result<PresetMembers<'_>> {
-    struct MembersVisitor;
-    impl<'de> Visitor<'de> for MembersVisitor {
-        type Value = PresetMembers<'de>;
-
-        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-            f.write_str("an object")
+/// Returns the value in `raw` of the parameter `name`; lists are the points of a drawn function or curve.
+fn read_setting<'a>(text: &JsonText<'a>, raw: &'a RawValue, what: &str, name: &str) -> Result<Setting> {
+    let read = match serde_json::from_str(raw.get()) {
+        Ok(Value::Number(number)) => number.as_f64().filter(|number| number.is_finite()).map(Setting::Number),
+        Ok(Value::Bool(value)) => Some(Setting::Boolean(value)),
+        Ok(Value::String(text)) => Some(Setting::Text(text)),
+        Ok(Value::Array(_)) => {
+            return Ok(Setting::Points(text.points(raw, &format!("{what}: {name}"))?.points));
         }
-
-        fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
-            let mut members = Vec::new();
-            while let Some(member) = map.next_entry()? {
-                members.push(member);
-            }
-            Ok(members)
-        }
-    }
-    serde_json::Deserializer::from_str(text).deserialize_map(MembersVisitor)
+        _ => None,
+    };
+    read.ok_or_else(|| {
+        Error::data(format!("{what}: invalid value {} for {name}", short(raw)))
+            .help("write a number, true, false, a string or a list of points")
+            .at(Some(text.place(raw)))
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use burgeon_engine::script::PointRows;
 
     fn preset(name: &str, twist: f64) -> Preset {
         let params = vec![
             ("twist".to_owned(), Setting::Number(twist)),
             ("lit".to_owned(), Setting::Boolean(true)),
             ("kind".to_owned(), Setting::Text("a \"b\"".to_owned())),
+            ("taper".to_owned(), Setting::Points(PointRows(vec![vec![0.0, 1.0], vec![1.0, 0.25]]))),
         ];
         Preset { name: name.to_owned(), seed: Some(u64::MAX), params, ..Preset::default() }
     }
@@ -370,7 +301,7 @@ mod tests {
         assert_eq!(presets.names().collect::<Vec<_>>(), ["tall", "flat"]);
         let tall = presets.get("tall").unwrap();
         assert_eq!((&tall.params, tall.seed), (&preset("tall", -4.0).params, Some(u64::MAX)));
-        assert_eq!(tall.places.iter().map(|place| place.line).collect::<Vec<_>>(), [5, 6, 7]);
+        assert_eq!(tall.places.iter().map(|place| place.line).collect::<Vec<_>>(), [5, 6, 7, 8]);
         insta::assert_snapshot!(std::fs::read_to_string(Presets::path_of(&script)).unwrap(), @r#"
         {
           "tall": {
@@ -378,7 +309,11 @@ mod tests {
             "params": {
               "twist": -4,
               "lit": true,
-              "kind": "a \"b\""
+              "kind": "a \"b\"",
+              "taper": [
+                [0, 1],
+                [1, 0.25]
+              ]
             }
           },
           "flat": {
@@ -386,7 +321,11 @@ mod tests {
             "params": {
               "twist": 3,
               "lit": true,
-              "kind": "a \"b\""
+              "kind": "a \"b\"",
+              "taper": [
+                [0, 1],
+                [1, 0.25]
+              ]
             }
           }
         }
@@ -434,13 +373,17 @@ mod tests {
         FOLDER/tower.presets.json:1: preset tall: invalid seed 1e400
           help: write an integer of at least 0
         ");
-        insta::assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\n\"a\": [1] } } }"), @r"
-        FOLDER/tower.presets.json:3: preset tall: invalid value [1] for a
-          help: write a number, true, false or a string
+        insta::assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\n\"a\": [[0, 1],\n1] } } }"), @r"
+        FOLDER/tower.presets.json:4: preset tall: a: point 2 is 1, not a list of numbers
+          help: write a list of points: [[0, 1], [1, 0.2]]
+        ");
+        insta::assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\n\"a\": null } } }"), @r"
+        FOLDER/tower.presets.json:3: preset tall: invalid value null for a
+          help: write a number, true, false, a string or a list of points
         ");
         insta::assert_snapshot!(refused("{ \"tall\": { \"params\": { \"a\": 1e999 } } }"), @r"
         FOLDER/tower.presets.json:1: preset tall: invalid value 1e999 for a
-          help: write a number, true, false or a string
+          help: write a number, true, false, a string or a list of points
         ");
         insta::assert_snapshot!(refused("{ \"tall\": {},\n\"tall\": {} }"), @r"
         FOLDER/tower.presets.json:2: the file has two members named `tall`

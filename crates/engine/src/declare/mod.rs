@@ -5,14 +5,17 @@
 
 mod api;
 pub(crate) mod bytecode;
+mod curves_file;
 mod data;
 mod deprecations;
 mod file_access;
+mod json_text;
 mod options;
 mod packages;
 mod param;
 mod part;
 pub(crate) mod paths;
+mod point_control;
 mod positions;
 mod preset;
 mod progress;
@@ -24,9 +27,12 @@ mod types;
 
 pub(crate) use api::has_name;
 pub use api::{API_VERSION, api_version};
+pub use curves_file::CurvesFile;
+pub use json_text::{JsonMembers, JsonText, PlacedPoints, short};
 pub use options::{Limits, ParamValues, Print, RunInputs, RunOptions, RunReports, TraceRequest};
 pub use param::{Control, Param, Setting};
 pub use part::FeaturePart;
+pub use point_control::PointControl;
 pub use preset::Preset;
 pub use progress::RunProgress;
 pub(crate) use scripts::SourceFile;

@@ -1,8 +1,10 @@
 //! Script parameters (`param`): values that users can change without editing the script.
 
+use super::json_text::parse_points;
+use super::point_control::PointControl;
 use super::preset::Preset;
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::{Color, Parameter, Table, Value};
+use burgeon_kit::{Color, HasControlPoints, Parameter, PointRows, Table, Value};
 use burgeon_language::PARAM;
 
 /// Declared parameter and its value in this run.
@@ -17,6 +19,8 @@ pub struct Param {
     pub value: Setting,
     /// Default value from the script.
     pub default: Setting,
+    /// Value in the file of drawn curves next to the script, which replaces the default.
+    pub stored: Option<Setting>,
     /// Allowed values.
     pub control: Control,
     /// Display unit; may be empty.
@@ -36,6 +40,8 @@ pub enum Setting {
     Boolean(bool),
     /// A choice, a colour or free text.
     Text(String),
+    /// Control points of a function or a curve.
+    Points(PointRows),
 }
 
 /// Allowed values of a parameter.
@@ -58,6 +64,8 @@ pub enum Control {
     Color,
     /// Free text.
     Text,
+    /// Control points of a function or a curve.
+    Points(PointControl),
 }
 
 impl std::fmt::Display for Setting {
@@ -66,6 +74,7 @@ impl std::fmt::Display for Setting {
             Self::Number(number) => write!(f, "{}", Value::Number(*number)),
             Self::Boolean(value) => write!(f, "{value}"),
             Self::Text(text) => f.write_str(text),
+            Self::Points(points) => write!(f, "{points}"),
         }
     }
 }
@@ -77,15 +86,17 @@ impl Setting {
             Self::Number(number) => number.to_string(),
             Self::Boolean(value) => value.to_string(),
             Self::Text(text) => text.clone(),
+            Self::Points(points) => points.to_string(),
         }
     }
 
-    /// Returns the value for the script.
-    pub fn to_value(&self) -> Value {
+    /// Returns the value as JSON: a number, a boolean, a string or a list of points.
+    pub fn to_json(&self) -> serde_json::Value {
         match self {
-            Self::Number(number) => Value::Number(*number),
-            Self::Boolean(value) => Value::Boolean(*value),
-            Self::Text(text) => Value::Text(text.as_str().into()),
+            Self::Number(number) => (*number).into(),
+            Self::Boolean(value) => (*value).into(),
+            Self::Text(text) => text.as_str().into(),
+            Self::Points(points) => points.to_json(),
         }
     }
 }
@@ -120,6 +131,22 @@ impl Param {
         let name = of.first().map_or("", |param| param.short_name());
         Error::argument(format!("{name} is a parameter of {}", owners.join(" and of ")))
             .help(format!("specify one: {}", named.join(" or ")))
+    }
+
+    /// Returns the value without options and presets: that of the file of drawn curves, or the default.
+    pub fn base_value(&self) -> &Setting {
+        self.stored.as_ref().unwrap_or(&self.default)
+    }
+
+    /// Returns the value of this run for the script. Fails if points do not define a value.
+    pub fn script_value(&self) -> Result<Value> {
+        match (&self.value, &self.control) {
+            (Setting::Number(number), _) => Ok(Value::Number(*number)),
+            (Setting::Boolean(value), _) => Ok(Value::Boolean(*value)),
+            (Setting::Text(text), _) => Ok(Value::Text(text.as_str().into())),
+            (Setting::Points(points), Control::Points(control)) => control.value(points),
+            (Setting::Points(_), _) => Err(Error::internal("a parameter that is not drawn has points")),
+        }
     }
 
     /// Parses the declaration `param(name, { default = ..., ... })`. The value is the default.
@@ -185,18 +212,17 @@ impl Param {
             (Some(Value::Number(default)), _) => {
                 (Setting::Number(*default), Control::Number { min, max, step })
             }
-            (Some(other), _) => {
-                return Err(Error::argument(format!(
-                    "param {name}: default must be a number, a boolean or a string, not {}",
-                    other.describe()
-                )));
-            }
+            (Some(other), _) => match PointControl::new(other) {
+                Some(control) => (Setting::Points(control.form().points.clone()), Control::Points(control)),
+                None => return Err(Self::refuse_default(name, other)),
+            },
         };
         let param = Self {
             name: name.to_owned(),
             package: None,
             value: default.clone(),
             default,
+            stored: None,
             control,
             unit: text("unit")?,
             doc: text("doc")?,
@@ -209,7 +235,25 @@ impl Param {
         Ok(param)
     }
 
-    /// Returns the value for this run, with values from `set` before values from `preset`.
+    fn refuse_default(name: &str, default: &Value) -> Error {
+        let (message, help) = match default {
+            Value::Object(object) if object.kind().has_capability::<dyn HasControlPoints>() => (
+                format!("param {name}: the default, a {default}, has no points of its own"),
+                "give one that is made of points, not one between two others",
+            ),
+            _ => (
+                format!(
+                    "param {name}: default must be a number, a boolean, a string, a function or a curve, not {}",
+                    default.describe()
+                ),
+                "functions and curves are drawn: default = ramp({ { 0, 1 }, { 1, 0.2 } })",
+            ),
+        };
+        Error::argument(message).help(help)
+    }
+
+    /// Returns the value for this run, with values from `set` before values from `preset`, and those before the file of
+    /// drawn curves.
     ///
     /// If `alone` is set, the name without its package prefix also denotes this parameter.
     pub(crate) fn given(
@@ -224,11 +268,11 @@ impl Param {
         if let Some((_, given)) = given.next() {
             return self.accept(given);
         }
-        let Some(preset) = preset else { return Ok(self.default.clone()) };
+        let Some(preset) = preset else { return Ok(self.base_value().clone()) };
         let mut given = names().filter_map(|name| preset.params.iter().find(|(known, _)| known == name));
         match given.next() {
             Some((name, given)) => self.accept(&given.plain()).map_err(|error| preset.refused(name, &error)),
-            None => Ok(self.default.clone()),
+            None => Ok(self.base_value().clone()),
         }
     }
 
@@ -264,7 +308,8 @@ impl Param {
                 },
                 Err(_) => refuse("a colour, #rrggbb"),
             },
-            _ => Ok(Setting::Text(given.to_owned())),
+            Control::Points(_) => Ok(Setting::Points(parse_points(given, &format!("param {}", self.name))?)),
+            Control::Choice(_) | Control::Text => Ok(Setting::Text(given.to_owned())),
         }
     }
 
@@ -304,6 +349,9 @@ impl Param {
             (Control::Choice(choices), Setting::Text(choice)) if !choices.contains(choice) => {
                 Err(Error::argument(format!("param {name} is {choice:?}, which is not one of the choices"))
                     .help(format!("choose one of {}", choices.join(", "))))
+            }
+            (Control::Points(control), Setting::Points(points)) => {
+                control.value(points).map(|_| ()).map_err(|error| error.about(&format!("param {name}")))
             }
             _ => Ok(()),
         }

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
 
 use super::api::api_version;
+use super::curves_file::CurvesFile;
 use super::data::Data;
 use super::deprecations::Deprecations;
 use super::options::RunOptions;
@@ -77,6 +78,7 @@ pub struct Session {
     /// Object types that scripts have declared, and methods that they have added to others.
     pub(crate) declared: Mutex<DeclaredTypes>,
     stdlib: Option<(String, String)>,
+    curves: CurvesFile,
     /// For each file, its arguments of `require` and the files that they refer to.
     required: Mutex<BTreeMap<String, BTreeMap<String, String>>>,
     pub(super) scripts: Mutex<ScriptFiles>,
@@ -108,6 +110,7 @@ impl Session {
         let path = script.canonicalize().map_err(|error| unreadable(script, &error))?;
         let root = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
         let stdlib = options.inputs.stdlib.as_deref().map(read_stdlib).transpose()?;
+        let curves = CurvesFile::read(script)?;
         let data_roots = options.inputs.data.iter().map(|folder| data_root(folder)).collect::<Result<_>>()?;
         let search = PackageSearch {
             script: script.parent().map(Path::to_path_buf),
@@ -139,6 +142,7 @@ impl Session {
             drawn: RandomPositions::default(),
             declared: Mutex::default(),
             stdlib,
+            curves,
             required: Mutex::default(),
             scripts: Mutex::default(),
             sought: Mutex::default(),
@@ -156,6 +160,7 @@ impl Session {
             own_params: OnceLock::new(),
         });
         session.stamp(&path);
+        session.seek(session.curves.path(), session.curves.path().is_file());
         session.sought().iter().for_each(|(path, _)| session.stamp(path));
         Ok(session)
     }
@@ -223,6 +228,11 @@ impl Session {
     /// Returns name and text of the file that replaces the standard library, if there is one.
     pub(crate) fn stdlib(&self) -> Option<(&str, &str)> {
         self.stdlib.as_ref().map(|(name, text)| (name.as_str(), text.as_str()))
+    }
+
+    /// Returns the drawn curves in the file next to the script.
+    pub fn curves(&self) -> &CurvesFile {
+        &self.curves
     }
 
     /// Returns the parameter values that a forgiving run skipped, with the name of the parameter and the

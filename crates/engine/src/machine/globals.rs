@@ -84,11 +84,12 @@ impl Library {
                     param.name = format!("{package}.{name}");
                     param.package = Some(package);
                 }
+                param.stored = session.curves().setting(&param).map_err(mlua::Error::external)?;
                 match library.param_value(&param) {
                     Ok(value) => param.value = value,
                     Err(error) => session.forgive(&param.name, error).map_err(mlua::Error::external)?,
                 }
-                let value = param.value.to_value();
+                let value = param.script_value().map_err(mlua::Error::external)?;
                 library.add_param(param, place).map_err(mlua::Error::external)?;
                 to_lua(lua, &value, false)
             })?,

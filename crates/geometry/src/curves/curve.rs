@@ -126,6 +126,11 @@ impl Curve {
         self.kind
     }
 
+    /// Returns the Bezier points (m) of the pieces.
+    pub fn pieces(&self) -> &[[DVec3; 4]] {
+        &self.pieces
+    }
+
     /// Returns the number of polynomial pieces.
     pub fn piece_count(&self) -> usize {
         self.pieces.len()

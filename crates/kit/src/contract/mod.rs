@@ -4,6 +4,7 @@
 mod argument;
 mod capability;
 mod constructor;
+mod control_points;
 pub mod declare;
 mod deprecation;
 mod drawing;
@@ -26,6 +27,7 @@ pub use capability::{
     Warn,
 };
 pub use constructor::Constructor;
+pub use control_points::{ControlPoints, HasControlPoints, PointRows, PointSpace};
 pub use deprecation::Deprecation;
 pub use drawing::{Drawing, DrawingMark};
 pub use environment::Environment;

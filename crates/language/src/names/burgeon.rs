@@ -215,7 +215,12 @@ pub static PARAM: LazyLock<Name> = LazyLock::new(|| {
             options(
                 "{ ... }",
                 [
-                    field("default", "number | boolean | string", "", "Default value; required."),
+                    field(
+                        "default",
+                        "number | boolean | string | Ramp | Curve",
+                        "",
+                        "Default value; required. Functions and curves are drawn in the live page.",
+                    ),
                     field("min", "number?", "nil", "Minimum value."),
                     field("max", "number?", "nil", "Maximum value."),
                     field("step", "number?", "nil", "Step between values, from the minimum."),

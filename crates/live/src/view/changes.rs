@@ -1,5 +1,8 @@
-//! Changed files: presets are read again, and other files start a run.
+//! Changed files: presets are read again, and other files start a run, unless the server itself has saved them.
 
+use std::path::PathBuf;
+
+use super::curves;
 use super::message::Cause;
 use super::state::{DueRun, ServerState};
 use super::tools;
@@ -7,6 +10,7 @@ use crate::presets::Presets;
 use crate::watch::Change;
 use burgeon_base::error::Error;
 use burgeon_base::locks::LockRecovery;
+use burgeon_engine::script::CurvesFile;
 
 /// Handles changed files.
 pub(super) fn handle_changes(state: &ServerState, change: &Change) {
@@ -17,8 +21,10 @@ pub(super) fn handle_changes(state: &ServerState, change: &Change) {
     if change.files.iter().any(|path| presets.contains(path)) {
         tools::presets_changed(state);
     }
-    let files: Vec<String> =
-        change.files.iter().filter(|path| !presets.contains(path)).map(|path| state.name(path)).collect();
+    let drawn = CurvesFile::path_of(&state.script);
+    let saved = change.files.contains(&drawn) && !curves::is_changed(state);
+    let is_input = |path: &&PathBuf| !presets.contains(path) && !(saved && **path == drawn);
+    let files: Vec<String> = change.files.iter().filter(is_input).map(|path| state.name(path)).collect();
     if files.is_empty() {
         return;
     }

@@ -10,8 +10,9 @@ use tokio::sync::mpsc::Sender;
 use super::message::{self, Cause, Event, PageCommand};
 use super::request::seed;
 use super::state::{DueRun, LiveState, ServerState};
-use super::{tools, trace};
+use super::{curves, tools, trace};
 use burgeon_base::error::{Error, Result};
+use burgeon_engine::script::CurvesFile;
 
 impl ServerState {
     /// Executes the command in `text`, a page's message. Returns the answer to that page; slow answers are sent through
@@ -29,6 +30,10 @@ impl ServerState {
                 tools::variations(self, id, tools::parse_axis(seeds.as_deref(), param, values), page.clone())
             }
             Ok(PageCommand::Preset { action, name, replace }) => tools::preset(self, &action, &name, replace),
+            Ok(PageCommand::Outline { id, param, points }) => {
+                Some(curves::outline(self, id, &param, &points))
+            }
+            Ok(PageCommand::Store { id, param, points }) => Some(curves::store(self, id, &param, &points)),
             Ok(PageCommand::Open { file, line }) => {
                 self.open(&file, line.unwrap_or(1)).err().and_then(|error| refused(None, &error))
             }
@@ -109,6 +114,7 @@ impl ServerState {
             [&self.script]
                 .into_iter()
                 .chain(&self.options.inputs.stdlib)
+                .chain([&CurvesFile::path_of(&self.script)])
                 .filter_map(|path| path.canonicalize().ok()),
         );
         let script = self.script.canonicalize().unwrap_or_else(|_| self.script.clone());

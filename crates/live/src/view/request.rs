@@ -59,7 +59,7 @@ impl Request {
 
     /// Sets parameters, all or none of them; null restores a default.
     ///
-    /// Fails if a value is not a string, a number or a boolean. Also fails if the parameter does not accept the value,
+    /// Fails if a value is not a string, a number, a boolean or a list. Also fails if the parameter does not accept the value,
     /// provided that `params`, the current parameters of the script, are known.
     pub(super) fn set(&mut self, wished: &Map<String, Value>, params: Option<&[Param]>) -> Result<()> {
         let mut read = Vec::new();
@@ -67,10 +67,10 @@ impl Request {
             let text = match value {
                 Value::Null => None,
                 Value::String(text) => Some(text.clone()),
-                Value::Number(_) | Value::Bool(_) => Some(value.to_string()),
+                Value::Number(_) | Value::Bool(_) | Value::Array(_) => Some(value.to_string()),
                 _ => {
                     return Err(Error::argument(format!(
-                        "the value of {name} must be a string, a number or a boolean"
+                        "the value of {name} must be a string, a number, a boolean or a list of points"
                     )));
                 }
             };
@@ -103,6 +103,15 @@ impl Request {
             }
         }
         Ok(())
+    }
+
+    /// Removes the value of `param` if it is `stored`, which a file contains from now on.
+    pub(super) fn forget(&mut self, param: &Param, stored: &Setting) {
+        let given = self.values.get(&param.name).and_then(|given| param.accept(&given.text).ok());
+        if given.as_ref() == Some(stored) {
+            self.values.remove(&param.name);
+            self.preset = None;
+        }
     }
 
     /// Restores all defaults.
@@ -161,7 +170,7 @@ impl Request {
         let mut requested = params.to_vec();
         for param in &mut requested {
             let given = self.values.get(&param.name).map(|given| param.accept(&given.text));
-            param.value = given.and_then(Result::ok).unwrap_or_else(|| param.default.clone());
+            param.value = given.and_then(Result::ok).unwrap_or_else(|| param.base_value().clone());
         }
         self.params(&requested)
     }
@@ -223,6 +232,7 @@ mod tests {
             package: None,
             value: Setting::Number(default),
             default: Setting::Number(default),
+            stored: None,
             control: Control::Number { min: Some(1.0), max: Some(max), step: Some(1.0) },
             unit: String::new(),
             doc: String::new(),

@@ -20,7 +20,7 @@ use burgeon_base::locks::LockRecovery;
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::Warning;
 use burgeon_engine::run::Run;
-use burgeon_engine::script::{Param, RunOptions, Session};
+use burgeon_engine::script::{CurvesFile, Param, RunOptions, Session};
 use burgeon_export::gltf::Layout;
 
 /// Maximum number of messages that wait for a page. A slower page receives the present state instead.
@@ -57,6 +57,9 @@ pub(super) struct ServerState {
     pub presets: Mutex<Vec<String>>,
     /// Presets file of each package, as far as runs have found them.
     pub package_presets: Mutex<Vec<(String, PathBuf)>>,
+    /// Drawn curves of the last run or save; `None` if their file is invalid. The lock is held while the file is written
+    /// or read, so that a save does not count as a change.
+    pub curves: Mutex<Option<CurvesFile>>,
     /// Lock that is held while a chain is traced, because each trace may use all cores.
     pub tracing: Mutex<()>,
 }
@@ -143,6 +146,7 @@ impl ServerState {
             settings.options.registry.set_sources(sources);
         }
         settings.options.inputs.derivations = Some(std::sync::Arc::default());
+        let curves = CurvesFile::read(&settings.script).ok();
         let inner = LiveState {
             request,
             due: None,
@@ -178,6 +182,7 @@ impl ServerState {
             variations: Mutex::default(),
             presets: Mutex::new(presets),
             package_presets: Mutex::default(),
+            curves: Mutex::new(curves),
             tracing: Mutex::default(),
         }
     }

@@ -9,7 +9,7 @@ use std::time::Duration;
 use axum::extract::ws::Utf8Bytes;
 use tokio::sync::mpsc::Sender;
 
-use super::message::{Cause, Event, json};
+use super::message::{Cause, Event};
 use super::request::seed;
 use super::state::ServerState;
 use crate::presets::Presets;
@@ -251,7 +251,7 @@ pub(super) fn variations(
 fn variation(state: &ServerState, id: u64, of: usize, cell: Variation) -> Event {
     let mut params: BTreeMap<String, serde_json::Value> = BTreeMap::new();
     let picture = cell.made.and_then(|made| {
-        params.extend(made.params.iter().map(|param| (param.name.clone(), json(&param.value))));
+        params.extend(made.params.iter().map(|param| (param.name.clone(), param.value.to_json())));
         image::encode(&made.picture)
     });
     if let Some((name, value)) = cell.set {

@@ -22,7 +22,7 @@ use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::panic_message;
 use burgeon_base::warning::Warning;
 use burgeon_engine::run::{Run, run_session};
-use burgeon_engine::script::{Limits, Session, make_ready};
+use burgeon_engine::script::{CurvesFile, Limits, Session, make_ready};
 use burgeon_export::gltf::{self, Layout};
 
 /// Interval of progress reports to pages.
@@ -83,9 +83,10 @@ pub(super) fn work(state: &ServerState, watch: &Watch) {
         let mut files = session.as_ref().map(|session| session.sought()).unwrap_or_default();
         // These files are watched from the start.
         files.extend(constant_inputs(state).into_iter().map(|path| (path, true)));
-        let presets = Presets::path_of(&state.script);
-        let there = presets.is_file();
-        files.push((presets, there));
+        for path in [Presets::path_of(&state.script), CurvesFile::path_of(&state.script)] {
+            let there = path.is_file();
+            files.push((path, there));
+        }
         if let Some(session) = &session {
             files.extend(super::tools::find_package_presets(state, session));
         }

@@ -6,10 +6,13 @@ use std::sync::{Arc, OnceLock};
 use burgeon_base::error::Result;
 use burgeon_geometry::{Curve, CurveKind, check_contour};
 use burgeon_kit::declare::as_ref;
-use burgeon_kit::{Answer, Object, ObjectContent, ObjectParameter, Value, Vector, fields, methods, object};
+use burgeon_kit::{
+    Answer, ControlPoints, HasControlPoints, Object, ObjectContent, ObjectParameter, PointRows, PointSpace,
+    Value, Vector, fields, methods, object,
+};
 use glam::DVec3;
 
-use super::choice::variant;
+use super::choice::{name_of, position, variant};
 
 /// Names of the relations of a curve to its points.
 const KINDS: [(&str, CurveKind); 4] = [
@@ -37,7 +40,7 @@ pub struct CurveOptions {
 /// It never changes. A closed curve in the plane z = 0 is a contour.
 #[object(
     "curve",
-    can(ObjectContent),
+    can(ObjectContent, HasControlPoints),
     options = CurveOptions,
     first = "points",
     example = include_str!("../../scripts/curve.lua"),
@@ -139,6 +142,29 @@ impl ObjectContent for CurveObject {
 
     fn fragments(&self) -> Option<Vec<Value>> {
         None
+    }
+}
+
+impl HasControlPoints for CurveObject {
+    fn control_points(&self) -> Option<ControlPoints> {
+        let is_flat = self.curve.points().iter().all(|point| point.z == 0.0);
+        let space = if is_flat { PointSpace::Plane } else { PointSpace::Space };
+        let row = |point: &DVec3| point.to_array()[..space.axes().len()].to_vec();
+        Some(ControlPoints {
+            points: PointRows(self.curve.points().iter().map(row).collect()),
+            space,
+            kind: name_of(self.curve.kind(), &KINDS),
+            closed: self.curve.is_closed(),
+        })
+    }
+
+    fn with_control_points(&self, points: &PointRows) -> Result<Arc<dyn Object>> {
+        let points: Vec<DVec3> = points.0.iter().map(|row| position(row)).collect();
+        Ok(Arc::new(Self::from(Curve::new(&points, self.curve.kind(), self.curve.is_closed())?)))
+    }
+
+    fn bezier_pieces(&self) -> Vec<[[f64; 3]; 4]> {
+        self.curve.pieces().iter().map(|piece| piece.map(|point| point.to_array())).collect()
     }
 }
 

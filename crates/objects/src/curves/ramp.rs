@@ -6,10 +6,13 @@ use std::sync::Arc;
 use burgeon_base::error::Result;
 use burgeon_geometry::{Ramp, RampKind};
 use burgeon_kit::declare::as_ref;
-use burgeon_kit::{Answer, Object, ObjectContent, ObjectParameter, Value, Vector, fields, methods, object};
+use burgeon_kit::{
+    Answer, ControlPoints, HasControlPoints, Object, ObjectContent, ObjectParameter, PointRows, PointSpace,
+    Value, Vector, fields, methods, object,
+};
 use glam::{DVec2, DVec3};
 
-use super::choice::variant;
+use super::choice::{name_of, position, variant};
 
 /// Names of the interpolations.
 const KINDS: [(&str, RampKind); 3] =
@@ -31,13 +34,15 @@ pub struct RampOptions {
 /// It never changes. Before the first point and after the last, it is constant.
 #[object(
     "ramp",
-    can(ObjectContent),
+    can(ObjectContent, HasControlPoints),
     options = RampOptions,
     first = "points",
     example = include_str!("../../scripts/ramp.lua"),
 )]
 pub struct RampObject {
     ramp: Arc<Ramp>,
+    /// Points and interpolation; `None` between two functions.
+    drawn: Option<Arc<(Vec<DVec2>, RampKind)>>,
 }
 
 #[methods("ramp")]
@@ -61,7 +66,7 @@ impl RampObject {
     /// between both values.
     pub fn mix(&self, other: Arc<Self>, t: f64) -> Result<Self> {
         let mixed = self.ramp.mix(&other.ramp, t).map_err(|error| error.about("ramp:mix"))?;
-        Ok(Self { ramp: Arc::new(mixed) })
+        Ok(Self { ramp: Arc::new(mixed), drawn: None })
     }
 }
 
@@ -81,8 +86,12 @@ impl RampObject {
     pub fn new(options: RampOptions) -> Result<Self> {
         let kind = variant("ramp", "kind", &options.kind, &KINDS)?;
         let points: Vec<DVec2> = options.points.iter().map(|point| point.0.truncate()).collect();
-        let ramp = Ramp::new(&points, kind).map_err(|error| error.about("ramp"))?;
-        Ok(Self { ramp: Arc::new(ramp) })
+        Self::of_points(points, kind).map_err(|error| error.about("ramp"))
+    }
+
+    fn of_points(points: Vec<DVec2>, kind: RampKind) -> Result<Self> {
+        let ramp = Ramp::new(&points, kind)?;
+        Ok(Self { ramp: Arc::new(ramp), drawn: Some(Arc::new((points, kind))) })
     }
 
     /// Returns the function.
@@ -108,7 +117,8 @@ impl ObjectContent for RampObject {
     }
 
     fn memory(&self) -> usize {
-        self.ramp.memory()
+        let points = self.drawn.as_ref().map_or(0, |drawn| drawn.0.len() * size_of::<DVec2>());
+        self.ramp.memory() + points
     }
 
     fn position(&self) -> Option<DVec3> {
@@ -117,6 +127,30 @@ impl ObjectContent for RampObject {
 
     fn fragments(&self) -> Option<Vec<Value>> {
         None
+    }
+}
+
+impl HasControlPoints for RampObject {
+    fn control_points(&self) -> Option<ControlPoints> {
+        let (points, kind) = &**self.drawn.as_ref()?;
+        let points = PointRows(points.iter().map(|point| point.to_array().into()).collect());
+        Some(ControlPoints {
+            points,
+            space: PointSpace::Function,
+            kind: name_of(*kind, &KINDS),
+            closed: false,
+        })
+    }
+
+    fn with_control_points(&self, points: &PointRows) -> Result<Arc<dyn Object>> {
+        let kind = self.drawn.as_ref().map_or_else(RampKind::default, |drawn| drawn.1);
+        let points = points.0.iter().map(|row| position(row).truncate()).collect();
+        Ok(Arc::new(Self::of_points(points, kind)?))
+    }
+
+    fn bezier_pieces(&self) -> Vec<[[f64; 3]; 4]> {
+        let pieces = self.ramp.pieces().iter();
+        pieces.map(|piece| piece.map(|point| point.extend(0.0).to_array())).collect()
     }
 }
 

@@ -14,7 +14,7 @@ pub enum PageCommand {
     Set {
         /// Id to return if the values are rejected.
         id: Option<u64>,
-        /// Values as strings; numbers and booleans are also accepted.
+        /// Values as strings; numbers, booleans and lists of points are also accepted.
         params: serde_json::Map<String, Value>,
     },
     /// Restores all defaults.
@@ -69,6 +69,24 @@ pub enum PageCommand {
         /// Set if an existing preset of that name may be overwritten.
         #[serde(default)]
         replace: bool,
+    },
+    /// Queries the outline of a drawn function or curve with other points.
+    Outline {
+        /// Id to return with the answer.
+        id: u64,
+        /// Name of the parameter.
+        param: String,
+        /// Control points.
+        points: Value,
+    },
+    /// Saves the points of a drawn function or curve in the file next to the script.
+    Store {
+        /// Id to return with the answer.
+        id: u64,
+        /// Name of the parameter.
+        param: String,
+        /// Control points.
+        points: Value,
     },
     /// Requests small renders with other values.
     Variations {

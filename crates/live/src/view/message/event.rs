@@ -96,6 +96,20 @@ pub enum Event {
         /// Name of the preset with the present values and seed, if any.
         chosen: Option<String>,
     },
+    /// Outline of a drawn function or curve.
+    Outline {
+        /// Id of the query.
+        id: u64,
+        /// Cubic Bezier pieces, each of four points x, y, z.
+        pieces: Vec<[[f64; 3]; 4]>,
+    },
+    /// Completed save of a drawn function or curve.
+    Stored {
+        /// Id of the command.
+        id: u64,
+        /// Name of the file.
+        file: String,
+    },
     /// Progress of the runs for small renders. All renders share one camera, which is known when all scripts have run.
     Variations {
         /// Id of the query.

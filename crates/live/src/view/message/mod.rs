@@ -16,7 +16,7 @@ pub use command::{PageCommand, PickCommand, read};
 pub use event::{Event, FormatMessage, Hello};
 pub use model::{
     Bounds, ControlMessage, CountMessage, ModelMessage, ParamMessage, RuleMessage, SystemMessage,
-    TimesMessage, json,
+    TimesMessage,
 };
 pub use origin::{
     AroundMessage, HighlightMessage, ModuleMessage, NamedValue, OriginMessage, PickMessage, Range, RulePlace,

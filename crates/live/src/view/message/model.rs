@@ -69,10 +69,12 @@ pub struct ParamMessage {
     pub name: String,
     /// Package that declares the parameter; it is the prefix of the name.
     pub package: Option<String>,
-    /// Value in this run: a number, a boolean or a string.
+    /// Value in this run: a number, a boolean, a string or a list of points.
     pub value: Value,
-    /// Default of the script.
+    /// Value without a request: that of the file of drawn curves, or the default of the script.
     pub default: Value,
+    /// Default of the script, if the file of drawn curves has another value.
+    pub script_default: Option<Value>,
     /// Default at the time when the value was set, if the script has changed it since.
     pub old_default: Option<Value>,
     /// Set if the value differs from the default.
@@ -109,6 +111,17 @@ pub enum ControlMessage {
     Color,
     /// Free text.
     Text,
+    /// Control points of a function or a curve.
+    Points {
+        /// Meaning of the coordinates: `function`, `plane` or `space`.
+        space: &'static str,
+        /// Relation of the points to the value, such as `linear`.
+        kind: &'static str,
+        /// Set if the last point is joined to the first.
+        closed: bool,
+        /// Value as cubic Bezier pieces, each of four points x, y, z.
+        pieces: Vec<[[f64; 3]; 4]>,
+    },
 }
 
 /// Derived system.
@@ -179,10 +192,11 @@ impl ParamMessage {
         Self {
             name: param.name.clone(),
             package: param.package.clone(),
-            value: json(&param.value),
-            default: json(&param.default),
-            old_default: old_default.filter(|old| **old != param.default).map(json),
-            changed: param.value != param.default,
+            value: param.value.to_json(),
+            default: param.base_value().to_json(),
+            script_default: (param.default != *param.base_value()).then(|| param.default.to_json()),
+            old_default: old_default.filter(|old| **old != param.default).map(Setting::to_json),
+            changed: param.value != *param.base_value(),
             control: match &param.control {
                 Control::Number { min, max, step } => {
                     ControlMessage::Number { min: *min, max: *max, step: *step }
@@ -191,18 +205,18 @@ impl ParamMessage {
                 Control::Choice(choices) => ControlMessage::Choice { choices: choices.clone() },
                 Control::Color => ControlMessage::Color,
                 Control::Text => ControlMessage::Text,
+                Control::Points(control) => ControlMessage::Points {
+                    space: control.form().space.name(),
+                    kind: control.form().kind,
+                    closed: control.form().closed,
+                    pieces: match &param.value {
+                        Setting::Points(points) => control.pieces(points).unwrap_or_default(),
+                        _ => Vec::new(),
+                    },
+                },
             },
             unit: param.unit.clone(),
             text: param.doc.clone(),
         }
-    }
-}
-
-/// Converts a parameter's value to JSON.
-pub fn json(setting: &Setting) -> Value {
-    match setting {
-        Setting::Number(number) => (*number).into(),
-        Setting::Boolean(value) => (*value).into(),
-        Setting::Text(text) => text.as_str().into(),
     }
 }

@@ -1,0 +1,626 @@
+// The editor of a drawn function or curve: a plot with points that can be dragged, added and removed.
+
+import * as bezier from './bezier.js';
+import { make, say, svg } from './dom.js';
+import { icon } from './icons.js';
+import { plain } from './format.js';
+import { evenRanges, fineness, functionRanges, label, rounded, ticks } from './plot.js';
+import { clearToast, toast } from './toast.js';
+
+const HEIGHT = 172;
+const EDGE = { left: 34, right: 8, top: 8, bottom: 20 };
+/** How near (px) the pointer has to be to the curve to mean it. */
+const NEAR = 14;
+const VIEWS = { Top: [0, 1], Front: [0, 2], Side: [1, 2] };
+const NAMES = ['x', 'y', 'z'];
+const HELP = 'Drag a point. Double-click the curve to add one, and a point to remove it. Arrow keys move the chosen point.';
+
+export class CurveEditor {
+  #points = [];
+  #pieces = [];
+  #good = [];
+  #chosen = 0;
+  #ranges = null;
+  #size = [280, HEIGHT];
+  #axes = [0, 1];
+  #past = [];
+  #future = [];
+  #asking = false;
+  #later = null;
+  #drag = null;
+
+  /** `row` is the row of the parameter: it sends values, and knows the parameter. */
+  constructor(row, param) {
+    this.row = row;
+    this.control = param.control;
+    const name = param.name;
+    this.grid = svg('g', { class: 'plot-grid' });
+    this.drawing = svg('g', { class: 'plot-drawing' });
+    this.handles = svg('g', { class: 'plot-points' });
+    this.probe = svg('g', { class: 'plot-probe' });
+    this.plot = svg(
+      'svg',
+      { class: 'plot', role: 'group', 'aria-label': `Points of ${name}`, 'data-testid': `${row.id}-plot` },
+      this.grid,
+      this.drawing,
+      this.probe,
+      this.handles,
+    );
+    this.where = make('span', { class: 'plot-where', 'aria-hidden': 'true' });
+    this.fields = NAMES.slice(0, this.width).map((axis) => this.#field(axis));
+    const button = (action, title, shown, act) =>
+      make(
+        'button',
+        { class: 'tool', title, 'aria-label': `${title} of ${name}`, 'data-testid': `${row.id}-${action}`, onclick: act },
+        icon(shown),
+      );
+    this.adder = button('add', 'Add a point after the chosen one', 'save', () => this.#addAfter());
+    this.remover = button('remove', 'Remove the chosen point', 'trash', () => this.#remove(this.#chosen));
+    this.saver = make('button', {
+      class: 'small plot-save',
+      text: 'Save',
+      title: 'Save the drawing in a file beside the script, where every run finds it',
+      'aria-label': `Save ${name}`,
+      'data-testid': `${row.id}-save`,
+      onclick: () => this.#store(),
+    });
+    this.original = make('button', {
+      class: 'link plot-script',
+      text: 'Script’s own',
+      title: 'Show the values of the script. Save removes the drawing from the file.',
+      'data-testid': `${row.id}-script`,
+      onclick: () => this.#change(copy(this.row.param.script_default), true),
+    });
+    this.problem = make('p', { class: 'note', role: 'status', hidden: true });
+    this.element = make(
+      'div',
+      { class: 'curve', 'data-testid': this.row.id },
+      this.control.space === 'space' ? this.#views(name) : null,
+      make('div', { class: 'plot-frame' }, this.plot, this.where),
+      make(
+        'div',
+        { class: 'plot-foot' },
+        ...this.fields.map((field) => field.label),
+        this.adder,
+        this.remover,
+        make('span', { class: 'push' }),
+        this.original,
+        this.saver,
+      ),
+      this.problem,
+    );
+    this.plot.append(svg('title'));
+    this.plot.lastChild.textContent = HELP;
+    this.#listen();
+    new ResizeObserver(([{ contentRect }]) => this.#resize(contentRect.width)).observe(this.element);
+  }
+
+  get width() {
+    return this.control.space === 'space' ? 3 : 2;
+  }
+
+  /** Whether the page shows something that the server has not been told. */
+  get busy() {
+    return this.#drag !== null || this.#asking || this.#later !== null;
+  }
+
+  limits(control) {
+    this.control = control;
+  }
+
+  /** Shows points that the server has, or the default. */
+  put(points) {
+    const same = JSON.stringify(points) === JSON.stringify(this.row.param.value);
+    if (JSON.stringify(points) !== JSON.stringify(this.#points)) this.#past.length = this.#future.length = 0;
+    this.#points = copy(points);
+    this.#good = copy(points);
+    this.#chosen = Math.min(this.#chosen, points.length - 1);
+    this.problem.hidden = true;
+    if (same) this.#pieces = this.control.pieces;
+    else this.#ask(points, false);
+    this.#fit();
+    this.#draw();
+  }
+
+  /** Shows what can be done with the value. */
+  update({ changed, script_default: own }) {
+    this.saver.disabled = !changed;
+    this.original.hidden = !own || JSON.stringify(own) === JSON.stringify(this.#points);
+  }
+
+  #views(name) {
+    const radios = Object.entries(VIEWS).map(([view, axes], i) =>
+      make(
+        'label',
+        { title: `${NAMES[axes[0]]} to the right, ${NAMES[axes[1]]} up` },
+        make('input', {
+          type: 'radio',
+          name: `${this.row.id}-view`,
+          checked: i === 0,
+          'data-testid': `${this.row.id}-view-${view.toLowerCase()}`,
+          onchange: () => {
+            this.#axes = axes;
+            this.#fit();
+            this.#draw();
+          },
+        }),
+        make('span', { text: `${view} ${NAMES[axes[0]]}${NAMES[axes[1]]}` }),
+      ),
+    );
+    return make('div', { class: 'segments', role: 'radiogroup', 'aria-label': `View of ${name}` }, ...radios);
+  }
+
+  #field(axis) {
+    const index = NAMES.indexOf(axis);
+    const input = make('input', {
+      type: 'number',
+      id: index === 0 ? this.row.id : null,
+      step: 'any',
+      autocomplete: 'off',
+      'aria-label': `${axis} of the chosen point of ${this.row.name}`,
+      'data-testid': `${this.row.id}-${axis}`,
+      onchange: () => {
+        const value = input.valueAsNumber;
+        if (!Number.isFinite(value)) return this.#draw();
+        const points = copy(this.#points);
+        points[this.#chosen][index] = value;
+        this.#change(points, true);
+      },
+    });
+    return { label: make('label', { class: 'plot-field' }, make('span', { text: axis }), input), input };
+  }
+
+  // Geometry of the plot
+
+  #resize(width) {
+    const height = this.control.space === 'function' ? HEIGHT : Math.min(width, 300);
+    if (width < 40 || (this.#size[0] === width && this.#size[1] === height)) return;
+    this.#size = [width, height];
+    this.#fit();
+    this.#draw();
+  }
+
+  get #inner() {
+    const [width, height] = this.#size;
+    return [width - EDGE.left - EDGE.right, height - EDGE.top - EDGE.bottom];
+  }
+
+  #fit() {
+    if (this.#drag || this.#points.length === 0) return;
+    const all = [...this.#points, ...this.#pieces.flat()];
+    this.#ranges =
+      this.control.space === 'function'
+        ? functionRanges(this.#points, this.#pieces)
+        : evenRanges(all, this.#axes, this.#inner);
+  }
+
+  #pixel(point) {
+    const [[left, right], [bottom, top]] = this.#ranges;
+    const [width, height] = this.#inner;
+    const [across, up] = this.#axes;
+    return [
+      EDGE.left + ((point[across] - left) / (right - left)) * width,
+      EDGE.top + ((top - point[up]) / (top - bottom)) * height,
+    ];
+  }
+
+  /** The two coordinates at a pixel, within the plot. */
+  #place([x, y]) {
+    const [[left, right], [bottom, top]] = this.#ranges;
+    const [width, height] = this.#inner;
+    const part = (value) => Math.min(Math.max(value, 0), 1);
+    return [
+      left + part((x - EDGE.left) / width) * (right - left),
+      top - part((y - EDGE.top) / height) * (top - bottom),
+    ];
+  }
+
+  get #steps() {
+    return this.#ranges.map(([low, high]) => fineness(high - low));
+  }
+
+  #nearest(pixel) {
+    if (this.#pieces.length === 0) return { far: Infinity };
+    return bezier.nearest(this.#pieces, (point) => distance(this.#pixel(point), pixel));
+  }
+
+  // Drawing
+
+  #draw() {
+    if (!this.#ranges || this.#points.length === 0) return;
+    const [width, height] = this.#size;
+    this.plot.setAttribute('viewBox', `0 0 ${width} ${height}`);
+    this.plot.setAttribute('height', height);
+    this.#drawGrid();
+    this.#drawCurve();
+    this.#drawPoints();
+    const point = this.#points[this.#chosen];
+    this.fields.forEach(({ input }, axis) => {
+      if (document.activeElement !== input || this.#drag) input.value = plain(point[axis]);
+    });
+    const least = this.control.closed ? 3 : 2;
+    this.remover.disabled = this.#points.length <= (this.control.kind === 'bezier' ? 4 : least);
+    const own = this.row.param?.script_default;
+    this.original.hidden = !own || JSON.stringify(own) === JSON.stringify(this.#points);
+  }
+
+  #drawGrid() {
+    const [width, height] = this.#inner;
+    const [xs, ys] = this.#ranges;
+    const parts = [svg('rect', { x: EDGE.left, y: EDGE.top, width, height, class: 'plot-area' })];
+    const line = (at, along, value) => {
+      const ends = along === 'x' ? { x1: at, x2: at, y1: EDGE.top, y2: EDGE.top + height } : { y1: at, y2: at, x1: EDGE.left, x2: EDGE.left + width };
+      parts.push(svg('line', { ...ends, class: value === 0 ? 'zero' : '' }));
+    };
+    const text = (value, x, y, anchor) => {
+      const element = svg('text', { x, y, 'text-anchor': anchor });
+      element.textContent = label(value);
+      parts.push(element);
+    };
+    const [across, up] = this.#axes;
+    const at = (value, axis) => this.#pixel(Object.assign([0, 0, 0], { [axis]: value }));
+    const even = this.control.space !== 'function';
+    const xTicks = ticks(...xs, width / 56);
+    for (const value of xTicks.list) {
+      const [x] = at(value, across);
+      line(x, 'x', value);
+      text(value, x, EDGE.top + height + 13, x > EDGE.left + width - 10 ? 'end' : 'middle');
+    }
+    for (const value of (even ? ticks(ys[0], ys[1], height / 56) : ticks(...ys, height / 32)).list) {
+      const [, y] = at(value, up);
+      line(y, 'y', value);
+      text(value, EDGE.left - 5, y + 3.5, 'end');
+    }
+    this.grid.replaceChildren(...parts);
+  }
+
+  #drawCurve() {
+    const pixels = (point) => this.#pixel(point).map((value) => value.toFixed(2)).join(' ');
+    const path = this.#pieces
+      .map((piece, index) => {
+        const before = this.#pieces[index - 1]?.[3];
+        const start = before && distance(before, piece[0]) === 0 ? '' : `M${pixels(piece[0])}`;
+        return `${start}C${piece.slice(1).map(pixels).join(' ')}`;
+      })
+      .join('');
+    const parts = [];
+    const { space, kind, closed } = this.control;
+    const [width, height] = this.#inner;
+    if (space === 'function' && path) {
+      const [first, last] = [this.#pieces[0][0], this.#pieces.at(-1)[3]].map((point) => this.#pixel(point));
+      const zero = this.#pixel([0, Math.min(Math.max(0, this.#ranges[1][0]), this.#ranges[1][1])])[1];
+      parts.push(svg('path', { class: 'plot-fill', d: `${path}L${last[0]} ${zero}L${first[0]} ${zero}Z` }));
+      const ends = `M${EDGE.left} ${first[1]}H${first[0]}M${last[0]} ${last[1]}H${EDGE.left + width}`;
+      parts.push(svg('path', { class: 'plot-beyond', d: ends }));
+    } else if (closed && path && space === 'plane') parts.push(svg('path', { class: 'plot-fill', d: path }));
+    if (kind === 'spline' || kind === 'b-spline') {
+      const corners = this.#points.map(pixels).join('L');
+      parts.push(svg('path', { class: 'plot-polygon', d: `M${corners}${closed ? 'Z' : ''}` }));
+    }
+    if (kind === 'bezier') {
+      const count = this.#points.length;
+      const arms = this.#points.flatMap((point, index) => {
+        const anchor = index % 3 === 1 ? index - 1 : index % 3 === 2 ? (index + 1) % count : null;
+        return anchor === null ? [] : [`M${pixels(point)}L${pixels(this.#points[anchor])}`];
+      });
+      parts.push(svg('path', { class: 'plot-polygon', d: arms.join('') }));
+    }
+    parts.push(svg('path', { class: 'plot-line', d: path }));
+    const clip = svg('svg', { x: EDGE.left, y: EDGE.top, width, height, viewBox: `${EDGE.left} ${EDGE.top} ${width} ${height}` }, ...parts);
+    this.drawing.replaceChildren(clip);
+  }
+
+  #drawPoints() {
+    const count = this.#points.length;
+    while (this.handles.childElementCount > count) this.handles.lastChild.remove();
+    while (this.handles.childElementCount < count) {
+      const handle = svg('g', { class: 'plot-point', role: 'button' }, svg('circle', { r: 13, class: 'plot-reach' }), svg('circle', { r: 4.5 }), svg('title'));
+      this.handles.append(handle);
+    }
+    [...this.handles.children].forEach((handle, index) => {
+      const point = this.#points[index];
+      const [x, y] = this.#pixel(point);
+      handle.setAttribute('transform', `translate(${x.toFixed(2)} ${y.toFixed(2)})`);
+      handle.setAttribute('tabindex', index === this.#chosen ? 0 : -1);
+      handle.classList.toggle('chosen', index === this.#chosen);
+      handle.classList.toggle('arm', this.control.kind === 'bezier' && index % 3 !== 0);
+      const text = point.map((value, axis) => `${NAMES[axis]} ${plain(value)}`).join(', ');
+      handle.setAttribute('aria-label', `Point ${index + 1} of ${count}: ${text}`);
+      say(handle.lastChild, `Point ${index + 1}: ${text}`);
+    });
+  }
+
+  #showWhere(pixel) {
+    const hit = this.#ranges && pixel ? this.#nearest(pixel) : { far: Infinity };
+    let point = null;
+    if (this.control.space === 'function' && pixel && this.#pieces.length) {
+      const [x] = this.#place(pixel);
+      point = [x, bezier.height(this.#pieces, x)];
+    } else if (hit.far < NEAR * 2) point = hit.point;
+    if (this.#drag) point = this.#points[this.#chosen];
+    const steps = this.#steps;
+    const shown = point?.slice(0, this.width).map((value, axis) => `${NAMES[axis]} ${label(rounded(value, steps[Math.min(axis, 1)]))}`);
+    say(this.where, shown ? shown.join('   ') : '');
+    if (!point || this.#drag) return this.probe.replaceChildren();
+    const [x, y] = this.#pixel(point);
+    const parts = [svg('circle', { cx: x, cy: y, r: 3 })];
+    if (this.control.space === 'function') parts.unshift(svg('line', { x1: x, x2: x, y1: EDGE.top, y2: this.#size[1] - EDGE.bottom }));
+    this.probe.replaceChildren(...parts);
+  }
+
+  // Pointer and keys
+
+  #listen() {
+    const { plot } = this;
+    const pixel = ({ clientX, clientY }) => {
+      const box = plot.getBoundingClientRect();
+      return [clientX - box.left, clientY - box.top];
+    };
+    const handleOf = (event) => {
+      const handle = event.target.closest('.plot-point');
+      return handle ? [...this.handles.children].indexOf(handle) : -1;
+    };
+    plot.addEventListener('pointerdown', (event) => {
+      const index = handleOf(event);
+      if (index < 0 || event.button !== 0) return;
+      event.preventDefault();
+      this.#choose(index);
+      plot.setPointerCapture(event.pointerId);
+      const [x, y] = this.#pixel(this.#points[index]);
+      const [px, py] = pixel(event);
+      this.#drag = { before: copy(this.#points), offset: [x - px, y - py], id: event.pointerId };
+      plot.classList.add('dragging');
+    });
+    plot.addEventListener('pointermove', (event) => {
+      if (!this.#drag || event.pointerId !== this.#drag.id) return this.#showWhere(pixel(event));
+      const [x, y] = pixel(event);
+      let place = this.#place([x + this.#drag.offset[0], y + this.#drag.offset[1]]);
+      if (event.ctrlKey || event.metaKey) {
+        const [width, height] = this.#inner;
+        const grid = [ticks(...this.#ranges[0], width / 56).step, ticks(...this.#ranges[1], height / 32).step];
+        place = place.map((value, i) => rounded(value, grid[i] / 2));
+      }
+      this.#drag.moved = true;
+      this.#move(this.#chosen, place, false);
+      this.#showWhere(pixel(event));
+    });
+    const stop = (event) => {
+      if (!this.#drag || event.pointerId !== this.#drag.id) return;
+      const { before, moved } = this.#drag;
+      this.#drag = null;
+      plot.classList.remove('dragging');
+      if (moved) this.#commit(before);
+    };
+    plot.addEventListener('pointerup', stop);
+    plot.addEventListener('pointercancel', stop);
+    plot.addEventListener('pointerleave', () => this.#drag || this.#showWhere(null));
+    plot.addEventListener('dblclick', (event) => {
+      event.preventDefault();
+      const index = handleOf(event);
+      if (index >= 0) this.#remove(index);
+      else this.#addAt(pixel(event));
+    });
+    this.handles.addEventListener('focusin', (event) => {
+      const index = handleOf(event);
+      if (index >= 0 && index !== this.#chosen) this.#choose(index, false);
+    });
+    this.element.addEventListener('keydown', (event) => this.#key(event));
+  }
+
+  #key(event) {
+    const undo = (event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 'z';
+    if (event.target.matches('input')) return;
+    if (undo) {
+      event.preventDefault();
+      return event.shiftKey ? this.#travel(this.#future, this.#past) : this.#travel(this.#past, this.#future);
+    }
+    if (!event.target.closest('.plot-point') || event.ctrlKey || event.metaKey) return;
+    const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+    const count = this.#points.length;
+    const jumps = { PageUp: this.#chosen - 1, PageDown: this.#chosen + 1, Home: 0, End: count - 1 };
+    if (event.key in arrows) {
+      const far = event.shiftKey ? 0.1 : event.altKey ? 0.001 : 0.01;
+      const point = this.#points[this.#chosen];
+      const place = arrows[event.key].map((sign, i) => {
+        const [low, high] = this.#ranges[i];
+        const step = 10 ** Math.round(Math.log10((high - low) * far));
+        return Number((point[this.#axes[i]] + sign * step).toPrecision(12));
+      });
+      const before = copy(this.#points);
+      this.#move(this.#chosen, place, true);
+      this.#commit(before);
+    } else if (event.key in jumps) this.#choose((jumps[event.key] + count) % count);
+    else if (event.key === 'Delete' || event.key === 'Backspace') this.#remove(this.#chosen);
+    else if (event.key === 'Insert' || event.key === 'Enter') this.#addAfter();
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  #choose(index, focus = true) {
+    this.#chosen = index;
+    this.#draw();
+    if (focus) this.handles.children[index]?.focus({ preventScroll: true });
+  }
+
+  // Changes
+
+  /** Moves a point to a place of the plot; a function keeps the order of its points. */
+  #move(index, place, exact) {
+    const points = copy(this.#points);
+    const steps = this.#steps;
+    const values = exact ? place : place.map((value, i) => rounded(value, steps[i]));
+    if (this.control.space === 'function') {
+      const [before, after] = [points[index - 1]?.[0], points[index + 1]?.[0]];
+      if (before !== undefined) values[0] = Math.max(values[0], rounded(before + steps[0], steps[0]));
+      if (after !== undefined) values[0] = Math.min(values[0], rounded(after - steps[0], steps[0]));
+      // Neighbours nearer than a step stay as they are.
+      if (values[0] <= before || values[0] >= after) values[0] = points[index][0];
+    }
+    this.#axes.forEach((axis, i) => (points[index][axis] = values[i]));
+    this.#points = points;
+    this.#draw();
+    this.#ask(points, true);
+  }
+
+  #commit(before) {
+    if (JSON.stringify(before) !== JSON.stringify(this.#points)) {
+      this.#past.push(before);
+      this.#future.length = 0;
+    }
+    this.#fit();
+    this.#draw();
+  }
+
+  /** Takes new points, as one change that can be undone. */
+  #change(points, send) {
+    const before = this.#points;
+    this.#points = copy(points);
+    this.#chosen = Math.min(this.#chosen, points.length - 1);
+    this.#commit(before);
+    this.#ask(this.#points, send);
+  }
+
+  #travel(from, to) {
+    const points = from.pop();
+    if (!points) return;
+    to.push(this.#points);
+    this.#points = points;
+    this.#chosen = Math.min(this.#chosen, points.length - 1);
+    this.#fit();
+    this.#draw();
+    this.handles.children[this.#chosen].focus({ preventScroll: true });
+    this.#ask(points, true);
+  }
+
+  #addAt(pixel) {
+    const hit = this.#nearest(pixel);
+    if (this.control.space === 'function') {
+      const [x, y] = this.#place(pixel).map((value, i) => rounded(value, this.#steps[i]));
+      const near = hit.far < NEAR;
+      return this.#insertFunction(x, near ? rounded(bezier.height(this.#pieces, x), this.#steps[1] / 10) : y);
+    }
+    if (hit.far < NEAR) this.#insertCurve(hit);
+  }
+
+  #addAfter() {
+    const { space, closed, kind } = this.control;
+    const count = this.#points.length;
+    const at = !closed && this.#chosen === count - 1 ? count - 2 : this.#chosen;
+    const [from, to] = [this.#points[at], this.#points[(at + 1) % count]];
+    const middle = from.map((value, axis) => (value + to[axis]) / 2);
+    if (space === 'function') return this.#insertFunction(middle[0], bezier.height(this.#pieces, middle[0]));
+    const pieces = this.#pieces.length;
+    if (kind === 'bezier') return this.#insertCurve({ index: Math.min(Math.floor(at / 3), pieces - 1), t: 0.5 });
+    if (kind === 'b-spline') return this.#insert(at + 1, middle);
+    return this.#insertCurve({ index: at, t: 0.5, point: bezier.at(this.#pieces[at], 0.5) });
+  }
+
+  #insertFunction(x, y) {
+    const index = this.#points.findIndex((point) => point[0] >= x);
+    if (index >= 0 && this.#points[index][0] === x) return;
+    this.#insert(index < 0 ? this.#points.length : index, [x, Number(y.toPrecision(6))]);
+  }
+
+  /** Adds a point at a place of the curve; Bezier pieces are divided without a change of their form. */
+  #insertCurve({ index, t, point }) {
+    const round = (point) => point.slice(0, this.width).map((value) => Number(value.toPrecision(6)));
+    if (this.control.kind === 'bezier') {
+      const points = copy(this.#points);
+      const [, ...inner] = bezier.divide(this.#pieces[index], t).map(round);
+      points.splice(index * 3 + 1, 2, ...inner.slice(0, -1));
+      this.#chosen = index * 3 + 3;
+      this.#change(points, true);
+      return this.#choose(this.#chosen);
+    }
+    if (this.control.kind === 'b-spline') {
+      const sides = this.#points.map((from, i) => [from, this.#points[i + 1] ?? (this.control.closed ? this.#points[0] : null)]);
+      const lines = sides.filter(([, to]) => to).map(([from, to]) => [from, from, to, to]);
+      const target = this.#pixel(point);
+      const side = bezier.nearest(lines, (place) => distance(this.#pixel(place), target));
+      return this.#insert(side.index + 1, round(point));
+    }
+    return this.#insert(index + 1, round(point));
+  }
+
+  #insert(index, point) {
+    const points = copy(this.#points);
+    points.splice(index, 0, point);
+    this.#chosen = index;
+    this.#change(points, true);
+    this.#choose(index);
+  }
+
+  #remove(index) {
+    if (this.remover.disabled) return toast(`${this.row.name} needs its last points`);
+    const points = copy(this.#points);
+    if (this.control.kind === 'bezier') {
+      // A point of the curve goes with the two control points beside it.
+      const anchor = (Math.round(index / 3) * 3) % points.length;
+      const last = points.length - 1;
+      const first = anchor === 0 ? 0 : !this.control.closed && anchor >= last ? last - 2 : anchor - 1;
+      points.splice(first, 3);
+    } else points.splice(index, 1);
+    this.#chosen = Math.min(index, points.length - 1);
+    this.#change(points, true);
+    this.#choose(this.#chosen);
+  }
+
+  // Server
+
+  /** Asks for the outline of points, one question at a time, and then sends them as the value. */
+  #ask(points, send) {
+    if (this.#asking) {
+      this.#later = { points, send };
+      return;
+    }
+    this.#asking = true;
+    const done = (answer) => {
+      clearTimeout(patience);
+      if (!this.#asking) return;
+      this.#asking = false;
+      const later = this.#later;
+      this.#later = null;
+      if (answer?.type === 'outline') {
+        this.#pieces = answer.pieces;
+        this.#good = points;
+        this.problem.hidden = true;
+        this.plot.classList.remove('wrong');
+        if (send) this.row.send(JSON.stringify(points));
+      } else if (answer) {
+        this.plot.classList.add('wrong');
+        say(this.problem, answer.text);
+        this.problem.hidden = false;
+      }
+      if (later) this.#ask(later.points, later.send);
+      else if (answer?.type === 'refused' && !this.#drag) this.#restore();
+      if (!later) this.#fit();
+      this.#draw();
+    };
+    // Without a connection there is no answer.
+    const patience = setTimeout(() => done(null), 3000);
+    this.row.changes.ask({ type: 'outline', param: this.row.name, points }, done);
+  }
+
+  /** Goes back to the last points that are a curve. */
+  #restore() {
+    toast(this.problem.textContent);
+    this.problem.hidden = true;
+    this.plot.classList.remove('wrong');
+    this.#points = copy(this.#good);
+    this.#chosen = Math.min(this.#chosen, this.#points.length - 1);
+    this.#past.pop();
+  }
+
+  #store() {
+    clearToast();
+    this.row.changes.ask({ type: 'store', param: this.row.name, points: this.#points }, (answer) => {
+      toast(answer.type === 'stored' ? `Saved in ${answer.file}` : answer.text);
+      this.saver.disabled ||= answer.type === 'stored';
+    });
+  }
+}
+
+const copy = (points) => points.map((point) => [...point]);
+
+const distance = (a, b) => Math.hypot(...a.map((value, axis) => value - b[axis]));
