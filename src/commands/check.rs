@@ -39,7 +39,7 @@ impl CheckCommand {
         if self.script.json {
             let params: Vec<_> = params
                 .iter()
-                .map(|param| json!({ "name": param.name, "package": param.package, "value": report::setting_json(&param.value), "unit": param.unit, "text": param.doc }))
+                .map(|param| json!({ "name": param.name, "package": param.package, "value": param.value.to_json(), "unit": param.unit, "text": param.doc }))
                 .collect();
             let warnings = report::warnings_json(&warnings);
             report::print(&format!("{}\n", json!({ "ok": true, "params": params, "warnings": warnings })))?;
