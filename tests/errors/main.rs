@@ -7,6 +7,7 @@ mod book;
 mod calls;
 mod codes;
 mod command_line;
+mod curves;
 mod data;
 mod determinism;
 mod distributions;
