@@ -289,45 +289,45 @@ pub(crate) fn size(text: &str) -> Result<(u32, u32), String> {
     }
 }
 
-fn setting(text: &str) -> Result<(String, String), String> {
+fn setting(text: &str) -> Result<(String, String), &'static str> {
     match text.split_once('=') {
         Some((name, value)) if !name.trim().is_empty() => Ok((name.trim().to_owned(), value.to_owned())),
-        _ => Err("write NAME=VALUE".to_owned()),
+        _ => Err("write NAME=VALUE"),
     }
 }
 
-pub(crate) fn whole<T: std::str::FromStr>(text: &str) -> Result<T, String> {
-    text.parse().map_err(|_| "write an integer of at least 0".to_owned())
+pub(crate) fn whole<T: std::str::FromStr>(text: &str) -> Result<T, &'static str> {
+    text.parse().map_err(|_| "write an integer of at least 0")
 }
 
-pub(crate) fn threads(text: &str) -> Result<u16, String> {
+pub(crate) fn threads(text: &str) -> Result<u16, &'static str> {
     match text.parse() {
         Ok(threads) if (1..=1024).contains(&threads) => Ok(threads),
-        _ => Err("write an integer from 1 to 1024".to_owned()),
+        _ => Err("write an integer from 1 to 1024"),
     }
 }
 
-pub(crate) fn megabytes(text: &str) -> Result<u32, String> {
+pub(crate) fn megabytes(text: &str) -> Result<u32, &'static str> {
     match text.parse() {
         Ok(megabytes) if megabytes >= 16 => Ok(megabytes),
-        _ => Err("write an integer number of megabytes of at least 16".to_owned()),
+        _ => Err("write an integer number of megabytes of at least 16"),
     }
 }
 
-pub(crate) fn part(text: &str) -> Result<FeaturePart, String> {
-    text.parse().map_err(|_| "write the number of a part and the number of parts, such as 2/4".to_owned())
+pub(crate) fn part(text: &str) -> Result<FeaturePart, &'static str> {
+    text.parse().map_err(|_| "write the number of a part and the number of parts, such as 2/4")
 }
 
-pub(crate) fn metres(text: &str) -> Result<f64, String> {
+pub(crate) fn metres(text: &str) -> Result<f64, &'static str> {
     match text.parse::<f64>() {
         Ok(metres) if (0.0..1e9).contains(&metres) => Ok(metres),
-        _ => Err("write a number of metres of at least 0".to_owned()),
+        _ => Err("write a number of metres of at least 0"),
     }
 }
 
-pub(crate) fn seconds(text: &str) -> Result<f64, String> {
+pub(crate) fn seconds(text: &str) -> Result<f64, &'static str> {
     match text.parse::<f64>() {
         Ok(seconds) if seconds > 0.0 && seconds < 1e9 => Ok(seconds),
-        _ => Err("write a number of seconds above 0".to_owned()),
+        _ => Err("write a number of seconds above 0"),
     }
 }

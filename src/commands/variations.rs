@@ -215,9 +215,9 @@ fn output(text: &str) -> Result<PathBuf, String> {
     Err(format!("a contact sheet is an image: specify a .{} file", PNG.extension()))
 }
 
-fn columns(text: &str) -> Result<usize, String> {
+fn columns(text: &str) -> Result<usize, &'static str> {
     match text.parse() {
         Ok(columns) if columns > 0 => Ok(columns),
-        _ => Err("write an integer of at least 1".to_owned()),
+        _ => Err("write an integer of at least 1"),
     }
 }

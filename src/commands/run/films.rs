@@ -223,23 +223,23 @@ fn axis(text: &str) -> Result<FrameAxis, String> {
     text.parse::<FrameAxis>().map_err(|error| error.to_string())
 }
 
-fn turns(text: &str) -> Result<u32, String> {
+fn turns(text: &str) -> Result<u32, &'static str> {
     match text.parse() {
         Ok(frames) if frames >= 2 => Ok(frames),
-        _ => Err("write an integer of at least 2".to_owned()),
+        _ => Err("write an integer of at least 2"),
     }
 }
 
-fn frame_count(text: &str) -> Result<u32, String> {
+fn frame_count(text: &str) -> Result<u32, &'static str> {
     match text.parse() {
         Ok(frames) if frames > 0 => Ok(frames),
-        _ => Err("write an integer of at least 1".to_owned()),
+        _ => Err("write an integer of at least 1"),
     }
 }
 
-fn speed(text: &str) -> Result<f64, String> {
+fn speed(text: &str) -> Result<f64, &'static str> {
     match text.parse::<f64>() {
         Ok(fps) if (0.1..=1000.0).contains(&fps) => Ok(fps),
-        _ => Err("write a number of frames per second from 0.1 to 1000".to_owned()),
+        _ => Err("write a number of frames per second from 0.1 to 1000"),
     }
 }

@@ -79,7 +79,7 @@ impl LayeredFile for GpxFile {
     }
 
     fn layers(&self) -> Vec<&str> {
-        self.layers.iter().copied().collect()
+        self.layers.to_vec()
     }
 
     fn read(&self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {

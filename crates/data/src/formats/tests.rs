@@ -13,7 +13,7 @@ fn read(path: &Path) -> bool {
     let _ = Listing::read(path, &budget).map(|listing| (listing.text(), listing.to_json()));
     let wanted = SourceOptions { budget, ..SourceOptions::default() };
     let Ok(source) = Source::open_within(path, "a", &wanted) else { return false };
-    let layer = source.layers().into_iter().next();
+    let layer = source.layers().first().map(|&layer| layer.to_owned());
     let wanted = SourceOptions { layer, ..wanted };
     let table = Source::open_within(path, "a", &wanted).and_then(|source| source.read("a", &wanted));
     table.and_then(|table| Layer::new(table, &mut None)).is_ok_and(|layer| {

@@ -127,7 +127,7 @@ fn members(
             return Err(format!("has collections nested more than {DEEPEST} deep"));
         }
         let list: Vec<&RawValue> =
-            serde_json::from_str(list.get()).map_err(|_| "has a collection that is not a list".to_owned())?;
+            serde_json::from_str(list.get()).map_err(|_| "has a collection that is not a list")?;
         return list
             .into_iter()
             .filter(|inner| inner.get() != "null")

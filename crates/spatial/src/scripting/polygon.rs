@@ -109,7 +109,7 @@ mod tests {
     #[test]
     fn what_is_no_polygon_is_refused_by_what_it_is() {
         let refuse = |value: Value| {
-            let refused = PolygonArgument::read_value(value).expect_err("no polygon");
+            let refused = PolygonArgument::read_value(&value).expect_err("no polygon");
             refused.refuse("footprint", "geometry", &value).message().to_owned()
         };
         let line = vec![(TableKey::Name("kind".into()), Value::Text("line".into()))];

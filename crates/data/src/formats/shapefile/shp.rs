@@ -46,7 +46,7 @@ impl ShapeReader {
     pub(super) fn open(file: ContentReader) -> std::result::Result<Self, ShapeDamage> {
         let mut file = BufReader::with_capacity(1 << 16, file);
         let mut header = [0; 100];
-        file.read_exact(&mut header).map_err(|_| "its header is cut short".to_owned())?;
+        file.read_exact(&mut header).map_err(|_| "its header is cut short")?;
         if header[..4] != MAGIC || whole(&header, 28) != Some(1000) {
             return Err("it does not begin like a shapefile".to_owned());
         }
