@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use burgeon::rewriting::ModuleKey;
+use burgeon_rewriting::ModuleKey;
 
 use super::scripts::{all_chains, chain, chain_of_each, divided, error, run, try_run};
 use plain::{Part, PlainValue};
