@@ -338,7 +338,7 @@ struct RewritePhase<'a> {
 impl Phase<Stepper> for RewritePhase<'_> {
     fn run(&self, stepper: &mut Stepper, chain: Arc<Chain>, step: usize) -> Result<PhaseOutcome> {
         let stop = Stop::new();
-        if stepper.begin_series(&chain) {
+        if stepper.begin_series(&chain, false) {
             let outcome = stepper.perform(
                 self.system,
                 &stop,
@@ -349,6 +349,7 @@ impl Phase<Stepper> for RewritePhase<'_> {
                     ends_unchanged: false,
                     ends_at: &[],
                     watch: &mut |_, _| true,
+                    places: None,
                 },
             )?;
             return Ok(PhaseOutcome {

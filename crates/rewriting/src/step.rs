@@ -52,6 +52,7 @@ impl StepWork {
             links: &self.links,
             step: &self.step,
             stop,
+            first: 0,
             new_chain: RefCell::default(),
         };
         let spare = self.spare.lock().recover().pop().unwrap_or_default();

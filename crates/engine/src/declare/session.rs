@@ -301,6 +301,11 @@ impl Session {
         self.source_called(file).is_some_and(|source| source.analysis.blind.contains(&line))
     }
 
+    /// Returns true if the functions that begin at a line of a file use their first parameter only to ask for its place.
+    pub(crate) fn asks_place(&self, file: &str, line: usize) -> bool {
+        self.source_called(file).is_some_and(|source| source.analysis.asks_place.contains(&line))
+    }
+
     /// Returns the source text of the guard that begins at a line of a file, if it is the only guard there.
     pub(crate) fn guard_text(&self, file: &str, line: usize) -> Option<String> {
         self.source_called(file)?.analysis.guards.get(&line).cloned()

@@ -151,16 +151,17 @@ impl Walk<'_> {
                 }
             } else if let (true, Some(function)) = (is_first, self.functions.last_mut()) {
                 // A variadic function can read any of its arguments.
-                function.asks = true;
+                (function.asks, function.asks_more) = (true, true);
             }
         }
         self.block(body.block());
         self.variables.truncate(outside);
-        let nothing = Function { pure: false, asks: true, ..Function::new(role, None) };
+        let nothing = Function { pure: false, asks: true, asks_more: true, ..Function::new(role, None) };
         let function = self.functions.pop().unwrap_or(nothing);
         if let Some(begin) = body.parameters_parentheses().tokens().0.start_position() {
             *self.pure.entry(begin.line()).or_insert(true) &= function.pure;
             *self.blind.entry(begin.line()).or_insert(true) &= !function.asks;
+            *self.asks_place.entry(begin.line()).or_insert(true) &= !function.asks_more;
             if role == FunctionRole::Guard {
                 // The id distinguishes an outer variable from an earlier variable of the same name.
                 let word = |token: String| match self.find(&token) {

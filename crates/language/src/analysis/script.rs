@@ -38,6 +38,8 @@ pub struct Analysis {
     pub pure: Vec<usize>,
     /// Lines on which functions begin that do not read their first parameter, a rule's `this`.
     pub blind: Vec<usize>,
+    /// Lines on which functions begin that read their first parameter only to ask for its place.
+    pub asks_place: Vec<usize>,
     /// Text of a rule's guard without comments and line breaks, by the line on which the guard begins. Lines with
     /// guards of different texts are omitted.
     pub guards: BTreeMap<usize, String>,
@@ -176,6 +178,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         stops,
         pure,
         mut blind,
+        mut asks_place,
         guards,
         filled,
         queries,
@@ -189,7 +192,9 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         |begin: &usize| text[..*begin].rsplit('\n').next().is_some_and(|head| head.trim().is_empty());
     if begins.iter().any(is_apart) {
         blind.clear();
+        asks_place.clear();
     }
+    let asks_place = asks_place.into_iter().filter_map(|(line, place)| place.then_some(line)).collect();
     let pure = pure.into_iter().filter_map(|(line, pure)| pure.then_some(line)).collect();
     let blind = blind.into_iter().filter_map(|(line, blind)| blind.then_some(line)).collect();
     problems.sort_by(|a, b| a.place().cmp(&b.place()));
@@ -220,6 +225,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         stops,
         pure,
         blind,
+        asks_place,
         guards,
         filled,
         queries,
@@ -295,6 +301,36 @@ mod tests {
             "function\n(this, n) return n end",
         ] {
             assert!(!blind(function), "{function}");
+        }
+    }
+
+    #[test]
+    fn a_function_asks_for_a_place_only_if_it_does_nothing_else_with_its_first_parameter() {
+        let names = ["select"].map(str::to_owned).to_vec();
+        let globals = Globals { names, ..Globals::default() };
+        let asks_place = |function: &str| {
+            let script = format!("local function other(x)\n  return x\nend\nlocal f = {function}");
+            analyse("s.lua", &script, |_| Some(Vec::new()), &globals).asks_place.contains(&4)
+        };
+        for function in [
+            "function(this, n) return n end",
+            "function(this) return this:position().z end",
+            "function(o) return o:up().x + o:left().y + o:heading().z end",
+            "function(this) return function() return this:position() end end",
+        ] {
+            assert!(asks_place(function), "{function}");
+        }
+        for function in [
+            "function(this) return this:distance() end",
+            "function(this) return this.position(this) end",
+            "function(this) return other(this):position() end",
+            "function(this) return this:position(this) end",
+            "function(this) local it = this return it:position() end",
+            "function(this) return this:position().z < 0 or this.x end",
+            "function(...) return select(1, ...) end",
+            "function\n(this) return this:position() end",
+        ] {
+            assert!(!asks_place(function), "{function}");
         }
     }
 }

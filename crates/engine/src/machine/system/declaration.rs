@@ -12,7 +12,7 @@ use crate::machine::questions::argument_places;
 use crate::machine::types::methods_key;
 use crate::results::DerivedSystem;
 use burgeon_base::error::{Error, Result, SourcePlace};
-use burgeon_kit::{Locate, Object};
+use burgeon_kit::{Call, Locate, Object, ObjectPlace};
 use burgeon_rewriting::{Grammar, Rule};
 
 use super::ignored::IgnoredModules;
@@ -102,6 +102,17 @@ impl RulePhase {
     }
 }
 
+/// Use of `this` by the functions of a rule.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum ReceiverUse {
+    /// The functions do not read it.
+    Unused,
+    /// The functions ask only for the place of the module.
+    Place,
+    /// The functions may use it in any way.
+    Any,
+}
+
 pub(crate) struct DeclaredRule {
     pub(crate) rule: Rule,
     pub(crate) phase: RulePhase,
@@ -113,8 +124,14 @@ pub(crate) struct DeclaredRule {
     /// Source text of the guard, if it is known.
     pub(crate) guard_text: Option<String>,
     pub(crate) successor: Function,
-    /// Set if the successor or the guard may use `this`.
-    pub(crate) asks: bool,
+    pub(crate) receiver_use: ReceiverUse,
+}
+
+impl DeclaredRule {
+    /// Returns true if the successor or the guard may use `this`.
+    fn asks(&self) -> bool {
+        self.receiver_use > ReceiverUse::Unused
+    }
 }
 
 /// Functions of a system's rules, prepared for derivation in one machine.
@@ -140,7 +157,7 @@ impl SystemDeclaration {
         let empties = |object: &Arc<dyn Object>| object.kind().begins_empty && !object.expands();
         self.last_only
             || self.environments.is_empty()
-                && (self.object.as_ref().is_some_and(empties) && !self.rules.iter().any(|rule| rule.asks))
+                && (self.object.as_ref().is_some_and(empties) && !self.rules.iter().any(DeclaredRule::asks))
     }
 
     /// Fails if the system has environments that no pass would change.
@@ -163,21 +180,37 @@ impl SystemDeclaration {
 
     /// Returns true if a rule of `phase` may use `this`.
     pub(crate) fn asks_in(&self, phase: RulePhase) -> bool {
-        self.rules.iter().any(|declared| declared.phase == phase && declared.asks)
+        self.rules.iter().any(|declared| declared.phase == phase && declared.asks())
     }
 
     /// Returns for each of `symbols` symbols whether its rules may read where the object is; empty if none does, or if the
     /// object has no place.
     pub(crate) fn located_symbols(&self, symbols: usize) -> Vec<bool> {
         let moves = |object: &Arc<dyn Object>| object.kind().has_capability::<dyn Locate>();
-        if !self.object.as_ref().is_some_and(moves) || !self.rules.iter().any(|declared| declared.asks) {
+        if !self.object.as_ref().is_some_and(moves) || !self.rules.iter().any(DeclaredRule::asks) {
             return Vec::new();
         }
         let mut located = vec![false; symbols];
-        for declared in self.rules.iter().filter(|declared| declared.asks) {
+        for declared in self.rules.iter().filter(|declared| declared.asks()) {
             located[usize::from(declared.rule.pattern.symbol)] = true;
         }
         located
+    }
+
+    /// Returns true if rules use `this` only to ask for the place of their module, and the object itself answers.
+    pub(crate) fn asks_places_only(&self) -> bool {
+        let answers = |object: &Arc<dyn Object>| {
+            let kind = object.kind();
+            let own = |name: &&str| {
+                let method = kind.methods.iter().find(|method| method.name == **name);
+                method.is_some_and(|method| matches!(method.call, Call::Read(_)))
+            };
+            object.base().is_none()
+                && kind.has_capability::<dyn Locate>()
+                && ObjectPlace::METHODS.iter().all(own)
+        };
+        self.object.as_ref().is_some_and(answers)
+            && self.rules.iter().all(|declared| declared.receiver_use < ReceiverUse::Any)
     }
 
     /// Returns true if a rule applies in `phase`.

@@ -18,7 +18,7 @@ mod strings;
 mod unseen;
 
 pub(crate) use axiom::Axiom;
-pub(super) use declaration::{DeclaredAxiom, DeclaredRule, DerivationRecord};
+pub(super) use declaration::{DeclaredAxiom, DeclaredRule, DerivationRecord, ReceiverUse};
 pub(crate) use declaration::{RulePhase, SystemDeclaration, SystemFunctions};
 pub(crate) use declare::{returns_value, stops_at_depth};
 pub(crate) use handle::SystemHandle;
