@@ -44,10 +44,10 @@ pub(crate) struct Prelude {
     pub constructor: Function,
     /// `(query, fragment)`: sets the constructors of the placeholder modules.
     pub pending: Function,
-    /// `(rule, arity, places)`: returns a function that applies the rule to a batch; `places` has the
-    /// argument indices by name.
+    /// `(rule, arity, places, reads)`: returns a function that applies the rule to a batch; `places` has the
+    /// argument indices by name, and `reads` the numbers of the parameters that the rule reads, if they are known.
     pub driver: Function,
-    /// `(guard, arity, places)`: returns a function that evaluates the guard for a batch.
+    /// `(guard, arity, places, reads)`: returns a function that evaluates the guard for a batch.
     pub guard_driver: Function,
     /// `(rules, standards, max_depth)`: removes the interpretation rules of the last system, and sets the rule and the
     /// method of the standard library of each symbol, and the maximum depth of interpretations that return modules.

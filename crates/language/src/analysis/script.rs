@@ -1,6 +1,6 @@
 //! Entry point of the analysis of a script.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
@@ -40,6 +40,9 @@ pub struct Analysis {
     pub blind: Vec<usize>,
     /// Lines on which functions begin that read their first parameter only to ask for its place.
     pub asks_place: Vec<usize>,
+    /// Numbers of the parameters that the functions that begin on a line read, by the line. Lines with a variadic function are
+    /// omitted.
+    pub reads: BTreeMap<usize, BTreeSet<usize>>,
     /// Text of a rule's guard without comments and line breaks, by the line on which the guard begins. Lines with
     /// guards of different texts are omitted.
     pub guards: BTreeMap<usize, String>,
@@ -179,6 +182,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         pure,
         mut blind,
         mut asks_place,
+        mut reads,
         guards,
         filled,
         queries,
@@ -193,8 +197,10 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
     if begins.iter().any(is_apart) {
         blind.clear();
         asks_place.clear();
+        reads.clear();
     }
     let asks_place = asks_place.into_iter().filter_map(|(line, place)| place.then_some(line)).collect();
+    let reads = reads.into_iter().filter_map(|(line, reads)| Some((line, reads?))).collect();
     let pure = pure.into_iter().filter_map(|(line, pure)| pure.then_some(line)).collect();
     let blind = blind.into_iter().filter_map(|(line, blind)| blind.then_some(line)).collect();
     problems.sort_by(|a, b| a.place().cmp(&b.place()));
@@ -226,6 +232,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         pure,
         blind,
         asks_place,
+        reads,
         guards,
         filled,
         queries,
@@ -302,6 +309,27 @@ mod tests {
         ] {
             assert!(!blind(function), "{function}");
         }
+    }
+
+    #[test]
+    fn parameters_that_a_function_reads_are_known_unless_it_is_variadic() {
+        let globals = Globals { names: vec!["select".to_owned()], ..Globals::default() };
+        let reads = |function: &str| {
+            let script = format!("local f = {function}");
+            let found = analyse("s.lua", &script, |_| Some(Vec::new()), &globals).reads;
+            found.get(&1).map(|reads| reads.iter().copied().collect::<Vec<_>>())
+        };
+        assert_eq!(reads("function(this, a, b, c) return c + 1 end"), Some(vec![3]));
+        assert_eq!(reads("function(this, a, b) b = 2 end"), Some(vec![]));
+        assert_eq!(reads("function(this, a, b) b += 2 end"), Some(vec![2]));
+        assert_eq!(reads("function(this, a, b) return function(x) return a[1] end end"), Some(vec![1]));
+        assert_eq!(reads("function(this, a, b) local a = b return a end"), Some(vec![2]));
+        assert_eq!(reads("function(this, a, b) return `{this:position()} {b}` end"), Some(vec![2]));
+        assert_eq!(
+            reads("function(this, a) return a end local g = function(x, y, z) return z end"),
+            Some(vec![1, 2])
+        );
+        assert_eq!(reads("function(this, a, ...) return select(1, ...) end"), None);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Walks a script: variables and their scopes, names, and all other static checks.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use full_moon::ast::punctuated::Punctuated;
 use full_moon::ast::{Ast, Block, Call, Expression, FunctionBody, LastStmt, NumericFor, Stmt, Suffix, Var};
@@ -58,6 +58,10 @@ pub(super) struct Function {
     pub(super) asks: bool,
     /// Set if the function reads its first parameter other than by the methods that return a place.
     pub(super) asks_more: bool,
+    /// Numbers of the parameters that the function reads; the first has the number 0.
+    pub(super) reads: BTreeSet<usize>,
+    /// Set if the function reads more arguments than it names.
+    pub(super) is_variadic: bool,
     /// Line of the first return of nothing but a table that the function has filled.
     pub(super) filled: Option<usize>,
     /// Detected queries.
@@ -73,6 +77,8 @@ impl Function {
             pure: true,
             asks: false,
             asks_more: false,
+            reads: BTreeSet::new(),
+            is_variadic: false,
             filled: None,
             queries: Vec::new(),
         }
@@ -103,6 +109,8 @@ pub(super) struct Variable {
     pub(super) feature: bool,
     /// Set for the first parameter of its function.
     pub(super) receiver: bool,
+    /// Number of the parameter of its function, if it is one.
+    pub(super) parameter: Option<usize>,
 }
 
 pub(super) struct TextEdit {
@@ -134,6 +142,8 @@ pub(super) struct Walk<'a> {
     pub(super) blind: BTreeMap<usize, bool>,
     /// Entry by line: true if the functions that begin on the line read their first parameters for a place only.
     pub(super) asks_place: BTreeMap<usize, bool>,
+    /// Numbers of the parameters that the functions that begin on a line read, by line; `None` if one is variadic.
+    pub(super) reads: BTreeMap<usize, Option<BTreeSet<usize>>>,
     /// Text of the guard that begins on a line, by line; `None` if guards on the line differ.
     pub(super) guards: BTreeMap<usize, Option<String>>,
     /// Line on which a rule returns only a table that it has filled, by the line on which its function begins.
@@ -194,6 +204,7 @@ impl<'a> Walk<'a> {
             pure: BTreeMap::new(),
             blind: BTreeMap::new(),
             asks_place: BTreeMap::new(),
+            reads: BTreeMap::new(),
             guards: BTreeMap::new(),
             filled: BTreeMap::new(),
             signatures: BTreeMap::new(),
@@ -305,6 +316,7 @@ impl<'a> Walk<'a> {
             stream: false,
             feature: false,
             receiver: false,
+            parameter: None,
         });
         if function > 0
             && self.fact(id).assigned_inside
@@ -411,8 +423,9 @@ impl<'a> Walk<'a> {
         let name = text_of(token);
         self.random |= name == "random";
         if let Some(variable) = self.find(&name) {
-            if variable.receiver {
-                let function = variable.function;
+            let (function, receiver, parameter) = (variable.function, variable.receiver, variable.parameter);
+            self.functions[function].reads.extend(parameter);
+            if receiver {
                 self.functions[function].asks = true;
                 self.functions[function].asks_more = true;
             }

@@ -125,6 +125,8 @@ pub(crate) struct DeclaredRule {
     pub(crate) guard_text: Option<String>,
     pub(crate) successor: Function,
     pub(crate) receiver_use: ReceiverUse,
+    /// Parameters that the successor and the guard read, by number; `None` for a function that may read all.
+    pub(crate) reads: [Option<Vec<usize>>; 2],
 }
 
 impl DeclaredRule {
@@ -319,7 +321,8 @@ impl SystemDeclaration {
             let arity = declared.rule.arguments();
             let symbols = machine.library.symbols.borrow();
             let places = argument_places(machine.lua(), &declared.rule.pattern, &symbols)?;
-            drivers.push(prelude.driver.call((&declared.successor, arity, &places))?);
+            let [successor_reads, guard_reads] = declared.reads.clone();
+            drivers.push(prelude.driver.call((&declared.successor, arity, &places, successor_reads))?);
             let reach = |function: &Function| ReachableFunction {
                 function: function.clone(),
                 name: declared.rule.pattern.text.clone(),
@@ -329,7 +332,7 @@ impl SystemDeclaration {
             guards.push(match &declared.guard {
                 Some(guard) => {
                     reached.push(reach(guard));
-                    Some(prelude.guard_driver.call((guard, arity, places))?)
+                    Some(prelude.guard_driver.call((guard, arity, places, guard_reads))?)
                 }
                 None => None,
             });

@@ -107,7 +107,7 @@ impl SystemDeclaration {
         }
         let place = Machine::place(lua);
         let session = std::sync::Arc::clone(&library.machine()?.session);
-        let (successor, mut receiver_use) = match arguments.pop() {
+        let (successor, mut receiver_use, successor_reads) = match arguments.pop() {
             Some(LuaValue::Function(function)) => {
                 check_parameters(&function, &pattern, "the successor").map_err(named)?;
                 check_queries(library, &function, &pattern).map_err(named)?;
@@ -119,7 +119,8 @@ impl SystemDeclaration {
                         .machine()?
                         .warn(returns_branch().at(Some(SourcePlace { file, line })).rule(&name));
                 }
-                (function, receiver_use)
+                let reads = parameters_read(&session, &function);
+                (function, receiver_use, reads)
             }
             Some(LuaValue::String(body)) => {
                 compile_successor(library, &scope, &pattern, &body.to_string_lossy(), place.as_ref())
@@ -138,6 +139,8 @@ impl SystemDeclaration {
             check_queries(library, guard, &pattern).map_err(named)?;
             receiver_use = receiver_use.max(receiver_use_of(&session, guard));
         }
+        let guard_reads = guard.as_ref().and_then(|guard| parameters_read(&session, guard));
+        let reads = [successor_reads, guard_reads];
         let begin = guard.as_ref().and_then(begin_of);
         let guard_text = begin.and_then(|(file, line)| session.guard_text(&file, line));
         let rule = Rule::new(pattern, weight, guard.is_some(), place);
@@ -150,6 +153,7 @@ impl SystemDeclaration {
             guard_text,
             successor,
             receiver_use,
+            reads,
         });
         Ok(())
     }
@@ -262,6 +266,12 @@ fn receiver_use_of(session: &Session, function: &Function) -> ReceiverUse {
         Some((file, line)) if session.asks_place(&file, line) => ReceiverUse::Place,
         _ => ReceiverUse::Any,
     }
+}
+
+/// Returns the numbers of the parameters, after `this`, that a function reads; `None` if it may read all.
+fn parameters_read(session: &Session, function: &Function) -> Option<Vec<usize>> {
+    let (file, line) = begin_of(function)?;
+    session.parameters_read(&file, line)
 }
 
 /// Options of a rule.

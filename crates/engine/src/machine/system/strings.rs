@@ -44,14 +44,14 @@ pub(super) fn word_symbols(word: &str, symbols: &Symbols, scope: &NameScope) -> 
 }
 
 /// Compiles a successor given as a string of Lua or of modules, with the formal parameters, `this` and all modules in
-/// scope. Also returns whether the successor may use `this`.
+/// scope. Also returns the use of `this`, and the numbers of the parameters that the successor reads.
 pub(super) fn compile_successor(
     library: &Library,
     scope: &NameScope,
     pattern: &Pattern,
     body: &str,
     place: Option<&SourcePlace>,
-) -> Result<(Function, ReceiverUse)> {
+) -> Result<(Function, ReceiverUse, Option<Vec<usize>>)> {
     let machine = library.machine()?;
     let (marked, body) = split_line(body);
     let (file, line) = place.map_or(("rule", 1), |place| (place.file.as_str(), place.line));
@@ -92,7 +92,9 @@ pub(super) fn compile_successor(
         Some(line) if analysis.asks_place.contains(&line) => ReceiverUse::Place,
         _ => ReceiverUse::Any,
     };
-    Ok((successor, receiver_use))
+    let reads = begin.and_then(|line| analysis.reads.get(&line));
+    let reads = reads.map(|reads| reads.iter().copied().filter(|number| *number > 0).collect());
+    Ok((successor, receiver_use, reads))
 }
 
 /// Returns the modules of an axiom given as a string. Their arguments are expressions of Lua with the names that all
