@@ -38,7 +38,7 @@ fn script(object: &str, rules: &str, place: &str, steps: usize) -> Run {
         "local F, A, B = module('F', 'l'), module('A'), module('B', 'x')
          {object}
          local list = table.create(2100, B(1))
-         s:axiom(sequence(list), A(), B(2), F(0.1))
+         s:axiom(sequence(list), F(0.1), A(), B(2), F(0.1))
          {rules}
          s:derive({steps})"
     ))

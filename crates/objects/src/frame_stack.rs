@@ -153,13 +153,15 @@ mod tests {
     #[test]
     fn a_deep_stack_of_marks_is_dropped_without_recursion() {
         let mut stack = FrameStack::default();
-        let marks: Vec<_> = (0..1_000_000)
+        let mut marks: Vec<_> = (0..1_000_000)
             .map(|depth: u32| {
                 stack.push(depth);
                 stack.mark()
             })
             .collect();
         drop(stack);
-        drop(marks.into_iter().rev().next());
+        let last = marks.pop();
+        drop(marks);
+        drop(last);
     }
 }

@@ -7,8 +7,8 @@ use mlua::{Buffer, Lua, MultiValue, Table, Value as LuaValue, Variadic};
 
 use super::current::WorkState;
 use super::native;
-use super::table_classes::vector_of;
-use crate::machine::convert::{to_argument, to_lua, to_value};
+use super::object_methods::{add_object_methods, values};
+use crate::machine::convert::{to_lua, to_value};
 use crate::machine::library::Library;
 use crate::machine::types::{ObjectHandle, claim};
 use crate::machine::write_column;
@@ -256,7 +256,7 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Li
             to_lua(lua, &answer, false)
         })?,
     )?;
-    super::object_methods::add_object_methods(lua, host, current, library)
+    add_object_methods(lua, host, current, library)
 }
 
 /// Adds the functions that read and store the fields and state of script-declared objects.
@@ -364,15 +364,4 @@ fn to_table(lua: &Lua, kept: &burgeon_kit::Table) -> mlua::Result<Table> {
         }
     }
     Ok(table)
-}
-
-pub(super) fn values(lua: &Lua, arguments: &MultiValue) -> mlua::Result<Vec<Value>> {
-    let value = |value: &LuaValue| match value {
-        LuaValue::Table(table) => match vector_of(lua, table) {
-            Some(vector) => Ok(vector),
-            None => to_argument(value),
-        },
-        value => to_argument(value),
-    };
-    arguments.iter().map(|given| value(given).map_err(mlua::Error::external)).collect()
 }

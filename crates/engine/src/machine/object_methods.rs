@@ -5,11 +5,10 @@ use std::sync::Arc;
 
 use mlua::{Lua, MultiValue, Table, Value as LuaValue};
 
-use super::convert::to_lua;
+use super::convert::{to_argument, to_lua};
 use super::current::WorkState;
-use super::host::values;
 use super::library::Library;
-use super::table_classes::metatable_of;
+use super::table_classes::{metatable_of, vector_of};
 use super::types::ObjectHandle;
 use burgeon_base::error::Error;
 use burgeon_base::locks::LockRecovery;
@@ -150,4 +149,15 @@ impl ObjectMethod {
 fn no_environment(name: &str) -> Error {
     Error::scope(format!("{name} changes an environment that this system does not have"))
         .help("give it to the system: lsystem({ object = turtle(), environment = { light } })")
+}
+
+pub(super) fn values(lua: &Lua, arguments: &MultiValue) -> mlua::Result<Vec<Value>> {
+    let value = |value: &LuaValue| match value {
+        LuaValue::Table(table) => match vector_of(lua, table) {
+            Some(vector) => Ok(vector),
+            None => to_argument(value),
+        },
+        value => to_argument(value),
+    };
+    arguments.iter().map(|given| value(given).map_err(mlua::Error::external)).collect()
 }
