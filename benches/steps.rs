@@ -9,7 +9,7 @@ use burgeon::script::RunOptions;
 use cpu_time::ThreadTime;
 
 /// Systems that add modules at one place, with the largest number of steps.
-const SYSTEMS: [(&str, usize, &str); 9] = [
+const SYSTEMS: [(&str, usize, &str); 11] = [
     ("growth", 80_000, "s:axiom(A()) s:rule('A', function() return F(), A() end)"),
     ("nested branches", 80_000, "s:axiom(A()) s:rule('A', function() return F(), { A() } end)"),
     ("left context", 80_000, "s:axiom(F(), A()) s:rule('F < A', function() return F(), A() end)"),
@@ -20,8 +20,20 @@ const SYSTEMS: [(&str, usize, &str); 9] = [
     ),
     (
         "questions for the place",
-        8_000,
+        40_000,
         "s:axiom(A()) s:rule('A', { when = function(this) return this:position().z >= 0 end }, function() return F(), A() end)",
+    ),
+    (
+        "questions in nested branches",
+        40_000,
+        "s:axiom(A()) s:interpret('F', function(this) this:forward(1) end)
+         s:rule('A', { when = function(this) return this:position().z >= 0 end }, function() return F(), { A() } end)",
+    ),
+    (
+        "questions beside branches",
+        40_000,
+        "s:axiom(A()) s:interpret('F', function(this) this:forward(1) end)
+         s:rule('A', function(this) if this:position().z >= 0 then return F(), { F() }, A() end end)",
     ),
     (
         "one change among a million modules",

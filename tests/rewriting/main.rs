@@ -30,6 +30,7 @@ mod parameters;
 mod parts;
 mod passes;
 mod patterns;
+mod places;
 mod properties;
 mod queries;
 mod results;

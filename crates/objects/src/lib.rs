@@ -13,6 +13,7 @@ mod examples;
 mod extruder;
 pub mod facade;
 mod footprint;
+mod frame_stack;
 mod import;
 mod line_index;
 mod mesh;

@@ -64,6 +64,8 @@ pub(crate) struct Batch<'a> {
     /// Time of each chain, if rules have propensities.
     pub times: &'a [f64],
     pub stop: &'a Stop,
+    /// Number to add to an index in `chain` for the index in the whole chain; it wraps around.
+    pub first: u32,
     /// Successors so far, if rules have contexts in the new chain.
     pub new_chain: RefCell<NewChain>,
 }
@@ -109,7 +111,8 @@ impl Batch<'_> {
         }
         scratch.places.clear();
         if self.plan.notes_places {
-            scratch.places.extend(members.iter().map(|index| scratch.active[*index as usize].module));
+            let place = |index: &u32| scratch.active[*index as usize].module.wrapping_add(self.first);
+            scratch.places.extend(members.iter().map(place));
         }
         scratch.arguments.clear();
         if arity > 0 {

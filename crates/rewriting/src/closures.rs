@@ -402,7 +402,7 @@ impl Phase<Stepper> for RewritePhase<'_> {
             let outcome = stepper.perform_events(self.system, &stop, &chain, &mut series)?;
             return Ok(outcome.into_phase_outcome());
         }
-        if stepper.begin_series(&chain) {
+        if stepper.begin_series(&chain, false) {
             let outcome = stepper.perform(
                 self.system,
                 &stop,
@@ -413,6 +413,7 @@ impl Phase<Stepper> for RewritePhase<'_> {
                     ends_unchanged: false,
                     ends_at: &[],
                     watch: &mut |_, _| true,
+                    places: None,
                 },
             )?;
             return Ok(PhaseOutcome {

@@ -76,7 +76,7 @@ impl EventChain {
     /// Divides `chain`, which is chain number `number`, into segments of `size` symbols.
     pub(crate) fn new(chain: &Chain, number: usize, plan: &StepPlan, size: usize) -> Self {
         let mut made = Self {
-            pieces: SegmentedChain::new(chain, &plan.grammar, size),
+            pieces: SegmentedChain::new(chain, &plan.grammar, size, &[]),
             number,
             events: Vec::new(),
             amounts: AmountTree::default(),
@@ -217,7 +217,8 @@ impl EventChain {
             }
         };
         let (rules, plan, stop, links) = (work.rules, work.plan, work.stop, &*work.links);
-        let batch = Batch { rules, plan, chain, links, step, times, stop, new_chain: RefCell::default() };
+        let batch =
+            Batch { rules, plan, chain, links, step, times, stop, first: 0, new_chain: RefCell::default() };
         act(&batch, piece, work.scratch, &mut work.spare)
     }
 }

@@ -238,6 +238,7 @@ impl Stepper {
             step,
             times,
             stop,
+            first: 0,
             new_chain: RefCell::default(),
         };
         let mut events = Vec::new();

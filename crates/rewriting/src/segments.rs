@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::chain::{CLOSE, Chain, END, OPEN};
+use crate::chain::{CLOSE, Chain, END, OPEN, Symbol};
 use crate::grammar::Grammar;
 
 /// Part of a chain, of consecutive symbols.
@@ -13,6 +13,8 @@ pub(crate) struct ChainSegment {
     pub brackets: Brackets,
     /// Set if a symbol has rules.
     has_rules: bool,
+    /// Set if a symbol has rules that read the place of the module, which can change although no module does.
+    pub is_located: bool,
     /// Set if no rule applies in the next step, because none applied in the last step and no module in reach of the
     /// contexts has changed since.
     pub is_resting: bool,
@@ -62,14 +64,21 @@ pub(crate) struct SegmentedChain {
     pub symbols: usize,
     /// Number of symbols of a new segment.
     size: usize,
+    /// Entry for each symbol: true if its rules read the place of the module; empty if no rule does.
+    located: Vec<bool>,
 }
 
 impl SegmentedChain {
     /// Divides `chain` into segments of `size` symbols. Only those without rules are resting.
-    pub(crate) fn new(chain: &Chain, grammar: &Grammar, size: usize) -> Self {
+    pub(crate) fn new(chain: &Chain, grammar: &Grammar, size: usize, located: &[bool]) -> Self {
         let mut segments = Vec::with_capacity(chain.symbols.len() / size + 1);
-        divide(chain, grammar, size, &mut segments);
-        Self { segments, symbols: chain.symbols.len(), size }
+        divide(chain, grammar, size, located, &mut segments);
+        Self { segments, symbols: chain.symbols.len(), size, located: located.to_vec() }
+    }
+
+    /// Returns true if rules of `symbol` read the place of the module.
+    pub(crate) fn is_located(&self, symbol: Symbol) -> bool {
+        self.located.get(usize::from(symbol)).is_some_and(|located| *located)
     }
 
     /// Returns the whole chain, without marks.
@@ -103,6 +112,7 @@ impl SegmentedChain {
         self.symbols = self.symbols - segment.chain.symbols.len() + chain.symbols.len();
         segment.brackets = Brackets::of(&chain);
         segment.has_rules = has_rules(&chain, grammar);
+        segment.is_located = has_located(&chain, &self.located);
         std::mem::replace(&mut segment.chain, chain)
     }
 
@@ -127,7 +137,7 @@ impl SegmentedChain {
 
     /// Divides the whole chain anew.
     pub(crate) fn join(&mut self, grammar: &Grammar) {
-        *self = Self::new(&self.joined(), grammar, self.size);
+        *self = Self::new(&self.joined(), grammar, self.size, &self.located);
     }
 
     /// Divides the segment at `index` if it has become long. Returns the number of its parts.
@@ -136,7 +146,7 @@ impl SegmentedChain {
             return 1;
         }
         let mut parts = Vec::new();
-        divide(&self.segments[index].chain, grammar, self.size, &mut parts);
+        divide(&self.segments[index].chain, grammar, self.size, &self.located, &mut parts);
         let count = parts.len();
         for segment in &mut self.segments {
             let reach = &mut segment.reach;
@@ -157,7 +167,7 @@ impl SegmentedChain {
 }
 
 /// Adds segments of `size` symbols of `chain` to `segments`.
-fn divide(chain: &Chain, grammar: &Grammar, size: usize, segments: &mut Vec<ChainSegment>) {
+fn divide(chain: &Chain, grammar: &Grammar, size: usize, located: &[bool], segments: &mut Vec<ChainSegment>) {
     let arities = grammar.arities();
     let (mut begin, mut param) = (0, 0);
     for symbols in chain.symbols.chunks(size) {
@@ -174,6 +184,7 @@ fn divide(chain: &Chain, grammar: &Grammar, size: usize, segments: &mut Vec<Chai
         segments.push(ChainSegment {
             brackets: Brackets::of(&chain),
             has_rules,
+            is_located: has_located(&chain, located),
             is_resting: !has_rules,
             chain,
             reach: 0..0,
@@ -184,4 +195,9 @@ fn divide(chain: &Chain, grammar: &Grammar, size: usize, segments: &mut Vec<Chai
 /// Returns true if a symbol of `chain` has rules.
 fn has_rules(chain: &Chain, grammar: &Grammar) -> bool {
     chain.symbols.iter().any(|symbol| !grammar.rules_of(*symbol).is_empty())
+}
+
+/// Returns true if `chain` has one of the symbols whose rules read places.
+fn has_located(chain: &Chain, located: &[bool]) -> bool {
+    !located.is_empty() && chain.symbols.iter().any(|symbol| located[usize::from(*symbol)])
 }

@@ -2,12 +2,13 @@
 
 use std::cell::RefCell;
 
-use crate::batch::{Batch, ChainPiece};
+use crate::batch::{Batch, ChainPiece, narrow};
 use crate::chain::{Chain, Mark, Symbol};
 use crate::links::Links;
 use crate::output::Output;
 use crate::rules::Rules;
 use crate::segments::SegmentedChain;
+use crate::series_chain::{PlaceFollower, SeriesChain, equal_symbols};
 use crate::series_pause::SeriesPause;
 use crate::step::Stepper;
 use crate::step_number::StepNumber;
@@ -35,6 +36,8 @@ pub struct StepSeries<'a> {
     /// Function that is called after each step with its number and the number of symbols. The series ends if it returns
     /// `false`.
     pub watch: &'a mut dyn FnMut(usize, usize) -> bool,
+    /// Follower of the places of modules, if rules read them.
+    pub places: Option<PlaceFollower<'a>>,
 }
 
 /// Result of several steps in a row.
@@ -62,19 +65,22 @@ struct StepChanges {
     /// Set if a rule has produced one of the requested symbols.
     is_watched: bool,
     read: usize,
+    /// Number of symbols at the beginning of the chain that are the same as before.
+    unchanged: usize,
 }
 
 impl Stepper {
     /// Returns true if [`perform`](Self::perform) is to perform the next steps, because the last step has changed little of a
-    /// long `chain`. After a series in which most of the chain changed, it returns false for some steps.
-    pub fn begin_series(&mut self, chain: &Chain) -> bool {
+    /// long `chain`. After a series in which most of the chain changed, it returns false for some steps. If rules read
+    /// places, `follows` must be set: the series then has a [`PlaceFollower`].
+    pub fn begin_series(&mut self, chain: &Chain, follows: bool) -> bool {
         let size = self.segment_size();
         let applied = self.applied_last.map_or(usize::MAX, |applied| applied.saturating_mul(4 * size));
         if chain.symbols.len() < FEWEST * size
             || applied > chain.symbols.len()
             || !self.plan.grammar.has_near_contexts()
             || self.plan.traced
-            || self.plan.notes_places
+            || self.plan.notes_places && !follows
         {
             return false;
         }
@@ -98,7 +104,8 @@ impl Stepper {
         series: &mut StepSeries<'_>,
     ) -> Result<SeriesOutcome> {
         let plan = std::sync::Arc::clone(&self.plan);
-        let mut pieces = SegmentedChain::new(chain, &plan.grammar, self.segment_size());
+        let located = series.places.as_ref().map_or(&[][..], |places| places.located);
+        let mut pieces = SegmentedChain::new(chain, &plan.grammar, self.segment_size(), located);
         let mut window = ContextWindow::default();
         let mut links = std::mem::take(&mut self.links);
         links.build_with(&Chain::default(), &plan.grammar, rules.parameters());
@@ -131,12 +138,18 @@ impl Stepper {
             // In the first step, all segments are examined.
             let is_busy = number > series.first && 2 * pieces.awake() > pieces.symbols;
             busy = if is_busy { busy + 1 } else { 0 };
-            let goes_on = (series.watch)(number, pieces.symbols);
-            if outcome.settled || outcome.reads_step || outcome.is_last || changes.is_watched || !goes_on {
-                break;
-            }
-            if busy == 2 || pieces.segments.len() < FEWEST {
+            let mut goes_on = (series.watch)(number, pieces.symbols)
+                && !(outcome.settled || outcome.reads_step || outcome.is_last || changes.is_watched);
+            if goes_on && (busy == 2 || pieces.segments.len() < FEWEST) {
                 self.pause = self.pause.after_series(outcome.steps);
+                goes_on = false;
+            }
+            if let Some(places) = &mut series.places {
+                let unchanged = changes.unchanged;
+                let after = SeriesChain { segments: &pieces, grammar: &plan.grammar, unchanged };
+                goes_on &= (places.follow)(&after, number, goes_on && number < series.last)?;
+            }
+            if !goes_on {
                 break;
             }
         }
@@ -163,11 +176,11 @@ impl Stepper {
         let plan = std::sync::Arc::clone(&self.plan);
         let grammar = &plan.grammar;
         let mut changes = StepChanges::default();
-        let mut outputs: Vec<(usize, Output)> = Vec::new();
-        let mut chains = 0;
+        let mut outputs: Vec<(usize, usize, Output)> = Vec::new();
+        let (mut chains, mut first) = (0, 0);
         for index in 0..pieces.segments.len() {
             let segment = &pieces.segments[index];
-            let ends = segment.brackets.ends;
+            let (ends, length) = (segment.brackets.ends, segment.chain.symbols.len());
             if !segment.is_resting {
                 changes.read += segment.chain.symbols.len();
                 let (piece, reach) = match grammar.has_contexts() {
@@ -192,19 +205,22 @@ impl Stepper {
                     step,
                     times: &[],
                     stop,
+                    first: narrow(first).wrapping_sub(narrow(piece.begin.module)),
                     new_chain: RefCell::default(),
                 };
                 let spare = self.outputs.pop().unwrap_or_default();
                 let output = batch.rewrite(piece, &mut self.scratch, spare)?;
                 pieces.segments[index].reach = reach;
-                pieces.segments[index].is_resting = !output.ran;
-                outputs.push((index, output));
+                pieces.segments[index].is_resting = !output.ran && !pieces.segments[index].is_located;
+                outputs.push((index, first, output));
             }
             chains += ends;
+            first += length;
         }
         let mut changed = Vec::new();
+        changes.unchanged = pieces.symbols;
         let mut growth = vec![0; grammar.rules().len()];
-        for (index, mut output) in outputs {
+        for (index, first, mut output) in outputs {
             changes.ran |= output.ran;
             changes.changed |= output.changed;
             for (rule, done) in &output.uses {
@@ -215,6 +231,10 @@ impl Stepper {
             if output.changed || output.ran && grammar.draws_random() {
                 changes.is_watched |= output.chain.symbols.iter().any(|symbol| ends_at.contains(symbol));
                 output.chain = pieces.replace(index, std::mem::take(&mut output.chain), grammar);
+                if changed.is_empty() {
+                    let new = &pieces.segments[index].chain;
+                    changes.unchanged = first + equal_symbols(&output.chain, new, grammar.arities());
+                }
                 changed.push(index);
             }
             output.clear();

@@ -54,6 +54,7 @@ impl StepWork {
             step: &self.step,
             times: &[],
             stop,
+            first: 0,
             new_chain: RefCell::default(),
         };
         let spare = self.spare.lock().recover().pop().unwrap_or_default();

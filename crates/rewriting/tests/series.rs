@@ -238,6 +238,7 @@ fn random_systems_derive_the_same_chains_in_series_and_in_steps() {
                         watched.push((number, symbols));
                         true
                     },
+                    places: None,
                 },
             );
             let outcome = match outcome {

@@ -127,6 +127,42 @@ impl Triangles {
         Iter { of: self, next, end, run: after.saturating_sub(1), first: 0, until: next, faces: nothing }
     }
 
+    /// Returns the smallest and the largest corner of the triangles at these indices; `None` if there are none.
+    ///
+    /// ```
+    /// use burgeon_scene::Triangles;
+    ///
+    /// let mut triangles = Triangles::from(vec![[9, 8, 7]]);
+    /// triangles.band(10, 15, 4);
+    /// assert_eq!(triangles.corner_bounds(0..9), Some((7, 19)));
+    /// assert_eq!((triangles.corner_bounds(1..2), triangles.corner_bounds(9..9)), (Some((10, 16)), None));
+    /// ```
+    pub fn corner_bounds(&self, places: Range<usize>) -> Option<(u32, u32)> {
+        let (mut place, end) = (places.start, places.end.min(self.count));
+        if place >= end {
+            return None;
+        }
+        let mut bounds = (u32::MAX, 0);
+        let mut join = |least: u32, most: u32| bounds = (bounds.0.min(least), bounds.1.max(most));
+        let first = self.runs.partition_point(|run| run.first as usize <= place).saturating_sub(1);
+        for (index, run) in self.runs.iter().enumerate().skip(first) {
+            if place >= end {
+                break;
+            }
+            let until = self.runs.get(index + 1).map_or(self.count, |run| run.first as usize);
+            let is_whole = place == run.first as usize && until <= end;
+            match run.faces {
+                FacePattern::Band { from, to, sides } if is_whole => {
+                    join(from.min(to), from.max(to) + u32::from(sides));
+                }
+                FacePattern::Fan { first, .. } if is_whole => join(first, first + short(until - place) + 1),
+                _ => self.range(place..until.min(end)).flatten().for_each(|corner| join(corner, corner)),
+            }
+            place = until;
+        }
+        Some(bounds)
+    }
+
     /// Shortens the list to the first `count` triangles.
     pub fn truncate(&mut self, count: usize) {
         if count >= self.count {
@@ -349,6 +385,8 @@ mod tests {
             prop_assert_eq!(triangles.get(from), plain.get(from).copied());
             let range = plain.iter().copied().enumerate().filter(|(place, _)| (from..to).contains(place));
             prop_assert!(triangles.range(from..to).eq(range.map(|(_, triangle)| triangle)));
+            let corners = || plain.iter().take(to).skip(from).flatten().copied();
+            prop_assert_eq!(triangles.corner_bounds(from..to), corners().min().zip(corners().max()));
             triangles.truncate(cut);
             plain.truncate(cut);
             prop_assert!(triangles.iter().eq(plain.iter().copied()));

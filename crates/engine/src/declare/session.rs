@@ -319,6 +319,19 @@ impl Session {
         self.source_called(file).is_some_and(|source| source.analysis.blind.contains(&line))
     }
 
+    /// Returns true if the functions that begin at a line of a file use their first parameter only to ask for its place.
+    pub(crate) fn asks_place(&self, file: &str, line: usize) -> bool {
+        self.source_called(file).is_some_and(|source| source.analysis.asks_place.contains(&line))
+    }
+
+    /// Returns the numbers of the parameters after the first that the functions that begin at a line of a file read; `None` if
+    /// they may read all.
+    pub(crate) fn parameters_read(&self, file: &str, line: usize) -> Option<Vec<usize>> {
+        let source = self.source_called(file)?;
+        let reads = source.analysis.reads.get(&line)?;
+        Some(reads.iter().copied().filter(|number| *number > 0).collect())
+    }
+
     /// Returns the source text of the guard that begins at a line of a file, if it is the only guard there.
     pub(crate) fn guard_text(&self, file: &str, line: usize) -> Option<String> {
         self.source_called(file)?.analysis.guards.get(&line).cloned()

@@ -143,6 +143,8 @@ pub(super) struct Derivation {
     pub axiom_place: Option<SourcePlace>,
     /// Set if only the last pass runs, because nothing can observe the others.
     pub last_only: bool,
+    /// Set if rules use `this` only to ask for the place of their module.
+    pub asks_places_only: bool,
     /// Set if each pass discards the drawings of the passes before.
     pub draws_afresh: bool,
     /// Set if the system has an object that draws.
@@ -254,6 +256,7 @@ impl Derivation {
         let declared = system.prepare(machine)?;
         system.tell_forestalled(machine, &plan.steps.grammar);
         let draws_afresh = system.draws_afresh();
+        let asks_places_only = !plan.located.is_empty() && system.asks_places_only();
         Ok(Self {
             axiom,
             plan,
@@ -264,6 +267,7 @@ impl Derivation {
             axiom_place: system.axiom_place.clone(),
             last_only: system.last_only
                 || (system.shows_last_only() && !assigns_variables && !session.may_stop()),
+            asks_places_only,
             draws_afresh,
             draws: draws_afresh && system.object.is_some(),
             limit: if options.check { 0 } else { limit.unwrap_or(usize::MAX) },

@@ -1,8 +1,9 @@
 //! Phases that rewrite the chain: cuts, rules, decomposition rules and placeholders.
 
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
+use super::interpret::InterpretationPass;
 use super::passes::Interpret;
 use super::pending::{Resolution, resolve};
 use super::plan::{Decomposition, Derivation};
@@ -12,8 +13,8 @@ use crate::machine::stops_at_depth;
 use crate::results::Step;
 use burgeon_base::error::Result;
 use burgeon_rewriting::{
-    Chain, CutChain, EventSeries, PLACEHOLDERS, Phase, PhaseOutcome, StepSeries, Stepper, cut, module_brief,
-    placeholder,
+    Chain, CutChain, EventSeries, PLACEHOLDERS, Phase, PhaseOutcome, PlaceFollower, SeriesChain, StepSeries,
+    Stepper, cut, module_brief, placeholder,
 };
 
 /// Removes the modules that cut branches, with what follows them in their branches.
@@ -53,8 +54,12 @@ impl Phase<DerivationState<'_>> for Rewrite {
         if state.stepper.has_events() {
             return perform_events_of(state, chain, number);
         }
-        if !state.has_cut && state.performs_series() && state.stepper.begin_series(&chain) {
-            return perform_series(state, chain, number);
+        let follows = state.follows_places();
+        if !state.has_cut
+            && (follows || state.performs_series())
+            && state.stepper.begin_series(&chain, follows)
+        {
+            return perform_series(state, chain, number, follows);
         }
         let Derivation { plan, declared, .. } = state.derivation;
         let session = &state.leader.machine.session;
@@ -80,8 +85,14 @@ impl Phase<DerivationState<'_>> for Rewrite {
 /// Maximum number of steps between two stored chains.
 const STORED_STEPS: usize = 64;
 
-/// Performs steps from step `number` on, in each of which only the parts of the chain are rewritten that can change.
-fn perform_series(state: &mut DerivationState<'_>, chain: Arc<Chain>, number: usize) -> Result<PhaseOutcome> {
+/// Performs steps from step `number` on, in each of which only the parts of the chain are rewritten that can change. If
+/// `follows` is set, the places that rules read are found between the steps.
+fn perform_series(
+    state: &mut DerivationState<'_>,
+    chain: Arc<Chain>,
+    number: usize,
+    follows: bool,
+) -> Result<PhaseOutcome> {
     let Derivation { plan, declared, limit, .. } = state.derivation;
     let machine = state.leader.machine;
     let session = &machine.session;
@@ -89,6 +100,18 @@ fn perform_series(state: &mut DerivationState<'_>, chain: Arc<Chain>, number: us
     let mut read = chain.symbols.len();
     let mut last = 0;
     let ends_unchanged = state.ends_unchanged();
+    let mut following = Duration::ZERO;
+    let (leader, memory, uses) = (state.leader, &mut state.memory, &mut state.interpretations);
+    let mut follow = |chain: &SeriesChain<'_>, number: usize, goes_on: bool| {
+        memory.keep(chain.unchanged());
+        if !goes_on {
+            return Ok(true);
+        }
+        let begin = Instant::now();
+        let followed = InterpretationPass::follow(leader, plan, chain, number, uses, memory);
+        following += begin.elapsed();
+        followed
+    };
     let ends_at: Vec<_> = (0..PLACEHOLDERS).map(placeholder).chain(plan.cut).collect();
     let outcome = perform(
         machine,
@@ -109,13 +132,20 @@ fn perform_series(state: &mut DerivationState<'_>, chain: Arc<Chain>, number: us
                 session.progress.note(number, *limit, symbols);
                 !session.has_many_unused()
             },
+            places: follows.then_some(PlaceFollower { located: &plan.located, follow: &mut follow }),
         },
     )?;
     state.times.read += read;
-    state.times.rewriting += begin.elapsed();
+    state.times.rewriting += begin.elapsed().saturating_sub(following);
+    state.times.interpretation += following;
     state.previous = Some(chain);
+    let chain = Arc::new(outcome.chain);
+    if follows {
+        plan.set_places(None);
+        state.memory.set_chain(&chain);
+    }
     Ok(PhaseOutcome {
-        chain: Arc::new(outcome.chain),
+        chain,
         more_steps: outcome.steps - 1,
         settled: outcome.settled,
         is_last: outcome.is_last,

@@ -13,7 +13,7 @@ use crate::machine::HookMoment;
 use crate::results::{RowFeatures, Step, Times};
 use burgeon_base::warning::Warning;
 use burgeon_kit::{Object, Rewind};
-use burgeon_rewriting::{Chain, Stepper, Use};
+use burgeon_rewriting::{CLOSE, Chain, OPEN, Stepper, Use};
 
 /// State of a derivation, shared by its phases.
 pub(super) struct DerivationState<'a> {
@@ -105,6 +105,24 @@ impl DerivationState<'_> {
             && !plan.has_events()
             && !self.leader.machine.session.observes_steps()
             && plan.objects.as_ref().is_some_and(|objects| objects.read(0, rewinds).unwrap_or(false))
+    }
+
+    /// Returns true if rules ask only for places, so that passes over parts of the chain answer them between the steps of a
+    /// series.
+    pub(super) fn follows_places(&self) -> bool {
+        let Derivation { plan, asks_places_only, .. } = self.derivation;
+        let interpretations = &plan.interpretations;
+        // Their random numbers can have the key of the chain's end, which a part does not have.
+        let has_ends = interpretations.begin != u16::MAX
+            || [OPEN, CLOSE].iter().any(|symbol| interpretations.by_symbol[usize::from(*symbol)] != u16::MAX);
+        *asks_places_only
+            && self.memory.is_complete()
+            && self.repeats_passes()
+            && self.decomposer.is_none()
+            && self.features.is_none()
+            && !self.has_step_hooks()
+            && !self.leader.machine.session.may_stop()
+            && !(has_ends && plan.steps.grammar.draws_random())
     }
 
     /// Returns a copy of the chain for the lineage, if its modules will be inspected; otherwise an empty

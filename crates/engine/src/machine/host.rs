@@ -7,29 +7,21 @@ use mlua::{Buffer, Lua, MultiValue, Table, Value as LuaValue, Variadic};
 
 use super::current::WorkState;
 use super::native;
-use super::table_classes::vector_of;
-use crate::machine::convert::{to_argument, to_lua, to_value};
+use super::object_methods::{add_object_methods, values};
+use crate::machine::convert::{to_lua, to_value};
 use crate::machine::library::Library;
 use crate::machine::types::{ObjectHandle, claim};
 use crate::machine::write_column;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
-use burgeon_base::locks::LockRecovery;
-use burgeon_base::warning::take_deferred;
 use burgeon_kit::declare::as_ref;
-use burgeon_kit::{Call, Draw, Environment, ObjectContent, ScriptObject, Value};
+use burgeon_kit::{Draw, ScriptObject, Value};
 use burgeon_rewriting::{CLOSE, ColumnValue, DEEPEST, OPEN, Symbol, module_brief, module_text};
-
-/// Number of entries from which the conversion of a result pauses garbage collection.
-const LONG: usize = 256;
 
 /// Phase of the prelude at the top level.
 const TOP: u8 = 0;
 
 /// Slot of a child object, method number, application, and arguments.
 type HostCall = (Option<usize>, usize, usize, MultiValue);
-
-/// Object, application whose guard makes the call (if any), and arguments.
-type ObjectCall = (LuaValue, Option<usize>, MultiValue);
 
 pub(crate) fn functions(lua: &Lua, current: &Rc<WorkState>, library: &Rc<Library>) -> mlua::Result<Table> {
     let host = lua.create_table()?;
@@ -43,6 +35,7 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<WorkState>, library: &Rc<Library
     super::streams::add_streams(lua, &host, current)?;
     super::row_tables::add_queries(lua, &host, current, library)?;
     super::hooks::add_hooks(lua, &host, current)?;
+    super::batch_loops::add_batch_loops(lua, &host)?;
     super::variables::add_variables(lua, &host, current, library)?;
     Ok(host)
 }
@@ -257,109 +250,7 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Li
             to_lua(lua, &answer, false)
         })?,
     )?;
-    let owner = Rc::clone(library);
-    let state = Rc::clone(current);
-    host.set(
-        "object_method",
-        lua.create_function(move |lua, (number, name): (usize, String)| {
-            let method = ObjectMethod { number, name, state: Rc::clone(&state), library: Rc::clone(&owner) };
-            lua.create_function(move |lua, (object, guard, arguments): ObjectCall| {
-                method.call(lua, &object, guard, &arguments)
-            })
-        })?,
-    )?;
-    Ok(())
-}
-
-/// Method of an object that is not the drawn one.
-struct ObjectMethod {
-    /// Number among the methods of its type.
-    number: usize,
-    /// Name of the type and of the method.
-    name: String,
-    state: Rc<WorkState>,
-    library: Rc<Library>,
-}
-
-impl ObjectMethod {
-    /// Calls the method with `arguments`. `guard` is the application whose guard calls it, if one does.
-    fn call(
-        &self,
-        lua: &Lua,
-        object: &LuaValue,
-        guard: Option<usize>,
-        arguments: &MultiValue,
-    ) -> mlua::Result<LuaValue> {
-        let (_, own_name) = self.name.split_once(':').unwrap_or(("", &self.name));
-        let LuaValue::UserData(data) = object else {
-            return Err(mlua::Error::external(
-                Error::argument(format!("{} needs its object", self.name))
-                    .help(format!("call it with a colon: object:{own_name}()")),
-            ));
-        };
-        let handle = data.borrow::<ObjectHandle>()?;
-        // A type that inherits from another type numbers its methods differently.
-        let kind = handle.0.kind();
-        let known = kind.methods.get(self.number).filter(|known| *known.name == *own_name);
-        let Some(method) = known.or_else(|| kind.method(own_name)) else {
-            return Err(mlua::Error::external(kind.unknown_method(own_name)));
-        };
-        let environments = self.state.environments.borrow();
-        let environment = environments.as_ref().and_then(|all| {
-            let systems = self.library.systems.try_borrow().ok()?;
-            all.state_of(&systems.get(self.state.system.get()?)?.environments, &handle.0)
-        });
-        match &method.call {
-            Call::Read(read) => {
-                let given = values(lua, arguments)?;
-                take_deferred();
-                let answer = match environment {
-                    Some(environment) => read(&**environment.read().recover(), &given),
-                    None => read(&*handle.0, &given),
-                };
-                let answer = answer.map_err(mlua::Error::external)?;
-                for warning in take_deferred() {
-                    self.library.machine().map_err(mlua::Error::external)?.warn(warning);
-                }
-                let place = guard.and_then(|guard| self.state.noted_place(guard));
-                if let Some(place) = place.filter(|_| kind.has_capability::<dyn ObjectContent>()) {
-                    let given: Vec<String> = given.iter().map(Value::to_string).collect();
-                    let this = Value::Object(Arc::clone(&handle.0));
-                    let text = format!("{this}:{}({}): {answer}", method.name, given.join(", "));
-                    self.state.session.rows.note_answer(place, text);
-                }
-                // The complete result stays alive, so a collection would free nothing of it.
-                let is_long = matches!(&answer, Value::Table(table) if table.entries.len() > LONG);
-                let pauses = is_long && lua.gc_is_running();
-                if pauses {
-                    lua.gc_stop();
-                }
-                let made = to_lua(lua, &answer, false);
-                if pauses {
-                    lua.gc_restart();
-                }
-                made
-            }
-            Call::Write { values: write, .. } if kind.has_capability::<dyn Environment>() => {
-                let Some(environment) = environment else {
-                    return Err(mlua::Error::external(no_environment(&self.name)));
-                };
-                let given = values(lua, arguments)?;
-                let answer = write(&mut **environment.write().recover(), &given);
-                to_lua(lua, &answer.map_err(mlua::Error::external)?, false)
-            }
-            Call::Write { .. } | Call::Script { .. } => Err(mlua::Error::external(Error::scope(format!(
-                "{} is a write method, so only interpretation rules can call it",
-                self.name
-            )))),
-        }
-    }
-}
-
-/// Returns the error for a change of an environment that the system does not have.
-fn no_environment(name: &str) -> Error {
-    Error::scope(format!("{name} changes an environment that this system does not have"))
-        .help("give it to the system: lsystem({ object = turtle(), environment = { light } })")
+    add_object_methods(lua, host, current, library)
 }
 
 /// Adds the functions that read and store the fields and state of script-declared objects.
@@ -467,15 +358,4 @@ fn to_table(lua: &Lua, kept: &burgeon_kit::Table) -> mlua::Result<Table> {
         }
     }
     Ok(table)
-}
-
-fn values(lua: &Lua, arguments: &MultiValue) -> mlua::Result<Vec<Value>> {
-    let value = |value: &LuaValue| match value {
-        LuaValue::Table(table) => match vector_of(lua, table) {
-            Some(vector) => Ok(vector),
-            None => to_argument(value),
-        },
-        value => to_argument(value),
-    };
-    arguments.iter().map(|given| value(given).map_err(mlua::Error::external)).collect()
 }

@@ -3,6 +3,7 @@
 //! Input: a script and a session. Output: the declared systems, and the results of their rules. This folder
 //! rewrites nothing. Scripts reach files and the operating system only through the session.
 
+mod batch_loops;
 mod blank;
 #[cfg(test)]
 mod builtins_tests;
@@ -19,6 +20,7 @@ mod library;
 mod messages;
 mod module_places;
 mod native;
+mod object_methods;
 mod prelude;
 mod protected;
 mod require;

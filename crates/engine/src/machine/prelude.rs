@@ -44,10 +44,10 @@ pub(crate) struct Prelude {
     pub constructor: Function,
     /// `(query, fragment)`: sets the constructors of the placeholder modules.
     pub pending: Function,
-    /// `(rule, arity, places)`: returns a function that applies the rule to a batch; `places` has the
-    /// argument indices by name.
+    /// `(rule, arity, places, reads)`: returns a function that applies the rule to a batch; `places` has the
+    /// argument indices by name, and `reads` the numbers of the parameters that the rule reads, if they are known.
     pub driver: Function,
-    /// `(guard, arity, places)`: returns a function that evaluates the guard for a batch.
+    /// `(guard, arity, places, reads)`: returns a function that evaluates the guard for a batch.
     pub guard_driver: Function,
     /// `(propensity, arity, places)`: returns the function that evaluates the propensity of a rule for a batch.
     pub propensity_driver: Function,

@@ -60,7 +60,7 @@ pub trait Rewind {
     fn mark_size(&self) -> usize;
 
     /// Returns the present state, to which [`Rewind::rewind`] returns. Content that is drawn never changes after that.
-    fn mark(&self) -> Box<dyn Any + Send + Sync>;
+    fn mark(&mut self) -> Box<dyn Any + Send + Sync>;
 
     /// Returns to the state in which [`Rewind::mark`] returned `mark`, if the pass has not begun anew since, or to which the
     /// object has returned since. Returns `false` if the mark belongs to another type.

@@ -51,7 +51,7 @@ impl Walk<'_> {
                 }
                 Var::Expression(expression) => {
                     self.library_field(expression.prefix(), expression.suffixes().next());
-                    self.prefix(expression.prefix());
+                    self.prefix(expression.prefix(), expression.suffixes().next());
                     for suffix in expression.suffixes() {
                         self.suffix(suffix);
                     }
@@ -113,12 +113,11 @@ impl Walk<'_> {
         }
     }
 
-    pub(super) fn prefix(&mut self, prefix: &Prefix) {
+    /// Walks a prefix, which the suffix `first` follows.
+    pub(super) fn prefix(&mut self, prefix: &Prefix, first: Option<&Suffix>) {
         match prefix {
             Prefix::Expression(expression) => self.expression(expression),
-            Prefix::Name(name) => {
-                self.read(name);
-            }
+            Prefix::Name(name) => self.read_receiver(name, first),
             _ => {}
         }
     }
@@ -173,10 +172,7 @@ impl Walk<'_> {
         {
             self.check_arity(name, &signature, arguments);
         }
-        match call.prefix() {
-            Prefix::Name(name) => self.read(name),
-            prefix => self.prefix(prefix),
-        }
+        self.prefix(call.prefix(), suffixes.first().copied());
         for suffix in suffixes {
             match suffix {
                 Suffix::Call(Call::MethodCall(method)) => match text_of(method.name()).as_str() {

@@ -5,6 +5,7 @@ use full_moon::ast::punctuated::Punctuated;
 use full_moon::ast::{Call, Expression, Field, FunctionArgs, FunctionBody, Parameter, Prefix, Suffix, Var};
 use full_moon::node::Node;
 use full_moon::tokenizer::{StringLiteralQuoteType, TokenReference, TokenType};
+use std::collections::BTreeSet;
 use std::sync::atomic::Ordering;
 
 use super::blocks::ScopeWalk;
@@ -139,6 +140,7 @@ impl Walk<'_> {
                 stream: false,
                 feature: false,
                 receiver: true,
+                parameter: Some(0),
             });
         }
         for (index, parameter) in parameters.by_ref().enumerate() {
@@ -148,19 +150,29 @@ impl Walk<'_> {
                 if let Some(variable) = self.variables.last_mut().filter(|variable| variable.id == id) {
                     variable.feature = is_axiom;
                     variable.receiver = is_first;
+                    variable.parameter = Some(index + usize::from(is_method));
                 }
-            } else if let (true, Some(function)) = (is_first, self.functions.last_mut()) {
-                // A variadic function can read any of its arguments.
-                function.asks = true;
+            } else if let Some(function) = self.functions.last_mut() {
+                function.is_variadic = true;
+                if is_first {
+                    // A variadic function can read any of its arguments.
+                    (function.asks, function.asks_more) = (true, true);
+                }
             }
         }
         self.block(body.block());
         self.variables.truncate(outside);
-        let nothing = Function { pure: false, asks: true, ..Function::new(role, None) };
+        let nothing = Function { pure: false, asks: true, asks_more: true, ..Function::new(role, None) };
         let function = self.functions.pop().unwrap_or(nothing);
         if let Some(begin) = body.parameters_parentheses().tokens().0.start_position() {
             *self.pure.entry(begin.line()).or_insert(true) &= function.pure;
             *self.blind.entry(begin.line()).or_insert(true) &= !function.asks;
+            *self.asks_place.entry(begin.line()).or_insert(true) &= !function.asks_more;
+            let reads = self.reads.entry(begin.line()).or_insert_with(|| Some(BTreeSet::new()));
+            match (function.is_variadic, reads.as_mut()) {
+                (false, Some(reads)) => reads.extend(&function.reads),
+                _ => *reads = None,
+            }
             if role == FunctionRole::Guard {
                 // The id distinguishes an outer variable from an earlier variable of the same name.
                 let word = |token: String| match self.find(&token) {

@@ -1,6 +1,6 @@
 //! Entry point of the analysis of a script.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
@@ -37,6 +37,11 @@ pub struct Analysis {
     pub pure: Vec<usize>,
     /// Lines on which functions begin that do not read their first parameter, a rule's `this`.
     pub blind: Vec<usize>,
+    /// Lines on which functions begin that read their first parameter only to ask for its place.
+    pub asks_place: Vec<usize>,
+    /// Numbers of the parameters that the functions that begin on a line read, by the line. Lines with a variadic function are
+    /// omitted.
+    pub reads: BTreeMap<usize, BTreeSet<usize>>,
     /// Text of a rule's guard without comments and line breaks, by the line on which the guard begins. Lines with
     /// guards of different texts are omitted.
     pub guards: BTreeMap<usize, String>,
@@ -175,6 +180,8 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         stops,
         pure,
         mut blind,
+        mut asks_place,
+        mut reads,
         guards,
         filled,
         queries,
@@ -188,7 +195,11 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         |begin: &usize| text[..*begin].rsplit('\n').next().is_some_and(|head| head.trim().is_empty());
     if begins.iter().any(is_apart) {
         blind.clear();
+        asks_place.clear();
+        reads.clear();
     }
+    let asks_place = asks_place.into_iter().filter_map(|(line, place)| place.then_some(line)).collect();
+    let reads = reads.into_iter().filter_map(|(line, reads)| Some((line, reads?))).collect();
     let pure = pure.into_iter().filter_map(|(line, pure)| pure.then_some(line)).collect();
     let blind = blind.into_iter().filter_map(|(line, blind)| blind.then_some(line)).collect();
     problems.sort_by(|a, b| a.place().cmp(&b.place()));
@@ -219,6 +230,8 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         stops,
         pure,
         blind,
+        asks_place,
+        reads,
         guards,
         filled,
         queries,
@@ -294,6 +307,57 @@ mod tests {
             "function\n(this, n) return n end",
         ] {
             assert!(!blind(function), "{function}");
+        }
+    }
+
+    #[test]
+    fn parameters_that_a_function_reads_are_known_unless_it_is_variadic() {
+        let globals = Globals { names: vec!["select".to_owned()], ..Globals::default() };
+        let reads = |function: &str| {
+            let script = format!("local f = {function}");
+            let found = analyse("s.lua", &script, |_| Some(Vec::new()), &globals).reads;
+            found.get(&1).map(|reads| reads.iter().copied().collect::<Vec<_>>())
+        };
+        assert_eq!(reads("function(this, a, b, c) return c + 1 end"), Some(vec![3]));
+        assert_eq!(reads("function(this, a, b) b = 2 end"), Some(vec![]));
+        assert_eq!(reads("function(this, a, b) b += 2 end"), Some(vec![2]));
+        assert_eq!(reads("function(this, a, b) return function(x) return a[1] end end"), Some(vec![1]));
+        assert_eq!(reads("function(this, a, b) local a = b return a end"), Some(vec![2]));
+        assert_eq!(reads("function(this, a, b) return `{this:position()} {b}` end"), Some(vec![2]));
+        assert_eq!(
+            reads("function(this, a) return a end local g = function(x, y, z) return z end"),
+            Some(vec![1, 2])
+        );
+        assert_eq!(reads("function(this, a, ...) return select(1, ...) end"), None);
+    }
+
+    #[test]
+    fn a_function_asks_for_a_place_only_if_it_does_nothing_else_with_its_first_parameter() {
+        let names = ["select"].map(str::to_owned).to_vec();
+        let globals = Globals { names, ..Globals::default() };
+        let asks_place = |function: &str| {
+            let script = format!("local function other(x)\n  return x\nend\nlocal f = {function}");
+            analyse("s.lua", &script, |_| Some(Vec::new()), &globals).asks_place.contains(&4)
+        };
+        for function in [
+            "function(this, n) return n end",
+            "function(this) return this:position().z end",
+            "function(o) return o:up().x + o:left().y + o:heading().z end",
+            "function(this) return function() return this:position() end end",
+        ] {
+            assert!(asks_place(function), "{function}");
+        }
+        for function in [
+            "function(this) return this:distance() end",
+            "function(this) return this.position(this) end",
+            "function(this) return other(this):position() end",
+            "function(this) return this:position(this) end",
+            "function(this) local it = this return it:position() end",
+            "function(this) return this:position().z < 0 or this.x end",
+            "function(...) return select(1, ...) end",
+            "function\n(this) return this:position() end",
+        ] {
+            assert!(!asks_place(function), "{function}");
         }
     }
 }

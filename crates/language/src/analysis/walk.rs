@@ -1,9 +1,9 @@
 //! Walks a script: variables and their scopes, names, and all other static checks.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use full_moon::ast::punctuated::Punctuated;
-use full_moon::ast::{Ast, Block, Expression, FunctionBody, LastStmt, NumericFor, Stmt, Var};
+use full_moon::ast::{Ast, Block, Call, Expression, FunctionBody, LastStmt, NumericFor, Stmt, Suffix, Var};
 use full_moon::node::Node;
 use full_moon::tokenizer::TokenReference;
 
@@ -29,6 +29,9 @@ pub(super) struct Fact {
     pub(super) pure: bool,
 }
 
+/// Read methods that return a part of the place of an object that moves along its chain.
+const PLACE_METHODS: [&str; 4] = ["position", "heading", "left", "up"];
+
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum FunctionRole {
     Script,
@@ -53,6 +56,12 @@ pub(super) struct Function {
     pub(super) pure: bool,
     /// Set if the function reads its first parameter.
     pub(super) asks: bool,
+    /// Set if the function reads its first parameter other than by the methods that return a place.
+    pub(super) asks_more: bool,
+    /// Numbers of the parameters that the function reads; the first has the number 0.
+    pub(super) reads: BTreeSet<usize>,
+    /// Set if the function reads more arguments than it names.
+    pub(super) is_variadic: bool,
     /// Line of the first return of nothing but a table that the function has filled.
     pub(super) filled: Option<usize>,
     /// Detected queries.
@@ -61,7 +70,18 @@ pub(super) struct Function {
 
 impl Function {
     pub(super) fn new(role: FunctionRole, rule: Option<String>) -> Self {
-        Self { role, rule, shapes: Vec::new(), pure: true, asks: false, filled: None, queries: Vec::new() }
+        Self {
+            role,
+            rule,
+            shapes: Vec::new(),
+            pure: true,
+            asks: false,
+            asks_more: false,
+            reads: BTreeSet::new(),
+            is_variadic: false,
+            filled: None,
+            queries: Vec::new(),
+        }
     }
 }
 
@@ -89,6 +109,8 @@ pub(super) struct Variable {
     pub(super) feature: bool,
     /// Set for the first parameter of its function.
     pub(super) receiver: bool,
+    /// Number of the parameter of its function, if it is one.
+    pub(super) parameter: Option<usize>,
 }
 
 pub(super) struct TextEdit {
@@ -118,6 +140,10 @@ pub(super) struct Walk<'a> {
     pub(super) pure: BTreeMap<usize, bool>,
     /// Entry by line: true if no function that begins on the line reads its first parameter.
     pub(super) blind: BTreeMap<usize, bool>,
+    /// Entry by line: true if the functions that begin on the line read their first parameters for a place only.
+    pub(super) asks_place: BTreeMap<usize, bool>,
+    /// Numbers of the parameters that the functions that begin on a line read, by line; `None` if one is variadic.
+    pub(super) reads: BTreeMap<usize, Option<BTreeSet<usize>>>,
     /// Text of the guard that begins on a line, by line; `None` if guards on the line differ.
     pub(super) guards: BTreeMap<usize, Option<String>>,
     /// Line on which a rule returns only a table that it has filled, by the line on which its function begins.
@@ -177,6 +203,8 @@ impl<'a> Walk<'a> {
             axiom: false,
             pure: BTreeMap::new(),
             blind: BTreeMap::new(),
+            asks_place: BTreeMap::new(),
+            reads: BTreeMap::new(),
             guards: BTreeMap::new(),
             filled: BTreeMap::new(),
             signatures: BTreeMap::new(),
@@ -288,6 +316,7 @@ impl<'a> Walk<'a> {
             stream: false,
             feature: false,
             receiver: false,
+            parameter: None,
         });
         if function > 0
             && self.fact(id).assigned_inside
@@ -311,7 +340,7 @@ impl<'a> Walk<'a> {
             Var::Name(name) => self.assign_name(name, statement),
             Var::Expression(expression) => {
                 self.field_assigned(expression.prefix());
-                self.prefix(expression.prefix());
+                self.prefix(expression.prefix(), None);
                 for suffix in expression.suffixes() {
                     self.suffix(suffix);
                 }
@@ -377,13 +406,28 @@ impl<'a> Walk<'a> {
         }
     }
 
+    /// Reads the prefix of a call, which can be `this` in a question for a place.
+    pub(super) fn read_receiver(&mut self, token: &TokenReference, first: Option<&Suffix>) {
+        if let Some(Suffix::Call(Call::MethodCall(method))) = first
+            && PLACE_METHODS.contains(&text_of(method.name()).as_str())
+            && let Some(variable) = self.find(&text_of(token)).filter(|variable| variable.receiver)
+        {
+            let function = variable.function;
+            self.functions[function].asks = true;
+            return;
+        }
+        self.read(token);
+    }
+
     pub(super) fn read(&mut self, token: &TokenReference) {
         let name = text_of(token);
         self.random |= name == "random";
         if let Some(variable) = self.find(&name) {
-            if variable.receiver {
-                let function = variable.function;
+            let (function, receiver, parameter) = (variable.function, variable.receiver, variable.parameter);
+            self.functions[function].reads.extend(parameter);
+            if receiver {
                 self.functions[function].asks = true;
+                self.functions[function].asks_more = true;
             }
             return;
         }

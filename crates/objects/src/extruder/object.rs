@@ -7,6 +7,7 @@ use super::joint::Joint;
 use super::options::ExtruderOptions;
 use super::state::{ExtruderState, SolidRun};
 use crate::MaterialOptions;
+use crate::frame_stack::{FrameStack, FrameStackMark};
 use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
@@ -57,7 +58,7 @@ pub struct Extruder {
     options: ExtruderOptions,
     first_section: Arc<Section>,
     state: ExtruderState,
-    stack: Vec<ExtruderState>,
+    stack: FrameStack<ExtruderState>,
     /// Recently set cross-sections, because scripts often set the same ones again.
     known: Vec<(SectionShape, Arc<Section>)>,
     pub(super) drawing: Drawing,
@@ -292,7 +293,7 @@ impl Extruder {
             options,
             first_section: section,
             state,
-            stack: Vec::new(),
+            stack: FrameStack::default(),
             known: Vec::new(),
             drawing,
             open_edges: 0,
@@ -433,9 +434,8 @@ impl Extruder {
 
     fn close_branch(&mut self) -> Result<()> {
         self.close()?;
-        if let Some(state) = self.stack.pop() {
-            self.state = state;
-        }
+        let Self { stack, state, .. } = self;
+        stack.pop_with(|outer| std::mem::swap(state, outer));
         Ok(())
     }
 
@@ -447,21 +447,20 @@ impl Extruder {
 /// State of an extruder in a pass, without what it has drawn.
 struct ExtruderMark {
     state: ExtruderState,
-    stack: Vec<ExtruderState>,
+    stack: FrameStackMark<ExtruderState>,
     drawing: DrawingMark,
     open_edges: usize,
 }
 
 impl Rewind for Extruder {
     fn mark_size(&self) -> usize {
-        let run_size = |state: &ExtruderState| 1 + state.run.as_ref().map_or(0, |run| run.stations.len());
-        self.stack.iter().chain([&self.state]).map(run_size).sum()
+        self.state.run.as_ref().map_or(0, |run| run.stations.len())
     }
 
-    fn mark(&self) -> Box<dyn Any + Send + Sync> {
+    fn mark(&mut self) -> Box<dyn Any + Send + Sync> {
         Box::new(ExtruderMark {
             state: self.state.clone(),
-            stack: self.stack.clone(),
+            stack: self.stack.mark(),
             drawing: self.drawing.mark(),
             open_edges: self.open_edges,
         })
@@ -470,7 +469,7 @@ impl Rewind for Extruder {
     fn rewind(&mut self, mark: &(dyn Any + Send + Sync)) -> bool {
         let Some(mark) = mark.downcast_ref::<ExtruderMark>() else { return false };
         self.state.clone_from(&mark.state);
-        self.stack.clone_from(&mark.stack);
+        self.stack.rewind(&mark.stack);
         self.drawing.rewind(&mark.drawing);
         self.open_edges = mark.open_edges;
         true

@@ -39,14 +39,34 @@ pub(super) struct JoinedBranches {
     axes: Vec<JointAxis>,
     /// Part of the drawing of each axis, and the modules that drew to its points.
     drawn: Vec<(usize, Vec<u32>)>,
-    /// Number of points of all axes.
+    /// Axis of each point, in the order in which the points were added.
+    added: Vec<usize>,
+    /// Set if a mark needs the branches after they are drawn.
+    is_marked: bool,
+}
+
+/// Content of [`JoinedBranches`] at a moment.
+#[derive(Debug)]
+pub(super) struct JoinedMark {
+    axes: usize,
     points: usize,
 }
 
 impl JoinedBranches {
-    /// Returns the number of points of all branches.
-    pub(super) fn size(&self) -> usize {
-        self.points
+    /// Returns a mark of the present content.
+    pub(super) fn mark(&mut self) -> JoinedMark {
+        self.is_marked = true;
+        JoinedMark { axes: self.axes.len(), points: self.added.len() }
+    }
+
+    /// Returns to the content of a mark.
+    pub(super) fn rewind(&mut self, mark: &JoinedMark) {
+        for axis in self.added.drain(mark.points..).rev() {
+            self.axes[axis].points.pop();
+            self.drawn[axis].1.pop();
+        }
+        self.axes.truncate(mark.axes);
+        self.drawn.truncate(mark.axes);
     }
 
     /// Removes all branches.
@@ -88,14 +108,14 @@ impl JoinedBranches {
         let points = &mut self.axes[axis].points;
         points.push(CylinderPoint { position: state.frame.position, radius: state.width / 2.0, contour });
         self.drawn[axis].1.push(maker);
-        self.points += 1;
+        self.added.push(axis);
         state.joined.at = Some(AxisPoint { axis, point: self.axes[axis].points.len() - 1 });
     }
 
     /// Draws all branches with at least this number of `sides`, a surface for each tree of one material, and removes
-    /// them. Returns a warning if some have no smooth joint.
+    /// them, unless a mark needs them. Returns a warning if some have no smooth joint.
     pub(super) fn draw(&mut self, drawing: &mut Drawing, sides: u32) -> Result<Option<Warning>> {
-        let Self { axes, drawn, .. } = std::mem::take(self);
+        let Self { axes, drawn, .. } = if self.is_marked { self.clone() } else { std::mem::take(self) };
         let mut parts: Vec<usize> = drawn.iter().map(|(part, _)| *part).collect();
         parts.sort_unstable();
         parts.dedup();

@@ -12,6 +12,7 @@ use super::state::{Branch, TurtleState};
 use crate::MaterialOptions;
 use crate::curves::curve::CurveObject;
 use crate::curves::surface::SurfaceObject;
+use crate::frame_stack::FrameStack;
 use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
@@ -53,7 +54,7 @@ use burgeon_scene::Material;
 pub struct Turtle {
     options: TurtleOptions,
     pub(super) state: TurtleState,
-    pub(super) stack: Vec<TurtleState>,
+    pub(super) stack: FrameStack<TurtleState>,
     pub(super) drawing: Drawing,
     angles: Angles,
     pub(super) polygons: Vec<Vec<DVec3>>,
@@ -345,7 +346,7 @@ impl Turtle {
         Ok(Self {
             options,
             state,
-            stack: Vec::new(),
+            stack: FrameStack::default(),
             drawing,
             angles: Angles::default(),
             polygons: Vec::new(),
@@ -452,24 +453,21 @@ impl Turtle {
         }
         // The new branch starts without a strand; the strand in the copy continues after the branch.
         let cylinder = self.state.cylinder.take();
-        self.stack.push(self.state.clone());
+        self.stack.push(TurtleState { cylinder, ..self.state.clone() });
         self.state.strand = None;
         self.state.joined.end_cylinder();
-        if let Some(outer) = self.stack.last_mut() {
-            outer.cylinder = cylinder;
-        }
     }
 
     fn close_branch(&mut self) -> Result<()> {
         self.lift();
         self.close_cylinder()?;
         // Uses `clone_from` because moving the state out of the stack would copy it twice.
-        if let Some(state) = self.stack.last_mut() {
-            let cylinder = state.cylinder.take();
-            self.state.clone_from(state);
-            self.state.cylinder = cylinder;
-            self.stack.truncate(self.stack.len() - 1);
-        }
+        let Self { stack, state, .. } = self;
+        stack.pop_with(|outer| {
+            let cylinder = outer.cylinder.take();
+            state.clone_from(outer);
+            state.cylinder = cylinder;
+        });
         Ok(())
     }
 

@@ -6,30 +6,30 @@ use burgeon_kit::{DrawingMark, Rewind};
 use glam::DVec3;
 
 use super::Turtle;
-use super::joined::JoinedBranches;
+use super::joined::{JoinedBranches, JoinedMark};
 use super::state::TurtleState;
+use crate::frame_stack::FrameStackMark;
 
 /// State of a turtle in a pass, without what it has drawn.
 struct TurtleMark {
     state: TurtleState,
-    stack: Vec<TurtleState>,
+    stack: FrameStackMark<TurtleState>,
     polygons: Vec<Vec<DVec3>>,
-    joined: Option<JoinedBranches>,
+    joined: Option<JoinedMark>,
     drawing: DrawingMark,
 }
 
 impl Rewind for Turtle {
     fn mark_size(&self) -> usize {
-        let joined = self.joined.as_ref().map_or(0, JoinedBranches::size);
-        self.stack.len() + joined + self.polygons.iter().map(Vec::len).sum::<usize>()
+        self.polygons.iter().map(Vec::len).sum::<usize>()
     }
 
-    fn mark(&self) -> Box<dyn Any + Send + Sync> {
+    fn mark(&mut self) -> Box<dyn Any + Send + Sync> {
         Box::new(TurtleMark {
             state: self.state.clone(),
-            stack: self.stack.clone(),
+            stack: self.stack.mark(),
             polygons: self.polygons.clone(),
-            joined: self.joined.clone(),
+            joined: self.joined.as_mut().map(JoinedBranches::mark),
             drawing: self.drawing.mark(),
         })
     }
@@ -37,9 +37,11 @@ impl Rewind for Turtle {
     fn rewind(&mut self, mark: &(dyn Any + Send + Sync)) -> bool {
         let Some(mark) = mark.downcast_ref::<TurtleMark>() else { return false };
         self.state.clone_from(&mark.state);
-        self.stack.clone_from(&mark.stack);
+        self.stack.rewind(&mark.stack);
         self.polygons.clone_from(&mark.polygons);
-        self.joined.clone_from(&mark.joined);
+        if let (Some(joined), Some(mark)) = (&mut self.joined, &mark.joined) {
+            joined.rewind(mark);
+        }
         self.drawing.rewind(&mark.drawing);
         true
     }

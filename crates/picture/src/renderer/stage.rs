@@ -199,8 +199,7 @@ impl<'a> Stage<'a> {
             let matrix = to_double(view) * draw.exact;
             let place = |point: &glam::Vec3| matrix.transform_point3(point.as_dvec3()).as_vec3a();
             let turn = |point: &glam::Vec3| project(place(point));
-            let (least, most) =
-                triangles.clone().flatten().fold((u32::MAX, 0), |(a, b), i| (a.min(i), b.max(i)));
+            let Some((least, most)) = draw.part.triangles.corner_bounds(from..to) else { continue };
             let (least, most) = (least as usize, most as usize);
             let positions = &draw.part.positions;
             // Neighbours share corners, so transforming the whole range is cheaper unless the range is sparse.
@@ -267,7 +266,10 @@ fn check(scene: &Scene) -> Result<()> {
                 return Err(scene_error(message));
             }
             let corners = part.positions.len();
-            if let Some(corner) = part.triangles.iter().flatten().find(|corner| *corner as usize >= corners) {
+            let most = part.triangles.corner_bounds(0..part.triangles.len()).map_or(0, |(_, most)| most);
+            if most as usize >= corners && !part.triangles.is_empty() {
+                let outside = |corner: &u32| *corner as usize >= corners;
+                let corner = part.triangles.iter().flatten().find(outside).unwrap_or(most);
                 return Err(scene_error(format!("mesh {number} refers to corner {corner} of {corners}")));
             }
         }

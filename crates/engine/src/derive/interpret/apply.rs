@@ -131,8 +131,8 @@ impl Applier {
     pub(super) fn mark(&mut self, at: Mark, memory: &mut PassMemory) -> Result<()> {
         let triangles = self.counted;
         let interval = self.pass.marked_symbols();
-        self.objects.read(self.chain, |object| {
-            if let Some(object) = object.capability::<dyn Rewind>()
+        self.objects.write(self.chain, |object| {
+            if let Some(object) = object.capability_mut::<dyn Rewind>()
                 && memory.needs_mark(at, interval, object.mark_size())
             {
                 memory.marks.push(PassMark { at, object: object.mark(), triangles });

@@ -28,6 +28,9 @@ impl PassMemory {
     /// Prepares a pass over `chain`: forgets the marks and places after the first change of the chain.
     pub(super) fn begin(&mut self, chain: &Arc<Chain>) {
         let Some(last) = self.chain.replace(Arc::clone(chain)) else { return self.forget_from(0) };
+        if Arc::ptr_eq(&last, chain) {
+            return self.forget_from(self.end().module);
+        }
         let symbols = equal_items(&last.symbols, &chain.symbols);
         let params = equal_items_by(&last.params, &chain.params, |a, b| a.to_bits() == b.to_bits());
         let keys = match chain.keys.is_empty() {
@@ -37,8 +40,31 @@ impl PassMemory {
         let is_same = |mark: &PassMark| mark.at.module <= symbols.min(keys) && mark.at.param <= params;
         let kept = self.marks.partition_point(is_same);
         self.marks.truncate(kept);
-        let at = self.marks.last().map_or(0, |mark| mark.at.module);
-        self.forget_from(at);
+        self.forget_from(self.end().module);
+    }
+
+    /// Returns true if the last pass was complete, so that the next can continue it.
+    pub(crate) fn is_complete(&self) -> bool {
+        self.chain.is_some()
+    }
+
+    /// Returns the position from which the next pass continues.
+    pub(super) fn end(&self) -> Mark {
+        self.marks.last().map_or_else(Mark::default, |mark| mark.at)
+    }
+
+    /// Forgets what belongs to another chain than one of which the first `unchanged` symbols are the same.
+    pub(crate) fn keep(&mut self, unchanged: usize) {
+        let kept = self.marks.partition_point(|mark| mark.at.module <= unchanged);
+        self.marks.truncate(kept);
+        self.forget_from(self.end().module);
+    }
+
+    /// Sets the chain to which the marks belong.
+    pub(crate) fn set_chain(&mut self, chain: &Arc<Chain>) {
+        if self.is_complete() {
+            self.chain = Some(Arc::clone(chain));
+        }
     }
 
     /// Forgets the places at modules from number `module` on.

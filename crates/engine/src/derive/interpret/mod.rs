@@ -6,8 +6,10 @@
 
 mod apply;
 mod blame;
+mod entries;
 mod memory;
 mod notices;
+mod part;
 mod pass;
 
 pub(crate) use apply::Applier;

@@ -17,7 +17,7 @@ use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::Warning;
 use burgeon_kit::ObjectPlace;
-use burgeon_rewriting::{Bindings, CLOSE, Chain, ContextMatcher, END, Links, Mark, ModuleKey, OPEN, Symbol};
+use burgeon_rewriting::{Bindings, Chain, ContextMatcher, END, Links, Mark, Symbol};
 use mlua::Table;
 
 /// Maximum number of entries per call into Lua.
@@ -67,6 +67,8 @@ impl EntryBatch {
 pub(crate) struct InterpretationPass {
     pub plan: Arc<DerivationPlan>,
     pub chain: Arc<Chain>,
+    /// Position of the first symbol of `chain` in the chain of the system.
+    first: Mark,
     pub step: usize,
     /// Number that `step()` returns.
     number: usize,
@@ -81,7 +83,7 @@ pub(crate) struct InterpretationPass {
     next: AtomicUsize,
     triangles: AtomicUsize,
     failure: Mutex<Option<(usize, Error)>>,
-    uses: Mutex<Vec<Use>>,
+    pub(super) uses: Mutex<Vec<Use>>,
     pub(super) notices: Notices,
     /// Neighbours in the chain, if an interpretation rule has contexts.
     links: Links,
@@ -103,8 +105,8 @@ pub(crate) struct PassOutcome {
 }
 
 impl InterpretationPass {
-    /// Interprets `chain` after `step` steps, where `step()` returns `number`, and `time()` one of `times`. Adds the work of each rule to `uses`,
-    /// and the warnings of the objects to `said`. With the `memory` of the last pass, only what follows the first change of
+    /// Interprets `chain` after `step` steps, where `step()` returns `number`, and `time()` one of `times`. Adds the work of
+    /// each rule to `uses`, and the warnings of the objects to `said`. With the `memory` of the last pass, only what follows the first change of
     /// the chain is interpreted.
     pub(crate) fn pass(
         LeadingMachine { machine, threads }: LeadingMachine<'_>,
@@ -119,8 +121,7 @@ impl InterpretationPass {
         if let Some(last) = &mut last {
             last.begin(chain);
         }
-        let begin = last.as_ref().and_then(|last| last.marks.last());
-        let (begin, triangles) = begin.map_or_else(Default::default, |mark| (mark.at, mark.triangles));
+        let begin = last.as_ref().map_or_else(Mark::default, PassMemory::end);
         let starts = chain.starts(plan.steps.grammar.arities());
         let many = plan.steps.chains >= 4 * DEALT;
         let size = if many { plan.steps.batch.min(chain.symbols.len() / DEALT) } else { plan.steps.batch };
@@ -136,16 +137,43 @@ impl InterpretationPass {
         if let Some(grammar) = &plan.interpretations.grammar {
             links.build_with(chain, grammar, &*machine.session.values);
         }
+        Self::enter(machine, plan)?;
+        if let Some(environments) = &plan.environments {
+            environments.begin_pass();
+        }
+        let chain = (Arc::clone(chain), Mark::default());
+        let interpreting = Self::new(plan, chain, pieces, (step, number, times), links, last);
+        // Chains that assign the same variables, or change the same environments, are interpreted one after the other.
+        if !plan.assigns_variables && plan.environments.is_none() {
+            threads.hand_out(machine, count, 2, || ThreadJob::Interpret(Arc::downgrade(&interpreting)))?;
+        }
+        while interpreting.work(machine) {}
+        threads.reclaim(interpreting).complete(uses, said, memory)
+    }
+
+    /// Prepares the leading machine for calls of interpretation rules.
+    pub(super) fn enter(machine: &Machine, plan: &DerivationPlan) -> Result<()> {
         machine.enter(plan.system)?;
         machine.refresh();
         machine.current.objects.replace(plan.objects.clone());
         machine.current.environments.replace(plan.environments.clone());
-        if let Some(environments) = &plan.environments {
-            environments.begin_pass();
-        }
-        let interpreting = Arc::new(Self {
+        Ok(())
+    }
+
+    /// Creates a pass over the `pieces` of a chain, or of a part of the chain that begins at a position.
+    pub(super) fn new(
+        plan: &Arc<DerivationPlan>,
+        (chain, first): (Arc<Chain>, Mark),
+        pieces: Vec<Mark>,
+        (step, number, times): (usize, usize, &[f64]),
+        links: Links,
+        memory: Option<PassMemory>,
+    ) -> Arc<Self> {
+        let mark = memory.as_ref().and_then(|memory| memory.marks.last());
+        Arc::new(Self {
             plan: Arc::clone(plan),
-            chain: Arc::clone(chain),
+            chain,
+            first,
             step,
             number,
             times: times.to_vec(),
@@ -153,28 +181,33 @@ impl InterpretationPass {
             is_last: AtomicBool::new(false),
             pieces,
             next: AtomicUsize::new(0),
-            triangles: AtomicUsize::new(triangles),
+            triangles: AtomicUsize::new(mark.map_or(0, |mark| mark.triangles)),
             failure: Mutex::new(None),
-            uses: Mutex::new(vec![Use::default(); uses.len()]),
+            uses: Mutex::new(vec![Use::default(); plan.interpretations.list.len()]),
             notices: Notices::default(),
             links,
             undrawn: Mutex::default(),
             places: Mutex::default(),
-            memory: last.map(Mutex::new),
-        });
-        // Chains that assign the same variables, or change the same environments, are interpreted one after the other.
-        if !plan.assigns_variables && plan.environments.is_none() {
-            threads.hand_out(machine, count, 2, || ThreadJob::Interpret(Arc::downgrade(&interpreting)))?;
-        }
-        while interpreting.work(machine) {}
-        let done = threads.reclaim(interpreting);
-        let counted = done.uses.into_inner().recover();
+            memory: memory.map(Mutex::new),
+        })
+    }
+
+    /// Returns the result of the pass. Adds the work of each rule to `uses`, and the warnings of the objects to `said`. Leaves
+    /// in `memory` that from which the next pass can continue.
+    pub(super) fn complete(
+        self,
+        uses: &mut [Use],
+        said: &mut Vec<Warning>,
+        memory: Option<&mut PassMemory>,
+    ) -> Result<PassOutcome> {
+        let plan = &self.plan;
+        let counted = self.uses.into_inner().recover();
         uses.iter_mut().zip(counted).for_each(|(sum, more)| *sum += more);
-        let of_symbol = |symbol: Symbol| done.chain.symbols.iter().filter(|other| **other == symbol).count();
-        let notices: Vec<Warning> = done.notices.into_list(of_symbol).collect();
-        let undrawn = done.undrawn.into_inner().recover();
-        let mut places = done.places.into_inner().recover();
-        if let Some((memory, mut last)) = memory.zip(done.memory.map(|last| last.into_inner().recover())) {
+        let of_symbol = |symbol: Symbol| self.chain.symbols.iter().filter(|other| **other == symbol).count();
+        let notices: Vec<Warning> = self.notices.into_list(of_symbol).collect();
+        let undrawn = self.undrawn.into_inner().recover();
+        let mut places = self.places.into_inner().recover();
+        if let Some((memory, mut last)) = memory.zip(self.memory.map(|last| last.into_inner().recover())) {
             last.places.append(&mut places);
             places.clone_from(&last.places);
             let has_failed = plan.objects.as_ref().is_some_and(|objects| objects.failed().any());
@@ -182,13 +215,13 @@ impl InterpretationPass {
             if notices.is_empty()
                 && undrawn.is_empty()
                 && !has_failed
-                && !done.reads_step.load(Ordering::Relaxed)
+                && !self.reads_step.load(Ordering::Relaxed)
             {
                 *memory = last;
             }
         }
         said.extend(notices);
-        match done.failure.into_inner().recover() {
+        match self.failure.into_inner().recover() {
             Some((_, error)) => Err(error),
             None => {
                 if let Some(environments) = &plan.environments {
@@ -196,8 +229,8 @@ impl InterpretationPass {
                 }
                 plan.set_places((!plan.located.is_empty()).then(|| ModulePlaces::new(places)));
                 Ok(PassOutcome {
-                    reads_step: done.reads_step.into_inner(),
-                    is_last: done.is_last.into_inner(),
+                    reads_step: self.reads_step.into_inner(),
+                    is_last: self.is_last.into_inner(),
                     undrawn,
                 })
             }
@@ -241,14 +274,18 @@ impl InterpretationPass {
         if let Some(applier) =
             flusher.and_then(|flusher| (flusher as Box<dyn std::any::Any>).downcast::<Applier>().ok())
         {
-            self.places.lock().recover().append(&mut { *applier }.take_places());
+            let first = u32::try_from(self.first.module).unwrap_or(u32::MAX);
+            let places = { *applier }.take_places().into_iter();
+            let places = places.map(|(module, place)| (module.saturating_add(first), place));
+            self.places.lock().recover().extend(places);
         }
         result
     }
 
     fn run(&self, machine: &Machine, begin: Mark, end: Mark) -> Result<()> {
         let interpretations = &self.plan.interpretations;
-        let mut next = NextEntry { at: begin, is_begin: begin == Mark::default() || self.memory.is_none() };
+        let is_begin = begin == Mark::default() && self.first == Mark::default() || self.memory.is_none();
+        let mut next = NextEntry { at: begin, is_begin };
         let mut batch = EntryBatch::default();
         while next.at.module < end.module {
             self.gather(&mut next, end.module, &mut batch);
@@ -277,7 +314,9 @@ impl InterpretationPass {
             if let Some(memory) = &self.memory
                 && next.at.module < end.module
             {
-                with_applier(machine, &mut |applier| applier.mark(next.at, &mut memory.lock().recover()))?;
+                let Mark { module, param, chain } = next.at;
+                let at = Mark { module: self.first.module + module, param: self.first.param + param, chain };
+                with_applier(machine, &mut |applier| applier.mark(at, &mut memory.lock().recover()))?;
             }
         }
         Ok(())
@@ -396,59 +435,6 @@ impl InterpretationPass {
         }
         self.note_all(machine, &notices);
         Ok(None)
-    }
-
-    /// Returns the random key of the entry at `module` with rule `id`.
-    ///
-    /// The end of a chain has the chain's own key. A bracket uses the key of the nearest module inside it.
-    fn key(&self, module: usize, id: u16) -> ModuleKey {
-        let Chain { symbols, keys, .. } = &*self.chain;
-        let end =
-            || symbols[module..].iter().position(|symbol| *symbol == END).map_or(module, |at| module + at);
-        if id == self.plan.interpretations.begin {
-            return keys[end()].at_place(0).interpretation();
-        }
-        let is_module = |symbol: &Symbol| *symbol != OPEN && *symbol != CLOSE;
-        let (nearest, place) = match symbols[module] {
-            OPEN => {
-                let away = symbols[module..].iter().position(is_module).unwrap_or(0);
-                (module + away, 2 * away + 1)
-            }
-            CLOSE => {
-                let away = symbols[..module].iter().rev().position(is_module);
-                let within = away.filter(|away| symbols[module - 1 - away] != END);
-                within.map_or_else(|| (end(), 2), |away| (module - 1 - away, 2 * away + 4))
-            }
-            _ => return keys[module].interpretation(),
-        };
-        keys[nearest].at_place(place).interpretation()
-    }
-
-    /// Adds a batch of entries with the rules `ids` to the work of the rules. The batch took `time`;
-    /// `applying` is the part measured for each entry, and the remaining time, spent in Lua, is divided
-    /// evenly.
-    fn count_uses(&self, ids: &[u16], time: Duration, applying: Vec<Duration>) {
-        let mut uses = self.uses.lock().recover();
-        if !self.plan.profiled {
-            ids.iter().for_each(|id| uses[usize::from(*id)].applied += 1);
-            return;
-        }
-        let count = u32::try_from(ids.len().max(1)).unwrap_or(u32::MAX);
-        let each = time.saturating_sub(applying.iter().sum()) / count;
-        let applying = applying.into_iter().chain(std::iter::repeat(Duration::ZERO));
-        for (id, own) in ids.iter().zip(applying) {
-            uses[usize::from(*id)] += Use { applied: 1, made: 0, time: each + own };
-        }
-    }
-
-    /// Adds the rules that have run in addition to those of entries to the work of the rules.
-    fn count_more(&self, more: &Table) -> mlua::Result<()> {
-        let mut uses = self.uses.lock().recover();
-        for pair in more.pairs::<usize, usize>() {
-            let (number, count) = pair?;
-            uses[number - 1] += Use { applied: count, ..Use::default() };
-        }
-        Ok(())
     }
 
     /// Returns the parameters of the context modules of interpretation rule `rule` around `module`; `None` if the contexts

@@ -12,7 +12,7 @@ use crate::machine::row_tables::argument_places;
 use crate::machine::types::methods_key;
 use crate::results::DerivedSystem;
 use burgeon_base::error::{Error, Result, SourcePlace};
-use burgeon_kit::{Locate, Object};
+use burgeon_kit::{Call, Locate, Object, ObjectPlace};
 use burgeon_rewriting::{Grammar, Rule};
 
 use super::ignored::IgnoredModules;
@@ -102,6 +102,17 @@ impl RulePhase {
     }
 }
 
+/// Use of `this` by the functions of a rule.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum ReceiverUse {
+    /// The functions do not read it.
+    Unused,
+    /// The functions ask only for the place of the module.
+    Place,
+    /// The functions may use it in any way.
+    Any,
+}
+
 pub(crate) struct DeclaredRule {
     pub(crate) rule: Rule,
     pub(crate) phase: RulePhase,
@@ -115,8 +126,16 @@ pub(crate) struct DeclaredRule {
     /// Source text of the guard, if it is known.
     pub(crate) guard_text: Option<String>,
     pub(crate) successor: Function,
-    /// Set if the successor or the guard may use `this`.
-    pub(crate) asks: bool,
+    pub(crate) receiver_use: ReceiverUse,
+    /// Parameters that the successor and the guard read, by number; `None` for a function that may read all.
+    pub(crate) reads: [Option<Vec<usize>>; 2],
+}
+
+impl DeclaredRule {
+    /// Returns true if the successor or the guard may use `this`.
+    fn asks(&self) -> bool {
+        self.receiver_use > ReceiverUse::Unused
+    }
 }
 
 /// Functions for batches of each rule.
@@ -152,7 +171,7 @@ impl SystemDeclaration {
         let empties = |object: &Arc<dyn Object>| object.kind().begins_empty && !object.expands();
         self.last_only
             || self.environments.is_empty()
-                && (self.object.as_ref().is_some_and(empties) && !self.rules.iter().any(|rule| rule.asks))
+                && (self.object.as_ref().is_some_and(empties) && !self.rules.iter().any(DeclaredRule::asks))
     }
 
     /// Fails if the system has environments that no pass would change.
@@ -175,21 +194,37 @@ impl SystemDeclaration {
 
     /// Returns true if a rule of `phase` may use `this`.
     pub(crate) fn asks_in(&self, phase: RulePhase) -> bool {
-        self.rules.iter().any(|declared| declared.phase == phase && declared.asks)
+        self.rules.iter().any(|declared| declared.phase == phase && declared.asks())
     }
 
     /// Returns for each of `symbols` symbols whether its rules may read where the object is; empty if none does, or if the
     /// object has no place.
     pub(crate) fn located_symbols(&self, symbols: usize) -> Vec<bool> {
         let moves = |object: &Arc<dyn Object>| object.kind().has_capability::<dyn Locate>();
-        if !self.object.as_ref().is_some_and(moves) || !self.rules.iter().any(|declared| declared.asks) {
+        if !self.object.as_ref().is_some_and(moves) || !self.rules.iter().any(DeclaredRule::asks) {
             return Vec::new();
         }
         let mut located = vec![false; symbols];
-        for declared in self.rules.iter().filter(|declared| declared.asks) {
+        for declared in self.rules.iter().filter(|declared| declared.asks()) {
             located[usize::from(declared.rule.pattern.symbol)] = true;
         }
         located
+    }
+
+    /// Returns true if rules use `this` only to ask for the place of their module, and the object itself answers.
+    pub(crate) fn asks_places_only(&self) -> bool {
+        let answers = |object: &Arc<dyn Object>| {
+            let kind = object.kind();
+            let own = |name: &&str| {
+                let method = kind.methods.iter().find(|method| method.name == **name);
+                method.is_some_and(|method| matches!(method.call, Call::Read(_)))
+            };
+            object.base().is_none()
+                && kind.has_capability::<dyn Locate>()
+                && ObjectPlace::METHODS.iter().all(own)
+        };
+        self.object.as_ref().is_some_and(answers)
+            && self.rules.iter().all(|declared| declared.receiver_use < ReceiverUse::Any)
     }
 
     /// Returns true if a rule applies in `phase`.
@@ -299,7 +334,8 @@ impl SystemDeclaration {
             let arity = declared.rule.arguments();
             let symbols = machine.library.symbols.borrow();
             let places = argument_places(machine.lua(), &declared.rule.pattern, &symbols)?;
-            made.drivers.push(prelude.driver.call((&declared.successor, arity, &places))?);
+            let [successor_reads, guard_reads] = declared.reads.clone();
+            made.drivers.push(prelude.driver.call((&declared.successor, arity, &places, successor_reads))?);
             let reach = |function: &Function| ReachableFunction {
                 function: function.clone(),
                 name: declared.rule.pattern.text.clone(),
@@ -307,11 +343,12 @@ impl SystemDeclaration {
             };
             reached.push(reach(&declared.successor));
             reached.extend(declared.guard.iter().chain(&declared.propensity).map(reach));
-            let driver_of = |driver: &Function, function: &Option<Function>| {
-                function.as_ref().map(|function| driver.call((function, arity, &places))).transpose()
-            };
-            made.guards.push(driver_of(&prelude.guard_driver, &declared.guard)?);
-            made.propensities.push(driver_of(&prelude.propensity_driver, &declared.propensity)?);
+            let guard = declared.guard.as_ref();
+            let guard = guard.map(|guard| prelude.guard_driver.call((guard, arity, &places, guard_reads)));
+            made.guards.push(guard.transpose()?);
+            let propensity = declared.propensity.as_ref();
+            let propensity = propensity.map(|it| prelude.propensity_driver.call((it, arity, &places)));
+            made.propensities.push(propensity.transpose()?);
         }
         for known in self.interpretations.iter().filter(|_| self.object.is_some()) {
             reached.extend(std::iter::once(&known.function).chain(&known.guard).map(|function| {

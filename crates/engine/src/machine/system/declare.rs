@@ -20,8 +20,8 @@ use burgeon_rewriting::{MOST_PROPENSITY, MOST_RULES, Pattern, Propensity, Rule, 
 use super::ignored::{IgnoredModules, named_in_option};
 use super::strings::{compile_successor, parse_pattern, string_axiom};
 use super::{
-    DeclaredAxiom, DeclaredInterpretation, DeclaredRule, RulePhase, SourceHandle, SystemDeclaration,
-    is_unconditional,
+    DeclaredAxiom, DeclaredInterpretation, DeclaredRule, ReceiverUse, RulePhase, SourceHandle,
+    SystemDeclaration, is_unconditional,
 };
 
 impl SystemDeclaration {
@@ -116,11 +116,11 @@ impl SystemDeclaration {
         }
         let place = Machine::place(lua);
         let session = std::sync::Arc::clone(&library.machine()?.session);
-        let (successor, mut asks) = match arguments.pop() {
+        let (successor, mut receiver_use, successor_reads) = match arguments.pop() {
             Some(LuaValue::Function(function)) => {
                 check_parameters(&function, &pattern, "the successor").map_err(named)?;
                 check_queries(library, &function, &pattern).map_err(named)?;
-                let asks = may_ask(&session, &function);
+                let receiver_use = receiver_use_of(&session, &function);
                 if let Some((file, line)) = begin_of(&function)
                     && let Some(line) = session.returns_filled(&file, line)
                 {
@@ -128,7 +128,8 @@ impl SystemDeclaration {
                         .machine()?
                         .warn(returns_branch().at(Some(SourcePlace { file, line })).rule(&name));
                 }
-                (function, asks)
+                let reads = parameters_read(&session, &function);
+                (function, receiver_use, reads)
             }
             Some(LuaValue::String(body)) => {
                 compile_successor(library, &scope, &pattern, &body.to_string_lossy(), place.as_ref())
@@ -145,18 +146,20 @@ impl SystemDeclaration {
         if let Some(guard) = &guard {
             check_parameters(guard, &pattern, "the guard").map_err(named)?;
             check_queries(library, guard, &pattern).map_err(named)?;
-            asks |= may_ask(&session, guard);
+            receiver_use = receiver_use.max(receiver_use_of(&session, guard));
         }
         let (propensity, rate_function) = match propensity {
             Some(DeclaredPropensity::Function(function)) => {
                 check_parameters(&function, &pattern, "the propensity").map_err(named)?;
                 check_queries(library, &function, &pattern).map_err(named)?;
-                asks |= may_ask(&session, &function);
+                receiver_use = receiver_use.max(receiver_use_of(&session, &function));
                 (Some(Propensity::Computed), Some(function))
             }
             Some(DeclaredPropensity::Number(number)) => (Some(Propensity::Constant(number)), None),
             None => (None, None),
         };
+        let guard_reads = guard.as_ref().and_then(|guard| parameters_read(&session, guard));
+        let reads = [successor_reads, guard_reads];
         let begin = guard.as_ref().and_then(begin_of);
         let guard_text = begin.and_then(|(file, line)| session.guard_text(&file, line));
         let mut rule = Rule::new(pattern, weight, guard.is_some(), place);
@@ -173,7 +176,8 @@ impl SystemDeclaration {
             ignored,
             guard_text,
             successor,
-            asks,
+            receiver_use,
+            reads,
         });
         Ok(())
     }
@@ -282,11 +286,23 @@ fn begin_of(function: &Function) -> Option<(String, usize)> {
     Some((info.source?.strip_prefix('@')?.to_owned(), info.line_defined?))
 }
 
-/// Returns true if a function may use its first parameter, `this`.
-fn may_ask(session: &Session, function: &Function) -> bool {
+/// Returns the use that a function may make of its first parameter, `this`.
+fn receiver_use_of(session: &Session, function: &Function) -> ReceiverUse {
     let info = function.info();
-    let takes_any = info.num_params > 0 || info.is_vararg;
-    takes_any && !begin_of(function).is_some_and(|(file, line)| session.is_blind(&file, line))
+    if info.num_params == 0 && !info.is_vararg {
+        return ReceiverUse::Unused;
+    }
+    match begin_of(function) {
+        Some((file, line)) if session.is_blind(&file, line) => ReceiverUse::Unused,
+        Some((file, line)) if session.asks_place(&file, line) => ReceiverUse::Place,
+        _ => ReceiverUse::Any,
+    }
+}
+
+/// Returns the numbers of the parameters, after `this`, that a function reads; `None` if it may read all.
+fn parameters_read(session: &Session, function: &Function) -> Option<Vec<usize>> {
+    let (file, line) = begin_of(function)?;
+    session.parameters_read(&file, line)
 }
 
 /// Options of a rule.

@@ -8,7 +8,7 @@ use mlua::{Lua, MultiValue, Table, UserData, UserDataMethods, UserDataRef, Value
 
 use crate::machine::convert::to_value;
 use crate::machine::library::Library;
-use crate::machine::types::{DerivedHandle, ObjectHandle, object_of_system};
+use crate::machine::types::{DerivedHandle, ObjectHandle, object_of_system, read_often};
 use crate::machine::{DerivationRequest, Machine};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
@@ -75,7 +75,11 @@ impl SystemHandle {
                     return Err(Error::argument("lsystem: ring must be true or false")
                         .help("with ring = true, the first and the last module of a chain are neighbours"));
                 }
-                ("environment", value) => system.environments = environments_of(&value)?,
+                ("environment", value) => {
+                    system.environments = environments_of(&value)?;
+                    let noted = read_often(library.machine()?.lua(), &value);
+                    noted.map_err(|error| Error::internal(error.to_string()))?;
+                }
                 ("variables", value) => {
                     let machine = library.machine()?;
                     let number = machine.prelude().variables_of.call::<Option<usize>>(value);

@@ -21,7 +21,7 @@ mod unseen;
 
 pub(crate) use axiom::Axiom;
 pub(crate) use chain_builder::replaced_chain;
-pub(super) use declaration::{DeclaredAxiom, DeclaredRule, DerivationRecord};
+pub(super) use declaration::{DeclaredAxiom, DeclaredRule, DerivationRecord, ReceiverUse};
 pub(crate) use declaration::{RulePhase, SystemDeclaration, SystemFunctions};
 pub(crate) use declare::{returns_value, stops_at_depth};
 pub(crate) use handle::SystemHandle;

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use mlua::{Function, Lua, MultiValue, Value as LuaValue};
 
+use super::ReceiverUse;
 use super::declare::check_open;
 use super::module_string::{
     has_pattern_symbols, has_symbols, is_lua, lua_body, mentions, pattern_names, string_names,
@@ -43,14 +44,14 @@ pub(super) fn word_symbols(word: &str, symbols: &Symbols, scope: &NameScope) -> 
 }
 
 /// Compiles a successor given as a string of Lua or of modules, with the formal parameters, `this` and all modules in
-/// scope. Also returns whether the successor may use `this`.
+/// scope. Also returns the use of `this`, and the numbers of the parameters that the successor reads.
 pub(super) fn compile_successor(
     library: &Library,
     scope: &NameScope,
     pattern: &Pattern,
     body: &str,
     place: Option<&SourcePlace>,
-) -> Result<(Function, bool)> {
+) -> Result<(Function, ReceiverUse, Option<Vec<usize>>)> {
     let machine = library.machine()?;
     let (marked, body) = split_line(body);
     let (file, line) = place.map_or(("rule", 1), |place| (place.file.as_str(), place.line));
@@ -86,7 +87,14 @@ pub(super) fn compile_successor(
     let chunk = machine.load(file, &text)?;
     let successor: Function = chunk.call(()).map_err(|error| machine.translate(error))?;
     let begin = successor.info().line_defined;
-    Ok((successor, !begin.is_some_and(|line| analysis.blind.contains(&line))))
+    let receiver_use = match begin {
+        Some(line) if analysis.blind.contains(&line) => ReceiverUse::Unused,
+        Some(line) if analysis.asks_place.contains(&line) => ReceiverUse::Place,
+        _ => ReceiverUse::Any,
+    };
+    let reads = begin.and_then(|line| analysis.reads.get(&line));
+    let reads = reads.map(|reads| reads.iter().copied().filter(|number| *number > 0).collect());
+    Ok((successor, receiver_use, reads))
 }
 
 /// Returns the modules of an axiom given as a string. Their arguments are expressions of Lua with the names that all

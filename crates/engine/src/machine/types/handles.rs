@@ -2,13 +2,17 @@
 
 use std::sync::{Arc, RwLock};
 
-use mlua::{AnyUserData, Lua, LuaString, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
+use mlua::{
+    AnyUserData, Function, Lua, LuaString, MetaMethod, Table, UserData, UserDataFields, UserDataMethods,
+    Value as LuaValue,
+};
 
 use rustc_hash::FxHashMap;
 
 use super::geometries::geometry_field;
 use super::module_lists::{chain_number, module_list};
 use crate::machine::convert::to_lua;
+use crate::machine::native::native;
 use crate::machine::table_of;
 use crate::results::DerivedSystem;
 use burgeon_base::error::{Error, Result};
@@ -80,22 +84,11 @@ fn no_object() -> Error {
 pub(crate) struct ObjectHandle(pub Arc<dyn Object>);
 
 impl UserData for ObjectHandle {
+    fn add_fields<F: UserDataFields<Self>>(fields: &mut F) {
+        fields.add_meta_field_with(MetaMethod::Index, index_function);
+    }
+
     fn add_methods<M: UserDataMethods<Self>>(methods: &mut M) {
-        methods.add_meta_function(MetaMethod::Index, |lua, (this, name): (AnyUserData, LuaString)| {
-            let object = Arc::clone(&this.borrow::<Self>()?.0);
-            match method_table(lua, object.kind())?.raw_get::<LuaValue>(&name)? {
-                LuaValue::Nil => {}
-                method => return Ok(method),
-            }
-            let name = name.to_string_lossy();
-            if let Some(field) = geometry_field(lua, &this, &name)? {
-                return Ok(field);
-            }
-            match as_ref::<ScriptObject>(&*object).and_then(|object| object.member(&name)) {
-                Some(value) => to_lua(lua, &value, true),
-                None => Err(mlua::Error::external(object.kind().unknown_method(&name))),
-            }
-        });
         methods.add_meta_function(MetaMethod::Eq, |_, (one, two): (AnyUserData, AnyUserData)| {
             let (Ok(one), Ok(two)) = (one.borrow::<Self>(), two.borrow::<Self>()) else { return Ok(false) };
             Ok(Value::Object(Arc::clone(&one.0)) == Value::Object(Arc::clone(&two.0)))
@@ -113,6 +106,57 @@ impl UserData for ObjectHandle {
         methods.add_meta_method(MetaMethod::ToString, |_, this, ()| {
             Ok(Value::Object(Arc::clone(&this.0)).to_string())
         });
+    }
+}
+
+/// Registry name of the method tables of the objects that are read often.
+const OFTEN_READ: &str = "burgeon objects read often";
+
+/// Returns the function that reads a method or a field of an object. Methods of the objects that are read often are found
+/// without a call into Rust.
+fn index_function(lua: &Lua) -> mlua::Result<Function> {
+    let often_read = lua.create_table()?;
+    lua.set_named_registry_value(OFTEN_READ, &often_read)?;
+    let others = lua.create_function(member)?;
+    let chunk = lua.load(
+        "local often_read, others = ...
+        return function(object, name)
+          local methods = often_read[object]
+          local method = if methods then rawget(methods, name) else nil
+          return if method ~= nil then method else others(object, name)
+        end",
+    );
+    // Named as the prelude, because errors must not name its lines.
+    let made: Function = chunk.set_name("=burgeon").call((often_read, others))?;
+    native(lua, &made)?;
+    Ok(made)
+}
+
+/// Declares that the methods of an object, or of each object of a list, are called often.
+pub(in crate::machine) fn read_often(lua: &Lua, object: &LuaValue) -> mlua::Result<()> {
+    if let LuaValue::Table(list) = object {
+        return list.sequence_values::<LuaValue>().try_for_each(|object| read_often(lua, &object?));
+    }
+    let LuaValue::UserData(data) = object else { return Ok(()) };
+    let Ok(handle) = data.borrow::<ObjectHandle>() else { return Ok(()) };
+    let methods = method_table(lua, handle.0.kind())?;
+    lua.named_registry_value::<Table>(OFTEN_READ)?.raw_set(data, methods)
+}
+
+/// Returns a method or a field of an object.
+fn member(lua: &Lua, (this, name): (AnyUserData, LuaString)) -> mlua::Result<LuaValue> {
+    let object = Arc::clone(&this.borrow::<ObjectHandle>()?.0);
+    match method_table(lua, object.kind())?.raw_get::<LuaValue>(&name)? {
+        LuaValue::Nil => {}
+        method => return Ok(method),
+    }
+    let name = name.to_string_lossy();
+    if let Some(field) = geometry_field(lua, &this, &name)? {
+        return Ok(field);
+    }
+    match as_ref::<ScriptObject>(&*object).and_then(|object| object.member(&name)) {
+        Some(value) => to_lua(lua, &value, true),
+        None => Err(mlua::Error::external(object.kind().unknown_method(&name))),
     }
 }
 

@@ -15,7 +15,7 @@ pub(crate) use extensions::Extension;
 pub(super) use extensions::{claim, extend_type};
 pub(crate) use geometries::POINTS;
 pub(super) use geometries::install_functions;
-pub(super) use handles::{DerivedHandle, methods_key};
+pub(super) use handles::{DerivedHandle, methods_key, read_often};
 pub(crate) use handles::{ObjectHandle, Objects};
 pub(super) use kinds::{install_kind, named_fields, no_table};
 pub(super) use mentions::object_of_system;
