@@ -22,10 +22,10 @@ local section = param("section", {
   doc = "Cross-section of the trunk.",
 })
 
-local PARTS = 40
+local PARTS = 28
 local Base, Trunk, Top = module("Base"), module("Trunk", "number"), module("Top")
 local Branch, Leaf = module("Branch", "length", "width"), module("Leaf", "size")
-local tree = lsystem({ object = turtle({ sides = 24, color = "#7d6650", roughness = 0.9 }) })
+local tree = lsystem({ object = turtle({ sides = 14, color = "#7d6650", roughness = 0.9 }) })
 tree:axiom(Base(), Trunk(1))
 tree:rule("Trunk(number)", function(_, number: number)
   if number > PARTS then
@@ -41,12 +41,12 @@ tree:rule("Trunk(number)", function(_, number: number)
   return Width(taper:at(h)), F(height / PARTS), branch, Roll(137.5), next
 end)
 tree:rule("Branch(length, width)", function(_, length: number, width: number)
-  if length < 0.12 then
-    return Leaf(0.24)
+  if length < 0.4 then
+    return Leaf(0.26)
   end
   local side = { Turn(38), Branch(length * 0.45, width * 0.6) }
   local other = { Turn(-38), Branch(length * 0.45, width * 0.6) }
-  return Width(width), F(length * 0.35), side, Leaf(0.2), other, Pitch(-4), Branch(length * 0.6, width * 0.75)
+  return Width(width), F(length * 0.35), side, other, Pitch(-4), Branch(length * 0.6, width * 0.75)
 end)
 tree:interpret("Base", function(this)
   this:width(taper:at(0)):contour(section):begin_cylinder()

@@ -11,6 +11,10 @@ const HEIGHT = 172;
 const EDGE = { left: 34, right: 8, top: 8, bottom: 20 };
 /** How near (px) the pointer has to be to the curve to mean it. */
 const NEAR = 14;
+/** Distance (px) of the grid's lines, across and up. */
+const SPACING = [42, 27];
+/** Radius (px) around a point in which the pointer means it. */
+const REACH = 13;
 const VIEWS = { Top: [0, 1], Front: [0, 2], Side: [1, 2] };
 const NAMES = ['x', 'y', 'z'];
 const HELP = 'Drag a point. Double-click the curve to add one, and a point to remove it. Arrow keys move the chosen point.';
@@ -260,13 +264,13 @@ export class CurveEditor {
     const [across, up] = this.#axes;
     const at = (value, axis) => this.#pixel(Object.assign([0, 0, 0], { [axis]: value }));
     const even = this.control.space !== 'function';
-    const xTicks = ticks(...xs, width / 56);
+    const xTicks = ticks(...xs, width / SPACING[0]);
     for (const value of xTicks.list) {
       const [x] = at(value, across);
       line(x, 'x', value);
       text(value, x, EDGE.top + height + 13, x > EDGE.left + width - 10 ? 'end' : 'middle');
     }
-    for (const value of (even ? ticks(ys[0], ys[1], height / 56) : ticks(...ys, height / 32)).list) {
+    for (const value of ticks(...ys, height / SPACING[even ? 0 : 1]).list) {
       const [, y] = at(value, up);
       line(y, 'y', value);
       text(value, EDGE.left - 5, y + 3.5, 'end');
@@ -314,7 +318,7 @@ export class CurveEditor {
     const count = this.#points.length;
     while (this.handles.childElementCount > count) this.handles.lastChild.remove();
     while (this.handles.childElementCount < count) {
-      const handle = svg('g', { class: 'plot-point', role: 'button' }, svg('circle', { r: 13, class: 'plot-reach' }), svg('circle', { r: 4.5 }), svg('title'));
+      const handle = svg('g', { class: 'plot-point', role: 'button' }, svg('circle', { r: REACH, class: 'plot-reach' }), svg('circle', { r: 4.5 }), svg('title'));
       this.handles.append(handle);
     }
     [...this.handles.children].forEach((handle, index) => {
@@ -377,7 +381,7 @@ export class CurveEditor {
       let place = this.#place([x + this.#drag.offset[0], y + this.#drag.offset[1]]);
       if (event.ctrlKey || event.metaKey) {
         const [width, height] = this.#inner;
-        const grid = [ticks(...this.#ranges[0], width / 56).step, ticks(...this.#ranges[1], height / 32).step];
+        const grid = [width, height].map((size, i) => ticks(...this.#ranges[i], size / SPACING[i]).step);
         place = place.map((value, i) => rounded(value, grid[i] / 2));
       }
       this.#drag.moved = true;
@@ -396,9 +400,12 @@ export class CurveEditor {
     plot.addEventListener('pointerleave', () => this.#drag || this.#showWhere(null));
     plot.addEventListener('dblclick', (event) => {
       event.preventDefault();
-      const index = handleOf(event);
-      if (index >= 0) this.#remove(index);
-      else this.#addAt(pixel(event));
+      // The plot has captured the pointer, so the event does not tell the point.
+      const place = pixel(event);
+      const distances = this.#points.map((point) => distance(this.#pixel(point), place));
+      const index = distances.indexOf(Math.min(...distances));
+      if (distances[index] < REACH) this.#remove(index);
+      else this.#addAt(place);
     });
     this.handles.addEventListener('focusin', (event) => {
       const index = handleOf(event);

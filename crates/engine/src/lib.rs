@@ -21,7 +21,7 @@ pub mod script {
     pub use crate::declare::{
         API_VERSION, Control, CurvesFile, FeaturePart, JsonMembers, JsonText, Limits, Param, ParamValues,
         PlacedPoints, PointControl, Preset, Print, RunInputs, RunOptions, RunProgress, RunReports, Session,
-        Setting, TraceRequest, api_version, short,
+        Setting, TraceRequest, api_version, json_excerpt,
     };
     pub use crate::machine::{Machine, Watchdog, make_ready};
     pub use crate::queries::{RowSource, SqlQuery};

@@ -24,7 +24,7 @@ use super::json_file::write_json;
 use crate::watch::settled;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::names::{has_bidi_controls, normal_form};
-use burgeon_engine::script::{JsonText, Preset, Setting, short};
+use burgeon_engine::script::{JsonText, Preset, Setting, json_excerpt};
 
 /// Maximum size (bytes) of a presets file.
 const LARGEST: u64 = 16_000_000;
@@ -219,7 +219,7 @@ fn parse(text: &JsonText<'_>) -> Result<Vec<Preset>> {
             match key.as_str() {
                 "seed" => {
                     let seed = serde_json::from_str(raw.get()).map_err(|_| {
-                        Error::data(format!("{what}: invalid seed {}", short(raw)))
+                        Error::data(format!("{what}: invalid seed {}", json_excerpt(raw)))
                             .help("write an integer of at least 0")
                             .at(Some(text.place(raw)))
                     })?;
@@ -257,7 +257,7 @@ fn read_setting<'a>(text: &JsonText<'a>, raw: &'a RawValue, what: &str, name: &s
         _ => None,
     };
     read.ok_or_else(|| {
-        Error::data(format!("{what}: invalid value {} for {name}", short(raw)))
+        Error::data(format!("{what}: invalid value {} for {name}", json_excerpt(raw)))
             .help("write a number, true, false, a string or a list of points")
             .at(Some(text.place(raw)))
     })

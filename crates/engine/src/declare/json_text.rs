@@ -53,7 +53,8 @@ impl<'a> JsonText<'a> {
         let refuse = |message: String, raw: &RawValue| Error::data(message).at(Some(self.place(raw)));
         let members = if raw.get().starts_with('{') { read_members(raw.get()).ok() } else { None };
         let members = members.ok_or_else(|| {
-            refuse(format!("{what} is {}, not an object", short(raw)), raw).help(format!("write {form}"))
+            refuse(format!("{what} is {}, not an object", json_excerpt(raw)), raw)
+                .help(format!("write {form}"))
         })?;
         let mut known = FxHashSet::default();
         for (name, raw) in &members {
@@ -100,12 +101,12 @@ fn read_points<'a>(
         Error::data(message).help("write a list of points: [[0, 1], [1, 0.2]]").at(place(raw))
     };
     let raws: Vec<&RawValue> = serde_json::from_str(raw.get())
-        .map_err(|_| refuse(format!("{what} is {}, not a list of points", short(raw)), raw))?;
+        .map_err(|_| refuse(format!("{what} is {}, not a list of points", json_excerpt(raw)), raw))?;
     let mut points = Vec::with_capacity(raws.len());
     for (index, raw) in raws.iter().enumerate() {
         let row: Vec<f64> = serde_json::from_str(raw.get()).map_err(|_| {
             let number = index + 1;
-            refuse(format!("{what}: point {number} is {}, not a list of numbers", short(raw)), raw)
+            refuse(format!("{what}: point {number} is {}, not a list of numbers", json_excerpt(raw)), raw)
         })?;
         points.push(row);
     }
@@ -119,7 +120,7 @@ fn reason(error: &serde_json::Error) -> String {
 }
 
 /// Returns the text of `raw`, shortened for messages.
-pub fn short(raw: &RawValue) -> String {
+pub fn json_excerpt(raw: &RawValue) -> String {
     let text: String = raw.get().split_whitespace().collect::<Vec<_>>().join(" ");
     if text.chars().count() <= 40 { text } else { text.chars().take(39).chain(['…']).collect() }
 }

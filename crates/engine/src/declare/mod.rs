@@ -28,7 +28,7 @@ mod types;
 pub(crate) use api::has_name;
 pub use api::{API_VERSION, api_version};
 pub use curves_file::CurvesFile;
-pub use json_text::{JsonMembers, JsonText, PlacedPoints, short};
+pub use json_text::{JsonMembers, JsonText, PlacedPoints, json_excerpt};
 pub use options::{Limits, ParamValues, Print, RunInputs, RunOptions, RunReports, TraceRequest};
 pub use param::{Control, Param, Setting};
 pub use part::FeaturePart;
