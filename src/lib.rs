@@ -38,8 +38,8 @@
 //! - [`error`], [`warning`](mod@warning) and [`text`]: errors, warnings and human-readable text. [`Stop`] cancels work;
 //!   a [`Budget`] limits the memory and time for reading untrusted bytes.
 //! - [`scene`]: a [`Scene`](scene::Scene) of meshes and instances, ready for export.
-//! - [`sources`]: sources of scripts, and SQL over them: a [`Database`](sources::sql::Database) returns a
-//!   [`QueryAnswer`](sources::sql::QueryAnswer).
+//! - [`sources`]: sources of scripts, and SQL over them: a [`Database`](sources::sql::Database) returns
+//!   [`QueryRows`](kit::QueryRows).
 //! - [`kit`]: the interface of objects. A [`Kind`](kit::Kind) in a [`Registry`](kit::Registry) describes the fields and
 //!   methods of an [`Object`](kit::Object).
 //! - [`language`]: the scripting API, described once: [`names`](language::names), and the definition file for editors.
