@@ -41,7 +41,7 @@ pub use buffer::{BufferCap, BufferJoin, BufferOptions};
 pub use geometry::{FARTHEST, Geometry};
 pub use kind::GeometryKind;
 pub use overlay::union_all;
-pub use reach::{BoundingBox, near_selection};
+pub use reach::{BoundingBox, near_selection, representative_point};
 pub use records::{Record, RecordTable};
 pub use relation::Relation;
 pub use scripting::{GeometryList, GeometryObject, Lines, Path, PolygonArgument, Shape, constructors, rings};

@@ -72,6 +72,7 @@ impl SourceStore for DataStore {
                 id: None,
                 kind: None,
                 crs: None,
+                records: None,
                 budget: _,
             },
             Some(name),

@@ -21,7 +21,7 @@ pub(super) fn read(
         return servers::read(request, text, wanted, known, table);
     }
     let (name, layer) = split_name(text);
-    let SourceOptions { condition, tags, within, limit, id, kind, crs, layer: _, budget: _ } = &wanted;
+    let SourceOptions { condition, tags, within, limit, id, kind, crs, layer: _, records: _, budget: _ } = &wanted;
     let is_whole = (condition, within, limit, id, kind, crs) == (&None, &None, &None, &None, &None, &None)
         && tags.is_none();
     wanted.layer = wanted.layer.or_else(|| layer.map(str::to_owned));
