@@ -31,9 +31,10 @@
 //! engine     uses ──► base, kit, language, packages, rewriting, scene, spatial
 //! picture    uses ──► base, scene
 //! export     uses ──► base, data, picture, scene
+//! tiles      uses ──► base, data, export, picture, scene, spatial
 //! watch      uses ──► base
 //! live       uses ──► base, engine, export, kit, picture, rewriting, scene, watch
-//! burgeon    uses ──► base, data, engine, export, geometry, kit, language, live, objects, packages, picture, rewriting, scene, sources, spatial, terrain, watch
+//! burgeon    uses ──► base, data, engine, export, geometry, kit, language, live, objects, packages, picture, rewriting, scene, sources, spatial, terrain, tiles, watch
 //! ```
 //!
 //! - [`error`], [`warning`](mod@warning) and [`text`]: errors, warnings and human-readable text. [`Stop`] cancels work;
@@ -60,6 +61,8 @@
 //!   are rewritten step by step into a [`DerivedSystem`](results::DerivedSystem), and interpreted between the steps.
 //! - [`export`] and [`picture`]: the scene as a file ([`Format`](export::Format)) or an image
 //!   ([`render`](picture::render)).
+//! - [`tiles`]: the features of a country as 3D Tiles. A [`TilePlan`](tiles::TilePlan) divides them, and
+//!   [`make_tile`](tiles::make_tile) writes the tiles in any number of processes.
 //! - [`packages`]: folders of scripts, models and textures for use by other scripts, and their load order.
 //! - [`watch`]: reports changes of the files of a script.
 //! - [`presets`]: named values of parameters, in a file next to the script.
@@ -164,6 +167,7 @@ pub use burgeon_scene as scene;
 pub use burgeon_sources as sources;
 pub use burgeon_spatial as spatial;
 pub use burgeon_terrain as terrain;
+pub use burgeon_tiles as tiles;
 pub use burgeon_watch as watch;
 
 /// Returns all object types and sources of Burgeon.

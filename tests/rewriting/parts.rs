@@ -118,7 +118,8 @@ fn parts_of_rows_of_houses_keep_common_walls_remarks_and_random_numbers() {
 fn a_part_without_reach_lacks_the_neighbours_of_its_edge() {
     let script = write("edge.lua", &ROWS.replace("EXTRA", "0"));
     let whole = features(&run(&script, None).scene);
-    let part = |reach| features(&run(&script, Some(FeaturePart { number: 2, count: 3, reach, cell: None })).scene);
+    let part =
+        |reach| features(&run(&script, Some(FeaturePart { number: 2, count: 3, reach, cell: None })).scene);
     let differs = |part: &BTreeMap<(usize, String), Vec<String>>| {
         part.iter().filter(|(key, instances)| whole[*key] != **instances).count()
     };

@@ -12,7 +12,7 @@
 pub mod sql;
 mod store;
 
-pub use store::DataSources;
+pub use store::{DataSources, SourceSurvey, SourceWindow, SurveyedSource};
 
 #[cfg(doc)]
 use burgeon_kit::SourceProvider;

@@ -17,7 +17,6 @@ pub fn representative_point([low, high]: BoundingBox) -> [f64; 2] {
     low.midpoint(high).to_array()
 }
 
-
 /// Returns for each bounding box whether it lies within `reach` (m) of the box of a selected geometry, horizontally and
 /// along each axis. A geometry without a box is near nothing. Fails if the current work is stopped.
 ///

@@ -35,7 +35,9 @@ impl FeaturePart {
 
     /// Returns true if feature number `index` of `features`, from 0, with these bounds belongs to the part.
     pub fn contains(&self, index: usize, features: usize, bounds: Option<BoundingBox>) -> bool {
-        let Some([west, south, east, north]) = self.cell else { return self.range(features).contains(&index) };
+        let Some([west, south, east, north]) = self.cell else {
+            return self.range(features).contains(&index);
+        };
         bounds.is_some_and(|bounds| {
             let [x, y] = representative_point(bounds);
             (west..east).contains(&x) && (south..north).contains(&y)
@@ -84,7 +86,8 @@ mod tests {
     #[test]
     fn parts_contain_each_feature_once() {
         for (features, count) in [(10, 4), (3, 5), (0, 2), (1000, 7)] {
-            let parts = (1..=count).map(|number| FeaturePart { number, count, reach: 0.0, cell: None }.range(features));
+            let parts = (1..=count)
+                .map(|number| FeaturePart { number, count, reach: 0.0, cell: None }.range(features));
             let all: Vec<usize> = parts.flatten().collect();
             assert_eq!(all, (0..features).collect::<Vec<_>>());
         }

@@ -235,7 +235,9 @@ fn open_indices(connection: &Connection) -> Vec<String> {
     let mut names = find().unwrap_or_default();
     names.retain(|name| {
         let columns = format!("SELECT id, minx, maxx, miny, maxy FROM {} LIMIT 1", quote(name));
-        let read = || -> rusqlite::Result<bool> { connection.prepare(&columns)?.query([])?.next().map(|row| row.is_some()) };
+        let read = || -> rusqlite::Result<bool> {
+            connection.prepare(&columns)?.query([])?.next().map(|row| row.is_some())
+        };
         read().unwrap_or(false)
     });
     names
