@@ -12,7 +12,7 @@
 pub mod sql;
 mod store;
 
-pub use store::{DataSources, SourceSurvey, SourceWindow, SurveyedSource};
+pub use store::{DataSources, SourceSurvey, SourceWindow, SurveyedSource, WindowBox};
 
 #[cfg(doc)]
 use burgeon_kit::SourceProvider;

@@ -4,7 +4,7 @@
 //! plan, tiles with manifests, a tileset and lists of what is missing. The crate never runs a script, and never writes a clock,
 //! a host name or an absolute path.
 //!
-//! - [`plan`]: a [`Division`] divides the features by a quadtree into the [`PlannedTile`]s of a [`TilePlan`].
+//! - [`plan`]: a [`TileDivision`] divides the features by a quadtree into the [`PlannedTile`]s of a [`TilePlan`].
 //! - [`make`]: [`make_tile`] writes a tile and its [`TileManifest`], unless they fit the plan already.
 //! - [`join`]: [`join_tiles`] writes the tileset and the missing features.
 //! - [`check`]: [`check_tileset`] proves that the tileset is what the plan says.
@@ -25,5 +25,5 @@ pub use earth::{EarthMap, TileAxes};
 pub use folder::TileFolder;
 pub use join::{JoinReport, join_tiles};
 pub use make::{TileManifest, TileOutcome, make_tile};
-pub use plan::{Division, PlannedTile, TileId, TilePlan};
+pub use plan::{PlannedTile, TileDivision, TileId, TilePlan};
 pub use status::TileStatus;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use burgeon::data::{Layer, ReferenceFrame};
 use burgeon::script::{FeaturePart, RunOptions, Session};
-use burgeon::sources::{DataSources, SourceWindow};
+use burgeon::sources::{DataSources, SourceWindow, WindowBox};
 use burgeon::tiles::make::{BuiltTile, TileContent, portable_message, tile_features, verify_features};
 use burgeon::tiles::plan::TileGrid;
 use burgeon::tiles::{PlannedTile, TilePlan};
@@ -32,7 +32,10 @@ impl<'a> TileBuilder<'a> {
     /// Builds a tile.
     pub(super) fn build(&self, tile: &PlannedTile) -> BuiltTile {
         let needed = self.plan.needed(tile);
-        let boxes = self.plan.sources.iter().map(|source| (source.key.clone(), (needed, source.in_parts)));
+        let boxes = self.plan.sources.iter().map(|source| {
+            let (in_parts, bounds) = (source.in_parts, source.bounds);
+            (source.key.clone(), WindowBox { needed, in_parts, bounds })
+        });
         let window = Arc::new(SourceWindow::new(self.frame.clone(), boxes.collect()));
         let run = self.run(tile, &window);
         let served = window.served().into_iter();

@@ -9,7 +9,7 @@ use burgeon::script::{RunOptions, Session};
 use burgeon::sources::{DataSources, SourceSurvey, SurveyedSource};
 use burgeon::tiles::TileFolder;
 use burgeon::tiles::plan::{
-    Division, PLAN_VERSION, PlanFrame, PlannedFile, PlannedSource, TilePlan, scan_source,
+    PLAN_VERSION, PlanFrame, PlannedFile, PlannedSource, TileDivision, TilePlan, scan_source,
 };
 use burgeon::{Error, Result};
 use clap::Args;
@@ -107,12 +107,18 @@ impl PlanCommand {
         })?;
         let frame = PlanFrame { epsg, place, geoid_height: self.geoid_height.unwrap_or(0.0) };
         let reference = frame.reference()?;
-        let mut division = Division::default();
+        let mut division = TileDivision::default();
         let (mut planned, mut left_out, mut notes) = (Vec::new(), Vec::new(), Vec::new());
         for source in &sources {
             let scan = scan_source((&source.path, &source.name, &source.options), &reference, &mut division)?;
             let (key, label) = (source.key.clone(), scan.label);
-            planned.push(PlannedSource { key, label, features: scan.features, in_parts: scan.in_parts });
+            planned.push(PlannedSource {
+                key,
+                label,
+                features: scan.features,
+                bounds: scan.bounds,
+                in_parts: scan.in_parts,
+            });
             left_out.extend(scan.left_out);
             notes.extend(scan.notes);
         }

@@ -18,4 +18,4 @@ mod tables;
 mod tags;
 
 pub use provider::DataSources;
-pub use survey::{SourceSurvey, SourceWindow, SurveyedSource};
+pub use survey::{SourceSurvey, SourceWindow, SurveyedSource, WindowBox};

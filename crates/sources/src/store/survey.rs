@@ -91,20 +91,29 @@ impl SourceSurvey {
     }
 }
 
+/// Features of a source that a run reads.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WindowBox {
+    /// West, south, east and north (m) of a box relative to the origin of the frame. The run reads the features that touch it.
+    pub needed: [f64; 4],
+    /// Set if the file may be read partially; otherwise it is read once and the features are chosen from it.
+    pub in_parts: bool,
+    /// Minimum and maximum coordinates (m) of all features, which the script sees as those of the source.
+    pub bounds: [[f64; 3]; 2],
+}
+
 /// Sources of which a run reads only the features in a box. Other sources are read completely.
 #[derive(Default)]
 pub struct SourceWindow {
     /// Frame of the run.
     pub(super) frame: Option<ReferenceFrame>,
-    boxes: BTreeMap<String, ([f64; 4], bool)>,
+    boxes: BTreeMap<String, WindowBox>,
     served: Mutex<Vec<(String, Arc<Layer>)>>,
 }
 
 impl SourceWindow {
-    /// Creates a window in the coordinates of `frame`, with the box of each source by its key: west, south, east and north (m)
-    /// relative to the origin. A set flag allows a partial read of the file; otherwise the file is read once and the features
-    /// are chosen from it.
-    pub fn new(frame: ReferenceFrame, boxes: BTreeMap<String, ([f64; 4], bool)>) -> Self {
+    /// Creates a window in the coordinates of `frame`, with a box for each source by its key.
+    pub fn new(frame: ReferenceFrame, boxes: BTreeMap<String, WindowBox>) -> Self {
         Self { frame: Some(frame), boxes, served: Mutex::default() }
     }
 
@@ -126,7 +135,7 @@ impl SourceWindow {
         name: &str,
         wanted: &SourceOptions,
     ) -> Result<Option<Layer>> {
-        let Some((bounds, true)) = self.boxes.get(key) else { return Ok(None) };
+        let Some(WindowBox { needed, in_parts: true, bounds }) = self.boxes.get(key) else { return Ok(None) };
         let Some(frame) = &self.frame else { return Ok(None) };
         if wanted.limit.is_some() || wanted.within.is_some() {
             return Ok(None);
@@ -140,16 +149,17 @@ impl SourceWindow {
         let none =
             SourceOptions { records: Some(RecordChoice::After { key: i64::MAX, most: 0 }), ..wanted.clone() };
         let crs = Source::open_within(path, name, &none)?.read(name, &none)?.crs?;
-        let within = frame.passage(&crs)?.leave_box(*bounds);
+        let within = frame.passage(&crs)?.leave_box(*needed);
         let Some(within) = within else { return Ok(None) };
         let table = source.read(name, &SourceOptions { within: Some(within), ..indexed })?;
         let mut frame = Some(frame.clone());
-        Layer::new(table, &mut frame).map(Some)
+        let layer = Layer::new(table, &mut frame)?;
+        Ok(Some(Layer { bounds: *bounds, ..layer }))
     }
 
     /// Returns the features of a complete `layer` whose bounds touch the box of the source.
     pub(super) fn choose(&self, key: &str, layer: &Layer) -> Option<Layer> {
-        let ([west, south, east, north], _) = *self.boxes.get(key)?;
+        let WindowBox { needed: [west, south, east, north], .. } = *self.boxes.get(key)?;
         let touches = |feature: &&burgeon_data::Feature| {
             feature.geometry.bounds().is_some_and(|[low, high]| {
                 low.x <= east && high.x >= west && low.y <= north && high.y >= south

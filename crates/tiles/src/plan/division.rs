@@ -87,12 +87,12 @@ impl CellSums {
     }
 }
 
-/// Division of features among tiles. Memory grows with the area that features cover, and not with their number.
+/// TileDivision of features among tiles. Memory grows with the area that features cover, and not with their number.
 ///
 /// ```
-/// use burgeon_tiles::plan::{Division, id_digest};
+/// use burgeon_tiles::plan::{TileDivision, id_digest};
 ///
-/// let mut division = Division::default();
+/// let mut division = TileDivision::default();
 /// for number in 0..1000 {
 ///     let place = [f64::from(number % 30) * 30.0, f64::from(number / 30) * 20.0].into();
 ///     let digest = id_digest("trees", &number.to_string());
@@ -104,12 +104,12 @@ impl CellSums {
 /// # Ok::<(), burgeon_base::Error>(())
 /// ```
 #[derive(Debug, Default)]
-pub struct Division {
+pub struct TileDivision {
     /// Sums of the tiles of the deepest level, in the order of the curve.
     cells: BTreeMap<u64, (TileId, CellSums)>,
 }
 
-impl Division {
+impl TileDivision {
     /// Adds a feature with these bounds (m), its number of points, and the digests of its id and its content.
     ///
     /// Fails if its representative point is outside the grid.
@@ -194,7 +194,7 @@ mod tests {
             points in prop::collection::vec((-5000.0..5000.0_f64, 0.0..3000.0_f64), 1..200),
             target in 1..40_u64,
         ) {
-            let mut division = Division::default();
+            let mut division = TileDivision::default();
             for (number, at) in points.iter().enumerate() {
                 let digest = id_digest("a", &number.to_string());
                 division.add([[at.0, at.1].into(); 2], number % 7, digest, digest).unwrap();

@@ -6,7 +6,7 @@ use burgeon_base::error::{Error, Result};
 use burgeon_data::{Crs, ReferenceFrame};
 use serde::{Deserialize, Serialize};
 
-use super::{LeftOut, PlannedTile, TileGrid, TileId};
+use super::{OmittedFeature, PlannedTile, TileGrid, TileId};
 
 /// Version of the format of plans and manifests.
 pub const PLAN_VERSION: u32 = 1;
@@ -32,7 +32,7 @@ pub struct PlannedFile {
 }
 
 /// Source whose features are divided among tiles.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PlannedSource {
     /// Call of `source` in the script.
     pub key: String,
@@ -40,11 +40,13 @@ pub struct PlannedSource {
     pub label: String,
     /// Number of features.
     pub features: u64,
+    /// Minimum and maximum coordinates (m) of the features.
+    pub bounds: [[f64; 3]; 2],
     /// Set if a tile can be read from a part of the file.
     pub in_parts: bool,
 }
 
-/// Division of the features of a script among tiles.
+/// TileDivision of the features of a script among tiles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TilePlan {
@@ -71,7 +73,7 @@ pub struct TilePlan {
     /// Tiles, in an order that keeps neighbours together.
     pub tiles: Vec<PlannedTile>,
     /// Features that cannot be in a tile.
-    pub left_out: Vec<LeftOut>,
+    pub left_out: Vec<OmittedFeature>,
     /// Remarks on the data.
     pub notes: Vec<String>,
 }

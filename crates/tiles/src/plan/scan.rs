@@ -11,11 +11,11 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::digest::FeatureDigest;
-use super::{Division, feature_digest, id_digest};
+use super::{TileDivision, feature_digest, id_digest};
 
 /// Feature that no tile contains.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub struct LeftOut {
+pub struct OmittedFeature {
     /// Layer.
     pub layer: String,
     /// Id of the feature.
@@ -25,16 +25,18 @@ pub struct LeftOut {
 }
 
 /// Result of a scan.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ScanResult {
     /// File and layer.
     pub label: String,
     /// Number of features in tiles.
     pub features: u64,
+    /// Minimum and maximum coordinates (m) of the features.
+    pub bounds: [[f64; 3]; 2],
     /// Set if a part of the file has the same ids as the whole file.
     pub in_parts: bool,
     /// Features that cannot be in a tile.
-    pub left_out: Vec<LeftOut>,
+    pub left_out: Vec<OmittedFeature>,
     /// Remarks on features that are in tiles, or that are too many to be listed.
     pub notes: Vec<String>,
 }
@@ -46,7 +48,7 @@ pub struct ScanResult {
 pub fn scan_source(
     (path, name, options): (&Path, &str, &SourceOptions),
     frame: &ReferenceFrame,
-    division: &mut Division,
+    division: &mut TileDivision,
 ) -> Result<ScanResult> {
     let mut scan = SourceScan::new(frame);
     let in_parts = each_piece(path, name, options, |table| {
@@ -59,10 +61,11 @@ pub fn scan_source(
         scan = SourceScan::new(frame);
         scan.add(whole)?;
     }
-    let SourceScan { label, left_out, notes, division: own, .. } = scan;
+    let SourceScan { label, bounds, left_out, notes, division: own, .. } = scan;
     let features = own.features();
+    let bounds = if features == 0 { [[0.0; 3]; 2] } else { bounds };
     division.merge(&own);
-    Ok(ScanResult { label, features, in_parts, left_out, notes })
+    Ok(ScanResult { label, features, bounds, in_parts, left_out, notes })
 }
 
 /// Maximum number of listed features.
@@ -72,12 +75,13 @@ const LISTED: usize = 100_000;
 struct SourceScan<'a> {
     frame: &'a ReferenceFrame,
     label: String,
-    division: Division,
+    bounds: [[f64; 3]; 2],
+    division: TileDivision,
     /// Hashes of the ids so far.
     known: BTreeSet<u64>,
     /// Set if pieces have the same id.
     is_repeated: bool,
-    left_out: Vec<LeftOut>,
+    left_out: Vec<OmittedFeature>,
     notes: Vec<String>,
 }
 
@@ -86,7 +90,8 @@ impl<'a> SourceScan<'a> {
         Self {
             frame,
             label: String::new(),
-            division: Division::default(),
+            bounds: [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]],
+            division: TileDivision::default(),
             known: BTreeSet::new(),
             is_repeated: false,
             left_out: Vec::new(),
@@ -116,6 +121,11 @@ impl<'a> SourceScan<'a> {
             return Ok(());
         }
         let layer = Layer::new(table, &mut Some(self.frame.clone()))?;
+        let [low, high] = layer.bounds;
+        for axis in 0..3 {
+            self.bounds[0][axis] = self.bounds[0][axis].min(low[axis]);
+            self.bounds[1][axis] = self.bounds[1][axis].max(high[axis]);
+        }
         let (name, names) = (&layer.name, &layer.names);
         let measured: Vec<_> = layer
             .features
@@ -142,7 +152,7 @@ impl<'a> SourceScan<'a> {
 
     fn leave_out(&mut self, feature: String, cause: String) {
         if self.left_out.len() < LISTED {
-            self.left_out.push(LeftOut { layer: self.label.clone(), feature, cause });
+            self.left_out.push(OmittedFeature { layer: self.label.clone(), feature, cause });
         }
     }
 }
