@@ -9,7 +9,7 @@ use serde_json::json;
 
 use super::super::report;
 
-/// Writes tileset.json from the tiles that were made, and lists the missing features: missing.geojson and missing.csv
+/// Writes tileset.json from the tiles that were made, and lists the missing features as GeoJSON and CSV
 #[derive(Args)]
 pub(super) struct JoinCommand {
     /// Folder of the plan

@@ -61,7 +61,7 @@ impl PlanCommand {
     pub(super) fn run(&self) -> Result<()> {
         if self.script.has_databases() {
             return Err(Error::usage("tiles are made from files, and not from databases")
-                .help("export the features: ogr2ogr buildings.gpkg PG:... buildings"));
+                .help("export the features to a GeoPackage, for example with ogr2ogr"));
         }
         let survey = self.survey()?;
         let (session, survey) = survey;
@@ -212,14 +212,14 @@ fn feature_sources(session: &Session, survey: &SourceSurvey) -> Result<Vec<Surve
     let labels = session.feature_sources();
     if labels.is_empty() {
         return Err(Error::script("the script makes no chains from features, so there is nothing to divide")
-            .help("write system:axiom(source(\"town.gpkg:buildings\"), function(feature) ... end)"));
+            .help("write system:axiom(source(FILE), function(feature) ... end)"));
     }
     let loaded = survey.sources();
     let mut found = Vec::new();
     for label in labels {
         let Some(label) = label else {
             return Err(Error::script("the script makes chains from a list, which tiles cannot divide")
-                .help("write the features to a file, and load it: source(\"town.geojson\")"));
+                .help("write the features to a file, and load it: source(FILE)"));
         };
         let mut own = loaded.iter().filter(|source| source.label == label);
         match (own.next(), own.next()) {

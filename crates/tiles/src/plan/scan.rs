@@ -51,12 +51,12 @@ pub fn scan_source(
     division: &mut TileDivision,
 ) -> Result<ScanResult> {
     let mut scan = SourceScan::new(frame);
-    let in_parts = each_piece(path, name, options, |table| {
+    let in_pieces = each_piece(path, name, options, |table| {
         scan.add(table)?;
         Ok(if scan.is_repeated { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
     })?;
-    let in_parts = in_parts && !scan.is_repeated && options.within.is_none();
-    if scan.is_repeated {
+    let in_parts = in_pieces && !scan.is_repeated && options.within.is_none();
+    if in_pieces && scan.is_repeated {
         let whole = Source::open_within(path, name, options)?.read(name, options)?;
         scan = SourceScan::new(frame);
         scan.add(whole)?;
@@ -110,6 +110,7 @@ impl<'a> SourceScan<'a> {
             self.notes
                 .push(format!("{}: {bare} features have no geometry, or too few points for one", self.label));
         }
+        self.is_repeated |= !table.repeated_ids.is_empty();
         for id in &table.repeated_ids {
             self.notes.push(format!(
                 "{}: several features have the id {id}; further ones are numbered {id}.2 and so on",
