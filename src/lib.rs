@@ -31,8 +31,9 @@
 //! engine     uses ──► base, kit, language, packages, rewriting, scene, spatial
 //! picture    uses ──► base, scene
 //! export     uses ──► base, picture, scene, spatial
+//! tiles      uses ──► base, data, export, picture, scene, spatial
 //! live       uses ──► base, engine, export, picture, scene
-//! burgeon    uses ──► base, engine, export, kit, language, live, objects, packages, picture, scene, sources, terrain
+//! burgeon    uses ──► base, engine, export, kit, language, live, objects, packages, picture, scene, sources, terrain, tiles
 //! ```
 //!
 //! - [`error`], [`warning`](mod@warning) and [`text`]: errors, warnings and human-readable text. [`Stop`] cancels work;
@@ -52,6 +53,8 @@
 //!   are rewritten step by step into a [`DerivedSystem`](results::DerivedSystem), and interpreted between the steps.
 //! - [`export`] and [`picture`]: the scene as a file ([`Format`](export::Format)) or an image
 //!   ([`render`](picture::render)).
+//! - [`tiles`]: the features of a country as 3D Tiles. A [`TilePlan`](tiles::TilePlan) divides them, and
+//!   [`make_tile`](tiles::make_tile) writes the tiles in any number of processes.
 //! - [`packages`]: folders of scripts, models and textures for use by other scripts, and their load order.
 //! - [`watch`]: reports changes of the files of a script.
 //! - [`presets`]: named values of parameters, in a file next to the script.
@@ -162,6 +165,7 @@ pub use burgeon_picture as picture;
 pub use burgeon_scene as scene;
 pub use burgeon_sources as sources;
 pub use burgeon_terrain as terrain;
+pub use burgeon_tiles as tiles;
 
 /// Returns all object types and sources of Burgeon.
 pub fn registry() -> kit::Registry {

@@ -3,7 +3,7 @@
 use std::io::{ErrorKind, Write as _};
 use std::process::ExitCode;
 
-use super::{api, check, completions, fit, live, mods, new, report, run, setup, sources, variations};
+use super::{api, check, completions, fit, live, mods, new, report, run, setup, sources, tiles, variations};
 use burgeon::Error;
 use clap::{Parser, Subcommand};
 
@@ -31,6 +31,7 @@ enum Command {
     New(new::NewCommand),
     Setup(setup::SetupCommand),
     Sources(sources::SourcesCommand),
+    Tiles(tiles::TilesCommand),
     Completions(completions::CompletionsCommand),
 }
 
@@ -51,6 +52,7 @@ pub(crate) fn main() -> ExitCode {
         Command::New(command) => (command.json(), command.run()),
         Command::Setup(command) => (command.json(), command.run()),
         Command::Sources(command) => (command.json(), command.run()),
+        Command::Tiles(command) => return tiles(&command),
         Command::Completions(command) => (command.json(), command.run()),
     };
     match result {
@@ -60,6 +62,18 @@ pub(crate) fn main() -> ExitCode {
         Err(error) => {
             report::error(&error, json);
             ExitCode::FAILURE
+        }
+    }
+}
+
+/// Runs `burgeon tiles`, whose exit status tells schedulers whether to repeat it.
+fn tiles(command: &tiles::TilesCommand) -> ExitCode {
+    match command.run() {
+        Ok(()) if report::is_closed() => ExitCode::FAILURE,
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            report::error(&error, command.json());
+            command.status(&error)
         }
     }
 }

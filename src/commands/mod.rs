@@ -18,6 +18,7 @@ mod run;
 mod setup;
 mod shared;
 mod sources;
+mod tiles;
 mod variations;
 
 pub(crate) use command_line::main;

@@ -129,6 +129,42 @@ impl ScriptFlags {
         Ok((located.shown, meant.path))
     }
 
+    /// Returns the arguments that a later command needs for the same runs, with paths that `portable` has changed. Threads are
+    /// left out, because they do not affect the result.
+    pub(crate) fn arguments(&self, portable: impl Fn(&Path) -> Result<String>) -> Result<Vec<String>> {
+        let mut arguments = Vec::new();
+        let mut add = |name: &str, value: String| arguments.extend([format!("--{name}"), value]);
+        self.set.iter().for_each(|(name, value)| add("set", format!("{name}={value}")));
+        self.preset.iter().for_each(|preset| add("preset", preset.clone()));
+        for (name, paths) in [("data", &self.data), ("mods", &self.mods)] {
+            paths.iter().try_for_each(|path| portable(path).map(|path| add(name, path)))?;
+        }
+        self.stdlib.iter().try_for_each(|path| portable(path).map(|path| add("stdlib", path)))?;
+        self.seed.iter().for_each(|seed| add("seed", seed.to_string()));
+        self.steps.iter().for_each(|steps| add("steps", steps.to_string()));
+        add("lod", self.lod.to_string());
+        add("time-limit", self.time_limit.to_string());
+        add("memory-limit", self.memory_limit.to_string());
+        add("module-limit", self.module_limit.to_string());
+        add("triangle-limit", self.triangle_limit.to_string());
+        arguments.extend(self.strict.then(|| "--strict".to_owned()));
+        Ok(arguments)
+    }
+
+    /// Changes the paths of the data, packages and standard library, and the number of threads.
+    pub(crate) fn relocate(&mut self, local: impl Fn(&Path) -> PathBuf, threads: Option<u16>) {
+        for path in self.data.iter_mut().chain(&mut self.mods).chain(&mut self.stdlib) {
+            *path = local(path);
+        }
+        self.script = local(&self.script);
+        self.threads = threads;
+    }
+
+    /// Returns true if the script may query databases.
+    pub(crate) fn has_databases(&self) -> bool {
+        !self.database.is_empty()
+    }
+
     /// Returns the distance (m) within which features of other parts are derived too.
     pub(crate) fn reach(&self) -> f64 {
         self.reach

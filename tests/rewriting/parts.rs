@@ -39,7 +39,7 @@ fn check(script: &Path, count: usize, reach: f64) -> usize {
     let (mut shown, mut chains) = (BTreeMap::new(), vec![String::new(); whole.systems.len()]);
     let (mut given, mut remarks) = (0, Vec::new());
     for number in 1..=count {
-        let part = run(script, Some(FeaturePart { number, count, reach }));
+        let part = run(script, Some(FeaturePart { number, count, reach, cell: None }));
         for (key, instances) in features(&part.scene) {
             assert!(shown.insert(key.clone(), instances).is_none(), "{key:?} is shown twice");
         }
@@ -122,7 +122,8 @@ fn parts_of_rows_of_houses_keep_common_walls_remarks_and_random_numbers() {
 fn a_part_without_reach_lacks_the_neighbours_of_its_edge() {
     let script = write("edge.lua", &ROWS.replace("EXTRA", "0"));
     let whole = features(&run(&script, None).scene);
-    let part = |reach| features(&run(&script, Some(FeaturePart { number: 2, count: 3, reach })).scene);
+    let part =
+        |reach| features(&run(&script, Some(FeaturePart { number: 2, count: 3, reach, cell: None })).scene);
     let differs = |part: &BTreeMap<(usize, String), Vec<String>>| {
         part.iter().filter(|(key, instances)| whole[*key] != **instances).count()
     };
@@ -140,7 +141,7 @@ fn an_empty_part_says_so_without_a_warning() {
          s:interpret('A', function(this) this:extrude(1) end)
          s:derive()",
     );
-    let part = |number| run(&script, Some(FeaturePart { number, count: 4, reach: 0.0 }));
+    let part = |number| run(&script, Some(FeaturePart { number, count: 4, reach: 0.0, cell: None }));
     let (first, second) = (part(1), part(2));
     assert!(first.scene.triangles() > 0 && first.notes.is_empty());
     assert_eq!((second.scene.triangles(), second.warnings.len()), (0, 0));

@@ -173,7 +173,7 @@ fn a_part_has_the_streams_of_the_whole_run() {
     let whole = all_chains(&run_with(ROWS, burgeon::options()));
     let parts: String = (1..=4)
         .map(|number| {
-            let part = Some(FeaturePart { number, count: 4, reach: 0.0 });
+            let part = Some(FeaturePart { number, count: 4, reach: 0.0, cell: None });
             all_chains(&run_with(ROWS, RunOptions { part, ..burgeon::options() }))
         })
         .collect();

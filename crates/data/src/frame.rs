@@ -75,7 +75,7 @@ pub(crate) fn bring_into(frame: &ReferenceFrame, table: &mut FeatureTable) -> Re
 }
 
 /// Removes features with coordinates that are not finite, or not valid degrees.
-fn refuse_odd_degrees(crs: &Crs, table: &mut FeatureTable) -> Result<()> {
+pub(super) fn refuse_odd_degrees(crs: &Crs, table: &mut FeatureTable) -> Result<()> {
     table.refuse_endless()?;
     if !crs.is_geographic() {
         return Ok(());
@@ -112,33 +112,56 @@ fn median(crs: &Crs, table: &FeatureTable) -> [f64; 2] {
     [y.atan2(x).to_degrees(), z.atan2(x.hypot(y)).to_degrees()]
 }
 
-/// Returns the centre of the bounds of the features that `counts` accepts, and half of the longer side. Longitudes are
-/// relative to the first one, across the date line.
+/// Bounds of features in a coordinate system. Longitudes are relative to the first one, across the date line.
+#[derive(Debug, Clone)]
+pub(super) struct PointBounds {
+    low: [f64; 2],
+    high: [f64; 2],
+    first: Option<f64>,
+}
+
+impl PointBounds {
+    pub(super) fn new() -> Self {
+        Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2], first: None }
+    }
+
+    /// Adds the points of `feature`; `is_geographic` if they are longitudes and latitudes.
+    pub(super) fn add(&mut self, is_geographic: bool, feature: &Feature) {
+        for point in feature.geometry.points() {
+            let mut x = point[0];
+            if is_geographic {
+                let first = *self.first.get_or_insert(x);
+                x = first + (x - first + 180.0).rem_euclid(360.0) - 180.0;
+            }
+            for (axis, value) in [x, point[1]].into_iter().enumerate() {
+                self.low[axis] = self.low[axis].min(value);
+                self.high[axis] = self.high[axis].max(value);
+            }
+        }
+    }
+
+    /// Returns the centre, and half of the longer side; `None` without points.
+    pub(super) fn centre(&self) -> Option<([f64; 2], f64)> {
+        let Self { low, high, .. } = self;
+        let middle = [0, 1].map(|axis| (low[axis] + high[axis]) / 2.0);
+        let half = (high[0] - low[0]).max(high[1] - low[1]) / 2.0;
+        middle.iter().all(|value| value.is_finite()).then_some((middle, half))
+    }
+}
+
+/// Returns the centre of the bounds of the features that `counts` accepts, and half of the longer side.
 fn centre(
     crs: &Crs,
     table: &FeatureTable,
     mut counts: impl FnMut(&Feature) -> bool,
 ) -> Result<([f64; 2], f64)> {
-    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    let (mut first, geographic) = (None, crs.is_geographic());
-    let features = table.features.iter().filter(|feature| counts(feature));
-    for point in features.flat_map(|feature| feature.geometry.points()) {
-        let mut x = point[0];
-        if geographic {
-            let first = *first.get_or_insert(x);
-            x = first + (x - first + 180.0).rem_euclid(360.0) - 180.0;
-        }
-        for (axis, value) in [x, point[1]].into_iter().enumerate() {
-            low[axis] = low[axis].min(value);
-            high[axis] = high[axis].max(value);
-        }
-    }
-    let middle = [0, 1].map(|axis| (low[axis] + high[axis]) / 2.0);
-    if middle.iter().all(|value| value.is_finite()) {
-        Ok((middle, (high[0] - low[0]).max(high[1] - low[1]) / 2.0))
-    } else {
-        Err(Error::data(format!("{} has no features", table.shown)))
-    }
+    let (mut bounds, is_geographic) = (PointBounds::new(), crs.is_geographic());
+    table
+        .features
+        .iter()
+        .filter(|feature| counts(feature))
+        .for_each(|feature| bounds.add(is_geographic, feature));
+    bounds.centre().ok_or_else(|| Error::data(format!("{} has no features", table.shown)))
 }
 
 #[cfg(test)]

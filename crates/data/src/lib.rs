@@ -21,6 +21,7 @@ mod layer;
 mod layer_choice;
 mod layered_file;
 mod listing;
+mod pieces;
 mod script_features;
 mod source;
 mod source_options;
@@ -40,9 +41,10 @@ pub use layer::Layer;
 pub use layered_file::LayeredFile;
 pub use listing::nearest_file;
 pub use listing::{AttributeListing, LayerListing, Listing};
+pub use pieces::{FrameExtent, each_piece};
 pub use script_features::Features;
 pub use source::Source;
-pub use source_options::SourceOptions;
+pub use source_options::{RecordChoice, SourceOptions};
 pub use tags::{TagFilter, TagTest};
 
 /// Extensions of data files.

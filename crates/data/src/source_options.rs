@@ -7,6 +7,21 @@ use super::tags::TagFilter;
 use burgeon_base::budget::Budget;
 use burgeon_spatial::GeometryKind;
 
+/// Records of a GeoPackage to read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RecordChoice {
+    /// At most `most` records whose keys are greater than `key`, by key.
+    After {
+        /// Key before the first record.
+        key: i64,
+        /// Maximum number of records.
+        most: usize,
+    },
+    /// Records that the spatial index of the file finds in the box of [`SourceOptions::within`]; all records if the file has
+    /// no index.
+    Indexed,
+}
+
 /// Options for reading a data file.
 #[derive(Clone, Default)]
 pub struct SourceOptions {
@@ -27,6 +42,8 @@ pub struct SourceOptions {
     pub kind: Option<GeometryKind>,
     /// EPSG code that overrides the file's coordinate system.
     pub crs: Option<u32>,
+    /// Records of a GeoPackage to read; other formats ignore it.
+    pub records: Option<RecordChoice>,
     /// Limits on the resources for reading.
     pub budget: Arc<Budget>,
 }
@@ -34,8 +51,9 @@ pub struct SourceOptions {
 impl fmt::Debug for SourceOptions {
     /// Writes all options that affect the content that is read.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { layer, condition, tags, within, limit, id, kind, crs, budget: _ } = self;
-        write!(f, "{layer:?} {condition:?} {tags:?} {within:?} {limit:?} {id:?} {kind:?} {crs:?}")
+        let Self { layer, condition, tags, within, limit, id, kind, crs, records, budget: _ } = self;
+        write!(f, "{layer:?} {condition:?} {tags:?} {within:?} {limit:?} {id:?} {kind:?} {crs:?}")?;
+        records.map_or(Ok(()), |records| write!(f, " {records:?}"))
     }
 }
 

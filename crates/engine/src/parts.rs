@@ -34,7 +34,7 @@ pub fn each_part(
         options.registry.set_sources(sources);
     }
     for number in 1..=count {
-        let part = Some(FeaturePart { number, count, reach });
+        let part = Some(FeaturePart { number, count, reach, cell: None });
         act(&Session::new(script, RunOptions { part, ..options.clone() })?)?;
     }
     Ok(())

@@ -124,7 +124,7 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
             idle.extend(is_empty.then(|| Arc::clone(system)));
             continue;
         }
-        if session.options.part.is_some_and(|part| part.number > 1) && system.is_featureless() {
+        if session.options.part.is_some_and(|part| !part.has_featureless()) && system.is_featureless() {
             // The first part shows it.
             continue;
         }

@@ -14,10 +14,10 @@ mod listing;
 pub mod sql;
 mod store;
 
-pub use burgeon_data::Listing;
+pub use burgeon_data::{Layer, Listing};
 pub use burgeon_spatial::ReferenceFrame;
 pub use listing::{list_content, read_height_shape};
-pub use store::DataSources;
+pub use store::{DataSources, SourceSurvey, SourceWindow, SurveyedSource, WindowBox};
 
 #[cfg(doc)]
 use burgeon_kit::SourceProvider;

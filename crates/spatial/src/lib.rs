@@ -49,7 +49,7 @@ pub use crs::{Crs, Passage, ReferenceFrame, WorldPlace};
 pub use geometry::{FARTHEST, Geometry};
 pub use kind::GeometryKind;
 pub use overlay::union_all;
-pub use reach::{BoundingBox, near_selection};
+pub use reach::{BoundingBox, near_selection, representative_point};
 pub use records::{Record, RecordTable};
 pub use relation::Relation;
 pub use scripting::{GeometryList, GeometryObject, Lines, Path, PolygonArgument, Shape, constructors, rings};

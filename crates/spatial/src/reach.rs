@@ -12,6 +12,11 @@ const STRETCH: usize = 4096;
 /// Minimum and maximum coordinates (m) of a geometry, horizontally.
 pub type BoundingBox = [DVec2; 2];
 
+/// Returns the point that decides to which cell of a grid a geometry with these bounds belongs: their centre.
+pub fn representative_point([low, high]: BoundingBox) -> [f64; 2] {
+    low.midpoint(high).to_array()
+}
+
 /// Returns for each bounding box whether it lies within `reach` (m) of the box of a selected geometry, horizontally and
 /// along each axis. A geometry without a box is near nothing. Fails if the current work is stopped.
 ///

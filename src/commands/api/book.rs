@@ -14,7 +14,7 @@ const AXES: [&str; 2] = ["extruder", "turtle"];
 pub(super) type Page = (String, String);
 
 /// Chapters that are written by hand: their titles and files.
-const CHAPTERS: [(&str, &str); 23] = [
+const CHAPTERS: [(&str, &str); 24] = [
     ("Introduction", "introduction"),
     ("Contexts and features", "rules"),
     ("Phases, hooks and variables", "phases"),
@@ -31,6 +31,7 @@ const CHAPTERS: [(&str, &str); 23] = [
     ("Street networks", "networks"),
     ("Running scripts", "running"),
     ("Export formats", "formats"),
+    ("3D Tiles", "tiles"),
     ("Live view", "live"),
     ("Custom object types", "types"),
     ("Packages", "packages"),

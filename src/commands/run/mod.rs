@@ -9,3 +9,4 @@ mod parts;
 mod watch;
 
 pub(crate) use command::RunCommand;
+pub(super) use outputs::{attributes, systems};

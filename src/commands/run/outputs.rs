@@ -140,7 +140,7 @@ impl RunCommand {
 }
 
 /// Returns the facts about the systems of a run, if there are any.
-fn systems(run: &burgeon::Run) -> Vec<SystemFacts> {
+pub(in crate::commands) fn systems(run: &burgeon::Run) -> Vec<SystemFacts> {
     let known = run.systems.iter().filter_map(|system| {
         let records = system.records();
         let is_known = records.is_some() || system.city.is_some();
@@ -152,7 +152,11 @@ fn systems(run: &burgeon::Run) -> Vec<SystemFacts> {
 
 /// Returns the attributes that `--metadata` selects: its `names`, all for `*`, or without names the attributes that the
 /// script specifies. Fails if no feature has one of the names.
-fn attributes(session: &Session, names: &[String], systems: &[SystemFacts]) -> Result<Vec<String>> {
+pub(in crate::commands) fn attributes(
+    session: &Session,
+    names: &[String],
+    systems: &[SystemFacts],
+) -> Result<Vec<String>> {
     let known = || systems.iter().flat_map(|system| &system.records.columns);
     let names: Vec<&String> = names.iter().filter(|name| !name.is_empty()).collect();
     for name in names.iter().filter(|name| **name != "*") {

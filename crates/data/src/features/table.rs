@@ -37,6 +37,12 @@ pub struct FeatureTable {
     pub empty: usize,
     /// Number of these features that have points, but too few distinct ones.
     pub(crate) collapsed: usize,
+    /// Ids of the first features without a geometry.
+    pub empty_ids: Vec<String>,
+    /// Ids of the first records whose id another record of the table has already.
+    pub repeated_ids: Vec<String>,
+    /// Key of the last record that was read; `None` if the records have no keys.
+    pub(crate) last_key: Option<i64>,
     /// Ids of skipped features whose geometry cannot be read, with the reasons.
     pub refused: Vec<(String, Error)>,
     /// Other messages about reading the layer.
@@ -63,6 +69,9 @@ fn weight(geometry: &Geometry) -> usize {
     geometry.lists().iter().map(|list| if list.len() > 1 { 48 + 24 * list.len() } else { 0 }).sum()
 }
 
+/// Maximum number of remembered ids, of features without a geometry and of repeated ids.
+const REMEMBERED_IDS: usize = 1000;
+
 /// Maximum number of remembered texts, and maximum length of such a text (bytes).
 const TEXTS: usize = 4096;
 const LONGEST_TEXT: usize = 40;
@@ -80,6 +89,9 @@ impl FeatureTable {
             records: 0,
             empty: 0,
             collapsed: 0,
+            empty_ids: Vec::new(),
+            repeated_ids: Vec::new(),
+            last_key: None,
             refused: Vec::new(),
             notes: Vec::new(),
             derived: 0,
@@ -156,7 +168,11 @@ impl FeatureTable {
     ) -> Result<()> {
         self.budget.tick()?;
         if parts.is_empty() {
+            let before = self.empty;
             self.add_empty(&attributes, None);
+            if self.empty > before && self.empty_ids.len() < REMEMBERED_IDS {
+                self.empty_ids.push(id.to_owned());
+            }
             return Ok(());
         }
         let several = parts.len() > 1;
@@ -181,7 +197,11 @@ impl FeatureTable {
             if self.is_full() {
                 break;
             }
-            let id = self.ids.fresh(id, &self.features);
+            let fresh = self.ids.fresh(id, &self.features);
+            if self.features.len() == first && fresh != *id && self.repeated_ids.len() < REMEMBERED_IDS {
+                self.repeated_ids.push(id.to_owned());
+            }
+            let id = fresh;
             self.budget.take(id.weight())?;
             geometry.compact();
             if self.features.len() > first {
@@ -272,15 +292,19 @@ impl FeatureTable {
     }
 
     /// Returns the table after applying the options: the coordinate system, the geometry type and the number of
-    /// features. Fails if no features remain.
+    /// features. Fails if no features remain, unless the options choose records.
     pub fn finish(mut self, wanted: &SourceOptions) -> Result<Self> {
         if let Some(code) = wanted.crs {
             self.crs = Crs::epsg(code);
         }
-        self.check_kind()?;
         self.derived = self.derived.min(self.features.len());
         // The pool would keep attributes that a condition has removed.
         self.pool = AttributePool::new();
+        if wanted.records.is_some() {
+            // Other records of the layer may have features.
+            return Ok(self);
+        }
+        self.check_kind()?;
         if let (true, Some((_, error))) = (self.features.is_empty() && !self.has_seen(), self.refused.first())
         {
             return Err(error.clone());
@@ -345,12 +369,16 @@ impl FeatureTable {
         let Some(name) = name else { return Ok(()) };
         let column = self.column(name)?;
         self.ids = TakenIds::new();
+        self.repeated_ids.clear();
         let mut without = 0;
         for mut feature in std::mem::take(&mut self.features) {
             let known = feature.attributes.iter().find(|(index, _)| *index == column);
             without += usize::from(known.is_none());
             let id = known.map_or_else(|| feature.id.to_string(), |(_, value)| value.text());
             feature.id = self.ids.fresh(&id, &self.features);
+            if feature.id != *id && self.repeated_ids.len() < REMEMBERED_IDS {
+                self.repeated_ids.push(id);
+            }
             self.features.push(feature);
         }
         self.derived = self.derived.min(without);

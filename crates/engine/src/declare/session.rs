@@ -86,6 +86,8 @@ pub struct Session {
     /// Sizes and times of the files on which the run depends, from before they were read.
     pub(super) stamps: Mutex<BTreeMap<PathBuf, String>>,
     notes: Mutex<BTreeSet<String>>,
+    /// Labels of the layers whose features became chains; `None` for a list of the script.
+    feature_sources: Mutex<BTreeSet<Option<String>>>,
     params: Mutex<Vec<Param>>,
     left_out: Mutex<Vec<(String, Error)>>,
     warnings: Warnings,
@@ -148,6 +150,7 @@ impl Session {
             sought: Mutex::default(),
             stamps: Mutex::default(),
             notes: Mutex::default(),
+            feature_sources: Mutex::default(),
             params: Mutex::default(),
             left_out: Mutex::default(),
             warnings,
@@ -217,6 +220,17 @@ impl Session {
     /// Returns the report entries about the run's data that are not warnings, sorted.
     pub fn notes(&self) -> Vec<String> {
         self.notes.lock().recover().iter().cloned().collect()
+    }
+
+    /// Records the label of a layer whose features become the chains of a system; `None` for a list of the script.
+    pub(crate) fn note_feature_source(&self, label: Option<&str>) {
+        self.feature_sources.lock().recover().insert(label.map(str::to_owned));
+    }
+
+    /// Returns the labels of the layers whose features became the chains of a system, sorted; `None` for a list of the
+    /// script.
+    pub fn feature_sources(&self) -> Vec<Option<String>> {
+        self.feature_sources.lock().recover().iter().cloned().collect()
     }
 
     /// Records a path that was looked up, and whether it exists.

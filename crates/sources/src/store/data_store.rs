@@ -8,6 +8,7 @@ use std::sync::{Arc, Mutex};
 use super::files::read;
 use super::lists::ScriptList;
 use super::options::parse_options;
+use super::provider::SourceReading;
 use super::tables::{SourceTable, SourceTables, TableContent};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
@@ -28,14 +29,19 @@ pub(super) struct LoadedSources {
     /// Projection and origin, set by the first source.
     pub(super) frame: Option<ReferenceFrame>,
     pub(super) cache: Option<Arc<Cache>>,
+    pub(super) reading: SourceReading,
     loaded: BTreeMap<String, Result<Arc<Layer>>>,
     pub(super) tables: SourceTables,
 }
 
 impl DataStore {
-    /// Creates an empty store that reads layers through `cache`.
-    pub(super) fn new(cache: Option<Arc<Cache>>) -> Self {
-        Self(Mutex::new(LoadedSources { cache, ..LoadedSources::default() }))
+    /// Creates an empty store that reads layers through `cache`, and the part of them that `reading` selects.
+    pub(super) fn new(cache: Option<Arc<Cache>>, reading: SourceReading) -> Self {
+        let frame = match &reading {
+            SourceReading::Window(window) => window.frame.clone(),
+            _ => None,
+        };
+        Self(Mutex::new(LoadedSources { cache, reading, frame, ..LoadedSources::default() }))
     }
 }
 
@@ -54,7 +60,7 @@ impl SourceStore for DataStore {
         }
         wanted.budget = Arc::clone(request.budget);
         let before = request.budget.used_bytes();
-        let loaded = read(request, text, wanted, &mut known, table.as_deref());
+        let loaded = read(request, (text, &key), wanted, &mut known, table.as_deref());
         request.resources.check()?;
         let kept = loaded.as_ref().map_or(0, |layer| layer.size());
         request.budget.settle(before, kept);
@@ -73,6 +79,7 @@ impl SourceStore for DataStore {
                 id: None,
                 kind: None,
                 crs: None,
+                records: None,
                 budget: _,
             },
             Some(name),

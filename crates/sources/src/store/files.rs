@@ -1,18 +1,22 @@
 //! Layers of data files.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use super::data_store::LoadedSources;
+use super::provider::SourceReading;
 use super::servers;
+use super::survey::SurveyedSource;
 use super::tables::{SourceTable, TableContent};
 use burgeon_base::error::{Error, Result};
 use burgeon_data::{Cache, Layer, Source, SourceOptions, companions, split_name};
 use burgeon_kit::SourceRequest;
 
-/// Reads the layer that `source(text, wanted)` names, and adds it as the table `table`, or as a table of its own name.
+/// Reads the layer that `source(text, wanted)` names, and adds it as the table `table`, or as a table of its own name. `key`
+/// identifies the call.
 pub(super) fn read(
     request: &SourceRequest<'_>,
-    text: &str,
+    (text, key): (&str, &str),
     mut wanted: SourceOptions,
     known: &mut LoadedSources,
     table: Option<&str>,
@@ -21,7 +25,8 @@ pub(super) fn read(
         return servers::read(request, text, wanted, known, table);
     }
     let (name, layer) = split_name(text);
-    let SourceOptions { condition, tags, within, limit, id, kind, crs, layer: _, budget: _ } = &wanted;
+    let SourceOptions { condition, tags, within, limit, id, kind, crs, layer: _, records: _, budget: _ } =
+        &wanted;
     let is_whole = (condition, within, limit, id, kind, crs) == (&None, &None, &None, &None, &None, &None)
         && tags.is_none();
     wanted.layer = wanted.layer.or_else(|| layer.map(str::to_owned));
@@ -32,25 +37,22 @@ pub(super) fn read(
     for beside in companions(&path) {
         request.resources.seek(&beside, beside.exists());
     }
-    let cache = known.cache.as_deref();
-    let key = match cache {
-        Some(_) => Cache::key(&path, name, &wanted, known.frame.as_ref())?,
-        None => None,
-    };
-    let kept = cache.zip(key.as_deref()).and_then(|(cache, key)| cache.get(key));
-    let layer = match kept {
-        Some((layer, frame)) => {
-            known.frame = Some(frame);
-            layer
+    let layer = match known.reading.clone() {
+        SourceReading::Whole => read_whole(&path, name, &wanted, known)?,
+        SourceReading::Survey(survey) => {
+            let (key, name, options) = (key.to_owned(), name.to_owned(), wanted.clone());
+            let found = SurveyedSource { key, path: path.clone(), name, options, label: String::new() };
+            Arc::new(survey.read(found, &mut known.frame)?)
         }
-        None => {
-            let table = Source::open_within(&path, name, &wanted)?.read(name, &wanted)?;
-            let label = table.shown.clone();
-            let layer = Layer::new(table, &mut known.frame).map_err(|error| error.about(&label))?;
-            let layer = Arc::new(layer);
-            if let (Some(cache), Some(key), Some(frame)) = (&known.cache, key, &known.frame) {
-                cache.keep(key, &layer, frame);
-            }
+        SourceReading::Window(window) => {
+            let layer = match window.read(key, &path, name, &wanted)? {
+                Some(layer) => Arc::new(layer),
+                None => {
+                    let whole = read_whole(&path, name, &wanted, known)?;
+                    window.choose(key, &whole).map_or(whole, Arc::new)
+                }
+            };
+            window.serve(key, &layer);
             layer
         }
     };
@@ -65,5 +67,31 @@ pub(super) fn read(
             false => TableContent::Layer(Arc::clone(&layer)),
         },
     });
+    Ok(layer)
+}
+
+/// Reads all features of a layer, or returns them from the cache.
+fn read_whole(
+    path: &Path,
+    name: &str,
+    wanted: &SourceOptions,
+    known: &mut LoadedSources,
+) -> Result<Arc<Layer>> {
+    let cache = known.cache.as_deref();
+    let key = match cache {
+        Some(_) => Cache::key(path, name, wanted, known.frame.as_ref())?,
+        None => None,
+    };
+    if let Some((layer, frame)) = cache.zip(key.as_deref()).and_then(|(cache, key)| cache.get(key)) {
+        known.frame = Some(frame);
+        return Ok(layer);
+    }
+    let table = Source::open_within(path, name, wanted)?.read(name, wanted)?;
+    let label = table.shown.clone();
+    let layer = Layer::new(table, &mut known.frame).map_err(|error| error.about(&label))?;
+    let layer = Arc::new(layer);
+    if let (Some(cache), Some(key), Some(frame)) = (&known.cache, key, &known.frame) {
+        cache.keep(key, &layer, frame);
+    }
     Ok(layer)
 }

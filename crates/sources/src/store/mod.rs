@@ -13,7 +13,9 @@ mod lists;
 mod options;
 mod provider;
 mod servers;
+mod survey;
 mod tables;
 mod tags;
 
 pub use provider::DataSources;
+pub use survey::{SourceSurvey, SourceWindow, SurveyedSource, WindowBox};

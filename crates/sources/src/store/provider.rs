@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::data_store::DataStore;
+use super::survey::{SourceSurvey, SourceWindow};
 use burgeon_data::{Cache, nearest_file, split_name};
 use burgeon_kit::{SourceProvider, SourceStore};
 
@@ -18,19 +19,48 @@ use burgeon_kit::{SourceProvider, SourceStore};
 /// registry.set_sources(Arc::new(DataSources::default()));
 /// assert_eq!(DataSources::default().file_name("town.gpkg:houses"), "town.gpkg");
 /// ```
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub struct DataSources {
     /// Layers that earlier runs have read.
     cache: Option<Arc<Cache>>,
+    reading: SourceReading,
+}
+
+/// Part of the sources that runs read.
+#[derive(Clone, Default)]
+pub(super) enum SourceReading {
+    #[default]
+    Whole,
+    Survey(Arc<SourceSurvey>),
+    Window(Arc<SourceWindow>),
+}
+
+impl DataSources {
+    /// Creates a provider whose runs record their sources in `survey` and read no features.
+    pub fn surveyed(survey: &Arc<SourceSurvey>) -> Self {
+        Self { cache: None, reading: SourceReading::Survey(Arc::clone(survey)) }
+    }
+
+    /// Creates a provider with the cache of this one, if it has one, whose runs read the features in the boxes of `window`.
+    #[must_use]
+    pub fn windowed(&self, window: &Arc<SourceWindow>) -> Self {
+        Self { cache: self.cache.clone(), reading: SourceReading::Window(Arc::clone(window)) }
+    }
+
+    /// Creates a provider that reuses unchanged data of earlier runs.
+    pub fn cached() -> Self {
+        Self { cache: Some(Arc::default()), reading: SourceReading::Whole }
+    }
 }
 
 impl SourceProvider for DataSources {
     fn open(&self) -> Arc<dyn SourceStore> {
-        Arc::new(DataStore::new(self.cache.clone()))
+        Arc::new(DataStore::new(self.cache.clone(), self.reading.clone()))
     }
 
     fn with_cache(&self) -> Arc<dyn SourceProvider> {
-        Arc::new(Self { cache: Some(self.cache.clone().unwrap_or_default()) })
+        let cache = Some(self.cache.clone().unwrap_or_default());
+        Arc::new(Self { cache, reading: self.reading.clone() })
     }
 
     fn file_name<'a>(&self, text: &'a str) -> &'a str {

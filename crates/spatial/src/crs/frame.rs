@@ -122,6 +122,45 @@ impl Passage<'_> {
     }
 }
 
+/// Number of points on a side of a box that is transformed.
+const SIDE: u32 = 16;
+
+impl Passage<'_> {
+    /// Returns a box in the coordinate system (west, south, east, north) that contains the box in the frame (m); `None` if
+    /// it cannot be projected, or crosses the date line.
+    pub fn leave_box(&self, [west, south, east, north]: [f64; 4]) -> Option<[f64; 4]> {
+        if self.stays {
+            let [[west, south], [east, north]] =
+                [[west, south], [east, north]].map(|place| self.leave(place));
+            // The sum with the origin is rounded.
+            return Some([west - 0.01, south - 0.01, east + 0.01, north + 0.01]);
+        }
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for part in 0..=SIDE {
+            let at = |from: f64, to: f64| from + (to - from) * f64::from(part) / f64::from(SIDE);
+            let (x, y) = (at(west, east), at(south, north));
+            for place in [[x, south], [x, north], [west, y], [east, y]] {
+                let place = self.leave(place);
+                if !place.iter().all(|value| value.is_finite()) {
+                    return None;
+                }
+                for axis in 0..2 {
+                    (low[axis], high[axis]) = (low[axis].min(place[axis]), high[axis].max(place[axis]));
+                }
+            }
+        }
+        // The sides are curves that bulge between the points.
+        let margin = [0, 1].map(|axis| (high[axis] - low[axis]) / 50.0 + 1e-9 * low[axis].abs());
+        let is_split = self.unit < 1.0 && high[0] - low[0] > 180.0;
+        (!is_split).then_some([
+            low[0] - margin[0],
+            low[1] - margin[1],
+            high[0] + margin[0],
+            high[1] + margin[1],
+        ])
+    }
+}
+
 /// Returns the sorted parts of a definition, without those that have no effect here.
 fn normal(definition: &str) -> Vec<&str> {
     let mut parts: Vec<&str> = definition.split_whitespace().collect();

@@ -9,7 +9,7 @@ use super::state::PackageState;
 use crate::features::table::FeatureTable;
 use crate::formats::blob::{envelope, read_blob};
 use crate::layer_choice::choose_layer;
-use crate::source_options::SourceOptions;
+use crate::source_options::{RecordChoice, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
@@ -27,6 +27,8 @@ pub struct GeoPackage {
     state: Arc<PackageState>,
     name: String,
     layers: Vec<LayerDescription>,
+    /// Tables of spatial indices that were opened.
+    indices: Vec<String>,
 }
 
 /// Description of a layer from the package's own tables.
@@ -40,8 +42,9 @@ impl GeoPackage {
     pub(crate) fn open(path: &Path, name: &str, wanted: &SourceOptions) -> Result<Self> {
         let state = PackageState::open(path, name, &wanted.budget)?;
         let (owned, budget) = (name.to_owned(), Arc::clone(&wanted.budget));
+        let is_indexed = wanted.records == Some(RecordChoice::Indexed);
         run_watched(state.connect()?, &wanted.budget, move |connection| {
-            Self::with(connection, state, owned, &budget)
+            Self::with(connection, state, owned, &budget, is_indexed)
         })
     }
 
@@ -50,8 +53,10 @@ impl GeoPackage {
         state: Arc<PackageState>,
         name: String,
         budget: &Arc<Budget>,
+        is_indexed: bool,
     ) -> Result<Self> {
         let error = |error: rusqlite::Error| read_error(&name, &error);
+        let indices = if is_indexed { open_indices(&connection) } else { Vec::new() };
         // Rows are read once, in order, so a small page cache suffices.
         connection.pragma_update(None, "cache_size", -PAGES).map_err(error)?;
         guard(&mut connection, budget).map_err(error)?;
@@ -67,7 +72,7 @@ impl GeoPackage {
             }
             Err(error) => return Err(read_error(&name, &error)),
         };
-        Ok(Self { connection, state, name, layers })
+        Ok(Self { connection, state, name, layers, indices })
     }
 
     pub(crate) fn layers(&self) -> Vec<&str> {
@@ -75,11 +80,12 @@ impl GeoPackage {
     }
 
     pub(crate) fn read(self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
-        let Self { connection, state, name, layers } = self;
+        let Self { connection, state, name, layers, indices } = self;
         let (layer, wanted) = (layer.to_owned(), wanted.clone());
         let budget = Arc::clone(&wanted.budget);
         run_watched(connection, &budget, move |connection| {
-            let read = Self { connection, state: Arc::clone(&state), name, layers }.table(&layer, &wanted);
+            let opened = Self { connection, state: Arc::clone(&state), name, layers, indices };
+            let read = opened.table(&layer, &wanted);
             // An error may be caused by reading two different states.
             state.check()?;
             read
@@ -103,14 +109,20 @@ impl GeoPackage {
             Some(id) => Some(table.column(id)?),
             None => table.names.iter().position(|name| name.eq_ignore_ascii_case("id")),
         };
-        let sql = columns.select(layer, &described.column, wanted);
+        let index = format!("rtree_{layer}_{}", described.column);
+        let index = self.indices.iter().find(|known| known.eq_ignore_ascii_case(&index));
+        let sql = columns.select((layer, &described.column), index.map(String::as_str), wanted);
         let mut statement =
             self.connection.prepare(&sql).map_err(|error| query_error(&table.shown, wanted, &error))?;
         let mut rows = statement.query([]).map_err(|error| query_error(&table.shown, wanted, &error))?;
         let mut count: usize = 0;
         while let Some(row) = rows.next().map_err(|error| query_error(&table.shown, wanted, &error))? {
             count += 1;
-            let key = row.get_ref(0).ok().and_then(id_text).unwrap_or_else(|| count.to_string());
+            let first = row.get_ref(0).ok();
+            if let Some(ValueRef::Integer(key)) = first {
+                table.last_key = Some(key);
+            }
+            let key = first.and_then(id_text).unwrap_or_else(|| count.to_string());
             let id = id.and_then(|id| id_text(row.get_ref(id + 2).ok()?)).unwrap_or_else(|| key.clone());
             let wrong = |why: &str| {
                 Error::data(format!("the geometry of feature {} of {label} {why}", shown(&id))).help(
@@ -208,6 +220,29 @@ impl GeoPackage {
     }
 }
 
+/// Opens the spatial indices of all layers, before the connection is restricted, and returns their tables. An index that
+/// cannot be opened is not used.
+///
+/// Source: OGC 12-128r18, GeoPackage Encoding Standard, extension `gpkg_rtree_index`.
+fn open_indices(connection: &Connection) -> Vec<String> {
+    let find = || -> rusqlite::Result<Vec<String>> {
+        let mut statement = connection.prepare(
+            "SELECT 'rtree_' || table_name || '_' || column_name FROM gpkg_extensions \
+             WHERE extension_name = 'gpkg_rtree_index' AND column_name IS NOT NULL",
+        )?;
+        statement.query_map([], |row| row.get(0))?.collect()
+    };
+    let mut names = find().unwrap_or_default();
+    names.retain(|name| {
+        let columns = format!("SELECT id, minx, maxx, miny, maxy FROM {} LIMIT 1", quote(name));
+        let read = || -> rusqlite::Result<bool> {
+            connection.prepare(&columns)?.query([])?.next().map(|row| row.is_some())
+        };
+        read().unwrap_or(false)
+    });
+    names
+}
+
 /// Returns the feature layers in file order.
 fn read_layers(connection: &Connection) -> rusqlite::Result<Vec<LayerDescription>> {
     let mut statement = connection.prepare(
@@ -283,19 +318,39 @@ impl LayerColumns {
         Ok(columns)
     }
 
-    fn select(&self, layer: &str, geometry: &str, wanted: &SourceOptions) -> String {
+    /// Returns the statement that reads a layer, with its table and its geometry column, by a spatial index if there is one.
+    fn select(&self, (layer, geometry): (&str, &str), index: Option<&str>, wanted: &SourceOptions) -> String {
         let key = self.key.as_deref().map_or_else(|| "NULL".to_owned(), quote);
         let mut sql = format!("SELECT {key}, {}", quote(geometry));
         for name in &self.names {
             sql += &format!(", {}", quote(name));
         }
         sql += &format!(" FROM {}", quote(layer));
-        if let Some(condition) = &wanted.condition {
-            // The line break ends a comment in the condition.
-            sql += &format!(" WHERE (\n{condition}\n)");
+        let mut conditions = Vec::new();
+        let (mut most, keyed) = (None, self.key.is_some());
+        match (wanted.records, wanted.within, index) {
+            (Some(RecordChoice::After { key: last, most: limit }), ..) if keyed => {
+                conditions.push(format!("{key} > {last}"));
+                most = Some(limit);
+            }
+            (Some(RecordChoice::Indexed), Some([west, south, east, north]), Some(index)) if keyed => {
+                conditions.push(format!(
+                    "{key} IN (SELECT id FROM {} WHERE maxx >= {west:?} AND minx <= {east:?} AND maxy >= {south:?} AND miny <= {north:?})",
+                    quote(index)
+                ));
+            }
+            _ => {}
         }
-        if self.key.is_some() {
+        // The line break ends a comment in the condition.
+        conditions.extend(wanted.condition.as_ref().map(|condition| format!("(\n{condition}\n)")));
+        if !conditions.is_empty() {
+            sql += &format!(" WHERE {}", conditions.join(" AND "));
+        }
+        if keyed {
             sql += &format!(" ORDER BY {key}");
+        }
+        if let Some(most) = most {
+            sql += &format!(" LIMIT {most}");
         }
         sql
     }

@@ -193,8 +193,9 @@ impl SystemDeclaration {
         // Without random numbers and side effects, the function need not run for features that are not built.
         let may_skip = !selection.is_whole() && !machine.session.draws_random() && is_pure(machine, function);
         axiom.source = shown(source);
+        machine.session.note_feature_source(layer_of(source).as_ref().map(|layer| layer.label()));
         let (layer, records) = (layer_of(source), machine.session.options.reports.records);
-        let is_first = machine.session.options.part.is_none_or(|part| part.number == 1);
+        let is_first = machine.session.options.part.is_none_or(|part| part.has_featureless());
         for (id, error) in refused_of(source).into_iter().filter(|_| is_first) {
             axiom.given += 1;
             axiom.feature_warnings.push(unread_feature(&axiom.source, &id, &error));

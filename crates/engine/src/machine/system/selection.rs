@@ -33,18 +33,19 @@ impl PartSelection {
     pub(super) fn new(machine: &Machine, source: &AnyUserData) -> Result<Self> {
         let Some(part) = machine.session.options.part else { return Ok(Self { roles: Vec::new() }) };
         let bounds = bounds(machine, source)?;
-        let shown = part.range(bounds.len());
+        let shown: Vec<bool> =
+            bounds.iter().enumerate().map(|(index, it)| part.contains(index, bounds.len(), *it)).collect();
         let near = if part.reach > 0.0 {
-            near_selection(&bounds, |index| shown.contains(&index), part.reach)?
+            near_selection(&bounds, |index| shown[index], part.reach)?
         } else {
             vec![false; bounds.len()]
         };
-        let role = |(index, near)| match (shown.contains(&index), near) {
+        let role = |(shown, near)| match (shown, near) {
             (true, _) => FeatureRole::Shown,
             (false, true) => FeatureRole::Neighbor,
             (false, false) => FeatureRole::Absent,
         };
-        Ok(Self { roles: near.into_iter().enumerate().map(role).collect() })
+        Ok(Self { roles: shown.into_iter().zip(near).map(role).collect() })
     }
 
     /// Returns the role of the feature with this number, from 0.

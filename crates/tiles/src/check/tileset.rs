@@ -1,0 +1,295 @@
+//! Check of a tileset against its plan.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+
+use burgeon_base::error::{Error, Result};
+use glam::{DAffine3, DMat4, DVec3};
+use serde_json::Value;
+
+use super::glb::GlbModel;
+use crate::earth::east_north_up;
+use crate::folder::{TileFolder, content_name};
+use crate::make::TileManifest;
+use crate::plan::{FeatureDigest, PlannedTile, TileId, TilePlan, id_digest};
+
+/// Result of a check.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct TilesetReport {
+    /// Number of tiles with content.
+    pub tiles: usize,
+    /// Number of points, counted for each instance.
+    pub points: usize,
+    /// Number of triangles, counted for each instance.
+    pub triangles: usize,
+    /// Number of features in contents.
+    pub features: u64,
+    /// Number of features of the plan that no content has.
+    pub missing: u64,
+    /// Contradictions, at most 100.
+    pub problems: Vec<String>,
+}
+
+/// Tolerance (m) of points, for their rounding.
+const NEAR: f64 = 1e-3;
+
+/// Largest number of listed problems.
+const LISTED: usize = 100;
+
+/// Largest depth of a tileset.
+const DEPTH: usize = 64;
+
+/// Check in progress.
+struct TilesetCheck<'a> {
+    folder: &'a TileFolder,
+    plan: BTreeMap<String, &'a PlannedTile>,
+    seen: BTreeSet<TileId>,
+    geoid: f64,
+    report: TilesetReport,
+}
+
+/// Volume and error of the tile around a tile.
+struct ParentTile {
+    /// Transform from the tile's axes to geocentric coordinates (m).
+    transform: DAffine3,
+    bounds: Option<[f64; 12]>,
+    error: f64,
+}
+
+/// Checks that the tileset of `folder` is what `plan` says. Fails if it cannot be read.
+///
+/// Every point of a content must be in the volume of its tile, every volume in that around it, and geometric errors must fall
+/// from parents to children. Contents must be those of the manifests and lie at the places of the plan. Every feature of the
+/// plan must be in exactly one content or in the list of missing features, and each number of a feature must be a row of a
+/// property table.
+pub fn check_tileset(folder: &TileFolder, plan: &TilePlan) -> Result<TilesetReport> {
+    let mut check = TilesetCheck {
+        folder,
+        plan: plan.tiles.iter().map(|tile| (content_name(tile.id), tile)).collect(),
+        seen: BTreeSet::new(),
+        geoid: plan.frame.geoid_height,
+        report: TilesetReport::default(),
+    };
+    let document = check.document("tileset.json")?;
+    let whole = document["geometricError"].as_f64().unwrap_or(f64::NAN);
+    let parent = ParentTile { transform: DAffine3::IDENTITY, bounds: None, error: whole };
+    check.tile(&document["root"], &parent, 0)?;
+    check.rest(plan)?;
+    Ok(check.report)
+}
+
+impl TilesetCheck<'_> {
+    fn problem(&mut self, text: String) {
+        if self.report.problems.len() < LISTED {
+            self.report.problems.push(text);
+        }
+    }
+
+    /// Reads a file of the tileset.
+    fn document(&mut self, name: &str) -> Result<Value> {
+        let path = self.folder.path().join(name);
+        let refuse = |why: String| {
+            Error::file(&path, format!("cannot read {}: {why}", path.display()))
+                .help("write it: burgeon tiles join FOLDER")
+        };
+        let text = fs::read_to_string(&path).map_err(|error| refuse(error.to_string()))?;
+        let document: Value = serde_json::from_str(&text).map_err(|error| refuse(error.to_string()))?;
+        if document["asset"]["version"] != "1.1" {
+            self.problem(format!("{name}: the version is not 1.1"));
+        }
+        if document["root"]["refine"] != "ADD" {
+            self.problem(format!("{name}: the root has no refinement"));
+        }
+        Ok(document)
+    }
+
+    /// Checks a tile and those below it.
+    fn tile(&mut self, described: &Value, parent: &ParentTile, depth: usize) -> Result<()> {
+        let uri = described["content"]["uri"].as_str();
+        let name = uri.map_or_else(|| format!("a tile without content at depth {depth}"), str::to_owned);
+        if depth > DEPTH {
+            self.problem(format!("{name} is nested too deeply"));
+            return Ok(());
+        }
+        let transform = match transform(&described["transform"]) {
+            Ok(own) => parent.transform * own,
+            Err(why) => {
+                self.problem(format!("{name}: {why}"));
+                return Ok(());
+            }
+        };
+        let numbers =
+            |value: &Value| -> Option<Vec<f64>> { value.as_array()?.iter().map(Value::as_f64).collect() };
+        let bounds =
+            numbers(&described["boundingVolume"]["box"]).and_then(|list| <[f64; 12]>::try_from(list).ok());
+        let Some(bounds) = bounds else {
+            self.problem(format!("{name} has no bounding box"));
+            return Ok(());
+        };
+        let error = described["geometricError"].as_f64().unwrap_or(f64::NAN);
+        if !(error >= 0.0 && error <= parent.error) {
+            self.problem(format!(
+                "{name}: the geometric error {error} is not between 0 and that of its parent, {}",
+                parent.error
+            ));
+        }
+        if let Some(outer) = &parent.bounds {
+            let size = outer[3..].iter().fold(1.0_f64, |most, value| most.max(value.abs()));
+            let back = parent.transform.inverse();
+            for corner in crate::join::corners(&bounds) {
+                let point = back.transform_point3(transform.transform_point3(corner));
+                if !is_inside(outer, point, NEAR + size * 1e-9) {
+                    self.problem(format!("{name}: the volume is not inside that of its parent"));
+                    break;
+                }
+            }
+        }
+        let own = ParentTile { transform, bounds: Some(bounds), error };
+        match uri {
+            Some(uri) if uri.ends_with(".json") => {
+                let document = self.document(uri)?;
+                self.tile(&document["root"], &own, depth + 1)?;
+            }
+            Some(uri) => self.content(uri, &own)?,
+            None => {}
+        }
+        for child in described["children"].as_array().into_iter().flatten() {
+            self.tile(child, &own, depth + 1)?;
+        }
+        Ok(())
+    }
+
+    /// Checks the content of a tile.
+    fn content(&mut self, uri: &str, tile: &ParentTile) -> Result<()> {
+        let Some(planned) = self.plan.get(uri).copied() else {
+            self.problem(format!("{uri} is not in the plan"));
+            return Ok(());
+        };
+        if !self.seen.insert(planned.id) {
+            self.problem(format!("{uri} is in the tileset twice"));
+            return Ok(());
+        }
+        let Some(manifest) = TileManifest::fitting(self.folder, planned)? else {
+            self.problem(format!("{uri} has no manifest that fits the plan"));
+            return Ok(());
+        };
+        let Some(file) = manifest.content else {
+            self.problem(format!("{uri}: the manifest has no content"));
+            return Ok(());
+        };
+        let expected = east_north_up(file.degrees, self.geoid);
+        let far = tile.transform.to_cols_array().iter().zip(expected.to_cols_array()).any(|(is, wanted)| {
+            // Translations are about 6,400 km long.
+            (is - wanted).abs() > 1e-5
+        });
+        if far {
+            self.problem(format!("{uri}: its transforms do not lead to its place on the ellipsoid"));
+        }
+        let path = self.folder.content(planned.id);
+        let bytes = fs::read(&path).map_err(|error| {
+            Error::file(&path, format!("cannot read {}: {error}", path.display()))
+                .help("check its permissions")
+        })?;
+        if blake3::hash(&bytes).to_hex()[..32] != *file.hash {
+            self.problem(format!("{uri}: the content is not that of the manifest"));
+        }
+        let model = match GlbModel::read(&bytes) {
+            Ok(model) => model,
+            Err(why) => {
+                self.problem(format!("{uri}: {why}"));
+                return Ok(());
+            }
+        };
+        let bounds = tile.bounds.unwrap_or_default();
+        // The box is along the axes of the content, so the extreme points decide for all.
+        if !(is_inside(&bounds, model.low, NEAR) && is_inside(&bounds, model.high, NEAR)) {
+            self.problem(format!(
+                "{uri}: points from {} to {} are outside the volume",
+                model.low, model.high
+            ));
+        }
+        if model.triangles != file.triangles {
+            let (is, said) = (model.triangles, file.triangles);
+            self.problem(format!("{uri} has {is} triangles, but the manifest says {said}"));
+        }
+        self.report.tiles += 1;
+        self.report.points += model.points;
+        self.report.triangles += model.triangles;
+        let mut ids: BTreeSet<(&str, &str)> = BTreeSet::new();
+        for table in &model.tables {
+            for id in &table.ids {
+                ids.insert((table.name.as_str(), id.as_str()));
+            }
+        }
+        let shown = ids.len() as u64;
+        for feature in &manifest.missing {
+            if !ids.insert((feature.layer.as_str(), feature.feature.as_str())) {
+                self.problem(format!("{uri}: feature {} is shown and missing", feature.feature));
+            }
+        }
+        self.features(uri, planned, &ids);
+        self.report.features += shown;
+        self.report.missing += manifest.missing.len() as u64;
+        Ok(())
+    }
+
+    /// Checks that these features are those of the plan.
+    fn features(&mut self, name: &str, planned: &PlannedTile, ids: &BTreeSet<(&str, &str)>) {
+        let mut digest = FeatureDigest::default();
+        ids.iter().for_each(|(layer, id)| digest.add(id_digest(layer, id)));
+        if digest.text() != planned.ids {
+            let (is, wanted) = (ids.len(), planned.features);
+            self.problem(format!("{name}: its {is} features are not the {wanted} of the plan"));
+        }
+    }
+
+    /// Checks the tiles of the plan without content.
+    fn rest(&mut self, plan: &TilePlan) -> Result<()> {
+        for tile in plan.tiles.iter().filter(|tile| !self.seen.contains(&tile.id)).collect::<Vec<_>>() {
+            let name = format!("tile {}", tile.id);
+            match TileManifest::fitting(self.folder, tile)? {
+                None => self.report.missing += tile.features,
+                Some(manifest) if manifest.content.is_some() => {
+                    self.problem(format!("{name} was made, but is not in the tileset: join again"));
+                }
+                Some(manifest) if manifest.error.is_some() => {
+                    self.report.missing += tile.features;
+                    if !manifest.missing.is_empty() {
+                        let ids = manifest.missing.iter();
+                        let ids =
+                            ids.map(|feature| (feature.layer.as_str(), feature.feature.as_str())).collect();
+                        self.features(&name, tile, &ids);
+                    }
+                }
+                Some(manifest) => self.report.missing += manifest.missing.len() as u64,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Returns the transform of a tile; fails with the reason if it is no rotation with a translation.
+fn transform(value: &Value) -> std::result::Result<DAffine3, String> {
+    if value.is_null() {
+        return Ok(DAffine3::IDENTITY);
+    }
+    let numbers: Option<Vec<f64>> =
+        value.as_array().and_then(|list| list.iter().map(Value::as_f64).collect());
+    let numbers = numbers.and_then(|list| <[f64; 16]>::try_from(list).ok());
+    let matrix = DMat4::from_cols_array(&numbers.ok_or("the transform has not 16 numbers")?);
+    let transform = DAffine3::from_mat4(matrix);
+    let product = transform.matrix3.transpose() * transform.matrix3;
+    let is_rigid = product.abs_diff_eq(glam::DMat3::IDENTITY, 1e-9) && transform.matrix3.determinant() > 0.0;
+    if is_rigid { Ok(transform) } else { Err("the transform changes lengths".to_owned()) }
+}
+
+/// Returns true if a point is in a box, with a tolerance (m).
+fn is_inside(bounds: &[f64; 12], point: DVec3, near: f64) -> bool {
+    let at = |index: usize| DVec3::new(bounds[index], bounds[index + 1], bounds[index + 2]);
+    let away = point - at(0);
+    [at(3), at(6), at(9)].into_iter().all(|half| {
+        let length = half.length();
+        // A flat box has a half axis without a direction, which its tolerance covers.
+        length > 0.0 && away.dot(half).abs() / length <= length + near
+    })
+}

@@ -1,0 +1,14 @@
+//! Tiles: contents and manifests.
+
+mod manifest;
+mod sweep;
+mod tile;
+
+pub(crate) use manifest::write_text;
+pub use manifest::{ManifestError, MissingFeature, TileFile, TileManifest, hash_file};
+pub use sweep::sweep_temporary;
+pub(crate) use tile::bounding_box;
+pub use tile::{
+    BuiltTile, TileContent, TileFeature, TileOutcome, is_retriable, make_tile, portable_message,
+    tile_features, verify_features,
+};

@@ -1,0 +1,259 @@
+//! One tile.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::sync::Arc;
+
+use burgeon_base::error::{Error, ErrorKind, Result};
+use burgeon_base::stop::Stop;
+use burgeon_data::Layer;
+use burgeon_export::{Export, Files, SceneFacts, SystemFacts};
+use burgeon_picture::Picture;
+use burgeon_scene::Scene;
+use burgeon_spatial::representative_point;
+use glam::DVec3;
+
+use super::manifest::{ManifestError, MissingFeature, TileFile, TileManifest, make_folder};
+use crate::earth::{EarthMap, place_scene};
+use crate::folder::TileFolder;
+use crate::plan::{FeatureDigest, PLAN_VERSION, PlannedTile, TileGrid, cell_digest};
+
+/// Feature of a tile.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TileFeature {
+    /// Layer.
+    pub layer: String,
+    /// Id.
+    pub id: String,
+    /// Representative point (m) in the coordinates of the run.
+    pub place: [f64; 2],
+}
+
+/// Model of the features of a tile.
+#[derive(Default)]
+pub struct TileContent {
+    /// Scene in the coordinates of the run.
+    pub scene: Scene,
+    /// Attributes of the features.
+    pub systems: Vec<SystemFacts>,
+    /// Names of the attributes to include.
+    pub metadata: Vec<String>,
+    /// Layers, ids and causes of the features that the scene lacks.
+    pub skipped: Vec<(String, String, String)>,
+    /// Warnings of the run.
+    pub warnings: Vec<String>,
+}
+
+/// Result of building a tile.
+pub struct BuiltTile {
+    /// Features of the tile, as far as they were read.
+    pub features: Vec<TileFeature>,
+    /// Model, or the reason why there is none.
+    pub content: Result<TileContent>,
+}
+
+/// What happened to a tile.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TileOutcome {
+    /// The tile fitted the plan already.
+    Kept(TileManifest),
+    /// The tile was made, or failed for a reason that its manifest contains.
+    Made(TileManifest),
+}
+
+impl TileOutcome {
+    /// Returns the manifest.
+    pub fn manifest(&self) -> &TileManifest {
+        match self {
+            Self::Kept(manifest) | Self::Made(manifest) => manifest,
+        }
+    }
+}
+
+/// Returns true if the work may succeed when it is repeated without a change of the script or its data.
+pub fn is_retriable(error: &Error) -> bool {
+    matches!(
+        error.kind(),
+        ErrorKind::File { .. } | ErrorKind::System | ErrorKind::Unavailable | ErrorKind::Stopped
+    )
+}
+
+/// Returns the features whose representative points are in a tile.
+pub fn tile_features(tile: &PlannedTile, layers: &[Arc<Layer>]) -> Vec<TileFeature> {
+    let [west, south, east, north] = TileGrid::bounds(tile.id);
+    let of_layer = |layer: &Arc<Layer>| {
+        let own = layer.features.iter().filter_map(|feature| {
+            let [x, y] = representative_point(feature.geometry.bounds()?);
+            let is_inside = (west..east).contains(&x) && (south..north).contains(&y);
+            let (layer, id) = (layer.name.clone(), feature.id.to_string());
+            is_inside.then_some(TileFeature { layer, id, place: [x, y] })
+        });
+        own.collect::<Vec<_>>()
+    };
+    layers.iter().flat_map(of_layer).collect()
+}
+
+/// Fails unless the features of `layers` in a tile are those of the plan.
+pub fn verify_features(tile: &PlannedTile, layers: &[Arc<Layer>]) -> Result<()> {
+    let (mut ids, mut data, mut count) = (FeatureDigest::default(), FeatureDigest::default(), 0);
+    for layer in layers {
+        let (own_ids, own_data, own_count) = cell_digest(layer, TileGrid::bounds(tile.id));
+        ids.add(own_ids);
+        data.add(own_data);
+        count += own_count;
+    }
+    if (ids.text(), data.text(), count) == (tile.ids.clone(), tile.data.clone(), tile.features) {
+        return Ok(());
+    }
+    let planned = tile.features;
+    let message = match count == planned {
+        true => format!("features of tile {} have changed since the plan was made", tile.id),
+        false => format!("tile {} has {count} features, but the plan says {planned}", tile.id),
+    };
+    Err(Error::data(message)
+        .help("plan again: burgeon tiles plan SCRIPT -o FOLDER; unchanged tiles are kept"))
+}
+
+/// Makes a tile, unless its manifest fits the plan.
+///
+/// `build` builds the model in the coordinates of the run, which `map` puts on the earth. The content is written next to its
+/// path and renamed, and the manifest is written last, so an interrupted call leaves no incomplete tile. An error of the script
+/// or of the data becomes a part of the manifest. Fails with errors for which [`is_retriable`] holds.
+pub fn make_tile(
+    folder: &TileFolder,
+    tile: &PlannedTile,
+    map: &EarthMap<'_>,
+    stop: &Arc<Stop>,
+    build: impl FnOnce(&PlannedTile) -> BuiltTile,
+) -> Result<TileOutcome> {
+    if let Some(manifest) = TileManifest::fitting(folder, tile)? {
+        return Ok(TileOutcome::Kept(manifest));
+    }
+    let BuiltTile { features, content } = build(tile);
+    let mut manifest = TileManifest {
+        version: PLAN_VERSION,
+        tile: tile.id,
+        hash: tile.hash.clone(),
+        content: None,
+        features: tile.features,
+        missing: Vec::new(),
+        error: None,
+        warnings: Vec::new(),
+    };
+    let place_of = |feature: &TileFeature| map.degrees(feature.place).ok().map(round_degrees);
+    let written = content.and_then(|content| write_content(folder, tile, map, stop, content));
+    match written {
+        Ok((file, skipped, warnings)) => {
+            let is_skipped: BTreeSet<(&str, &str)> =
+                skipped.iter().map(|(layer, id, _)| (layer.as_str(), id.as_str())).collect();
+            let places: Vec<&TileFeature> = features
+                .iter()
+                .filter(|feature| is_skipped.contains(&(feature.layer.as_str(), feature.id.as_str())))
+                .collect();
+            manifest.missing.extend(skipped.iter().map(|(layer, id, cause)| {
+                MissingFeature {
+                    layer: layer.clone(),
+                    feature: id.clone(),
+                    place: places
+                        .iter()
+                        .find(|feature| feature.layer == *layer && feature.id == *id)
+                        .and_then(|feature| place_of(feature)),
+                    cause: cause.clone(),
+                }
+            }));
+            manifest.content = file;
+            manifest.warnings = warnings;
+        }
+        Err(error) if is_retriable(&error) => return Err(error),
+        Err(error) => {
+            let message = portable_message(&error);
+            manifest.missing.extend(features.iter().map(|feature| MissingFeature {
+                layer: feature.layer.clone(),
+                feature: feature.id.clone(),
+                place: place_of(feature),
+                cause: error.message().to_owned(),
+            }));
+            manifest.error = Some(ManifestError { code: error.kind().code().to_owned(), message });
+        }
+    }
+    if manifest.content.is_none() {
+        let path = folder.content(tile.id);
+        match fs::remove_file(&path) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                return Err(Error::file(&path, format!("cannot remove {}: {error}", path.display()))
+                    .help("remove it, and make the tile again"));
+            }
+            _ => {}
+        }
+    }
+    manifest.write(folder)?;
+    Ok(TileOutcome::Made(manifest))
+}
+
+/// Returns the message of an error with its line, without the folder of the file, which differs between machines.
+pub fn portable_message(error: &Error) -> String {
+    match error.place() {
+        Some(place) => {
+            let name = place.file.rsplit(['/', '\\']).next().unwrap_or_default();
+            format!("{name}:{}: {}", place.line, error.message())
+        }
+        None => error.message().to_owned(),
+    }
+}
+
+/// Rounds degrees to about a centimetre, for lists.
+fn round_degrees(degrees: [f64; 2]) -> [f64; 2] {
+    degrees.map(|angle| (angle * 1e7).round() / 1e7)
+}
+
+/// Content that was written, the skipped features and the warnings.
+type WrittenContent = (Option<TileFile>, Vec<(String, String, String)>, Vec<String>);
+
+/// Margin (m) of a bounding box around the points, for their rounding.
+const MARGIN: f64 = 0.01;
+
+/// Writes the content of a tile, if it draws something.
+fn write_content(
+    folder: &TileFolder,
+    tile: &PlannedTile,
+    map: &EarthMap<'_>,
+    stop: &Arc<Stop>,
+    content: TileContent,
+) -> Result<WrittenContent> {
+    let TileContent { mut scene, systems, metadata, skipped, warnings } = content;
+    if scene.triangles() == 0 {
+        return Ok((None, skipped, warnings));
+    }
+    let [west, south, east, north] = tile.region;
+    let axes = map.axes([west.midpoint(east), south.midpoint(north)])?;
+    place_scene(&mut scene, map, &axes)?;
+    let Some((low, high)) = scene.bounds() else { return Ok((None, skipped, warnings)) };
+    let path = folder.content(tile.id);
+    path.parent().map_or(Ok(()), make_folder)?;
+    let facts = SceneFacts { systems: &systems, metadata: Some(&metadata), ..SceneFacts::default() };
+    let mut files = Files::new(stop);
+    files.export(&Export { scene: &scene, picture: &Picture::default(), facts }, &path)?;
+    files.publish()?;
+    let unreadable = |error: std::io::Error| {
+        Error::file(&path, format!("cannot read {} after writing it: {error}", path.display()))
+            .help("check the disk, and make the tile again")
+    };
+    let file = fs::File::open(&path).map_err(unreadable)?;
+    file.sync_all().map_err(unreadable)?;
+    let bytes = fs::read(&path).map_err(unreadable)?;
+    let file = TileFile {
+        bytes: bytes.len() as u64,
+        hash: blake3::hash(&bytes).to_hex()[..32].to_owned(),
+        degrees: axes.degrees,
+        bounds: bounding_box(low - MARGIN, high + MARGIN),
+        triangles: scene.triangles(),
+        instances: scene.instances.len(),
+    };
+    Ok((Some(file), skipped, warnings))
+}
+
+/// Returns a box along the axes as 3D Tiles have it.
+pub(crate) fn bounding_box(low: DVec3, high: DVec3) -> [f64; 12] {
+    let (DVec3 { x, y, z }, half) = (low.midpoint(high), (high - low) / 2.0);
+    [x, y, z, half.x, 0.0, 0.0, 0.0, half.y, 0.0, 0.0, 0.0, half.z]
+}

@@ -1,0 +1,238 @@
+//! Quadtree that divides features by their expected cost.
+
+use std::collections::BTreeMap;
+
+use burgeon_base::error::{Error, Result};
+use burgeon_spatial::{BoundingBox, representative_point};
+
+use super::digest::FeatureDigest;
+use super::tile::DEEPEST;
+use super::{PlannedTile, TileId};
+
+/// Grid of tiles around the origin of a frame, which contains all places that a model can have. It does not depend on the data,
+/// so a tile keeps its place when features are added.
+#[derive(Debug, Clone, Copy)]
+pub struct TileGrid;
+
+/// Side (m) of the grid.
+const SIDE: f64 = 4_194_304.0;
+
+/// Largest side (m) of a tile, so that a vertex in f32 is exact to a third of a millimetre.
+const LARGEST: f64 = 8192.0;
+
+impl TileGrid {
+    /// Returns the side (m) of the tiles of a level.
+    pub fn side(level: u32) -> f64 {
+        SIDE / f64::from(1_u32 << level)
+    }
+
+    /// Returns west, south, east and north (m) of a tile, relative to the origin of the frame. The sides of neighbours are the
+    /// same numbers.
+    pub fn bounds(tile: TileId) -> [f64; 4] {
+        // All of these numbers are multiples of a power of two, so they are exact.
+        let at = |number: u32| Self::side(tile.level) * f64::from(number) - SIDE / 2.0;
+        [at(tile.x), at(tile.y), at(tile.x + 1), at(tile.y + 1)]
+    }
+
+    /// Returns the tile of the deepest level that contains a point (m); `None` outside the grid.
+    fn finest(place: [f64; 2]) -> Option<TileId> {
+        let number = |axis: usize| {
+            let number = ((place[axis] + SIDE / 2.0) / Self::side(DEEPEST)).floor();
+            #[allow(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "the range is checked"
+            )]
+            (0.0..f64::from(1_u32 << DEEPEST)).contains(&number).then_some(number as u32)
+        };
+        let mut tile = TileId { level: DEEPEST, x: number(0)?, y: number(1)? };
+        // The sum is rounded; the sides decide.
+        let [west, south, east, north] = Self::bounds(tile);
+        let most = (1 << DEEPEST) - 1;
+        tile.x = (tile.x + u32::from(place[0] >= east)).saturating_sub(u32::from(place[0] < west)).min(most);
+        tile.y =
+            (tile.y + u32::from(place[1] >= north)).saturating_sub(u32::from(place[1] < south)).min(most);
+        Some(tile)
+    }
+}
+
+/// Sums over features.
+#[derive(Debug, Clone, Copy)]
+struct CellSums {
+    features: u64,
+    /// Tenths of the cost.
+    cost: u64,
+    region: [f64; 4],
+    ids: FeatureDigest,
+    data: FeatureDigest,
+}
+
+impl CellSums {
+    const NOTHING: Self = Self {
+        features: 0,
+        cost: 0,
+        region: [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY],
+        ids: FeatureDigest::ZERO,
+        data: FeatureDigest::ZERO,
+    };
+
+    fn add(&mut self, other: &Self) {
+        self.features += other.features;
+        self.cost += other.cost;
+        let [west, south, east, north] = other.region;
+        let [a, b, c, d] = self.region;
+        self.region = [a.min(west), b.min(south), c.max(east), d.max(north)];
+        self.ids.add(other.ids);
+        self.data.add(other.data);
+    }
+}
+
+/// TileDivision of features among tiles. Memory grows with the area that features cover, and not with their number.
+///
+/// ```
+/// use burgeon_tiles::plan::{TileDivision, id_digest};
+///
+/// let mut division = TileDivision::default();
+/// for number in 0..1000 {
+///     let place = [f64::from(number % 30) * 30.0, f64::from(number / 30) * 20.0].into();
+///     let digest = id_digest("trees", &number.to_string());
+///     division.add([place, place], 10, digest, digest)?;
+/// }
+/// let tiles = division.tiles(50);
+/// assert_eq!(tiles.iter().map(|tile| tile.features).sum::<u64>(), 1000);
+/// assert!(tiles.len() > 20 && tiles.iter().all(|tile| tile.features <= 50));
+/// # Ok::<(), burgeon_base::Error>(())
+/// ```
+#[derive(Debug, Default)]
+pub struct TileDivision {
+    /// Sums of the tiles of the deepest level, in the order of the curve.
+    cells: BTreeMap<u64, (TileId, CellSums)>,
+}
+
+impl TileDivision {
+    /// Adds a feature with these bounds (m), its number of points, and the digests of its id and its content.
+    ///
+    /// Fails if its representative point is outside the grid.
+    pub fn add(
+        &mut self,
+        bounds: BoundingBox,
+        points: usize,
+        ids: FeatureDigest,
+        data: FeatureDigest,
+    ) -> Result<()> {
+        let place = representative_point(bounds);
+        let tile = TileGrid::finest(place).ok_or_else(|| {
+            Error::data(format!("the feature at {}, {} is outside the grid of tiles", place[0], place[1]))
+                .help("features lie at most 2,000 km from the centre of their layer")
+        })?;
+        let [low, high] = bounds;
+        let region = [low.x, low.y, high.x, high.y];
+        let feature = CellSums { features: 1, cost: 10 + points as u64, region, ids, data };
+        self.cells.entry(tile.curve().0).or_insert((tile, CellSums::NOTHING)).1.add(&feature);
+        Ok(())
+    }
+
+    /// Adds the features of another division.
+    pub fn merge(&mut self, other: &Self) {
+        for (place, (tile, sums)) in &other.cells {
+            self.cells.entry(*place).or_insert((*tile, CellSums::NOTHING)).1.add(sums);
+        }
+    }
+
+    /// Returns the number of features.
+    pub fn features(&self) -> u64 {
+        self.cells.values().map(|(_, sums)| sums.features).sum()
+    }
+
+    /// Returns the tiles in the order of the curve, without hashes. A tile has about `target` features of average cost at
+    /// most, unless it is as small as tiles can be.
+    pub fn tiles(&self, target: u64) -> Vec<PlannedTile> {
+        let cells: Vec<(TileId, CellSums)> = self.cells.values().copied().collect();
+        let mut all = CellSums::NOTHING;
+        cells.iter().for_each(|(_, sums)| all.add(sums));
+        let most = u128::from(all.cost) * u128::from(target.max(1)) / u128::from(all.features.max(1));
+        let mut tiles = Vec::new();
+        divide(TileId::ROOT, &cells, most, &mut tiles);
+        tiles
+    }
+}
+
+/// Adds the tiles of `id`, whose `cells` are those of the deepest level.
+fn divide(id: TileId, cells: &[(TileId, CellSums)], most: u128, tiles: &mut Vec<PlannedTile>) {
+    let mut sums = CellSums::NOTHING;
+    cells.iter().for_each(|(_, cell)| sums.add(cell));
+    if sums.features == 0 {
+        return;
+    }
+    if id.level == DEEPEST || u128::from(sums.cost) <= most && TileGrid::side(id.level) <= LARGEST {
+        #[allow(clippy::cast_precision_loss, reason = "the cost is a weight")]
+        let cost = sums.cost as f64 / 10.0;
+        let CellSums { features, region, ids, data, .. } = sums;
+        let (ids, data, hash) = (ids.text(), data.text(), String::new());
+        tiles.push(PlannedTile { id, features, cost, region, ids, data, hash });
+        return;
+    }
+    let mut rest = cells;
+    for quarter in 0..4 {
+        let child = TileId { level: id.level + 1, x: id.x * 2 + (quarter & 1), y: id.y * 2 + (quarter >> 1) };
+        let end = rest.partition_point(|(tile, _)| tile.ancestor(child.level).curve() <= child.curve());
+        let (own, later) = rest.split_at(end);
+        divide(child, own, most, tiles);
+        rest = later;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::id_digest;
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn each_point_is_in_exactly_one_tile_and_its_digest_too(
+            points in prop::collection::vec((-5000.0..5000.0_f64, 0.0..3000.0_f64), 1..200),
+            target in 1..40_u64,
+        ) {
+            let mut division = TileDivision::default();
+            for (number, at) in points.iter().enumerate() {
+                let digest = id_digest("a", &number.to_string());
+                division.add([[at.0, at.1].into(); 2], number % 7, digest, digest).unwrap();
+            }
+            let tiles = division.tiles(target);
+            for (number, at) in points.iter().enumerate() {
+                let inside = |tile: &&PlannedTile| {
+                    let [west, south, east, north] = TileGrid::bounds(tile.id);
+                    (west..east).contains(&at.0) && (south..north).contains(&at.1)
+                };
+                prop_assert_eq!(tiles.iter().filter(inside).count(), 1, "{}", number);
+            }
+            for tile in &tiles {
+                let [west, south, east, north] = TileGrid::bounds(tile.id);
+                let (mut ids, mut count) = (FeatureDigest::default(), 0);
+                for (number, at) in points.iter().enumerate() {
+                    if (west..east).contains(&at.0) && (south..north).contains(&at.1) {
+                        ids.add(id_digest("a", &number.to_string()));
+                        count += 1;
+                    }
+                }
+                prop_assert_eq!((&tile.ids, tile.features), (&ids.text(), count));
+            }
+            let ordered = tiles.windows(2).all(|pair| pair[0].id.curve() < pair[1].id.curve());
+            prop_assert!(ordered);
+        }
+    }
+
+    #[test]
+    fn the_sides_of_tiles_are_the_same_numbers_on_every_level() {
+        let of = |level, x| TileGrid::bounds(TileId { level, x, y: 0 });
+        assert_eq!(of(16, 32_768)[0].to_bits(), of(1, 1)[0].to_bits());
+        assert_eq!(of(7, 64)[0].to_bits(), of(1, 0)[2].to_bits());
+        for x in [0, 77, 40_000, 65_535] {
+            let west = of(16, x)[0];
+            assert_eq!(TileGrid::finest([west, 20.0]).unwrap().x, x);
+            assert_eq!(TileGrid::finest([west.next_down(), 20.0]).map(|tile| tile.x), x.checked_sub(1));
+        }
+        assert_eq!(TileGrid::finest([f64::NAN, 0.0]), None);
+    }
+}

@@ -1,0 +1,270 @@
+//! Plan as a file.
+
+use std::path::Path;
+
+use burgeon_base::error::{Error, Result};
+use burgeon_spatial::{Crs, ReferenceFrame};
+use serde::{Deserialize, Serialize};
+
+use super::{OmittedFeature, PlannedTile, TileGrid, TileId};
+
+/// Version of the format of plans and manifests.
+pub const PLAN_VERSION: u32 = 1;
+
+/// Frame of the coordinates of a plan.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PlanFrame {
+    /// EPSG code of the data.
+    pub epsg: u16,
+    /// Centre of the data in that coordinate system.
+    pub place: [f64; 2],
+    /// Height (m) of the origin of heights above the WGS 84 ellipsoid.
+    pub geoid_height: f64,
+}
+
+/// File on which all tiles depend.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PlannedFile {
+    /// Path, relative to the folder of the plan.
+    pub path: String,
+    /// Hash of the content.
+    pub hash: String,
+}
+
+/// Source whose features are divided among tiles.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PlannedSource {
+    /// Call of `source` in the script.
+    pub key: String,
+    /// File and layer.
+    pub label: String,
+    /// Number of features.
+    pub features: u64,
+    /// Minimum and maximum coordinates (m) of the features.
+    pub bounds: [[f64; 3]; 2],
+    /// Set if a tile can be read from a part of the file.
+    pub in_parts: bool,
+}
+
+/// TileDivision of the features of a script among tiles.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TilePlan {
+    /// Version of the format.
+    pub version: u32,
+    /// Version of the program.
+    pub program: String,
+    /// Script, relative to the folder of the plan.
+    pub script: String,
+    /// Arguments of the run, with paths relative to the folder of the plan.
+    pub arguments: Vec<String>,
+    /// Script and all files that it reads, except the sources of features.
+    pub files: Vec<PlannedFile>,
+    /// Packages that the script uses, with versions and hashes.
+    pub packages: Vec<String>,
+    /// Frame.
+    pub frame: PlanFrame,
+    /// Distance (m) within which features of other tiles are derived too.
+    pub reach: f64,
+    /// Names of the attributes to include; `*` for all, and none for those that the script names.
+    pub metadata: Vec<String>,
+    /// Sources of features.
+    pub sources: Vec<PlannedSource>,
+    /// Tiles, in an order that keeps neighbours together.
+    pub tiles: Vec<PlannedTile>,
+    /// Features that cannot be in a tile.
+    pub left_out: Vec<OmittedFeature>,
+    /// Remarks on the data.
+    pub notes: Vec<String>,
+}
+
+impl PlanFrame {
+    /// Returns the frame of the run.
+    pub fn reference(&self) -> Result<ReferenceFrame> {
+        ReferenceFrame::around(&Crs::epsg(self.epsg.into())?, self.place, "the plan")
+    }
+}
+
+impl TilePlan {
+    /// Reads the plan at `path`. Fails if it is not a plan of this version of the format.
+    pub fn read(path: &Path) -> Result<Self> {
+        let text = std::fs::read_to_string(path).map_err(|error| match error.kind() {
+            std::io::ErrorKind::NotFound => Error::not_found(
+                "plan",
+                &path.display().to_string(),
+                [],
+                format!("no plan in this folder: {}", path.display()),
+            )
+            .help("make one: burgeon tiles plan SCRIPT -o FOLDER"),
+            _ => Error::file(path, format!("cannot read {}: {error}", path.display()))
+                .help("check its permissions"),
+        })?;
+        let refuse = |why: String| {
+            Error::data(format!("{} is not a plan of tiles: {why}", path.display()))
+                .help("make it again: burgeon tiles plan SCRIPT -o FOLDER")
+        };
+        let plan: Self = serde_json::from_str(&text).map_err(|error| refuse(error.to_string()))?;
+        if plan.version != PLAN_VERSION {
+            return Err(refuse(format!(
+                "its version is {}, and this program reads {PLAN_VERSION}",
+                plan.version
+            )));
+        }
+        let is_odd =
+            |tile: &PlannedTile| tile.id.to_string().parse::<TileId>().is_err() || !tile.cost.is_finite();
+        if plan.tiles.iter().any(is_odd)
+            || plan.tiles.windows(2).any(|pair| pair[0].id.curve() >= pair[1].id.curve())
+        {
+            return Err(refuse("its tiles are not in order".to_owned()));
+        }
+        Ok(plan)
+    }
+
+    /// Returns the text of the plan: one line for each tile.
+    pub fn text(&self) -> Result<String> {
+        let whole = Self { tiles: Vec::new(), ..self.clone() };
+        let head = serde_json::to_string_pretty(&whole).map_err(Error::internal)?;
+        let tiles: Vec<String> = self
+            .tiles
+            .iter()
+            .map(serde_json::to_string)
+            .collect::<Result<_, _>>()
+            .map_err(Error::internal)?;
+        let tiles =
+            if tiles.is_empty() { String::new() } else { format!("\n    {}\n  ", tiles.join(",\n    ")) };
+        Ok(head.replacen("\"tiles\": []", &format!("\"tiles\": [{tiles}]"), 1) + "\n")
+    }
+
+    /// Returns the plan of a tile; fails if the plan has no such tile.
+    pub fn tile(&self, id: TileId) -> Result<&PlannedTile> {
+        self.tiles.iter().find(|tile| tile.id == id).ok_or_else(|| {
+            Error::argument(format!("the plan has no tile {id}")).help("plan.json lists the tiles")
+        })
+    }
+
+    /// Returns west, south, east and north (m) of the features that a tile needs: its own, and those within the reach.
+    pub fn needed(&self, tile: &PlannedTile) -> [f64; 4] {
+        let [west, south, east, north] = tile.region;
+        let [cell_west, cell_south, cell_east, cell_north] = TileGrid::bounds(tile.id);
+        let reach = self.reach;
+        // The cell is included, so that a feature that was added since the plan is noticed.
+        [
+            (west - reach).min(cell_west),
+            (south - reach).min(cell_south),
+            (east + reach).max(cell_east),
+            (north + reach).max(cell_north),
+        ]
+    }
+
+    /// Sets the hash of each tile: of everything that determines its bytes. These are the program, the script and its
+    /// arguments, the frame, the features of the tile, and those of the tiles within the reach.
+    pub fn set_hashes(&mut self) -> Result<()> {
+        let Self { version, program, arguments, files, packages, frame, reach, metadata, .. } = &*self;
+        let common = (version, program, arguments, files, packages, frame, reach, metadata);
+        let common = serde_json::to_string(&common).map_err(Error::internal)?;
+        let mut by_west: Vec<usize> = (0..self.tiles.len()).collect();
+        by_west.sort_by(|a, b| self.tiles[*a].region[0].total_cmp(&self.tiles[*b].region[0]));
+        let widest = self.tiles.iter().map(|tile| tile.region[2] - tile.region[0]).fold(0.0, f64::max);
+        let hash = |tile: &PlannedTile| {
+            let mut hasher = blake3::Hasher::new();
+            hasher.update(common.as_bytes());
+            hasher.update(tile.id.to_string().as_bytes());
+            hasher.update(tile.data.as_bytes());
+            if *reach > 0.0 {
+                let [west, south, east, north] = tile.region;
+                let first =
+                    by_west.partition_point(|other| self.tiles[*other].region[0] < west - reach - widest);
+                let mut near: Vec<&str> = by_west[first..]
+                    .iter()
+                    .map(|other| &self.tiles[*other])
+                    .take_while(|other| other.region[0] <= east + reach)
+                    .filter(|other| {
+                        let [low_x, low_y, high_x, high_y] = other.region;
+                        other.id != tile.id
+                            && low_x <= east + reach
+                            && high_x >= west - reach
+                            && low_y <= north + reach
+                            && high_y >= south - reach
+                    })
+                    .map(|other| other.data.as_str())
+                    .collect();
+                near.sort_unstable();
+                near.iter().for_each(|data| {
+                    hasher.update(data.as_bytes());
+                });
+            }
+            hasher.finalize().to_hex()[..32].to_owned()
+        };
+        let hashes: Vec<String> = self.tiles.iter().map(hash).collect();
+        self.tiles.iter_mut().zip(hashes).for_each(|(tile, hash)| tile.hash = hash);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tile(x: u32, data: &str) -> PlannedTile {
+        let id = TileId { level: 12, x, y: 5 };
+        let [west, south, east, north] = TileGrid::bounds(id);
+        PlannedTile {
+            id,
+            features: 3,
+            cost: 4.5,
+            region: [west + 10.0, south + 10.0, east - 10.0, north - 10.0],
+            ids: "1".to_owned(),
+            data: data.to_owned(),
+            hash: String::new(),
+        }
+    }
+
+    fn plan(reach: f64, tiles: Vec<PlannedTile>) -> TilePlan {
+        let mut plan = TilePlan {
+            version: PLAN_VERSION,
+            program: "1".to_owned(),
+            script: "../town.lua".to_owned(),
+            arguments: Vec::new(),
+            files: Vec::new(),
+            packages: Vec::new(),
+            frame: PlanFrame { epsg: 2154, place: [652_000.1, 6_862_000.7], geoid_height: 44.0 },
+            reach,
+            metadata: Vec::new(),
+            sources: Vec::new(),
+            tiles,
+            left_out: Vec::new(),
+            notes: Vec::new(),
+        };
+        plan.set_hashes().unwrap();
+        plan
+    }
+
+    #[test]
+    fn a_plan_that_was_written_is_read_as_it_was() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("plan.json");
+        for tiles in [Vec::new(), vec![tile(1, "a"), tile(2, "b")]] {
+            let plan = plan(12.5, tiles);
+            std::fs::write(&path, plan.text().unwrap()).unwrap();
+            assert_eq!(TilePlan::read(&path).unwrap(), plan);
+        }
+        std::fs::write(&path, "{}").unwrap();
+        assert_eq!(TilePlan::read(&path).unwrap_err().kind().code(), "data");
+        assert_eq!(TilePlan::read(&folder.path().join("none")).unwrap_err().kind().code(), "not-found");
+    }
+
+    #[test]
+    fn a_changed_feature_changes_its_tile_and_those_within_the_reach() {
+        let hashes = |reach, changed: &str| -> Vec<String> {
+            let tiles = vec![tile(1, "a"), tile(2, changed), tile(3, "c"), tile(4, "d")];
+            plan(reach, tiles).tiles.into_iter().map(|tile| tile.hash).collect()
+        };
+        let differs = |reach| -> Vec<bool> {
+            hashes(reach, "b").iter().zip(hashes(reach, "x")).map(|(a, b)| *a != b).collect()
+        };
+        assert_eq!(differs(0.0), [false, true, false, false]);
+        assert_eq!(differs(19.0), [false, true, false, false]);
+        assert_eq!(differs(21.0), [true, true, true, false]);
+        assert_eq!(differs(2000.0), [true, true, true, true]);
+    }
+}

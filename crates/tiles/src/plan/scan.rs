@@ -1,0 +1,177 @@
+//! Scan of the features of a source, piece by piece.
+
+use std::collections::BTreeSet;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use burgeon_base::error::{Error, Result};
+use burgeon_data::{FeatureTable, Layer, Source, SourceOptions, each_piece};
+use burgeon_spatial::{ReferenceFrame, representative_point};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::digest::FeatureDigest;
+use super::{TileDivision, feature_digest, id_digest};
+
+/// Feature that no tile contains.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct OmittedFeature {
+    /// Layer.
+    pub layer: String,
+    /// Id of the feature.
+    pub feature: String,
+    /// Cause.
+    pub cause: String,
+}
+
+/// Result of a scan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ScanResult {
+    /// File and layer.
+    pub label: String,
+    /// Number of features in tiles.
+    pub features: u64,
+    /// Minimum and maximum coordinates (m) of the features.
+    pub bounds: [[f64; 3]; 2],
+    /// Set if a part of the file has the same ids as the whole file.
+    pub in_parts: bool,
+    /// Features that cannot be in a tile.
+    pub left_out: Vec<OmittedFeature>,
+    /// Remarks on features that are in tiles, or that are too many to be listed.
+    pub notes: Vec<String>,
+}
+
+/// Adds the features of a source to `division`, in the coordinates of `frame`.
+///
+/// A GeoPackage is read in pieces, so memory does not grow with it, unless records have the same id: then ids depend on all
+/// records, and the file is read again as a whole, like files of other formats. Fails if the file cannot be read.
+pub fn scan_source(
+    (path, name, options): (&Path, &str, &SourceOptions),
+    frame: &ReferenceFrame,
+    division: &mut TileDivision,
+) -> Result<ScanResult> {
+    let mut scan = SourceScan::new(frame);
+    let in_pieces = each_piece(path, name, options, |table| {
+        scan.add(table)?;
+        Ok(if scan.is_repeated { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+    })?;
+    let in_parts = in_pieces && !scan.is_repeated && options.within.is_none();
+    if in_pieces && scan.is_repeated {
+        let whole = Source::open_within(path, name, options)?.read(name, options)?;
+        scan = SourceScan::new(frame);
+        scan.add(whole)?;
+    }
+    let SourceScan { label, bounds, left_out, notes, division: own, .. } = scan;
+    let features = own.features();
+    let bounds = if features == 0 { [[0.0; 3]; 2] } else { bounds };
+    division.merge(&own);
+    Ok(ScanResult { label, features, bounds, in_parts, left_out, notes })
+}
+
+/// Maximum number of listed features.
+const LISTED: usize = 100_000;
+
+/// State of a scan.
+struct SourceScan<'a> {
+    frame: &'a ReferenceFrame,
+    label: String,
+    bounds: [[f64; 3]; 2],
+    division: TileDivision,
+    /// Hashes of the ids so far.
+    known: BTreeSet<u64>,
+    /// Set if pieces have the same id.
+    is_repeated: bool,
+    left_out: Vec<OmittedFeature>,
+    notes: Vec<String>,
+}
+
+impl<'a> SourceScan<'a> {
+    fn new(frame: &'a ReferenceFrame) -> Self {
+        Self {
+            frame,
+            label: String::new(),
+            bounds: [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]],
+            division: TileDivision::default(),
+            known: BTreeSet::new(),
+            is_repeated: false,
+            left_out: Vec::new(),
+            notes: Vec::new(),
+        }
+    }
+
+    /// Adds the features of a piece.
+    fn add(&mut self, mut table: FeatureTable) -> Result<()> {
+        self.label.clone_from(&table.shown);
+        let bare = table.empty - table.empty_ids.len().min(table.empty);
+        for id in std::mem::take(&mut table.empty_ids) {
+            self.leave_out(id, "the feature has no geometry".to_owned());
+        }
+        if bare > 0 {
+            self.notes
+                .push(format!("{}: {bare} features have no geometry, or too few points for one", self.label));
+        }
+        self.is_repeated |= !table.repeated_ids.is_empty();
+        for id in &table.repeated_ids {
+            self.notes.push(format!(
+                "{}: several features have the id {id}; further ones are numbered {id}.2 and so on",
+                self.label
+            ));
+        }
+        if table.features.is_empty() {
+            self.refuse(std::mem::take(&mut table.refused));
+            return Ok(());
+        }
+        let layer = Layer::new(table, &mut Some(self.frame.clone()))?;
+        let [low, high] = layer.bounds;
+        for axis in 0..3 {
+            self.bounds[0][axis] = self.bounds[0][axis].min(low[axis]);
+            self.bounds[1][axis] = self.bounds[1][axis].max(high[axis]);
+        }
+        let (name, names) = (&layer.name, &layer.names);
+        let measured: Vec<_> = layer
+            .features
+            .par_iter()
+            .filter_map(|feature| {
+                let (id, points) = (feature.id.as_str(), feature.geometry.points().count());
+                let ids = id_digest(name, id);
+                Some((feature.geometry.bounds()?, points, ids, feature_digest(name, names, feature)))
+            })
+            .collect();
+        for (bounds, points, ids, data) in measured {
+            self.is_repeated |= !self.known.insert(ids.short());
+            self.division.add(bounds, points, ids, data)?;
+        }
+        self.refuse(layer.refused);
+        Ok(())
+    }
+
+    fn refuse(&mut self, refused: Vec<(String, Error)>) {
+        for (id, error) in refused {
+            self.leave_out(id, error.message().to_owned());
+        }
+    }
+
+    fn leave_out(&mut self, feature: String, cause: String) {
+        if self.left_out.len() < LISTED {
+            self.left_out.push(OmittedFeature { layer: self.label.clone(), feature, cause });
+        }
+    }
+}
+
+/// Returns the digests of the ids and of the content of the features of `layer` whose representative points are in a cell
+/// (west, south, east and north, m), and their number.
+pub fn cell_digest(
+    layer: &Layer,
+    [west, south, east, north]: [f64; 4],
+) -> (FeatureDigest, FeatureDigest, u64) {
+    let (mut ids, mut data, mut count) = (FeatureDigest::default(), FeatureDigest::default(), 0);
+    for feature in &layer.features {
+        let Some([x, y]) = feature.geometry.bounds().map(representative_point) else { continue };
+        if (west..east).contains(&x) && (south..north).contains(&y) {
+            ids.add(id_digest(&layer.name, feature.id.as_str()));
+            data.add(feature_digest(&layer.name, &layer.names, feature));
+            count += 1;
+        }
+    }
+    (ids, data, count)
+}

@@ -1,0 +1,115 @@
+//! Tile of a plan.
+
+use std::fmt;
+use std::str::FromStr;
+
+use burgeon_base::error::{Error, Result};
+use serde::{Deserialize, Serialize};
+
+/// Place of a tile in the quadtree: level 0 is the whole grid; x counts to the east and y to the north.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct TileId {
+    /// Level, from 0.
+    pub level: u32,
+    /// Column, from 0.
+    pub x: u32,
+    /// Row, from 0.
+    pub y: u32,
+}
+
+/// Largest level.
+pub(super) const DEEPEST: u32 = 16;
+
+impl TileId {
+    /// Whole grid.
+    pub const ROOT: Self = Self { level: 0, x: 0, y: 0 };
+
+    /// Returns the tile that contains this one; `None` for the root.
+    pub fn parent(self) -> Option<Self> {
+        Some(Self { level: self.level.checked_sub(1)?, x: self.x / 2, y: self.y / 2 })
+    }
+
+    /// Returns the tile of a level that contains this one, or this one.
+    #[must_use]
+    pub fn ancestor(self, level: u32) -> Self {
+        let up = self.level.saturating_sub(level);
+        Self { level: self.level - up, x: self.x >> up, y: self.y >> up }
+    }
+
+    /// Returns the position of the tile on a curve through all tiles that keeps neighbours together (Morton's order).
+    pub fn curve(self) -> (u64, u32) {
+        let shift = DEEPEST.saturating_sub(self.level);
+        let spread = |value: u32| {
+            (0..DEEPEST).fold(0_u64, |bits, bit| bits | u64::from(value << shift >> bit & 1) << (2 * bit))
+        };
+        (spread(self.x) | spread(self.y) << 1, self.level)
+    }
+}
+
+impl fmt::Display for TileId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}/{}", self.level, self.x, self.y)
+    }
+}
+
+impl FromStr for TileId {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self> {
+        let numbers: Vec<u32> = text.split('/').filter_map(|part| part.parse().ok()).collect();
+        match numbers[..] {
+            [level, x, y] if level <= DEEPEST && x < 1 << level && y < 1 << level => Ok(Self { level, x, y }),
+            _ => Err(Error::argument(format!(
+                "{text:?} is not a tile: write level, column and row, such as 5/17/9"
+            ))),
+        }
+    }
+}
+
+/// Tile that contains features.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PlannedTile {
+    /// Place in the quadtree.
+    #[serde(flatten)]
+    pub id: TileId,
+    /// Number of features.
+    pub features: u64,
+    /// Expected cost: one for a feature, and a tenth for each of its points.
+    pub cost: f64,
+    /// West, south, east and north (m) of the features, relative to the origin of the frame. Features may cross the sides of
+    /// the tile.
+    pub region: [f64; 4],
+    /// Digest of the ids of the features.
+    pub ids: String,
+    /// Digest of the ids, geometries and attributes of the features.
+    pub data: String,
+    /// Hash of everything that determines the bytes of the tile.
+    pub hash: String,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tiles_are_written_and_read_as_level_column_and_row() {
+        let tile: TileId = "5/17/9".parse().unwrap();
+        assert_eq!((tile, tile.to_string().as_str()), (TileId { level: 5, x: 17, y: 9 }, "5/17/9"));
+        assert_eq!((tile.parent().unwrap().to_string(), TileId::ROOT.parent()), ("4/8/4".to_owned(), None));
+        assert_eq!(tile.ancestor(2).to_string(), "2/2/1");
+        for text in ["", "1/2", "1/2/0", "99/0/0", "a/b/c", "1/0/0/0"] {
+            assert!(text.parse::<TileId>().is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn the_curve_visits_a_tile_completely_before_the_next() {
+        let mut all: Vec<TileId> =
+            (0..8).flat_map(|x| (0..8).map(move |y| TileId { level: 3, x, y })).collect();
+        all.sort_by_key(|tile| tile.curve());
+        let quarters: Vec<TileId> = all.iter().map(|tile| tile.ancestor(1)).collect();
+        let mut distinct = quarters.clone();
+        distinct.dedup();
+        assert_eq!((all.len(), distinct.len()), (64, 4));
+    }
+}

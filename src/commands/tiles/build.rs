@@ -1,0 +1,84 @@
+//! Runs of a script for single tiles.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use burgeon::script::{FeaturePart, RunOptions, Session};
+use burgeon::sources::{DataSources, Layer, ReferenceFrame, SourceWindow, WindowBox};
+use burgeon::tiles::make::{BuiltTile, TileContent, portable_message, tile_features, verify_features};
+use burgeon::tiles::plan::TileGrid;
+use burgeon::tiles::{PlannedTile, TilePlan};
+use burgeon::warning::WarningKind;
+use burgeon::{Result, Run};
+
+use super::super::run::{attributes, systems};
+
+/// Script that is run for one tile after another, with the data that tiles share.
+pub(super) struct TileBuilder<'a> {
+    plan: &'a TilePlan,
+    frame: ReferenceFrame,
+    options: RunOptions,
+    sources: DataSources,
+    script: &'a Path,
+}
+
+impl<'a> TileBuilder<'a> {
+    pub(super) fn new(plan: &'a TilePlan, script: &'a Path, mut options: RunOptions) -> Result<Self> {
+        options.reports.records = true;
+        options.limits.whole_program = true;
+        Ok(Self { plan, frame: plan.frame.reference()?, options, sources: DataSources::cached(), script })
+    }
+
+    /// Builds a tile.
+    pub(super) fn build(&self, tile: &PlannedTile) -> BuiltTile {
+        let needed = self.plan.needed(tile);
+        let boxes = self.plan.sources.iter().map(|source| {
+            let (in_parts, bounds) = (source.in_parts, source.bounds);
+            (source.key.clone(), WindowBox { needed, in_parts, bounds })
+        });
+        let window = Arc::new(SourceWindow::new(self.frame.clone(), boxes.collect()));
+        let run = self.run(tile, &window);
+        let served = window.served().into_iter();
+        let is_planned = |key: &String| self.plan.sources.iter().any(|source| source.key == *key);
+        let layers: Vec<Arc<Layer>> =
+            served.filter(|(key, _)| is_planned(key)).map(|(_, layer)| layer).collect();
+        let all = layers.len() == self.plan.sources.len();
+        let features = tile_features(tile, &layers);
+        // Changed data explain an error of the script better than the error.
+        let verified = if all { verify_features(tile, &layers) } else { Ok(()) };
+        let content = verified.and(run).and_then(|(session, run)| self.content(&session, run));
+        BuiltTile { features, content }
+    }
+
+    fn run(&self, tile: &PlannedTile, window: &Arc<SourceWindow>) -> Result<(Arc<Session>, Run)> {
+        let mut options = self.options.clone();
+        options.registry.set_sources(Arc::new(self.sources.windowed(window)));
+        let cell = Some(TileGrid::bounds(tile.id));
+        options.part = Some(FeaturePart { number: 1, count: 1, reach: self.plan.reach, cell });
+        let session = Session::new(self.script, options)?;
+        let mut run = burgeon::run_session(&session)?;
+        run.note_packages(&session)?;
+        Ok((session, run))
+    }
+
+    fn content(&self, session: &Session, run: Run) -> Result<TileContent> {
+        let systems = systems(&run);
+        let metadata = attributes(session, &self.plan.metadata, &systems)?;
+        let mut skipped = Vec::new();
+        for system in &run.systems {
+            let layer = system.records().map(|records| records.name).unwrap_or_default();
+            let skipped_features = system.feature_warnings.iter();
+            for warning in skipped_features.filter(|warning| warning.kind() == WarningKind::SkippedFeature) {
+                let Some(feature) = warning.feature() else { continue };
+                let source = self.plan.sources.iter().find(|source| source.label == warning.source());
+                // A label is the file and the layer.
+                let named = source.and_then(|source| source.label.rsplit(':').next());
+                let layer = if layer.is_empty() { named.unwrap_or_default() } else { &layer };
+                skipped.push((layer.to_owned(), feature.to_owned(), warning.cause().to_owned()));
+            }
+        }
+        let warnings = run.warnings.iter().map(|warning| portable_message(&warning.clone().into_error()));
+        let warnings = warnings.collect();
+        Ok(TileContent { scene: run.scene, systems, metadata, skipped, warnings })
+    }
+}

@@ -1,0 +1,48 @@
+//! `burgeon tiles check`: checks a tileset against its plan.
+
+use std::path::PathBuf;
+
+use burgeon::tiles::{TileFolder, TilePlan, check_tileset};
+use burgeon::{Error, Result};
+use clap::Args;
+use serde_json::json;
+
+use super::super::report;
+
+/// Checks that a tileset contains what its plan says, and that volumes contain their content
+#[derive(Args)]
+pub(super) struct CheckTilesCommand {
+    /// Folder of the tileset
+    folder: PathBuf,
+
+    /// Prints machine-readable JSON instead of text
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+impl CheckTilesCommand {
+    pub(super) fn run(&self) -> Result<()> {
+        let folder = TileFolder(self.folder.clone());
+        let plan = TilePlan::read(&folder.plan())?;
+        let checked = check_tileset(&folder, &plan)?;
+        if !checked.problems.is_empty() {
+            let problems = checked.problems.iter().map(|problem| {
+                Error::data(problem)
+                    .help("make the tile again, and join again; if that does not help, report a bug")
+            });
+            return Err(Error::several(problems.collect()));
+        }
+        if self.json {
+            let document = json!({
+                "ok": true, "tiles": checked.tiles, "points": checked.points, "triangles": checked.triangles,
+                "features": checked.features, "missing": checked.missing,
+            });
+            return report::print(&format!("{document}\n"));
+        }
+        report::eprint(&format!(
+            "{} tiles with {} features and {} triangles; {} points are inside their volumes; {} features are missing\n",
+            checked.tiles, checked.features, checked.triangles, checked.points, checked.missing
+        ));
+        Ok(())
+    }
+}
