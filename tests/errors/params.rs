@@ -140,7 +140,7 @@ fn a_declaration_is_checked() {
       | param("a", { default = 3, step = 0 })
     "#);
     assert_snapshot!(refused("param(\"a\", { default = {} })\n"), @r#"
-    error: s.lua:1: param a: default must be a number, a boolean or a string, not a table
+    error: s.lua:1: param a: default must be a number, a boolean, a string, a function or a curve, not a table
       | param("a", { default = {} })
     "#);
     assert_snapshot!(refused("param(\"a\", { default = 30, max = 10 })\n"), @r#"

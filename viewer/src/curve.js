@@ -163,6 +163,7 @@ export class CurveEditor {
       autocomplete: 'off',
       'aria-label': `${axis} of the chosen point of ${this.row.name}`,
       'data-testid': `${this.row.id}-${axis}`,
+      onblur: () => this.#draw(),
       onchange: () => {
         const value = input.valueAsNumber;
         if (!Number.isFinite(value)) return this.#draw();
@@ -603,6 +604,8 @@ export class CurveEditor {
       else if (answer?.type === 'refused' && !this.#drag) this.#restore();
       if (!later) this.#fit();
       this.#draw();
+      // A value of the server may have come meanwhile.
+      if (!later && !send) this.row.putBack();
     };
     // Without a connection there is no answer.
     const patience = setTimeout(() => done(null), 3000);

@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 
 use super::json_text::{JsonText, PlacedPoints};
 use super::param::{Control, Param, Setting};
-use burgeon_base::error::{Error, Limit, Result, SourcePlace};
+use burgeon_base::error::{Error, Limit, Result, SourcePlace, did_you_mean, nearest};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::PointRows;
 
@@ -139,23 +139,25 @@ impl CurvesFile {
             if param.as_ref().is_some_and(is_drawn) {
                 continue;
             }
-            let (message, remedy) = match param {
+            let (message, help) = match param {
                 Some(_) => (
                     format!("the parameter `{name}` of {script} is not drawn, so its points are unused"),
-                    None,
+                    format!(
+                        "remove {name} from the file; only parameters that are functions or curves are drawn"
+                    ),
                 ),
                 None => {
                     let names = params.iter().filter(is_drawn).map(|param| param.name.as_str());
                     let message = format!("{script} has no parameter `{name}`, so its points are unused");
-                    let error = Error::not_found("parameter", name, names, &message);
-                    (message, error.remedy().map(str::to_owned))
+                    let help = match nearest(name, names) {
+                        Some(near) => did_you_mean(near),
+                        None => format!(
+                            "remove {name} from the file, or declare param(\"{name}\", {{ default = ramp(...) }})"
+                        ),
+                    };
+                    (message, help)
                 }
             };
-            let help = remedy.unwrap_or_else(|| {
-                format!(
-                    "remove {name} from the file, or declare param(\"{name}\", {{ default = ramp(...) }})"
-                )
-            });
             let warning = Warning::new(WarningKind::NoEffect, message).at(curve.place.clone()).help(help);
             warnings.push(warning);
         }
