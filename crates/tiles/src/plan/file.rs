@@ -91,7 +91,7 @@ impl TilePlan {
         let text = std::fs::read_to_string(path).map_err(|error| match error.kind() {
             std::io::ErrorKind::NotFound => Error::not_found(
                 "plan",
-                &path.display().to_string(),
+                path.display().to_string(),
                 [],
                 format!("no plan in this folder: {}", path.display()),
             )
