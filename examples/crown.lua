@@ -16,7 +16,16 @@ local rise = param("rise", {
 })
 local section = param("section", {
   default = curve({
-    points = { { 1, 0 }, { 0.35, 0.35 }, { 0, 1 }, { -0.35, 0.35 }, { -1, 0 }, { -0.35, -0.35 }, { 0, -1 }, { 0.35, -0.35 } },
+    points = {
+      { 1, 0 },
+      { 0.35, 0.35 },
+      { 0, 1 },
+      { -0.35, 0.35 },
+      { -1, 0 },
+      { -0.35, -0.35 },
+      { 0, -1 },
+      { 0.35, -0.35 },
+    },
     closed = true,
   }),
   doc = "Cross-section of the trunk.",

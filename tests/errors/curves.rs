@@ -44,7 +44,7 @@ fn the_file_replaces_the_default_and_presets_and_flags_override_the_file() {
         said.done().stdout.trim().to_owned()
     };
     assert_eq!(run(&[]), "A(0.25,9,7)");
-    assert_eq!(run(&["--set", "leaf=[[0,0],[1,0]]"]), "A(0.2,1,7)");
+    assert_eq!(run(&["--set", "leaf=[[0,0],[1,0]]"]), "A(0.25,1,7)");
     // Drawn values keep the kind of the script's own.
     assert_eq!(run(&["--set", "taper=[[0,0],[0.25,0],[0.75,1],[1,1]]"]), "A(0.5,9,7)");
 }

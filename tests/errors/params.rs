@@ -142,6 +142,7 @@ fn a_declaration_is_checked() {
     assert_snapshot!(refused("param(\"a\", { default = {} })\n"), @r#"
     error: s.lua:1: param a: default must be a number, a boolean, a string, a function or a curve, not a table
       | param("a", { default = {} })
+      help: functions and curves are drawn: default = ramp({ { 0, 1 }, { 1, 0.2 } })
     "#);
     assert_snapshot!(refused("param(\"a\", { default = 30, max = 10 })\n"), @r#"
     error: s.lua:1: the default of param a is 30, out of its range

@@ -10,10 +10,11 @@ use super::sources::{Source, collect};
 use super::{root, text};
 
 /// Formats that files name outside the tables: in examples of command lines, and for images and elements of the browser.
-const EXCEPTIONS: [(&str, &str); 6] = [
+const EXCEPTIONS: [(&str, &str); 7] = [
     ("src/commands/command_line.rs", ".glb"),
     ("src/commands/new.rs", ".glb"),
     ("src/commands/run/outputs.rs", ".tif"),
+    ("viewer/src/curve.js", "'svg'"),
     ("viewer/src/exports.js", ".png"),
     ("viewer/src/icons.js", "'svg'"),
     ("viewer/src/stage.js", "image/png"),
