@@ -5,6 +5,9 @@ use std::ops::Range;
 use crate::chain::{CLOSE, Chain, END, OPEN, Symbol};
 use crate::grammar::Grammar;
 
+/// Number of long segments up to which each is divided in its place.
+const FEW_LONG: usize = 4;
+
 /// Part of a chain, of consecutive symbols.
 #[derive(Debug, Default)]
 pub(crate) struct ChainSegment {
@@ -122,10 +125,14 @@ impl SegmentedChain {
     pub(crate) fn balance(&mut self, changed: &[usize], grammar: &Grammar) {
         let is_long = |index: &&usize| self.segments[**index].chain.symbols.len() > 2 * self.size;
         let long: Vec<usize> = changed.iter().filter(is_long).copied().collect();
-        for index in long.iter().rev() {
-            let mut parts = Vec::new();
-            divide(&self.segments[*index].chain, grammar, self.size, &self.located, &mut parts);
-            self.segments.splice(index..=index, parts);
+        if long.len() > FEW_LONG {
+            self.divide_all(&long, grammar);
+        } else {
+            for index in long.iter().rev() {
+                let mut parts = Vec::new();
+                divide(&self.segments[*index].chain, grammar, self.size, &self.located, &mut parts);
+                self.segments.splice(index..=index, parts);
+            }
         }
         if self.segments.len() > 64 && self.segments.len() * self.size > 4 * self.symbols {
             *self = Self::new(&self.joined(), grammar, self.size, &self.located);
@@ -133,6 +140,17 @@ impl SegmentedChain {
             // The indices of the segments in reach have changed.
             for segment in &mut self.segments {
                 segment.is_resting = !segment.has_rules;
+            }
+        }
+    }
+
+    /// Divides the segments at the indices `long`, which are ascending, in one pass over all segments.
+    fn divide_all(&mut self, long: &[usize], grammar: &Grammar) {
+        let mut next = long.iter().copied().peekable();
+        for (index, segment) in std::mem::take(&mut self.segments).into_iter().enumerate() {
+            match next.next_if_eq(&index) {
+                Some(_) => divide(&segment.chain, grammar, self.size, &self.located, &mut self.segments),
+                None => self.segments.push(segment),
             }
         }
     }
