@@ -5,6 +5,9 @@ use std::ops::Range;
 use crate::chain::{CLOSE, Chain, END, OPEN, Symbol};
 use crate::grammar::Grammar;
 
+/// Number of long segments up to which each is divided in its place.
+const FEW_LONG: usize = 4;
+
 /// Part of a chain, of consecutive symbols.
 #[derive(Debug, Default)]
 pub(crate) struct ChainSegment {
@@ -127,8 +130,14 @@ impl SegmentedChain {
     /// Divides those of the segments at the indices `changed`, which are ascending, that have become long, and joins all
     /// segments if many have become short. The parts, or all segments after joining, are awake if they have rules.
     pub(crate) fn balance(&mut self, changed: &[usize], grammar: &Grammar) {
-        for index in changed.iter().rev() {
-            self.divide(*index, grammar);
+        let is_long = |index: &&usize| self.segments[**index].chain.symbols.len() > 2 * self.size;
+        let long: Vec<usize> = changed.iter().filter(is_long).copied().collect();
+        if long.len() > FEW_LONG {
+            self.divide_all(&long, grammar);
+        } else {
+            for index in long.iter().rev() {
+                self.divide(*index, grammar);
+            }
         }
         if self.is_sparse() {
             self.join(grammar);
@@ -163,6 +172,21 @@ impl SegmentedChain {
     /// Returns true if many segments have become short.
     pub(crate) fn is_sparse(&self) -> bool {
         self.segments.len() > 64 && self.segments.len() * self.size > 4 * self.symbols
+    }
+
+    /// Divides the segments at the indices `long`, which are ascending, in one pass over all segments.
+    fn divide_all(&mut self, long: &[usize], grammar: &Grammar) {
+        let mut next = long.iter().copied().peekable();
+        for (index, segment) in std::mem::take(&mut self.segments).into_iter().enumerate() {
+            match next.next_if_eq(&index) {
+                Some(_) => divide(&segment.chain, grammar, self.size, &self.located, &mut self.segments),
+                None => self.segments.push(segment),
+            }
+        }
+        // The indices of the segments in reach have changed.
+        for segment in self.segments.iter_mut().filter(|_| grammar.has_contexts()) {
+            segment.is_resting = !segment.has_rules;
+        }
     }
 }
 
