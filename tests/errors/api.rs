@@ -69,22 +69,25 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
           of one module are chosen as rules are: by contexts in the chain, and with the options of a
           rule before the function, by guards and weights.
           Its fields: burgeon api system:interpret
-      at_start(hook: (now: Now) -> ()) -> System<T>
+      at_start(hook: (now: Now) -> ...any) -> System<T>
           Adds a hook: a function that runs before the axiom is decomposed and interpreted.
-      before_step(hook: (now: Now) -> ()) -> System<T>
+      before_step(hook: (now: Now) -> ...any) -> System<T>
           Adds a hook: a function that runs before the rules of each step. Hooks read the state of the
-          derivation, assign variables, and call stop() and use_group(name).
-      after_step(hook: (now: Now) -> ()) -> System<T>
+          derivation, assign variables, and call stop() and use_group(name). If it returns modules, they
+          replace the chain.
+      after_step(hook: (now: Now) -> ...any) -> System<T>
           Adds a hook: a function that runs after each step and its interpretation.
-      at_end(hook: (now: Now) -> ()) -> System<T>
+      at_end(hook: (now: Now) -> ...any) -> System<T>
           Adds a hook: a function that runs after the last step and its interpretation.
       ignore(...string) -> System<T>
           Sets modules that context matching ignores.
       consider(...string) -> System<T>
           Sets the only modules that context matching considers.
       derive(steps: number?, group: string?) -> Derived
+      derive(options: { ... }) -> Derived
           Applies the rules step by step; without a number of steps, until no rule applies. With a
           group, the rules of this group and those without a group apply.
+          Its fields: burgeon api system:derive
 
     Example
       -- All methods of a system, with context-sensitive rules.

@@ -341,6 +341,7 @@ fn help_reads_well() {
       new          Makes a script to start from
       setup        Writes into a folder what Visual Studio Code with luau-lsp needs to complete and check scripts, with the types of objects that they declare
       sources      Lists the layers of data files and databases, with their attributes, coordinate systems and extents
+      tiles        Makes 3D Tiles of the features of a country, with any number of processes
       completions  Prints a script that completes the command line in a shell
       help         Print this message or the help of the given subcommand(s)
 

@@ -409,7 +409,7 @@ fn a_system_tells_what_it_takes() {
 
 #[test]
 fn derive_takes_a_whole_number_of_steps_from_0() {
-    for steps in ["-1", "2.5", "0/0", "1/0", "true", "\"many\"", "{}"] {
+    for steps in ["-1", "2.5", "0/0", "1/0", "true", "\"many\"", "{ steps = 1.5 }"] {
         let said = refused(&format!("{HEAD}s:derive({steps})\n"));
         assert!(
             said.starts_with("error: s.lua:3: derive needs an integer number of steps of at least 0, not "),

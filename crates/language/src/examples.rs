@@ -62,6 +62,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "stop" shows "stop" "system:after_step" "now";
     "stream" shows "stream";
     "system" shows "system" "system:axiom" "system:ignore" "system:interpret" "system:derive";
+    "time" shows "time" "derive";
     "use_group" shows "use_group" "system:before_step";
     "variables" shows "variables" "system:at_start" "system:at_end";
     "vec" shows "vec";

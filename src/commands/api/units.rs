@@ -6,7 +6,8 @@ use super::entry::{Entry, EntryGroup, Member, MemberKind};
 use burgeon::language::CallForm;
 
 /// Counts.
-const COUNTS: [&str; 37] = [
+const COUNTS: [&str; 39] = [
+    "derive.steps",
     "derived.modules",
     "derived.steps",
     "extruder.along",
@@ -40,6 +41,7 @@ const COUNTS: [&str; 37] = [
     "surface.degree",
     "surface.divisions",
     "system:derive steps",
+    "system:derive.steps",
     "terrain.levels",
     "terrain.plants.density",
     "terrain:focus view",
@@ -162,7 +164,9 @@ const NUMBERS: [&str; 39] = [
 ];
 
 /// Values in any unit that the script or the file uses.
-const ANY: [&str; 39] = [
+const ANY: [&str; 41] = [
+    ".propensity",
+    ".time",
     "beta a",
     "beta b",
     "beta r",
