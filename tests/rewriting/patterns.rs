@@ -86,7 +86,7 @@ fn script(system: &RandomSystem, steps: usize, are_events: bool) -> String {
         if let Some(weight) = rule.weight {
             let _ = write!(options, "weight = {weight}, ");
         }
-        if are_events && number % 2 == 0 {
+        if are_events && number.is_multiple_of(2) {
             let _ = write!(options, "propensity = {}, ", plain_events::rate(number, &[]));
         } else if are_events {
             let _ = write!(

@@ -47,7 +47,7 @@ impl Amount {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "53 bits")]
     pub(crate) fn draw(self, stream: &mut Stream) -> Self {
         let mut bits = || (stream.uniform() * 2f64.powi(53)) as u128;
-        let fraction = bits() << 75 | bits() << 22;
+        let fraction = (bits() << 75) | (bits() << 22);
         Self(high_product(self.0, fraction))
     }
 }
@@ -57,7 +57,7 @@ fn high_product(a: u128, b: u128) -> u128 {
     const LOW: u128 = u64::MAX as u128;
     let ([a_high, a_low], [b_high, b_low]) = ([a >> 64, a & LOW], [b >> 64, b & LOW]);
     let (first, second) = (a_high * b_low, a_low * b_high);
-    let carry = (a_low * b_low >> 64) + (first & LOW) + (second & LOW);
+    let carry = ((a_low * b_low) >> 64) + (first & LOW) + (second & LOW);
     a_high * b_high + (first >> 64) + (second >> 64) + (carry >> 64)
 }
 

@@ -23,7 +23,7 @@ pub(super) fn handle_changes(state: &ServerState, change: &Change) {
     }
     let drawn = CurvesFile::path_of(&state.script);
     let saved = change.files.contains(&drawn) && !curves::is_changed(state);
-    let is_input = |path: &&PathBuf| !presets.contains(path) && !(saved && **path == drawn);
+    let is_input = |path: &&PathBuf| !(presets.contains(path) || saved && **path == drawn);
     let files: Vec<String> = change.files.iter().filter(is_input).map(|path| state.name(path)).collect();
     if files.is_empty() {
         return;

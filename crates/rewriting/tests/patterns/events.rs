@@ -20,7 +20,7 @@ fn crate_events(
     let prepared = Prepared::new(system, axiom);
     let rules = prepared.rules.iter().enumerate().map(|(number, rule)| {
         let constant = Propensity::Constant(rate(number, &[]));
-        rule.clone().with_propensity(if number % 2 == 0 { constant } else { Propensity::Computed })
+        rule.clone().with_propensity(if number.is_multiple_of(2) { constant } else { Propensity::Computed })
     });
     let rules: Vec<Rule> = rules.collect();
     let mut stepper = Stepper::new(prepared.plan(rules, batch, traced));

@@ -16,17 +16,18 @@ pub(crate) fn propensity(arguments: &[PlainValue]) -> f64 {
 
 /// Returns the propensity of an event; every other rule has the same for all modules.
 pub(crate) fn rate(rule: usize, arguments: &[PlainValue]) -> f64 {
-    if rule % 2 == 0 { 0.5 * (rule + 1) as f64 } else { propensity(arguments) }
+    if rule.is_multiple_of(2) { 0.5 * (rule + 1) as f64 } else { propensity(arguments) }
 }
 
 /// Returns the upper 128 bits of a product, by long multiplication of digits of 32 bits.
 fn high_product(a: u128, b: u128) -> u128 {
-    let digits = |number: u128| -> Vec<u128> { (0..4).map(|at| number >> (32 * at) & 0xFFFF_FFFF).collect() };
+    let digits =
+        |number: u128| -> Vec<u128> { (0..4).map(|at| (number >> (32 * at)) & 0xFFFF_FFFF).collect() };
     let mut product = [0_u128; 9];
     for (i, x) in digits(a).into_iter().enumerate() {
         for (j, y) in digits(b).into_iter().enumerate() {
-            product[i + j] += x * y & 0xFFFF_FFFF;
-            product[i + j + 1] += x * y >> 32;
+            product[i + j] += (x * y) & 0xFFFF_FFFF;
+            product[i + j + 1] += (x * y) >> 32;
         }
     }
     for at in 0..8 {
@@ -56,7 +57,7 @@ pub(crate) fn plain_event(
     let mut stream = key.stream();
     let waiting = -(1.0 - stream.uniform()).ln() / (total as f64 / 18_446_744_073_709_551_616.0);
     let mut bits = || (stream.uniform() * 9_007_199_254_740_992.0) as u128;
-    let fraction = bits() << 75 | bits() << 22;
+    let fraction = (bits() << 75) | (bits() << 22);
     let mut drawn = high_product(total, fraction);
     let chosen = events.iter().zip(amounts).find(|(_, amount)| {
         let is_here = drawn < *amount;
