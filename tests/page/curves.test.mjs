@@ -68,7 +68,7 @@ test("a dragged point changes the model while it moves, and a function keeps the
     assert.ok(after[1][0] < 1 && after.length === 3, JSON.stringify(after));
     await seen(page, "param-taper-reset").click();
     await until(page, "taper", (now) => now[1][0] === 0.5 && now[1][1] === 0.6);
-    assert.equal(await seen(page, "param-taper-reset").isVisible(), false);
+    await seen(page, "param-taper-reset").waitFor({ state: "hidden" });
   }));
 
 test("double clicks add points on the curve and remove points", () =>
