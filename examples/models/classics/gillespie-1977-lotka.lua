@@ -47,9 +47,9 @@ local first, second = {}, {}
 local sums = { y1 = 0, y2 = 0 }
 for _, item in result:chain() do
   if item.name == "Sample" then
-    local place = if #first == 0 then From else To
-    table.insert(first, place(10 * item.time, item.y1 / 100))
-    table.insert(second, place(10 * item.time, item.y2 / 100))
+    local place: any = if #first == 0 then From else To
+    first[#first + 1] = place(10 * item.time, item.y1 / 100)
+    second[#second + 1] = place(10 * item.time, item.y2 / 100)
     sums.y1 += item.y1
     sums.y2 += item.y2
   end

@@ -12,12 +12,12 @@ local Lineage, Extinct = module("Lineage", "born"), module("Extinct")
 
 local life = lsystem({ object = turtle({ sides = 12, width = 0.07, color = "#6d5340" }) })
 life:axiom(Lineage(0))
-life:rule("Lineage(born)", { propensity = splits }, function(this, born: number)
+life:rule("Lineage(born)", { propensity = splits }, function(this, born)
   local angle = random(14, 30)
   local left = { Turn(angle), Roll(random(60, 120)), Lineage(time()) }
   return F(time() - born), left, { Turn(-angle), Roll(random(60, 120)), Lineage(time()) }
 end)
-life:rule("Lineage(born)", { propensity = dies }, function(this, born: number): any
+life:rule("Lineage(born)", { propensity = dies }, function(this, born): any
   return F(time() - born), Extinct()
 end)
 life:interpret("Lineage(born)", function(this, born: number)

@@ -164,8 +164,7 @@ const NUMBERS: [&str; 39] = [
 ];
 
 /// Values in any unit that the script or the file uses.
-const ANY: [&str; 41] = [
-    ".propensity",
+const ANY: [&str; 40] = [
     ".time",
     "beta a",
     "beta b",

@@ -129,10 +129,10 @@ pub static RULE: LazyLock<Name> = LazyLock::new(|| {
         ),
         field(
             "propensity",
-            "(number | ((this: T, ...any) -> number))?",
+            "any",
             "nil",
-            "The rate of the rule at each module (events per unit of time): each step then applies one rule to one module, drawn \
-             in proportion to the propensities of all.",
+            "The rate of the rule at each module (events per unit of time), a number or a function of `this` and the arguments: \
+             each step then applies one rule to one module, drawn in proportion to the propensities of all.",
         ),
         field(
             "group",
