@@ -9,7 +9,6 @@ use crate::amounts::Amount;
 use crate::batch::{Active, Batch, ChainPiece};
 use crate::chain::{Chain, END, Mark, Symbol};
 use crate::event_chain::{EventChain, EventWork, drawn_event};
-
 use crate::phases::PhaseOutcome;
 use crate::propensities::PossibleEvent;
 use crate::rules::Rules;
@@ -60,6 +59,12 @@ pub struct EventsOutcome {
 }
 
 impl EventsOutcome {
+    /// Creates the outcome of no step on `chain`.
+    fn new(chain: &Arc<Chain>) -> Self {
+        let (chain, applied) = (Arc::clone(chain), Vec::new());
+        Self { chain, steps: 0, settled: false, is_last: false, read: 0, applied }
+    }
+
     /// Returns the result of a phase that has requested one step. A step without an event does not count.
     pub fn into_phase_outcome(self) -> PhaseOutcome {
         PhaseOutcome {
@@ -141,16 +146,9 @@ impl Stepper {
             window: ContextWindow::default(),
             spare: self.outputs.pop().unwrap_or_default(),
         };
-        let mut outcome = EventsOutcome {
-            chain: Arc::clone(chain),
-            steps: 0,
-            settled: false,
-            is_last: false,
-            read: 0,
-            applied: Vec::new(),
-        };
+        let mut outcome = EventsOutcome::new(chain);
         let mut is_changed = false;
-        let mut uses = Vec::new();
+        let mut growth = vec![0; plan.grammar.rules().len()];
         for number in series.first..=series.last {
             stop.check()?;
             let (finding, applying) = (StepNumber::new(number), StepNumber::new(number));
@@ -178,7 +176,10 @@ impl Stepper {
                     )?;
                     outcome.read += changes.read;
                     is_watched |= changes.is_watched;
-                    uses.append(&mut work.spare.uses);
+                    for (rule, done) in &work.spare.uses {
+                        growth[usize::from(*rule)] += done.made;
+                        self.uses[usize::from(*rule)] += *done;
+                    }
                     work.spare.clear();
                 }
                 if finding.is_read() {
@@ -194,8 +195,6 @@ impl Stepper {
             }
             outcome.steps += 1;
             if symbols > plan.limit {
-                let mut growth = vec![0; plan.grammar.rules().len()];
-                uses.iter().for_each(|(rule, done)| growth[usize::from(*rule)] += done.made);
                 return Err(self.limit_error(&growth, number));
             }
             if !(series.watch)(number, symbols) || outcome.is_last || is_watched {
@@ -204,9 +203,6 @@ impl Stepper {
         }
         self.outputs.push(work.spare);
         self.links = links;
-        for (rule, done) in uses {
-            self.uses[usize::from(rule)] += done;
-        }
         if is_changed {
             let mut joined = joined(&state.chains);
             joined.mark(plan.batch, plan.grammar.arities());
@@ -249,12 +245,9 @@ impl Stepper {
         let chosen = self.choose_events(chain, &events, series);
         let occurs = !chosen.is_empty();
         let mut outcome = EventsOutcome {
-            chain: Arc::clone(chain),
-            steps: 1,
             settled: !occurs && !finding.is_read(),
-            is_last: false,
             read: chain.symbols.len(),
-            applied: Vec::new(),
+            ..EventsOutcome::new(chain)
         };
         let times = self.events.times.clone();
         let batch = batch(&applying, &times);

@@ -52,7 +52,7 @@ pub struct BuiltTile {
     pub content: Result<TileContent>,
 }
 
-/// What happened to a tile.
+/// Result of a request for a tile.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TileOutcome {
     /// The tile fitted the plan already.
