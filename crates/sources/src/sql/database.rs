@@ -46,7 +46,7 @@ static MEMORIES: AtomicUsize = AtomicUsize::new(0);
 /// let database = Database::new(None)?;
 /// let sql = "SELECT ST_Area(ST_Buffer(ST_MakePoint(0, 0), $r)) > 3 AS large, $r * 2 AS width";
 /// let answer = database.query(sql, &[("r", Cell::Number(1.0))], &Arc::new(Budget::default()))?;
-/// assert_eq!(*answer.names, ["large", "width"]);
+/// assert_eq!(answer.names.iter().map(AsRef::as_ref).collect::<Vec<&str>>(), ["large", "width"]);
 /// assert_eq!(answer.values, [Cell::Boolean(true), Cell::Number(2.0)]);
 /// # Ok::<(), burgeon_base::error::Error>(())
 /// ```
