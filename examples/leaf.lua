@@ -20,7 +20,8 @@ local function blade(width: number, fold: number, bend: number): Surface
   return surface({ points = rows, kind = "b-spline", divisions = 4 })
 end
 
-local bud, mature = blade(0.05, 1.5, -0.3), blade(0.3, 0.35, 0.55)
+local bud = blade(0.05, 1.5, -0.3)
+local mature = param("leaf", { default = blade(0.3, 0.35, 0.55), doc = "Mature leaf." })
 -- The size and the opening of a leaf by its age, from 0 to 1, and the angle to the stem.
 local size = ramp({ { 0, 0.15 }, { 0.5, 0.8 }, { 1, 1 } })
 local opening = ramp({ { 0.1, 0 }, { 0.8, 1 } })

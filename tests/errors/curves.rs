@@ -177,8 +177,8 @@ fn a_default_that_cannot_be_drawn_is_refused() {
     "#);
     let script = "local x = param(\"x\", { default = extruder({}) })\n";
     assert_snapshot!(Folder::new().with("s.lua", script).refuses(&["run", "s.lua"]), @r#"
-    error: s.lua:1: param x: default must be a number, a boolean, a string, a function or a curve, not an object
+    error: s.lua:1: param x: default must be a number, a boolean, a string, a function, a curve or a surface, not an object
       | local x = param("x", { default = extruder({}) })
-      help: functions and curves are drawn: default = ramp({ { 0, 1 }, { 1, 0.2 } })
+      help: functions, curves and surfaces are drawn: default = ramp({ { 0, 1 }, { 1, 0.2 } })
     "#);
 }

@@ -139,10 +139,14 @@ fn a_declaration_is_checked() {
     error: s.lua:1: param a: step must be above 0
       | param("a", { default = 3, step = 0 })
     "#);
+    for (field, default) in [("min", "true"), ("max", "\"b\""), ("step", "ramp({ { 0, 1 }, { 1, 0 } })")] {
+        let said = refused(&format!("param(\"a\", {{ default = {default}, {field} = 1 }})\n"));
+        assert!(said.contains(&format!("param a is not a number, so it cannot have {field}")), "{said}");
+    }
     assert_snapshot!(refused("param(\"a\", { default = {} })\n"), @r#"
-    error: s.lua:1: param a: default must be a number, a boolean, a string, a function or a curve, not a table
+    error: s.lua:1: param a: default must be a number, a boolean, a string, a function, a curve or a surface, not a table
       | param("a", { default = {} })
-      help: functions and curves are drawn: default = ramp({ { 0, 1 }, { 1, 0.2 } })
+      help: functions, curves and surfaces are drawn: default = ramp({ { 0, 1 }, { 1, 0.2 } })
     "#);
     assert_snapshot!(refused("param(\"a\", { default = 30, max = 10 })\n"), @r#"
     error: s.lua:1: the default of param a is 30, out of its range

@@ -1,4 +1,4 @@
-//! Drawn functions and curves: outlines, saves, and changes of their file.
+//! Drawn functions, curves and surfaces: outlines, saves, and changes of their file.
 
 use std::time::Duration;
 
@@ -55,6 +55,41 @@ fn a_drawn_function_is_described_outlined_and_refused_with_its_point() {
         assert_eq!(refused["id"], 5);
         assert!(refused["text"].as_str().unwrap().contains(why), "{refused}");
     }
+}
+
+#[test]
+fn a_surface_is_described_with_its_net_and_keeps_the_number_of_points() {
+    let script = r#"local row = function(y) return { vec(0, y, 0), vec(1, y, 0), vec(2, y, 0) } end
+local leaf = param("leaf", { default = surface({ points = { row(0), row(2) }, kind = "b-spline", degree = 1 }) })
+local A = module("A")
+local s = lsystem({ object = turtle() })
+s:axiom(A())
+s:interpret("A", function(this) this:surface(leaf) end)
+s:derive()
+"#;
+    let server = Server::new(Some(script));
+    let mut page = server.page();
+    let param = page.next("model")["params"][0].clone();
+    let control = &param["control"];
+    assert_eq!(
+        (&control["space"], &control["kind"], &control["columns"]),
+        (&json!("space"), &json!("b-spline"), &json!(3))
+    );
+    let mut points = json!([[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 2, 0], [1, 2, 0], [2, 2, 0]]);
+    assert_eq!(param["value"], points);
+    // Lines of constant v at five places, each with two pieces, and lines of constant u at five places.
+    assert_eq!(control["pieces"].as_array().unwrap().len(), 5 * 2 + 5);
+    points[4][2] = json!(0.5);
+    page.say(&json!({ "type": "outline", "id": 4, "param": "leaf", "points": points }));
+    let outline = page.next("outline");
+    let last = outline["pieces"].as_array().unwrap().iter().flat_map(|piece| piece.as_array().unwrap());
+    assert!(last.into_iter().any(|point| *point == json!([1.0, 2.0, 0.5])), "{outline}");
+    let command = json!({ "type": "set", "params": { "leaf": points.to_string() } });
+    assert_eq!(page.model_of(command)["params"][0]["value"], points);
+    page.say(&json!({ "type": "outline", "id": 5, "param": "leaf", "points": [[0, 0, 0], [1, 0, 0]] }));
+    let refused = page.next("refused");
+    let text = refused["text"].as_str().unwrap();
+    assert!(text.contains("2 points do not make a surface of 2 rows of 3 points"), "{refused}");
 }
 
 #[test]

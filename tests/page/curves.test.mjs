@@ -1,4 +1,4 @@
-// Drawn functions and curves in a real browser: points are dragged, added, removed, moved by keys, reset and saved.
+// Drawn functions, curves and surfaces in a real browser: points are dragged, added, removed, moved by keys, reset and saved.
 //
 //   node --test tests/page/curves.test.mjs
 
@@ -88,6 +88,46 @@ test("double clicks add points on the curve and remove points", () =>
     assert.deepEqual(divided[3], [0.625, 1.375]);
     await page.keyboard.press("Delete");
     await until(page, "arc", (now) => now.length === 4);
+  }));
+
+const PETAL = `local petal = param("petal", { default = surface({
+  { vec(0, 0, 0), vec(0, 0, 0), vec(0, 0, 0), vec(0, 0, 0) },
+  { vec(-1, 0, 1), vec(-0.4, 0, 1), vec(0.4, 0, 1), vec(1, 0, 1) },
+  { vec(-1, 0, 2), vec(-0.4, 0, 2), vec(0.4, 0, 2), vec(1, 0, 2) },
+  { vec(0, 0, 3), vec(0, 0, 3), vec(0, 0, 3), vec(0, 0, 3) },
+}) })
+local Part = module("Part")
+local flower = lsystem({ object = turtle() })
+flower:axiom(Part())
+flower:interpret("Part", function(this) this:surface(petal) end)
+flower:derive()
+`;
+
+test("the points of a surface are dragged in its widest view, and those at its tip move together", () =>
+  show(browser, PETAL, async ({ page }) => {
+    await drawn(page);
+    assert.equal(await points(page, "petal").count(), 16);
+    assert.ok(await seen(page, "param-petal-view-front").isChecked());
+    assert.equal(await seen(page, "param-petal-add").count(), 0);
+    const [x, y] = await middle(page, "petal", 6);
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x + 20, y, { steps: 4 });
+    await page.mouse.up();
+    const one = await until(page, "petal", (now) => now[6][0] > 0.45);
+    assert.deepEqual([one[6][1], one[6][2], one[5]], [0, 1, [-0.4, 0, 1]]);
+    await points(page, "petal").nth(15).focus();
+    await page.keyboard.press("Shift+ArrowUp");
+    const tip = await until(page, "petal", (now) => now[15][2] > 3);
+    assert.ok([12, 13, 14].every((index) => tip[index][2] === tip[15][2]), JSON.stringify(tip));
+    await page.keyboard.press("Alt+ArrowRight");
+    const apart = await until(page, "petal", (now) => now[15][0] > 0);
+    assert.ok([12, 13, 14].every((index) => apart[index][0] === 0), JSON.stringify(apart));
+    // The number of points stays.
+    await page.keyboard.press("Delete");
+    await page.keyboard.press("Insert");
+    await page.waitForTimeout(300);
+    assert.equal((await value(page, "petal")).length, 16);
   }));
 
 test("keys choose, move, add and remove points, and undo", () =>

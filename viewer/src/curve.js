@@ -1,10 +1,12 @@
-// The editor of a drawn function or curve: a plot with points that can be dragged, added and removed.
+// The editor of a drawn function, curve or surface: a plot with points that can be dragged, added and removed.
 
 import * as bezier from './bezier.js';
 import { make, say, svg } from './dom.js';
 import { icon } from './icons.js';
 import { plain } from './format.js';
+import { outline } from './outline.js';
 import { evenRanges, fineness, functionRanges, label, rounded, ticks } from './plot.js';
+import { together, placeAfter, withCurvePoint, withFunctionPoint, withoutPoint } from './points.js';
 import { clearToast, toast } from './toast.js';
 
 const HEIGHT = 172;
@@ -18,6 +20,7 @@ const REACH = 13;
 const VIEWS = { Top: [0, 1], Front: [0, 2], Side: [1, 2] };
 const NAMES = ['x', 'y', 'z'];
 const HELP = 'Drag a point. Double-click the curve to add one, and a point to remove it. Arrow keys move the chosen point.';
+const SURFACE_HELP = 'Drag a point. Points at the same place move together, except with Alt. Arrow keys move the chosen point.';
 
 export class CurveEditor {
   #points = [];
@@ -26,7 +29,7 @@ export class CurveEditor {
   #chosen = 0;
   #ranges = null;
   #size = [280, HEIGHT];
-  #axes = [0, 1];
+  #axes = VIEWS.Top;
   #past = [];
   #future = [];
   #asking = false;
@@ -37,6 +40,7 @@ export class CurveEditor {
   constructor(row, param) {
     this.row = row;
     this.control = param.control;
+    this.#axes = this.control.columns ? widest(param.value) : VIEWS.Top;
     const name = param.name;
     this.grid = svg('g', { class: 'plot-grid' });
     this.drawing = svg('g', { class: 'plot-drawing' });
@@ -85,8 +89,7 @@ export class CurveEditor {
         'div',
         { class: 'plot-foot' },
         ...this.fields.map((field) => field.label),
-        this.adder,
-        this.remover,
+        ...(this.control.columns ? [] : [this.adder, this.remover]),
         make('span', { class: 'push' }),
         this.original,
         this.saver,
@@ -94,7 +97,7 @@ export class CurveEditor {
       this.problem,
     );
     this.plot.append(svg('title'));
-    this.plot.lastChild.textContent = HELP;
+    this.plot.lastChild.textContent = this.control.columns ? SURFACE_HELP : HELP;
     this.#listen();
     new ResizeObserver(([{ contentRect }]) => this.#resize(contentRect.width)).observe(this.element);
   }
@@ -133,14 +136,14 @@ export class CurveEditor {
   }
 
   #views(name) {
-    const radios = Object.entries(VIEWS).map(([view, axes], i) =>
+    const radios = Object.entries(VIEWS).map(([view, axes]) =>
       make(
         'label',
         { title: `${NAMES[axes[0]]} to the right, ${NAMES[axes[1]]} up` },
         make('input', {
           type: 'radio',
           name: `${this.row.id}-view`,
-          checked: i === 0,
+          checked: axes === this.#axes,
           'data-testid': `${this.row.id}-view-${view.toLowerCase()}`,
           onchange: () => {
             this.#axes = axes;
@@ -168,7 +171,8 @@ export class CurveEditor {
         const value = input.valueAsNumber;
         if (!Number.isFinite(value)) return this.#draw();
         const points = copy(this.#points);
-        points[this.#chosen][index] = value;
+        const moved = this.control.columns ? together(points, this.#chosen) : [this.#chosen];
+        for (const other of moved) points[other][index] = value;
         this.#change(points, true);
       },
     });
@@ -280,38 +284,11 @@ export class CurveEditor {
   }
 
   #drawCurve() {
-    const pixels = (point) => this.#pixel(point).map((value) => value.toFixed(2)).join(' ');
-    const path = this.#pieces
-      .map((piece, index) => {
-        const before = this.#pieces[index - 1]?.[3];
-        const start = before && distance(before, piece[0]) === 0 ? '' : `M${pixels(piece[0])}`;
-        return `${start}C${piece.slice(1).map(pixels).join(' ')}`;
-      })
-      .join('');
-    const parts = [];
-    const { space, kind, closed } = this.control;
     const [width, height] = this.#inner;
-    if (space === 'function' && path) {
-      const [first, last] = [this.#pieces[0][0], this.#pieces.at(-1)[3]].map((point) => this.#pixel(point));
-      const zero = this.#pixel([0, Math.min(Math.max(0, this.#ranges[1][0]), this.#ranges[1][1])])[1];
-      parts.push(svg('path', { class: 'plot-fill', d: `${path}L${last[0]} ${zero}L${first[0]} ${zero}Z` }));
-      const ends = `M${EDGE.left} ${first[1]}H${first[0]}M${last[0]} ${last[1]}H${EDGE.left + width}`;
-      parts.push(svg('path', { class: 'plot-beyond', d: ends }));
-    } else if (closed && path && space === 'plane') parts.push(svg('path', { class: 'plot-fill', d: path }));
-    if (kind === 'spline' || kind === 'b-spline') {
-      const corners = this.#points.map(pixels).join('L');
-      parts.push(svg('path', { class: 'plot-polygon', d: `M${corners}${closed ? 'Z' : ''}` }));
-    }
-    if (kind === 'bezier') {
-      const count = this.#points.length;
-      const arms = this.#points.flatMap((point, index) => {
-        const anchor = index % 3 === 1 ? index - 1 : index % 3 === 2 ? (index + 1) % count : null;
-        return anchor === null ? [] : [`M${pixels(point)}L${pixels(this.#points[anchor])}`];
-      });
-      parts.push(svg('path', { class: 'plot-polygon', d: arms.join('') }));
-    }
-    parts.push(svg('path', { class: 'plot-line', d: path }));
-    const clip = svg('svg', { x: EDGE.left, y: EDGE.top, width, height, viewBox: `${EDGE.left} ${EDGE.top} ${width} ${height}` }, ...parts);
+    const area = { left: EDGE.left, top: EDGE.top, width, height };
+    const base = this.#pixel([0, Math.min(Math.max(0, this.#ranges[1][0]), this.#ranges[1][1])])[1];
+    const parts = outline(this.control, this.#points, this.#pieces, (point) => this.#pixel(point), area, base);
+    const clip = svg('svg', { x: area.left, y: area.top, width, height, viewBox: `${area.left} ${area.top} ${width} ${height}` }, ...parts);
     this.drawing.replaceChildren(clip);
   }
 
@@ -328,7 +305,7 @@ export class CurveEditor {
       handle.setAttribute('transform', `translate(${x.toFixed(2)} ${y.toFixed(2)})`);
       handle.setAttribute('tabindex', index === this.#chosen ? 0 : -1);
       handle.classList.toggle('chosen', index === this.#chosen);
-      handle.classList.toggle('arm', this.control.kind === 'bezier' && index % 3 !== 0);
+      handle.classList.toggle('arm', this.control.kind === 'bezier' && !this.control.columns && index % 3 !== 0);
       const text = point.map((value, axis) => `${NAMES[axis]} ${plain(value)}`).join(', ');
       handle.setAttribute('aria-label', `Point ${index + 1} of ${count}: ${text}`);
       say(handle.lastChild, `Point ${index + 1}: ${text}`);
@@ -373,7 +350,7 @@ export class CurveEditor {
       plot.setPointerCapture(event.pointerId);
       const [x, y] = this.#pixel(this.#points[index]);
       const [px, py] = pixel(event);
-      this.#drag = { before: copy(this.#points), offset: [x - px, y - py], id: event.pointerId };
+      this.#drag = { before: copy(this.#points), points: this.#moved(event), offset: [x - px, y - py], id: event.pointerId };
       plot.classList.add('dragging');
     });
     plot.addEventListener('pointermove', (event) => {
@@ -386,7 +363,7 @@ export class CurveEditor {
         place = place.map((value, i) => rounded(value, grid[i] / 2));
       }
       this.#drag.moved = true;
-      this.#move(this.#chosen, place, false);
+      this.#move(this.#drag.points, place);
       this.#showWhere(pixel(event));
     });
     const stop = (event) => {
@@ -435,7 +412,7 @@ export class CurveEditor {
         return Number((point[this.#axes[i]] + sign * step).toPrecision(12));
       });
       const before = copy(this.#points);
-      this.#move(this.#chosen, place, true);
+      this.#move(this.#moved(event), place, true);
       this.#commit(before);
     } else if (event.key in jumps) this.#choose((jumps[event.key] + count) % count);
     else if (event.key === 'Delete' || event.key === 'Backspace') this.#remove(this.#chosen);
@@ -451,10 +428,16 @@ export class CurveEditor {
     if (focus) this.handles.children[index]?.focus({ preventScroll: true });
   }
 
+  /** The points that move with the chosen one: those at its place, as at the tip of a leaf. */
+  #moved({ altKey }) {
+    return this.control.columns && !altKey ? together(this.#points, this.#chosen) : [this.#chosen];
+  }
+
   // Changes
 
-  /** Moves a point to a place of the plot; a function keeps the order of its points. */
-  #move(index, place, exact) {
+  /** Moves the chosen point, and the others in `moved`, to a place of the plot; a function keeps the order of its points. */
+  #move(moved, place, exact = false) {
+    const index = this.#chosen;
     const points = copy(this.#points);
     const steps = this.#steps;
     const values = exact ? place : place.map((value, i) => rounded(value, steps[i]));
@@ -465,7 +448,7 @@ export class CurveEditor {
       // Neighbours nearer than a step stay as they are.
       if (values[0] <= before || values[0] >= after) values[0] = points[index][0];
     }
-    this.#axes.forEach((axis, i) => (points[index][axis] = values[i]));
+    for (const other of moved) this.#axes.forEach((axis, i) => (points[other][axis] = values[i]));
     this.#points = points;
     this.#draw();
     this.#ask(points, true);
@@ -502,76 +485,42 @@ export class CurveEditor {
   }
 
   #addAt(pixel) {
+    if (this.control.columns) return;
     const hit = this.#nearest(pixel);
     if (this.control.space === 'function') {
       const [x, y] = this.#place(pixel).map((value, i) => rounded(value, this.#steps[i]));
-      const near = hit.far < NEAR;
-      return this.#insertFunction(x, near ? rounded(bezier.height(this.#pieces, x), this.#steps[1] / 10) : y);
+      const onCurve = rounded(bezier.height(this.#pieces, x), this.#steps[1] / 10);
+      return this.#take(withFunctionPoint(this.#points, x, hit.far < NEAR ? onCurve : y));
     }
-    if (hit.far < NEAR) this.#insertCurve(hit);
+    if (hit.far < NEAR) this.#take(this.#withCurvePoint(hit));
   }
 
   #addAfter() {
-    const { space, closed, kind } = this.control;
-    const count = this.#points.length;
-    const at = !closed && this.#chosen === count - 1 ? count - 2 : this.#chosen;
-    const [from, to] = [this.#points[at], this.#points[(at + 1) % count]];
-    const middle = from.map((value, axis) => (value + to[axis]) / 2);
-    if (space === 'function') return this.#insertFunction(middle[0], bezier.height(this.#pieces, middle[0]));
-    const pieces = this.#pieces.length;
-    if (kind === 'bezier') return this.#insertCurve({ index: Math.min(Math.floor(at / 3), pieces - 1), t: 0.5 });
-    if (kind === 'b-spline') return this.#insert(at + 1, middle);
-    return this.#insertCurve({ index: at, t: 0.5, point: bezier.at(this.#pieces[at], 0.5) });
+    if (this.control.columns) return;
+    const hit = placeAfter(this.control, this.#points, this.#pieces, this.#chosen);
+    if (this.control.space === 'function') return this.#take(withFunctionPoint(this.#points, ...hit.point));
+    this.#take(this.#withCurvePoint(hit));
   }
 
-  #insertFunction(x, y) {
-    const index = this.#points.findIndex((point) => point[0] >= x);
-    if (index >= 0 && this.#points[index][0] === x) return;
-    this.#insert(index < 0 ? this.#points.length : index, [x, Number(y.toPrecision(6))]);
-  }
-
-  /** Adds a point at a place of the curve; Bezier pieces are divided without a change of their form. */
-  #insertCurve({ index, t, point }) {
-    const round = (point) => point.slice(0, this.width).map((value) => Number(value.toPrecision(6)));
-    if (this.control.kind === 'bezier') {
-      const points = copy(this.#points);
-      const [, ...inner] = bezier.divide(this.#pieces[index], t).map(round);
-      points.splice(index * 3 + 1, 2, ...inner.slice(0, -1));
-      this.#chosen = index * 3 + 3;
-      this.#change(points, true);
-      return this.#choose(this.#chosen);
-    }
-    if (this.control.kind === 'b-spline') {
-      const sides = this.#points.map((from, i) => [from, this.#points[i + 1] ?? (this.control.closed ? this.#points[0] : null)]);
-      const lines = sides.filter(([, to]) => to).map(([from, to]) => [from, from, to, to]);
-      const target = this.#pixel(point);
-      const side = bezier.nearest(lines, (place) => distance(this.#pixel(place), target));
-      return this.#insert(side.index + 1, round(point));
-    }
-    return this.#insert(index + 1, round(point));
-  }
-
-  #insert(index, point) {
-    const points = copy(this.#points);
-    points.splice(index, 0, point);
-    this.#chosen = index;
-    this.#change(points, true);
-    this.#choose(index);
+  #withCurvePoint(hit) {
+    const apart = (a, b) => distance(this.#pixel(a), this.#pixel(b));
+    const { points, index } = withCurvePoint(this.control, this.#points, this.#pieces, hit, apart);
+    return { points: points.map((point) => point.slice(0, this.width)), index };
   }
 
   #remove(index) {
+    if (this.control.columns) return;
     if (this.remover.disabled) return toast(`${this.row.name} needs its last points`);
-    const points = copy(this.#points);
-    if (this.control.kind === 'bezier') {
-      // A point of the curve goes with the two control points beside it.
-      const anchor = (Math.round(index / 3) * 3) % points.length;
-      const last = points.length - 1;
-      const first = anchor === 0 ? 0 : !this.control.closed && anchor >= last ? last - 2 : anchor - 1;
-      points.splice(first, 3);
-    } else points.splice(index, 1);
-    this.#chosen = Math.min(index, points.length - 1);
-    this.#change(points, true);
-    this.#choose(this.#chosen);
+    const points = withoutPoint(this.control, this.#points, index);
+    this.#take({ points, index: Math.min(index, points.length - 1) });
+  }
+
+  /** Takes points after one has been added or removed, and chooses a point. */
+  #take(next) {
+    if (!next) return;
+    this.#chosen = next.index;
+    this.#change(next.points, true);
+    this.#choose(next.index);
   }
 
   // Server
@@ -634,3 +583,13 @@ export class CurveEditor {
 const copy = (points) => points.map((point) => [...point]);
 
 const distance = (a, b) => Math.hypot(...a.map((value, axis) => value - b[axis]));
+
+/** The view in which points cover the largest area. */
+function widest(points) {
+  const sizes = NAMES.map((_, axis) => {
+    const values = points.map((point) => point[axis]);
+    return Math.max(...values) - Math.min(...values);
+  });
+  const area = ([across, up]) => sizes[across] * sizes[up];
+  return Object.values(VIEWS).reduce((best, axes) => (area(axes) > area(best) ? axes : best));
+}

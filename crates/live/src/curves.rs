@@ -1,4 +1,4 @@
-//! Saving of drawn functions and curves in the file next to the script, [`CurvesFile`].
+//! Saving of drawn functions, curves and surfaces in the file next to the script, [`CurvesFile`].
 //!
 //! Input: the path of a script, and the points of its parameters. Output: the file, `vase.curves.json` for `vase.lua`. A file
 //! in another format is rejected and never overwritten.

@@ -245,7 +245,7 @@ fn parse(text: &JsonText<'_>) -> Result<Vec<Preset>> {
     Ok(presets)
 }
 
-/// Returns the value in `raw` of the parameter `name`; lists are the points of a drawn function or curve.
+/// Returns the value in `raw` of the parameter `name`; lists are the points of a drawn function, curve or surface.
 fn read_setting<'a>(text: &JsonText<'a>, raw: &'a RawValue, what: &str, name: &str) -> Result<Setting> {
     let read = match serde_json::from_str(raw.get()) {
         Ok(Value::Number(number)) => number.as_f64().filter(|number| number.is_finite()).map(Setting::Number),

@@ -1,4 +1,4 @@
-//! Drawn functions and curves in a file next to the script: `vase.curves.json` for `vase.lua`.
+//! Drawn functions, curves and surfaces in a file next to the script: `vase.curves.json` for `vase.lua`.
 //!
 //! ```json
 //! {
@@ -25,7 +25,7 @@ use burgeon_kit::PointRows;
 /// Maximum size (bytes) of a file of drawn curves.
 const LARGEST: u64 = 16_000_000;
 
-/// Drawn functions and curves of a script, in the order of their file.
+/// Drawn functions, curves and surfaces of a script, in the order of their file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurvesFile {
     path: PathBuf,

@@ -40,7 +40,7 @@ pub enum Setting {
     Boolean(bool),
     /// A choice, a colour or free text.
     Text(String),
-    /// Control points of a function or a curve.
+    /// Control points of a function, a curve or a surface.
     Points(PointRows),
 }
 
@@ -64,7 +64,7 @@ pub enum Control {
     Color,
     /// Free text.
     Text,
-    /// Control points of a function or a curve.
+    /// Control points of a function, a curve or a surface.
     Points(PointControl),
 }
 
@@ -217,6 +217,13 @@ impl Param {
                 None => return Err(Self::refuse_default(name, other)),
             },
         };
+        let bounds = [("min", min), ("max", max), ("step", step)];
+        if !matches!(control, Control::Number { .. })
+            && let Some((field, _)) = bounds.into_iter().find(|(_, bound)| bound.is_some())
+        {
+            return Err(Error::argument(format!("param {name} is not a number, so it cannot have {field}"))
+                .help(format!("remove {field}, or give a number as default")));
+        }
         let param = Self {
             name: name.to_owned(),
             package: None,
@@ -243,10 +250,10 @@ impl Param {
             ),
             _ => (
                 format!(
-                    "param {name}: default must be a number, a boolean, a string, a function or a curve, not {}",
+                    "param {name}: default must be a number, a boolean, a string, a function, a curve or a surface, not {}",
                     default.describe()
                 ),
-                "functions and curves are drawn: default = ramp({ { 0, 1 }, { 1, 0.2 } })",
+                "functions, curves and surfaces are drawn: default = ramp({ { 0, 1 }, { 1, 0.2 } })",
             ),
         };
         Error::argument(message).help(help)

@@ -1,4 +1,4 @@
-//! Parameters whose values are drawn: functions and curves with control points.
+//! Parameters whose values are drawn: functions, curves and surfaces with control points.
 
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::{ControlPoints, HasControlPoints, PointRows, PointSpace, Value};
@@ -6,7 +6,7 @@ use burgeon_kit::{ControlPoints, HasControlPoints, PointRows, PointSpace, Value}
 /// Maximum number of control points of a drawn value.
 const MOST_POINTS: usize = 1000;
 
-/// Control of a parameter that is a function or a curve.
+/// Control of a parameter that is a function, a curve or a surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointControl {
     /// Value of the script, which drawn values are like.

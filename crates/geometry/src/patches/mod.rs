@@ -3,6 +3,7 @@
 //! Input: a grid of points. Output: positions, normals and meshes, which are not closed.
 
 mod basis;
+mod isolines;
 mod mesh;
 pub(crate) mod surface;
 mod surface_mix;

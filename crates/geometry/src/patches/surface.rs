@@ -181,11 +181,7 @@ fn check_points(kind: SurfaceKind, sizes: [usize; 2], points: &[Vec<DVec3>]) -> 
             let message = format!("row {} has {} points, but row 1 has {}", row + 1, found.len(), sizes[0]);
             return Err(Error::argument(message).help("give as many points in each row"));
         }
-        if let Some(column) = found.iter().position(|at| !at.is_finite() || at.abs().max_element() > MOST) {
-            let message =
-                format!("point {} of row {} is not within 1e9 m of the origin", column + 1, row + 1);
-            return Err(Error::argument(message).help("give finite coordinates in metres"));
-        }
+        found.iter().enumerate().try_for_each(|(column, point)| check_point([column, row], *point))?;
     }
     if kind == SurfaceKind::Bezier && sizes.iter().any(|size| size % 3 != 1) {
         let message = format!("Bezier patches do not have {} rows of {} points", sizes[1], sizes[0]);
@@ -194,6 +190,15 @@ fn check_points(kind: SurfaceKind, sizes: [usize; 2], points: &[Vec<DVec3>]) -> 
         ));
     }
     Ok(())
+}
+
+/// Fails unless the `point` in this column and row is finite and within 1e9 m of the origin.
+pub(super) fn check_point([column, row]: [usize; 2], point: DVec3) -> Result<()> {
+    if point.is_finite() && point.abs().max_element() <= MOST {
+        return Ok(());
+    }
+    let message = format!("point {} of row {} is not within 1e9 m of the origin", column + 1, row + 1);
+    Err(Error::argument(message).help("give finite coordinates in metres"))
 }
 
 /// Returns the weights row after row. Fails unless there is one above 0 for each point.

@@ -1,4 +1,4 @@
-//! Values that users draw by their control points, such as functions and curves.
+//! Values that users draw by their control points, such as functions, curves and surfaces.
 
 use std::fmt;
 use std::sync::Arc;
@@ -15,7 +15,8 @@ pub trait HasControlPoints {
     /// Creates the value that differs from this one only by its control points. Fails if they do not define one.
     fn with_control_points(&self, points: &PointRows) -> Result<Arc<dyn Object>>;
 
-    /// Returns the value as cubic Bezier pieces, for display: four points each. A function has x and y, and z is 0.
+    /// Returns the value as cubic Bezier pieces, for display: four points each. A function has x and y, and z is 0; a
+    /// surface is lines of constant u and v.
     fn bezier_pieces(&self) -> Vec<[[f64; 3]; 4]>;
 }
 
@@ -30,6 +31,8 @@ pub struct ControlPoints {
     pub kind: &'static str,
     /// Set if the last point is joined to the first.
     pub closed: bool,
+    /// Number of points in a row of a surface, whose points are given row after row; their number cannot change.
+    pub columns: Option<usize>,
 }
 
 /// Meaning of the coordinates of control points.

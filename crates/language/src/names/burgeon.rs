@@ -217,7 +217,7 @@ pub static PARAM: LazyLock<Name> = LazyLock::new(|| {
                 [
                     field(
                         "default",
-                        "number | boolean | string | Ramp | Curve",
+                        "number | boolean | string | Ramp | Curve | Surface",
                         "",
                         "Default value; required. Functions and curves are drawn in the live page.",
                     ),

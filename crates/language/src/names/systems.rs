@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use burgeon_kit::Field;
+use burgeon_kit::{Argument, Field};
 
 use super::burgeon::options;
 use super::name::{Name, field};
@@ -70,13 +70,13 @@ pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
         .form([argument("derived", "Derived")], "System<T>"),
         Name::function("rule", "Adds a rule: the successor of a module that matches the pattern. A string with the word return is the body of a Lua function; others are modules such as \"F[+F]F(x / 2)\".")
             .form([pattern(), successor()], "System<T>")
-            .form([pattern(), options("{ ... }", RULE.fields.clone()), successor()], "System<T>"),
+            .form([pattern(), rule_options(&[]), successor()], "System<T>"),
         Name::function(
             "decompose",
             "Adds a decomposition rule, which applies repeatedly after the axiom and after each step.",
         )
         .form([pattern(), successor()], "System<T>")
-        .form([pattern(), options("{ ... }", RULE.fields.clone()), successor()], "System<T>"),
+        .form([pattern(), rule_options(&["propensity"]), successor()], "System<T>"),
         Name::function(
             "interpret",
             "Adds an interpretation: the function that draws a module. It calls methods of `this`, and may return modules, which \
@@ -84,7 +84,7 @@ pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
              contexts in the chain, and with the options of a rule before the function, by guards and weights.",
         )
         .form([pattern(), draw()], "System<T>")
-        .form([pattern(), options("{ ... }", RULE.fields.clone()), draw()], "System<T>"),
+        .form([pattern(), rule_options(&["propensity", "group"]), draw()], "System<T>"),
         hook("at_start", "Adds a hook: a function that runs before the axiom is decomposed and interpreted."),
         hook(
             "before_step",
@@ -106,6 +106,12 @@ pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
         .form([options("{ ... }", DERIVE.fields.clone())], "Derived"),
     ])
 });
+
+/// Returns the argument for the options of a rule, without those named in `left_out`.
+fn rule_options(left_out: &[&str]) -> Argument {
+    let fields = RULE.fields.iter().filter(|field| !left_out.contains(&&*field.name));
+    options("{ ... }", fields.cloned().collect::<Vec<Field>>())
+}
 
 /// Options of a rule.
 pub static RULE: LazyLock<Name> = LazyLock::new(|| {

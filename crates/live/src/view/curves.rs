@@ -1,4 +1,4 @@
-//! Drawn functions and curves: their outlines while a page changes them, and their file.
+//! Drawn functions, curves and surfaces: their outlines while a page changes them, and their file.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -85,5 +85,5 @@ fn read(state: &ServerState, name: &str, points: &Value) -> Result<(Param, Point
 }
 
 fn not_drawn(name: &str) -> Error {
-    Error::argument(format!("param {name} is not a function or a curve, so it is not drawn"))
+    Error::argument(format!("param {name} is not a function, a curve or a surface, so it is not drawn"))
 }

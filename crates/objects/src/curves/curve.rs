@@ -155,6 +155,7 @@ impl HasControlPoints for CurveObject {
             space,
             kind: name_of(self.curve.kind(), &KINDS),
             closed: self.curve.is_closed(),
+            columns: None,
         })
     }
 

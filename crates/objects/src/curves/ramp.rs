@@ -139,6 +139,7 @@ impl HasControlPoints for RampObject {
             space: PointSpace::Function,
             kind: name_of(*kind, &KINDS),
             closed: false,
+            columns: None,
         })
     }
 

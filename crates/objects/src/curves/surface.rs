@@ -6,11 +6,14 @@ use std::sync::Arc;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{SplineSurface, SurfaceGrid, SurfaceKind};
 use burgeon_kit::declare::as_ref;
-use burgeon_kit::{Answer, Object, ObjectContent, ObjectParameter, Value, Vector, fields, methods, object};
+use burgeon_kit::{
+    Answer, ControlPoints, HasControlPoints, Object, ObjectContent, ObjectParameter, PointRows, PointSpace,
+    Value, Vector, fields, methods, object,
+};
 use burgeon_scene::Part;
 use glam::{DAffine3, DVec3};
 
-use super::choice::variant;
+use super::choice::{name_of, position, variant};
 
 /// Names of the relations of a surface to its points.
 const KINDS: [(&str, SurfaceKind); 3] =
@@ -45,7 +48,7 @@ pub struct SplineSurfaceOptions {
 /// It never changes. A turtle draws it with `surface`.
 #[object(
     "surface",
-    can(ObjectContent),
+    can(ObjectContent, HasControlPoints),
     options = SplineSurfaceOptions,
     first = "points",
     example = include_str!("../../scripts/surface.lua"),
@@ -141,6 +144,29 @@ impl ObjectContent for SurfaceObject {
 
     fn fragments(&self) -> Option<Vec<Value>> {
         None
+    }
+}
+
+impl HasControlPoints for SurfaceObject {
+    fn control_points(&self) -> Option<ControlPoints> {
+        let points = self.surface.points().iter().map(|point| point.to_array().into());
+        Some(ControlPoints {
+            points: PointRows(points.collect()),
+            space: PointSpace::Space,
+            kind: name_of(self.surface.kind(), &KINDS),
+            closed: false,
+            columns: Some(self.surface.sizes()[0]),
+        })
+    }
+
+    fn with_control_points(&self, points: &PointRows) -> Result<Arc<dyn Object>> {
+        let points = points.0.iter().map(|row| position(row)).collect();
+        let surface = Arc::new(self.surface.with_points(points)?);
+        Ok(Arc::new(Self { surface, divisions: self.divisions }))
+    }
+
+    fn bezier_pieces(&self) -> Vec<[[f64; 3]; 4]> {
+        self.surface.isolines().iter().map(|piece| piece.map(|point| point.to_array())).collect()
     }
 }
 

@@ -70,7 +70,7 @@ pub enum PageCommand {
         #[serde(default)]
         replace: bool,
     },
-    /// Queries the outline of a drawn function or curve with other points.
+    /// Queries the outline of a drawn function, curve or surface with other points.
     Outline {
         /// Id to return with the answer.
         id: u64,
@@ -79,7 +79,7 @@ pub enum PageCommand {
         /// Control points.
         points: Value,
     },
-    /// Saves the points of a drawn function or curve in the file next to the script.
+    /// Saves the points of a drawn function, curve or surface in the file next to the script.
     Store {
         /// Id to return with the answer.
         id: u64,

@@ -96,14 +96,14 @@ pub enum Event {
         /// Name of the preset with the present values and seed, if any.
         chosen: Option<String>,
     },
-    /// Outline of a drawn function or curve.
+    /// Outline of a drawn function, curve or surface.
     Outline {
         /// Id of the query.
         id: u64,
         /// Cubic Bezier pieces, each of four points x, y, z.
         pieces: Vec<[[f64; 3]; 4]>,
     },
-    /// Completed save of a drawn function or curve.
+    /// Completed save of a drawn function, curve or surface.
     Stored {
         /// Id of the command.
         id: u64,

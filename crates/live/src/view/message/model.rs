@@ -111,7 +111,7 @@ pub enum ControlMessage {
     Color,
     /// Free text.
     Text,
-    /// Control points of a function or a curve.
+    /// Control points of a function, a curve or a surface.
     Points {
         /// Meaning of the coordinates: `function`, `plane` or `space`.
         space: &'static str,
@@ -119,6 +119,9 @@ pub enum ControlMessage {
         kind: &'static str,
         /// Set if the last point is joined to the first.
         closed: bool,
+        /// Number of points in a row of a surface.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        columns: Option<usize>,
         /// Value as cubic Bezier pieces, each of four points x, y, z.
         pieces: Vec<[[f64; 3]; 4]>,
     },
@@ -209,6 +212,7 @@ impl ParamMessage {
                     space: control.form().space.name(),
                     kind: control.form().kind,
                     closed: control.form().closed,
+                    columns: control.form().columns,
                     pieces: match &param.value {
                         Setting::Points(points) => control.pieces(points).unwrap_or_default(),
                         _ => Vec::new(),
