@@ -165,6 +165,9 @@ pub struct Grammar {
     ignored: Vec<IgnoredSet>,
     /// Number of the set of each rule.
     ignored_numbers: Vec<usize>,
+    /// Symbols that all of the sets contain which candidates have, and those that any of them contains.
+    skipped_by_all: IgnoredSet,
+    skipped_by_any: IgnoredSet,
     ring: bool,
     arities: Vec<u8>,
     name_hashes: Vec<u64>,
@@ -219,6 +222,8 @@ impl Grammar {
             patterns,
             choices: Vec::new(),
             ruled: Vec::new(),
+            skipped_by_all: sets[0].clone(),
+            skipped_by_any: sets[0].clone(),
             ignored: sets,
             ignored_numbers,
             ring: false,
@@ -288,6 +293,9 @@ impl Grammar {
                 ruled[symbol] = true;
             }
         }
+        let used = || self.ignored.iter().filter(|set| set.needs_left || set.needs_right);
+        self.skipped_by_all = IgnoredSet::of_all(used(), symbols);
+        self.skipped_by_any = IgnoredSet::of_any(used(), symbols);
         let among = |of: &Vec<u16>| Choice::among(of.iter().map(|rule| &self.rules[usize::from(*rule)]), of);
         self.choices = by_symbol.iter().map(among).collect();
         self.by_symbol = by_symbol;
@@ -474,12 +482,23 @@ impl Grammar {
     }
 
     /// Returns true if a few modules on the path before and after a module decide which rule applies to it: if rules
-    /// rewrite single modules, their contexts name no branches and skip the same symbols, and chains are not rings.
+    /// rewrite single modules, their contexts name no branches, and chains are not rings.
     pub(crate) fn has_near_contexts(&self) -> bool {
         !self.runs
             && !self.ring
             && self.new_contexts == NewContexts::None
-            && self.ignored.len() == 1
             && self.patterns.branch_count() == 0
+    }
+
+    /// Returns true if the contexts of all rules skip `symbol`.
+    #[inline]
+    pub(crate) fn is_skipped_by_all(&self, symbol: Symbol) -> bool {
+        self.skipped_by_all.contains(symbol)
+    }
+
+    /// Returns true if the contexts of a rule skip `symbol`.
+    #[inline]
+    pub(crate) fn is_skipped_by_any(&self, symbol: Symbol) -> bool {
+        self.skipped_by_any.contains(symbol)
     }
 }

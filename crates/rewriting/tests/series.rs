@@ -81,6 +81,11 @@ impl RandomRules {
             let weight = (draws && dice.below(3) == 0).then(|| 1.0 + dice.below(3) as f64);
             let guarded = dice.below(2) == 0;
             let rule = Rule::new(Pattern::parse(&text, &symbols).expect("a pattern"), weight, guarded, None);
+            let rule = match dice.below(6) {
+                0 => rule.ignoring(vec![find(dice.pick(&NAMES))]),
+                1 => rule.ignoring(Vec::new()),
+                _ => rule,
+            };
             rules.push(rule.in_region((number % (others + 1)) as u16));
             most.push(dice.below(6) as f64);
             successors.push((dice.below(6) > 0).then(|| {

@@ -199,6 +199,7 @@ impl Prepared {
             let declared = Rule::new(pattern, rule.weight, rule.least.is_some(), None).in_region(rule.region);
             match &rule.ignored {
                 Some(names) => declared.ignoring(find(names)),
+                None if rule.region > 0 => declared.ignoring(find(system.settings.ignored_in(rule.region))),
                 None => declared,
             }
         });

@@ -81,9 +81,17 @@ pub(crate) struct PlainSettings {
     pub ring: bool,
     /// Names of the modules that open regions, with the numbers of these regions.
     pub openers: Vec<(&'static str, u16)>,
+    /// Names of modules that contexts of rules skip, by region from 1.
+    pub ignored_in: Vec<Vec<&'static str>>,
 }
 
 impl PlainSettings {
+    /// Returns the names of modules that contexts of rules of a region skip.
+    pub(crate) fn ignored_in(&self, region: u16) -> &[&'static str] {
+        let place = usize::from(region).checked_sub(1);
+        place.map_or(&self.ignored, |place| &self.ignored_in[place])
+    }
+
     /// Returns the region after `part`, which stands in `region`.
     fn region_after(&self, part: &Part, region: u16) -> u16 {
         let Part::Module(module) = part else { return region };
@@ -405,7 +413,7 @@ impl<R: PlainRule> Walk<'_, R> {
     fn choose(&self, place: &Place<'_>, module: &PlainModule) -> Option<(&R, Vec<PlainValue>)> {
         let of_region = self.rules.iter().filter(|rule| rule.region() == place.region);
         let matching = of_region.filter_map(|rule| {
-            let ignored = rule.ignored().unwrap_or(&self.settings.ignored);
+            let ignored = rule.ignored().unwrap_or(self.settings.ignored_in(rule.region()));
             let arguments = rule.pattern().bind(place, ignored)?;
             (rule.weight() != Some(0.0) && rule.holds(&arguments)).then_some((rule, arguments))
         });

@@ -161,8 +161,7 @@ impl RandomSystem {
         // Rules that see the new chain go in one direction, and rewrite single modules.
         let kind = dice.pick(&[RuleKind::Runs, RuleKind::Runs, RuleKind::NewLeft, RuleKind::NewRight]);
         let rules = (0..1 + dice.below(6)).map(|_| rule(dice, kind)).collect();
-        let openers = Vec::new();
-        Self { settings: PlainSettings { ignored, ring, openers }, axiom, rules }
+        Self { settings: PlainSettings { ignored, ring, ..PlainSettings::default() }, axiom, rules }
     }
 
     /// Returns a system with one to three other systems, whose rules apply in regions of the chain.
@@ -173,6 +172,7 @@ impl RandomSystem {
             let more = Self::new_like(dice, &system);
             let with_region = |rule| SystemRule { region: region as u16, ..rule };
             system.rules.extend(more.into_iter().map(with_region));
+            system.settings.ignored_in.push(dice.pick(&[&["D"][..], &["A", "C"], &[], &[]]).to_vec());
             let opener = dice.pick(&["A", "B", "C", "C", "D", "Cut"]);
             if system.settings.openers.iter().all(|(name, _)| *name != opener) {
                 system.settings.openers.push((opener, dice.below(others + 1) as u16));
@@ -210,7 +210,6 @@ impl RandomSystem {
             rule.weight = None;
             (rule.pattern.new_left, rule.pattern.new_right) = (PlainLeft::default(), Vec::new());
             if is_near {
-                rule.ignored = None;
                 rule.pattern.predecessors.truncate(1);
                 rule.pattern.right.retain(|context| matches!(context, PlainContext::Module(_)));
             }
