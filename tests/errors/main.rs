@@ -48,6 +48,7 @@ mod stores;
 mod streams;
 mod streets_on_ground;
 mod strings;
+mod subsystems;
 mod successors;
 mod support;
 mod syntax;

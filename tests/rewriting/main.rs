@@ -42,3 +42,4 @@ mod steps;
 mod stochastic;
 mod streams;
 mod strings;
+mod subsystems;

@@ -75,8 +75,22 @@ fn script(system: &RandomSystem, steps: usize, are_events: bool) -> String {
     }
     let _ = writeln!(script, "local s = lsystem({{ ring = {} }})", system.settings.ring);
     let _ = writeln!(script, "s:axiom({})", lua(&system.axiom));
-    for name in &system.settings.ignored {
-        let _ = writeln!(script, "s:ignore(\"{name}\")");
+    let _ = writeln!(script, "local of = {{ [0] = s }}");
+    for region in 0..=system.settings.ignored_in.len() {
+        if region > 0 {
+            let _ = writeln!(script, "of[{region}] = lsystem()");
+        }
+        for name in system.settings.ignored_in(u16::try_from(region).expect("few regions")) {
+            let _ = writeln!(script, "of[{region}]:ignore(\"{name}\")");
+        }
+    }
+    for (name, region) in &system.settings.openers {
+        // A sub-system can declare the module, too.
+        let _ = writeln!(script, "s:subsystem(\"{name}\", of[{region}])");
+        let _ = writeln!(
+            script,
+            "if {region} % 2 == 1 then of[{region}]:subsystem(\"{name}\", of[{region}]) end"
+        );
     }
     for (number, rule) in system.rules.iter().enumerate() {
         let (pattern, count) = rule.pattern.text();
@@ -109,8 +123,9 @@ fn script(system: &RandomSystem, steps: usize, are_events: bool) -> String {
         let made = if made.is_empty() { "nil".to_owned() } else { made.join(", ") };
         let _ = writeln!(
             script,
-            "s:rule([=[{pattern}]=], {{ {options} }}, function(this{formals})
-               local sum = 0{sum} {keeps} return {made} end)"
+            "of[{}]:rule([=[{pattern}]=], {{ {options} }}, function(this{formals})
+               local sum = 0{sum} {keeps} return {made} end)",
+            rule.region
         );
     }
     let _ = writeln!(script, "s:derive({steps})");
@@ -119,9 +134,26 @@ fn script(system: &RandomSystem, steps: usize, are_events: bool) -> String {
 
 #[test]
 fn random_systems_derive_the_same_chains_in_lua_and_plainly() {
+    let changed = compare_systems(600, RandomSystem::new);
+    assert!(changed > 300, "{changed}");
+}
+
+#[test]
+fn random_systems_with_subsystems_derive_the_same_chains_in_lua_and_plainly() {
+    let changed = compare_systems(600, |dice| {
+        let mut system = RandomSystem::with_regions(dice);
+        // Modules of the standard library do not begin sub-systems.
+        system.settings.openers.retain(|(name, _)| *name != "Cut");
+        system
+    });
+    assert!(changed > 300, "{changed}");
+}
+
+/// Compares the chains of `count` systems, and returns the number of those that change.
+fn compare_systems(count: u64, make: fn(&mut systems::Dice) -> RandomSystem) -> usize {
     let mut changed = 0;
-    for seed in 0..600 {
-        let system = RandomSystem::new(&mut systems::Dice::new(seed));
+    for seed in 0..count {
+        let system = make(&mut systems::Dice::new(seed));
         let axiom = plain::axiom(system.axiom.clone(), 0);
         let (mut expected, mut steps) = (axiom.clone(), 0);
         while steps < 3 && plain::modules(&expected) < 200 {
@@ -136,7 +168,7 @@ fn random_systems_derive_the_same_chains_in_lua_and_plainly() {
         assert_eq!(all_chains(&run).trim_end(), text(&expected), "seed {seed}: {text_of}");
         changed += usize::from(expected != axiom);
     }
-    assert!(changed > 300, "{changed}");
+    changed
 }
 
 #[test]

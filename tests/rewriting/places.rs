@@ -19,6 +19,15 @@ const OBJECTS: [&str; 3] = [
      s:interpret('B(x)', function(this, x) this:turn(x):extrude(0.1) end)",
 ];
 
+/// Objects of a system and of its sub-system after `In`, with their interpretations.
+const WITH_SUBSYSTEM: &str =
+    "local In, s, inner = module('In', 'scale'), lsystem({ object = turtle({ sides = 3 }) }), lsystem({ object = turtle() })
+     s:subsystem('In', inner)
+     s:interpret('F(l)', function(this, l) this:forward(0.2 + l):turn(3):roll(20) end)
+     s:interpret('B(x)', function(this, x) this:turn(-x):sphere(0.2) end)
+     inner:interpret('F(l)', function(this, l) this:forward(0.1 + l):turn(7):roll(20) end)
+     inner:interpret('B(x)', function(this, x) this:turn(x):sphere(0.1) end)";
+
 /// Rules; `PLACE` stands for the position of the module.
 const RULES: [&str; 7] = [
     "s:rule('A', { when = function(this) return PLACE.z > -1e9 end }, function() return F(0), { A() } end)",
@@ -32,13 +41,13 @@ const RULES: [&str; 7] = [
      s:rule('A', { weight = 1 }, function() return { A() }, F(0.2) end)",
 ];
 
-fn script(object: &str, rules: &str, place: &str, steps: usize) -> Run {
+fn script((object, apex): (&str, &str), rules: &str, place: &str, steps: usize) -> Run {
     let rules = rules.replace("PLACE", place);
     run(&format!(
         "local F, A, B = module('F', 'l'), module('A'), module('B', 'x')
          {object}
          local list = table.create(2100, B(1))
-         s:axiom(sequence(list), F(0.1), A(), B(2), F(0.1))
+         s:axiom(sequence(list), F(0.1), {apex}, B(2), F(0.1))
          {rules}
          s:derive({steps})"
     ))
@@ -51,15 +60,18 @@ fn interpreted(run: &Run) -> usize {
 
 #[test]
 fn places_in_series_are_those_of_whole_passes() {
-    for object in OBJECTS {
+    let objects = OBJECTS.iter().map(|object| (*object, "A()"));
+    for object in objects.chain([(WITH_SUBSYSTEM, "{ B(1), In(0.5), { A() } }, In(0.8), A()")]) {
         for rules in RULES {
+            let of_inner = rules.replace("s:rule", "inner:rule");
+            let rules = if object.0 == WITH_SUBSYSTEM { &of_inner } else { rules };
             let partial = script(object, rules, "this:position()", 40);
             let whole = script(object, rules, "(function() local it = this return it:position() end)()", 40);
-            assert_eq!(all_chains(&partial), all_chains(&whole), "{object} {rules}");
+            assert_eq!(all_chains(&partial), all_chains(&whole), "{object:?} {rules}");
             let glb = |run: &Run| gltf::glb(&run.scene).expect("a model");
-            assert!(glb(&partial) == glb(&whole), "{object} {rules}");
+            assert!(glb(&partial) == glb(&whole), "{object:?} {rules}");
             assert_eq!(partial.systems[0].steps, whole.systems[0].steps);
-            assert!(partial.systems[0].rules[0].done.applied > 0, "{object} {rules}");
+            assert!(partial.systems[0].rules[0].done.applied > 0, "{object:?} {rules}");
         }
     }
 }
@@ -68,7 +80,7 @@ fn places_in_series_are_those_of_whole_passes() {
 fn a_step_that_asks_for_a_place_interprets_what_has_changed_before_the_place() {
     let nested = "s:rule('A', { when = function(this) return this:position().z > -1e9 end },
                     function() return F(0), { A() }, B(1) end)";
-    let [short, long] = [500, 1000].map(|steps| interpreted(&script(OBJECTS[0], nested, "", steps)));
+    let [short, long] = [500, 1000].map(|steps| interpreted(&script((OBJECTS[0], "A()"), nested, "", steps)));
     // Each step interprets a constant number of modules, although the number of modules after the place grows.
     assert!(long < short * 5 / 2, "{short} {long}");
     assert!(long - short < 500 * 400, "{short} {long}");

@@ -82,9 +82,14 @@ proptest! {
     fn long_chains_that_change_little_derive_as_all_chains_do(
         axioms in vec(axiom(), 1..3),
         rules in vec(rule(), 1..4),
+        of_regions in vec(rule(), 0..3),
         steps in 3_usize..12,
         batch in 1_usize..4,
     ) {
+        let regions = if of_regions.is_empty() { String::new() } else {
+            let rules = of_regions.concat().replace("s:rule", "r:rule");
+            format!("local r = lsystem({{ object = turtle() }})\ns:subsystem(\"G\", r)\n{rules}")
+        };
         let axiom = match axioms.as_slice() {
             [axiom] => format!("s:axiom({axiom})\n"),
             several => format!(
@@ -93,7 +98,7 @@ proptest! {
                 several.join(" end, function() return ")
             ),
         };
-        let script = format!("{HEAD}{axiom}{}s:derive({steps})\n", rules.concat());
+        let script = format!("{HEAD}{axiom}{}{regions}s:derive({steps})\n", rules.concat());
         let (sparse, whole) = (derive(&script, batch), derive(&(OBSERVED.to_owned() + &script), 4096));
         prop_assert_eq!(all_chains(&sparse), all_chains(&whole), "{}", script);
         prop_assert_eq!(sparse.systems[0].steps, whole.systems[0].steps);

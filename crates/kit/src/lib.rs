@@ -27,7 +27,7 @@ pub use contract::{
     ControlPoints, Deprecation, Draw, Drawing, DrawingMark, Environment, Expand, Expectation, Field, Gather,
     HasControlPoints, HasLayers, Kind, KindDeclaration, LevelOfDetail, LoadRequest, LoadServices,
     LoadedObject, Loader, Locate, Make, Method, Model, Object, ObjectContent, ObjectParameter, ObjectPlace,
-    Parameter, PointRows, PointSpace, Prefetch, ReadCall, Report, Resources, Rewind, RewriteOutcome,
+    Parameter, PointRows, PointSpace, Prefetch, ReadCall, Report, Rescale, Resources, Rewind, RewriteOutcome,
     Rewriter, RuleSet, Show, System, Table, TableKey, Value, Values, Vector, Warn, Write, WriteNumbers,
     is_keyword, object,
 };

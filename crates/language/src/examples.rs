@@ -61,6 +61,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "step" shows "step";
     "stop" shows "stop" "system:after_step" "now";
     "stream" shows "stream";
+    "subsystem" shows "system:subsystem";
     "system" shows "system" "system:axiom" "system:ignore" "system:interpret" "system:derive";
     "time" shows "time" "derive";
     "use_group" shows "use_group" "system:before_step";

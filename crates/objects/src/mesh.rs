@@ -2,10 +2,10 @@
 
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::{MemoryOwner, Stop};
-use burgeon_geometry::{CornerShading, Frame, shaded_face};
+use burgeon_geometry::{CornerShading, shaded_face};
 use burgeon_kit::{BufferBytes, Color, Drawing, Expectation, Field, Parameter, Table, Value, Vector, fields};
 use burgeon_scene::{Material, Part};
-use glam::{DVec2, DVec3};
+use glam::{DAffine3, DVec2, DVec3};
 
 /// Number of faces drawn between two checks for cancellation of the run.
 const STRETCH: usize = 1024;
@@ -164,18 +164,17 @@ impl Parameter for MeshOptions {
 
 /// Draws `faces`, each a list of the numbers of its corners among `points` (m), counter-clockwise seen from outside.
 ///
-/// The points are relative to the axes of `frame`, like placed models. `kind` is the type name for error messages, and
+/// `transform` converts the points to coordinates of the drawing. `kind` is the type name for error messages, and
 /// `base` the material. Fails before drawing if a face has fewer than three corners or refers to a point that does not
 /// exist. Faces without area are skipped.
 pub(crate) fn draw_mesh(
     (kind, drawing, base): (&str, &mut Drawing, &Material),
-    frame: &Frame,
+    transform: &DAffine3,
     points: &MeshPoints,
     faces: &MeshFaces,
     options: &MeshOptions,
 ) -> Result<()> {
     MemoryOwner::ensure_room(points.0.len() * size_of::<DVec3>())?;
-    let transform = frame.transform();
     let placed: Vec<DVec3> = points.0.iter().map(|point| transform.transform_point3(*point)).collect();
     let turned = |normal: &DVec3| transform.transform_vector3(*normal);
     let normals: Option<Vec<DVec3>> =

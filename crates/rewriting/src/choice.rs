@@ -5,6 +5,40 @@ use smallvec::SmallVec;
 use super::grammar::Rule;
 use burgeon_base::random::Stream;
 
+/// Method of choosing a rule among the rules of a symbol.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Choice {
+    /// The only rule, which always applies.
+    Sole(u16),
+    /// Contexts, values and weights decide.
+    Contexts,
+    /// Guards decide, in addition to contexts, values and weights.
+    Guards,
+    /// Contexts in the chain that the step writes decide, in addition to all others.
+    NewContexts,
+}
+
+impl Choice {
+    /// Returns the method of choosing among `rules`, which have these numbers.
+    pub(crate) fn among<'a>(rules: impl Iterator<Item = &'a Rule> + Clone, numbers: &[u16]) -> Self {
+        if rules.clone().any(Rule::has_new_contexts) {
+            return Self::NewContexts;
+        }
+        if rules.clone().any(|rule| rule.guarded) {
+            return Self::Guards;
+        }
+        let mut first = rules;
+        match (first.next(), numbers) {
+            (Some(rule), [number])
+                if !rule.has_contexts() && !rule.tests_modules() && rule.weight.is_none() =>
+            {
+                Self::Sole(*number)
+            }
+            _ => Self::Contexts,
+        }
+    }
+}
+
 /// Candidates for one module: rules of its symbol, in the order of declaration.
 ///
 /// ```

@@ -2,8 +2,9 @@
 
 use crate::batch::{Active, Batch, ChainPiece, NO_RULE, Scratch, narrow};
 use crate::chain::{END, Symbol};
-use crate::choice::Candidates;
-use crate::grammar::{Choice, Rule};
+use crate::choice::{Candidates, Choice};
+use crate::grammar::Rule;
+use crate::regions::Region;
 use crate::runs::RechosenModules;
 use burgeon_base::error::{Error, Result};
 
@@ -20,7 +21,8 @@ impl Batch<'_> {
         let (mut param, mut chain) = (piece.begin.param, piece.begin.chain);
         for module in piece.begin.module..piece.end {
             let symbol = self.chain.symbols[module];
-            let rules = grammar.rules_of(symbol);
+            let region = self.links.region(module);
+            let rules = grammar.rules_in(region, symbol);
             if !rules.is_empty() && !failed.is_some_and(|failed| failed.contains(chain)) {
                 let mut active = Active {
                     module: narrow(module),
@@ -28,7 +30,7 @@ impl Batch<'_> {
                     chain: narrow(chain),
                     rule: NO_RULE,
                 };
-                match grammar.choice(symbol) {
+                match grammar.choice_in(region, symbol) {
                     Choice::Sole(rule) => active.rule = rule,
                     Choice::Contexts => active.rule = self.choose_unguarded(rules, active),
                     Choice::Guards => guarded.push(narrow(scratch.active.len())),
@@ -41,7 +43,7 @@ impl Batch<'_> {
                     }
                 }
                 if active.rule != NO_RULE
-                    || matches!(grammar.choice(symbol), Choice::Guards | Choice::NewContexts)
+                    || matches!(grammar.choice_in(region, symbol), Choice::Guards | Choice::NewContexts)
                 {
                     scratch.active.push(active);
                 }
@@ -112,25 +114,26 @@ impl Batch<'_> {
         candidates.choose(|| self.chain.keys[module].stream()).unwrap_or(NO_RULE)
     }
 
-    /// Calls the guards of each symbol's rules, one rule at a time, for all modules that the rule can still decide.
+    /// Calls the guards of each symbol's rules in each region, one rule at a time, for all modules that the rule can still decide.
     ///
     /// Returns the error that comes first in the chain.
     pub(crate) fn choose_guarded(&self, mut open: Vec<u32>, scratch: &mut Scratch) -> Result<()> {
         let grammar = &self.plan.grammar;
-        let symbol_of = |scratch: &Scratch, index: u32| -> Symbol {
-            self.chain.symbols[scratch.active[index as usize].module as usize]
+        let kind_of = |scratch: &Scratch, index: u32| -> (Region, Symbol) {
+            let module = scratch.active[index as usize].module as usize;
+            (self.links.region(module), self.chain.symbols[module])
         };
-        open.sort_by_key(|index| symbol_of(scratch, *index));
+        open.sort_by_key(|index| kind_of(scratch, *index));
         let mut first: Option<(u32, Error)> = None;
         let mut rechosen = RechosenModules::default();
         let mut rest = open.as_slice();
         while let Some(index) = rest.first() {
-            let symbol = symbol_of(scratch, *index);
+            let kind = kind_of(scratch, *index);
             let (members, others) =
-                rest.split_at(rest.partition_point(|index| symbol_of(scratch, *index) == symbol));
+                rest.split_at(rest.partition_point(|index| kind_of(scratch, *index) == kind));
             rest = others;
             let mut candidates = vec![Candidates::default(); members.len()];
-            for number in grammar.rules_of(symbol) {
+            for number in grammar.rules_in(kind.0, kind.1) {
                 let rule = &grammar.rules()[usize::from(*number)];
                 let end = first.as_ref().map_or(u32::MAX, |(index, _)| *index);
                 let asked = members.iter().zip(&candidates).filter(|(index, candidates)| {

@@ -10,6 +10,7 @@ use crate::ordinals::Ordinals;
 use crate::pattern::Pattern;
 use crate::phases::{Phase, PhaseOutcome, Phases, derive};
 use crate::plan::StepPlan;
+use crate::regions::Region;
 use crate::rules::{Applications, RuleFailure, Rules};
 use crate::series::StepSeries;
 use crate::step::{NoHelpers, Stepper};
@@ -121,6 +122,9 @@ pub struct ClosureSystem {
     guards: Vec<Option<GuardClosure>>,
     propensities: Vec<Option<PropensityClosure>>,
     ignored: Vec<Symbol>,
+    openers: Vec<(Symbol, Region)>,
+    /// Region of the rules that are added.
+    region: Region,
     ring: bool,
     limit: usize,
 }
@@ -136,6 +140,8 @@ impl ClosureSystem {
             guards: Vec::new(),
             propensities: Vec::new(),
             ignored: Vec::new(),
+            openers: Vec::new(),
+            region: 0,
             ring: false,
             limit: 100_000_000,
         }
@@ -227,7 +233,7 @@ impl ClosureSystem {
                 .help("join rules, and distinguish their modules by a parameter"));
         }
         let pattern = Pattern::parse(pattern, &self.symbols)?;
-        self.rules.push(Rule::new(pattern, weight, guard.is_some(), None));
+        self.rules.push(Rule::new(pattern, weight, guard.is_some(), None).in_region(self.region));
         self.successors.push(successor);
         self.guards.push(guard);
         self.propensities.push(None);
@@ -261,6 +267,17 @@ impl ClosureSystem {
         };
         self.rules.push(rule.ignoring(symbols.to_vec()));
         Ok(())
+    }
+
+    /// Makes modules with this symbol open a region with this number: what follows such a module in its branch is rewritten by
+    /// the rules of that region. An example is at [`Grammar::with_regions`].
+    pub fn open_region(&mut self, opener: Symbol, region: Region) {
+        self.openers.push((opener, region));
+    }
+
+    /// Sets the number of the region to which rules belong that are added from now on; 0 for the rules outside of all regions.
+    pub fn add_rules_to(&mut self, region: Region) {
+        self.region = region;
     }
 
     /// Makes the first and the last module of each chain neighbours if `ring` is set.
@@ -343,6 +360,7 @@ impl ClosureSystem {
     fn derive_within(&self, mut chain: Chain, steps: usize, until: f64) -> Result<Chain> {
         let grammar = Grammar::new(Arc::new(self.symbols.clone()), self.rules.clone(), &self.ignored, true)
             .with_ring(self.ring)
+            .with_regions(&self.openers)
             .with_compatible_rules()?;
         chain.mark(BATCH, grammar.arities());
         let chains = chain.symbols.iter().filter(|symbol| **symbol == END).count();

@@ -7,7 +7,8 @@ impl Grammar {
     /// Returns the grammar if its candidates can be applied in one step.
     ///
     /// Fails if some have left contexts in the new chain and others right contexts, if some rewrite several modules at
-    /// once and others have contexts in the new chain, or if some have propensities and others not.
+    /// once and others have contexts in the new chain, if some have propensities and others not, or if modules open regions
+    /// and rules have propensities.
     ///
     /// ```
     /// use burgeon_rewriting::ClosureSystem;
@@ -41,6 +42,11 @@ impl Grammar {
                 (new, run, "sees the new chain", "rewrites several modules at once")
             }
             (.., Some(event), Some(plain)) => (event, plain, events, "has no propensity"),
+            (.., Some(event), None) if !self.region_openers().is_empty() => {
+                let text = format!("the rule \"{}\" {events}, but modules open regions", event.pattern.text);
+                let error = Error::argument(text).at(event.place.clone()).rule(&event.pattern.text);
+                return Err(error.help("use rules without propensities, or rules of one system"));
+            }
             _ => return Ok(self),
         };
         Err(conflict_error(conflict))

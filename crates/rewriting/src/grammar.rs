@@ -3,9 +3,11 @@
 use std::sync::Arc;
 
 use super::chain::Symbol;
+use super::choice::Choice;
 use super::context::{CompiledPatterns, ContextElement};
 use super::ignored::IgnoredSet;
 use super::pattern::{Item, Pattern};
+use super::regions::{Region, RegionOpeners};
 use super::symbols::Symbols;
 use burgeon_base::error::SourcePlace;
 
@@ -35,6 +37,7 @@ pub struct Rule {
     /// Symbols that the contexts of this rule skip, if they are not those of the system.
     ignored: Option<Vec<Symbol>>,
     propensity: Option<Propensity>,
+    pub(super) region: Region,
     contexts: Vec<Item>,
     has_contexts: bool,
     has_new_contexts: bool,
@@ -61,6 +64,7 @@ impl Rule {
             place,
             ignored: None,
             propensity: None,
+            region: 0,
             contexts,
             has_contexts,
             has_new_contexts,
@@ -144,49 +148,26 @@ impl Rule {
     }
 }
 
-/// Method of choosing a rule among the rules of a symbol.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Choice {
-    /// The only rule, which always applies.
-    Sole(u16),
-    /// Contexts, values and weights decide.
-    Contexts,
-    /// Guards decide, in addition to contexts, values and weights.
-    Guards,
-    /// Contexts in the chain that the step writes decide, in addition to all others.
-    NewContexts,
-}
-
-impl Choice {
-    fn among<'a>(rules: impl Iterator<Item = &'a Rule> + Clone, numbers: &[u16]) -> Self {
-        if rules.clone().any(Rule::has_new_contexts) {
-            return Self::NewContexts;
-        }
-        if rules.clone().any(|rule| rule.guarded) {
-            return Self::Guards;
-        }
-        let mut first = rules;
-        match (first.next(), numbers) {
-            (Some(rule), [number]) if !rule.has_contexts && !rule.tests_modules && rule.weight.is_none() => {
-                Self::Sole(*number)
-            }
-            _ => Self::Contexts,
-        }
-    }
-}
-
 /// All rules of a system, immutable during derivation.
 #[derive(Debug, Clone)]
 pub struct Grammar {
     symbols: Arc<Symbols>,
     rules: Vec<Rule>,
+    pub(super) openers: RegionOpeners,
+    /// Candidates of the symbols of each region, one region after the other.
     by_symbol: Vec<Vec<u16>>,
     patterns: CompiledPatterns,
+    /// Choice among these candidates.
     choices: Vec<Choice>,
+    /// Set for each symbol that has candidates in a region.
+    ruled: Vec<bool>,
     /// Sets of symbols that contexts skip, each stored once. The first is that of the system.
     ignored: Vec<IgnoredSet>,
     /// Number of the set of each rule.
     ignored_numbers: Vec<usize>,
+    /// Symbols that all of the sets contain which candidates have, and those that any of them contains.
+    skipped_by_all: IgnoredSet,
+    skipped_by_any: IgnoredSet,
     ring: bool,
     arities: Vec<u8>,
     name_hashes: Vec<u64>,
@@ -236,9 +217,13 @@ impl Grammar {
         let random = random || rules.iter().any(|rule| rule.weight.is_some() || rule.propensity.is_some());
         let grammar = Self {
             rules,
+            openers: RegionOpeners::default(),
             by_symbol: Vec::new(),
             patterns,
             choices: Vec::new(),
+            ruled: Vec::new(),
+            skipped_by_all: sets[0].clone(),
+            skipped_by_any: sets[0].clone(),
             ignored: sets,
             ignored_numbers,
             ring: false,
@@ -278,7 +263,10 @@ impl Grammar {
     /// rules and the random keys of modules stay the same, so that several phases of a derivation can share a chain.
     #[must_use]
     pub fn with_candidates(mut self, is_candidate: impl Fn(u16) -> bool) -> Self {
-        let mut by_symbol = vec![Vec::new(); self.arities.len()];
+        let symbols = self.arities.len();
+        let highest = self.rules.iter().map(Rule::region).max().unwrap_or(0).max(self.openers.highest());
+        let mut by_symbol = vec![Vec::new(); symbols * (usize::from(highest) + 1)];
+        let mut ruled = vec![false; symbols];
         (self.left, self.right, self.runs, self.events) = (0, 0, false, false);
         self.new_contexts = NewContexts::None;
         for ignored in &mut self.ignored {
@@ -300,16 +288,22 @@ impl Grammar {
                 } else if rule.pattern.has_new_right() {
                     self.new_contexts = NewContexts::Right;
                 }
-                by_symbol[usize::from(rule.pattern.symbol)].push(number);
+                let symbol = usize::from(rule.pattern.symbol);
+                by_symbol[usize::from(rule.region) * symbols + symbol].push(number);
+                ruled[symbol] = true;
             }
         }
+        let used = || self.ignored.iter().filter(|set| set.needs_left || set.needs_right);
+        self.skipped_by_all = IgnoredSet::of_all(used(), symbols);
+        self.skipped_by_any = IgnoredSet::of_any(used(), symbols);
         let among = |of: &Vec<u16>| Choice::among(of.iter().map(|rule| &self.rules[usize::from(*rule)]), of);
         self.choices = by_symbol.iter().map(among).collect();
         self.by_symbol = by_symbol;
+        self.ruled = ruled;
         self
     }
 
-    /// Returns the numbers of the rules that can be chosen, by symbol.
+    /// Returns the numbers of the rules that can be chosen, by region and symbol.
     pub(crate) fn candidates(&self) -> impl Iterator<Item = u16> + '_ {
         self.by_symbol.iter().flatten().copied()
     }
@@ -325,10 +319,22 @@ impl Grammar {
         &self.rules
     }
 
-    /// Returns the rules of a symbol that can be chosen, in the order of declaration.
+    /// Returns the rules of a symbol that can be chosen in a region, in the order of declaration.
     #[inline]
-    pub fn rules_of(&self, symbol: Symbol) -> &[u16] {
-        &self.by_symbol[usize::from(symbol)]
+    pub fn rules_in(&self, region: Region, symbol: Symbol) -> &[u16] {
+        &self.by_symbol[self.place_of(region, symbol)]
+    }
+
+    /// Returns true if a rule of a symbol can be chosen in any region.
+    #[inline]
+    pub(crate) fn has_rules_of(&self, symbol: Symbol) -> bool {
+        self.ruled[usize::from(symbol)]
+    }
+
+    /// Returns the index of a symbol of a region.
+    #[inline]
+    fn place_of(&self, region: Region, symbol: Symbol) -> usize {
+        usize::from(region) * self.arities.len() + usize::from(symbol)
     }
 
     /// Returns the left context of rule number `rule`, the nearest module first.
@@ -367,7 +373,7 @@ impl Grammar {
         &self.patterns
     }
 
-    /// Returns the method of choosing the rule for a module with this symbol.
+    /// Returns the method of choosing the rule for a module with this symbol in a region.
     ///
     /// ```
     /// use burgeon_rewriting::{Choice, Grammar, Pattern, Rule, Signature, Symbols};
@@ -379,12 +385,12 @@ impl Grammar {
     /// let patterns = [Pattern::parse("A", &symbols)?, Pattern::parse("A < B", &symbols)?];
     /// let rules = patterns.map(|pattern| Rule::new(pattern, None, false, None)).to_vec();
     /// let grammar = Grammar::new(Arc::new(symbols), rules, &[], false);
-    /// assert_eq!((grammar.choice(a), grammar.choice(b)), (Choice::Sole(0), Choice::Contexts));
+    /// assert_eq!((grammar.choice_in(0, a), grammar.choice_in(0, b)), (Choice::Sole(0), Choice::Contexts));
     /// # Ok::<(), burgeon_base::Error>(())
     /// ```
     #[inline]
-    pub fn choice(&self, symbol: Symbol) -> Choice {
-        self.choices[usize::from(symbol)]
+    pub fn choice_in(&self, region: Region, symbol: Symbol) -> Choice {
+        self.choices[self.place_of(region, symbol)]
     }
 
     /// Returns true if the contexts of rule number `rule` skip `symbol`.
@@ -476,12 +482,23 @@ impl Grammar {
     }
 
     /// Returns true if a few modules on the path before and after a module decide which rule applies to it: if rules
-    /// rewrite single modules, their contexts name no branches and skip the same symbols, and chains are not rings.
+    /// rewrite single modules, their contexts name no branches, and chains are not rings.
     pub(crate) fn has_near_contexts(&self) -> bool {
         !self.runs
             && !self.ring
             && self.new_contexts == NewContexts::None
-            && self.ignored.len() == 1
             && self.patterns.branch_count() == 0
+    }
+
+    /// Returns true if the contexts of all rules skip `symbol`.
+    #[inline]
+    pub(crate) fn is_skipped_by_all(&self, symbol: Symbol) -> bool {
+        self.skipped_by_all.contains(symbol)
+    }
+
+    /// Returns true if the contexts of a rule skip `symbol`.
+    #[inline]
+    pub(crate) fn is_skipped_by_any(&self, symbol: Symbol) -> bool {
+        self.skipped_by_any.contains(symbol)
     }
 }

@@ -27,6 +27,18 @@ impl IgnoredSet {
         Self { needs_left: true, needs_right: true, ..Self::new(&[], count) }
     }
 
+    /// Creates the set of the symbols that all of `sets` contain, in a grammar with `count` symbols.
+    pub(crate) fn of_all<'a>(sets: impl Iterator<Item = &'a Self> + Clone, count: usize) -> Self {
+        let contains = (0..count).map(|symbol| sets.clone().all(|set| set.contains[symbol]));
+        Self { contains: contains.collect(), needs_left: false, needs_right: false }
+    }
+
+    /// Creates the set of the symbols that any of `sets` contains, in a grammar with `count` symbols.
+    pub(crate) fn of_any<'a>(sets: impl Iterator<Item = &'a Self> + Clone, count: usize) -> Self {
+        let contains = (0..count).map(|symbol| sets.clone().any(|set| set.contains[symbol]));
+        Self { contains: contains.collect(), needs_left: false, needs_right: false }
+    }
+
     /// Returns true if contexts skip `symbol`.
     #[inline]
     pub(crate) fn contains(&self, symbol: Symbol) -> bool {

@@ -10,6 +10,7 @@
 //! - A [`Stepper`] performs steps: it chooses the rule of each module, applies the rules in batches, and splices the
 //!   [`Successors`] into the next chain. [`Helpers`] are threads that process pieces of a step.
 //! - In a [`StepSeries`], a step costs as much as it changes.
+//! - Modules can open regions, to which the rules of other systems apply, see [`Grammar::with_regions`].
 //! - [`derive()`] runs [`Phase`]s, of which rewriting is one, until nothing can change.
 //! - Random numbers come from the [`ModuleKey`] of a module, which depends only on the seed and the lineage. A named
 //!   stream of a module also depends on its [`KeyPart`]s.
@@ -68,6 +69,7 @@ mod pattern_reader;
 mod phases;
 mod plan;
 mod propensities;
+mod regions;
 mod rules;
 mod runs;
 mod segments;
@@ -87,20 +89,21 @@ pub use amounts::MOST_PROPENSITY;
 pub use batch::{NO_RULE, Scratch};
 pub use burgeon_base::{KeyPart, ModuleKey};
 pub use chain::{CLOSE, Chain, DEEPEST, END, Mark, OPEN, Symbol};
-pub use choice::Candidates;
+pub use choice::{Candidates, Choice};
 pub use closures::{AppliedModule, ClosureSystem};
 pub use column_value::ColumnValue;
 pub use context::ContextElement;
 pub use cut::{CutChain, cut};
 pub use events::{EventSeries, EventsOutcome};
 pub use failed_chains::FailedChains;
-pub use grammar::{Choice, Grammar, MOST_RULES, NewContexts, Propensity, Rule};
+pub use grammar::{Grammar, MOST_RULES, NewContexts, Propensity, Rule};
 pub use links::Links;
 pub use matching::{Bindings, ContextMatcher};
 pub use ordinals::Ordinals;
 pub use pattern::{Context, Item, Pattern, PatternValue, SymbolSet};
 pub use phases::{DerivedChain, Phase, PhaseOutcome, Phases, derive};
 pub use plan::StepPlan;
+pub use regions::{Region, RegionOpeners};
 pub use rules::{Applications, RuleFailure, Rules};
 pub use series::{SeriesOutcome, StepSeries};
 pub use series_chain::{PlaceFollower, SeriesChain};

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use super::chain::{CLOSE, Chain, END, OPEN, Symbol};
 use super::grammar::{Grammar, NewContexts};
 use super::ignored::IgnoredSet;
+use super::regions::{Region, RegionPath};
 use super::text::{PlainNumbers, ShowParameters};
 
 /// Index that means no neighbour.
@@ -16,6 +17,8 @@ pub(super) const NONE: u32 = u32::MAX;
 pub struct Links {
     /// Index of each symbol's first parameter.
     pub param: Vec<u32>,
+    /// Region of each symbol; empty if no module opens a region.
+    pub(crate) regions: Vec<Region>,
     /// Values of the grammar's patterns as the chain contains them.
     pub(crate) constants: Vec<f64>,
     /// Neighbours for each set of ignored symbols of the grammar.
@@ -83,6 +86,27 @@ impl Links {
             let none = IgnoredSet::none(grammar.arities().len());
             self.whole.build(chain, grammar, &none, &mut self.stack);
         }
+    }
+
+    /// Finds the regions of the symbols of `chain` from the one at `begin` on, before which the regions are `path`.
+    pub(crate) fn find_regions(
+        &mut self,
+        chain: &Chain,
+        begin: usize,
+        mut path: RegionPath,
+        grammar: &Grammar,
+    ) {
+        self.regions.clear();
+        if !grammar.region_openers().is_empty() {
+            self.regions.resize(begin, 0);
+            path.pass(&chain.symbols[begin..], grammar.region_openers(), &mut self.regions);
+        }
+    }
+
+    /// Returns the region of the symbol at `index`, if the regions have been found.
+    #[inline]
+    pub(crate) fn region(&self, index: usize) -> Region {
+        self.regions.get(index).copied().unwrap_or(0)
     }
 
     /// Returns the neighbours for the set of ignored symbols with this number.

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::chain::{CLOSE, Chain, END, OPEN, Symbol};
 use crate::grammar::Grammar;
+use crate::regions::{Region, RegionChange, RegionPath};
 
 /// Number of long segments up to which each is divided in its place.
 const FEW_LONG: usize = 4;
@@ -23,12 +24,26 @@ pub(crate) struct ChainSegment {
     pub is_resting: bool,
     /// Indices of the segments that contexts reached in the last step.
     pub reach: Range<usize>,
+    /// Effect on the regions of the segments after it.
+    pub region_change: RegionChange,
+    /// Regions before the segment that decide about its modules, in the last step.
+    pub regions: Vec<Region>,
 }
 
 impl ChainSegment {
     /// Returns true if a symbol of the segment has rules.
     pub(crate) fn has_rules(&self) -> bool {
         self.has_rules
+    }
+
+    /// Wakes the segment if the regions before it have changed, which are `path` now.
+    pub(crate) fn enter(&mut self, path: &RegionPath) {
+        let around = path.around(self.brackets.closed);
+        if self.regions != around {
+            self.is_resting &= !self.has_rules;
+            self.regions.clear();
+            self.regions.extend_from_slice(around);
+        }
     }
 }
 
@@ -114,6 +129,7 @@ impl SegmentedChain {
         let segment = &mut self.segments[index];
         self.symbols = self.symbols - segment.chain.symbols.len() + chain.symbols.len();
         segment.brackets = Brackets::of(&chain);
+        segment.region_change = RegionChange::of(&chain.symbols, grammar.region_openers());
         segment.has_rules = has_rules(&chain, grammar);
         segment.is_located = has_located(&chain, &self.located);
         std::mem::replace(&mut segment.chain, chain)
@@ -207,6 +223,8 @@ fn divide(chain: &Chain, grammar: &Grammar, size: usize, located: &[bool], segme
         let has_rules = has_rules(&chain, grammar);
         segments.push(ChainSegment {
             brackets: Brackets::of(&chain),
+            region_change: RegionChange::of(&chain.symbols, grammar.region_openers()),
+            regions: Vec::new(),
             has_rules,
             is_located: has_located(&chain, located),
             is_resting: !has_rules,
@@ -218,7 +236,7 @@ fn divide(chain: &Chain, grammar: &Grammar, size: usize, located: &[bool], segme
 
 /// Returns true if a symbol of `chain` has rules.
 fn has_rules(chain: &Chain, grammar: &Grammar) -> bool {
-    chain.symbols.iter().any(|symbol| !grammar.rules_of(*symbol).is_empty())
+    chain.symbols.iter().any(|symbol| grammar.has_rules_of(*symbol))
 }
 
 /// Returns true if `chain` has one of the symbols whose rules read places.

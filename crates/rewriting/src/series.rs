@@ -6,6 +6,7 @@ use crate::batch::{Batch, ChainPiece, narrow};
 use crate::chain::{Chain, Mark, Symbol};
 use crate::links::Links;
 use crate::output::Output;
+use crate::regions::RegionPath;
 use crate::rules::Rules;
 use crate::segments::SegmentedChain;
 use crate::series_chain::{PlaceFollower, SeriesChain, equal_symbols};
@@ -178,7 +179,12 @@ impl Stepper {
         let mut changes = StepChanges::default();
         let mut outputs: Vec<(usize, usize, Output)> = Vec::new();
         let (mut chains, mut first) = (0, 0);
+        let has_regions = !grammar.region_openers().is_empty();
+        let mut regions = RegionPath::default();
         for index in 0..pieces.segments.len() {
+            if has_regions {
+                pieces.segments[index].enter(&regions);
+            }
             let segment = &pieces.segments[index];
             let (ends, length) = (segment.brackets.ends, segment.chain.symbols.len());
             if !segment.is_resting {
@@ -197,6 +203,9 @@ impl Stepper {
                     }
                     false => &segment.chain,
                 };
+                if has_regions {
+                    links.find_regions(chain, piece.begin.module, regions.clone(), grammar);
+                }
                 let batch = Batch {
                     rules,
                     plan: &plan,
@@ -213,6 +222,9 @@ impl Stepper {
                 pieces.segments[index].reach = reach;
                 pieces.segments[index].is_resting = !output.ran && !pieces.segments[index].is_located;
                 outputs.push((index, first, output));
+            }
+            if has_regions {
+                regions.skip(&pieces.segments[index].region_change);
             }
             chains += ends;
             first += length;

@@ -2,6 +2,7 @@
 
 use crate::chain::{Chain, Mark};
 use crate::grammar::Grammar;
+use crate::regions::{Region, RegionPath};
 use crate::segments::SegmentedChain;
 use burgeon_base::error::Result;
 
@@ -42,6 +43,27 @@ impl SeriesChain<'_> {
             end = begin;
         }
         0
+    }
+
+    /// Returns the regions of the symbols from number `begin` to number `end`; empty if no module opens a region.
+    pub fn regions(&self, begin: usize, end: usize) -> Vec<Region> {
+        let openers = self.grammar.region_openers();
+        let (mut regions, mut path, mut first) = (Vec::new(), RegionPath::default(), 0);
+        for segment in self.segments.segments.iter().take_while(|_| !openers.is_empty()) {
+            let symbols = &segment.chain.symbols;
+            if first >= end {
+                break;
+            }
+            if first + symbols.len() <= begin {
+                path.skip(&segment.region_change);
+            } else {
+                let (before, part) = symbols.split_at(begin.saturating_sub(first));
+                path.pass(before, openers, &mut Vec::new());
+                path.pass(&part[..part.len().min(end - first.max(begin))], openers, &mut regions);
+            }
+            first += symbols.len();
+        }
+        regions
     }
 
     /// Returns the symbols from `begin`, a position between two of them, to number `end`, without marks.

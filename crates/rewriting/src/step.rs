@@ -12,6 +12,7 @@ use crate::links::Links;
 use crate::new_contexts::pieces_at_ends;
 use crate::output::Output;
 use crate::plan::StepPlan;
+use crate::regions::RegionPath;
 use crate::rules::Rules;
 use crate::runs::pieces_at_brackets;
 use crate::series_pause::SeriesPause;
@@ -189,6 +190,7 @@ impl Stepper {
     ) -> Result<StepOutcome> {
         let grammar = &self.plan.grammar;
         self.links.build_with(chain, grammar, rules.parameters());
+        self.links.find_regions(chain, 0, RegionPath::default(), grammar);
         let (batch, arities) = (self.plan.batch, grammar.arities());
         let pieces = match grammar.has_runs() {
             true => pieces_at_brackets(chain, batch, arities),

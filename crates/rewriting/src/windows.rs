@@ -84,11 +84,12 @@ impl ContextWindow {
                     }
                     // Beyond the levels of the segment, the path is the same without brackets.
                     OPEN => {}
-                    symbol if depth == 0 && found < wanted && !grammar.ignored_sets()[0].contains(symbol) => {
+                    symbol if depth == 0 && found < wanted && !grammar.is_skipped_by_all(symbol) => {
                         let begin = self.params.len();
                         self.params.extend_from_slice(&segment.chain.params[params]);
                         self.before.push((symbol, begin..self.params.len()));
-                        found += 1;
+                        // Rules that skip other modules see as many of these.
+                        found += usize::from(!grammar.is_skipped_by_any(symbol));
                     }
                     _ => {}
                 }
@@ -139,10 +140,11 @@ impl ContextWindow {
                         left += 1;
                         found = 0;
                     }
-                    symbol if depth == 0 && found < wanted && !grammar.ignored_sets()[0].contains(symbol) => {
+                    symbol if depth == 0 && found < wanted && !grammar.is_skipped_by_all(symbol) => {
                         self.chain.symbols.push(symbol);
                         self.chain.params.extend_from_slice(&segment.chain.params[params]);
-                        found += 1;
+                        // Rules that skip other modules see as many of these.
+                        found += usize::from(!grammar.is_skipped_by_any(symbol));
                     }
                     _ => {}
                 }

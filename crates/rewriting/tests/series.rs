@@ -39,7 +39,8 @@ struct RandomRules {
 }
 
 impl RandomRules {
-    fn new(dice: &mut Dice) -> Self {
+    /// Returns rules of which some apply only in the regions of `others` other systems.
+    fn new(dice: &mut Dice, others: usize) -> Self {
         let mut symbols = Symbols::default();
         for name in NAMES {
             let signature = Signature::new(name, &["x".to_owned()]).expect("a name");
@@ -54,7 +55,8 @@ impl RandomRules {
         let draws = dice.below(2) == 0;
         let longest = dice.below(4);
         let (mut rules, mut successors, mut most) = (Vec::new(), Vec::new(), Vec::new());
-        for _ in 0..2 + dice.below(4) {
+        let count = (2 + dice.below(4)) * (others + 1);
+        for number in 0..count {
             let mut names = 0;
             let mut module = |dice: &mut Dice, of: &[&str]| {
                 names += 1;
@@ -78,7 +80,13 @@ impl RandomRules {
             }
             let weight = (draws && dice.below(3) == 0).then(|| 1.0 + dice.below(3) as f64);
             let guarded = dice.below(2) == 0;
-            rules.push(Rule::new(Pattern::parse(&text, &symbols).expect("a pattern"), weight, guarded, None));
+            let rule = Rule::new(Pattern::parse(&text, &symbols).expect("a pattern"), weight, guarded, None);
+            let rule = match dice.below(6) {
+                0 => rule.ignoring(vec![find(dice.pick(&NAMES))]),
+                1 => rule.ignoring(Vec::new()),
+                _ => rule,
+            };
+            rules.push(rule.in_region((number % (others + 1)) as u16));
             most.push(dice.below(6) as f64);
             successors.push((dice.below(6) > 0).then(|| {
                 let mut template = Vec::new();
@@ -100,7 +108,9 @@ impl RandomRules {
             }));
         }
         let counts = rules.iter().map(Rule::arguments).collect();
-        let grammar = Grammar::new(Arc::new(symbols), rules, &ignored, draws);
+        let openers: Vec<(Symbol, u16)> =
+            (1..=others).map(|_| (find(dice.pick(&NAMES)), dice.below(others + 1) as u16)).collect();
+        let grammar = Grammar::new(Arc::new(symbols), rules, &ignored, draws).with_regions(&openers);
         Self { grammar, successors, most, counts, draws }
     }
 
@@ -190,11 +200,49 @@ fn without_marks(mut chain: Chain) -> Chain {
 
 #[test]
 fn random_systems_derive_the_same_chains_in_series_and_in_steps() {
+    let compared = compare(0);
+    assert!((3000..5500).contains(&compared.contexts), "{compared:?}");
+    compared.check();
+}
+
+#[test]
+fn random_systems_with_regions_derive_the_same_chains_in_series_and_in_steps() {
+    for others in 1..=2 {
+        let compared = compare(others);
+        assert!(compared.contexts > 3000, "{compared:?}");
+        compared.check();
+    }
+}
+
+/// Work of compared systems.
+#[derive(Debug, Default)]
+struct Compared {
+    /// Symbols that series examined.
+    read: usize,
+    /// Symbols of all steps.
+    symbols: usize,
+    /// Systems with contexts.
+    contexts: usize,
+    /// Series of at least three steps.
+    series_of_steps: usize,
+    /// Systems whose chains grow too long.
+    failed: usize,
+}
+
+impl Compared {
+    /// Checks that the comparison is meaningful.
+    fn check(&self) {
+        assert!(2 * self.read < self.symbols && self.series_of_steps > 1500 && self.failed > 20, "{self:?}");
+    }
+}
+
+/// Compares the chains of systems with the regions of `others` other systems.
+fn compare(others: usize) -> Compared {
     const STEPS: usize = 12;
-    let (mut read, mut symbols, mut contexts, mut series_of_steps, mut failed) = (0, 0, 0, 0, 0);
+    let mut compared = Compared::default();
     for seed in 0..6000 {
         let mut dice = Dice(ModuleKey::seed(seed).stream());
-        let rules = RandomRules::new(&mut dice);
+        let rules = RandomRules::new(&mut dice, others);
         let chains = 1 + dice.below(3);
         let axiom = rules.axiom(&mut dice, chains);
         let batch = 1 + dice.below(6);
@@ -245,14 +293,14 @@ fn random_systems_derive_the_same_chains_in_series_and_in_steps() {
                 Ok(outcome) => outcome,
                 Err(refusal) => {
                     assert_eq!(Some(refusal.to_string()), error, "seed {seed}: {texts:#?}");
-                    failed += 1;
+                    compared.failed += 1;
                     break;
                 }
             };
             assert_eq!(watched.len(), outcome.steps);
-            read += outcome.read;
-            symbols += watched.iter().map(|(_, symbols)| symbols).sum::<usize>();
-            series_of_steps += usize::from(outcome.steps > 2);
+            compared.read += outcome.read;
+            compared.symbols += watched.iter().map(|(_, symbols)| symbols).sum::<usize>();
+            compared.series_of_steps += usize::from(outcome.steps > 2);
             done += outcome.steps;
             let counted = if outcome.settled { done - 1 } else { done };
             chain = without_marks(outcome.chain);
@@ -269,8 +317,7 @@ fn random_systems_derive_the_same_chains_in_series_and_in_steps() {
             };
             assert_eq!(counts(&stepper), counts(&whole), "seed {seed}: {texts:#?}");
         }
-        contexts += usize::from(rules.grammar.has_contexts());
+        compared.contexts += usize::from(rules.grammar.has_contexts());
     }
-    println!("read {read} of {symbols}, contexts {contexts}, series {series_of_steps}, failed {failed}");
-    assert!(2 * read < symbols && (3000..5500).contains(&contexts) && series_of_steps > 1500 && failed > 20);
+    compared
 }

@@ -41,8 +41,10 @@ fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -
     for warning in grown.warnings {
         session.warn(warning.at(place.clone()).called_at(caller.clone()));
     }
-    let symbols = grown.chain.symbols.iter().chain(&grown.undrawn).copied();
-    let undrawn = machine.library.systems.borrow()[plan.system].undrawn(&machine.library, symbols);
+    let symbols = grown.chain.symbols.iter().copied();
+    let systems = machine.library.systems.borrow();
+    let undrawn = systems[plan.system].undrawn(&machine.library, symbols, &grown.undrawn);
+    drop(systems);
     let city = machine.library.systems.borrow()[plan.system].city;
     drop(declared);
     machine.current.objects.replace(None);
@@ -60,8 +62,11 @@ fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -
         let rules = grammar.rules().iter().map(|rule| named(&rule.pattern.text, &rule.place));
         let interpreters = interpretations.list.iter().map(|known| named(&known.name, &known.place));
         let shared = (grammar.symbols(), &session.values);
-        let by_symbol = interpretations.by_symbol.clone();
-        let mut trace = Trace::new(shared, rules.collect(), interpreters.collect(), by_symbol, axiom_place);
+        let regions = grammar.region_openers().regions(&grown.chain).into_iter().chain(std::iter::repeat(0));
+        let places = grown.chain.symbols.iter().zip(regions);
+        let places = places.map(|(symbol, region)| interpretations.place_of(region, *symbol));
+        let interpreted = places.map(|place| interpretations.by_symbol[place]).collect();
+        let mut trace = Trace::new(shared, rules.collect(), interpreters.collect(), interpreted, axiom_place);
         let drawn = objects.into_owned().into_iter();
         trace.makers = drawn.map(|(mut object, _)| object.drawing_mut()?.take_makers()).collect();
         (trace.steps, trace.chain) = (grown.steps, Arc::unwrap_or_clone(grown.chain));

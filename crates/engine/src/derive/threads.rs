@@ -184,6 +184,7 @@ impl Driver for ThreadPool {
         if !problems.is_empty() {
             return Err(Error::several(problems));
         }
+        machine.library.link_subsystems(index)?;
         if let Some(derived) = self.follow(machine, index)? {
             return Ok(derived);
         }

@@ -42,8 +42,8 @@ pub(crate) use module_places::ModulePlaces;
 pub(crate) use native::native;
 pub(crate) use prelude::{CLOSE_CALL, OPEN_CALL};
 pub(crate) use system::{
-    Axiom, HookFunction, HookMoment, Interpretations, RulePhase, SystemFunctions, returns_value,
-    stops_at_depth,
+    Axiom, HookFunction, HookMoment, Interpretation, Interpretations, RulePhase, SystemFunctions,
+    returns_value, stops_at_depth,
 };
 pub(crate) use types::{Objects, ReadChain};
 pub(crate) use variables::table_of;

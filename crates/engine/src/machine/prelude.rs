@@ -51,13 +51,14 @@ pub(crate) struct Prelude {
     pub guard_driver: Function,
     /// `(propensity, arity, places)`: returns the function that evaluates the propensity of a rule for a batch.
     pub propensity_driver: Function,
-    /// `(rules, standards, max_depth)`: removes the interpretation rules of the last system, and sets the rule and the
-    /// method of the standard library of each symbol, and the maximum depth of interpretations that return modules.
+    /// `(rules, standards, max_depth)`: removes the interpretation rules of the last system, and sets the rule of each
+    /// symbol of each region, the method of the standard library of each symbol, and the maximum depth of interpretations that
+    /// return modules. With regions, `rules.bases` has the index of the first symbol of each rule's region.
     pub interpretations: Function,
     /// `(id, rule, arity, places)`: sets an interpretation rule.
     pub interpreter: Function,
-    /// `(id, symbol, arity, candidates, most)`: sets the candidates of a symbol, whose contexts have at most `most`
-    /// parameters.
+    /// `(id, symbol, place, arity, candidates, most)`: sets the candidates of a symbol, whose contexts have at most `most`
+    /// parameters; `place` is the index of the symbol in its region.
     pub candidates: Function,
     /// `(method, name, arity, kind)`: returns a method that records its calls.
     pub recorder: Function,

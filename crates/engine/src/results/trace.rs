@@ -100,7 +100,7 @@ pub struct Trace {
     values: Arc<Values>,
     rules: Vec<RuleName>,
     interpretations: Vec<RuleName>,
-    /// Number of the interpretation rule by symbol, or [`NO_RULE`].
+    /// Number of the interpretation rule of each symbol of the chain, or [`NO_RULE`].
     interpreted: Vec<u16>,
     axiom: Option<SourcePlace>,
 }
@@ -178,8 +178,7 @@ impl Trace {
 
     /// Returns the interpretation rule of the module at `index` of the final chain.
     pub fn interpretation(&self, index: usize) -> Option<&RuleName> {
-        let symbol = *self.chain.symbols.get(index)?;
-        self.interpretations.get(usize::from(self.interpreted[usize::from(symbol)]))
+        self.interpretations.get(usize::from(*self.interpreted.get(index)?))
     }
 
     /// Returns the ancestors of the symbol at `index` of the final chain, from the axiom on, one per applied
@@ -250,9 +249,8 @@ impl Trace {
         let (name, made) = match what {
             LineSubject::Axiom => ("axiom".to_owned(), vec![true; self.chain.symbols.len()]),
             LineSubject::Interpretation(wanted) => {
-                let made = |symbol: &Symbol| self.interpreted[usize::from(*symbol)] == wanted;
                 let name = self.interpretations[usize::from(wanted)].text.clone();
-                (name, self.chain.symbols.iter().map(made).collect())
+                (name, self.interpreted.iter().map(|number| *number == wanted).collect())
             }
             LineSubject::Rule(wanted) => {
                 let first = self.steps.first().map_or(0, |step| step.applied.len());

@@ -36,7 +36,7 @@ pub use loading::{LoadRequest, LoadServices, LoadedObject, Loader, Resources};
 pub use model::Model;
 pub use object::Object;
 pub use parameter::{Answer, Expectation, ObjectParameter, Parameter, object};
-pub use place::{Locate, ObjectPlace, Rewind};
+pub use place::{Locate, ObjectPlace, Rescale, Rewind};
 pub use prefetch::{BeginPrefetch, Prefetch};
 pub use rewriter::{RewriteOutcome, Rewriter, RuleSet, System};
 pub use value::{Table, TableKey, Value, is_keyword};

@@ -1,7 +1,8 @@
-//! Positions and axes of objects that move along a chain.
+//! Positions, axes and scales of objects that move along a chain.
 
 use std::any::Any;
 
+use burgeon_base::error::Result;
 use glam::DVec3;
 
 use crate::{Parameter, Value, Vector};
@@ -51,6 +52,13 @@ impl ObjectPlace {
 pub trait Locate {
     /// Returns the current place.
     fn place(&self) -> ObjectPlace;
+}
+
+/// Capability to draw at another scale.
+pub trait Rescale {
+    /// Multiplies the lengths and widths of what is drawn from now on by `factor`, until the branch ends. Positions stay as they
+    /// are. Fails unless `factor` is finite and above 0.
+    fn rescale(&mut self, factor: f64) -> Result<()>;
 }
 
 /// Capability to return to an earlier state of the same interpretation pass, so that the next pass begins where the chain

@@ -98,6 +98,12 @@ pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
         Name::function("consider", "Sets the only modules that context matching considers.")
             .form([argument("...", "string")], "System<T>"),
         Name::function(
+            "subsystem",
+            "Makes a module begin a sub-system: what follows it in its branch is rewritten by the rules of `system` in the same steps, \
+             and drawn by its interpretations. A parameter `scale` of the module scales lengths and widths.",
+        )
+        .form([argument("module", "string"), argument("system", "System<T>")], "System<T>"),
+        Name::function(
             "derive",
             "Applies the rules step by step; without a number of steps, until no rule applies. With a group, the rules of this \
              group and those without a group apply.",

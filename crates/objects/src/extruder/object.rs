@@ -224,7 +224,7 @@ impl Extruder {
     /// number the points from 0. `options` sets shading and colours.
     pub fn mesh(&mut self, points: MeshPoints, faces: MeshFaces, options: Option<MeshOptions>) -> Result<()> {
         let to = ("extruder", &mut self.drawing, &*self.state.material);
-        draw_mesh(to, &self.state.frame, &points, &faces, &options.unwrap_or_default())
+        draw_mesh(to, &self.state.frame.transform(), &points, &faces, &options.unwrap_or_default())
     }
 
     /// Places another system's model at the extruder's frame, with this `scale` (1 unless given), which may be a vector

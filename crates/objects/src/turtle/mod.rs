@@ -9,6 +9,8 @@ mod joined;
 mod object;
 mod options;
 mod rewind;
+#[cfg(test)]
+mod scale_tests;
 mod state;
 #[cfg(test)]
 mod tests;

@@ -18,7 +18,7 @@ use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
 use burgeon_geometry::{Frame, Strand, face, sphere};
 use burgeon_kit::{
-    AxisScale, Color, Drawing, Locate, Model, ObjectPlace, Rewind, Vector, Warn, methods, object,
+    AxisScale, Color, Drawing, Locate, Model, ObjectPlace, Rescale, Rewind, Vector, Warn, methods, object,
 };
 use burgeon_scene::Material;
 
@@ -44,7 +44,7 @@ use burgeon_scene::Material;
     options = TurtleOptions,
     example = include_str!("../../scripts/turtle.lua"),
     draws,
-    can(Warn, Locate, Rewind),
+    can(Warn, Locate, Rescale, Rewind),
     begins_empty,
     begin = restart,
     push = open_branch,
@@ -67,13 +67,14 @@ pub struct Turtle {
 impl Turtle {
     /// Moves forward by `length` (m, turtle.step unless given) and draws a branch. Within a polygon, only moves.
     pub fn forward(&mut self, length: Option<f64>) -> Result<()> {
-        self.draw(length.unwrap_or(self.options.step))
+        self.draw(self.length(length))
     }
 
     /// Moves forward by `length` (m, turtle.step unless given) without drawing.
     pub fn advance(&mut self, length: Option<f64>) {
         self.leave();
-        self.state.frame.forward(length.unwrap_or(self.options.step));
+        let length = self.length(length);
+        self.state.frame.forward(length);
     }
 
     /// Turns to the left by `angle` (degrees, turtle.angle unless given); a negative angle turns right.
@@ -145,7 +146,7 @@ impl Turtle {
         if width < 0.0 {
             return Err(Error::argument(format!("turtle:width: width must be at least 0, not {width}")));
         }
-        self.state.width = width;
+        self.state.width = width * self.state.scale;
         Ok(())
     }
 
@@ -254,12 +255,13 @@ impl Turtle {
     pub fn surface(&mut self, surface: Arc<SurfaceObject>, scale: Option<AxisScale>) -> Result<()> {
         let part = self.two_sided();
         let scale = DAffine3::from_scale(scale.unwrap_or_default().0);
-        surface.draw(self.drawing.part(part), &(self.state.frame.transform() * scale))
+        surface.draw(self.drawing.part(part), &(self.state.transform() * scale))
     }
 
     /// Draws a sphere with `radius` (m) around the turtle's position.
     pub fn sphere(&mut self, radius: f64) -> Result<()> {
         let sides = self.options.sides.max(6);
+        let radius = radius * self.state.scale;
         sphere(self.drawing.part(self.state.part), self.state.frame.position, radius, sides)
     }
 
@@ -267,7 +269,7 @@ impl Turtle {
     /// with a scale for each axis of the model.
     pub fn place(&mut self, model: Arc<Model>, scale: Option<AxisScale>) {
         let scale = DAffine3::from_scale(scale.unwrap_or_default().0);
-        self.drawing.place(&model, self.state.frame.transform() * scale);
+        self.drawing.place(&model, self.state.transform() * scale);
     }
 
     /// Draws `faces` in the turtle's frame, each a list of the numbers of its corners among `points` (m), such as { 1,
@@ -278,7 +280,7 @@ impl Turtle {
     pub fn mesh(&mut self, points: MeshPoints, faces: MeshFaces, options: Option<MeshOptions>) -> Result<()> {
         let base = self.drawing.material_of(self.state.part);
         let to = ("turtle", &mut self.drawing, &base);
-        draw_mesh(to, &self.state.frame, &points, &faces, &options.unwrap_or_default())
+        draw_mesh(to, &self.state.transform(), &points, &faces, &options.unwrap_or_default())
     }
 
     /// Returns the position (m).
@@ -353,6 +355,12 @@ impl Turtle {
             joined,
             warnings: Vec::new(),
         })
+    }
+
+    /// Returns the scaled `length` (m), or that of a step.
+    #[inline]
+    fn length(&self, length: Option<f64>) -> f64 {
+        length.unwrap_or(self.options.step) * self.state.scale
     }
 
     /// Returns the sine and cosine of `angle` (degrees), or of the default angle.

@@ -3,20 +3,25 @@
 use std::sync::Arc;
 
 use burgeon_geometry::{Curve, Frame, Strand};
-use burgeon_kit::Drawing;
-use glam::DVec3;
+use burgeon_kit::{Drawing, Rescale};
+use glam::{DAffine3, DVec3};
 
+use super::Turtle;
 use super::cylinder::OpenCylinder;
 use super::joined::BranchPlace;
 use super::options::TurtleOptions;
 use super::tropism::Tropism;
 use crate::surface::plain_material;
+use burgeon_base::error::{Error, Result};
 
 /// Frame, width, material and open shapes of a turtle, which a branch restores.
 #[derive(Clone)]
 pub(super) struct TurtleState {
     pub(super) frame: Frame,
+    /// Diameter of branches (m), scaled.
     pub(super) width: f64,
+    /// Factor of lengths and widths.
+    pub(super) scale: f64,
     /// Part of the drawing, which has the material.
     pub(super) part: usize,
     pub(super) tropism: DVec3,
@@ -50,6 +55,7 @@ impl TurtleState {
         Self {
             frame,
             width: options.width,
+            scale: 1.0,
             part: drawing.material(&material),
             tropism: options.tropism.0.normalize_or_zero(),
             elasticity: options.elasticity,
@@ -59,5 +65,31 @@ impl TurtleState {
             cylinder: None,
             joined: BranchPlace::default(),
         }
+    }
+    /// Multiplies the lengths and widths from now on by `factor`.
+    pub(super) fn rescale(&mut self, factor: f64) -> Result<()> {
+        let scale = self.scale * factor;
+        if !(factor > 0.0 && scale > 0.0 && scale.is_finite()) {
+            let error = Error::argument(format!("the scale must be above 0 and finite, not {factor}"));
+            return Err(error.help("use 0.5 for half of the size"));
+        }
+        (self.scale, self.width) = (scale, self.width * factor);
+        Ok(())
+    }
+
+    /// Returns the transform from the coordinates of scaled shapes at the turtle.
+    pub(super) fn transform(&self) -> DAffine3 {
+        let transform = self.frame.transform();
+        match self.scale == 1.0 {
+            // A product would change the signs of zeros.
+            true => transform,
+            false => transform * DAffine3::from_scale(DVec3::splat(self.scale)),
+        }
+    }
+}
+
+impl Rescale for Turtle {
+    fn rescale(&mut self, factor: f64) -> Result<()> {
+        self.state.rescale(factor)
     }
 }

@@ -9,7 +9,7 @@ use burgeon_rewriting::{
     Scratch, ShowParameters, Signature, StepPlan, StepWork, Stepper, Successors, Symbol, Symbols, cut,
 };
 
-use crate::plain::{Application, Part, PlainModule, PlainRule, PlainValue};
+use crate::plain::{Application, Part, PlainModule, PlainRule, PlainSettings, PlainValue};
 use crate::plain_events::propensity;
 use crate::systems::{MODULES, RandomSystem, TEXTS};
 
@@ -196,9 +196,10 @@ impl Prepared {
         let rules = system.rules.iter().map(|rule| {
             let (text, _) = rule.pattern.text();
             let pattern = Pattern::parse(&text, &symbols).unwrap_or_else(|error| panic!("{error}: {text}"));
-            let declared = Rule::new(pattern, rule.weight, rule.least.is_some(), None);
+            let declared = Rule::new(pattern, rule.weight, rule.least.is_some(), None).in_region(rule.region);
             match &rule.ignored {
                 Some(names) => declared.ignoring(find(names)),
+                None if rule.region > 0 => declared.ignoring(find(system.settings.ignored_in(rule.region))),
                 None => declared,
             }
         });
@@ -223,9 +224,13 @@ impl Prepared {
     /// Returns the plan of steps by `rules`, with pieces of `batch` symbols.
     pub(crate) fn plan(&self, rules: Vec<Rule>, batch: usize, traced: bool) -> Arc<StepPlan> {
         let symbols = Arc::new(self.functions.symbols.clone());
-        let ring = self.functions.system.settings.ring;
+        let PlainSettings { ring, openers, .. } = &self.functions.system.settings;
+        let find = |name| self.functions.symbols.find(name).expect("a declared module");
+        let openers: Vec<_> = openers.iter().map(|(name, region)| (find(name), *region)).collect();
         Arc::new(StepPlan {
-            grammar: Grammar::new(symbols, rules, &self.ignored, true).with_ring(ring),
+            grammar: Grammar::new(symbols, rules, &self.ignored, true)
+                .with_ring(*ring)
+                .with_regions(&openers),
             failed: None,
             chains: 1,
             batch,

@@ -79,6 +79,24 @@ pub(crate) struct PlainSettings {
     pub ignored: Vec<&'static str>,
     /// Set if the first and the last module of a chain are neighbours.
     pub ring: bool,
+    /// Names of the modules that open regions, with the numbers of these regions.
+    pub openers: Vec<(&'static str, u16)>,
+    /// Names of modules that contexts of rules skip, by region from 1.
+    pub ignored_in: Vec<Vec<&'static str>>,
+}
+
+impl PlainSettings {
+    /// Returns the names of modules that contexts of rules of a region skip.
+    pub(crate) fn ignored_in(&self, region: u16) -> &[&'static str] {
+        let place = usize::from(region).checked_sub(1);
+        place.map_or(&self.ignored, |place| &self.ignored_in[place])
+    }
+
+    /// Returns the region after `part`, which stands in `region`.
+    fn region_after(&self, part: &Part, region: u16) -> u16 {
+        let Part::Module(module) = part else { return region };
+        self.openers.iter().find(|(name, _)| *name == module.name).map_or(region, |(_, opened)| *opened)
+    }
 }
 
 /// Application of a rule.
@@ -93,6 +111,8 @@ pub(crate) struct Application<'a> {
 pub(crate) trait PlainRule {
     fn pattern(&self) -> &PlainPattern;
     fn weight(&self) -> Option<f64>;
+    /// Returns the number of the regions in which the rule applies.
+    fn region(&self) -> u16;
     /// Returns the names of modules that the contexts of this rule skip, if they are not those of the system.
     fn ignored(&self) -> Option<&[&'static str]>;
     fn holds(&self, arguments: &[PlainValue]) -> bool;
@@ -242,6 +262,8 @@ pub(crate) struct Place<'a> {
     /// Branch or chain with the module.
     pub parts: &'a [Part],
     pub position: usize,
+    /// Region of the module.
+    pub region: u16,
     /// Set if the module is on the main axis.
     pub is_main: bool,
     /// The chain if it is a ring, otherwise nothing.
@@ -277,8 +299,8 @@ fn ahead(contexts: &[PlainContext], parts: &[&Part], ignored: &[&str]) -> Option
 pub(crate) fn step<R: PlainRule>(chain: &[Part], rules: &[R], settings: &PlainSettings) -> Vec<Part> {
     let walk = Walk { rules, settings, ring: if settings.ring { chain } else { &[] } };
     match rules.iter().any(|rule| !rule.pattern().new_right.is_empty()) {
-        true => walk.rewrite_backwards(chain, &mut Vec::new(), true),
-        false => walk.rewrite(chain, &mut Vec::new(), &mut Vec::new(), true),
+        true => walk.rewrite_backwards(chain, &mut Vec::new(), (true, 0)),
+        false => walk.rewrite(chain, &mut Vec::new(), &mut Vec::new(), (true, 0)),
     }
 }
 
@@ -290,13 +312,13 @@ pub(crate) struct Walk<'r, R> {
 }
 
 impl<R: PlainRule> Walk<'_, R> {
-    /// Rewrites `parts` from left to right.
+    /// Rewrites `parts`, which begin in `region`, from left to right.
     fn rewrite<'a>(
         &self,
         parts: &'a [Part],
         path: &mut Vec<&'a PlainModule>,
         written: &mut Vec<PlainModule>,
-        is_main: bool,
+        (is_main, mut region): (bool, u16),
     ) -> Vec<Part> {
         let (depth, written_depth) = (path.len(), written.len());
         let mut made = Vec::new();
@@ -304,13 +326,15 @@ impl<R: PlainRule> Walk<'_, R> {
         while let Some(part) = parts.get(position) {
             let (count, new) = match part {
                 Part::Branch(inner) => {
-                    made.push(Part::Branch(self.rewrite(inner, path, written, false)));
+                    made.push(Part::Branch(self.rewrite(inner, path, written, (false, region))));
                     position += 1;
                     continue;
                 }
                 Part::Module(module) => {
                     let ring = self.ring;
-                    self.replace(&Place { path, parts, position, is_main, ring, written, after: &[] }, module)
+                    let after = &[];
+                    let place = Place { path, parts, position, region, is_main, ring, written, after };
+                    self.replace(&place, module)
                 }
             };
             written.extend(new.iter().filter_map(|part| match part {
@@ -319,6 +343,7 @@ impl<R: PlainRule> Walk<'_, R> {
             }));
             made.extend(new);
             for part in &parts[position..position + count] {
+                region = self.settings.region_after(part, region);
                 if let Part::Module(module) = part {
                     path.push(module);
                 }
@@ -330,26 +355,34 @@ impl<R: PlainRule> Walk<'_, R> {
         made
     }
 
-    /// Rewrites `parts` from right to left. Rules have one predecessor.
+    /// Rewrites `parts`, which begin in `region`, from right to left. Rules have one predecessor.
     fn rewrite_backwards<'a>(
         &self,
         parts: &'a [Part],
         path: &mut Vec<&'a PlainModule>,
-        is_main: bool,
+        (is_main, region): (bool, u16),
     ) -> Vec<Part> {
         let depth = path.len();
         let mut after = Vec::new();
         for (position, part) in parts.iter().enumerate().rev() {
+            let before = parts[..position].iter();
+            let region = before.fold(region, |region, part| self.settings.region_after(part, region));
             path.truncate(depth);
             path.extend(parts[..position].iter().filter_map(|part| match part {
                 Part::Module(module) => Some(module),
                 Part::Branch(_) => None,
             }));
             let new = match part {
-                Part::Branch(inner) => vec![Part::Branch(self.rewrite_backwards(inner, path, false))],
+                Part::Branch(inner) => {
+                    vec![Part::Branch(self.rewrite_backwards(inner, path, (false, region)))]
+                }
                 Part::Module(module) => {
                     let (ring, written, after) = (self.ring, &[][..], after.as_slice());
-                    self.replace(&Place { path, parts, position, is_main, ring, written, after }, module).1
+                    self.replace(
+                        &Place { path, parts, position, region, is_main, ring, written, after },
+                        module,
+                    )
+                    .1
                 }
             };
             after = [new, after].concat();
@@ -378,8 +411,9 @@ impl<R: PlainRule> Walk<'_, R> {
 
     /// Returns the rule that applies at `place`, with its arguments.
     fn choose(&self, place: &Place<'_>, module: &PlainModule) -> Option<(&R, Vec<PlainValue>)> {
-        let matching = self.rules.iter().filter_map(|rule| {
-            let ignored = rule.ignored().unwrap_or(&self.settings.ignored);
+        let of_region = self.rules.iter().filter(|rule| rule.region() == place.region);
+        let matching = of_region.filter_map(|rule| {
+            let ignored = rule.ignored().unwrap_or(self.settings.ignored_in(rule.region()));
             let arguments = rule.pattern().bind(place, ignored)?;
             (rule.weight() != Some(0.0) && rule.holds(&arguments)).then_some((rule, arguments))
         });

@@ -100,7 +100,8 @@ impl<R: PlainRule> Walk<'_, R> {
             match part {
                 Part::Branch(inner) => self.collect_events(inner, path, at, found),
                 Part::Module(module) => {
-                    let place = Place { path, parts, position, is_main, ring, written: &[], after: &[] };
+                    let (written, after): (&[_], &[_]) = (&[], &[]);
+                    let place = Place { path, parts, position, region: 0, is_main, ring, written, after };
                     for (rule, declared) in self.rules.iter().enumerate() {
                         let ignored = declared.ignored().unwrap_or(&self.settings.ignored);
                         let arguments = declared.pattern().bind(&place, ignored);

@@ -75,6 +75,8 @@ pub(crate) struct Template {
 pub(crate) struct SystemRule {
     pub pattern: PlainPattern,
     pub weight: Option<f64>,
+    /// Number of the regions in which the rule applies.
+    pub region: u16,
     /// Minimum of the sum of the arguments for which the rule applies.
     pub least: Option<f64>,
     /// Sum of the arguments up to which the rule keeps its modules.
@@ -108,6 +110,10 @@ impl PlainRule for SystemRule {
 
     fn weight(&self) -> Option<f64> {
         self.weight
+    }
+
+    fn region(&self) -> u16 {
+        self.region
     }
 
     fn ignored(&self) -> Option<&[&'static str]> {
@@ -155,7 +161,40 @@ impl RandomSystem {
         // Rules that see the new chain go in one direction, and rewrite single modules.
         let kind = dice.pick(&[RuleKind::Runs, RuleKind::Runs, RuleKind::NewLeft, RuleKind::NewRight]);
         let rules = (0..1 + dice.below(6)).map(|_| rule(dice, kind)).collect();
-        Self { settings: PlainSettings { ignored, ring }, axiom, rules }
+        Self { settings: PlainSettings { ignored, ring, ..PlainSettings::default() }, axiom, rules }
+    }
+
+    /// Returns a system with one to three other systems, whose rules apply in regions of the chain.
+    pub(crate) fn with_regions(dice: &mut Dice) -> Self {
+        let mut system = Self::new(dice);
+        let others = 1 + dice.below(3);
+        for region in 1..=others {
+            let more = Self::new_like(dice, &system);
+            let with_region = |rule| SystemRule { region: region as u16, ..rule };
+            system.rules.extend(more.into_iter().map(with_region));
+            system.settings.ignored_in.push(dice.pick(&[&["D"][..], &["A", "C"], &[], &[]]).to_vec());
+            let opener = dice.pick(&["A", "B", "C", "C", "D", "Cut"]);
+            if system.settings.openers.iter().all(|(name, _)| *name != opener) {
+                system.settings.openers.push((opener, dice.below(others + 1) as u16));
+            }
+        }
+        system
+    }
+
+    /// Returns rules that can be applied in the same step as those of `system`, with their own ignored modules.
+    fn new_like(dice: &mut Dice, system: &Self) -> Vec<SystemRule> {
+        let has_new = |of: fn(&PlainPattern) -> bool| system.rules.iter().any(|rule| of(&rule.pattern));
+        let kind = match () {
+            () if has_new(|pattern| {
+                !pattern.new_left.modules.is_empty() || pattern.new_left.from_beginning
+            }) =>
+            {
+                RuleKind::NewLeft
+            }
+            () if has_new(|pattern| !pattern.new_right.is_empty()) => RuleKind::NewRight,
+            () => RuleKind::Runs,
+        };
+        (0..1 + dice.below(4)).map(|_| rule(dice, kind)).collect()
     }
 }
 
@@ -171,7 +210,6 @@ impl RandomSystem {
             rule.weight = None;
             (rule.pattern.new_left, rule.pattern.new_right) = (PlainLeft::default(), Vec::new());
             if is_near {
-                rule.ignored = None;
                 rule.pattern.predecessors.truncate(1);
                 rule.pattern.right.retain(|context| matches!(context, PlainContext::Module(_)));
             }
@@ -276,6 +314,7 @@ fn rule(dice: &mut Dice, kind: RuleKind) -> SystemRule {
     let successor = (0..dice.below(4)).map(|_| template(dice, arguments)).collect();
     SystemRule {
         pattern,
+        region: 0,
         weight: dice.chance(0.4).then(|| dice.pick(&[0.0, 0.5, 1.0, 3.0])),
         least: dice.chance(0.35).then(|| dice.below(4) as f64 - 1.0),
         keeps: dice.chance(0.25).then(|| dice.below(3) as f64),

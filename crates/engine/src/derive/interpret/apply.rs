@@ -9,7 +9,8 @@ use super::InterpretationPass;
 use super::memory::{PassMark, PassMemory};
 use super::notices::ObjectNotice;
 use crate::machine::{
-    CLOSE_CALL, Flusher, Machine, OPEN_CALL, Objects, read_column, returns_value, stops_at_depth,
+    CLOSE_CALL, Flusher, Interpretations, Machine, OPEN_CALL, Objects, read_column, returns_value,
+    stops_at_depth,
 };
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
@@ -306,8 +307,16 @@ impl Applier {
                     self.listen(object, None);
                 }
                 symbol => {
-                    let method = methods[usize::from(symbol)];
-                    if method != u16::MAX {
+                    let place = pass.plan.interpretations.place_of(pass.region(self.position), symbol);
+                    let method = methods[place];
+                    if method == Interpretations::RESCALE {
+                        pass.rescale(
+                            object,
+                            self.position,
+                            &pass.chain.params[params.clone()],
+                            &self.values,
+                        )?;
+                    } else if method != u16::MAX {
                         self.call(object, method, &pass.chain.params[params.clone()])?;
                         self.listen(object, None);
                     }
@@ -436,8 +445,7 @@ impl Applier {
         let arity = usize::from(plan.steps.grammar.arities()[usize::from(symbol)]);
         let params = &self.pass.chain.params[param..param + arity];
         let text = module_brief(plan.steps.grammar.symbols(), &self.values, symbol, params);
-        let interpretations = &plan.interpretations;
-        match interpretations.list.get(usize::from(interpretations.by_symbol[usize::from(symbol)])) {
+        match self.pass.interpretation_at(module) {
             Some(known) if self.waits && matches!(error.kind(), ErrorKind::Limit(Limit::Time)) => {
                 error.rule(format!("{} (interpretation)", known.name))
             }

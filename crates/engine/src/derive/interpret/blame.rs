@@ -5,7 +5,7 @@ use super::notices::ObjectNotice;
 use super::pass::applier;
 use crate::machine::Machine;
 use burgeon_base::error::{Error, SourcePlace};
-use burgeon_rewriting::{END, Symbol, module_brief};
+use burgeon_rewriting::{END, module_brief};
 
 impl InterpretationPass {
     /// Adds the warnings of objects in the last batch.
@@ -28,8 +28,10 @@ impl InterpretationPass {
                 return warning;
             }
             let warning = warning.module(self.module_brief(machine, module, param), self.step);
-            match self.interpretation_of(symbol) {
-                Some((name, place)) => warning.at(place.clone()).rule(name),
+            match self.interpretation_at(module) {
+                Some(known) => {
+                    warning.at(known.place.clone()).rule(format!("{} (interpretation)", known.name))
+                }
                 None => warning,
             }
         });
@@ -83,13 +85,5 @@ impl InterpretationPass {
         let arity = usize::from(grammar.arities()[usize::from(symbol)]);
         let params = &self.chain.params[param..param + arity];
         module_brief(grammar.symbols(), &machine.session.values, symbol, params)
-    }
-
-    /// Returns the name and the location of the interpretation rule for a symbol.
-    fn interpretation_of(&self, symbol: Symbol) -> Option<(String, &Option<SourcePlace>)> {
-        let interpretations = &self.plan.interpretations;
-        let id = interpretations.by_symbol.get(usize::from(symbol))?;
-        let known = interpretations.list.get(usize::from(*id))?;
-        Some((format!("{} (interpretation)", known.name), &known.place))
     }
 }

@@ -11,6 +11,7 @@ mod memory;
 mod notices;
 mod part;
 mod pass;
+mod surroundings;
 
 pub(crate) use apply::Applier;
 pub(crate) use memory::PassMemory;

@@ -21,11 +21,12 @@ impl InterpretationPass {
         memory: &mut PassMemory,
     ) -> Result<bool> {
         let first = memory.end();
-        let part = chain.part(first, chain.located_end());
+        let end = chain.located_end();
+        let (part, regions) = (chain.part(first, end), chain.regions(first.module, end));
         let pieces = vec![Mark::default(), part.end(0)];
         Self::enter(machine, plan)?;
         let last = Some(std::mem::take(memory));
-        let part = (Arc::new(part), first);
+        let part = (Arc::new(part), first, regions);
         let interpreting = Self::new(plan, part, pieces, (step, step, &[]), Links::default(), last);
         while interpreting.work(machine) {}
         let done = threads.reclaim(interpreting);

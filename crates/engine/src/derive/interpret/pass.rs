@@ -17,7 +17,7 @@ use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::Warning;
 use burgeon_kit::ObjectPlace;
-use burgeon_rewriting::{Bindings, Chain, ContextMatcher, END, Links, Mark, Symbol};
+use burgeon_rewriting::{Chain, END, Links, Mark, Region, Symbol};
 use mlua::Table;
 
 /// Maximum number of entries per call into Lua.
@@ -86,7 +86,9 @@ pub(crate) struct InterpretationPass {
     pub(super) uses: Mutex<Vec<Use>>,
     pub(super) notices: Notices,
     /// Neighbours in the chain, if an interpretation rule has contexts.
-    links: Links,
+    pub(super) links: Links,
+    /// Region of each symbol; empty if no module opens a region.
+    pub(super) regions: Vec<Region>,
     undrawn: Mutex<BTreeSet<Symbol>>,
     places: Mutex<Vec<(u32, ObjectPlace)>>,
     /// Memory of the last pass, if this pass continues it and can be continued.
@@ -141,7 +143,8 @@ impl InterpretationPass {
         if let Some(environments) = &plan.environments {
             environments.begin_pass();
         }
-        let chain = (Arc::clone(chain), Mark::default());
+        let regions = plan.steps.grammar.region_openers().regions(chain);
+        let chain = (Arc::clone(chain), Mark::default(), regions);
         let interpreting = Self::new(plan, chain, pieces, (step, number, times), links, last);
         // Chains that assign the same variables, or change the same environments, are interpreted one after the other.
         if !plan.assigns_variables && plan.environments.is_none() {
@@ -160,10 +163,11 @@ impl InterpretationPass {
         Ok(())
     }
 
-    /// Creates a pass over the `pieces` of a chain, or of a part of the chain that begins at a position.
+    /// Creates a pass over the `pieces` of a chain, or of a part of the chain that begins at a position, with the regions of its
+    /// symbols.
     pub(super) fn new(
         plan: &Arc<DerivationPlan>,
-        (chain, first): (Arc<Chain>, Mark),
+        (chain, first, regions): (Arc<Chain>, Mark, Vec<Region>),
         pieces: Vec<Mark>,
         (step, number, times): (usize, usize, &[f64]),
         links: Links,
@@ -172,6 +176,7 @@ impl InterpretationPass {
         let mark = memory.as_ref().and_then(|memory| memory.marks.last());
         Arc::new(Self {
             plan: Arc::clone(plan),
+            regions,
             chain,
             first,
             step,
@@ -333,7 +338,7 @@ impl InterpretationPass {
         let most = if self.memory.is_some() { end.min(module + self.marked_symbols()) } else { end };
         while module < most && batch.entries.len() < ENTRIES {
             let symbol = symbols[module];
-            let id = by_symbol[usize::from(symbol)];
+            let id = by_symbol[interpretations.place_of(self.region(module), symbol)];
             if is_begin && interpretations.begin != u16::MAX {
                 batch.push((module, param), interpretations.begin, &[numbered(chain)]);
             }
@@ -435,23 +440,6 @@ impl InterpretationPass {
         }
         self.note_all(machine, &notices);
         Ok(None)
-    }
-
-    /// Returns the parameters of the context modules of interpretation rule `rule` around `module`; `None` if the contexts
-    /// do not match.
-    pub(super) fn context(&self, rule: u16, module: usize) -> Option<Vec<f64>> {
-        let grammar = self.plan.interpretations.grammar.as_ref()?;
-        let contexts = ContextMatcher { chain: &self.chain, links: &self.links, grammar };
-        if !contexts.matches(rule, module) {
-            return None;
-        }
-        let mut bindings = Bindings::default();
-        contexts.bind(rule, module, &mut bindings);
-        let mut params = Vec::new();
-        for (item, bound) in grammar.rules()[usize::from(rule)].contexts().iter().zip(bindings) {
-            item.push_arguments(&self.chain.params, self.links.param[bound as usize] as usize, &mut params);
-        }
-        Some(params)
     }
 
     /// Returns the number of symbols per call into Lua, and between two marks.

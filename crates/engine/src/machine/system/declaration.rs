@@ -13,9 +13,10 @@ use crate::machine::types::methods_key;
 use crate::results::DerivedSystem;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_kit::{Call, Locate, Object, ObjectPlace};
-use burgeon_rewriting::{Grammar, Rule};
+use burgeon_rewriting::{Grammar, Region, Rule, Symbol};
 
 use super::ignored::IgnoredModules;
+use super::subsystems::{DeclaredSubsystem, LinkedSubsystems};
 use burgeon_scene::CityClass;
 use mlua::{Function, Table, Value as LuaValue};
 
@@ -54,6 +55,9 @@ pub(crate) struct SystemDeclaration {
     pub(crate) ignored: IgnoredModules,
     /// Set if the first and the last module of a chain are neighbours.
     pub(crate) ring: bool,
+    pub(super) subsystems: Vec<DeclaredSubsystem>,
+    /// Sub-systems whose rules follow those of the system in `rules` and `interpretations`.
+    pub(super) linked: Option<LinkedSubsystems>,
     /// Record of each derivation.
     pub(crate) derivations: RefCell<Vec<DerivationRecord>>,
     /// Declarations since the last derivation, with their locations.
@@ -113,6 +117,7 @@ pub(crate) enum ReceiverUse {
     Any,
 }
 
+#[derive(Clone)]
 pub(crate) struct DeclaredRule {
     pub(crate) rule: Rule,
     pub(crate) phase: RulePhase,
@@ -132,6 +137,11 @@ pub(crate) struct DeclaredRule {
 }
 
 impl DeclaredRule {
+    /// Returns the rule for a region of its system.
+    pub(super) fn in_region(&self, region: Region) -> Self {
+        Self { rule: self.rule.clone().in_region(region), ..self.clone() }
+    }
+
     /// Returns true if the successor or the guard may use `this`.
     fn asks(&self) -> bool {
         self.receiver_use > ReceiverUse::Unused
@@ -244,6 +254,8 @@ impl SystemDeclaration {
             Some(("variables", "pass values in parameters of modules"))
         } else if !self.environments.is_empty() {
             Some(("environments", "pass values in parameters of modules"))
+        } else if !self.subsystems.is_empty() {
+            Some(("sub-systems", "declare all rules in one system"))
         } else if !self.hooks.is_empty() {
             Some(("hooks", "calculate before the system is passed to the object"))
         } else {
@@ -275,12 +287,17 @@ impl SystemDeclaration {
         let ignored = self.ignored.among(&symbols);
         // Weights of interpretation rules draw from the keys of modules, too.
         let random = random || self.interpretations.iter().any(|known| known.rule.weight.is_some());
-        let with_ignored = |declared: &DeclaredRule| match &declared.ignored {
+        let with_ignored = |declared: &DeclaredRule| match self.ignored_by(&declared.rule, &declared.ignored)
+        {
             Some(ignored) => declared.rule.clone().ignoring(ignored.among(&symbols)),
             None => declared.rule.clone(),
         };
         let rules = self.rules.iter().map(with_ignored).collect();
-        let grammar = Grammar::new(Arc::clone(&symbols), rules, &ignored, random).with_ring(self.ring);
+        let openers: Vec<(Symbol, Region)> =
+            self.openers().iter().map(|opener| (opener.symbol, opener.region)).collect();
+        let grammar = Grammar::new(Arc::clone(&symbols), rules, &ignored, random)
+            .with_ring(self.ring)
+            .with_regions(&openers);
         let grammar = grammar.with_candidates(|number| {
             let declared = &self.rules[usize::from(number)];
             declared.phase == phase && (declared.group.is_none() || declared.group.as_deref() == group)

@@ -53,6 +53,8 @@ impl SystemHandle {
             variables: None,
             ignored: IgnoredModules::default(),
             ring: false,
+            subsystems: Vec::new(),
+            linked: None,
             derivations: RefCell::default(),
             late: RefCell::default(),
             axiom_is_new: Cell::new(false),
@@ -149,6 +151,7 @@ impl SystemHandle {
             return Err(mlua::Error::external(in_axiom("a declaration")));
         };
         let system = &mut systems[self.index];
+        system.unlink();
         if !system.derivations.get_mut().is_empty() {
             system.late.get_mut().push((what, place.clone()));
         }
@@ -166,7 +169,7 @@ impl SystemHandle {
 }
 
 /// Returns the error for an action that the function of an axiom may not do.
-fn in_axiom(what: &str) -> Error {
+pub(super) fn in_axiom(what: &str) -> Error {
     Error::scope(format!("{what} cannot be called in the function that returns each feature's chain"))
         .help("call it before derive, and use the result in the function")
 }
@@ -257,6 +260,18 @@ impl UserData for SystemHandle {
             })?;
             Ok(this.again())
         });
+        methods.add_function("subsystem", |lua, (this, arguments): (UserDataRef<Self>, MultiValue)| {
+            let arguments: Vec<LuaValue> = arguments.into_iter().collect();
+            let (library, place) = (Rc::clone(&this.library), Machine::place(lua));
+            let inner = arguments.get(1).and_then(SystemHandle::index_of);
+            this.declare(lua, "sub-system", |system| {
+                system.add_subsystem(&library, &library.scope_at(lua), &arguments, inner, place)
+            })?;
+            if let Some(inner) = inner {
+                this.library.systems.borrow()[inner].given.set(true);
+            }
+            Ok(this.again())
+        });
         methods.add_function(
             "derive",
             |lua, (this, steps, group): (UserDataRef<Self>, LuaValue, LuaValue)| {
@@ -291,6 +306,12 @@ impl SystemHandle {
     pub(crate) fn give(&self) -> usize {
         self.library.systems.borrow()[self.index].given.set(true);
         self.index
+    }
+
+    /// Returns the index of a system, if `value` is one.
+    fn index_of(value: &LuaValue) -> Option<usize> {
+        let LuaValue::UserData(data) = value else { return None };
+        data.borrow::<Self>().ok().map(|handle| handle.index)
     }
 
     fn again(&self) -> Self {

@@ -10,12 +10,14 @@ use crate::machine::row_tables::argument_places;
 use crate::machine::types::ScriptTypeEntry;
 use burgeon_base::error::SourcePlace;
 use burgeon_kit::{Object, ScriptType, Value};
-use burgeon_rewriting::{CLOSE, END, Grammar, OPEN, PatternValue, Rule, Symbol};
+use burgeon_rewriting::{CLOSE, END, Grammar, OPEN, PatternValue, Region, Rule, Symbol};
 
 use super::ignored::IgnoredModules;
-use mlua::{Function, Table, Value as LuaValue};
+use super::subsystems::RegionOpener;
+use mlua::{Function, Lua, Table, Value as LuaValue};
 
 /// Interpretation rule as a script declares it.
+#[derive(Clone)]
 pub(crate) struct DeclaredInterpretation {
     pub(crate) rule: Rule,
     pub(crate) guard: Option<Function>,
@@ -24,16 +26,27 @@ pub(crate) struct DeclaredInterpretation {
     pub(crate) function: Function,
 }
 
+impl DeclaredInterpretation {
+    /// Returns the interpretation for a region of its system.
+    pub(super) fn in_region(&self, region: Region) -> Self {
+        Self { rule: self.rule.clone().in_region(region), ..self.clone() }
+    }
+}
+
 /// Interpretation of modules, equal in all machines.
 ///
 /// The numbers of interpretation rules are those of their declarations. Then follow the numbers of the symbols with
 /// several candidates, and those of hooks.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Interpretations {
-    /// Number of the interpretation rule, of the candidates or of the hook by symbol, or `u16::MAX`.
+    /// Number of the interpretation rule, of the candidates or of the hook by symbol, or `u16::MAX`, for each region.
     pub by_symbol: Vec<u16>,
-    /// Method of the standard library by symbol, or `u16::MAX`.
+    /// Method of the standard library by symbol, [`RESCALE`](Self::RESCALE) or `u16::MAX`, for each region.
     pub methods: Vec<u16>,
+    /// Number of symbols.
+    symbols: usize,
+    /// Modules that open regions.
+    pub openers: Vec<RegionOpener>,
     /// Interpretations by number.
     pub list: Vec<Interpretation>,
     /// Number of the hook that runs at the start of a chain, or `u16::MAX`.
@@ -44,9 +57,34 @@ pub(crate) struct Interpretations {
     pub grammar: Option<Arc<Grammar>>,
 }
 
+impl Interpretations {
+    /// Method that stands for the scale of a region.
+    pub(crate) const RESCALE: u16 = u16::MAX - 1;
+
+    /// Returns the index of a symbol of a region in `by_symbol` and `methods`.
+    #[inline]
+    pub(crate) fn place_of(&self, region: Region, symbol: Symbol) -> usize {
+        usize::from(region) * self.symbols + usize::from(symbol)
+    }
+
+    /// Returns the index of the first symbol of the region of each interpretation, by its number.
+    fn region_bases(&self, lua: &Lua) -> mlua::Result<Table> {
+        let bases = lua.create_table()?;
+        for (place, number) in self.by_symbol.iter().enumerate().filter(|(_, number)| **number != u16::MAX) {
+            let symbol = place % self.symbols;
+            // Hooks have no region.
+            if symbol > usize::from(END) {
+                bases.raw_set(*number, place - symbol)?;
+            }
+        }
+        Ok(bases)
+    }
+}
+
 /// Interpretation rules of a symbol among which contexts, guards and weights choose.
 #[derive(Debug, Clone)]
 struct SymbolCandidates {
+    region: Region,
     symbol: Symbol,
     /// Number among the interpretations.
     number: u16,
@@ -79,25 +117,34 @@ impl SystemDeclaration {
     /// Returns the interpretation of modules.
     pub(crate) fn interpretations(&self, library: &Library) -> Interpretations {
         let arities = library.symbols.borrow().arities();
+        let count = arities.len() * self.regions();
         let mut found = Interpretations {
-            by_symbol: vec![u16::MAX; arities.len()],
-            methods: vec![u16::MAX; arities.len()],
+            by_symbol: vec![u16::MAX; count],
+            methods: vec![u16::MAX; count],
+            symbols: arities.len(),
+            openers: self.openers().to_vec(),
             begin: u16::MAX,
             ..Interpretations::default()
         };
         let Some(object) = &self.object else { return found };
         for standard in library.standard.borrow().iter().filter(|known| object.kind().is_a(&known.kind)) {
-            found.methods[usize::from(standard.symbol)] = number(standard.method);
+            let methods = found.methods.iter_mut().skip(usize::from(standard.symbol)).step_by(arities.len());
+            methods.for_each(|method| *method = number(standard.method));
         }
         self.add_rules(&mut found, &arities);
+        for opener in self.openers().iter().filter(|opener| opener.scale.is_some()) {
+            let methods = found.methods.iter_mut().skip(usize::from(opener.symbol)).step_by(arities.len());
+            methods.for_each(|method| *method = Interpretations::RESCALE);
+        }
         self.add_hooks(&mut found, object);
         let rules = || self.interpretations.iter().map(|known| &known.rule);
         if rules().any(Rule::has_contexts) {
             let symbols = Arc::new(library.symbols.borrow().clone());
-            let with_ignored = |known: &DeclaredInterpretation| match &known.ignored {
-                Some(ignored) => known.rule.clone().ignoring(ignored.among(&symbols)),
-                None => known.rule.clone(),
-            };
+            let with_ignored =
+                |known: &DeclaredInterpretation| match self.ignored_by(&known.rule, &known.ignored) {
+                    Some(ignored) => known.rule.clone().ignoring(ignored.among(&symbols)),
+                    None => known.rule.clone(),
+                };
             let rules = self.interpretations.iter().map(with_ignored).collect();
             let ignored = self.ignored.among(&symbols);
             let grammar = Grammar::new(Arc::clone(&symbols), rules, &ignored, false).with_ring(self.ring);
@@ -116,19 +163,21 @@ impl SystemDeclaration {
                 place: rule.place.clone(),
                 is_choice: false,
             });
-            let symbol = rule.pattern.symbol;
-            match candidates.iter_mut().find(|known| known.symbol == symbol) {
+            let (region, symbol) = (rule.region(), rule.pattern.symbol);
+            match candidates.iter_mut().find(|known| (known.region, known.symbol) == (region, symbol)) {
                 Some(known) => known.rules.push(index),
-                None => candidates.push(SymbolCandidates { symbol, number: index, rules: vec![index] }),
+                None => {
+                    candidates.push(SymbolCandidates { region, symbol, number: index, rules: vec![index] })
+                }
             }
         }
         for mut known in candidates {
-            let (symbol, first) = (usize::from(known.symbol), usize::from(known.number));
+            let (symbol, first) = (found.place_of(known.region, known.symbol), usize::from(known.number));
             found.methods[symbol] = u16::MAX;
             if known.rules.len() > 1 || !is_unconditional(&self.interpretations[first].rule) {
                 known.number = number(found.list.len());
                 let Interpretation { name, place, .. } = found.list[first].clone();
-                let bound = usize::from(arities[symbol]);
+                let bound = usize::from(arities[usize::from(known.symbol)]);
                 found.list.push(Interpretation { bound, name, place, is_choice: true });
                 found.by_symbol[symbol] = known.number;
                 found.candidates.push(known);
@@ -152,9 +201,11 @@ impl SystemDeclaration {
         let open = if opens { add("push", 0) } else { u16::MAX };
         let close = if closes { add("pop", 0) } else { u16::MAX };
         found.begin = begin;
-        found.by_symbol[usize::from(END)] = end;
-        found.by_symbol[usize::from(OPEN)] = open;
-        found.by_symbol[usize::from(CLOSE)] = close;
+        for symbols in found.by_symbol.chunks_mut(found.symbols) {
+            symbols[usize::from(END)] = end;
+            symbols[usize::from(OPEN)] = open;
+            symbols[usize::from(CLOSE)] = close;
+        }
     }
 
     /// Sets the interpretation rules of this system in `machine`, whose object has the type `of` if a script has
@@ -172,6 +223,9 @@ impl SystemDeclaration {
             if !known.list[usize::from(*rule)].is_choice {
                 rules.raw_set(symbol, *rule)?;
             }
+        }
+        if self.regions() > 1 {
+            rules.raw_set("bases", known.region_bases(lua)?)?;
         }
         let standards = lua.create_table()?;
         if let Some(object) = &self.object {
@@ -194,7 +248,7 @@ impl SystemDeclaration {
             let places = argument_places(lua, &rule.pattern, &symbols)?;
             prelude.interpreter.call::<()>((index, function, rule.pattern.own_bound(), places))?;
         }
-        for SymbolCandidates { symbol, number, rules } in &known.candidates {
+        for SymbolCandidates { region, symbol, number, rules } in &known.candidates {
             let list = lua.create_table()?;
             let mut most = 0;
             for rule in rules {
@@ -202,7 +256,8 @@ impl SystemDeclaration {
                 list.raw_push(self.candidate(machine, *rule)?)?;
             }
             let arity = symbols.signature(*symbol).arity();
-            prelude.candidates.call::<()>((*number, *symbol, arity, list, most))?;
+            let place = known.place_of(*region, *symbol);
+            prelude.candidates.call::<()>((*number, *symbol, place, arity, list, most))?;
         }
         let Some(of) = of else { return Ok(()) };
         let (begin, end, open, close): (Function, Function, Function, Function) =

@@ -17,6 +17,7 @@ mod module_string;
 mod selection;
 mod source;
 mod strings;
+mod subsystems;
 mod unseen;
 
 pub(crate) use axiom::Axiom;
@@ -26,8 +27,8 @@ pub(crate) use declaration::{RulePhase, SystemDeclaration, SystemFunctions};
 pub(crate) use declare::{returns_value, stops_at_depth};
 pub(crate) use handle::SystemHandle;
 pub(crate) use hooks::{HookFunction, HookMoment};
-pub(crate) use interpretations::Interpretations;
 pub(super) use interpretations::{DeclaredInterpretation, is_unconditional};
+pub(crate) use interpretations::{Interpretation, Interpretations};
 pub(crate) use lazy::{EagerMark, UNREAD, feature_of, install as install_lazy};
 pub(super) use module_string::undeclared_letters;
 pub(crate) use source::SourceHandle;

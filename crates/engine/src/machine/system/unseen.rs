@@ -3,6 +3,8 @@
 //!
 //! Each warning is certain: a declaration that can have an effect causes none.
 
+use std::collections::BTreeSet;
+
 use mlua::Value;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -13,7 +15,9 @@ use crate::machine::types::object_of_system;
 use crate::results::DerivedSystem;
 use burgeon_base::error::SourcePlace;
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_rewriting::{ContextElement, FIRST_SYMBOL, Grammar, Item, Pattern, Propensity, Rule, Symbol};
+use burgeon_rewriting::{
+    ContextElement, FIRST_SYMBOL, Grammar, Item, Pattern, Propensity, Region, Rule, Symbol,
+};
 
 use super::{DeclaredRule, DerivationRecord, RulePhase, SystemDeclaration};
 
@@ -42,16 +46,18 @@ impl SystemDeclaration {
         }
         let groups = self.groups();
         let groups = || std::iter::once(None).chain(groups.iter().map(|group| Some(&**group)));
-        for phase in RulePhase::ALL {
-            groups().for_each(|group| self.tell_forestalled_in((phase, group), machine, grammar));
+        for region in (0..).take(self.regions()) {
+            for phase in RulePhase::ALL {
+                groups().for_each(|group| self.tell_forestalled_in((region, phase, group), machine, grammar));
+            }
         }
     }
 
-    /// Warns about rules of a phase that never apply. `group` are the rules to which the warnings belong; rules without a group
+    /// Warns about rules of a region and a phase that never apply. `group` are the rules to which the warnings belong; rules without a group
     /// apply together with them.
     fn tell_forestalled_in(
         &self,
-        (phase, group): (RulePhase, Option<&str>),
+        (region, phase, group): (Region, RulePhase, Option<&str>),
         machine: &Machine,
         grammar: &Grammar,
     ) {
@@ -61,6 +67,7 @@ impl SystemDeclaration {
         let group_of = |index: usize| self.rules[index].group.as_deref();
         let can_apply = |(index, rule): &(usize, &Rule)| {
             rule.weight != Some(0.0)
+                && rule.region() == region
                 && rule.propensity() != Some(Propensity::Constant(0.0))
                 && self.rules[*index].phase == phase
                 && (group_of(*index).is_none() || group_of(*index) == group)
@@ -80,7 +87,7 @@ impl SystemDeclaration {
             {
                 let name = grammar.symbols().display_name(symbol);
                 let own = self.rules[index].ignored.as_ref();
-                let ignored = own.unwrap_or(&self.ignored);
+                let ignored = own.unwrap_or(self.ignored_in(region));
                 let (text, help) = match ignored.considered {
                     _ if own.is_some() => (
                         format!("{name} is ignored by this rule, so this context never occurs"),
@@ -125,19 +132,20 @@ impl SystemDeclaration {
         }
     }
 
-    /// Returns warnings about `symbols` of the final chains and their interpretation that this system neither draws nor
-    /// uses.
+    /// Returns warnings about `symbols` of the final chains, and those that their interpretation `returned`, that this system
+    /// neither draws nor uses.
     pub(crate) fn undrawn(
         &self,
         library: &Library,
         symbols: impl Iterator<Item = Symbol>,
+        returned: &BTreeSet<Symbol>,
     ) -> Vec<(Symbol, Warning)> {
         let mut open: Vec<(Symbol, Warning)> = (FIRST_SYMBOL..)
             .take(library.symbols.borrow().names().count())
             .filter_map(|symbol| Some((symbol, self.warning_of(library, symbol)?)))
             .collect();
         let mut found: Vec<(Symbol, Warning)> = Vec::new();
-        for symbol in symbols {
+        for symbol in symbols.chain(returned.iter().copied()) {
             if open.is_empty() {
                 break;
             }
@@ -145,6 +153,14 @@ impl SystemDeclaration {
                 found.push(open.swap_remove(index));
             }
         }
+        found.extend(returned.iter().filter(|symbol| self.begins_subsystem(**symbol)).map(|symbol| {
+            let symbols = library.symbols.borrow();
+            let name = symbols.display_name(*symbol);
+            let text =
+                format!("{name}, which an interpretation returned, begins a sub-system only in chains");
+            let warning = Warning::new(WarningKind::UndrawnModule, text).at(self.place.clone());
+            (*symbol, warning.help(format!("return {name} from a rule")))
+        }));
         found.sort_by_key(|(symbol, _)| *symbol);
         found
     }
@@ -159,6 +175,7 @@ impl SystemDeclaration {
         if self.interpretations.iter().any(|known| known.rule.pattern.symbol == symbol)
             || standard.iter().any(|known| known.symbol == symbol && is_a(known))
             || library.cut.get() == Some(symbol)
+            || self.begins_subsystem(symbol)
         {
             return None;
         }
@@ -183,7 +200,7 @@ impl SystemDeclaration {
         // Without interpretations, an object draws only modules of the standard library, if it draws any.
         let draws = !self.interpretations.is_empty() || standard.iter().any(is_a);
         let is_used = !draws
-            || self.ignored.names(symbol)
+            || (0..).take(self.regions()).any(|region| self.ignored_in(region).names(symbol))
             || self.rules.iter().filter_map(|rule| rule.ignored.as_ref()).any(|own| own.names(symbol))
             || self.rules.iter().any(|declared| names(&declared.rule.pattern, symbol))
             || self.interpretations.iter().any(|declared| names(&declared.rule.pattern, symbol));
