@@ -9,16 +9,16 @@ use crate::context::{CompiledPatterns, ContextElement};
 use crate::grammar::{Grammar, NewContexts};
 use crate::ignored::IgnoredSet;
 use crate::links::{Links, NONE, narrow};
-use crate::successors::{ModuleOrder, Successor, Successors};
+use crate::successors::{ModuleOrder, Successors};
 use crate::text::ShowParameters;
 
 /// Symbol of the new chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct NewPlace {
     /// Index of the symbol of the old chain that was rewritten.
-    old: u32,
+    pub old: u32,
     /// Number of symbols of its successor before this one.
-    offset: u32,
+    pub offset: u32,
 }
 
 /// Context modules in the new chain that a pattern matched, in the order in which the pattern names them.
@@ -101,30 +101,9 @@ impl NewChain {
         group.rewind();
         let members = std::mem::take(&mut group.members);
         for member in &members {
-            let made = Successor::read(group.ends[group.next]);
-            group.next += 1;
             let (begin, first_param) = (self.symbols.len(), self.params.len());
-            match made {
-                Successor::Keep => continue,
-                Successor::Shape(number) => {
-                    let shape = &group.shapes[number];
-                    self.symbols.extend_from_slice(&shape.symbols);
-                    self.params.extend_from_slice(&group.params[group.param_at..][..shape.params]);
-                    group.param_at += shape.params;
-                }
-                Successor::Ordered(end) => {
-                    group.arrange(end, arities, arranged, &mut self.params);
-                    self.symbols.extend_from_slice(&arranged.symbols);
-                }
-                Successor::UpTo(end) => {
-                    let symbols = &group.symbols[group.symbol_at..end];
-                    let arity = |symbol: &Symbol| usize::from(arities[usize::from(*symbol)]);
-                    let params: usize = symbols.iter().map(arity).sum();
-                    self.symbols.extend_from_slice(symbols);
-                    self.params.extend_from_slice(&group.params[group.param_at..][..params]);
-                    group.symbol_at = end;
-                    group.param_at += params;
-                }
+            if !group.read_next(arities, arranged, &mut self.symbols, &mut self.params) {
+                continue;
             }
             let (end, last_param) = (self.symbols.len(), self.params.len());
             let successor = WrittenSuccessor { begin, end, first_param, last_param };
@@ -147,6 +126,44 @@ impl NewChain {
         }
     }
 
+    /// Removes the successors of the active modules with these indices, which are then as before the step.
+    pub(crate) fn forget(&mut self, indices: &[u32]) {
+        for index in indices {
+            self.successors[*index as usize] = None;
+        }
+    }
+
+    /// Returns the symbols that have replaced the symbol at `old` of `chain`.
+    #[inline]
+    pub(crate) fn symbols_of<'a>(&'a self, old: u32, chain: &'a Chain) -> &'a [Symbol] {
+        match self.successor(old) {
+            Some(successor) => &self.symbols[successor.begin..successor.end],
+            None => std::slice::from_ref(&chain.symbols[old as usize]),
+        }
+    }
+
+    /// Returns the symbol of the module at `place` and its parameters. `chain` is the old chain.
+    pub(crate) fn module<'a>(
+        &'a self,
+        place: NewPlace,
+        chain: &'a Chain,
+        links: &Links,
+        arities: &[u8],
+    ) -> (Symbol, &'a [f64]) {
+        let symbols = self.symbols_of(place.old, chain);
+        let symbol = symbols[place.offset as usize];
+        let params = match self.successor(place.old) {
+            None => &chain.params[links.param[place.old as usize] as usize..],
+            Some(successor) => {
+                let before = symbols[..place.offset as usize].iter();
+                let skipped: usize = before.map(|symbol| usize::from(arities[usize::from(*symbol)])).sum();
+                &self.params[successor.first_param + skipped..]
+            }
+        };
+        (symbol, &params[..usize::from(arities[usize::from(symbol)])])
+    }
+
+    #[inline]
     fn successor(&self, old: u32) -> Option<WrittenSuccessor> {
         let active = self.active[old as usize - self.begin];
         self.successors.get(active as usize).copied().flatten()
@@ -188,15 +205,9 @@ impl NewMatcher<'_> {
         }
     }
 
-    /// Returns the parameters from those of the module at `place` on.
+    /// Returns the parameters of the module at `place`.
     pub(crate) fn params(&self, place: NewPlace) -> &[f64] {
-        let Some(successor) = self.new.successor(place.old) else {
-            return &self.chain.params[self.links.param[place.old as usize] as usize..];
-        };
-        let before = &self.new.symbols[successor.begin..][..place.offset as usize];
-        let arity = |symbol: &Symbol| usize::from(self.grammar.arities()[usize::from(*symbol)]);
-        let skipped: usize = before.iter().map(arity).sum();
-        &self.new.params[successor.first_param + skipped..successor.last_param]
+        self.new.module(place, self.chain, self.links, self.grammar.arities()).1
     }
 
     fn ignored(&self) -> &IgnoredSet {
@@ -205,10 +216,7 @@ impl NewMatcher<'_> {
 
     /// Returns the symbols that have replaced the symbol at `old`.
     fn symbols(&self, old: u32) -> &[Symbol] {
-        match self.new.successor(old) {
-            Some(successor) => &self.new.symbols[successor.begin..successor.end],
-            None => std::slice::from_ref(&self.chain.symbols[old as usize]),
-        }
+        self.new.symbols_of(old, self.chain)
     }
 
     fn symbol(&self, place: NewPlace) -> Symbol {
