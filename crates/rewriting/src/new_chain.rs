@@ -24,13 +24,28 @@ pub(crate) struct NewPlace {
 /// Context modules in the new chain that a pattern matched, in the order in which the pattern names them.
 pub(crate) type NewBindings = SmallVec<[NewPlace; 8]>;
 
-/// Successor that has been written.
+/// Successor that has been written: its symbols and its parameters in the columns of the chain.
 #[derive(Debug, Clone, Copy)]
 struct WrittenSuccessor {
-    begin: usize,
-    end: usize,
-    first_param: usize,
-    last_param: usize,
+    begin: u32,
+    end: u32,
+    first_param: u32,
+    last_param: u32,
+}
+
+impl WrittenSuccessor {
+    /// Module that is unchanged or not yet rewritten.
+    const NONE: Self = Self { begin: NONE, end: NONE, first_param: 0, last_param: 0 };
+
+    #[inline]
+    fn symbols(self) -> Range<usize> {
+        self.begin as usize..self.end as usize
+    }
+
+    #[inline]
+    fn params(self) -> Range<usize> {
+        self.first_param as usize..self.last_param as usize
+    }
 }
 
 /// Result of a search that begins at each symbol of the old chain.
@@ -56,8 +71,8 @@ pub(crate) struct NewChain {
     begin: usize,
     /// Index among the active modules by symbol of the piece.
     active: Vec<u32>,
-    /// Successors by active module; `None` if the module is unchanged or not yet rewritten.
-    successors: Vec<Option<WrittenSuccessor>>,
+    /// Successors by active module.
+    successors: Vec<WrittenSuccessor>,
     symbols: Vec<Symbol>,
     params: Vec<f64>,
     constants: Vec<f64>,
@@ -78,7 +93,7 @@ impl NewChain {
         self.active.clear();
         self.active.resize(piece.len(), NONE);
         self.successors.clear();
-        self.successors.resize(active.len(), None);
+        self.successors.resize(active.len(), WrittenSuccessor::NONE);
         for (index, module) in active.enumerate() {
             self.active[module - piece.start] = narrow(index);
         }
@@ -105,31 +120,34 @@ impl NewChain {
             if !group.read_next(arities, arranged, &mut self.symbols, &mut self.params) {
                 continue;
             }
-            let (end, last_param) = (self.symbols.len(), self.params.len());
-            let successor = WrittenSuccessor { begin, end, first_param, last_param };
-            self.successors[*member as usize] = Some(successor);
+            self.successors[*member as usize] = WrittenSuccessor {
+                begin: narrow(begin),
+                end: narrow(self.symbols.len()),
+                first_param: narrow(first_param),
+                last_param: narrow(self.params.len()),
+            };
         }
         group.members = members;
         group.members.clear();
     }
 
-    /// Adds the successor of active module `index` to the `group` of its rule.
-    pub(crate) fn add_to(&self, group: &mut Successors, index: usize) {
-        group.members.push(narrow(index));
-        match &self.successors[index] {
-            None => group.keep(),
-            Some(successor) => {
-                group.symbols.extend_from_slice(&self.symbols[successor.begin..successor.end]);
-                group.params.extend_from_slice(&self.params[successor.first_param..successor.last_param]);
-                group.end();
-            }
-        }
+    /// Returns true if modules of the piece have been rewritten in rounds, or in calls for modules that depend on one another.
+    pub(crate) fn is_used(&self) -> bool {
+        !self.successors.is_empty()
+    }
+
+    /// Returns the symbols and parameters that have replaced active module `index`; `None` if it is unchanged.
+    #[inline]
+    pub(crate) fn written(&self, index: usize) -> Option<(&[Symbol], &[f64])> {
+        let successor = self.successors[index];
+        (successor.begin != NONE)
+            .then(|| (&self.symbols[successor.symbols()], &self.params[successor.params()]))
     }
 
     /// Removes the successors of the active modules with these indices, which are then as before the step.
     pub(crate) fn forget(&mut self, indices: &[u32]) {
         for index in indices {
-            self.successors[*index as usize] = None;
+            self.successors[*index as usize] = WrittenSuccessor::NONE;
         }
     }
 
@@ -137,7 +155,7 @@ impl NewChain {
     #[inline]
     pub(crate) fn symbols_of<'a>(&'a self, old: u32, chain: &'a Chain) -> &'a [Symbol] {
         match self.successor(old) {
-            Some(successor) => &self.symbols[successor.begin..successor.end],
+            Some(successor) => &self.symbols[successor.symbols()],
             None => std::slice::from_ref(&chain.symbols[old as usize]),
         }
     }
@@ -157,7 +175,7 @@ impl NewChain {
             Some(successor) => {
                 let before = symbols[..place.offset as usize].iter();
                 let skipped: usize = before.map(|symbol| usize::from(arities[usize::from(*symbol)])).sum();
-                &self.params[successor.first_param + skipped..]
+                &self.params[successor.first_param as usize + skipped..]
             }
         };
         (symbol, &params[..usize::from(arities[usize::from(symbol)])])
@@ -166,7 +184,7 @@ impl NewChain {
     #[inline]
     fn successor(&self, old: u32) -> Option<WrittenSuccessor> {
         let active = self.active[old as usize - self.begin];
-        self.successors.get(active as usize).copied().flatten()
+        self.successors.get(active as usize).copied().filter(|successor| successor.begin != NONE)
     }
 }
 
@@ -243,7 +261,7 @@ impl NewMatcher<'_> {
         index: u32,
         mut bindings: Option<&mut NewBindings>,
     ) -> bool {
-        let mut nearest = self.last(self.links.whole.left[index as usize]);
+        let mut nearest = self.last(self.links.whole(self.chain, self.grammar).left[index as usize]);
         for element in contexts {
             let place = match (element, nearest) {
                 (ContextElement::End, _) => return nearest.is_none(),
@@ -276,14 +294,14 @@ impl NewMatcher<'_> {
             if let Some(found) = self.last_before(here, length) {
                 break Some(found);
             }
-            here = self.links.whole.left[here as usize];
+            here = self.links.whole(self.chain, self.grammar).left[here as usize];
         };
         let end = here;
         here = old;
         while here != end {
             let place = here as usize - self.new.begin;
             self.searches().lasts[place] = ChainSearch::Found(found);
-            here = self.links.whole.left[here as usize];
+            here = self.links.whole(self.chain, self.grammar).left[here as usize];
         }
         if end != NONE {
             let place = end as usize - self.new.begin;
@@ -295,7 +313,7 @@ impl NewMatcher<'_> {
     /// Returns the nearest module before `place` on the path to the axiom.
     fn before(&mut self, place: NewPlace) -> Option<NewPlace> {
         let found = self.last_before(place.old, place.offset as usize);
-        found.or_else(|| self.last(self.links.whole.left[place.old as usize]))
+        found.or_else(|| self.last(self.links.whole(self.chain, self.grammar).left[place.old as usize]))
     }
 
     /// Returns the last module on the path among the first `length` symbols that have replaced the symbol at `old`.
@@ -391,7 +409,7 @@ impl NewMatcher<'_> {
     /// Returns the first symbol after the branch that begins at `place`, except for ignored modules.
     fn after_branch(&mut self, place: NewPlace) -> Option<NewPlace> {
         if self.new.successor(place.old).is_none() {
-            return self.first(self.links.whole.right[place.old as usize] + 1);
+            return self.first(self.links.whole(self.chain, self.grammar).right[place.old as usize] + 1);
         }
         let mut depth = 0_usize;
         let symbols = self.symbols(place.old);

@@ -62,7 +62,8 @@ impl Batch<'_> {
         NewMatcher { new, chain, links, grammar, rule }.matches(active.module)
     }
 
-    /// Rewrites the modules of `scratch.delayed`, after all others of `piece` have been rewritten.
+    /// Rewrites the modules of `scratch.delayed`, after all others of `piece` have been rewritten. The successors of all modules are
+    /// then in the new chain.
     pub(crate) fn rewrite_delayed(&self, piece: ChainPiece, scratch: &mut Scratch) -> Result<()> {
         let grammar = &self.plan.grammar;
         let active = scratch.active.iter().map(|active| active.module as usize);
@@ -85,7 +86,7 @@ impl Batch<'_> {
         }
         for (index, active) in scratch.active.iter().enumerate().filter(|(_, active)| active.rule != NO_RULE)
         {
-            self.new_chain.borrow().add_to(&mut scratch.groups[usize::from(active.rule)], index);
+            scratch.groups[usize::from(active.rule)].members.push(narrow(index));
         }
         Ok(())
     }

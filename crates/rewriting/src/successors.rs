@@ -24,6 +24,8 @@ pub(crate) enum Successor {
     Ordered(usize),
     /// Modules up to this one.
     UpTo(usize),
+    /// Modules that are already in the new chain.
+    Written,
 }
 
 impl Successor {
@@ -141,7 +143,7 @@ impl Successors {
         let made = Successor::read(self.ends[self.next]);
         self.next += 1;
         match made {
-            Successor::Keep => return false,
+            Successor::Keep | Successor::Written => return false,
             Successor::Shape(number) => {
                 let shape = &self.shapes[number];
                 symbols.extend_from_slice(&shape.symbols);

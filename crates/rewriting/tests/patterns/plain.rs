@@ -153,12 +153,6 @@ impl Wanted {
 }
 
 impl PlainPattern {
-    /// Turns contexts in the new chain into contexts in the old chain, next to the module.
-    pub(crate) fn see_the_old_chain(&mut self) {
-        self.left.modules.append(&mut self.new_left.modules);
-        self.right.splice(0..0, self.new_right.drain(..));
-    }
-
     /// Returns the pattern as scripts write it, and the number of its formal parameters.
     pub(crate) fn text(&self) -> (String, usize) {
         fn right(contexts: &[PlainContext], formals: &mut usize) -> String {
