@@ -18,6 +18,7 @@ const PARTS: [&str; 16] = [
     include_str!("prelude/constructors.luau"),
     include_str!("prelude/successors.luau"),
     include_str!("prelude/drivers.luau"),
+    include_str!("prelude/dependents.luau"),
     include_str!("prelude/calls.luau"),
     include_str!("prelude/script_types.luau"),
     include_str!("prelude/held_objects.luau"),
@@ -28,7 +29,6 @@ const PARTS: [&str; 16] = [
     include_str!("prelude/distributions.luau"),
     include_str!("prelude/hooks.luau"),
     include_str!("prelude/globals.luau"),
-    include_str!("prelude/dependents.luau"),
     include_str!("prelude/exports.luau"),
 ];
 
