@@ -187,8 +187,10 @@ impl Rules for LuaRules<'_> {
             self.prepare_random(count, made.draws)?;
         }
         current.drawn.set(0);
-        let called = self.machine.call(&driver, (count, neighbours, trials, values, size));
-        let (produced, bytes): (usize, usize) = match called {
+        let only = only_rule(modules);
+        let called =
+            self.machine.call(&driver, (count, neighbours, trials, values, size, only.map_or(-1, i64::from)));
+        let (produced, bytes, is_only): (usize, usize, bool) = match called {
             Ok(produced) => produced,
             Err(error) => {
                 // The modules are rewritten again, so requests of this call do not count.
@@ -206,9 +208,19 @@ impl Rules for LuaRules<'_> {
         read_column(params, bytes / 8, &mut made.params)?;
         // The values of neighbours come first.
         made.params.drain(..size / 8);
-        read_column(counts, 2 * count, &mut made.ends)?;
         chosen.clear();
-        chosen.extend(made.ends.drain(count..));
+        match only.filter(|_| is_only) {
+            Some(rule) => {
+                read_column(counts, count, &mut made.ends)?;
+                // Modules without a rule are marked by a number that no other module has.
+                let rule_of = |end: &u32| if *end == u32::MAX { u32::from(NO_RULE) } else { rule };
+                chosen.extend(made.ends.iter().map(rule_of));
+            }
+            None => {
+                read_column(counts, 2 * count, &mut made.ends)?;
+                chosen.extend(made.ends.drain(count..));
+            }
+        }
         read_column(order, items, &mut made.order)?;
         made.shapes.clone_from(&current.shapes.borrow());
         Ok(())
@@ -222,4 +234,11 @@ impl Rules for LuaRules<'_> {
     fn parameters(&self) -> &dyn ShowParameters {
         &*self.machine.session.values
     }
+}
+
+/// Returns the number of the rule if all modules try only this one.
+fn only_rule(modules: &DependentModules<'_>) -> Option<u32> {
+    let [rule, _] = *modules.trials.first()?;
+    let each = modules.modules.iter().zip(1..).all(|([_, _, end], number)| *end == number);
+    (each && modules.trials.iter().all(|[other, _]| *other == rule)).then_some(rule)
 }

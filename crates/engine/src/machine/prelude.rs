@@ -56,7 +56,7 @@ pub(crate) struct Prelude {
     /// at an offset, if its guard holds.
     pub applier: Function,
     /// `(appliers, symbols, offsets, sizes, is_backward, ignored)`: returns a function that chooses and applies rules, by number,
-    /// to modules that depend on one another. `symbols` has the symbols that match the context of each rule in the new chain,
+    /// to modules that depend on one another, with a special loop if all modules try one rule. `symbols` has the symbols that match the context of each rule in the new chain,
     /// `offsets` and `sizes` the place of its arguments (bytes).
     pub dependents: Function,
     /// `(rules, standards, max_depth)`: removes the interpretation rules of the last system, and sets the rule and the
