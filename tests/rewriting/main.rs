@@ -9,6 +9,7 @@ mod closures;
 mod contexts;
 mod continued;
 mod decomposition;
+mod dependents;
 mod determinism;
 mod distributions;
 mod edits;

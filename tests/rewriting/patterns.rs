@@ -172,6 +172,28 @@ fn compare_systems(count: u64, make: fn(&mut systems::Dice) -> RandomSystem) -> 
 }
 
 #[test]
+fn random_systems_of_dependent_modules_derive_the_same_chains_in_lua_and_plainly() {
+    let mut changed = 0;
+    for seed in 0..1_000 {
+        let system = RandomSystem::of_dependents(&mut systems::Dice::new(seed));
+        let axiom = plain::axiom(system.axiom.clone(), 0);
+        let (mut expected, mut steps) = (axiom.clone(), 0);
+        while steps < 3 && plain::modules(&expected) < 200 {
+            let cut = plain::cut_branches(&expected, "Cut");
+            expected = plain::step(&cut, &system.rules, &system.settings);
+            steps += 1;
+        }
+        let (threads, batch) = (1 + seed as usize % 2, [1, 2, 7, 4096][seed as usize / 2 % 4]);
+        let text_of = script(&system, steps, false);
+        let run =
+            try_run(&text_of, divided(threads, batch)).unwrap_or_else(|error| panic!("{error}\n{text_of}"));
+        assert_eq!(all_chains(&run).trim_end(), text(&expected), "seed {seed}: {text_of}");
+        changed += usize::from(expected != axiom);
+    }
+    assert!(changed > 600, "{changed}");
+}
+
+#[test]
 fn random_systems_of_events_derive_the_same_chains_in_lua_and_plainly() {
     let (mut changed, mut ended) = (0, 0);
     for seed in 0..200 {

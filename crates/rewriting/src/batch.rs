@@ -10,6 +10,7 @@ use crate::new_chain::NewChain;
 use crate::ordinals::Ordinals;
 use crate::output::Output;
 use crate::plan::StepPlan;
+use crate::rewrite_dependents::DependentBatch;
 use crate::rules::{Applications, RuleFailure, Rules};
 use crate::step_number::StepNumber;
 use crate::successors::{ModuleOrder, Successors};
@@ -36,13 +37,14 @@ pub struct Scratch {
     pub(crate) groups: Vec<Successors>,
     pub(crate) arguments: Vec<f64>,
     pub(crate) bindings: Bindings,
-    chains: Vec<u32>,
-    keys: Vec<ModuleKey>,
-    places: Vec<u32>,
+    pub(crate) chains: Vec<u32>,
+    pub(crate) keys: Vec<ModuleKey>,
+    pub(crate) places: Vec<u32>,
     pub(crate) arranged: ModuleOrder,
     pub(crate) ordinals: Ordinals,
     /// Indices of the active modules whose rules need the new chain.
     pub(crate) delayed: Vec<u32>,
+    pub(crate) dependents: DependentBatch,
 }
 
 /// Module that has rules.
@@ -100,20 +102,7 @@ impl Batch<'_> {
         let grammar = &self.plan.grammar;
         let declared = &grammar.rules()[usize::from(rule)];
         let arity = declared.arguments();
-        scratch.chains.clear();
-        if self.plan.chains > 1 {
-            scratch.chains.extend(members.iter().map(|index| scratch.active[*index as usize].chain));
-        }
-        scratch.keys.clear();
-        if grammar.draws_random() {
-            let key = |index: &u32| self.chain.keys[scratch.active[*index as usize].module as usize];
-            scratch.keys.extend(members.iter().map(key));
-        }
-        scratch.places.clear();
-        if self.plan.notes_places {
-            let place = |index: &u32| scratch.active[*index as usize].module.wrapping_add(self.first);
-            scratch.places.extend(members.iter().map(place));
-        }
+        self.gather_origins(members, scratch);
         scratch.arguments.clear();
         if arity > 0 {
             self.gather_arguments(rule, members, scratch);
@@ -128,6 +117,25 @@ impl Batch<'_> {
             weighted: declared.weight.is_some(),
             step: self.step,
             times: self.times,
+        }
+    }
+
+    /// Gathers the chains, random keys and places of the modules `members`.
+    pub(crate) fn gather_origins(&self, members: &[u32], scratch: &mut Scratch) {
+        let grammar = &self.plan.grammar;
+        scratch.chains.clear();
+        if self.plan.chains > 1 {
+            scratch.chains.extend(members.iter().map(|index| scratch.active[*index as usize].chain));
+        }
+        scratch.keys.clear();
+        if grammar.draws_random() {
+            let key = |index: &u32| self.chain.keys[scratch.active[*index as usize].module as usize];
+            scratch.keys.extend(members.iter().map(key));
+        }
+        scratch.places.clear();
+        if self.plan.notes_places {
+            let place = |index: &u32| scratch.active[*index as usize].module.wrapping_add(self.first);
+            scratch.places.extend(members.iter().map(place));
         }
     }
 

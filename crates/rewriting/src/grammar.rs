@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::chain::Symbol;
 use super::choice::Choice;
 use super::context::{CompiledPatterns, ContextElement};
+use super::dependent_rules::DependentRules;
 use super::ignored::IgnoredSet;
 use super::pattern::{Item, Pattern};
 use super::regions::{Region, RegionOpeners};
@@ -177,6 +178,7 @@ pub struct Grammar {
     right: usize,
     /// Contexts in the chain that a step writes.
     new_contexts: NewContexts,
+    dependents: Option<DependentRules>,
     runs: bool,
     events: bool,
     random: bool,
@@ -233,6 +235,7 @@ impl Grammar {
             left: 0,
             right: 0,
             new_contexts: NewContexts::None,
+            dependents: None,
             runs: false,
             events: false,
             random,
@@ -300,6 +303,7 @@ impl Grammar {
         self.choices = by_symbol.iter().map(among).collect();
         self.by_symbol = by_symbol;
         self.ruled = ruled;
+        self.dependents = DependentRules::among(&self);
         self
     }
 
@@ -445,6 +449,12 @@ impl Grammar {
     #[inline]
     pub fn new_contexts(&self) -> NewContexts {
         self.new_contexts
+    }
+
+    /// Returns the rules with contexts in the new chain, if one call can apply them to modules that depend on one another.
+    #[inline]
+    pub fn dependent_rules(&self) -> Option<&DependentRules> {
+        self.dependents.as_ref()
     }
 
     /// Returns true if each step rewrites one module of each chain, drawn by the propensities of the rules.

@@ -24,7 +24,7 @@ pub struct Links {
     /// Neighbours for each set of ignored symbols of the grammar.
     trees: Vec<TreeLinks>,
     /// Neighbours without ignored symbols and rings, if rules have contexts in the new chain.
-    pub(crate) whole: TreeLinks,
+    whole: OnceLock<TreeLinks>,
     stack: Vec<u32>,
 }
 
@@ -82,9 +82,12 @@ impl Links {
                 tree.join_ends(chain, ignored);
             }
         }
-        if grammar.new_contexts() != NewContexts::None {
-            let none = IgnoredSet::none(grammar.arities().len());
-            self.whole.build(chain, grammar, &none, &mut self.stack);
+        let whole = self.whole.take();
+        // If one call rewrites modules that depend on one another, these links are rarely needed.
+        if grammar.new_contexts() != NewContexts::None && grammar.dependent_rules().is_none() {
+            let mut whole = whole.unwrap_or_default();
+            whole.build_whole(chain, grammar, &mut self.stack);
+            self.whole = OnceLock::from(whole);
         }
     }
 
@@ -107,6 +110,16 @@ impl Links {
     #[inline]
     pub(crate) fn region(&self, index: usize) -> Region {
         self.regions.get(index).copied().unwrap_or(0)
+    }
+
+    /// Returns the neighbours in `chain` without ignored symbols and rings.
+    #[inline]
+    pub(crate) fn whole(&self, chain: &Chain, grammar: &Grammar) -> &TreeLinks {
+        self.whole.get_or_init(|| {
+            let mut whole = TreeLinks::default();
+            whole.build_whole(chain, grammar, &mut Vec::new());
+            whole
+        })
     }
 
     /// Returns the neighbours for the set of ignored symbols with this number.
@@ -146,6 +159,11 @@ impl TreeLinks {
                 self.known.resize_with(named, OnceLock::new);
             }
         }
+    }
+
+    /// Finds the neighbours in `chain` without ignored symbols.
+    fn build_whole(&mut self, chain: &Chain, grammar: &Grammar, stack: &mut Vec<u32>) {
+        self.build(chain, grammar, &IgnoredSet::none(grammar.arities().len()), stack);
     }
 
     /// Returns the search results of the named branch with this number. Memory is allocated at the first call.

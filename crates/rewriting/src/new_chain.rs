@@ -9,28 +9,43 @@ use crate::context::{CompiledPatterns, ContextElement};
 use crate::grammar::{Grammar, NewContexts};
 use crate::ignored::IgnoredSet;
 use crate::links::{Links, NONE, narrow};
-use crate::successors::{ModuleOrder, Successor, Successors};
+use crate::successors::{ModuleOrder, Successors};
 use crate::text::ShowParameters;
 
 /// Symbol of the new chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct NewPlace {
     /// Index of the symbol of the old chain that was rewritten.
-    old: u32,
+    pub old: u32,
     /// Number of symbols of its successor before this one.
-    offset: u32,
+    pub offset: u32,
 }
 
 /// Context modules in the new chain that a pattern matched, in the order in which the pattern names them.
 pub(crate) type NewBindings = SmallVec<[NewPlace; 8]>;
 
-/// Successor that has been written.
+/// Successor that has been written: its symbols and its parameters in the columns of the chain.
 #[derive(Debug, Clone, Copy)]
 struct WrittenSuccessor {
-    begin: usize,
-    end: usize,
-    first_param: usize,
-    last_param: usize,
+    begin: u32,
+    end: u32,
+    first_param: u32,
+    last_param: u32,
+}
+
+impl WrittenSuccessor {
+    /// Module that is unchanged or not yet rewritten.
+    const NONE: Self = Self { begin: NONE, end: NONE, first_param: 0, last_param: 0 };
+
+    #[inline]
+    fn symbols(self) -> Range<usize> {
+        self.begin as usize..self.end as usize
+    }
+
+    #[inline]
+    fn params(self) -> Range<usize> {
+        self.first_param as usize..self.last_param as usize
+    }
 }
 
 /// Result of a search that begins at each symbol of the old chain.
@@ -56,8 +71,8 @@ pub(crate) struct NewChain {
     begin: usize,
     /// Index among the active modules by symbol of the piece.
     active: Vec<u32>,
-    /// Successors by active module; `None` if the module is unchanged or not yet rewritten.
-    successors: Vec<Option<WrittenSuccessor>>,
+    /// Successors by active module.
+    successors: Vec<WrittenSuccessor>,
     symbols: Vec<Symbol>,
     params: Vec<f64>,
     constants: Vec<f64>,
@@ -78,7 +93,7 @@ impl NewChain {
         self.active.clear();
         self.active.resize(piece.len(), NONE);
         self.successors.clear();
-        self.successors.resize(active.len(), None);
+        self.successors.resize(active.len(), WrittenSuccessor::NONE);
         for (index, module) in active.enumerate() {
             self.active[module - piece.start] = narrow(index);
         }
@@ -101,55 +116,75 @@ impl NewChain {
         group.rewind();
         let members = std::mem::take(&mut group.members);
         for member in &members {
-            let made = Successor::read(group.ends[group.next]);
-            group.next += 1;
             let (begin, first_param) = (self.symbols.len(), self.params.len());
-            match made {
-                Successor::Keep => continue,
-                Successor::Shape(number) => {
-                    let shape = &group.shapes[number];
-                    self.symbols.extend_from_slice(&shape.symbols);
-                    self.params.extend_from_slice(&group.params[group.param_at..][..shape.params]);
-                    group.param_at += shape.params;
-                }
-                Successor::Ordered(end) => {
-                    group.arrange(end, arities, arranged, &mut self.params);
-                    self.symbols.extend_from_slice(&arranged.symbols);
-                }
-                Successor::UpTo(end) => {
-                    let symbols = &group.symbols[group.symbol_at..end];
-                    let arity = |symbol: &Symbol| usize::from(arities[usize::from(*symbol)]);
-                    let params: usize = symbols.iter().map(arity).sum();
-                    self.symbols.extend_from_slice(symbols);
-                    self.params.extend_from_slice(&group.params[group.param_at..][..params]);
-                    group.symbol_at = end;
-                    group.param_at += params;
-                }
+            if !group.read_next(arities, arranged, &mut self.symbols, &mut self.params) {
+                continue;
             }
-            let (end, last_param) = (self.symbols.len(), self.params.len());
-            let successor = WrittenSuccessor { begin, end, first_param, last_param };
-            self.successors[*member as usize] = Some(successor);
+            self.successors[*member as usize] = WrittenSuccessor {
+                begin: narrow(begin),
+                end: narrow(self.symbols.len()),
+                first_param: narrow(first_param),
+                last_param: narrow(self.params.len()),
+            };
         }
         group.members = members;
         group.members.clear();
     }
 
-    /// Adds the successor of active module `index` to the `group` of its rule.
-    pub(crate) fn add_to(&self, group: &mut Successors, index: usize) {
-        group.members.push(narrow(index));
-        match &self.successors[index] {
-            None => group.keep(),
-            Some(successor) => {
-                group.symbols.extend_from_slice(&self.symbols[successor.begin..successor.end]);
-                group.params.extend_from_slice(&self.params[successor.first_param..successor.last_param]);
-                group.end();
-            }
+    /// Returns true if modules of the piece have been rewritten in rounds, or in calls for modules that depend on one another.
+    pub(crate) fn is_used(&self) -> bool {
+        !self.successors.is_empty()
+    }
+
+    /// Returns the symbols and parameters that have replaced active module `index`; `None` if it is unchanged.
+    #[inline]
+    pub(crate) fn written(&self, index: usize) -> Option<(&[Symbol], &[f64])> {
+        let successor = self.successors[index];
+        (successor.begin != NONE)
+            .then(|| (&self.symbols[successor.symbols()], &self.params[successor.params()]))
+    }
+
+    /// Removes the successors of the active modules with these indices, which are then as before the step.
+    pub(crate) fn forget(&mut self, indices: &[u32]) {
+        for index in indices {
+            self.successors[*index as usize] = WrittenSuccessor::NONE;
         }
     }
 
+    /// Returns the symbols that have replaced the symbol at `old` of `chain`.
+    #[inline]
+    pub(crate) fn symbols_of<'a>(&'a self, old: u32, chain: &'a Chain) -> &'a [Symbol] {
+        match self.successor(old) {
+            Some(successor) => &self.symbols[successor.symbols()],
+            None => std::slice::from_ref(&chain.symbols[old as usize]),
+        }
+    }
+
+    /// Returns the symbol of the module at `place` and its parameters. `chain` is the old chain.
+    pub(crate) fn module<'a>(
+        &'a self,
+        place: NewPlace,
+        chain: &'a Chain,
+        links: &Links,
+        arities: &[u8],
+    ) -> (Symbol, &'a [f64]) {
+        let symbols = self.symbols_of(place.old, chain);
+        let symbol = symbols[place.offset as usize];
+        let params = match self.successor(place.old) {
+            None => &chain.params[links.param[place.old as usize] as usize..],
+            Some(successor) => {
+                let before = symbols[..place.offset as usize].iter();
+                let skipped: usize = before.map(|symbol| usize::from(arities[usize::from(*symbol)])).sum();
+                &self.params[successor.first_param as usize + skipped..]
+            }
+        };
+        (symbol, &params[..usize::from(arities[usize::from(symbol)])])
+    }
+
+    #[inline]
     fn successor(&self, old: u32) -> Option<WrittenSuccessor> {
         let active = self.active[old as usize - self.begin];
-        self.successors.get(active as usize).copied().flatten()
+        self.successors.get(active as usize).copied().filter(|successor| successor.begin != NONE)
     }
 }
 
@@ -188,15 +223,9 @@ impl NewMatcher<'_> {
         }
     }
 
-    /// Returns the parameters from those of the module at `place` on.
+    /// Returns the parameters of the module at `place`.
     pub(crate) fn params(&self, place: NewPlace) -> &[f64] {
-        let Some(successor) = self.new.successor(place.old) else {
-            return &self.chain.params[self.links.param[place.old as usize] as usize..];
-        };
-        let before = &self.new.symbols[successor.begin..][..place.offset as usize];
-        let arity = |symbol: &Symbol| usize::from(self.grammar.arities()[usize::from(*symbol)]);
-        let skipped: usize = before.iter().map(arity).sum();
-        &self.new.params[successor.first_param + skipped..successor.last_param]
+        self.new.module(place, self.chain, self.links, self.grammar.arities()).1
     }
 
     fn ignored(&self) -> &IgnoredSet {
@@ -205,10 +234,7 @@ impl NewMatcher<'_> {
 
     /// Returns the symbols that have replaced the symbol at `old`.
     fn symbols(&self, old: u32) -> &[Symbol] {
-        match self.new.successor(old) {
-            Some(successor) => &self.new.symbols[successor.begin..successor.end],
-            None => std::slice::from_ref(&self.chain.symbols[old as usize]),
-        }
+        self.new.symbols_of(old, self.chain)
     }
 
     fn symbol(&self, place: NewPlace) -> Symbol {
@@ -235,7 +261,7 @@ impl NewMatcher<'_> {
         index: u32,
         mut bindings: Option<&mut NewBindings>,
     ) -> bool {
-        let mut nearest = self.last(self.links.whole.left[index as usize]);
+        let mut nearest = self.last(self.links.whole(self.chain, self.grammar).left[index as usize]);
         for element in contexts {
             let place = match (element, nearest) {
                 (ContextElement::End, _) => return nearest.is_none(),
@@ -268,14 +294,14 @@ impl NewMatcher<'_> {
             if let Some(found) = self.last_before(here, length) {
                 break Some(found);
             }
-            here = self.links.whole.left[here as usize];
+            here = self.links.whole(self.chain, self.grammar).left[here as usize];
         };
         let end = here;
         here = old;
         while here != end {
             let place = here as usize - self.new.begin;
             self.searches().lasts[place] = ChainSearch::Found(found);
-            here = self.links.whole.left[here as usize];
+            here = self.links.whole(self.chain, self.grammar).left[here as usize];
         }
         if end != NONE {
             let place = end as usize - self.new.begin;
@@ -287,7 +313,7 @@ impl NewMatcher<'_> {
     /// Returns the nearest module before `place` on the path to the axiom.
     fn before(&mut self, place: NewPlace) -> Option<NewPlace> {
         let found = self.last_before(place.old, place.offset as usize);
-        found.or_else(|| self.last(self.links.whole.left[place.old as usize]))
+        found.or_else(|| self.last(self.links.whole(self.chain, self.grammar).left[place.old as usize]))
     }
 
     /// Returns the last module on the path among the first `length` symbols that have replaced the symbol at `old`.
@@ -383,7 +409,7 @@ impl NewMatcher<'_> {
     /// Returns the first symbol after the branch that begins at `place`, except for ignored modules.
     fn after_branch(&mut self, place: NewPlace) -> Option<NewPlace> {
         if self.new.successor(place.old).is_none() {
-            return self.first(self.links.whole.right[place.old as usize] + 1);
+            return self.first(self.links.whole(self.chain, self.grammar).right[place.old as usize] + 1);
         }
         let mut depth = 0_usize;
         let symbols = self.symbols(place.old);

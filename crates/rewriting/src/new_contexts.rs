@@ -4,6 +4,9 @@
 //! module when all others that can be part of its contexts are final. For left contexts these are the modules on the path to the
 //! axiom, for right contexts those that follow in its branch. The modules of a round do not depend on one another, so each
 //! round calls the functions of a rule once.
+//!
+//! If the contexts are single modules, one call rewrites many modules that depend on one another instead. If a function fails
+//! there, the modules are rewritten in rounds, which determine the error.
 
 use crate::batch::{Active, Batch, ChainPiece, NO_RULE, Scratch, narrow};
 use crate::chain::{CLOSE, Chain, END, Mark, OPEN};
@@ -59,13 +62,38 @@ impl Batch<'_> {
         NewMatcher { new, chain, links, grammar, rule }.matches(active.module)
     }
 
-    /// Rewrites the modules of `scratch.delayed`, after all others of `piece` have been rewritten.
+    /// Rewrites the modules of `scratch.delayed`, after all others of `piece` have been rewritten. The successors of all modules are
+    /// then in the new chain.
     pub(crate) fn rewrite_delayed(&self, piece: ChainPiece, scratch: &mut Scratch) -> Result<()> {
         let grammar = &self.plan.grammar;
         let active = scratch.active.iter().map(|active| active.module as usize);
         self.new_chain.borrow_mut().start(piece.begin.module..piece.end, active, self.links);
         let mut times = vec![Duration::ZERO; scratch.groups.len()];
         self.take_written(scratch, &mut times);
+        let is_done = match grammar.dependent_rules() {
+            Some(rules) if self.rules.accepts_dependents() => {
+                self.rewrite_dependents(rules, piece, scratch, &mut times)?
+            }
+            _ => false,
+        };
+        if !is_done {
+            self.rewrite_rounds(piece, scratch, &mut times)?;
+        }
+        for (group, time) in scratch.groups.iter_mut().zip(times) {
+            group.clear();
+            group.members.clear();
+            group.time = time;
+        }
+        for (index, active) in scratch.active.iter().enumerate().filter(|(_, active)| active.rule != NO_RULE)
+        {
+            scratch.groups[usize::from(active.rule)].members.push(narrow(index));
+        }
+        Ok(())
+    }
+
+    /// Rewrites the modules of `scratch.delayed` in rounds, and adds the time of each rule to `times`.
+    fn rewrite_rounds(&self, piece: ChainPiece, scratch: &mut Scratch, times: &mut [Duration]) -> Result<()> {
+        let grammar = &self.plan.grammar;
         let mut delayed = std::mem::take(&mut scratch.delayed);
         let rounds = self.rounds(piece, scratch, &delayed);
         delayed.sort_by_key(|index| rounds[*index as usize]);
@@ -89,18 +117,9 @@ impl Batch<'_> {
                 }
             }
             self.apply(scratch)?;
-            self.take_written(scratch, &mut times);
+            self.take_written(scratch, times);
         }
         scratch.delayed = delayed;
-        for (group, time) in scratch.groups.iter_mut().zip(times) {
-            group.clear();
-            group.members.clear();
-            group.time = time;
-        }
-        for (index, active) in scratch.active.iter().enumerate().filter(|(_, active)| active.rule != NO_RULE)
-        {
-            self.new_chain.borrow().add_to(&mut scratch.groups[usize::from(active.rule)], index);
-        }
         Ok(())
     }
 

@@ -1,5 +1,6 @@
 //! Functions of rules, which are called for batches of modules.
 
+use crate::dependents::{DependentModules, apply_one_by_one};
 use crate::step_number::StepNumber;
 use crate::successors::Successors;
 use crate::text::{PlainNumbers, ShowParameters};
@@ -68,6 +69,27 @@ pub trait Rules {
     ) -> Result<(), RuleFailure> {
         let _ = (applications, propensities);
         Err(Error::argument("these rules compute no propensities").help("use constant propensities").into())
+    }
+
+    /// Chooses and applies the rules of modules of which each can depend on those before it. For each module, adds its successor
+    /// to `successors`, and to `chosen` the number of the rule or [`NO_RULE`](crate::NO_RULE), with an application that keeps
+    /// its module.
+    ///
+    /// After a failure, the last number of `chosen` is that of the rule whose function has failed. Only called if
+    /// [`accepts_dependents`](Self::accepts_dependents) returns true. The default calls each function for one module at a time.
+    fn apply_dependents(
+        &self,
+        modules: &DependentModules<'_>,
+        successors: &mut Successors,
+        chosen: &mut Vec<u32>,
+    ) -> Result<(), RuleFailure> {
+        apply_one_by_one(self, modules, successors, chosen)
+    }
+
+    /// Returns true if the functions can be called in another order than by rules: they have no visible effects. The default
+    /// returns true.
+    fn accepts_dependents(&self) -> bool {
+        true
     }
 
     /// Returns the formatter of module parameters in errors.

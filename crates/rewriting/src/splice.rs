@@ -1,6 +1,6 @@
 //! Splicing of the successors of a piece's modules into the next chain.
 
-use crate::batch::{Batch, ChainPiece, NO_RULE, Scratch, narrow, narrow_rule};
+use crate::batch::{Active, Batch, ChainPiece, NO_RULE, Scratch, narrow, narrow_rule};
 use crate::chain::{Chain, END, Symbol};
 use crate::output::Output;
 use crate::successors::Successor;
@@ -10,14 +10,16 @@ use burgeon_base::ModuleKey;
 impl Batch<'_> {
     /// Returns the part of the next chain that replaces `piece`.
     pub(crate) fn splice(&self, piece: ChainPiece, scratch: &mut Scratch, output: Output) -> Output {
-        match self.plan.grammar.has_runs() {
-            true => self.splice_runs::<true>(piece, scratch, output),
-            false => self.splice_runs::<false>(piece, scratch, output),
+        match (self.plan.grammar.has_runs(), self.new_chain.borrow().is_used()) {
+            (true, _) => self.splice_pieces::<true, false>(piece, scratch, output),
+            (false, false) => self.splice_pieces::<false, false>(piece, scratch, output),
+            (false, true) => self.splice_pieces::<false, true>(piece, scratch, output),
         }
     }
 
-    /// Splices the successors of single modules, and of several modules at once if `RUNS` is set.
-    fn splice_runs<const RUNS: bool>(
+    /// Splices the successors of single modules, and of several modules at once if `RUNS` is set. If `NEW` is set, the successors
+    /// are in the new chain.
+    fn splice_pieces<const RUNS: bool, const NEW: bool>(
         &self,
         piece: ChainPiece,
         scratch: &mut Scratch,
@@ -36,12 +38,18 @@ impl Batch<'_> {
                 out.keys.extend_from_slice(&self.chain.keys[modules]);
             }
         };
-        for active in &scratch.active {
+        let new = self.new_chain.borrow();
+        for (index, active) in scratch.active.iter().enumerate() {
             if active.rule == NO_RULE {
                 continue;
             }
             let group = &mut scratch.groups[usize::from(active.rule)];
-            let made = Successor::read(group.ends[group.next]);
+            let written = if NEW { new.written(index) } else { None };
+            let made = match NEW {
+                true if written.is_some() => Successor::Written,
+                true => Successor::Keep,
+                false => Successor::read(group.ends[group.next]),
+            };
             group.next += 1;
             if matches!(made, Successor::Keep) {
                 if random {
@@ -62,23 +70,27 @@ impl Batch<'_> {
             keep(out, module..here, param..active.param as usize);
             let (symbols, params) = match made {
                 Successor::Keep => continue,
+                Successor::Written => written.unwrap_or_default(),
                 Successor::Shape(number) => {
-                    (group.shapes[number].symbols.as_slice(), group.shapes[number].params)
+                    let shape = &group.shapes[number];
+                    (shape.symbols.as_slice(), &group.params[group.param_at..group.param_at + shape.params])
                 }
                 Successor::Ordered(end) => {
                     group.arrange(end, grammar.arities(), &mut scratch.arranged, &mut out.params);
-                    (scratch.arranged.symbols.as_slice(), 0)
+                    (scratch.arranged.symbols.as_slice(), &[][..])
                 }
                 Successor::UpTo(end) => {
                     let symbols = &group.symbols[group.symbol_at..end];
                     group.symbol_at = end;
                     let arity = |symbol: &Symbol| usize::from(grammar.arities()[usize::from(*symbol)]);
-                    (symbols, symbols.iter().map(arity).sum())
+                    let params: usize = symbols.iter().map(arity).sum();
+                    (symbols, &group.params[group.param_at..group.param_at + params])
                 }
             };
             group.made += symbols.len();
             out.symbols.extend_from_slice(symbols);
-            out.params.extend_from_slice(&group.params[group.param_at..group.param_at + params]);
+            out.params.extend_from_slice(params);
+            group.param_at += params.len();
             if random {
                 let (parent, names) = (self.chain.keys[here], grammar.name_hashes());
                 scratch.ordinals.clear();
@@ -87,7 +99,6 @@ impl Batch<'_> {
                     false => ModuleKey::default(),
                 }));
             }
-            group.param_at += params;
             let length = if RUNS { grammar.rules()[usize::from(active.rule)].run_length() } else { 1 };
             module = here + length;
             param = active.param as usize
@@ -117,13 +128,21 @@ impl Batch<'_> {
     pub(crate) fn applied_rules(&self, piece: ChainPiece, scratch: &Scratch) -> Vec<(u16, u32)> {
         let mut applied = vec![(NO_RULE, 1); piece.end - piece.begin.module];
         let mut read = vec![(0, 0, 0); scratch.groups.len()];
-        for active in scratch.active.iter().filter(|active| active.rule != NO_RULE) {
+        let new = self.new_chain.borrow();
+        let is_ruled = |(_, active): &(usize, &Active)| active.rule != NO_RULE;
+        for (index, active) in scratch.active.iter().enumerate().filter(is_ruled) {
             let (next, from, item) = &mut read[usize::from(active.rule)];
             let group = &scratch.groups[usize::from(active.rule)];
-            let made = Successor::read(group.ends[*next]);
+            let written = if new.is_used() { new.written(index) } else { None };
+            let made = match new.is_used() {
+                true if written.is_some() => Successor::Written,
+                true => Successor::Keep,
+                false => Successor::read(group.ends[*next]),
+            };
             *next += 1;
             let count = match made {
                 Successor::Keep => 1,
+                Successor::Written => written.map_or(0, |(symbols, _)| symbols.len()),
                 Successor::Shape(number) => group.shapes[number].symbols.len(),
                 Successor::Ordered(end) => {
                     *from = end;

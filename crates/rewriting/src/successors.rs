@@ -24,6 +24,8 @@ pub(crate) enum Successor {
     Ordered(usize),
     /// Modules up to this one.
     UpTo(usize),
+    /// Modules that are already in the new chain.
+    Written,
 }
 
 impl Successor {
@@ -127,6 +129,42 @@ impl Successors {
     /// Restarts reading at the first application.
     pub(crate) fn rewind(&mut self) {
         (self.next, self.symbol_at, self.param_at, self.order_at, self.made) = (0, 0, 0, 0, 0);
+    }
+
+    /// Reads the successor of the next application: appends its symbols to `symbols` and its parameters to `params`. Returns
+    /// false if the application keeps its module.
+    pub(crate) fn read_next(
+        &mut self,
+        arities: &[u8],
+        arranged: &mut ModuleOrder,
+        symbols: &mut Vec<Symbol>,
+        params: &mut Vec<f64>,
+    ) -> bool {
+        let made = Successor::read(self.ends[self.next]);
+        self.next += 1;
+        match made {
+            Successor::Keep | Successor::Written => return false,
+            Successor::Shape(number) => {
+                let shape = &self.shapes[number];
+                symbols.extend_from_slice(&shape.symbols);
+                params.extend_from_slice(&self.params[self.param_at..][..shape.params]);
+                self.param_at += shape.params;
+            }
+            Successor::Ordered(end) => {
+                self.arrange(end, arities, arranged, params);
+                symbols.extend_from_slice(&arranged.symbols);
+            }
+            Successor::UpTo(end) => {
+                let made = &self.symbols[self.symbol_at..end];
+                let arity = |symbol: &Symbol| usize::from(arities[usize::from(*symbol)]);
+                let count: usize = made.iter().map(arity).sum();
+                symbols.extend_from_slice(made);
+                params.extend_from_slice(&self.params[self.param_at..][..count]);
+                self.symbol_at = end;
+                self.param_at += count;
+            }
+        }
+        true
     }
 
     /// Reads the reordered successor of the application whose modules end at `end`: writes its symbols to `to`, and

@@ -48,5 +48,5 @@ pub(crate) use system::{
 pub(crate) use types::{Objects, ReadChain};
 pub(crate) use variables::table_of;
 pub use virtual_machine::Machine;
-pub(crate) use virtual_machine::{compile, read_column, write_column};
+pub(crate) use virtual_machine::{compile, read_column, write_column, write_columns};
 pub use watchdog::Watchdog;

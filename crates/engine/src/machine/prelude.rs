@@ -10,14 +10,15 @@ use mlua::{Buffer, Function, Lua, Table};
 use super::native::as_bytecode;
 use crate::machine::system::UNREAD;
 use crate::machine::types::{POINTS, READ_MODULE};
-use burgeon_rewriting::Successors;
+use burgeon_rewriting::{CLOSE, DependentModules, END, NO_RULE, OPEN, Successors};
 
 /// Parts of the prelude: one chunk of Luau, in which each part uses the locals of the parts before it.
-const PARTS: [&str; 15] = [
+const PARTS: [&str; 16] = [
     include_str!("prelude/batch.luau"),
     include_str!("prelude/constructors.luau"),
     include_str!("prelude/successors.luau"),
     include_str!("prelude/drivers.luau"),
+    include_str!("prelude/dependents.luau"),
     include_str!("prelude/calls.luau"),
     include_str!("prelude/script_types.luau"),
     include_str!("prelude/held_objects.luau"),
@@ -51,6 +52,13 @@ pub(crate) struct Prelude {
     pub guard_driver: Function,
     /// `(propensity, arity, places)`: returns the function that evaluates the propensity of a rule for a batch.
     pub propensity_driver: Function,
+    /// `(rule, guard, arity, places)`: returns a function for [`dependents`](Self::dependents) that applies the rule to arguments
+    /// at an offset, if its guard holds.
+    pub applier: Function,
+    /// `(appliers, symbols, offsets, sizes, is_backward, ignored)`: returns a function that chooses and applies rules, by number,
+    /// to modules that depend on one another, with a special loop if all modules try one rule. `symbols` has the symbols that match the context of each rule in the new chain,
+    /// `offsets` and `sizes` the place of its arguments (bytes).
+    pub dependents: Function,
     /// `(rules, standards, max_depth)`: removes the interpretation rules of the last system, and sets the rule of each
     /// symbol of each region, the method of the standard library of each symbol, and the maximum depth of interpretations that
     /// return modules. With regions, `rules.bases` has the index of the first symbol of each rule's region.
@@ -107,6 +115,7 @@ pub(crate) struct Prelude {
     read_module: Function,
     input: GrowingColumn,
     counts: GrowingColumn,
+    links: GrowingColumn,
     randoms: Function,
     entries: GrowingColumn,
     outputs: Function,
@@ -155,6 +164,8 @@ impl Prelude {
             driver: table.get("driver")?,
             guard_driver: table.get("guard_driver")?,
             propensity_driver: table.get("propensity_driver")?,
+            applier: table.get("applier")?,
+            dependents: table.get("dependents")?,
             interpretations: table.get("interpretations")?,
             interpreter: table.get("interpreter")?,
             candidates: table.get("candidates")?,
@@ -182,6 +193,7 @@ impl Prelude {
             read_module: table.get("read_module")?,
             input: GrowingColumn::new(table.get("input")?),
             counts: GrowingColumn::new(table.get("counts")?),
+            links: GrowingColumn::new(table.get("links")?),
             randoms: table.get("randoms")?,
             entries: GrowingColumn::new(table.get("entries")?),
             outputs: table.get("outputs")?,
@@ -204,6 +216,11 @@ impl Prelude {
     /// Returns the column of counts, at least `size` bytes long.
     pub(crate) fn counts(&self, size: usize) -> mlua::Result<Buffer> {
         self.counts.of_size(size)
+    }
+
+    /// Returns the column of modules that depend on one another, with their neighbours and rules, at least `size` bytes long.
+    pub(crate) fn links(&self, size: usize) -> mlua::Result<Buffer> {
+        self.links.of_size(size)
     }
 
     /// Returns the column of random numbers, `each` per application.
@@ -232,6 +249,12 @@ impl Prelude {
 fn with_words(template: &str) -> String {
     [
         ("@KEEP", Successors::KEEP),
+        ("@SHAPE", Successors::SHAPE),
+        ("@NO_RULE", u32::from(NO_RULE)),
+        ("@SKIPPED", DependentModules::SKIPPED),
+        ("@OPEN_SYMBOL", u32::from(OPEN)),
+        ("@CLOSE_SYMBOL", u32::from(CLOSE)),
+        ("@END_SYMBOL", u32::from(END)),
         ("@ORDERED", Successors::ORDERED),
         ("@OPEN_ITEM", Successors::OPEN_ITEM),
         ("@CLOSE_ITEM", Successors::CLOSE_ITEM),

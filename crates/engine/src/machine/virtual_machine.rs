@@ -419,10 +419,13 @@ fn places(traceback: &str) -> impl Iterator<Item = SourcePlace> {
 
 /// Copies a column to the start of a buffer, which must be long enough.
 pub(crate) fn write_column<T: bytemuck::Pod>(buffer: Buffer, column: &[T]) -> Result<()> {
-    buffer
-        .cursor()
-        .write_all(bytemuck::cast_slice(column))
-        .map_err(|error| Error::internal(error.to_string()))
+    write_columns(buffer, &[bytemuck::cast_slice(column)]).map_err(|error| Error::internal(error.to_string()))
+}
+
+/// Copies the bytes of columns, one after the other, to the start of a buffer, which must be long enough.
+pub(crate) fn write_columns(buffer: Buffer, columns: &[&[u8]]) -> mlua::Result<()> {
+    let mut cursor = buffer.cursor();
+    columns.iter().try_for_each(|column| cursor.write_all(column)).map_err(mlua::Error::external)
 }
 
 /// Replaces `column` by the first `count` items of a buffer.

@@ -240,6 +240,11 @@ impl Prepared {
         })
     }
 
+    /// Returns true if one call can rewrite modules that depend on one another.
+    pub(crate) fn rewrites_dependents(&self) -> bool {
+        self.plan(self.rules.clone(), 1, false).grammar.dependent_rules().is_some()
+    }
+
     /// Returns the parts of a chain.
     pub(crate) fn read(&self, chain: &Chain) -> Vec<Part> {
         read(chain, &self.functions.symbols)

@@ -9,6 +9,7 @@ mod systems;
 
 use burgeon_rewriting as rewriting;
 
+use plain::PlainPattern;
 use systems::{Dice, RandomSystem};
 
 /// Numbers of compared systems, to ensure that the test is meaningful.
@@ -85,4 +86,45 @@ fn compare(seeds: std::ops::Range<u64>, make: fn(&mut Dice) -> RandomSystem) -> 
         }
     }
     compared
+}
+
+/// Turns contexts in the new chain into contexts in the old chain, next to the module.
+fn see_the_old_chain(pattern: &mut PlainPattern) {
+    pattern.left.modules.append(&mut pattern.new_left.modules);
+    pattern.right.splice(0..0, pattern.new_right.drain(..));
+}
+
+#[test]
+fn systems_of_modules_that_depend_on_one_another_derive_the_same_chains_in_the_crate_and_plainly() {
+    let (mut dependent, mut differing, mut grown) = (0, 0, 0);
+    for seed in 0..6_000 {
+        let mut dice = Dice::new(seed);
+        let system = RandomSystem::of_dependents(&mut dice);
+        let axiom = plain::axiom(system.axiom.clone(), seed);
+        let mut expected = Vec::new();
+        let mut chain = axiom.clone();
+        while expected.len() < 4 && plain::modules(&chain) < 300 {
+            let cut = plain::cut_branches(&chain, "Cut");
+            chain = plain::step(&cut, &system.rules, &system.settings);
+            expected.push(chain.clone());
+        }
+        // Each system depends on contexts in the new chain if it derives another chain when they see the old chain.
+        let mut parallel = system.rules.clone();
+        for rule in &mut parallel {
+            see_the_old_chain(&mut rule.pattern);
+        }
+        let cut = plain::cut_branches(&axiom, "Cut");
+        differing += usize::from(Some(&plain::step(&cut, &parallel, &system.settings)) != expected.first());
+        dependent += usize::from(functions::Prepared::new(&system, &axiom).rewrites_dependents());
+        grown += usize::from(plain::modules(&chain) > plain::modules(&axiom));
+        let texts: Vec<String> = system.rules.iter().map(|rule| rule.pattern.text().0).collect();
+        for division in [(1, [1, 2, 7, 4096][seed as usize % 4]), (2, [7, 1, 4096, 2][seed as usize % 4])] {
+            let found = functions::derive(&system, &axiom, expected.len(), division);
+            for (step, (found, expected)) in found.iter().zip(&expected).enumerate() {
+                assert_eq!(found, expected, "seed {seed}, step {}, {division:?}: {texts:#?}", step + 1);
+            }
+        }
+    }
+    println!("{dependent} {differing} {grown}");
+    assert!(dependent > 5_000 && differing > 1_000 && grown > 800, "{dependent} {differing} {grown}");
 }

@@ -196,6 +196,39 @@ impl RandomSystem {
         };
         (0..1 + dice.below(4)).map(|_| rule(dice, kind)).collect()
     }
+
+    /// Returns a system whose rules have single modules as contexts in the new chain, or none, so that one call can rewrite
+    /// modules that depend on one another.
+    pub(crate) fn of_dependents(dice: &mut Dice) -> Self {
+        let mut system = Self::new(dice);
+        let size = 10 + dice.below(40);
+        system.axiom = parts(dice, size, 0);
+        let is_left = dice.chance(0.5);
+        let kind = if is_left { RuleKind::NewLeft } else { RuleKind::NewRight };
+        system.rules = (0..1 + dice.below(5)).map(|_| rule(dice, kind)).collect();
+        let has_own = dice.chance(0.3);
+        for rule in &mut system.rules {
+            let mut item = wanted(dice, false, false);
+            for parameter in item.parameters.iter_mut().flatten() {
+                *parameter = Parameter::Formal;
+            }
+            let has_new = dice.chance(0.8);
+            let [left, right] = [has_new && is_left, has_new && !is_left];
+            let modules = if left { vec![item.clone()] } else { Vec::new() };
+            rule.pattern.new_left = PlainLeft { from_beginning: false, modules };
+            rule.pattern.new_right = if right { vec![PlainContext::Module(item)] } else { Vec::new() };
+            rule.weight = None;
+            if has_new && !has_own {
+                rule.ignored = None;
+            } else if has_new {
+                rule.ignored = Some(vec!["C", "A"]);
+            }
+            let (_, arguments) = rule.pattern.text();
+            let count = dice.below(4);
+            rule.successor = (0..count).map(|_| template(dice, arguments)).collect();
+        }
+        system
+    }
 }
 
 impl RandomSystem {

@@ -4,6 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
 use super::DeclaredInterpretation;
+use super::dependents::DependentFunctions;
 use super::hooks::DeclaredHook;
 use crate::machine::Machine;
 use crate::machine::freeze::{ReachableFunction, TableFreeze, freeze};
@@ -154,6 +155,7 @@ struct BatchFunctions {
     drivers: Vec<Function>,
     guards: Vec<Option<Function>>,
     propensities: Vec<Option<Function>>,
+    appliers: Vec<Function>,
 }
 
 /// Functions of a system's rules, prepared for derivation in one machine.
@@ -164,6 +166,8 @@ pub(crate) struct SystemFunctions {
     pub guards: Vec<Option<Function>>,
     /// Function that evaluates the propensity of each rule for a batch.
     pub propensities: Vec<Option<Function>>,
+    /// Functions for modules that depend on one another.
+    pub dependents: DependentFunctions,
     /// Keeps tables that the rules can reach frozen.
     _frozen: TableFreeze,
 }
@@ -308,10 +312,11 @@ impl SystemDeclaration {
     /// Prepares `machine` for deriving this system: creates the drivers and freezes reachable tables.
     pub(crate) fn prepare(&self, machine: &Machine) -> Result<SystemFunctions> {
         let mut reached = Vec::new();
-        let BatchFunctions { drivers, guards, propensities } =
+        let BatchFunctions { drivers, guards, propensities, appliers } =
             self.prepare_functions(machine, &mut reached).map_err(|error| machine.translate(error))?;
         let frozen = freeze(machine.lua(), &machine.library.stateless.borrow(), &reached)?;
-        Ok(SystemFunctions { drivers, guards, propensities, _frozen: frozen })
+        let dependents = DependentFunctions::new(appliers);
+        Ok(SystemFunctions { drivers, guards, propensities, dependents, _frozen: frozen })
     }
 
     /// Switches `machine` to this system: sets `this` and the interpretation rules.
@@ -347,6 +352,7 @@ impl SystemDeclaration {
     ) -> mlua::Result<BatchFunctions> {
         let prelude = machine.prelude();
         let mut made = BatchFunctions::default();
+        let has_dependents = self.rules.iter().any(|declared| declared.rule.has_new_contexts());
         for declared in &self.rules {
             let arity = declared.rule.arguments();
             let symbols = machine.library.symbols.borrow();
@@ -361,6 +367,9 @@ impl SystemDeclaration {
             reached.push(reach(&declared.successor));
             reached.extend(declared.guard.iter().chain(&declared.propensity).map(reach));
             let guard = declared.guard.as_ref();
+            if has_dependents {
+                made.appliers.push(prelude.applier.call((&declared.successor, guard, arity, &places))?);
+            }
             let guard = guard.map(|guard| prelude.guard_driver.call((guard, arity, &places, guard_reads)));
             made.guards.push(guard.transpose()?);
             let propensity = declared.propensity.as_ref();

@@ -7,6 +7,7 @@ mod axiom;
 mod chain_builder;
 mod declaration;
 mod declare;
+mod dependents;
 mod derive_arguments;
 mod handle;
 mod hooks;

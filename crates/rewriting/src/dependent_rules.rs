@@ -1,0 +1,136 @@
+//! Rules that one call can apply to modules of which each depends on others of the same step.
+
+use crate::chain::{CLOSE, END, OPEN, Symbol};
+use crate::choice::Choice;
+use crate::grammar::{Grammar, NewContexts, Rule};
+use crate::ignored::IgnoredSet;
+use crate::pattern::{Context, Item, SymbolSet};
+use crate::symbols::FIRST_SYMBOL;
+
+/// Rules of a grammar whose contexts in the new chain are single modules, so that one call can apply them to modules of which
+/// each depends on the module before it.
+///
+/// The contexts must not require values, and must skip the same symbols. The rules of the same modules must have no weights.
+#[derive(Debug, Clone)]
+pub struct DependentRules {
+    is_backward: bool,
+    ignored_set: usize,
+    ignored: IgnoredSet,
+    contexts: Vec<Option<NewContext>>,
+}
+
+/// Context of a rule in the new chain that is one module.
+#[derive(Debug, Clone)]
+pub struct NewContext {
+    /// Entry by symbol: true for the symbols that match.
+    pub admitted: Box<[bool]>,
+    /// Index of the first argument of the rule that the module provides.
+    pub first_argument: usize,
+    /// Number of arguments that the module provides: its first parameters.
+    pub bound: usize,
+}
+
+impl DependentRules {
+    /// Returns the rules among the candidates of `grammar`; `None` if there are none, or if one has another form.
+    pub(crate) fn among(grammar: &Grammar) -> Option<Self> {
+        let is_special = grammar.has_runs() || grammar.has_events() || !grammar.region_openers().is_empty();
+        if grammar.new_contexts() == NewContexts::None || is_special {
+            return None;
+        }
+        let symbols = grammar.arities().len();
+        let contexts = grammar.rules().iter().map(|rule| NewContext::of(rule, symbols)).collect::<Vec<_>>();
+        let mut set = None;
+        let depends = |number: &u16| {
+            grammar.choice_in(0, grammar.rules()[usize::from(*number)].pattern.symbol) == Choice::NewContexts
+        };
+        for number in grammar.candidates().filter(depends) {
+            let rule = &grammar.rules()[usize::from(number)];
+            if rule.weight.is_some() {
+                return None;
+            }
+            if !rule.has_new_contexts() {
+                continue;
+            }
+            let key = (rule.pattern.has_new_right(), grammar.ignored_set(number));
+            if contexts[usize::from(number)].is_none() || set.is_some_and(|known| known != key) {
+                return None;
+            }
+            set = Some(key);
+        }
+        let (is_backward, ignored_set) = set?;
+        let ignored = grammar.ignored_sets()[ignored_set].clone();
+        Some(Self { is_backward, ignored_set, ignored, contexts })
+    }
+
+    /// Returns true if contexts follow their modules (`A >> B`), so that modules are rewritten from right to left.
+    pub fn is_backward(&self) -> bool {
+        self.is_backward
+    }
+
+    /// Returns the number of the set of symbols that the contexts skip.
+    pub fn ignored_set(&self) -> usize {
+        self.ignored_set
+    }
+
+    /// Returns true if the contexts skip `symbol`.
+    #[inline]
+    pub fn is_ignored(&self, symbol: Symbol) -> bool {
+        self.ignored.contains(symbol)
+    }
+
+    /// Returns the context of rule number `rule` in the new chain, if it has one that is a single module.
+    #[inline]
+    pub fn context(&self, rule: u16) -> Option<&NewContext> {
+        self.contexts[usize::from(rule)].as_ref()
+    }
+
+    /// Returns the index in `symbols` of the module that is a context of the modules around them: the last one outside of
+    /// branches that is not skipped, or the first one if modules are rewritten from right to left.
+    pub(crate) fn nearest(&self, symbols: &[Symbol]) -> Option<usize> {
+        let is_found = |symbol: &Symbol| *symbol > END && !self.is_ignored(*symbol);
+        if let [symbol] = symbols {
+            return is_found(symbol).then_some(0);
+        }
+        let mut depth = 0_i32;
+        let mut outside = |index: &usize| {
+            let symbol = symbols[*index];
+            match symbol {
+                OPEN => depth += 1,
+                CLOSE => depth -= 1,
+                _ => {}
+            }
+            depth == 0 && is_found(&symbol)
+        };
+        match self.is_backward {
+            true => (0..symbols.len()).find(|index| outside(index)),
+            false => (0..symbols.len()).rev().find(|index| outside(index)),
+        }
+    }
+}
+
+impl NewContext {
+    /// Returns the context of `rule` in the new chain, in a grammar of `symbols` symbols; `None` if it is not one module
+    /// without required values.
+    fn of(rule: &Rule, symbols: usize) -> Option<Self> {
+        let pattern = &rule.pattern;
+        if pattern.new_from_beginning {
+            return None;
+        }
+        let (item, is_first): (&Item, bool) = match (&*pattern.new_left, &*pattern.new_right) {
+            ([item], []) => (item, true),
+            ([], [Context::Module(item)]) => (item, false),
+            _ => return None,
+        };
+        let admits = |symbol: usize| match &item.symbols {
+            SymbolSet::One(one) => usize::from(*one) == symbol,
+            SymbolSet::OneOf(several) => several.iter().any(|one| usize::from(*one) == symbol),
+            SymbolSet::Any => symbol >= usize::from(FIRST_SYMBOL),
+        };
+        let first_argument = if is_first { 0 } else { rule.arguments().checked_sub(item.bound)? };
+        item.values.is_empty().then(|| Self {
+            admitted: (0..symbols).map(admits).collect(),
+            first_argument,
+            bound: item.bound,
+        })
+    }
+}
