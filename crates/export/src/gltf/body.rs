@@ -32,6 +32,8 @@ const AHEAD: usize = 16;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ArrayKind {
     Positions,
+    /// Positions as four u16; the last is padding.
+    ShortPositions,
     Normals,
     /// Normals as four i8; the last is padding.
     ByteNormals,
@@ -299,7 +301,7 @@ impl BufferSection<'_> {
     fn stride(&self) -> Option<usize> {
         match self.shared? {
             ArrayKind::Positions | ArrayKind::Normals => Some(12),
-            ArrayKind::TexCoords | ArrayKind::ShortNormals => Some(8),
+            ArrayKind::TexCoords | ArrayKind::ShortNormals | ArrayKind::ShortPositions => Some(8),
             ArrayKind::ByteNormals | ArrayKind::Features => Some(4),
             ArrayKind::Short | ArrayKind::Long => None,
         }

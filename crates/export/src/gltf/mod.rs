@@ -20,8 +20,10 @@ mod metadata_tests;
 mod place;
 #[cfg(test)]
 mod tests;
+mod tile;
 mod weld;
 
 pub use document::{Layout, glb, glb_for_viewer, glb_with_texture_coordinates};
 pub(super) use document::{buffer_path, write_film, write_glb, write_gltf};
 pub use place::InstancePlace;
+pub use tile::{TileCompression, TileModelCounts, TileModelOptions, write_tile_model};
