@@ -158,17 +158,32 @@ impl<'a> GlbFile<'a> {
                 tables.get(table).map(|table| table.ids.len()).ok_or("a feature has no property table")?;
             let attribute = format!("_FEATURE_ID_{}", number(&set["attribute"]).unwrap_or(0));
             let array = self.array(&attributes[attribute.as_str()])?;
+            let none = set["nullFeatureId"].as_f64();
             for index in 0..array.count {
                 let row = array.item(index)[0];
                 #[allow(clippy::cast_precision_loss, reason = "a table has fewer rows than f64 has integers")]
                 let is_row = row.fract() == 0.0 && (0.0..rows as f64).contains(&row);
-                if !is_row {
+                if !is_row && Some(row) != none {
                     return Err(format!("feature number {row} is not a row of its table of {rows}"));
                 }
             }
         }
         Ok(())
     }
+}
+
+/// Checks that there is a normal for each of `points` points, and that normals have length 1.
+fn check_normals(normals: &NumberArray<'_>, points: usize) -> Result<(), String> {
+    if normals.count != points {
+        return Err(format!("there are {} normals for {points} points", normals.count));
+    }
+    for index in 0..normals.count {
+        let length = normals.point(index).length();
+        if !(0.98..1.02).contains(&length) {
+            return Err(format!("a normal has the length {length}"));
+        }
+    }
+    Ok(())
 }
 
 fn component_size(component: u64) -> Option<usize> {
@@ -268,6 +283,7 @@ impl GlbModel {
                     &self.tables,
                 )?;
                 let positions = file.array(&primitive["attributes"]["POSITION"])?;
+                check_normals(&file.array(&primitive["attributes"]["NORMAL"])?, positions.count)?;
                 let corners = match &primitive["indices"] {
                     Value::Null => positions.count,
                     indices => file.array(indices)?.count,
