@@ -46,7 +46,7 @@ pub(super) struct PlanCommand {
     #[arg(long)]
     expand_instances: bool,
 
-    /// Compression of tiles; quantize needs viewers with KHR_mesh_quantization
+    /// Compression of tiles: none, quantize (KHR_mesh_quantization) or meshopt (also EXT_meshopt_compression)
     #[arg(long, value_name = "METHOD", value_parser = compression, default_value = "none")]
     compress: TileCompression,
 
@@ -70,7 +70,8 @@ fn compression(text: &str) -> Result<TileCompression, String> {
     match text {
         "none" => Ok(TileCompression::None),
         "quantize" => Ok(TileCompression::Quantize),
-        _ => Err("write none or quantize".to_owned()),
+        "meshopt" => Ok(TileCompression::Meshopt),
+        _ => Err("write none, quantize or meshopt".to_owned()),
     }
 }
 

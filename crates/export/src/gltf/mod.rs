@@ -17,6 +17,7 @@ mod mesh;
 mod metadata;
 #[cfg(test)]
 mod metadata_tests;
+mod packing;
 mod place;
 #[cfg(test)]
 mod tests;

@@ -11,6 +11,8 @@ pub enum TileCompression {
     None,
     /// Coordinates and normals as integers (`KHR_mesh_quantization`).
     Quantize,
+    /// Integers in compressed arrays (`EXT_meshopt_compression`).
+    Meshopt,
 }
 
 /// Choices for the model of a tile.

@@ -11,6 +11,7 @@ use super::super::description::{Description, MeshDescription, Node, Primitive, u
 use super::super::document::{Document, QUANTIZATION};
 use super::super::material::{self, Textures};
 use super::super::metadata::{MESH_FEATURES, Metadata};
+use super::super::packing::MESHOPT;
 use super::super::place::{add_group, reach};
 use super::arrays::add_primitive;
 use super::merge::{MergedMesh, merge};
@@ -126,6 +127,11 @@ fn describe<'a>(
     if options.compression != TileCompression::None {
         use_extension(&mut description.root, QUANTIZATION);
         description.root.extensions_required.push(QUANTIZATION.into());
+    }
+    if options.compression == TileCompression::Meshopt {
+        body.compress()?;
+        use_extension(&mut description.root, MESHOPT);
+        description.root.extensions_required.push(MESHOPT.into());
     }
     if checked.origin != DVec3::ZERO && !nodes.is_empty() {
         let DVec3 { x, y, z } = checked.origin;
