@@ -6,4 +6,5 @@ mod bad_input;
 mod bytes;
 mod cells;
 mod city;
+mod content;
 mod killed;

@@ -25,6 +25,8 @@ const MOST_RASTERS: usize = 2;
 pub struct Cache {
     kept: Mutex<Vec<(String, Arc<Layer>, ReferenceFrame)>>,
     rasters: Mutex<Vec<(String, Arc<Raster>)>>,
+    #[cfg(feature = "data")]
+    copies: Mutex<Vec<Arc<super::PackageState>>>,
 }
 
 impl fmt::Debug for Cache {
@@ -98,6 +100,32 @@ impl Cache {
     }
 }
 
+#[cfg(feature = "data")]
+impl Cache {
+    /// Lets the readers of `budget` use the copy of the database at `path` that an earlier run has made, if the file has not
+    /// changed since then.
+    pub fn lend_copy(&self, path: &Path, budget: &Budget) {
+        let path = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+        let mut copies = self.copies.lock().recover();
+        copies.retain(|state| state.path() != path || state.is_current_copy());
+        copies.iter().filter(|state| state.path() == path).for_each(|state| state.lend(budget));
+    }
+
+    /// Keeps the copy of the database at `path` that the readers of `budget` have made, if any, for later runs.
+    pub fn keep_copy(&self, path: &Path, budget: &Budget) {
+        let Some(state) = super::PackageState::opened(path, budget).filter(|state| state.is_current_copy())
+        else {
+            return;
+        };
+        let mut copies = self.copies.lock().recover();
+        copies.retain(|known| known.path() != state.path());
+        if copies.len() >= MOST {
+            copies.remove(0);
+        }
+        copies.push(state);
+    }
+}
+
 /// Returns a key that identifies the content of a file, if possible.
 fn content(path: &Path, name: &str, budget: &Arc<Budget>) -> Result<Option<String>> {
     let mut head = Vec::new();
@@ -154,5 +182,28 @@ mod tests {
         let files = [("a".to_owned(), folder.path().to_path_buf())];
         let error = cache.raster(&files, &HeightOptions::default(), &Budget::default()).unwrap_err();
         assert_eq!(error.message(), "a is a folder");
+    }
+
+    #[cfg(feature = "data")]
+    #[test]
+    fn a_copied_database_is_lent_to_later_runs_until_its_file_changes() {
+        use crate::{PackageState, SourceOptions};
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.gpkg");
+        let connection = rusqlite::Connection::open(&path).unwrap();
+        connection.execute_batch("CREATE TABLE a(b INTEGER); INSERT INTO a VALUES (1)").unwrap();
+        std::thread::sleep(std::time::Duration::from_millis(100));
+        let cache = Cache::default();
+        let open = || {
+            let budget = SourceOptions::default().budget;
+            cache.lend_copy(&path, &budget);
+            let state = PackageState::open(&path, "a.gpkg", &budget).unwrap();
+            cache.keep_copy(&path, &budget);
+            state
+        };
+        let first = open();
+        assert!(Arc::ptr_eq(&first, &open()));
+        connection.execute_batch("UPDATE a SET b = 2").unwrap();
+        assert!(!Arc::ptr_eq(&first, &open()));
     }
 }

@@ -79,6 +79,7 @@ impl<'a> TileBuilder<'a> {
         }
         let warnings = run.warnings.iter().map(|warning| portable_message(&warning.clone().into_error()));
         let warnings = warnings.collect();
-        Ok(TileContent { scene: run.scene, systems, metadata, skipped, warnings })
+        let model = self.plan.model;
+        Ok(TileContent { scene: run.scene, systems, metadata, model, skipped, warnings })
     }
 }

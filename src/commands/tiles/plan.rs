@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use burgeon::export::gltf::{TileCompression, TileModelOptions};
 use burgeon::script::{RunOptions, Session};
 use burgeon::sources::{DataSources, SourceSurvey, SurveyedSource};
 use burgeon::tiles::TileFolder;
@@ -41,6 +42,18 @@ pub(super) struct PlanCommand {
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     metadata: Vec<String>,
 
+    /// Copies repeated models into the mesh of each tile, for viewers without EXT_mesh_gpu_instancing
+    #[arg(long)]
+    expand_instances: bool,
+
+    /// Compression of tiles: none, quantize (KHR_mesh_quantization) or meshopt (also EXT_meshopt_compression)
+    #[arg(long, value_name = "METHOD", value_parser = compression, default_value = "none")]
+    compress: TileCompression,
+
+    /// Largest step of compressed coordinates (m)
+    #[arg(long, value_name = "METRES", default_value_t = 0.001, value_parser = precision)]
+    precision: f64,
+
     /// Replaces the plan of another script or of other arguments
     #[arg(long)]
     replace: bool,
@@ -50,6 +63,22 @@ fn height(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(metres) if metres.abs() < 20_000.0 => Ok(metres),
         _ => Err("write a number of metres, such as 44.5".to_owned()),
+    }
+}
+
+fn compression(text: &str) -> Result<TileCompression, String> {
+    match text {
+        "none" => Ok(TileCompression::None),
+        "quantize" => Ok(TileCompression::Quantize),
+        "meshopt" => Ok(TileCompression::Meshopt),
+        _ => Err("write none, quantize or meshopt".to_owned()),
+    }
+}
+
+fn precision(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(metres) if (0.0001..=1.0).contains(&metres) => Ok(metres),
+        _ => Err("write a number of metres from 0.0001 to 1, such as 0.01".to_owned()),
     }
 }
 
@@ -146,6 +175,7 @@ impl PlanCommand {
             frame,
             reach: self.script.reach(),
             metadata: self.metadata.clone(),
+            model: self.model(),
             sources: planned,
             tiles: division.tiles(self.target_features),
             left_out,
@@ -153,6 +183,15 @@ impl PlanCommand {
         };
         plan.set_hashes()?;
         Ok(plan)
+    }
+
+    /// Returns the choices for the models of tiles.
+    fn model(&self) -> TileModelOptions {
+        TileModelOptions {
+            expand_instances: self.expand_instances,
+            compression: self.compress,
+            precision: self.precision,
+        }
     }
 
     /// Returns the earlier plan of the folder. Fails if it is that of another script or of other arguments.
@@ -163,7 +202,7 @@ impl PlanCommand {
         }
         let earlier = TilePlan::read(&path)?;
         let same = (&earlier.script, &earlier.arguments) == (&plan.script, &plan.arguments)
-            && (earlier.reach, &earlier.metadata) == (plan.reach, &plan.metadata);
+            && (earlier.reach, &earlier.metadata, earlier.model) == (plan.reach, &plan.metadata, plan.model);
         if same {
             return Ok(Some(earlier));
         }

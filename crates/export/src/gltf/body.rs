@@ -3,6 +3,7 @@
 use super::super::check::proper_triangles;
 use super::coordinates::{byte_normal, short_normal, tex_coord, y_up};
 use super::corners::FaceCorners;
+use super::packing::{PackedView, pack_triangles, pack_vertices, unpacked_buffer};
 use super::weld::FlatPart;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::stop::Stop;
@@ -32,6 +33,8 @@ const AHEAD: usize = 16;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ArrayKind {
     Positions,
+    /// Positions as four u16; the last is padding.
+    ShortPositions,
     Normals,
     /// Normals as four i8; the last is padding.
     ByteNormals,
@@ -100,6 +103,8 @@ struct BufferSection<'a> {
     length: u64,
     /// Alignment of its end (bytes).
     alignment: u64,
+    /// Description of the view before its compression, if it is compressed.
+    packed: Option<PackedView>,
 }
 
 /// Several blocks, or a part of one.
@@ -167,8 +172,33 @@ impl<'a> Body<'a> {
 
     fn section(&mut self, shared: Option<ArrayKind>) -> usize {
         let batch = self.batches.len();
-        self.sections.push(BufferSection { shared, batch, blocks: Vec::new(), length: 0, alignment: 4 });
+        self.sections.push(BufferSection {
+            shared,
+            batch,
+            blocks: Vec::new(),
+            length: 0,
+            alignment: 4,
+            packed: None,
+        });
         self.sections.len() - 1
+    }
+
+    /// Compresses the shared views of vertices and triangles (`EXT_meshopt_compression`).
+    pub(super) fn compress(&mut self) -> Result<()> {
+        for section in &mut self.sections {
+            let Some(kind) = section.shared else { continue };
+            let mut bytes = Vec::new();
+            section.blocks.iter().for_each(|block| block.write(0..usize::MAX, &mut bytes));
+            let (view, packed) = match (kind, section.stride()) {
+                (ArrayKind::Short, _) => pack_triangles(&bytes, 2)?,
+                (ArrayKind::Long, _) => pack_triangles(&bytes, 4)?,
+                (_, stride) => pack_vertices(&bytes, stride.unwrap_or(4))?,
+            };
+            section.packed = Some(view);
+            section.length = packed.len() as u64;
+            section.blocks = vec![BodyArray::Blob(packed)];
+        }
+        Ok(())
     }
 
     /// Returns the length (bytes) with padding; each view begins at a multiple of 4.
@@ -190,16 +220,32 @@ impl<'a> Body<'a> {
             extensions: None,
             extras: None,
         });
-        let mut offset = 0;
+        let unpacked = self.sections.iter().filter_map(|section| section.packed).map(|view| view.length);
+        let unpacked: u64 = unpacked.map(|length| length.next_multiple_of(4)).sum();
+        let fallback = (unpacked > 0).then(|| {
+            root.push(json::Buffer {
+                byte_length: USize64(unpacked),
+                name: None,
+                uri: None,
+                extensions: Some(unpacked_buffer()),
+                extras: None,
+            })
+        });
+        let (mut offset, mut unpacked) = (0, 0);
         for section in &self.sections {
+            let (buffer, length, begin) = match (section.packed, fallback) {
+                (Some(view), Some(fallback)) => (fallback, view.length, unpacked),
+                _ => (buffer, section.length, offset),
+            };
+            unpacked += section.packed.map_or(0, |view| view.length.next_multiple_of(4));
             root.buffer_views.push(View {
                 buffer,
-                byte_length: USize64(section.length),
-                byte_offset: (offset > 0).then_some(USize64(offset)),
+                byte_length: USize64(length),
+                byte_offset: (begin > 0).then_some(USize64(begin)),
                 byte_stride: section.stride().map(Stride),
                 name: None,
                 target: section.target().map(Valid),
-                extensions: None,
+                extensions: section.packed.map(|view| view.describe(offset, section.length)),
                 extras: None,
             });
             offset += section.end();
@@ -299,7 +345,7 @@ impl BufferSection<'_> {
     fn stride(&self) -> Option<usize> {
         match self.shared? {
             ArrayKind::Positions | ArrayKind::Normals => Some(12),
-            ArrayKind::TexCoords | ArrayKind::ShortNormals => Some(8),
+            ArrayKind::TexCoords | ArrayKind::ShortNormals | ArrayKind::ShortPositions => Some(8),
             ArrayKind::ByteNormals | ArrayKind::Features => Some(4),
             ArrayKind::Short | ArrayKind::Long => None,
         }

@@ -54,6 +54,8 @@ pub(super) struct Accessor {
 pub(super) enum Extreme {
     Point([f32; 3]),
     Number([f32; 1]),
+    /// Point with integer coordinates.
+    Whole([u32; 3]),
 }
 
 #[derive(Serialize)]

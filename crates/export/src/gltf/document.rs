@@ -23,10 +23,10 @@ use gltf_json as json;
 use json::extras::RawValue;
 
 /// Extension that allows integer attributes.
-const QUANTIZATION: &str = "KHR_mesh_quantization";
+pub(super) const QUANTIZATION: &str = "KHR_mesh_quantization";
 
 /// Description and the data that it describes.
-struct Document<'a> {
+pub(super) struct Document<'a> {
     description: Description<'a>,
     body: Body<'a>,
     layout: Layout,
@@ -95,8 +95,7 @@ pub(crate) fn write_glb(export: &Export<'_>, path: &Path, files: &mut Files) -> 
     let stop = files.stop();
     let content = (Arrays::default(), None);
     let document = Document::new(&checked, &export.facts, &images, &Textures::Embedded, content, &stop)?;
-    let head = document.head()?;
-    files.write(path, |out| document.body.write(head, out, &stop))
+    document.write(path, files, &stop)
 }
 
 /// Writes one `.glb` file to `path`, with an animation that shows the model of one frame after another.
@@ -112,8 +111,7 @@ pub(crate) fn write_film(
     let content = (Arrays::default(), Some((model, settings)));
     let facts = SceneFacts::default();
     let document = Document::new(&checked, &facts, &images, &Textures::Embedded, content, &stop)?;
-    let head = document.head()?;
-    files.write(path, |out| document.body.write(head, out, &stop))
+    document.write(path, files, &stop)
 }
 
 /// Writes a `.gltf` file to `path`, with a `.bin` file and copies of the textures next to it.
@@ -172,12 +170,7 @@ impl<'a> Document<'a> {
     ) -> Result<Self> {
         stop.check()?;
         let mut description = Description::default();
-        description.root.asset = json::Asset {
-            generator: Some(format!("Burgeon {}", env!("CARGO_PKG_VERSION"))),
-            version: "2.0".into(),
-            extras: asset_extras(&checked.scene.packages, facts),
-            ..json::Asset::default()
-        };
+        description.root.asset = Self::asset(&checked.scene.packages, facts);
         let mut body = Body::default();
         let metadata = Metadata::of(checked.scene, facts);
         if let Some(metadata) = &metadata {
@@ -202,6 +195,28 @@ impl<'a> Document<'a> {
         description.root.scenes.push(json::Scene { extensions: None, extras, name: None, nodes });
         body.describe(&mut description.root)?;
         Ok(Self { description, body, layout: Layout { places: placed.places, meshes } })
+    }
+
+    /// Returns the origin of a document, with the packages of its scene.
+    pub(super) fn asset(packages: &[ScenePackage], facts: &SceneFacts<'_>) -> json::Asset {
+        json::Asset {
+            generator: Some(format!("Burgeon {}", env!("CARGO_PKG_VERSION"))),
+            version: "2.0".into(),
+            extras: asset_extras(packages, facts),
+            ..json::Asset::default()
+        }
+    }
+
+    /// Creates a document from its complete description, except its buffer, and the data. Fails if the file exceeds 4 GiB.
+    pub(super) fn of_parts(mut description: Description<'a>, body: Body<'a>) -> Result<Self> {
+        body.describe(&mut description.root)?;
+        Ok(Self { description, body, layout: Layout::default() })
+    }
+
+    /// Writes the document as a `.glb` file to `path`.
+    pub(super) fn write(&self, path: &Path, files: &mut Files, stop: &Stop) -> Result<()> {
+        let head = self.head()?;
+        files.write(path, |out| self.body.write(head, out, stop))
     }
 
     /// Returns everything of a `.glb` file except the body, in pieces: both headers and the description between them.

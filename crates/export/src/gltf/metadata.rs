@@ -18,7 +18,7 @@ use super::body::{Body, BodyArray};
 use super::description::use_extension;
 use crate::SceneFacts;
 
-const MESH_FEATURES: &str = "EXT_mesh_features";
+pub(super) const MESH_FEATURES: &str = "EXT_mesh_features";
 pub(super) const INSTANCE_FEATURES: &str = "EXT_instance_features";
 const STRUCTURAL: &str = "EXT_structural_metadata";
 
@@ -98,9 +98,19 @@ impl Metadata {
         self.meshes[mesh] == MeshFeatures::Several
     }
 
+    /// Returns the number of rows of a table.
+    pub(super) fn rows(&self, table: usize) -> usize {
+        self.tables[table].1.records.len()
+    }
+
+    /// Lists the extension of the tables.
+    pub(super) fn use_tables(&self, root: &mut json::Root) {
+        use_extension(root, STRUCTURAL);
+    }
+
     /// Lists the extensions that every document with features uses.
     pub(super) fn use_extensions(&self, root: &mut json::Root) {
-        use_extension(root, STRUCTURAL);
+        self.use_tables(root);
         if self.meshes.iter().any(|mesh| matches!(mesh, MeshFeatures::One(_))) {
             use_extension(root, MESH_FEATURES);
         }
@@ -141,6 +151,17 @@ impl FeaturePlace {
         let ids = json!([{ "featureCount": 1, "attribute": 0, "propertyTable": self.table }]);
         json!({ MESH_FEATURES: { "featureIds": ids } })
     }
+}
+
+/// Returns the extension of a primitive whose vertices have numbers of `count` features, rows of a table; vertices with the
+/// number `none` have no feature.
+pub(super) fn mesh_features(count: usize, none: Option<u32>, table: usize) -> Json {
+    // The specification requires at least one feature.
+    let mut ids = json!({ "featureCount": count.max(1), "attribute": 0, "propertyTable": table });
+    if let Some(none) = none {
+        ids["nullFeatureId"] = none.into();
+    }
+    json!({ MESH_FEATURES: { "featureIds": [ids] } })
 }
 
 /// Returns the extension of a node with the features of its instances.

@@ -17,11 +17,14 @@ mod mesh;
 mod metadata;
 #[cfg(test)]
 mod metadata_tests;
+mod packing;
 mod place;
 #[cfg(test)]
 mod tests;
+mod tile;
 mod weld;
 
 pub use document::{Layout, glb, glb_for_viewer, glb_with_texture_coordinates};
 pub(super) use document::{buffer_path, write_film, write_glb, write_gltf};
 pub use place::InstancePlace;
+pub use tile::{TileCompression, TileModelCounts, TileModelOptions, write_tile_model};

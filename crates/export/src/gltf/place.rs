@@ -26,7 +26,7 @@ const ENOUGH: usize = 16;
 
 /// Properties that instances of one node have in common; only their transforms differ.
 #[derive(PartialEq, Eq, Hash, Clone, Copy)]
-struct InstanceKind<'a> {
+pub(super) struct InstanceKind<'a> {
     /// Frame of a film, 0 without one.
     frame: u32,
     mesh: usize,
@@ -48,9 +48,10 @@ const ROUNDING: f64 = 6.2e-5;
 const UNSEEN: f64 = 1e-3;
 
 #[derive(Default)]
-struct InstanceGroup {
+pub(super) struct InstanceGroup {
     count: usize,
-    features: Vec<f32>,
+    /// Numbers of the features of the instances; -1 for none.
+    pub(super) features: Vec<f32>,
     translations: Vec<f32>,
     rotations: Vec<f32>,
     scales: Vec<f32>,
@@ -184,13 +185,34 @@ impl<'a> InstanceKind<'a> {
         })
     }
 
+    /// Returns the group key of an instance in a tile, where features have no nodes of their own.
+    pub(super) fn in_tile(instance: &Instance, metadata: Option<&Metadata>) -> Self {
+        Self {
+            frame: 0,
+            mesh: instance.mesh,
+            name: "",
+            mirrored: instance.transform.matrix3.determinant() < 0.0,
+            table: metadata.and_then(|metadata| metadata.of_instance(instance)).map(|place| place.table),
+        }
+    }
+
+    /// Returns the mesh of the scene.
+    pub(super) fn mesh(&self) -> usize {
+        self.mesh
+    }
+
+    /// Returns the property table of the features.
+    pub(super) fn table(&self) -> Option<usize> {
+        self.table
+    }
+
     /// Returns true if the instances store their features, because their mesh cannot.
     fn has_features(&self, metadata: Option<&Metadata>) -> bool {
         self.table.is_some() && metadata.is_some_and(|metadata| metadata.is_shared(self.mesh))
     }
 
     /// Returns the transform that remains for the instance if its node mirrors.
-    fn mirror(self, transform: DAffine3) -> DAffine3 {
+    pub(super) fn mirror(self, transform: DAffine3) -> DAffine3 {
         if self.mirrored { DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0)) * transform } else { transform }
     }
 }
@@ -216,7 +238,7 @@ impl<'a> FeatureNumbers<'a> {
 
 impl InstanceGroup {
     /// Adds an instance and returns true, unless its transform is sheared.
-    fn take(&mut self, transform: &DAffine3) -> bool {
+    pub(super) fn take(&mut self, transform: &DAffine3) -> bool {
         let Steps::One(Trs { translation, rotation, scale }) = decompose(transform) else { return false };
         self.translations.extend((translation.as_vec3() + 0.0).to_array());
         self.rotations.extend(quaternion(rotation));
@@ -227,7 +249,7 @@ impl InstanceGroup {
 }
 
 /// Returns the maximum distance (m) of a point of a mesh from the mesh's origin.
-fn reach(checked: &SceneCheck<'_>, mesh: usize) -> f64 {
+pub(super) fn reach(checked: &SceneCheck<'_>, mesh: usize) -> f64 {
     let furthest = |part: &PartExtent| part.low.abs().max(part.high.abs()).as_dvec3().length();
     checked.parts[mesh].iter().map(furthest).fold(0.0, f64::max)
 }
@@ -283,7 +305,7 @@ fn add_single<'a>(
 }
 
 /// Adds one node for all instances of a group; `mesh` is the index of the mesh and its radius (m).
-fn add_group<'a>(
+pub(super) fn add_group<'a>(
     kind: InstanceKind<'a>,
     group: InstanceGroup,
     table: Option<usize>,

@@ -45,7 +45,9 @@ pub(super) fn read(
             Arc::new(survey.read(found, &mut known.frame)?)
         }
         SourceReading::Window(window) => {
-            let layer = match window.read(key, &path, name, &wanted)? {
+            let cache = known.cache.clone();
+            let part = lending(cache.as_deref(), &path, &wanted, || window.read(key, &path, name, &wanted));
+            let layer = match part? {
                 Some(layer) => Arc::new(layer),
                 None => {
                     let whole = read_whole(&path, name, &wanted, known)?;
@@ -68,6 +70,25 @@ pub(super) fn read(
         },
     });
     Ok(layer)
+}
+
+/// Calls `read` with the copy of the database at `path` that an earlier run has made, if any, and keeps its copy.
+#[cfg(feature = "data")]
+fn lending<T>(cache: Option<&Cache>, path: &Path, wanted: &SourceOptions, read: impl FnOnce() -> T) -> T {
+    if let Some(cache) = cache {
+        cache.lend_copy(path, &wanted.budget);
+    }
+    let read = read();
+    if let Some(cache) = cache {
+        cache.keep_copy(path, &wanted.budget);
+    }
+    read
+}
+
+/// Calls `read`; without database support there are no copies.
+#[cfg(not(feature = "data"))]
+fn lending<T>(_: Option<&Cache>, _: &Path, _: &SourceOptions, read: impl FnOnce() -> T) -> T {
+    read()
 }
 
 /// Reads all features of a layer, or returns them from the cache.

@@ -1,9 +1,12 @@
 //! Reader of the points and the features of a `.glb` file. It shares no code with the writer.
 
+use std::collections::BTreeMap;
+
 use glam::{DAffine3, DMat4, DQuat, DVec3};
 use serde_json::Value;
 
 use super::instances::instance_transforms;
+use super::unpack::{unpack_triangles, unpack_vertices};
 
 /// Points and features of a model.
 #[derive(Debug, Clone, Default)]
@@ -33,6 +36,8 @@ pub struct GlbTable {
 pub(super) struct GlbFile<'a> {
     json: Value,
     binary: &'a [u8],
+    /// Views that are compressed in the file.
+    unpacked: BTreeMap<usize, Vec<u8>>,
 }
 
 /// Array of numbers.
@@ -69,19 +74,60 @@ impl<'a> GlbFile<'a> {
             .map_err(|error| format!("its JSON cannot be read: {error}"))?;
         let rest = 20 + length;
         let binary = word(rest).map_or(Some(&[][..]), |size| bytes.get(rest + 8..rest + 8 + size as usize));
-        Ok(Self { json, binary: binary.ok_or("its binary part ends too early")? })
+        let binary = binary.ok_or("its binary part ends too early")?;
+        let mut file = Self { json, binary, unpacked: BTreeMap::new() };
+        file.unpacked = file.unpack()?;
+        Ok(file)
+    }
+
+    /// Returns the content of the compressed views.
+    fn unpack(&self) -> Result<BTreeMap<usize, Vec<u8>>, String> {
+        let mut unpacked = BTreeMap::new();
+        for (index, view) in self.json["bufferViews"].as_array().into_iter().flatten().enumerate() {
+            let packed = &view["extensions"]["EXT_meshopt_compression"];
+            if packed.is_null() {
+                continue;
+            }
+            let read = || {
+                let begin = number(&packed["byteOffset"]).unwrap_or(0);
+                let bytes = self.binary.get(begin..begin.checked_add(number(&packed["byteLength"])?)?)?;
+                let (count, stride) = (number(&packed["count"])?, number(&packed["byteStride"])?);
+                // A byte stands for at most 16 vertices of one byte, so this bounds the memory.
+                if number(&view["byteLength"])? != count.checked_mul(stride)?
+                    || count > bytes.len().checked_mul(64)?
+                {
+                    return None;
+                }
+                match (packed["mode"].as_str()?, stride) {
+                    ("ATTRIBUTES", _) => unpack_vertices(bytes, count, stride),
+                    ("TRIANGLES", 2 | 4) => {
+                        let indices = unpack_triangles(bytes, count)?;
+                        Some(
+                            indices.iter().flat_map(|it| it.to_le_bytes().into_iter().take(stride)).collect(),
+                        )
+                    }
+                    _ => None,
+                }
+            };
+            unpacked.insert(index, read().ok_or_else(|| format!("compressed view {index} is invalid"))?);
+        }
+        Ok(unpacked)
     }
 
     /// Returns the bytes of a buffer view.
-    fn view(&self, index: usize) -> Option<(&'a [u8], usize)> {
+    fn view(&self, index: usize) -> Option<(&[u8], usize)> {
         let view = &self.json["bufferViews"][index];
+        let stride = number(&view["byteStride"]).unwrap_or(0);
+        if let Some(bytes) = self.unpacked.get(&index) {
+            return Some((bytes, stride));
+        }
         let begin = number(&view["byteOffset"]).unwrap_or(0);
         let bytes = self.binary.get(begin..begin.checked_add(number(&view["byteLength"])?)?)?;
-        Some((bytes, number(&view["byteStride"]).unwrap_or(0)))
+        Some((bytes, stride))
     }
 
     /// Returns the array of an accessor. Fails with the reason.
-    pub(super) fn array(&self, accessor: &Value) -> Result<NumberArray<'a>, String> {
+    pub(super) fn array(&self, accessor: &Value) -> Result<NumberArray<'_>, String> {
         let index = number(accessor).ok_or("an accessor has no index")?;
         let described = &self.json["accessors"][index];
         let read = || {
@@ -158,17 +204,32 @@ impl<'a> GlbFile<'a> {
                 tables.get(table).map(|table| table.ids.len()).ok_or("a feature has no property table")?;
             let attribute = format!("_FEATURE_ID_{}", number(&set["attribute"]).unwrap_or(0));
             let array = self.array(&attributes[attribute.as_str()])?;
+            let none = set["nullFeatureId"].as_f64();
             for index in 0..array.count {
                 let row = array.item(index)[0];
                 #[allow(clippy::cast_precision_loss, reason = "a table has fewer rows than f64 has integers")]
                 let is_row = row.fract() == 0.0 && (0.0..rows as f64).contains(&row);
-                if !is_row {
+                if !is_row && Some(row) != none {
                     return Err(format!("feature number {row} is not a row of its table of {rows}"));
                 }
             }
         }
         Ok(())
     }
+}
+
+/// Checks that there is a normal for each of `points` points, and that normals have length 1.
+fn check_normals(normals: &NumberArray<'_>, points: usize) -> Result<(), String> {
+    if normals.count != points {
+        return Err(format!("there are {} normals for {points} points", normals.count));
+    }
+    for index in 0..normals.count {
+        let length = normals.point(index).length();
+        if !(0.98..1.02).contains(&length) {
+            return Err(format!("a normal has the length {length}"));
+        }
+    }
+    Ok(())
 }
 
 fn component_size(component: u64) -> Option<usize> {
@@ -268,6 +329,7 @@ impl GlbModel {
                     &self.tables,
                 )?;
                 let positions = file.array(&primitive["attributes"]["POSITION"])?;
+                check_normals(&file.array(&primitive["attributes"]["NORMAL"])?, positions.count)?;
                 let corners = match &primitive["indices"] {
                     Value::Null => positions.count,
                     indices => file.array(indices)?.count,

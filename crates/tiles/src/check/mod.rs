@@ -3,6 +3,7 @@
 mod glb;
 mod instances;
 mod tileset;
+mod unpack;
 
 pub use glb::{GlbModel, GlbTable};
 pub use tileset::{TilesetReport, check_tileset};

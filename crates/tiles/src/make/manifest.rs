@@ -46,8 +46,10 @@ pub struct TileFile {
     pub bounds: [f64; 12],
     /// Number of triangles, counted for each instance.
     pub triangles: usize,
-    /// Number of instances.
+    /// Number of instances of models that are stored once.
     pub instances: usize,
+    /// Number of primitives, each of which a viewer draws with one call.
+    pub primitives: usize,
 }
 
 /// Feature that is in no content.

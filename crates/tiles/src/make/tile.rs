@@ -1,14 +1,14 @@
 //! One tile.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::fs;
 use std::sync::Arc;
 
 use burgeon_base::error::{Error, ErrorKind, Result};
 use burgeon_base::stop::Stop;
 use burgeon_data::Layer;
-use burgeon_export::{Export, Files, SceneFacts, SystemFacts};
-use burgeon_picture::Picture;
+use burgeon_export::gltf::{TileModelOptions, write_tile_model};
+use burgeon_export::{Files, SceneFacts, SystemFacts};
 use burgeon_scene::Scene;
 use burgeon_spatial::representative_point;
 use glam::DVec3;
@@ -38,6 +38,8 @@ pub struct TileContent {
     pub systems: Vec<SystemFacts>,
     /// Names of the attributes to include.
     pub metadata: Vec<String>,
+    /// Choices for the model.
+    pub model: TileModelOptions,
     /// Layers, ids and causes of the features that the scene lacks.
     pub skipped: Vec<(String, String, String)>,
     /// Warnings of the run.
@@ -144,23 +146,7 @@ pub fn make_tile(
     let written = content.and_then(|content| write_content(folder, tile, map, stop, content));
     match written {
         Ok((file, skipped, warnings)) => {
-            let is_skipped: BTreeSet<(&str, &str)> =
-                skipped.iter().map(|(layer, id, _)| (layer.as_str(), id.as_str())).collect();
-            let places: Vec<&TileFeature> = features
-                .iter()
-                .filter(|feature| is_skipped.contains(&(feature.layer.as_str(), feature.id.as_str())))
-                .collect();
-            manifest.missing.extend(skipped.iter().map(|(layer, id, cause)| {
-                MissingFeature {
-                    layer: layer.clone(),
-                    feature: id.clone(),
-                    place: places
-                        .iter()
-                        .find(|feature| feature.layer == *layer && feature.id == *id)
-                        .and_then(|feature| place_of(feature)),
-                    cause: cause.clone(),
-                }
-            }));
+            manifest.missing = missing_features(skipped, &features, place_of);
             manifest.content = file;
             manifest.warnings = warnings;
         }
@@ -188,6 +174,24 @@ pub fn make_tile(
     }
     manifest.write(folder)?;
     Ok(TileOutcome::Made(manifest))
+}
+
+/// Returns skipped features (layers, ids and causes) with the places of those in `features`.
+fn missing_features(
+    skipped: Vec<(String, String, String)>,
+    features: &[TileFeature],
+    place_of: impl Fn(&TileFeature) -> Option<[f64; 2]>,
+) -> Vec<MissingFeature> {
+    let places: BTreeMap<(&str, &str), &TileFeature> = match skipped.is_empty() {
+        true => BTreeMap::new(),
+        // The first of several features with the same id stays.
+        false => features.iter().rev().map(|it| ((it.layer.as_str(), it.id.as_str()), it)).collect(),
+    };
+    let missing = |(layer, feature, cause): (String, String, String)| {
+        let place = places.get(&(layer.as_str(), feature.as_str())).and_then(|it| place_of(it));
+        MissingFeature { layer, feature, place, cause }
+    };
+    skipped.into_iter().map(missing).collect()
 }
 
 /// Returns the message of an error with its line, without the folder of the file, which differs between machines.
@@ -220,7 +224,7 @@ fn write_content(
     stop: &Arc<Stop>,
     content: TileContent,
 ) -> Result<WrittenContent> {
-    let TileContent { mut scene, systems, metadata, skipped, warnings } = content;
+    let TileContent { mut scene, systems, metadata, model, skipped, warnings } = content;
     if scene.triangles() == 0 {
         return Ok((None, skipped, warnings));
     }
@@ -232,7 +236,7 @@ fn write_content(
     path.parent().map_or(Ok(()), make_folder)?;
     let facts = SceneFacts { systems: &systems, metadata: Some(&metadata), ..SceneFacts::default() };
     let mut files = Files::new(stop);
-    files.export(&Export { scene: &scene, picture: &Picture::default(), facts }, &path)?;
+    let counts = write_tile_model(&scene, &facts, &model, &path, &mut files)?;
     files.publish()?;
     let unreadable = |error: std::io::Error| {
         Error::file(&path, format!("cannot read {} after writing it: {error}", path.display()))
@@ -246,8 +250,9 @@ fn write_content(
         hash: blake3::hash(&bytes).to_hex()[..32].to_owned(),
         degrees: axes.degrees,
         bounds: bounding_box(low - MARGIN, high + MARGIN),
-        triangles: scene.triangles(),
-        instances: scene.instances.len(),
+        triangles: counts.triangles,
+        instances: counts.instances,
+        primitives: counts.primitives,
     };
     Ok((Some(file), skipped, warnings))
 }

@@ -3,13 +3,14 @@
 use std::path::Path;
 
 use burgeon_base::error::{Error, Result};
+use burgeon_export::gltf::TileModelOptions;
 use burgeon_spatial::{Crs, ReferenceFrame};
 use serde::{Deserialize, Serialize};
 
 use super::{OmittedFeature, PlannedTile, TileGrid, TileId};
 
 /// Version of the format of plans and manifests.
-pub const PLAN_VERSION: u32 = 1;
+pub const PLAN_VERSION: u32 = 2;
 
 /// Frame of the coordinates of a plan.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -68,6 +69,8 @@ pub struct TilePlan {
     pub reach: f64,
     /// Names of the attributes to include; `*` for all, and none for those that the script names.
     pub metadata: Vec<String>,
+    /// Choices for the models of tiles.
+    pub model: TileModelOptions,
     /// Sources of features.
     pub sources: Vec<PlannedSource>,
     /// Tiles, in an order that keeps neighbours together.
@@ -159,8 +162,8 @@ impl TilePlan {
     /// Sets the hash of each tile: of everything that determines its bytes. These are the program, the script and its
     /// arguments, the frame, the features of the tile, and those of the tiles within the reach.
     pub fn set_hashes(&mut self) -> Result<()> {
-        let Self { version, program, arguments, files, packages, frame, reach, metadata, .. } = &*self;
-        let common = (version, program, arguments, files, packages, frame, reach, metadata);
+        let Self { version, program, arguments, files, packages, frame, reach, metadata, model, .. } = &*self;
+        let common = (version, program, arguments, files, packages, frame, reach, metadata, model);
         let common = serde_json::to_string(&common).map_err(Error::internal)?;
         let mut by_west: Vec<usize> = (0..self.tiles.len()).collect();
         by_west.sort_by(|a, b| self.tiles[*a].region[0].total_cmp(&self.tiles[*b].region[0]));
@@ -230,6 +233,7 @@ mod tests {
             frame: PlanFrame { epsg: 2154, place: [652_000.1, 6_862_000.7], geoid_height: 44.0 },
             reach,
             metadata: Vec::new(),
+            model: TileModelOptions::default(),
             sources: Vec::new(),
             tiles,
             left_out: Vec::new(),

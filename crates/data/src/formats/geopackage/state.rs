@@ -48,7 +48,13 @@ pub struct PackageState {
     address: String,
     key: Option<String>,
     keeper: Keeper,
+    /// Stamps of the file and of its log before the state was read; `None` if a write at that moment could have had the same
+    /// time.
+    stamps: Option<FileStamps>,
 }
+
+/// Stamps of a database file and of its log.
+type FileStamps = [Option<PackageStamp>; 2];
 
 /// Mechanism that keeps a state unchanged.
 enum Keeper {
@@ -77,11 +83,32 @@ impl PackageState {
         Ok(state)
     }
 
+    /// Returns the state that the readers of `budget` have opened, if any.
+    pub fn opened(path: &Path, budget: &Budget) -> Option<Arc<Self>> {
+        let states: Arc<States> = budget.share();
+        let path = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+        let known = states.0.lock().recover();
+        known.get(&path).map(Arc::clone)
+    }
+
+    /// Makes the readers of `budget` use this state, unless they have opened another one of the file.
+    pub fn lend(self: &Arc<Self>, budget: &Budget) {
+        let states: Arc<States> = budget.share();
+        states.0.lock().recover().entry(self.path.clone()).or_insert_with(|| Arc::clone(self));
+    }
+
+    /// Returns true if the state is a copy in memory of a file that has not changed since it was copied.
+    pub fn is_current_copy(&self) -> bool {
+        matches!(self.keeper, Keeper::Copy { .. }) && self.stamps.is_some_and(|it| it == stamps(&self.path))
+    }
+
     fn wait(path: &Path, shown: &str, budget: &Budget) -> Result<Self> {
         let begin = Instant::now();
         loop {
+            let before = stamps(path);
+            let is_settled = before.iter().flatten().all(PackageStamp::is_settled);
             match (Attempt { path, shown, budget }).state() {
-                Ok(state) => return Ok(state),
+                Ok(state) => return Ok(Self { stamps: is_settled.then_some(before), ..state }),
                 Err(StateFailure::Final(error)) => return Err(error),
                 Err(StateFailure::Busy) => {}
             }
@@ -95,6 +122,11 @@ impl PackageState {
             }
             std::thread::sleep(PAUSE);
         }
+    }
+
+    /// Returns the path of the file, without links.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
     }
 
     /// Returns the address with which SQLite opens the state for reading.
@@ -159,6 +191,11 @@ impl PackageState {
         };
         if same { Ok(()) } else { Err(change_error(&self.shown)) }
     }
+}
+
+/// Returns the present stamps of the file at `path` and of its log.
+fn stamps(path: &Path) -> FileStamps {
+    [PackageStamp::of(path), PackageStamp::of(&companion_path(path, "-wal"))]
 }
 
 /// Returns a number that changes when another connection commits.
@@ -309,6 +346,7 @@ impl Attempt<'_> {
                 version,
                 _lock: lock,
             },
+            stamps: None,
         })
     }
 
@@ -324,6 +362,7 @@ impl Attempt<'_> {
                 address: address(self.path, "mode=ro&immutable=1"),
                 key: Some(format!("{stamp:?}")),
                 keeper: Keeper::Stamp(stamp),
+                stamps: None,
             });
         }
         let open = || -> rusqlite::Result<Connection> {
@@ -381,6 +420,7 @@ impl Attempt<'_> {
             address: format!("{address}&mode=ro"),
             key: Some(key),
             keeper: Keeper::Copy { _memory: Mutex::new(memory) },
+            stamps: None,
         })
     }
 }
