@@ -53,6 +53,7 @@ export class Stage {
   #waiting = false;
   #shadowDue = false;
   #drawn = [];
+  #before = [];
 
   /** Fails where there is no WebGL. */
   constructor(canvas) {
@@ -87,6 +88,19 @@ export class Stage {
   /** Calls `listener` after each frame. */
   onDraw(listener) {
     this.#drawn.push(listener);
+  }
+
+  /** Calls `listener` with the camera before each frame. */
+  onFrame(listener) {
+    this.#before.push(listener);
+  }
+
+  /** Fits the ground and the shadow to `box`, which may be a part of the model, and draws what has changed in it. */
+  refit(box) {
+    this.ground.under(box, this.model.origin);
+    this.light.fit(box, this.ground.height);
+    this.#shadowDue = true;
+    this.invalidate();
   }
 
   theme(dark) {
@@ -190,6 +204,7 @@ export class Stage {
     const grid = this.ground.follow(camera, height, renderer.getPixelRatio());
     const [center, radius] = this.#extent(grid);
     const from = camera.place(center, radius);
+    for (const listener of this.#before) listener(from);
     this.plain.follow(from);
     renderer.render(this.scene, from);
     // What follows takes its time while the graphics card works.
@@ -304,6 +319,11 @@ export class Stage {
     const seen = point.clone().project(this.camera.active);
     if (seen.z > 1 || seen.z < -1) return null;
     return [box.left + ((seen.x + 1) / 2) * box.width, box.top + ((1 - seen.y) / 2) * box.height];
+  }
+
+  /** The ray from the camera through a pixel of the window. */
+  ray(x, y) {
+    return this.#ray(x, y);
   }
 
   /** A point of the scene (m, z up) in the page's own coordinates. */
