@@ -12,18 +12,24 @@ export function facets(points, uv, index) {
   // Which triangle's normal a vertex has, by its number plus 1; copies are behind the first vertices.
   const owners = new Uint32Array(vertices);
   const copies = [];
-  const normals = new Int16Array((index.length / 3) * 3);
+  const normals = new Int16Array(index.length);
+  const takes = (vertex, at) => owners[vertex] === 0 || alike(normals, owners[vertex] * 3 - 3, at);
   for (let i = 0; i < index.length; i += 3) {
-    const triangle = [index[i], index[i + 1], index[i + 2]];
-    normal(points, triangle, normals, i);
-    let last = [2, 0, 1].find((it) => owners[triangle[it]] === 0 || alike(normals, owners[triangle[it]] * 3 - 3, i));
-    if (last === undefined) {
-      copies.push({ from: triangle[2], triangle: i });
-      corners.set([triangle[0], triangle[1], vertices + copies.length - 1], i);
-      continue;
+    const [a, b, c] = [index[i], index[i + 1], index[i + 2]];
+    normal(points, a * 3, b * 3, c * 3, normals, i);
+    let [first, second, last] = [a, b, c];
+    if (!takes(c, i)) {
+      if (takes(a, i)) [first, second, last] = [b, c, a];
+      else if (takes(b, i)) [first, second, last] = [c, a, b];
+      else {
+        copies.push({ from: c, triangle: i });
+        last = vertices + copies.length - 1;
+      }
     }
-    owners[triangle[last]] ||= i / 3 + 1;
-    corners.set([triangle[(last + 1) % 3], triangle[(last + 2) % 3], triangle[last]], i);
+    if (last < vertices) owners[last] ||= i / 3 + 1;
+    corners[i] = first;
+    corners[i + 1] = second;
+    corners[i + 2] = last;
   }
   const made = new BufferGeometry();
   const total = vertices + copies.length;
@@ -48,14 +54,18 @@ export function facets(points, uv, index) {
   return made;
 }
 
-function normal(points, [a, b, c], normals, at) {
-  const side = (from, to) => [0, 1, 2].map((axis) => points[to * 3 + axis] - points[from * 3 + axis]);
-  const [u, v] = [side(a, b), side(a, c)];
-  const cross = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-  const length = Math.hypot(...cross);
+function normal(points, a, b, c, normals, at) {
+  const [ux, uy, uz] = [points[b] - points[a], points[b + 1] - points[a + 1], points[b + 2] - points[a + 2]];
+  const [vx, vy, vz] = [points[c] - points[a], points[c + 1] - points[a + 1], points[c + 2] - points[a + 2]];
+  const [x, y, z] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
   // A triangle without area has no side; it shows nothing.
-  const unit = length > 0 ? cross.map((it) => it / length) : [0, 1, 0];
-  unit.forEach((it, axis) => (normals[at + axis] = Math.round(it * SCALE)));
+  const scale = SCALE / (Math.hypot(x, y, z) || 1);
+  normals[at] = Math.round(x * scale);
+  normals[at + 1] = Math.round(y * scale);
+  normals[at + 2] = Math.round(z * scale);
 }
 
-const alike = (normals, a, b) => [0, 1, 2].every((axis) => Math.abs(normals[a + axis] - normals[b + axis]) <= 2);
+const alike = (normals, a, b) =>
+  Math.abs(normals[a] - normals[b]) <= 2 &&
+  Math.abs(normals[a + 1] - normals[b + 1]) <= 2 &&
+  Math.abs(normals[a + 2] - normals[b + 2]) <= 2;

@@ -99,7 +99,10 @@ function fly(it) {
 }
 
 connection('connecting');
-socket.on('open', () => connection('live'));
+socket.on('open', () => {
+  connection('live');
+  shown?.retry();
+});
 socket.on('lost', () => connection('lost'));
 socket.on('moved', () => connection('moved'));
 socket.on('hello', (hello) => {

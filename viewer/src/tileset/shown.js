@@ -46,6 +46,8 @@ export class Shown {
   #tiles = null;
   #next = null;
   #stale = false;
+  /** Whether finer frames wait until the tiles have come. */
+  #waits = false;
   #rest = 0;
   #region = new Box3();
   #materials;
@@ -73,7 +75,12 @@ export class Shown {
     this.#next = tiles;
     // Only the root comes before there is a view.
     tiles.update();
-    await tiles.loaded;
+    try {
+      await tiles.loaded;
+    } catch (error) {
+      if (this.#next === tiles) this.#next = null;
+      throw error;
+    }
     if (this.#next !== tiles) return false;
     const first = this.#tiles === null;
     if (first) this.#anchor(this.#middle(tiles));
@@ -120,8 +127,15 @@ export class Shown {
     camera.go(camera.fitted(box, azimuth, elevation), at_once);
   }
 
+  /** Loads again what could not be loaded. */
+  retry() {
+    this.#tiles?.retry();
+    this.stage.invalidate();
+  }
+
   /** Flies to a place, down to `distance` (m) from it. */
   fly(place, distance) {
+    if (!this.#tiles) return;
     const target = this.world.point({ height: this.height, ...place });
     const { camera } = this.stage;
     const elevation = Math.max(camera.elevation, 0.35);
@@ -130,12 +144,13 @@ export class Shown {
 
   /** What is under a pixel of the window: `{tile, uri, hit, feature}` of a tile; null if there is none. */
   at(x, y) {
-    const hit = nearest(this.#whole, this.stage.ray(x, y));
-    if (!hit) return null;
-    for (const [tile, own] of this.#tiles.shown)
-      if (own.model.parts.includes(hit.part))
-        return { tile: own, uri: tile.content.uri, hit, feature: own.feature(hit) };
-    return null;
+    const ray = this.stage.ray(x, y);
+    let best = null;
+    for (const [tile, own] of this.#tiles?.shown ?? []) {
+      const hit = ray.intersectsBox(own.box) ? nearest(own.model, ray) : null;
+      if (hit && !(best?.hit.distance <= hit.distance)) best = { tile: own, uri: tile.content.uri, hit };
+    }
+    return best && { ...best, feature: best.tile.feature(best.hit) };
   }
 
   /** Marks a feature of a tile. */
@@ -209,11 +224,12 @@ export class Shown {
     }
     this.#tiles?.follow(camera, size);
     this.marks.frame();
+    if (this.loading !== this.#waits) this.stage.wait((this.#waits = this.loading));
     if (!this.#stale || !this.#tiles) return;
     this.#stale = false;
     this.#whole.set([...this.#tiles.shown.values()]);
     this.marks.cover(new Set([...this.#tiles.shown.keys()].map((tile) => tile.content.uri)));
-    this.stage.shading.apply(this.#whole);
+    this.stage.grown();
     this.#region.makeEmpty();
     this.changed();
   }
@@ -223,6 +239,8 @@ export class Shown {
     clearTimeout(this.#rest);
     this.#rest = setTimeout(() => {
       const { camera } = this.stage;
+      // The renderer tells in its next frame that all tiles have come.
+      if (this.loading) this.stage.invalidate();
       if (!this.#tiles || camera.moving) return;
       const { x, z } = camera.target;
       if (Math.hypot(x, z) > Math.max(NEAR, camera.distance / 10)) {
@@ -233,7 +251,6 @@ export class Shown {
       if (alike(this.#region, wanted)) return;
       this.#region.copy(wanted);
       this.stage.refit(wanted);
-      if (this.loading) this.changed();
     }, RESTS);
   }
 

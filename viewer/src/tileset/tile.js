@@ -1,6 +1,6 @@
 // A tile as a model of the page, in the tile's own axes until it is placed, with the features of its triangles.
 
-import { BufferAttribute, Matrix4 } from 'three';
+import { Box3, BufferAttribute, Matrix4 } from 'three';
 import { Glb } from '../glb.js';
 import { build, geometry } from '../model.js';
 import { Attributes } from './attributes.js';
@@ -21,6 +21,11 @@ export async function readTile(file, materials) {
 }
 
 export class Tile {
+  /** What the tile fills in the page. */
+  box = new Box3();
+  #own;
+  #features;
+
   constructor(glb, model) {
     this.model = model;
     this.bytes = glb.file.byteLength * 2;
@@ -47,12 +52,11 @@ export class Tile {
     }
   }
 
-  #own;
-  #features;
-
   /** Puts the tile to its place in the page; `transform` goes from the tile's axes to geocentric coordinates. */
   place(world, transform) {
     const to = new Matrix4().multiplyMatrices(world.toPage, transform).multiply(UPRIGHT);
+    to.multiply(new Matrix4().setPosition(this.model.origin));
+    this.box.copy(this.model.box).applyMatrix4(to);
     for (const [mesh, own] of this.#own) {
       mesh.matrix.multiplyMatrices(to, own);
       mesh.matrixWorldNeedsUpdate = true;

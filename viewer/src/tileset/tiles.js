@@ -57,6 +57,12 @@ export class Tiles extends TilesRenderer {
     return this.rootTileset !== null && !this.isLoading && this.frameCount > 1;
   }
 
+  /** Loads tiles again that could not be loaded. */
+  retry() {
+    this.failed = 0;
+    this.resetFailedTiles();
+  }
+
   /** Puts the shown tiles where the world is now. */
   replace() {
     for (const [tile, own] of this.shown) own.place(this.world, tile.engineData.transform);
