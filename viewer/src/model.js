@@ -165,7 +165,8 @@ function transforms(glb, { TRANSLATION, ROTATION, SCALE }) {
   const [matrix, move, turn, scale] = [new Matrix4(), new Vector3(), new Quaternion(), ONE.clone()];
   for (let i = 0; i < count; i++) {
     if (moves) move.fromArray(moves, i * 3);
-    if (turns) turn.fromArray(turns, i * 4);
+    // Numbers of two bytes are fractions of their largest.
+    if (turns) turn.fromArray(turns, i * 4).normalize();
     if (scales) scale.fromArray(scales, i * 3);
     matrix.compose(move, turn, scale).toArray(all, i * 16);
   }

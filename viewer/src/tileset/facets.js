@@ -7,6 +7,27 @@ const SCALE = 32767;
 
 /** The geometry of flat triangles: `points` (x, y, z in a row), texture coordinates `uv` or null, and `index`. */
 export function facets(points, uv, index) {
+  const used = compact(index, points.length / 3);
+  return faces(take(points, used.from, 3), uv && take(uv, used.from, 2), used.index);
+}
+
+/** The vertices that triangles use, which may be few of many, and the index of these. */
+function compact(index, vertices) {
+  const [to, from, own] = [new Int32Array(vertices).fill(-1), [], new Uint32Array(index.length)];
+  index.forEach((vertex, i) => {
+    if (to[vertex] < 0) to[vertex] = from.push(vertex) - 1;
+    own[i] = to[vertex];
+  });
+  return { from, index: own };
+}
+
+function take(values, from, size) {
+  const own = new Float32Array(from.length * size);
+  from.forEach((vertex, i) => own.set(values.subarray(vertex * size, vertex * size + size), i * size));
+  return own;
+}
+
+function faces(points, uv, index) {
   const vertices = points.length / 3;
   const corners = new Uint32Array(index.length);
   // Which triangle's normal a vertex has, by its number plus 1; copies are behind the first vertices.
