@@ -136,8 +136,10 @@ find('#toggle-panel').addEventListener('click', togglePanel);
 function approach(x, y) {
   const leaf = shown.leafAt(x, y);
   const found = shown.at(x, y);
-  if (found) return shown.fly(shown.world.placeOf(found.hit.point), Math.max(stage.camera.distance * 0.4, 60));
-  if (leaf) shown.fly(leaf.place, leaf.radius * 3);
+  if (!found) return leaf ? shown.fly(leaf.place, leaf.radius * 3) : undefined;
+  // The view turns around a point of the ground.
+  const { longitude, latitude } = shown.world.placeOf(found.hit.point);
+  shown.fly({ longitude, latitude }, Math.max(stage.camera.distance * 0.4, 60));
 }
 
 if (stage) {

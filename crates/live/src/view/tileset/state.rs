@@ -33,7 +33,7 @@ pub(in crate::view) struct TilesetState {
     pub(in crate::view) folder: TilesetFiles,
     progress: ProgressReader,
     tell: EventReceiver,
-    inner: Mutex<Observed>,
+    inner: Mutex<Observation>,
     wake: Condvar,
     pages: broadcast::Sender<Utf8Bytes>,
 }
@@ -50,7 +50,7 @@ impl TilesetFiles {
 
 /// Last observation of the folder.
 #[derive(Default)]
-struct Observed {
+struct Observation {
     revision: Option<String>,
     plan: Option<String>,
     progress: Option<TilesetEvent>,
@@ -103,7 +103,7 @@ impl TilesetState {
         self.wake.notify_all();
     }
 
-    fn lock(&self) -> MutexGuard<'_, Observed> {
+    fn lock(&self) -> MutexGuard<'_, Observation> {
         self.inner.lock().recover()
     }
 
@@ -148,7 +148,7 @@ impl TilesetState {
     }
 }
 
-impl Observed {
+impl Observation {
     fn revision_event(&self) -> Option<TilesetEvent> {
         Some(TilesetEvent::Tileset { revision: self.revision.clone()? })
     }
