@@ -60,8 +60,8 @@
 //! - [`presets`]: named values of parameters, in a file next to the script.
 //! - [`variations`]: many runs of a script, as thumbnails for comparison.
 //! - [`films`]: runs of a script over the values of a parameter, and a model from all sides, as frames of a film.
-//! - [`live`]: a [`Live`](live::Live) server shows the scene in the browser, and updates it on every save. It requires
-//!   the feature `live`, which is enabled by default.
+//! - [`live`]: a [`Live`](live::Live) server shows the scene in the browser, and updates it on every save; a
+//!   [`LiveTileset`](live::LiveTileset) shows a tileset. They require the feature `live`, which is enabled by default.
 //!
 //! A program without scripts uses the other crates directly:
 //!

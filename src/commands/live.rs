@@ -1,17 +1,22 @@
-//! `burgeon live`: runs the live view until it is interrupted.
+//! `burgeon live`: runs the live view of a script, or of a tileset, until it is interrupted.
 
+use std::path::Path;
 use std::sync::mpsc::channel;
 
-use burgeon::Result;
-use burgeon::live::{Editor, Live, LiveEvent, PORT, Settings, Token, browse, has_display};
+use burgeon::live::{
+    Editor, Live, LiveEvent, LiveTileset, PORT, Settings, TilesetProgress, TilesetSettings, Token, browse,
+    has_display,
+};
 use burgeon::text::grouped;
+use burgeon::tiles::{TileFolder, TilePlan, TileStatus};
+use burgeon::{Error, Result};
 use clap::Args;
 use serde_json::json;
 
 use super::report;
 use super::shared::{ScriptFlags, on_interrupt};
 
-/// Shows what a script makes in the browser, and shows it anew on every save
+/// Shows what a script makes in the browser, and shows it anew on every save; also shows a folder of tiles
 #[derive(Args)]
 pub(crate) struct LiveCommand {
     #[command(flatten)]
@@ -49,36 +54,81 @@ impl LiveCommand {
             // The receiver waits for only one interrupt.
             let _ = interrupt.send(());
         })?;
-        let live = Live::start(Settings {
-            script: self.script.script.clone(),
-            options: self.script.options()?,
+        if self.script.script.is_dir() {
+            let live = self.start_tileset()?;
+            self.announce(live.port(), &live.address(), live.token(), "it shows the files of the tileset")?;
+            // Only an interrupt ends the command; a closed channel counts as one.
+            let _ = interrupted.recv();
+            drop(live);
+        } else {
+            let live = Live::start(Settings {
+                script: self.script.script.clone(),
+                options: self.script.options()?,
+                port: self.port,
+                token: self.token.clone(),
+                editor: self.editor.clone(),
+                tell: Box::new(tell),
+            })?;
+            self.announce(live.port(), &live.address(), live.token(), "it allows setting parameters")?;
+            let _ = interrupted.recv();
+            drop(live);
+        }
+        Ok(())
+    }
+
+    /// Starts the server of a tileset. Fails if a flag of scripts was given.
+    fn start_tileset(&self) -> Result<LiveTileset> {
+        let mut flags = self.script.given_flags();
+        flags.extend(self.editor.is_some().then_some("--editor"));
+        if !flags.is_empty() {
+            return Err(Error::usage(format!("{} is for scripts, but this is a folder", flags.join(", ")))
+                .help("leave it out to show the tileset, or name a script"));
+        }
+        let folder = TileFolder(self.script.script.clone());
+        LiveTileset::start(TilesetSettings {
+            folder: folder.path().to_owned(),
             port: self.port,
             token: self.token.clone(),
-            editor: self.editor.clone(),
+            progress: Box::new(move || progress(&folder)),
             tell: Box::new(tell),
-        })?;
-        let (port, address) = (live.port(), live.address());
+        })
+    }
+
+    /// Prints the address, and opens the browser if it is wanted. `why` the address is secret is printed too.
+    fn announce(&self, port: u16, address: &str, token: &Token, why: &str) -> Result<()> {
         if self.script.json {
             report::print(&format!(
                 "{}\n",
-                json!({ "address": address, "port": port, "token": live.token().as_str() })
+                json!({ "address": address, "port": port, "token": token.as_str() })
             ))?;
         } else {
             report::print(&format!("{address}\n"))?;
-            report::eprint("keep the address secret: it allows setting parameters; Ctrl-C ends\n");
+            report::eprint(&format!("keep the address secret: {why}; Ctrl-C ends\n"));
         }
         if self.port.is_none() && port != PORT {
             report::eprint(&format!("port {PORT} is in use; using port {port}\n"));
         }
         let opens = self.open || (!self.no_open && !self.script.json && has_display());
-        if let Some(Err(error)) = opens.then(|| browse(&address)) {
+        if let Some(Err(error)) = opens.then(|| browse(address)) {
             report::eprint(&format!("{error}\n"));
         }
-        // Only an interrupt ends the command; a closed channel counts as one.
-        let _ = interrupted.recv();
-        drop(live);
         Ok(())
     }
+}
+
+/// Reads the progress of the processes that make the tiles; `None` if the folder has no plan.
+fn progress(folder: &TileFolder) -> Result<Option<TilesetProgress>> {
+    if !Path::exists(&folder.plan()) {
+        return Ok(None);
+    }
+    let status = TileStatus::read(folder, &TilePlan::read(&folder.plan())?)?;
+    Ok(Some(TilesetProgress {
+        done: status.done,
+        failed: status.failed.len(),
+        open: status.open,
+        part: status.part,
+        rate: status.rate,
+    }))
 }
 
 /// Prints notices to standard error.

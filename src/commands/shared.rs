@@ -160,6 +160,23 @@ impl ScriptFlags {
         self.threads = threads;
     }
 
+    /// Returns the flags that were given and that only a run of a script needs.
+    pub(crate) fn given_flags(&self) -> Vec<&'static str> {
+        let flags = [
+            ("--set", !self.set.is_empty()),
+            ("--preset", self.preset.is_some()),
+            ("--data", !self.data.is_empty()),
+            ("--database", !self.database.is_empty()),
+            ("--mods", !self.mods.is_empty()),
+            ("--strict", self.strict),
+            ("--seed", self.seed.is_some()),
+            ("--steps", self.steps.is_some()),
+            ("--part", self.part.is_some()),
+            ("--stdlib", self.stdlib.is_some()),
+        ];
+        flags.into_iter().filter(|(_, given)| *given).map(|(name, _)| name).collect()
+    }
+
     /// Returns true if the script may query databases.
     pub(crate) fn has_databases(&self) -> bool {
         !self.database.is_empty()

@@ -10,7 +10,7 @@ use super::sources::{Source, collect};
 use super::{root, text};
 
 /// Formats that files name outside the tables: in examples of command lines, and for images and elements of the browser.
-const EXCEPTIONS: [(&str, &str); 7] = [
+const EXCEPTIONS: [(&str, &str); 8] = [
     ("src/commands/command_line.rs", ".glb"),
     ("src/commands/new.rs", ".glb"),
     ("src/commands/run/outputs.rs", ".tif"),
@@ -18,6 +18,7 @@ const EXCEPTIONS: [(&str, &str); 7] = [
     ("viewer/src/exports.js", ".png"),
     ("viewer/src/icons.js", "'svg'"),
     ("viewer/src/stage.js", "image/png"),
+    ("viewer/src/tileset/main.js", ".geojson"),
 ];
 
 /// Returns the rows of all tables.

@@ -1,4 +1,4 @@
-//! Server of the live view, tested with the real binary: requests, saves, parameters and exports; and `run
+//! Server of the live view, tested with the real binary: requests, saves, parameters, exports and tilesets; and `run
 //! --watch`.
 #![cfg(feature = "live")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
@@ -10,5 +10,6 @@ mod params;
 mod requests;
 mod saves;
 mod support;
+mod tileset;
 mod tracing;
 mod watching;

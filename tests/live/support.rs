@@ -62,7 +62,12 @@ impl Server {
     }
 
     pub(crate) fn start(folder: tempfile::TempDir, flags: &[&str]) -> Self {
-        Self::by(Command::new(env!("CARGO_BIN_EXE_burgeon")), folder, flags)
+        Self::by(Command::new(env!("CARGO_BIN_EXE_burgeon")), folder, "s.lua", flags)
+    }
+
+    /// Serves the tileset in `name`, a folder of `folder`.
+    pub(crate) fn of_tileset(folder: tempfile::TempDir, name: &str) -> Self {
+        Self::by(Command::new(env!("CARGO_BIN_EXE_burgeon")), folder, name, &[])
     }
 
     /// Starts a server with a limit on the number of open files.
@@ -73,12 +78,12 @@ impl Server {
         let mut command = Command::new("sh");
         let limited = format!("ulimit -n {files} && exec \"$0\" \"$@\"");
         command.args(["-c", &limited, env!("CARGO_BIN_EXE_burgeon")]);
-        Self::by(command, folder, &[])
+        Self::by(command, folder, "s.lua", &[])
     }
 
-    fn by(mut command: Command, folder: tempfile::TempDir, flags: &[&str]) -> Self {
+    fn by(mut command: Command, folder: tempfile::TempDir, subject: &str, flags: &[&str]) -> Self {
         let mut child = command
-            .args(["live", "s.lua", "--json", "--no-open"])
+            .args(["live", subject, "--json", "--no-open"])
             .args(flags)
             .args(if flags.contains(&"--port") { &[][..] } else { &["--port", "0"] })
             .current_dir(folder.path())
@@ -137,16 +142,21 @@ impl Server {
     }
 
     fn greeted(&self) -> (Page, Value) {
+        let mut page = self.connect();
+        let hello = page.next("hello");
+        assert_eq!(hello["script"], "s.lua");
+        (page, hello)
+    }
+
+    /// Opens a page, which has not received its greeting yet.
+    pub(crate) fn connect(&self) -> Page {
         let stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
         stream.set_read_timeout(Some(PATIENCE)).unwrap();
         stream.set_nodelay(true).unwrap();
         let address = format!("ws://127.0.0.1:{}/{}/socket", self.port, self.token);
         let (socket, _) = tungstenite::client(&address[..], stream).unwrap();
         socket.get_ref().set_read_timeout(Some(Duration::from_millis(50))).unwrap();
-        let mut page = Page { socket, last: String::new() };
-        let hello = page.next("hello");
-        assert_eq!(hello["script"], "s.lua");
-        (page, hello)
+        Page { socket, last: String::new() }
     }
 
     /// Returns the number of open files of the server.

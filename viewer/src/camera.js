@@ -35,6 +35,8 @@ export class Camera {
   elevation = 22 * DEGREE;
   distance = 24;
   flat = false;
+  /** Moves keep the height of the target, as over a map. */
+  level = false;
   aspect = 1;
   /** The picture's height in pixels. */
   height = 800;
@@ -130,7 +132,11 @@ export class Camera {
   /** Moves by a part of the picture's height. */
   pan(x, y) {
     this.stop();
-    this.target.addScaledVector(this.right, x * 2 * this.reach).addScaledVector(this.up, y * 2 * this.reach);
+    this.target.addScaledVector(this.right, x * 2 * this.reach);
+    if (this.level) {
+      const ahead = new Vector3().crossVectors(new Vector3(0, 1, 0), this.right);
+      this.target.addScaledVector(ahead, (y * 2 * this.reach) / Math.max(Math.abs(Math.sin(this.elevation)), 0.2));
+    } else this.target.addScaledVector(this.up, y * 2 * this.reach);
     this.changed();
   }
 
@@ -139,14 +145,33 @@ export class Camera {
     this.stop();
     const distance = Math.min(Math.max(this.distance * factor, NEAREST), FARTHEST);
     const moved = 1 - distance / this.distance;
+    const under = this.level ? this.#under(x, y) : null;
+    if (under) {
+      this.target.lerp(under, moved);
+      this.distance = distance;
+      return this.changed();
+    }
     this.target.addScaledVector(this.right, x * this.reach * this.aspect * moved);
     this.target.addScaledVector(this.up, y * this.reach * moved);
     this.distance = distance;
     this.changed();
   }
 
-  /** Turns to a state of `fitted` or a part of one, the short way round. */
-  go(state, at_once = false) {
+  /** The point under (x, y) as high as the target; null above the horizon or far behind the target. */
+  #under(x, y) {
+    const slope = Math.tan(FIELD / 2);
+    const across = this.right.clone().multiplyScalar(x * slope * this.aspect).addScaledVector(this.up, y * slope);
+    const from = this.back.clone().multiplyScalar(this.distance);
+    const way = this.back.clone().negate();
+    if (this.flat) from.addScaledVector(across, this.distance);
+    else way.add(across);
+    const far = -from.y / way.y;
+    if (!(far > 0 && far < 12 * this.distance)) return null;
+    return from.addScaledVector(way, far).add(this.target);
+  }
+
+  /** Turns to a state of `fitted` or a part of one, the short way round, in `time` (ms). */
+  go(state, at_once = false, time = TURN_TIME) {
     this.stop();
     const from = this.state();
     const to = { ...from, ...state };
@@ -163,7 +188,7 @@ export class Camera {
     this.#put = put;
     const start = performance.now();
     const step = () => {
-      const t = Math.min((performance.now() - start) / TURN_TIME, 1);
+      const t = Math.min((performance.now() - start) / time, 1);
       this.#animation = t < 1 ? requestAnimationFrame(step) : 0;
       put(1 - (1 - t) ** 3);
     };

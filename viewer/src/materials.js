@@ -21,7 +21,7 @@ export class Materials {
     this.dull = dull;
   }
 
-  /** The materials of a file; `release` lets go of what no later call has used. */
+  /** The materials of a file; `keep` lets go of what this call has not used, and `add` of nothing. */
   async of(glb) {
     const { materials = [], textures = [] } = glb.json;
     const pictures = await Promise.all(textures.map((texture) => this.#texture(glb.image(texture.source))));
@@ -32,7 +32,8 @@ export class Materials {
       if (!used.has(key)) used.set(key, this.#materials.get(key) ?? material(given, picture, this.dull));
       return used.get(key);
     });
-    return { made, keep: () => this.#keep(used, new Set(pictures)) };
+    const add = () => used.forEach((it, key) => this.#materials.set(key, it));
+    return { made, add, keep: () => this.#keep(used, new Set(pictures)) };
   }
 
   /** A grey of the exporter's own for primitives without a material. */

@@ -19,8 +19,8 @@ import { merge } from './merge.js';
 
 const ONE = new Vector3(1, 1, 1);
 
-/** Builds the model; `made` are the file's materials. */
-export function build(glb, made, plain) {
+/** Builds the model; `made` are the file's materials, and `read` reads the geometry of a primitive. */
+export function build(glb, made, plain, read = geometry) {
   const model = new Model();
   const { scenes, scene = 0, nodes = [] } = glb.json;
   // Primitives of a mesh may share arrays, which the graphics card then holds once.
@@ -34,7 +34,7 @@ export function build(glb, made, plain) {
     return shared.get(index);
   };
   const geometries = (glb.json.meshes ?? []).map((mesh) =>
-    mesh.primitives.map((it) => geometry(glb, it, attribute)),
+    mesh.primitives.map((it) => read(glb, it, attribute)),
   );
   model.geometries = new Set(geometries.flat());
 
@@ -46,7 +46,7 @@ export function build(glb, made, plain) {
       const instances = placed && transforms(glb, placed);
       glb.json.meshes[node.mesh].primitives.forEach((given, primitive) => {
         const material = made[given.material] ?? plain;
-        const flat = given.extras?.flat ?? false;
+        const flat = given.extras?.flat ?? given.attributes.NORMAL === undefined;
         model.add(geometries[node.mesh][primitive], flat ? faceted(material) : material, matrix, instances, {
           node: index,
           mesh: node.mesh,
@@ -133,7 +133,8 @@ export class Model {
   }
 }
 
-function geometry(glb, { attributes, indices }, attribute) {
+/** The geometry of a primitive as it is in the file. */
+export function geometry(glb, { attributes, indices }, attribute) {
   const made = new BufferGeometry();
   const { min, max } = glb.json.accessors[attributes.POSITION];
   made.setAttribute('position', attribute(attributes.POSITION));
@@ -164,7 +165,8 @@ function transforms(glb, { TRANSLATION, ROTATION, SCALE }) {
   const [matrix, move, turn, scale] = [new Matrix4(), new Vector3(), new Quaternion(), ONE.clone()];
   for (let i = 0; i < count; i++) {
     if (moves) move.fromArray(moves, i * 3);
-    if (turns) turn.fromArray(turns, i * 4);
+    // Numbers of two bytes are fractions of their largest.
+    if (turns) turn.fromArray(turns, i * 4).normalize();
     if (scales) scale.fromArray(scales, i * 3);
     matrix.compose(move, turn, scale).toArray(all, i * 16);
   }

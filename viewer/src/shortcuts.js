@@ -1,39 +1,15 @@
 // What each key does.
 
-import { VIEWS } from './camera.js';
 import { find } from './dom.js';
 import * as keys from './keys.js';
-
-const TURN = Math.PI / 36;
+import { viewKeys } from './view-keys.js';
 
 /** `view` is what `tools` returns. */
 export function shortcuts({ stage, view, steps, seed, variations, togglePanel, escape }) {
-  const arrow = (azimuth, elevation, x, y) => (event) => {
-    if (!stage) return;
-    if (event.shiftKey) stage.camera.pan(x * 0.05, y * 0.05);
-    else stage.camera.rotate(azimuth * TURN, elevation * TURN);
-  };
-
+  const { rows, more } = viewKeys(stage, view);
   const showSheet = keys.listen(
     [
-      [
-        'View',
-        [
-          ['F', 'Fit the model', ['f'], view.fit],
-          ...Object.keys(VIEWS).map((name, i) => [
-            `${i + 1}`,
-            name === 'iso' ? 'Isometric' : `From the ${name}`,
-            [`${i + 1}`],
-            () => view.look(name),
-          ]),
-          ['O', 'Perspective or parallel', ['o'], view.project],
-          ['W', 'Next shading', ['w'], view.nextMode],
-          ['G', 'Grid', ['g'], view.toggleGrid],
-          ['← → ↑ ↓', 'Turn', ['ArrowLeft'], arrow(1, 0, -1, 0)],
-          ['⇧ ← →', 'Move', ['ArrowRight'], arrow(-1, 0, 1, 0)],
-          ['+ −', 'Nearer, farther', ['+', '='], () => stage?.camera.zoom(1 / 1.15)],
-        ],
-      ],
+      ['View', rows],
       [
         'Mouse',
         [
@@ -67,11 +43,6 @@ export function shortcuts({ stage, view, steps, seed, variations, togglePanel, e
       ],
     ],
     keys.typing,
-    {
-      ArrowUp: arrow(0, 1, 0, 1),
-      ArrowDown: arrow(0, -1, 0, -1),
-      '-': () => stage?.camera.zoom(1.15),
-      '.': () => steps.move(1),
-    },
+    { ...more, '.': () => steps.move(1) },
   );
 }

@@ -51,8 +51,10 @@ export class Stage {
   #fineCost = 0;
   #coarse = false;
   #waiting = false;
+  #grew = false;
   #shadowDue = false;
   #drawn = [];
+  #before = [];
 
   /** Fails where there is no WebGL. */
   constructor(canvas) {
@@ -87,6 +89,26 @@ export class Stage {
   /** Calls `listener` after each frame. */
   onDraw(listener) {
     this.#drawn.push(listener);
+  }
+
+  /** Calls `listener` with the camera before each frame. */
+  onFrame(listener) {
+    this.#before.push(listener);
+  }
+
+  /** Parts of the model have come or gone: without a graphics card a finer frame may take longer than before. */
+  grown() {
+    this.shading.apply(this.model);
+    this.#grew = this.slow && this.model.triangles >= FEW;
+    if (this.#grew) this.#fineCost = Infinity;
+  }
+
+  /** Fits the ground and the shadow to `box`, which may be a part of the model, and draws what has changed in it. */
+  refit(box) {
+    this.ground.under(box, this.model.origin);
+    this.light.fit(box, this.ground.height);
+    this.#shadowDue = true;
+    this.invalidate();
   }
 
   theme(dark) {
@@ -177,7 +199,13 @@ export class Stage {
     const { renderer, camera, model, light } = this;
     const [width, height] = this.size;
     if (width === 0 || height === 0) return;
-    const shadows = fine && this.shading.mode !== 'normals';
+    this.#scale(ratio ?? this.#ratio(still));
+    const grid = this.ground.follow(camera, height, renderer.getPixelRatio());
+    const [center, radius] = this.#extent(grid);
+    const from = camera.place(center, radius);
+    for (const listener of this.#before) listener(from);
+    const shadows = fine && (still || !this.#grew) && this.shading.mode !== 'normals';
+    this.#grew = false;
     if (shadows && this.#shadowDue) {
       light.sun.shadow.needsUpdate = true;
       this.#shadowDue = false;
@@ -186,10 +214,6 @@ export class Stage {
     for (const part of model.meshes) part.receiveShadow = shadows;
     if (this.slow) this.shading.plainly(model, shadows ? null : this.plain);
     this.ground.shaded(shadows);
-    this.#scale(ratio ?? this.#ratio(still));
-    const grid = this.ground.follow(camera, height, renderer.getPixelRatio());
-    const [center, radius] = this.#extent(grid);
-    const from = camera.place(center, radius);
     this.plain.follow(from);
     renderer.render(this.scene, from);
     // What follows takes its time while the graphics card works.
@@ -304,6 +328,11 @@ export class Stage {
     const seen = point.clone().project(this.camera.active);
     if (seen.z > 1 || seen.z < -1) return null;
     return [box.left + ((seen.x + 1) / 2) * box.width, box.top + ((1 - seen.y) / 2) * box.height];
+  }
+
+  /** The ray from the camera through a pixel of the window. */
+  ray(x, y) {
+    return this.#ray(x, y);
   }
 
   /** A point of the scene (m, z up) in the page's own coordinates. */

@@ -13,8 +13,9 @@ const MODE_NAMES = {
   uv: 'Texture coordinates',
 };
 
-/** Fills the toolbar and returns what its buttons do, for the keys; `changed` is called with each new shading mode. */
-export function tools(stage, changed) {
+/** Fills the toolbar and returns what its buttons do, for the keys; `changed` is called with each new shading mode. `own` may
+ *  have a page's way to `fit` the model, and to `look` at it from an azimuth and an elevation. */
+export function tools(stage, changed, own = {}) {
   for (const [i, mode] of MODES.entries()) {
     const input = make('input', {
       type: 'radio',
@@ -36,12 +37,14 @@ export function tools(stage, changed) {
   }
 
   function fit() {
+    if (own.fit) return own.fit();
     if (stage && !stage.model.box.isEmpty()) stage.camera.go(stage.camera.fitted(stage.model.box));
   }
 
   function look(name) {
     if (!stage) return;
     const { azimuth, elevation } = view(name);
+    if (own.look) return own.look({ azimuth, elevation });
     stage.camera.go(
       stage.model.box.isEmpty() ? { azimuth, elevation } : stage.camera.fitted(stage.model.box, azimuth, elevation),
     );

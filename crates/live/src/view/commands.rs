@@ -5,14 +5,26 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use axum::extract::ws::Utf8Bytes;
+use tokio::sync::broadcast::Receiver;
 use tokio::sync::mpsc::Sender;
 
 use super::message::{self, Cause, Event, PageCommand};
 use super::request::seed;
+use super::socket::PageState;
 use super::state::{DueRun, LiveState, ServerState};
 use super::{curves, tools, trace};
 use burgeon_base::error::{Error, Result};
 use burgeon_engine::script::CurvesFile;
+
+impl PageState for ServerState {
+    fn greet(&self) -> (Vec<Utf8Bytes>, Receiver<Utf8Bytes>) {
+        self.greeting()
+    }
+
+    fn reply(self: &Arc<Self>, text: &str, page: &Sender<Utf8Bytes>) -> Option<Utf8Bytes> {
+        self.ask(text, page).map(|event| self.to_text(&event))
+    }
+}
 
 impl ServerState {
     /// Executes the command in `text`, a page's message. Returns the answer to that page; slow answers are sent through

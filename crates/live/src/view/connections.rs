@@ -76,7 +76,7 @@ pub(super) async fn serve(listener: TcpListener, site: Arc<Site>) {
             // Too many open files are the most likely cause.
             Err(error) => {
                 if !std::mem::replace(&mut notices, true) {
-                    site.state.tell(&LiveEvent::Text(format!("a connection has to wait: {error}")));
+                    site.tell(&LiveEvent::Text(format!("a connection has to wait: {error}")));
                 }
                 unproven.close_all();
                 tokio::time::sleep(PAUSE).await;

@@ -12,6 +12,8 @@
 //!
 //! One thread runs the script (`work`) with the latest request (`request`); all pages share that request and the model
 //! (`state`). A newer request cancels the run of an older one, unless the run is almost done.
+//!
+//! A folder with a tileset is served by [`LiveTileset`], without a script and without commands (`tileset`).
 
 mod address;
 mod changes;
@@ -19,6 +21,7 @@ mod commands;
 mod connections;
 mod curves;
 mod describe;
+mod endpoint;
 mod export;
 mod job;
 mod layout;
@@ -31,6 +34,7 @@ mod server;
 mod settings;
 mod socket;
 mod state;
+mod tileset;
 mod token;
 mod tools;
 mod trace;
@@ -39,5 +43,6 @@ mod work;
 
 pub use live::Live;
 pub use open::{Editor, browse, has_display};
-pub use settings::{LiveEvent, PORT, Settings};
+pub use settings::{EventReceiver, LiveEvent, PORT, Settings};
+pub use tileset::{LiveTileset, ProgressReader, TilesetProgress, TilesetSettings};
 pub use token::Token;

@@ -31,6 +31,18 @@ pub(super) const SCRIPT: PageFile =
 pub(super) const STYLE: PageFile =
     PageFile { packed: packed!("viewer.css"), media_type: "text/css; charset=utf-8" };
 
+/// HTML document of the page of a tileset.
+pub(super) const TILESET_INDEX: PageFile =
+    PageFile { packed: packed!("tileset.html"), media_type: "text/html; charset=utf-8" };
+
+/// Script of the page of a tileset.
+pub(super) const TILESET_SCRIPT: PageFile =
+    PageFile { packed: packed!("tileset.js"), media_type: "text/javascript; charset=utf-8" };
+
+/// Additional style sheet of the page of a tileset.
+pub(super) const TILESET_STYLE: PageFile =
+    PageFile { packed: packed!("tileset.css"), media_type: "text/css; charset=utf-8" };
+
 impl PageFile {
     /// Returns the file as a response to a request with `headers`: compressed if the client accepts gzip.
     pub(super) fn answer(&self, headers: &HeaderMap) -> Response {
@@ -79,7 +91,15 @@ mod tests {
 
     #[test]
     fn every_file_is_what_was_packed() {
-        for (file, path) in [(INDEX, "index.html"), (SCRIPT, "viewer.js"), (STYLE, "viewer.css")] {
+        let files = [
+            (INDEX, "index.html"),
+            (SCRIPT, "viewer.js"),
+            (STYLE, "viewer.css"),
+            (TILESET_INDEX, "tileset.html"),
+            (TILESET_SCRIPT, "tileset.js"),
+            (TILESET_STYLE, "tileset.css"),
+        ];
+        for (file, path) in files {
             let mut plain = Vec::new();
             GzDecoder::new(file.packed).read_to_end(&mut plain).unwrap();
             let dist = concat!(env!("CARGO_MANIFEST_DIR"), "/../../viewer/dist");

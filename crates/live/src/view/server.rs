@@ -11,13 +11,12 @@ use axum::response::{IntoResponse, Response};
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, percent_decode_str, utf8_percent_encode};
 use tokio::sync::Semaphore;
 
-use super::Token;
 use super::address::admits;
-use super::export;
-use super::page;
-use super::socket;
+use super::socket::{self, PageState};
 use super::state::ServerState;
+use super::tileset::{TilesetState, send_file};
 use super::urls::{MODEL, PICTURE, measured_hash, model_url};
+use super::{LiveEvent, Token, export, page};
 use burgeon_base::error::Error;
 use burgeon_base::stop::Stop;
 use burgeon_export::{Format, gltf};
@@ -31,8 +30,19 @@ const NEVER: &str = "no-store";
 
 /// Shared state of all request handlers.
 pub(super) struct Site {
-    pub state: Arc<ServerState>,
     pub token: Token,
+    pub content: SiteContent,
+}
+
+/// Subject of the pages.
+pub(super) enum SiteContent {
+    Script(ScriptSite),
+    Tileset(Arc<TilesetState>),
+}
+
+/// Script that is shown.
+pub(super) struct ScriptSite {
+    pub state: Arc<ServerState>,
     /// Limit of one export at a time. A cancelled export counts until it has ended.
     pub exports: Arc<Semaphore>,
 }
@@ -47,6 +57,16 @@ impl Drop for RequestGuard {
 }
 
 impl Site {
+    /// Sends a notice to the process that started the server.
+    pub(super) fn tell(&self, notice: &LiveEvent) {
+        match &self.content {
+            SiteContent::Script(script) => script.state.tell(notice),
+            SiteContent::Tileset(tileset) => tileset.tell(notice),
+        }
+    }
+}
+
+impl ScriptSite {
     /// Runs `make` when its turn comes, separately from runs of the script, and cancels it when the client disconnects.
     /// Returns `None` if `make` panicked.
     async fn export<T: Send + 'static>(
@@ -114,14 +134,24 @@ async fn route(site: &Arc<Site>, request: Request, known: impl FnOnce()) -> Resp
         let refused = plain(StatusCode::METHOD_NOT_ALLOWED, "only GET is supported");
         return ([(header::ALLOW, "GET")], refused).into_response();
     }
-    match inner {
+    match (inner, &site.content) {
         // The page's URLs are relative to the folder.
-        None => (StatusCode::PERMANENT_REDIRECT, [(header::LOCATION, format!("/{token}/"))]).into_response(),
-        Some("") => page::INDEX.answer(headers),
-        Some("viewer.js") => page::SCRIPT.answer(headers),
-        Some("viewer.css") => page::STYLE.answer(headers),
-        Some("socket") => open_socket(site, request).await,
-        Some(inner) => match inner.split_once('/') {
+        (None, _) => {
+            (StatusCode::PERMANENT_REDIRECT, [(header::LOCATION, format!("/{token}/"))]).into_response()
+        }
+        (Some("viewer.css"), _) => page::STYLE.answer(headers),
+        (Some(inner), SiteContent::Script(script)) => route_script(script, inner, request).await,
+        (Some(inner), SiteContent::Tileset(tileset)) => route_tileset(tileset, inner, request).await,
+    }
+}
+
+/// Answers a request for `inner`, a part of the page of a script.
+async fn route_script(site: &ScriptSite, inner: &str, request: Request) -> Response {
+    match inner {
+        "" => page::INDEX.answer(request.headers()),
+        "viewer.js" => page::SCRIPT.answer(request.headers()),
+        "socket" => open_socket(&site.state, request).await,
+        inner => match inner.split_once('/') {
             Some(("model", name)) => match measured_hash(name) {
                 Some(hash) => measured_model(site, hash).await,
                 None => content_file(name, &MODEL, |hash| site.state.model(hash)),
@@ -136,6 +166,25 @@ async fn route(site: &Arc<Site>, request: Request, known: impl FnOnce()) -> Resp
     }
 }
 
+/// Answers a request for `inner`, a part of the page of a tileset.
+async fn route_tileset(state: &Arc<TilesetState>, inner: &str, request: Request) -> Response {
+    match inner {
+        "" => page::TILESET_INDEX.answer(request.headers()),
+        "tileset.js" => page::TILESET_SCRIPT.answer(request.headers()),
+        "tileset.css" => page::TILESET_STYLE.answer(request.headers()),
+        "socket" => open_socket(state, request).await,
+        inner => {
+            let names = inner.strip_prefix("tileset/").map(|path| path.split('/').map(decode_name));
+            let names: Option<Vec<String>> = names.and_then(Iterator::collect);
+            let found = names.and_then(|names| state.folder.file(&names));
+            match found {
+                Some(found) => send_file(found).await,
+                None => missing(),
+            }
+        }
+    }
+}
+
 /// Returns the value of a header that may occur once; fails if it occurs more often or is not text.
 fn single_header<'a>(headers: &'a HeaderMap, name: &HeaderName) -> std::result::Result<Option<&'a str>, ()> {
     let mut values = headers.get_all(name).iter();
@@ -146,11 +195,11 @@ fn single_header<'a>(headers: &'a HeaderMap, name: &HeaderName) -> std::result::
     }
 }
 
-async fn open_socket(site: &Arc<Site>, request: Request) -> Response {
+async fn open_socket<S: PageState>(state: &Arc<S>, request: Request) -> Response {
     let (mut parts, _) = request.into_parts();
     match WebSocketUpgrade::from_request_parts(&mut parts, &()).await {
         Ok(upgrade) => {
-            let state = Arc::clone(&site.state);
+            let state = Arc::clone(state);
             socket::limit_messages(upgrade).on_upgrade(move |socket| socket::talk(socket, state))
         }
         Err(refused) => refused.into_response(),
@@ -172,7 +221,7 @@ fn content_response(format: &Format, bytes: impl Into<Body>) -> Response {
 }
 
 /// Encodes the present model as [`gltf::glb_with_texture_coordinates`] does. Few pages request it.
-async fn measured_model(site: &Arc<Site>, hash: &str) -> Response {
+async fn measured_model(site: &ScriptSite, hash: &str) -> Response {
     let shown = site.state.lock().shown.clone();
     let url = Some(model_url(hash));
     let Some(shown) = shown.filter(|shown| shown.message.url == url) else { return missing() };
@@ -183,7 +232,7 @@ async fn measured_model(site: &Arc<Site>, hash: &str) -> Response {
     }
 }
 
-async fn save(site: &Arc<Site>, name: &str, query: &str) -> Response {
+async fn save(site: &ScriptSite, name: &str, query: &str) -> Response {
     let refuse = |text: String| plain_text(StatusCode::BAD_REQUEST, text);
     let Some(name) = decode_name(name) else { return missing() };
     if !Format::of(name.as_ref()).is_ok_and(Format::is_of_scenes) {

@@ -12,6 +12,9 @@ use burgeon_engine::script::RunOptions;
 /// Port that is used if it is free and none was specified.
 pub const PORT: u16 = 4747;
 
+/// Receiver of events of a server.
+pub type EventReceiver = Box<dyn Fn(&LiveEvent) + Send + Sync>;
+
 /// Settings of a server.
 pub struct Settings {
     /// Path of the script, which need not exist yet.
@@ -26,7 +29,7 @@ pub struct Settings {
     /// Editor that opens lines of the script.
     pub editor: Option<Editor>,
     /// Receiver of events. It is called from several threads.
-    pub tell: Box<dyn Fn(&LiveEvent) + Send + Sync>,
+    pub tell: EventReceiver,
 }
 
 /// Event for the process that started the server.

@@ -10,7 +10,6 @@ use tokio::sync::mpsc::{Sender, channel};
 use tokio::time::timeout;
 
 use super::message::Event;
-use super::state::ServerState;
 use burgeon_base::error::Error;
 
 /// Maximum size (bytes) of a message from a page.
@@ -28,14 +27,23 @@ const HEARTBEAT: Duration = Duration::from_secs(30);
 /// Maximum silence of a page, including pongs, before the connection is closed.
 const SILENCE: Duration = Duration::from_secs(100);
 
+/// State that greets pages and answers their messages.
+pub(super) trait PageState: Send + Sync + 'static {
+    /// Returns the first messages for a new page, and the receiver of later ones.
+    fn greet(&self) -> (Vec<Utf8Bytes>, Receiver<Utf8Bytes>);
+
+    /// Returns the answer to the message `text` of a page; slow answers are sent through `page`.
+    fn reply(self: &Arc<Self>, text: &str, page: &Sender<Utf8Bytes>) -> Option<Utf8Bytes>;
+}
+
 /// Limits the size of messages that a socket accepts.
 pub(super) fn limit_messages(upgrade: WebSocketUpgrade) -> WebSocketUpgrade {
     upgrade.max_message_size(LARGEST).max_frame_size(LARGEST)
 }
 
 /// Exchanges messages with a page until one side closes the connection.
-pub(super) async fn talk(mut socket: WebSocket, state: Arc<ServerState>) {
-    let Some(mut said) = greet(&mut socket, &state).await else { return };
+pub(super) async fn talk<S: PageState>(mut socket: WebSocket, state: Arc<S>) {
+    let Some(mut said) = greet(&mut socket, &*state).await else { return };
     let (later, mut answers) = channel(ANSWERS);
     let mut heartbeat = tokio::time::interval(HEARTBEAT);
     let mut heard = Instant::now();
@@ -44,7 +52,7 @@ pub(super) async fn talk(mut socket: WebSocket, state: Arc<ServerState>) {
             message = said.recv() => match message {
                 Ok(text) => send(&mut socket, text).await,
                 // The page was too slow for its queue. The present state contains everything that still matters.
-                Err(RecvError::Lagged(_)) => match greet(&mut socket, &state).await {
+                Err(RecvError::Lagged(_)) => match greet(&mut socket, &*state).await {
                     Some(fresh) => { said = fresh; true }
                     None => false,
                 },
@@ -72,7 +80,7 @@ pub(super) async fn talk(mut socket: WebSocket, state: Arc<ServerState>) {
 }
 
 /// Sends the present state. Returns the receiver of later events, or `None` if the page has disconnected.
-async fn greet(socket: &mut WebSocket, state: &ServerState) -> Option<Receiver<Utf8Bytes>> {
+async fn greet<S: PageState>(socket: &mut WebSocket, state: &S) -> Option<Receiver<Utf8Bytes>> {
     let (texts, said) = state.greet();
     for text in texts {
         if !send(socket, text).await {
@@ -82,15 +90,15 @@ async fn greet(socket: &mut WebSocket, state: &ServerState) -> Option<Receiver<U
     Some(said)
 }
 
-async fn answer(
+async fn answer<S: PageState>(
     socket: &mut WebSocket,
-    state: &Arc<ServerState>,
+    state: &Arc<S>,
     later: &Sender<Utf8Bytes>,
     text: Utf8Bytes,
 ) -> bool {
     let (state, later) = (Arc::clone(state), later.clone());
     // Some answers take a while, and other pages must not wait for them.
-    let ask = move || state.ask(&text, &later).map(|event| state.to_text(&event));
+    let ask = move || state.reply(&text, &later);
     match tokio::task::spawn_blocking(ask).await {
         Ok(Some(text)) => send(socket, text).await,
         Ok(None) => true,

@@ -13,6 +13,7 @@ use tokio::sync::broadcast;
 use super::message::{Cause, Event, Hello, ModelMessage};
 use super::open::Editor;
 use super::request::{Inputs, Request};
+use super::settings::EventReceiver;
 use super::urls::picture_url;
 use super::{LiveEvent, Settings, export};
 use burgeon_base::error::{Error, SourcePlace};
@@ -45,7 +46,7 @@ pub(super) struct ServerState {
     pub script: PathBuf,
     pub options: RunOptions,
     pub editor: Option<Editor>,
-    tell: Box<dyn Fn(&LiveEvent) + Send + Sync>,
+    tell: EventReceiver,
     inner: Mutex<LiveState>,
     /// Condition that wakes the worker and the thread that reports progress.
     pub wake: Condvar,
@@ -227,7 +228,7 @@ impl ServerState {
     }
 
     /// Returns the first messages for a new page, and the receiver of later ones.
-    pub(super) fn greet(&self) -> (Vec<Utf8Bytes>, broadcast::Receiver<Utf8Bytes>) {
+    pub(super) fn greeting(&self) -> (Vec<Utf8Bytes>, broadcast::Receiver<Utf8Bytes>) {
         let presets = self.presets.lock().recover();
         let inner = self.lock();
         let mut texts: Vec<Utf8Bytes> =
