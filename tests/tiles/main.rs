@@ -6,4 +6,7 @@ mod bad_input;
 mod bytes;
 mod cells;
 mod city;
+mod heights;
+mod implicit;
 mod killed;
+mod levels;

@@ -4,7 +4,7 @@ mod manifest;
 mod sweep;
 mod tile;
 
-pub(crate) use manifest::write_text;
+pub(crate) use manifest::{write_bytes, write_text};
 pub use manifest::{ManifestError, MissingFeature, TileFile, TileManifest, hash_file};
 pub use sweep::sweep_temporary;
 pub(crate) use tile::bounding_box;
