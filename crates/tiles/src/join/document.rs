@@ -1,15 +1,15 @@
 //! Tileset files, with explicit or implicit tiling.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use burgeon_base::error::Result;
 use glam::DAffine3;
 use serde_json::{Value, json};
 
-use super::implicit::{ImplicitRoot, SUBTREE_LEVELS};
+use super::implicit::{ImplicitRoot, SUBTREE_LEVELS, root_box};
 use super::subtree::{schema, subtrees};
-use super::tree::TilesetTile;
+use super::tree::{TilesetTile, box_around};
 use crate::earth::EarthMap;
 use crate::folder::{TileFolder, content_name, template};
 use crate::make::{bounding_box, write_bytes, write_text};
@@ -30,6 +30,8 @@ pub(super) struct TilesetWriter<'a> {
     pub(super) is_implicit: bool,
     /// Files that have been written.
     pub(super) written: BTreeSet<PathBuf>,
+    /// Bounding boxes (m) of tiles that contain the boxes of tiles with implicit tiling.
+    pub(super) grown: BTreeMap<TileId, [f64; 12]>,
 }
 
 /// Tile of a file to be written, inside a tile.
@@ -57,6 +59,9 @@ impl TilesetWriter<'_> {
             self.file(&main, &body, 0.0)?;
             return Ok(1);
         };
+        if self.is_implicit {
+            self.grow(root)?;
+        }
         let mut external: Vec<Pending<'_>> = Vec::new();
         let divides = self.tiles(root) > LARGE;
         let above = TileAbove { transform: &DAffine3::IDENTITY, error: root.absent_error() };
@@ -71,6 +76,22 @@ impl TilesetWriter<'_> {
         // The first file is written last, so that a reader does not find a file that is not there.
         self.file(&main, &body, root.absent_error())?;
         Ok(count)
+    }
+
+    /// Stores the boxes of the tiles above those with implicit tiling, and returns the transform and the box of `tile`.
+    fn grow(&mut self, tile: &TilesetTile) -> Result<(DAffine3, [f64; 12])> {
+        if tile.id.level >= TileId::ANCHOR {
+            let (axes, bounds) = root_box(tile, self.map)?;
+            return Ok((axes.transform, bounds));
+        }
+        let mut inside = Vec::new();
+        for child in &tile.children {
+            inside.push(self.grow(child)?);
+        }
+        let inside: Vec<(&DAffine3, [f64; 12])> = inside.iter().map(|(axes, bounds)| (axes, *bounds)).collect();
+        let bounds = box_around(&tile.transform, Some(tile.bounds), &inside);
+        self.grown.insert(tile.id, bounds);
+        Ok((tile.transform, bounds))
     }
 
     /// Returns the number of tiles in files, without those with implicit tiling.
@@ -93,7 +114,8 @@ impl TilesetWriter<'_> {
         if self.is_implicit && tile.id.level >= TileId::ANCHOR {
             return self.implicit(tile, above);
         }
-        let mut body = json!({ "boundingVolume": { "box": tile.bounds }, "geometricError": tile.error });
+        let bounds = self.grown.get(&tile.id).unwrap_or(&tile.bounds);
+        let mut body = json!({ "boundingVolume": { "box": bounds }, "geometricError": tile.error });
         place(&mut body, above.transform, &tile.transform);
         let is_region = |tile: &TilesetTile| !tile.has_content && self.tiles(tile) <= REGION;
         if let Some(external) = external.as_deref_mut().filter(|_| is_region(tile)) {

@@ -1,6 +1,6 @@
 //! Join of the tiles of a plan.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -84,7 +84,14 @@ pub fn join_tiles(folder: &TileFolder, plan: &TilePlan, tiling: Tiling) -> Resul
     };
     for (stem, is_implicit) in ways {
         let (is_implicit, map) = (*is_implicit, &map);
-        let mut writer = TilesetWriter { folder, map, stem, is_implicit, written: BTreeSet::new() };
+        let mut writer = TilesetWriter {
+            folder,
+            map,
+            stem,
+            is_implicit,
+            written: BTreeSet::new(),
+            grown: BTreeMap::new(),
+        };
         report.tilesets += writer.write(root.as_ref())?;
         written.append(&mut writer.written);
     }

@@ -100,7 +100,8 @@ impl TreeJoin<'_> {
             rest = later;
         }
         let axes = self.axes(id, content, tiles)?;
-        let bounds = bounds(&axes, content.map(|tile| tile.file.bounds), &children);
+        let inside = children.iter().map(|child| (&child.transform, child.bounds)).collect::<Vec<_>>();
+        let bounds = box_around(&axes.transform, content.map(|tile| tile.file.bounds), &inside);
         let mut tile = TilesetTile {
             id,
             transform: axes.transform,
@@ -144,18 +145,24 @@ fn raise(errors: &mut [f64], others: &[f64]) {
     errors.iter_mut().zip(others).for_each(|(error, other)| *error = error.max(*other));
 }
 
-/// Returns the box in `axes` around a content with bounds in the same axes, and around the tiles inside.
-fn bounds(axes: &TileAxes, content: Option<[f64; 12]>, children: &[TilesetTile]) -> [f64; 12] {
-    if let (Some(bounds), []) = (content, children) {
+/// Returns the box in the axes of `transform` around a box in the same axes, and around boxes in other axes.
+pub(super) fn box_around(
+    transform: &DAffine3,
+    content: Option<[f64; 12]>,
+    inside: &[(&DAffine3, [f64; 12])],
+) -> [f64; 12] {
+    if let (Some(bounds), []) = (content, inside) {
         return bounds;
     }
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let mut add = |point: DVec3| (low, high) = (low.min(point), high.max(point));
     content.iter().flat_map(corners).for_each(&mut add);
-    for child in children {
-        for corner in corners(&child.bounds) {
-            let is_local = child.transform == axes.transform;
-            add(if is_local { corner } else { axes.enter(child.transform.transform_point3(corner)) });
+    // The axes are orthonormal, so the transpose is the inverse.
+    let back = transform.matrix3.transpose();
+    for (other, bounds) in inside {
+        for corner in corners(bounds) {
+            let enter = |corner: DVec3| back * (other.transform_point3(corner) - transform.translation);
+            add(if *other == transform { corner } else { enter(corner) });
         }
     }
     // Corners are rounded when they are transformed.
