@@ -262,6 +262,8 @@ fn every_lua_block_of_the_guide_runs() {
     for file in rooms.chain([library.with_extension("lua")]) {
         fs::copy(root().join("scripts").join(&file), folder.path().join(file)).unwrap();
     }
+    let buildings = root().join("examples/data/quarter/buildings.geojson");
+    fs::copy(buildings, folder.path().join("buildings.geojson")).unwrap();
     let guide = guide();
     let mut count = 0;
     for (index, rest) in guide.split("\n```lua\n").skip(1).enumerate() {
@@ -274,7 +276,7 @@ fn every_lua_block_of_the_guide_runs() {
         assert!(modules + run.scene.triangles() > 0, "{block}");
         count += 1;
     }
-    assert_eq!(count, 76);
+    assert_eq!(count, 77);
     assert_eq!(count, guide.matches("```lua").count(), "a fragment would go untested");
 }
 

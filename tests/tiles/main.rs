@@ -7,4 +7,7 @@ mod bytes;
 mod cells;
 mod city;
 mod content;
+mod heights;
+mod implicit;
 mod killed;
+mod levels;

@@ -21,12 +21,22 @@ impl TileFolder {
 
     /// Returns the path of the manifest of a tile.
     pub fn manifest(&self, tile: TileId) -> PathBuf {
-        self.0.join(format!("tiles/{tile}.json"))
+        self.0.join(format!("tiles/{}.json", path_of(tile)))
     }
 
     /// Returns the path of the tileset.
     pub fn tileset(&self) -> PathBuf {
         self.0.join("tileset.json")
+    }
+
+    /// Returns the path of the tileset with implicit tiling that stands beside an explicit one.
+    pub fn implicit_tileset(&self) -> PathBuf {
+        self.0.join(IMPLICIT_NAME)
+    }
+
+    /// Returns the folder of the subtrees of implicit tiling.
+    pub fn subtrees(&self) -> PathBuf {
+        self.0.join("subtrees")
     }
 
     /// Returns the path of the times of a share, which are for people and no output.
@@ -45,7 +55,40 @@ impl TileFolder {
     }
 }
 
+/// Name of the tileset with implicit tiling that stands beside an explicit one.
+pub(crate) const IMPLICIT_NAME: &str = "implicit.json";
+
 /// Returns the path of the content of a tile, relative to the folder.
 pub(crate) fn content_name(tile: TileId) -> String {
-    format!("tiles/{tile}.glb")
+    format!("tiles/{}.glb", path_of(tile))
+}
+
+/// Returns the template of the paths of contents, or of subtrees, in a tile with implicit tiling.
+pub(crate) fn template(folder: &str, root: TileId, extension: &str) -> String {
+    format!("{folder}/{root}/{{level}}/{{x}}/{{y}}.{extension}")
+}
+
+/// Returns the path of a tile: its level, column and row in the largest tile that contains it, as templates have it, after
+/// those of that tile.
+fn path_of(tile: TileId) -> String {
+    let root = tile.anchor();
+    match tile.level >= root.level && root.level == TileId::ANCHOR {
+        true => format!("{root}/{}", tile.within(root)),
+        false => tile.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn contents_have_the_paths_of_their_templates_and_no_two_are_the_same() {
+        let tile = TileId { level: 12, x: 2051, y: 2046 };
+        assert_eq!(content_name(tile), "tiles/9/256/255/3/3/6.glb");
+        let filled = template("tiles", tile.anchor(), "glb").replace("{level}", "3").replace("{x}", "3");
+        assert_eq!(filled.replace("{y}", "6"), content_name(tile));
+        assert_eq!(content_name(tile.ancestor(9)), "tiles/9/256/255/0/0/0.glb");
+        assert_eq!(content_name(tile.ancestor(8)), "tiles/8/128/127.glb");
+    }
 }

@@ -8,6 +8,7 @@
 //! - [`make`]: [`make_tile`] writes a tile and its [`TileManifest`], unless they fit the plan already.
 //! - [`join`]: [`join_tiles`] writes the tileset and the missing features.
 //! - [`check`]: [`check_tileset`] proves that the tileset is what the plan says.
+//! - [`measure`]: distances between levels of detail.
 //! - [`earth`]: coordinates of a run on the WGS 84 ellipsoid.
 //!
 //! Specification: Open Geospatial Consortium, "3D Tiles Specification 1.1", 2023.
@@ -17,13 +18,14 @@ pub mod earth;
 mod folder;
 pub mod join;
 pub mod make;
+pub mod measure;
 pub mod plan;
 mod status;
 
 pub use check::{TilesetReport, check_tileset};
 pub use earth::{EarthMap, TileAxes};
 pub use folder::TileFolder;
-pub use join::{JoinReport, join_tiles};
+pub use join::{JoinReport, Tiling, join_tiles};
 pub use make::{TileManifest, TileOutcome, make_tile};
 pub use plan::{PlannedTile, TileDivision, TileId, TilePlan};
 pub use status::TileStatus;

@@ -35,7 +35,7 @@ impl TileStatus {
         let mut status = Self::default();
         let (mut done, mut all) = (0.0, 0.0);
         let mut times: Vec<SystemTime> = Vec::new();
-        for tile in &plan.tiles {
+        for tile in plan.all_tiles() {
             all += tile.cost;
             let Some(manifest) = TileManifest::fitting(folder, tile)? else {
                 status.open += 1;

@@ -3,9 +3,11 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use burgeon::scene::Scene;
 use burgeon::script::{FeaturePart, RunOptions, Session};
 use burgeon::sources::{DataSources, Layer, ReferenceFrame, SourceWindow, WindowBox};
 use burgeon::tiles::make::{BuiltTile, TileContent, portable_message, tile_features, verify_features};
+use burgeon::tiles::measure::FeatureDrawings;
 use burgeon::tiles::plan::TileGrid;
 use burgeon::tiles::{PlannedTile, TilePlan};
 use burgeon::warning::WarningKind;
@@ -29,15 +31,10 @@ impl<'a> TileBuilder<'a> {
         Ok(Self { plan, frame: plan.frame.reference()?, options, sources: DataSources::cached(), script })
     }
 
-    /// Builds a tile.
+    /// Builds a tile. One of the features also has the errors of the coarser levels of detail.
     pub(super) fn build(&self, tile: &PlannedTile) -> BuiltTile {
-        let needed = self.plan.needed(tile);
-        let boxes = self.plan.sources.iter().map(|source| {
-            let (in_parts, bounds) = (source.in_parts, source.bounds);
-            (source.key.clone(), WindowBox { needed, in_parts, bounds })
-        });
-        let window = Arc::new(SourceWindow::new(self.frame.clone(), boxes.collect()));
-        let run = self.run(tile, &window);
+        let window = self.window(tile);
+        let run = self.run(tile, &window, tile.lod.unwrap_or(self.options.lod));
         let served = window.served().into_iter();
         let is_planned = |key: &String| self.plan.sources.iter().any(|source| source.key == *key);
         let layers: Vec<Arc<Layer>> =
@@ -47,11 +44,42 @@ impl<'a> TileBuilder<'a> {
         // Changed data explain an error of the script better than the error.
         let verified = if all { verify_features(tile, &layers) } else { Ok(()) };
         let content = verified.and(run).and_then(|(session, run)| self.content(&session, run));
+        let content = content.map(|content| match tile.lod {
+            None => TileContent { errors: self.errors(tile, &content.scene), ..content },
+            Some(_) => content,
+        });
         BuiltTile { features, content }
     }
 
-    fn run(&self, tile: &PlannedTile, window: &Arc<SourceWindow>) -> Result<(Arc<Session>, Run)> {
+    /// Returns the features of a tile in a level of detail.
+    pub(super) fn scene(&self, tile: &PlannedTile, lod: u8) -> Result<Scene> {
+        self.run(tile, &self.window(tile), lod).map(|(_, run)| run.scene)
+    }
+
+    /// Returns the errors (m) of the coarser levels of detail of a tile, whose features are `fine`.
+    fn errors(&self, tile: &PlannedTile, fine: &Scene) -> Vec<f64> {
+        let drawings = FeatureDrawings::new(fine);
+        let error = |lod: &u8| {
+            // Where the coarser level fails, its tile reports the failure, and nothing is drawn.
+            let coarse = self.scene(tile, *lod).unwrap_or_default();
+            drawings.error(&FeatureDrawings::new(&coarse))
+        };
+        self.plan.lods.iter().map(error).collect()
+    }
+
+    /// Returns the boxes of the features that a tile needs.
+    fn window(&self, tile: &PlannedTile) -> Arc<SourceWindow> {
+        let needed = self.plan.needed(tile);
+        let boxes = self.plan.sources.iter().map(|source| {
+            let (in_parts, bounds) = (source.in_parts, source.bounds);
+            (source.key.clone(), WindowBox { needed, in_parts, bounds })
+        });
+        Arc::new(SourceWindow::new(self.frame.clone(), boxes.collect()))
+    }
+
+    fn run(&self, tile: &PlannedTile, window: &Arc<SourceWindow>, lod: u8) -> Result<(Arc<Session>, Run)> {
         let mut options = self.options.clone();
+        options.lod = lod;
         options.registry.set_sources(Arc::new(self.sources.windowed(window)));
         let cell = Some(TileGrid::bounds(tile.id));
         options.part = Some(FeaturePart { number: 1, count: 1, reach: self.plan.reach, cell });
@@ -79,7 +107,7 @@ impl<'a> TileBuilder<'a> {
         }
         let warnings = run.warnings.iter().map(|warning| portable_message(&warning.clone().into_error()));
         let warnings = warnings.collect();
-        let model = self.plan.model;
-        Ok(TileContent { scene: run.scene, systems, metadata, model, skipped, warnings })
+        let (model, errors) = (self.plan.model, Vec::new());
+        Ok(TileContent { scene: run.scene, systems, metadata, model, skipped, warnings, errors })
     }
 }

@@ -34,14 +34,19 @@ impl CheckTilesCommand {
         }
         if self.json {
             let document = json!({
-                "ok": true, "tiles": checked.tiles, "points": checked.points, "triangles": checked.triangles,
+                "ok": true, "tiles": checked.tiles, "coarse": checked.coarse, "points": checked.points, "triangles": checked.triangles,
                 "features": checked.features, "missing": checked.missing,
             });
             return report::print(&format!("{document}\n"));
         }
         report::eprint(&format!(
-            "{} tiles with {} features and {} triangles; {} points are inside their volumes; {} features are missing\n",
-            checked.tiles, checked.features, checked.triangles, checked.points, checked.missing
+            "{} tiles with {} features, and {} coarser ones; {} triangles; {} points are inside their volumes; {} features are missing\n",
+            checked.tiles,
+            checked.features,
+            checked.coarse,
+            checked.triangles,
+            checked.points,
+            checked.missing
         ));
         Ok(())
     }

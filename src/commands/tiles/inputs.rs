@@ -2,6 +2,7 @@
 
 use std::path::{Component, Path, PathBuf};
 
+use burgeon::tiles::earth::GeoidGrid;
 use burgeon::tiles::plan::{PlannedFile, TilePlan};
 use burgeon::{Error, Result};
 use clap::Parser;
@@ -57,6 +58,12 @@ pub(super) fn planned_flags(folder: &Path, plan: &TilePlan, threads: Option<u16>
 /// Returns the path for this process of a path of a plan in `folder`.
 pub(super) fn local_path(folder: &Path, path: &Path) -> PathBuf {
     folder.join(path)
+}
+
+/// Returns the grid of the geoid of a plan in `folder`, if it has one.
+pub(super) fn geoid(folder: &Path, plan: &TilePlan) -> Result<Option<GeoidGrid>> {
+    let grid = plan.frame.geoid.as_ref();
+    grid.map(|path| GeoidGrid::open(&local_path(folder, Path::new(path)), path)).transpose()
 }
 
 /// Fails if the program or a file is not that of the plan.

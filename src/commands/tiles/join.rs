@@ -3,17 +3,42 @@
 use std::path::PathBuf;
 
 use burgeon::Result;
-use burgeon::tiles::{TileFolder, TilePlan, join_tiles};
-use clap::Args;
+use burgeon::tiles::{TileFolder, TilePlan, Tiling, join_tiles};
+use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use super::super::report;
+
+/// Way in which a tileset lists its tiles.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum TilingFlag {
+    /// Each tile in JSON files
+    Explicit,
+    /// Tiles with sides up to 8 km in .subtree files
+    Implicit,
+    /// Explicit, and implicit.json with the same contents
+    Both,
+}
+
+impl From<TilingFlag> for Tiling {
+    fn from(flag: TilingFlag) -> Self {
+        match flag {
+            TilingFlag::Explicit => Self::Explicit,
+            TilingFlag::Implicit => Self::Implicit,
+            TilingFlag::Both => Self::Both,
+        }
+    }
+}
 
 /// Writes tileset.json from the tiles that were made, and lists the missing features as GeoJSON and CSV
 #[derive(Args)]
 pub(super) struct JoinCommand {
     /// Folder of the plan
     folder: PathBuf,
+
+    /// Tiling of the tileset
+    #[arg(long, value_enum, default_value_t = TilingFlag::Explicit)]
+    tiling: TilingFlag,
 
     /// Prints machine-readable JSON instead of text
     #[arg(long)]
@@ -24,17 +49,18 @@ impl JoinCommand {
     pub(super) fn run(&self) -> Result<()> {
         let folder = TileFolder(self.folder.clone());
         let plan = TilePlan::read(&folder.plan())?;
-        let joined = join_tiles(&folder, &plan)?;
+        let joined = join_tiles(&folder, &plan, self.tiling.into())?;
         if self.json {
             let document = json!({
-                "ok": true, "tiles": joined.tiles, "empty": joined.empty, "failed": joined.failed, "open": joined.open,
+                "ok": true, "tiles": joined.tiles, "coarse": joined.coarse, "empty": joined.empty, "failed": joined.failed, "open": joined.open,
                 "features": joined.features, "missing": joined.missing, "tilesets": joined.tilesets,
+                "subtrees": joined.subtrees,
             });
             return report::print(&format!("{document}\n"));
         }
         report::eprint(&format!(
-            "{} tiles with {} features; {} tiles are empty, {} failed, {} are not made\n",
-            joined.tiles, joined.features, joined.empty, joined.failed, joined.open
+            "{} tiles with {} features, and {} coarser ones; {} tiles are empty, {} failed, {} are not made\n",
+            joined.tiles, joined.features, joined.coarse, joined.empty, joined.failed, joined.open
         ));
         if joined.missing > 0 {
             report::eprint(&format!(

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use burgeon::tiles::make::{make_tile, sweep_temporary};
 use burgeon::tiles::plan::{TileShare, share_of};
-use burgeon::tiles::{EarthMap, TileFolder, TileId, TileManifest, TileOutcome, TilePlan};
+use burgeon::tiles::{EarthMap, PlannedTile, TileFolder, TileId, TileManifest, TileOutcome, TilePlan};
 use burgeon::{Error, Result, Stop};
 use clap::Args;
 use serde_json::json;
@@ -18,7 +18,7 @@ use super::super::progress::ProgressDisplay;
 use super::super::report;
 use super::super::shared::{end_on_interrupt, seconds, threads};
 use super::build::TileBuilder;
-use super::inputs::{planned_flags, verify_files};
+use super::inputs::{geoid, planned_flags, verify_files};
 
 /// Makes the tiles of a plan that have not been made, or a share of them
 #[derive(Args)]
@@ -30,7 +30,7 @@ pub(super) struct MakeCommand {
     #[arg(long, value_name = "K/N", value_parser = share, group = "choice")]
     share: Option<TileShare>,
 
-    /// Makes one of N shares, whose number a scheduler tells: SLURM_ARRAY_TASK_ID or JOB_COMPLETION_INDEX
+    /// Makes one of N shares, whose number a scheduler sets: SLURM_ARRAY_TASK_ID or JOB_COMPLETION_INDEX
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000), group = "choice")]
     of: Option<u32>,
 
@@ -85,14 +85,15 @@ impl MakeCommand {
         let begin = Instant::now();
         let folder = TileFolder(self.folder.clone());
         let plan = TilePlan::read(&folder.plan())?;
-        let (name, tiles) = self.tiles(&plan)?;
+        let planned = plan.all_tiles();
+        let (name, tiles) = self.tiles(&planned)?;
         verify_files(folder.path(), &plan)?;
         end_on_interrupt()?;
         sweep_temporary(&folder, Duration::from_secs_f64(self.stale_after));
         let flags = planned_flags(folder.path(), &plan, self.threads)?;
         let builder = TileBuilder::new(&plan, &flags.script, flags.options()?)?;
         let frame = plan.frame.reference()?;
-        let map = EarthMap::new(&frame, plan.frame.geoid_height)?;
+        let map = EarthMap::new(&frame, plan.frame.geoid_height)?.above(geoid(folder.path(), &plan)?);
         let (done, all) = (Arc::new(AtomicUsize::new(0)), tiles.len());
         let shown = Arc::clone(&done);
         let _progress = ProgressDisplay::saying(
@@ -102,7 +103,7 @@ impl MakeCommand {
         let mut counts = MakeCounts::default();
         let mut in_a_row = 0;
         for index in tiles {
-            let tile = &plan.tiles[index];
+            let tile = planned[index];
             self.forget_failed(&folder, tile.id)?;
             let started = Instant::now();
             // Each tile has its own signal, so that limits apply to a tile.
@@ -130,19 +131,20 @@ impl MakeCommand {
     }
 
     /// Returns the name of the share and the indices of its tiles.
-    fn tiles(&self, plan: &TilePlan) -> Result<(String, Vec<usize>)> {
+    fn tiles(&self, planned: &[&PlannedTile]) -> Result<(String, Vec<usize>)> {
         if let Some(id) = self.tile {
-            let planned = plan.tile(id)?;
-            let index = plan.tiles.iter().position(|tile| tile.id == planned.id);
+            let index = planned.iter().position(|tile| tile.id == id).ok_or_else(|| {
+                Error::argument(format!("the plan has no tile {id}")).help("plan.json lists the tiles")
+            })?;
             let TileId { level, x, y } = id;
-            return Ok((format!("tile-{level}-{x}-{y}"), index.into_iter().collect()));
+            return Ok((format!("tile-{level}-{x}-{y}"), vec![index]));
         }
         let share = match (self.share, self.of) {
             (Some(share), _) => share,
             (None, Some(count)) => TileShare { number: scheduled(count)?, count },
             (None, None) => TileShare::ALL,
         };
-        Ok((format!("share-{}-of-{}", share.number, share.count), share_of(&plan.tiles, share)))
+        Ok((format!("share-{}-of-{}", share.number, share.count), share_of(planned, share)))
     }
 
     /// Removes the manifest of a failed tile, if such tiles are to be made again.
@@ -193,7 +195,7 @@ impl MakeCounts {
     }
 }
 
-/// Returns the number of the share, from 1, that the scheduler of a job array tells.
+/// Returns the number of the share, from 1, that the scheduler of a job array sets.
 fn scheduled(count: u32) -> Result<u32> {
     let number = |name: &str| -> Option<u32> { std::env::var(name).ok()?.trim().parse().ok() };
     let first = number("SLURM_ARRAY_TASK_MIN").unwrap_or(0);
@@ -202,7 +204,7 @@ fn scheduled(count: u32) -> Result<u32> {
     match index {
         Some(index) if index < count => Ok(index + 1),
         Some(index) => {
-            Err(Error::usage(format!("the scheduler tells index {index}, but there are {count} shares"))
+            Err(Error::usage(format!("the scheduler sets index {index}, but there are {count} shares"))
                 .help(format!("submit an array of {count} jobs")))
         }
         None => {

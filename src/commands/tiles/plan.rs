@@ -6,18 +6,22 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use burgeon::export::gltf::{TileCompression, TileModelOptions};
+use burgeon::scene::Scene;
 use burgeon::script::{RunOptions, Session};
 use burgeon::sources::{DataSources, SourceSurvey, SurveyedSource};
-use burgeon::tiles::TileFolder;
+use burgeon::tiles::earth::GeoidGrid;
+use burgeon::tiles::measure::draws_the_same;
 use burgeon::tiles::plan::{
-    PLAN_VERSION, PlanFrame, PlannedFile, PlannedSource, TileDivision, TilePlan, scan_source,
+    PLAN_VERSION, PlanFrame, PlannedFile, PlannedSource, TileDivision, TilePlan, coarse_tiles, scan_source,
 };
+use burgeon::tiles::{EarthMap, TileFolder};
 use burgeon::{Error, Result};
 use clap::Args;
 use serde_json::json;
 
 use super::super::report;
 use super::super::shared::ScriptFlags;
+use super::build::TileBuilder;
 use super::inputs::{hash_file, portable_path};
 
 /// Divides the features of a script among tiles, and writes the plan
@@ -37,6 +41,14 @@ pub(super) struct PlanCommand {
     /// Height of the origin of heights above the WGS 84 ellipsoid (m) [default: 0, with a warning]
     #[arg(long, value_name = "METRES", value_parser = height, allow_negative_numbers = true)]
     geoid_height: Option<f64>,
+
+    /// Grid of the heights of the geoid above the WGS 84 ellipsoid, such as a GeoTIFF, instead of a constant
+    #[arg(long, value_name = "FILE", conflicts_with = "geoid_height")]
+    geoid: Option<PathBuf>,
+
+    /// Number of levels of detail: coarser tiles show the features at lower --lod from afar
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=4))]
+    levels: u8,
 
     /// Attributes of features to include; '*' for all [default: those that the script names]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
@@ -134,7 +146,8 @@ impl PlanCommand {
             Error::data(format!("{} has no EPSG code", crs.name()))
                 .help("specify one: source(file, { crs = 2154 })")
         })?;
-        let frame = PlanFrame { epsg, place, geoid_height: self.geoid_height.unwrap_or(0.0) };
+        let geoid_height = self.geoid_height.unwrap_or(0.0);
+        let frame = PlanFrame { epsg, place, geoid_height, geoid: None };
         let reference = frame.reference()?;
         let mut division = TileDivision::default();
         let (mut planned, mut left_out, mut notes) = (Vec::new(), Vec::new(), Vec::new());
@@ -177,10 +190,14 @@ impl PlanCommand {
             metadata: self.metadata.clone(),
             model: self.model(),
             sources: planned,
+            lods: Vec::new(),
             tiles: division.tiles(self.target_features),
+            coarse: Vec::new(),
             left_out,
             notes,
         };
+        self.add_geoid(&mut plan, folder)?;
+        self.add_levels(&mut plan)?;
         plan.set_hashes()?;
         Ok(plan)
     }
@@ -192,6 +209,46 @@ impl PlanCommand {
             compression: self.compress,
             precision: self.precision,
         }
+    }
+
+    /// Adds the grid of the geoid to a plan. Fails if it does not cover all tiles.
+    fn add_geoid(&self, plan: &mut TilePlan, folder: &Path) -> Result<()> {
+        let Some(path) = &self.geoid else { return Ok(()) };
+        if !path.is_file() {
+            let name = path.display().to_string();
+            let message = format!("there is no geoid grid {name}");
+            return Err(Error::not_found("geoid grid", name, [], message)
+                .help("download one of your heights, such as a GeoTIFF of cdn.proj.org; or specify a constant: --geoid-height METRES"));
+        }
+        let grid = GeoidGrid::open(path, &path.display().to_string())?;
+        let frame = plan.frame.reference()?;
+        let map = EarthMap::new(&frame, 0.0)?;
+        let (mut sum, mut count) = (0.0, 0.0_f64);
+        for tile in &plan.tiles {
+            let [west, south, east, north] = tile.region;
+            for place in [[west, south], [east, south], [east, north], [west, north]] {
+                sum += grid.height(map.degrees(place)?)?;
+                count += 1.0;
+            }
+        }
+        plan.frame.geoid_height = (sum / count.max(1.0) * 1000.0).round() / 1000.0;
+        let path_in_plan = portable_path(folder, path)?;
+        plan.files.push(PlannedFile { path: path_in_plan.clone(), hash: hash_file(path)? });
+        plan.frame.geoid = Some(path_in_plan);
+        Ok(())
+    }
+
+    /// Adds coarser tiles to a plan, for the levels of detail that the script draws differently in samples.
+    fn add_levels(&self, plan: &mut TilePlan) -> Result<()> {
+        let options = self.script.options()?;
+        let finest = options.lod;
+        let lods = (finest.saturating_sub(self.levels - 1)..finest).rev();
+        let builder = TileBuilder::new(plan, &self.script.script, options)?;
+        let (kept, mut notes) = distinct_lods(plan, &builder, finest, lods);
+        plan.coarse = coarse_tiles(&plan.tiles, &kept);
+        plan.lods = kept;
+        plan.notes.append(&mut notes);
+        Ok(())
     }
 
     /// Returns the earlier plan of the folder. Fails if it is that of another script or of other arguments.
@@ -214,12 +271,13 @@ impl PlanCommand {
     fn report(&self, plan: &TilePlan, earlier: Option<&TilePlan>) -> Result<()> {
         let features: u64 = plan.sources.iter().map(|source| source.features).sum();
         let known: BTreeSet<&str> =
-            earlier.iter().flat_map(|plan| &plan.tiles).map(|tile| tile.hash.as_str()).collect();
-        let kept = plan.tiles.iter().filter(|tile| known.contains(tile.hash.as_str())).count();
+            earlier.iter().flat_map(|plan| plan.all_tiles()).map(|tile| tile.hash.as_str()).collect();
+        let all = plan.all_tiles();
+        let kept = all.iter().filter(|tile| known.contains(tile.hash.as_str())).count();
         let mut warnings = plan.notes.clone();
-        if self.geoid_height.is_none() {
+        if self.geoid_height.is_none() && self.geoid.is_none() {
             warnings.push(
-                "heights are taken as heights above the WGS 84 ellipsoid; national heights are above a geoid: --geoid-height METRES"
+                "heights are taken as heights above the WGS 84 ellipsoid; national heights are above a geoid: --geoid FILE or --geoid-height METRES"
                     .to_owned(),
             );
         }
@@ -230,20 +288,65 @@ impl PlanCommand {
         }
         if self.script.json {
             let document = json!({
-                "ok": true, "tiles": plan.tiles.len(), "unchanged": kept, "features": features,
+                "ok": true, "tiles": plan.tiles.len(), "coarse": plan.coarse.len(), "lods": plan.lods,
+                "geoid": plan.frame.geoid, "geoid_height": plan.frame.geoid_height, "unchanged": kept, "features": features,
                 "left_out": plan.left_out.len(), "warnings": warnings, "peak_memory_mb": report::peak_memory(),
             });
             return report::print(&format!("{document}\n"));
         }
         let largest = plan.tiles.iter().map(|tile| tile.features).max().unwrap_or(0);
+        let height = plan.frame.geoid_height;
+        let heights = match &self.geoid {
+            Some(path) => {
+                format!("heights above the geoid of {}, about {height} m above the ellipsoid", path.display())
+            }
+            None => format!("heights begin {height} m above the ellipsoid"),
+        };
         report::eprint(&format!(
-            "{features} features in {} tiles, at most {largest} in one; {kept} tiles unchanged\n{}",
+            "{features} features in {} tiles, at most {largest} in one, and {} coarser tiles; {kept} tiles unchanged\n{heights}\n{}",
             plan.tiles.len(),
+            plan.coarse.len(),
             report::memory_text()
         ));
         warnings.iter().for_each(|warning| report::eprint(&format!("warning: {warning}\n")));
         Ok(())
     }
+}
+
+/// Returns the levels of detail, from fine to coarse, that the script draws differently in three tiles, and notes on the others.
+fn distinct_lods(
+    plan: &TilePlan,
+    builder: &TileBuilder<'_>,
+    finest: u8,
+    lods: impl ExactSizeIterator<Item = u8>,
+) -> (Vec<u8>, Vec<String>) {
+    let (mut kept, mut notes) = (Vec::new(), Vec::new());
+    if lods.len() == 0 {
+        return (kept, notes);
+    }
+    let count = plan.tiles.len();
+    let samples: BTreeSet<usize> = [count / 6, count / 2, count * 5 / 6].into();
+    // A tile that fails shows nothing; it reports its failure when it is made.
+    let draw = |lod: u8| -> Vec<Option<Scene>> {
+        let tiles = samples.iter().filter_map(|index| plan.tiles.get(*index));
+        tiles.map(|tile| builder.scene(tile, lod).ok()).collect()
+    };
+    let mut finer = draw(finest);
+    for lod in lods {
+        let scenes = draw(lod);
+        let pairs = finer.iter().zip(&scenes).filter_map(|(a, b)| a.as_ref().zip(b.as_ref()));
+        let same: Vec<bool> = pairs.map(|(a, b)| draws_the_same(a, b)).collect();
+        if !same.is_empty() && same.iter().all(|same| *same) {
+            let above = kept.last().copied().unwrap_or(finest);
+            notes.push(format!(
+                "no coarser tiles at --lod {lod}: the script draws the same as at --lod {above}; read lod in the script"
+            ));
+            continue;
+        }
+        kept.push(lod);
+        finer = scenes;
+    }
+    (kept, notes)
 }
 
 /// Returns the sources whose features become chains. Fails if there are none, or if they are not distinct layers of files.

@@ -1,7 +1,9 @@
 //! Check of a tileset by a reader of its own.
 
 mod glb;
+mod implicit;
 mod instances;
+mod subtree;
 mod tileset;
 mod unpack;
 

@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use super::glb::GlbModel;
 use crate::earth::east_north_up;
-use crate::folder::{TileFolder, content_name};
+use crate::folder::{IMPLICIT_NAME, TileFolder, content_name};
 use crate::make::TileManifest;
 use crate::plan::{FeatureDigest, PlannedTile, TileId, TilePlan, id_digest};
 
@@ -22,7 +22,9 @@ pub struct TilesetReport {
     pub points: usize,
     /// Number of triangles, counted for each instance.
     pub triangles: usize,
-    /// Number of features in contents.
+    /// Number of coarser tiles with content.
+    pub coarse: usize,
+    /// Number of features in contents, without coarser tiles.
     pub features: u64,
     /// Number of features of the plan that no content has.
     pub missing: u64,
@@ -40,19 +42,40 @@ const LISTED: usize = 100;
 const DEPTH: usize = 64;
 
 /// Check in progress.
-struct TilesetCheck<'a> {
-    folder: &'a TileFolder,
+pub(super) struct TilesetCheck<'a> {
+    pub(super) folder: &'a TileFolder,
     plan: BTreeMap<String, &'a PlannedTile>,
-    seen: BTreeSet<TileId>,
+    /// Tiles with content in this tileset.
+    seen: BTreeMap<TileId, SeenTile>,
+    /// Errors (m) of coarser levels of detail, of the manifests of tiles, by the positions of the tiles on the curve.
+    errors: BTreeMap<u64, Vec<f64>>,
     geoid: f64,
+    /// Set to read contents.
+    reads: bool,
     report: TilesetReport,
 }
 
-/// Volume and error of the tile around a tile.
-struct ParentTile {
+/// Volume and error of a tile, or of the tile around it.
+#[derive(Clone)]
+pub(super) struct ParentTile {
     /// Transform from the tile's axes to geocentric coordinates (m).
-    transform: DAffine3,
-    bounds: Option<[f64; 12]>,
+    pub(super) transform: DAffine3,
+    pub(super) bounds: Option<[f64; 12]>,
+    pub(super) error: f64,
+}
+
+/// Content of a tile.
+pub(super) struct TileContent<'a> {
+    pub(super) uri: &'a str,
+    pub(super) has_children: bool,
+    /// Set if the children replace the content.
+    pub(super) replaces: bool,
+}
+
+/// Tile with content in a tileset.
+struct SeenTile {
+    /// Corners of the volume in geocentric coordinates (m).
+    corners: [DVec3; 8],
     error: f64,
 }
 
@@ -61,25 +84,74 @@ struct ParentTile {
 /// Every point of a content must be in the volume of its tile, every volume in that around it, and geometric errors must fall
 /// from parents to children. Contents must be those of the manifests and lie at the places of the plan. Every feature of the
 /// plan must be in exactly one content or in the list of missing features, and each number of a feature must be a row of a
-/// property table.
+/// property table. Coarser tiles must have the features of the tiles inside, which replace them, and at least the errors that
+/// were measured. If there is a second tileset with implicit tiling, it must have the same tiles.
 pub fn check_tileset(folder: &TileFolder, plan: &TilePlan) -> Result<TilesetReport> {
     let mut check = TilesetCheck {
         folder,
-        plan: plan.tiles.iter().map(|tile| (content_name(tile.id), tile)).collect(),
-        seen: BTreeSet::new(),
+        plan: plan.all_tiles().into_iter().map(|tile| (content_name(tile.id), tile)).collect(),
+        seen: BTreeMap::new(),
+        errors: BTreeMap::new(),
         geoid: plan.frame.geoid_height,
+        reads: true,
         report: TilesetReport::default(),
     };
-    let document = check.document("tileset.json")?;
-    let whole = document["geometricError"].as_f64().unwrap_or(f64::NAN);
-    let parent = ParentTile { transform: DAffine3::IDENTITY, bounds: None, error: whole };
-    check.tile(&document["root"], &parent, 0)?;
+    check.whole("tileset.json")?;
     check.rest(plan)?;
+    check.coarse(plan);
+    if folder.implicit_tileset().exists() {
+        let explicit = std::mem::take(&mut check.seen);
+        check.reads = false;
+        check.whole(IMPLICIT_NAME)?;
+        check.compare(&explicit);
+    }
     Ok(check.report)
 }
 
 impl TilesetCheck<'_> {
-    fn problem(&mut self, text: String) {
+    /// Checks a tileset.
+    fn whole(&mut self, name: &str) -> Result<()> {
+        let document = self.document(name)?;
+        let error = document["geometricError"].as_f64().unwrap_or(f64::NAN);
+        let parent = ParentTile { transform: DAffine3::IDENTITY, bounds: None, error };
+        self.tile(&document["root"], &parent, &document["schema"], 0)
+    }
+
+    /// Checks that the contents are those of another tileset, with the same volumes and errors.
+    fn compare(&mut self, other: &BTreeMap<TileId, SeenTile>) {
+        let seen = std::mem::take(&mut self.seen);
+        let only = seen.keys().filter(|id| !other.contains_key(id));
+        let only: Vec<TileId> =
+            only.chain(other.keys().filter(|id| !seen.contains_key(id))).copied().collect();
+        for id in only {
+            self.problem(format!("tile {id} is in one of tileset.json and {IMPLICIT_NAME} only"));
+        }
+        for (id, tile) in &seen {
+            let Some(known) = other.get(id) else { continue };
+            let is_near = tile.corners.iter().zip(known.corners).all(|(a, b)| a.abs_diff_eq(b, NEAR));
+            // Larger tiles also contain the regular boxes of implicit tiling.
+            let is_near = is_near || id.level < TileId::ANCHOR;
+            if !is_near || (tile.error - known.error).abs() > NEAR {
+                self.problem(format!("tile {id} has another volume or error in {IMPLICIT_NAME}"));
+            }
+        }
+    }
+
+    /// Checks that coarser tiles have at least the measured errors of the tiles inside.
+    fn coarse(&mut self, plan: &TilePlan) {
+        for tile in &plan.coarse {
+            let Some(seen) = self.seen.get(&tile.id) else { continue };
+            let Some(level) = plan.lods.iter().position(|lod| Some(*lod) == tile.lod) else { continue };
+            let inside = self.errors.range(tile.id.span());
+            let measured = inside.filter_map(|(_, errors)| errors.get(level)).copied().fold(0.0, f64::max);
+            if seen.error < measured {
+                let error = seen.error;
+                self.problem(format!("tile {} has the error {error}, but {measured} was measured", tile.id));
+            }
+        }
+    }
+
+    pub(super) fn problem(&mut self, text: String) {
         if self.report.problems.len() < LISTED {
             self.report.problems.push(text);
         }
@@ -97,14 +169,14 @@ impl TilesetCheck<'_> {
         if document["asset"]["version"] != "1.1" {
             self.problem(format!("{name}: the version is not 1.1"));
         }
-        if document["root"]["refine"] != "ADD" {
+        if !["ADD", "REPLACE"].contains(&document["root"]["refine"].as_str().unwrap_or_default()) {
             self.problem(format!("{name}: the root has no refinement"));
         }
         Ok(document)
     }
 
-    /// Checks a tile and those below it.
-    fn tile(&mut self, described: &Value, parent: &ParentTile, depth: usize) -> Result<()> {
+    /// Checks a tile and those below it. `schema` describes the metadata of the file.
+    fn tile(&mut self, described: &Value, parent: &ParentTile, schema: &Value, depth: usize) -> Result<()> {
         let uri = described["content"]["uri"].as_str();
         let name = uri.map_or_else(|| format!("a tile without content at depth {depth}"), str::to_owned);
         if depth > DEPTH {
@@ -127,46 +199,74 @@ impl TilesetCheck<'_> {
             return Ok(());
         };
         let error = described["geometricError"].as_f64().unwrap_or(f64::NAN);
+        let own = ParentTile { transform, bounds: Some(bounds), error };
+        self.volume(&name, &own, parent);
+        if !described["implicitTiling"].is_null() {
+            return self.implicit(described, &own, schema);
+        }
+        let children = described["children"].as_array().map_or(&[][..], Vec::as_slice);
+        match uri {
+            Some(uri) if uri.ends_with(".json") => {
+                let document = self.document(uri)?;
+                self.tile(&document["root"], &own, &document["schema"], depth + 1)?;
+            }
+            Some(uri) => {
+                let (has_children, replaces) = (!children.is_empty(), described["refine"] == "REPLACE");
+                self.content(&TileContent { uri, has_children, replaces }, &own)?;
+            }
+            None => {}
+        }
+        for child in children {
+            self.tile(child, &own, schema, depth + 1)?;
+        }
+        Ok(())
+    }
+
+    /// Checks the volume and the error of a tile against those of its parent.
+    pub(super) fn volume(&mut self, name: &str, own: &ParentTile, parent: &ParentTile) {
+        let error = own.error;
         if !(error >= 0.0 && error <= parent.error) {
             self.problem(format!(
                 "{name}: the geometric error {error} is not between 0 and that of its parent, {}",
                 parent.error
             ));
         }
-        if let Some(outer) = &parent.bounds {
+        if let (Some(outer), Some(bounds)) = (&parent.bounds, &own.bounds) {
             let size = outer[3..].iter().fold(1.0_f64, |most, value| most.max(value.abs()));
             let back = parent.transform.inverse();
-            for corner in crate::join::corners(&bounds) {
-                let point = back.transform_point3(transform.transform_point3(corner));
+            for corner in crate::join::corners(bounds) {
+                let point = back.transform_point3(own.transform.transform_point3(corner));
                 if !is_inside(outer, point, NEAR + size * 1e-9) {
                     self.problem(format!("{name}: the volume is not inside that of its parent"));
                     break;
                 }
             }
         }
-        let own = ParentTile { transform, bounds: Some(bounds), error };
-        match uri {
-            Some(uri) if uri.ends_with(".json") => {
-                let document = self.document(uri)?;
-                self.tile(&document["root"], &own, depth + 1)?;
-            }
-            Some(uri) => self.content(uri, &own)?,
-            None => {}
-        }
-        for child in described["children"].as_array().into_iter().flatten() {
-            self.tile(child, &own, depth + 1)?;
-        }
-        Ok(())
     }
 
     /// Checks the content of a tile.
-    fn content(&mut self, uri: &str, tile: &ParentTile) -> Result<()> {
+    pub(super) fn content(&mut self, content: &TileContent<'_>, tile: &ParentTile) -> Result<()> {
+        let uri = content.uri;
         let Some(planned) = self.plan.get(uri).copied() else {
             self.problem(format!("{uri} is not in the plan"));
             return Ok(());
         };
-        if !self.seen.insert(planned.id) {
+        let corners = crate::join::corners(&tile.bounds.unwrap_or_default());
+        let seen = SeenTile {
+            corners: corners.map(|corner| tile.transform.transform_point3(corner)),
+            error: tile.error,
+        };
+        if self.seen.insert(planned.id, seen).is_some() {
             self.problem(format!("{uri} is in the tileset twice"));
+            return Ok(());
+        }
+        if content.has_children && !content.replaces {
+            self.problem(format!("{uri} is shown together with the same features in the tiles inside"));
+        }
+        if content.has_children && planned.lod.is_none() {
+            self.problem(format!("{uri} has tiles inside, but no coarser level of detail"));
+        }
+        if !self.reads {
             return Ok(());
         }
         let Some(manifest) = TileManifest::fitting(self.folder, planned)? else {
@@ -212,7 +312,13 @@ impl TilesetCheck<'_> {
             let (is, said) = (model.triangles, file.triangles);
             self.problem(format!("{uri} has {is} triangles, but the manifest says {said}"));
         }
-        self.report.tiles += 1;
+        match planned.lod {
+            Some(_) => self.report.coarse += 1,
+            None => {
+                self.report.tiles += 1;
+                self.errors.insert(planned.id.curve().0, manifest.errors.clone());
+            }
+        }
         self.report.points += model.points;
         self.report.triangles += model.triangles;
         let mut ids: BTreeSet<(&str, &str)> = BTreeSet::new();
@@ -228,8 +334,10 @@ impl TilesetCheck<'_> {
             }
         }
         self.features(uri, planned, &ids);
-        self.report.features += shown;
-        self.report.missing += manifest.missing.len() as u64;
+        if planned.lod.is_none() {
+            self.report.features += shown;
+            self.report.missing += manifest.missing.len() as u64;
+        }
         Ok(())
     }
 
@@ -245,15 +353,18 @@ impl TilesetCheck<'_> {
 
     /// Checks the tiles of the plan without content.
     fn rest(&mut self, plan: &TilePlan) -> Result<()> {
-        for tile in plan.tiles.iter().filter(|tile| !self.seen.contains(&tile.id)).collect::<Vec<_>>() {
+        let rest = plan.all_tiles().into_iter().filter(|tile| !self.seen.contains_key(&tile.id));
+        for tile in rest.collect::<Vec<_>>() {
             let name = format!("tile {}", tile.id);
+            // Features of coarser tiles are counted in the tiles inside.
+            let features = if tile.lod.is_none() { tile.features } else { 0 };
             match TileManifest::fitting(self.folder, tile)? {
-                None => self.report.missing += tile.features,
+                None => self.report.missing += features,
                 Some(manifest) if manifest.content.is_some() => {
                     self.problem(format!("{name} was made, but is not in the tileset: join again"));
                 }
                 Some(manifest) if manifest.error.is_some() => {
-                    self.report.missing += tile.features;
+                    self.report.missing += features;
                     if !manifest.missing.is_empty() {
                         let ids = manifest.missing.iter();
                         let ids =
@@ -261,7 +372,10 @@ impl TilesetCheck<'_> {
                         self.features(&name, tile, &ids);
                     }
                 }
-                Some(manifest) => self.report.missing += manifest.missing.len() as u64,
+                Some(manifest) if tile.lod.is_none() => {
+                    self.report.missing += manifest.missing.len() as u64;
+                }
+                Some(_) => {}
             }
         }
         Ok(())

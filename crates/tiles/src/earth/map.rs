@@ -4,13 +4,14 @@ use burgeon_base::error::{Error, Result};
 use burgeon_spatial::{Crs, Passage, ReferenceFrame};
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::{east_north_up, from_degrees};
+use super::{GeoidGrid, east_north_up, from_degrees};
 
 /// Map from the coordinates of a run to geocentric coordinates (m).
 pub struct EarthMap<'a> {
     passage: Passage<'a>,
     /// Height (m) of the origin of heights above the ellipsoid.
     geoid: f64,
+    grid: Option<GeoidGrid>,
 }
 
 /// Local axes of a tile: east, north and up at its origin.
@@ -46,7 +47,13 @@ pub(super) const NEAR: f64 = 1000.0;
 impl<'a> EarthMap<'a> {
     /// Creates the map of `frame`, whose heights begin `geoid` (m) above the ellipsoid.
     pub fn new(frame: &'a ReferenceFrame, geoid: f64) -> Result<Self> {
-        Ok(Self { passage: frame.passage(&Crs::epsg(4326)?)?, geoid })
+        Ok(Self { passage: frame.passage(&Crs::epsg(4326)?)?, geoid, grid: None })
+    }
+
+    /// Returns the map whose heights are above the geoid of a grid. Axes keep their height.
+    #[must_use]
+    pub fn above(self, grid: Option<GeoidGrid>) -> Self {
+        Self { grid, ..self }
     }
 
     /// Returns the longitude and the latitude (degrees) of a position (m) of the run.
@@ -61,7 +68,9 @@ impl<'a> EarthMap<'a> {
 
     /// Returns the geocentric coordinates (m) of a point (m) of the run.
     pub fn geocentric(&self, point: DVec3) -> Result<DVec3> {
-        Ok(from_degrees(self.degrees([point.x, point.y])?, point.z + self.geoid))
+        let degrees = self.degrees([point.x, point.y])?;
+        let geoid = self.grid.as_ref().map_or(Ok(self.geoid), |grid| grid.height(degrees))?;
+        Ok(from_degrees(degrees, point.z + geoid))
     }
 
     /// Returns the local axes at a position (m) of the run, at height 0 of the run.

@@ -1,24 +1,39 @@
-//! Files of a tileset.
+//! Join of the tiles of a plan.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+use std::path::{Path, PathBuf};
 
 use burgeon_base::error::{Error, Result};
-use glam::DAffine3;
-use serde_json::{Value, json};
+use rayon::prelude::*;
 
+use super::document::TilesetWriter;
 use super::missing::{MissingList, write_missing};
-use super::tree::{TilesetTile, join_tree};
+use super::tree::{JoinedTile, join_tree};
 use crate::earth::EarthMap;
-use crate::folder::{TileFolder, content_name};
-use crate::make::{TileFile, TileManifest, write_text};
+use crate::folder::{IMPLICIT_NAME, TileFolder};
+use crate::make::TileManifest;
 use crate::plan::{PlannedTile, TilePlan};
+
+/// Way in which a tileset lists its tiles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Tiling {
+    /// Each tile in `tileset.json` and its external tilesets.
+    #[default]
+    Explicit,
+    /// Tiles with a side of more than 8 km in `tileset.json`, the others as bits in `.subtree` files.
+    Implicit,
+    /// `tileset.json` with explicit tiling, and `implicit.json` with the same contents.
+    Both,
+}
 
 /// Result of a join.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct JoinReport {
-    /// Number of tiles with content.
+    /// Number of tiles with content, without coarser ones.
     pub tiles: usize,
+    /// Number of coarser tiles with content.
+    pub coarse: usize,
     /// Number of tiles that draw nothing.
     pub empty: usize,
     /// Number of tiles that failed.
@@ -29,164 +44,129 @@ pub struct JoinReport {
     pub features: u64,
     /// Number of missing features.
     pub missing: u64,
-    /// Number of files of the tileset.
+    /// Number of tileset files.
     pub tilesets: usize,
+    /// Number of subtree files.
+    pub subtrees: usize,
 }
 
-/// Largest number of contents of a tileset file before it is divided into external tilesets.
-const LARGE: usize = 2000;
-
-/// Largest number of contents of an external tileset.
-const REGION: usize = 1000;
-
-/// Writes `tileset.json`, its external tilesets, `missing.geojson` and `missing.csv` from the manifests of the tiles of a plan.
+/// Writes `tileset.json`, its external tilesets and subtrees, `missing.geojson` and `missing.csv` from the manifests of the
+/// tiles of a plan.
 ///
 /// Reads no content. The tileset is valid even if tiles failed or have not been made: their features are listed as missing.
-pub fn join_tiles(folder: &TileFolder, plan: &TilePlan) -> Result<JoinReport> {
+pub fn join_tiles(folder: &TileFolder, plan: &TilePlan, tiling: Tiling) -> Result<JoinReport> {
     let frame = plan.frame.reference()?;
-    let geoid = plan.frame.geoid_height;
-    let map = EarthMap::new(&frame, geoid)?;
+    let map = EarthMap::new(&frame, plan.frame.geoid_height)?;
     let mut report = JoinReport::default();
     let mut missing = MissingList::new(plan);
-    let mut made: Vec<(&PlannedTile, TileFile)> = Vec::new();
-    for tile in &plan.tiles {
-        let Some(manifest) = TileManifest::fitting(folder, tile)? else {
-            report.open += 1;
-            missing.add_tile(tile, &map, "the tile has not been made: burgeon tiles make FOLDER");
-            continue;
-        };
-        let absent = manifest.missing.len() as u64;
-        report.features += tile.features.saturating_sub(absent);
-        match (&manifest.error, manifest.content) {
-            (Some(error), _) => {
-                report.failed += 1;
-                if absent < tile.features {
-                    report.features -= tile.features - absent;
-                    missing.add_tile(tile, &map, &error.message);
-                    continue;
-                }
-            }
-            (None, Some(file)) => {
-                report.tiles += 1;
-                made.push((tile, file));
-            }
-            (None, None) => report.empty += 1,
-        }
-        missing.add(tile.id, manifest.missing);
+    let planned = plan.all_tiles();
+    let read = planned.par_iter().map(|tile| TileManifest::fitting(folder, tile));
+    let mut manifests: Vec<Option<TileManifest>> = read.collect::<Result<_>>()?;
+    for (tile, manifest) in planned.iter().zip(&mut manifests) {
+        count(tile, manifest.as_mut(), &map, &mut report, &mut missing);
     }
     report.missing = missing.count;
-    let tiles: Vec<(&PlannedTile, &TileFile)> = made.iter().map(|(tile, file)| (*tile, file)).collect();
-    let root = join_tree(&tiles, &map, geoid)?;
-    let mut external = Vec::new();
-    let divides = root.as_ref().is_some_and(|root| root.contents() > LARGE);
-    let body = match &root {
-        Some(root) => tile_json(root, &DAffine3::IDENTITY, divides.then_some(&mut external)),
-        // A tileset must have a root; this one is a point without content at the centre of the data.
-        None => {
-            let axes = map.axes([0.0; 2])?;
-            json!({
-                "transform": axes.transform.to_cols_array_2d_4(),
-                "boundingVolume": { "box": crate::make::bounding_box(glam::DVec3::splat(-1.0), glam::DVec3::splat(1.0)) },
-                "geometricError": 0.0,
-            })
-        }
-    };
-    let mut written = BTreeSet::new();
-    for (name, tile) in &external {
-        // The tile that refers to the file has the transform.
-        let mut body = tile_json(tile, &tile.transform, None);
-        if let Some(body) = body.as_object_mut() {
-            body.remove("transform");
-        }
-        write_tileset(folder, name, body, tile.error)?;
-        written.insert(name.clone());
-    }
+    let contents = planned.iter().zip(&manifests).filter_map(|(tile, manifest)| {
+        let manifest = manifest.as_ref()?;
+        let file = manifest.content.as_ref()?;
+        Some(JoinedTile { planned: tile, file, errors: &manifest.errors })
+    });
+    let mut contents: Vec<JoinedTile<'_>> = contents.collect();
+    contents.sort_by_key(|tile| tile.planned.id.curve());
+    let root = join_tree(&contents, &map, &plan.lods)?;
     write_missing(folder, &missing)?;
-    write_tileset(folder, "tileset.json", body, root.as_ref().map_or(0.0, |root| root.error))?;
+    let mut written = BTreeSet::new();
+    let stem = IMPLICIT_NAME.split('.').next().unwrap_or_default();
+    let ways: &[(&'static str, bool)] = match tiling {
+        Tiling::Explicit => &[("tileset", false)],
+        Tiling::Implicit => &[("tileset", true)],
+        Tiling::Both => &[(stem, true), ("tileset", false)],
+    };
+    for (stem, is_implicit) in ways {
+        let (is_implicit, map) = (*is_implicit, &map);
+        let mut writer = TilesetWriter {
+            folder,
+            map,
+            stem,
+            is_implicit,
+            written: BTreeSet::new(),
+            grown: BTreeMap::new(),
+        };
+        report.tilesets += writer.write(root.as_ref())?;
+        written.append(&mut writer.written);
+    }
+    report.subtrees = written.len() - report.tilesets;
     remove_others(folder, &written)?;
-    report.tilesets = written.len() + 1;
     Ok(report)
 }
 
-/// Columns of a transform, four numbers each.
-trait FourColumns {
-    fn to_cols_array_2d_4(&self) -> Vec<f64>;
-}
-
-impl FourColumns for DAffine3 {
-    fn to_cols_array_2d_4(&self) -> Vec<f64> {
-        let columns = self.to_cols_array_2d();
-        let last = [0.0, 0.0, 0.0, 1.0];
-        columns.iter().zip(last).flat_map(|([x, y, z], w)| [*x, *y, *z, w]).collect()
-    }
-}
-
-/// Returns a tile inside a tile with the transform `parent` as JSON. With `external`, regions of the tree go to that list, with
-/// the names of their files.
-fn tile_json<'a>(
-    tile: &'a TilesetTile,
-    parent: &DAffine3,
-    mut external: Option<&mut Vec<(String, &'a TilesetTile)>>,
-) -> Value {
-    let relative = relative(parent, &tile.transform);
-    let mut body = json!({
-        "transform": relative.to_cols_array_2d_4(),
-        "boundingVolume": { "box": tile.bounds },
-        "geometricError": tile.error,
-    });
-    if tile.has_content {
-        body["content"] = json!({ "uri": content_name(tile.id) });
-    }
-    if let Some(external) = external.as_deref_mut().filter(|_| !tile.has_content && tile.contents() <= REGION)
-    {
-        let id = tile.id;
-        let name = format!("tileset-{}-{}-{}.json", id.level, id.x, id.y);
-        body["content"] = json!({ "uri": name });
-        external.push((name, tile));
-        return body;
-    }
-    if !tile.children.is_empty() {
-        let mut children = Vec::new();
-        for child in &tile.children {
-            children.push(tile_json(child, &tile.transform, external.as_deref_mut()));
+/// Counts a tile and its missing features.
+fn count(
+    tile: &PlannedTile,
+    manifest: Option<&mut TileManifest>,
+    map: &EarthMap<'_>,
+    report: &mut JoinReport,
+    missing: &mut MissingList,
+) {
+    let is_coarse = tile.lod.is_some();
+    let Some(manifest) = manifest else {
+        report.open += 1;
+        if !is_coarse {
+            missing.add_tile(tile, map, "the tile has not been made: burgeon tiles make FOLDER");
         }
-        body["children"] = Value::Array(children);
+        return;
+    };
+    match (&manifest.error, &manifest.content) {
+        (Some(_), _) => report.failed += 1,
+        (None, Some(_)) if is_coarse => report.coarse += 1,
+        (None, Some(_)) => report.tiles += 1,
+        (None, None) => report.empty += 1,
     }
-    body
-}
-
-/// Returns the transform of a child relative to its parent. Both are rotations and translations.
-fn relative(parent: &DAffine3, child: &DAffine3) -> DAffine3 {
-    let turned = parent.matrix3.transpose();
-    DAffine3 {
-        matrix3: turned * child.matrix3,
-        translation: turned * (child.translation - parent.translation),
+    if is_coarse {
+        // The tiles inside have the same features.
+        return;
     }
+    let absent = manifest.missing.len() as u64;
+    if let Some(error) = manifest.error.as_ref().filter(|_| absent < tile.features) {
+        return missing.add_tile(tile, map, &error.message);
+    }
+    report.features += tile.features.saturating_sub(absent);
+    missing.add(tile.id, std::mem::take(&mut manifest.missing));
 }
 
-/// Writes a file of the tileset.
-fn write_tileset(folder: &TileFolder, name: &str, mut root: Value, error: f64) -> Result<()> {
-    // Each feature is in one tile, and tiles without content show nothing, so children are added to their parents.
-    root["refine"] = "ADD".into();
-    let document = json!({
-        "asset": { "version": "1.1", "generator": format!("Burgeon {}", env!("CARGO_PKG_VERSION")) },
-        "geometricError": error,
-        "root": root,
-    });
-    write_text(&folder.path().join(name), &format!("{document}\n"))
-}
-
-/// Removes external tilesets of earlier joins.
-fn remove_others(folder: &TileFolder, written: &BTreeSet<String>) -> Result<()> {
-    let is_external = |name: &str| name.starts_with("tileset-") && name.ends_with(".json");
+/// Removes tilesets and subtrees of earlier joins.
+fn remove_others(folder: &TileFolder, written: &BTreeSet<PathBuf>) -> Result<()> {
+    let is_tileset = |name: &str| {
+        name == IMPLICIT_NAME
+            || name.ends_with(".json") && (name.starts_with("tileset-") || name.starts_with("implicit-"))
+    };
     for entry in fs::read_dir(folder.path()).into_iter().flatten().flatten() {
-        let name = entry.file_name().to_string_lossy().into_owned();
-        if is_external(&name) && !written.contains(&name) {
-            fs::remove_file(entry.path()).map_err(|error| {
-                Error::file(entry.path(), format!("cannot remove {}: {error}", entry.path().display()))
-                    .help("remove it: it belongs to an earlier tileset")
-            })?;
+        if is_tileset(&entry.file_name().to_string_lossy()) && !written.contains(&entry.path()) {
+            remove(&entry.path())?;
         }
     }
+    remove_subtrees(&folder.subtrees(), written)
+}
+
+/// Removes the subtrees below a folder that have not been written, and empty folders.
+fn remove_subtrees(folder: &Path, written: &BTreeSet<PathBuf>) -> Result<()> {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
+            remove_subtrees(&path, written)?;
+        } else if path.extension().is_some_and(|extension| extension == "subtree") && !written.contains(&path)
+        {
+            remove(&path)?;
+        }
+    }
+    // A folder that is not empty stays.
+    let _ = fs::remove_dir(folder);
     Ok(())
+}
+
+fn remove(path: &Path) -> Result<()> {
+    fs::remove_file(path).map_err(|error| {
+        Error::file(path, format!("cannot remove {}: {error}", path.display()))
+            .help("remove it: it belongs to an earlier tileset")
+    })
 }

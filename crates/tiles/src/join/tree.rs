@@ -3,9 +3,20 @@
 use burgeon_base::error::Result;
 use glam::{DAffine3, DVec3};
 
-use crate::earth::{EarthMap, east_north_up};
+use crate::earth::{EarthMap, TileAxes};
 use crate::make::{TileFile, bounding_box};
 use crate::plan::{PlannedTile, TileGrid, TileId};
+
+/// Tile with content, from its plan and its manifest.
+#[derive(Debug, Clone, Copy)]
+pub struct JoinedTile<'a> {
+    /// Plan.
+    pub planned: &'a PlannedTile,
+    /// Content.
+    pub file: &'a TileFile,
+    /// Geometric errors (m) of the coarser levels of detail of its features, from fine to coarse.
+    pub errors: &'a [f64],
+}
 
 /// Tile of a tileset.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,7 +27,8 @@ pub struct TilesetTile {
     pub transform: DAffine3,
     /// Bounding box (m) in the local axes.
     pub bounds: [f64; 12],
-    /// Geometric error (m): 0 with content, otherwise the size of what is missing while the children are not shown.
+    /// Geometric error (m): 0 without children, otherwise the error of the content while the children are not shown, or the size
+    /// of what is missing without content.
     pub error: f64,
     /// True if the tile has content.
     pub has_content: bool,
@@ -36,15 +48,10 @@ impl TilesetTile {
         usize::from(self.has_content) + self.children.iter().map(Self::contents).sum::<usize>()
     }
 
-    fn leaf(tile: &PlannedTile, file: &TileFile, geoid: f64) -> Self {
-        Self {
-            id: tile.id,
-            transform: east_north_up(file.degrees, geoid),
-            bounds: file.bounds,
-            error: 0.0,
-            has_content: true,
-            children: Vec::new(),
-        }
+    /// Returns the geometric error (m) while nothing of the tile is shown.
+    pub fn absent_error(&self) -> f64 {
+        let [.., x, _, _, _, y, _, _, _, z] = self.bounds;
+        (2.0 * DVec3::new(x, y, z).length() * PART).max(2.0 * z).max(self.error)
     }
 }
 
@@ -59,55 +66,178 @@ pub(crate) fn corners(bounds: &[f64; 12]) -> [DVec3; 8] {
 
 /// Returns the tree of the tiles with content, which are in the order of the curve; `None` without tiles.
 ///
-/// The root is the smallest tile of the quadtree that contains all. Tiles with one child are left out.
-pub fn join_tree(
-    tiles: &[(&PlannedTile, &TileFile)],
-    map: &EarthMap<'_>,
-    geoid: f64,
-) -> Result<Option<TilesetTile>> {
-    let [(first, _), .., (last, _)] = tiles else {
-        return Ok(tiles.first().map(|(tile, file)| TilesetTile::leaf(tile, file, geoid)));
-    };
-    let mut level = first.id.level.min(last.id.level);
-    while first.id.ancestor(level) != last.id.ancestor(level) {
-        level -= 1;
-    }
-    let id = first.id.ancestor(level);
-    let (mut rest, mut children) = (tiles, Vec::new());
-    for quarter in 0..4 {
-        let child = TileId { level: level + 1, x: id.x * 2 + (quarter & 1), y: id.y * 2 + (quarter >> 1) };
-        let end = rest.partition_point(|(tile, _)| tile.id.ancestor(child.level).curve() <= child.curve());
-        let (own, later) = rest.split_at(end);
-        children.extend(join_tree(own, map, geoid)?);
-        rest = later;
-    }
-    let [west, south, east, north] = TileGrid::bounds(id);
-    // The middle of a large tile may be far from its content, and outside the projection.
-    let regions = tiles.iter().map(|(tile, _)| tile.region);
-    let [low_x, low_y, high_x, high_y] = regions
-        .reduce(|a, b| [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])])
-        .unwrap_or([west, south, east, north]);
-    let axes = map.axes([low_x.midpoint(high_x), low_y.midpoint(high_y)])?;
-    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let (mut error, mut height): (f64, f64) = (0.0, 0.0);
-    for child in &children {
-        for corner in corners(&child.bounds) {
-            let point = axes.enter(child.transform.transform_point3(corner));
-            (low, high) = (low.min(point), high.max(point));
+/// The root is the smallest tile of the quadtree that contains all. Tiles without content that have one child are left out.
+/// `lods` are the levels of detail of coarser tiles, from fine to coarse. The error of a coarser tile is the largest error of its
+/// level of detail in the tiles inside, and at least that of its children.
+pub fn join_tree(tiles: &[JoinedTile<'_>], map: &EarthMap<'_>, lods: &[u8]) -> Result<Option<TilesetTile>> {
+    Ok(TreeJoin { map, lods }.join(tiles)?.map(|(tile, _)| tile))
+}
+
+/// Parameters of a join.
+struct TreeJoin<'a> {
+    map: &'a EarthMap<'a>,
+    lods: &'a [u8],
+}
+
+impl TreeJoin<'_> {
+    /// Returns the tree of tiles, and the largest errors (m) of their coarser levels of detail.
+    fn join(&self, tiles: &[JoinedTile<'_>]) -> Result<Option<(TilesetTile, Vec<f64>)>> {
+        let (Some(first), Some(last)) = (tiles.first(), tiles.last()) else { return Ok(None) };
+        let id = first.planned.id.common(last.planned.id);
+        // A tile is before those inside it on the curve.
+        let (content, mut rest) = match first.planned.id == id {
+            true => (Some(first), &tiles[1..]),
+            false => (None, tiles),
+        };
+        let (mut children, mut errors) = (Vec::new(), vec![0.0; self.lods.len()]);
+        for child in id.children() {
+            let end = rest.partition_point(|tile| child.is_not_before(tile.planned.id));
+            let (own, later) = rest.split_at(end);
+            if let Some((tile, own)) = self.join(own)? {
+                children.push(tile);
+                raise(&mut errors, &own);
+            }
+            rest = later;
         }
-        error = error.max(child.error);
-        height = height.max(2.0 * child.bounds[11]);
+        let axes = self.axes(id, content, tiles)?;
+        let inside = children.iter().map(|child| (&child.transform, child.bounds)).collect::<Vec<_>>();
+        let bounds = box_around(&axes.transform, content.map(|tile| tile.file.bounds), &inside);
+        let mut tile = TilesetTile {
+            id,
+            transform: axes.transform,
+            bounds,
+            error: children.iter().map(|child| child.error).fold(0.0, f64::max),
+            has_content: content.is_some(),
+            children,
+        };
+        match content {
+            Some(JoinedTile { planned: PlannedTile { lod: None, .. }, errors: own, .. }) => {
+                raise(&mut errors, own)
+            }
+            Some(JoinedTile { planned, .. }) if !tile.children.is_empty() => {
+                let level = self.lods.iter().position(|lod| Some(*lod) == planned.lod);
+                tile.error = tile.error.max(level.map_or(0.0, |level| errors[level]));
+            }
+            Some(_) => {}
+            None => tile.error = tile.absent_error(),
+        }
+        Ok(Some((tile, errors)))
+    }
+
+    /// Returns the axes of a tile: those of its content, or of the largest tile of a plan that contains it.
+    fn axes(
+        &self,
+        id: TileId,
+        content: Option<&JoinedTile<'_>>,
+        tiles: &[JoinedTile<'_>],
+    ) -> Result<TileAxes> {
+        if let Some(tile) = content {
+            return self.map.axes(tile.planned.origin());
+        }
+        let [west, south, east, north] = match id.level >= TileId::ANCHOR {
+            true => TileGrid::bounds(id.anchor()),
+            // The middle of a larger tile may be far from its content, and outside the projection.
+            false => tiles
+                .iter()
+                .map(|tile| tile.planned.region)
+                .reduce(|a, b| [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])])
+                .unwrap_or_default(),
+        };
+        self.map.axes([west.midpoint(east), south.midpoint(north)])
+    }
+}
+
+/// Raises errors to others of the same levels of detail.
+fn raise(errors: &mut [f64], others: &[f64]) {
+    errors.iter_mut().zip(others).for_each(|(error, other)| *error = error.max(*other));
+}
+
+/// Returns the box in the axes of `transform` around a box in the same axes, and around boxes in other axes.
+pub(super) fn box_around(
+    transform: &DAffine3,
+    content: Option<[f64; 12]>,
+    inside: &[(&DAffine3, [f64; 12])],
+) -> [f64; 12] {
+    if let (Some(bounds), []) = (content, inside) {
+        return bounds;
+    }
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let mut add = |point: DVec3| (low, high) = (low.min(point), high.max(point));
+    content.iter().flat_map(corners).for_each(&mut add);
+    // The axes are orthonormal, so the transpose is the inverse.
+    let back = transform.matrix3.transpose();
+    for (other, bounds) in inside {
+        for corner in corners(bounds) {
+            let enter = |corner: DVec3| back * (other.transform_point3(corner) - transform.translation);
+            add(if *other == transform { corner } else { enter(corner) });
+        }
     }
     // Corners are rounded when they are transformed.
     let margin = (high - low).max_element() * 1e-9 + 1e-3;
-    (low, high) = (low - margin, high + margin);
-    error = error.max(height).max((high - low).length() * PART);
-    Ok(Some(TilesetTile {
-        id,
-        transform: axes.transform,
-        bounds: bounding_box(low, high),
-        error,
-        has_content: false,
-        children,
-    }))
+    bounding_box(low - margin, high + margin)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::{TileDivision, coarse_tiles, id_digest};
+    use burgeon_spatial::{Crs, ReferenceFrame};
+
+    /// Returns a content of 10 m, and errors that depend on the number of the tile.
+    fn content(number: usize, map: &EarthMap<'_>, tile: &PlannedTile) -> (TileFile, Vec<f64>) {
+        let axes = map.axes(tile.origin()).unwrap();
+        let at = |x: f64, y: f64, z: f64| map.local(&axes, DVec3::new(x, y, z)).unwrap();
+        let [west, south, east, north] = tile.region;
+        let bounds = bounding_box(at(west, south, 0.0) - 1.0, at(east, north, 9.0) + 1.0);
+        let file = TileFile {
+            bytes: 1,
+            hash: String::new(),
+            degrees: axes.degrees,
+            bounds,
+            triangles: 1,
+            instances: 1,
+        };
+        (file, vec![0.5 + (number % 7) as f64, 3.0 + (number % 5) as f64])
+    }
+
+    #[test]
+    fn errors_of_coarser_tiles_are_the_largest_inside_and_fall_to_the_leaves() {
+        let frame = ReferenceFrame::around(&Crs::epsg(2154).unwrap(), [652_000.0, 6_862_000.0], "a").unwrap();
+        let map = EarthMap::new(&frame, 44.0).unwrap();
+        let mut division = TileDivision::default();
+        for number in 0..2000_u32 {
+            let place = [f64::from(number % 50) * 30.0, f64::from(number / 50) * 400.0].into();
+            let digest = id_digest("trees", &number.to_string());
+            division.add([place, place], 10, digest, digest).unwrap();
+        }
+        let planned = division.tiles(20);
+        let lods = [2, 1];
+        let mut all = planned.clone();
+        all.extend(coarse_tiles(&planned, &lods));
+        all.sort_by_key(|tile| tile.id.curve());
+        let contents: Vec<(TileFile, Vec<f64>)> =
+            all.iter().enumerate().map(|(number, tile)| content(number, &map, tile)).collect();
+        let joined =
+            all.iter().zip(&contents).map(|(planned, (file, errors))| JoinedTile { planned, file, errors });
+        let root = join_tree(&joined.collect::<Vec<_>>(), &map, &lods).unwrap().unwrap();
+        assert_eq!(root.contents(), all.len());
+        let mut open = vec![&root];
+        let mut coarse = 0;
+        while let Some(tile) = open.pop() {
+            let index = all.iter().position(|planned| planned.id == tile.id);
+            let inside = |id: TileId| id.level >= tile.id.level && id.ancestor(tile.id.level) == tile.id;
+            if let Some(lod) = index.and_then(|index| all[index].lod) {
+                let level = lods.iter().position(|known| *known == lod).unwrap();
+                let leaves =
+                    all.iter().zip(&contents).filter(|(leaf, _)| leaf.lod.is_none() && inside(leaf.id));
+                let largest = leaves.map(|(_, (_, errors))| errors[level]).fold(0.0, f64::max);
+                assert!(tile.error >= largest && tile.error < 8.5, "{} {largest}", tile.error);
+                coarse += 1;
+            }
+            assert!(tile.children.iter().all(|child| child.error <= tile.error));
+            assert_eq!(tile.children.is_empty(), tile.error == 0.0);
+            open.extend(&tile.children);
+        }
+        assert_eq!(coarse, all.len() - planned.len());
+    }
 }

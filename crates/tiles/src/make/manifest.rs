@@ -27,6 +27,9 @@ pub struct TileManifest {
     pub missing: Vec<MissingFeature>,
     /// Error of the tile, if it failed.
     pub error: Option<ManifestError>,
+    /// Geometric errors (m) of the coarser levels of detail of the plan, from fine to coarse.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub errors: Vec<f64>,
     /// Warnings of the run.
     pub warnings: Vec<String>,
 }
@@ -115,10 +118,15 @@ impl TileManifest {
 
 /// Writes a file completely or not at all.
 pub(crate) fn write_text(path: &Path, text: &str) -> Result<()> {
+    write_bytes(path, text.as_bytes())
+}
+
+/// Writes a file completely or not at all.
+pub(crate) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<()> {
     if let Some(parent) = path.parent() {
         make_folder(parent)?;
     }
-    burgeon_export::write_file(path, |out| std::io::Write::write_all(out, text.as_bytes()))
+    burgeon_export::write_file(path, |out| std::io::Write::write_all(out, bytes))
 }
 
 /// Returns the hash of the content of a file.

@@ -14,7 +14,7 @@ pub fn sweep_temporary(folder: &TileFolder, age: Duration) -> usize {
 }
 
 /// Largest depth of folders of tiles.
-const DEPTH: usize = 3;
+const DEPTH: usize = 7;
 
 fn sweep(folder: &Path, limit: SystemTime, depth: usize) -> usize {
     let mut removed = 0;
@@ -44,7 +44,7 @@ mod tests {
     #[test]
     fn only_old_temporary_files_are_removed() {
         let folder = tempfile::tempdir().unwrap();
-        let tiles = folder.path().join("tiles/3/4");
+        let tiles = folder.path().join("tiles/9/3/4/5/6");
         fs::create_dir_all(&tiles).unwrap();
         for name in [".5.glb.77-0.part", "5.glb", ".hidden"] {
             fs::write(tiles.join(name), "a").unwrap();

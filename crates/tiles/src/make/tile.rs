@@ -44,6 +44,8 @@ pub struct TileContent {
     pub skipped: Vec<(String, String, String)>,
     /// Warnings of the run.
     pub warnings: Vec<String>,
+    /// Geometric errors (m) of the coarser levels of detail of the plan, from fine to coarse.
+    pub errors: Vec<f64>,
 }
 
 /// Result of building a tile.
@@ -140,6 +142,7 @@ pub fn make_tile(
         features: tile.features,
         missing: Vec::new(),
         error: None,
+        errors: content.as_ref().map(|content| content.errors.clone()).unwrap_or_default(),
         warnings: Vec::new(),
     };
     let place_of = |feature: &TileFeature| map.degrees(feature.place).ok().map(round_degrees);
@@ -224,12 +227,11 @@ fn write_content(
     stop: &Arc<Stop>,
     content: TileContent,
 ) -> Result<WrittenContent> {
-    let TileContent { mut scene, systems, metadata, model, skipped, warnings } = content;
+    let TileContent { mut scene, systems, metadata, model, skipped, warnings, .. } = content;
     if scene.triangles() == 0 {
         return Ok((None, skipped, warnings));
     }
-    let [west, south, east, north] = tile.region;
-    let axes = map.axes([west.midpoint(east), south.midpoint(north)])?;
+    let axes = map.axes(tile.origin())?;
     place_scene(&mut scene, map, &axes)?;
     let Some((low, high)) = scene.bounds() else { return Ok((None, skipped, warnings)) };
     let path = folder.content(tile.id);

@@ -27,6 +27,11 @@ impl FeatureDigest {
         self.0 as u64
     }
 
+    /// Reads the digest from its hexadecimal digits; `None` if the text is no digest.
+    pub(super) fn parse(text: &str) -> Option<Self> {
+        u128::from_str_radix(text, 16).ok().map(Self)
+    }
+
     /// Returns the digest as 32 hexadecimal digits.
     pub fn text(self) -> String {
         format!("{:032x}", self.0)

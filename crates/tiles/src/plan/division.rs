@@ -17,11 +17,9 @@ pub struct TileGrid;
 /// Side (m) of the grid.
 const SIDE: f64 = 4_194_304.0;
 
-/// Largest side (m) of a tile, so that a vertex in f32 is exact to a third of a millimetre.
-const LARGEST: f64 = 8192.0;
-
 impl TileGrid {
-    /// Returns the side (m) of the tiles of a level.
+    /// Returns the side (m) of the tiles of a level: 8,192 for the largest tiles of a plan, so that a vertex in f32 is exact to a
+    /// third of a millimetre.
     pub fn side(level: u32) -> f64 {
         SIDE / f64::from(1_u32 << level)
     }
@@ -164,17 +162,16 @@ fn divide(id: TileId, cells: &[(TileId, CellSums)], most: u128, tiles: &mut Vec<
     if sums.features == 0 {
         return;
     }
-    if id.level == DEEPEST || u128::from(sums.cost) <= most && TileGrid::side(id.level) <= LARGEST {
+    if id.level == DEEPEST || u128::from(sums.cost) <= most && id.level >= TileId::ANCHOR {
         #[allow(clippy::cast_precision_loss, reason = "the cost is a weight")]
         let cost = sums.cost as f64 / 10.0;
         let CellSums { features, region, ids, data, .. } = sums;
         let (ids, data, hash) = (ids.text(), data.text(), String::new());
-        tiles.push(PlannedTile { id, features, cost, region, ids, data, hash });
+        tiles.push(PlannedTile { id, features, cost, region, ids, data, hash, lod: None });
         return;
     }
     let mut rest = cells;
-    for quarter in 0..4 {
-        let child = TileId { level: id.level + 1, x: id.x * 2 + (quarter & 1), y: id.y * 2 + (quarter >> 1) };
+    for child in id.children() {
         let end = rest.partition_point(|(tile, _)| tile.ancestor(child.level).curve() <= child.curve());
         let (own, later) = rest.split_at(end);
         divide(child, own, most, tiles);

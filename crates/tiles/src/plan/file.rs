@@ -5,6 +5,7 @@ use std::path::Path;
 use burgeon_base::error::{Error, Result};
 use burgeon_export::gltf::TileModelOptions;
 use burgeon_spatial::{Crs, ReferenceFrame};
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::{OmittedFeature, PlannedTile, TileGrid, TileId};
@@ -19,8 +20,11 @@ pub struct PlanFrame {
     pub epsg: u16,
     /// Centre of the data in that coordinate system.
     pub place: [f64; 2],
-    /// Height (m) of the origin of heights above the WGS 84 ellipsoid.
+    /// Height (m) of the origin of heights above the WGS 84 ellipsoid; with a grid, at the centre of the data.
     pub geoid_height: f64,
+    /// Path of the grid of the heights of the geoid above the ellipsoid, one of the files of the plan.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub geoid: Option<String>,
 }
 
 /// File on which all tiles depend.
@@ -73,8 +77,12 @@ pub struct TilePlan {
     pub model: TileModelOptions,
     /// Sources of features.
     pub sources: Vec<PlannedSource>,
+    /// Levels of detail of coarser tiles, from fine to coarse.
+    pub lods: Vec<u8>,
     /// Tiles, in an order that keeps neighbours together.
     pub tiles: Vec<PlannedTile>,
+    /// Coarser tiles, which have the features of the tiles inside them, in the same order.
+    pub coarse: Vec<PlannedTile>,
     /// Features that cannot be in a tile.
     pub left_out: Vec<OmittedFeature>,
     /// Remarks on the data.
@@ -115,9 +123,10 @@ impl TilePlan {
         }
         let is_odd =
             |tile: &PlannedTile| tile.id.to_string().parse::<TileId>().is_err() || !tile.cost.is_finite();
-        if plan.tiles.iter().any(is_odd)
-            || plan.tiles.windows(2).any(|pair| pair[0].id.curve() >= pair[1].id.curve())
-        {
+        let are_odd = |tiles: &[PlannedTile]| {
+            tiles.iter().any(is_odd) || tiles.windows(2).any(|pair| pair[0].id.curve() >= pair[1].id.curve())
+        };
+        if are_odd(&plan.tiles) || are_odd(&plan.coarse) {
             return Err(refuse("its tiles are not in order".to_owned()));
         }
         Ok(plan)
@@ -125,24 +134,38 @@ impl TilePlan {
 
     /// Returns the text of the plan: one line for each tile.
     pub fn text(&self) -> Result<String> {
-        let whole = Self { tiles: Vec::new(), ..self.clone() };
-        let head = serde_json::to_string_pretty(&whole).map_err(Error::internal)?;
-        let tiles: Vec<String> = self
-            .tiles
-            .iter()
-            .map(serde_json::to_string)
-            .collect::<Result<_, _>>()
-            .map_err(Error::internal)?;
-        let tiles =
-            if tiles.is_empty() { String::new() } else { format!("\n    {}\n  ", tiles.join(",\n    ")) };
-        Ok(head.replacen("\"tiles\": []", &format!("\"tiles\": [{tiles}]"), 1) + "\n")
+        let value = |value: serde_json::Result<String>| value.map_err(Error::internal);
+        let list = |tiles: &[PlannedTile]| -> Result<String> {
+            let lines = tiles.iter().map(|tile| value(serde_json::to_string(tile)));
+            let lines = lines.collect::<Result<Vec<_>>>()?.join(",\n    ");
+            Ok(if lines.is_empty() { "[]".to_owned() } else { format!("[\n    {lines}\n  ]") })
+        };
+        let Self { version, program, script, arguments, files, packages, frame, reach, metadata, .. } = self;
+        let Self { sources, lods, tiles, coarse, left_out, notes, .. } = self;
+        let parts = [
+            ("version", value(serde_json::to_string(version))?),
+            ("program", value(serde_json::to_string(program))?),
+            ("script", value(serde_json::to_string(script))?),
+            ("arguments", value(serde_json::to_string(arguments))?),
+            ("files", value(serde_json::to_string(files))?),
+            ("packages", value(serde_json::to_string(packages))?),
+            ("frame", value(serde_json::to_string(frame))?),
+            ("reach", value(serde_json::to_string(reach))?),
+            ("metadata", value(serde_json::to_string(metadata))?),
+            ("sources", value(serde_json::to_string(sources))?),
+            ("lods", value(serde_json::to_string(lods))?),
+            ("tiles", list(tiles)?),
+            ("coarse", list(coarse)?),
+            ("left_out", value(serde_json::to_string(left_out))?),
+            ("notes", value(serde_json::to_string(notes))?),
+        ];
+        let parts = parts.map(|(name, text)| format!("  \"{name}\": {text}"));
+        Ok(format!("{{\n{}\n}}\n", parts.join(",\n")))
     }
 
-    /// Returns the plan of a tile; fails if the plan has no such tile.
-    pub fn tile(&self, id: TileId) -> Result<&PlannedTile> {
-        self.tiles.iter().find(|tile| tile.id == id).ok_or_else(|| {
-            Error::argument(format!("the plan has no tile {id}")).help("plan.json lists the tiles")
-        })
+    /// Returns all tiles: those of the features, and the coarser ones.
+    pub fn all_tiles(&self) -> Vec<&PlannedTile> {
+        self.tiles.iter().chain(&self.coarse).collect()
     }
 
     /// Returns west, south, east and north (m) of the features that a tile needs: its own, and those within the reach.
@@ -160,10 +183,13 @@ impl TilePlan {
     }
 
     /// Sets the hash of each tile: of everything that determines its bytes. These are the program, the script and its
-    /// arguments, the frame, the features of the tile, and those of the tiles within the reach.
+    /// arguments, the frame, the features of the tile, and those of the tiles within the reach. A change of a feature therefore
+    /// changes its tile, the coarser tiles above it, and those within the reach.
     pub fn set_hashes(&mut self) -> Result<()> {
-        let Self { version, program, arguments, files, packages, frame, reach, metadata, model, .. } = &*self;
-        let common = (version, program, arguments, files, packages, frame, reach, metadata, model);
+        let Self {
+            version, program, arguments, files, packages, frame, reach, metadata, model, lods, ..
+        } = &*self;
+        let common = (version, program, arguments, files, packages, frame, reach, metadata, model, lods);
         let common = serde_json::to_string(&common).map_err(Error::internal)?;
         let mut by_west: Vec<usize> = (0..self.tiles.len()).collect();
         by_west.sort_by(|a, b| self.tiles[*a].region[0].total_cmp(&self.tiles[*b].region[0]));
@@ -173,6 +199,7 @@ impl TilePlan {
             hasher.update(common.as_bytes());
             hasher.update(tile.id.to_string().as_bytes());
             hasher.update(tile.data.as_bytes());
+            hasher.update(&[tile.lod.unwrap_or(u8::MAX)]);
             if *reach > 0.0 {
                 let [west, south, east, north] = tile.region;
                 let first =
@@ -183,7 +210,7 @@ impl TilePlan {
                     .take_while(|other| other.region[0] <= east + reach)
                     .filter(|other| {
                         let [low_x, low_y, high_x, high_y] = other.region;
-                        other.id != tile.id
+                        (other.id.level < tile.id.level || other.id.ancestor(tile.id.level) != tile.id)
                             && low_x <= east + reach
                             && high_x >= west - reach
                             && low_y <= north + reach
@@ -198,8 +225,9 @@ impl TilePlan {
             }
             hasher.finalize().to_hex()[..32].to_owned()
         };
-        let hashes: Vec<String> = self.tiles.iter().map(hash).collect();
-        self.tiles.iter_mut().zip(hashes).for_each(|(tile, hash)| tile.hash = hash);
+        let hashes: Vec<String> = self.all_tiles().into_par_iter().map(hash).collect();
+        let tiles = self.tiles.iter_mut().chain(&mut self.coarse);
+        tiles.zip(hashes).for_each(|(tile, hash)| tile.hash = hash);
         Ok(())
     }
 }
@@ -219,6 +247,7 @@ mod tests {
             ids: "1".to_owned(),
             data: data.to_owned(),
             hash: String::new(),
+            lod: None,
         }
     }
 
@@ -230,11 +259,13 @@ mod tests {
             arguments: Vec::new(),
             files: Vec::new(),
             packages: Vec::new(),
-            frame: PlanFrame { epsg: 2154, place: [652_000.1, 6_862_000.7], geoid_height: 44.0 },
+            frame: PlanFrame { epsg: 2154, place: [652_000.1, 6_862_000.7], geoid_height: 44.0, geoid: None },
             reach,
             metadata: Vec::new(),
             model: TileModelOptions::default(),
             sources: Vec::new(),
+            lods: vec![2],
+            coarse: super::super::coarse_tiles(&tiles, &[2]),
             tiles,
             left_out: Vec::new(),
             notes: Vec::new(),
@@ -270,5 +301,17 @@ mod tests {
         assert_eq!(differs(19.0), [false, true, false, false]);
         assert_eq!(differs(21.0), [true, true, true, false]);
         assert_eq!(differs(2000.0), [true, true, true, true]);
+    }
+
+    #[test]
+    fn a_changed_feature_changes_the_coarser_tiles_above_it_and_no_others() {
+        let hashes = |changed: &str| -> Vec<(String, String)> {
+            let tiles = (0..8).map(|x| tile(x, if x == 2 { changed } else { "a1" })).collect();
+            plan(0.0, tiles).coarse.into_iter().map(|tile| (tile.id.to_string(), tile.hash)).collect()
+        };
+        let (before, after) = (hashes("b1"), hashes("c1"));
+        let changed = before.iter().zip(&after).filter(|(a, b)| a.1 != b.1).map(|(a, _)| a.0.as_str());
+        // Column 2 is in the second pair.
+        assert_eq!((before.len(), changed.collect::<Vec<_>>()), (4, vec!["11/1/2"]));
     }
 }

@@ -1,5 +1,6 @@
 //! Plans: features divided among tiles.
 
+mod coarse;
 mod digest;
 mod division;
 mod file;
@@ -7,6 +8,7 @@ mod scan;
 mod shares;
 mod tile;
 
+pub use coarse::coarse_tiles;
 pub use digest::{FeatureDigest, feature_digest, id_digest};
 pub use division::{TileDivision, TileGrid};
 pub use file::{PLAN_VERSION, PlanFrame, PlannedFile, PlannedSource, TilePlan};

@@ -1,6 +1,5 @@
 //! Scan of the features of a source, piece by piece.
 
-use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -55,6 +54,7 @@ pub fn scan_source(
         scan.add(table)?;
         Ok(if scan.is_repeated { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
     })?;
+    scan.is_repeated |= repeats(&mut scan.known);
     let in_parts = in_pieces && !scan.is_repeated && options.within.is_none();
     if in_pieces && scan.is_repeated {
         let whole = Source::open_within(path, name, options)?.read(name, options)?;
@@ -68,6 +68,12 @@ pub fn scan_source(
     Ok(ScanResult { label, features, bounds, in_parts, left_out, notes })
 }
 
+/// Returns true if a number is repeated, and sorts the numbers.
+fn repeats(numbers: &mut [u64]) -> bool {
+    numbers.par_sort_unstable();
+    numbers.windows(2).any(|pair| pair[0] == pair[1])
+}
+
 /// Maximum number of listed features.
 const LISTED: usize = 100_000;
 
@@ -78,7 +84,7 @@ struct SourceScan<'a> {
     bounds: [[f64; 3]; 2],
     division: TileDivision,
     /// Hashes of the ids so far.
-    known: BTreeSet<u64>,
+    known: Vec<u64>,
     /// Set if pieces have the same id.
     is_repeated: bool,
     left_out: Vec<OmittedFeature>,
@@ -92,7 +98,7 @@ impl<'a> SourceScan<'a> {
             label: String::new(),
             bounds: [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]],
             division: TileDivision::default(),
-            known: BTreeSet::new(),
+            known: Vec::new(),
             is_repeated: false,
             left_out: Vec::new(),
             notes: Vec::new(),
@@ -138,7 +144,7 @@ impl<'a> SourceScan<'a> {
             })
             .collect();
         for (bounds, points, ids, data) in measured {
-            self.is_repeated |= !self.known.insert(ids.short());
+            self.known.push(ids.short());
             self.division.add(bounds, points, ids, data)?;
         }
         self.refuse(layer.refused);

@@ -42,7 +42,7 @@ impl FromStr for TileShare {
 ///
 /// Method: the most expensive tile goes to the share with the least cost so far (Graham, "Bounds on multiprocessing timing
 /// anomalies", 1969).
-pub fn share_of(tiles: &[PlannedTile], share: TileShare) -> Vec<usize> {
+pub fn share_of(tiles: &[&PlannedTile], share: TileShare) -> Vec<usize> {
     let mut order: Vec<usize> = (0..tiles.len()).collect();
     order.sort_by(|a, b| tiles[*b].cost.total_cmp(&tiles[*a].cost).then(a.cmp(b)));
     // Costs are tenths, so sums are compared exactly.
@@ -81,8 +81,10 @@ mod tests {
             ids: String::new(),
             data: String::new(),
             hash: String::new(),
+            lod: None,
         };
         let tiles: Vec<PlannedTile> = (0..500).map(tile).collect();
+        let tiles: Vec<&PlannedTile> = tiles.iter().collect();
         let total: f64 = tiles.iter().map(|tile| tile.cost).sum();
         for count in [1, 2, 3, 7, 600] {
             let shares: Vec<Vec<usize>> =

@@ -1,0 +1,184 @@
+//! Tree of the tiles of a country with synthetic footprints: plan, join and check of the tree, without content.
+//! `cargo bench --bench tiles_tree`, or `-- 10000000` for that number of features.
+
+#![allow(clippy::print_stdout, clippy::cast_precision_loss, reason = "a bench prints its figures")]
+
+use std::error::Error;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use std::time::Instant;
+
+use burgeon::tiles::make::{TileFile, TileManifest};
+use burgeon::tiles::plan::{PLAN_VERSION, PlannedTile};
+use burgeon::tiles::{EarthMap, TileFolder, TilePlan, Tiling, join_tiles};
+use rusqlite::Connection;
+
+type Outcome<T> = Result<T, Box<dyn Error>>;
+
+/// Number of features without an argument.
+const FEATURES: u64 = 1_000_000;
+
+/// Script whose tiles are planned.
+const SCRIPT: &str = r#"local Walls = module("Walls")
+local s = lsystem({ object = footprint })
+s:axiom(source("country.gpkg:buildings"), function(feature) return footprint(feature.geometry), Walls() end)
+s:interpret("Walls", function(this) this:walls({ height = 6 }) end)
+s:derive(0)
+"#;
+
+/// Stream of pseudo-random numbers from 0 to 1 (splitmix64).
+struct Stream(u64);
+
+impl Stream {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut bits = self.0;
+        bits = (bits ^ bits >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        bits = (bits ^ bits >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((bits ^ bits >> 31) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// Writes a GeoPackage of `count` rectangles in towns of very different sizes over 950 km, in Lambert-93.
+fn write_country(path: &Path, count: u64) -> Outcome<()> {
+    let connection = Connection::open(path)?;
+    connection.execute_batch(
+        "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; PRAGMA page_size = 65536; VACUUM;
+         CREATE TABLE gpkg_contents(table_name TEXT PRIMARY KEY, data_type TEXT);
+         CREATE TABLE gpkg_geometry_columns(table_name TEXT, column_name TEXT, srs_id INT);
+         CREATE TABLE gpkg_spatial_ref_sys(srs_name TEXT, srs_id INT, organization TEXT, organization_coordsys_id INT);
+         INSERT INTO gpkg_spatial_ref_sys VALUES ('a', 2154, 'EPSG', 2154);
+         INSERT INTO gpkg_contents VALUES ('buildings', 'features');
+         INSERT INTO gpkg_geometry_columns VALUES ('buildings', 'geom', 2154);
+         CREATE TABLE buildings(fid INTEGER PRIMARY KEY, geom BLOB, levels INTEGER);
+         BEGIN",
+    )?;
+    let mut insert = connection.prepare("INSERT INTO buildings VALUES (?1, ?2, ?3)")?;
+    let mut stream = Stream(7);
+    let (mut number, mut left, mut place, mut columns) = (0_u64, 0_u64, [0.0; 2], 1_u64);
+    let mut blob = b"GP\0\x01\0\0\0\0\x01".to_vec();
+    blob.extend([3_u32, 1, 5].into_iter().flat_map(u32::to_le_bytes));
+    let head = blob.len();
+    while number < count {
+        if left == 0 {
+            // The sizes of towns follow a power law.
+            left = (60.0 / stream.next().max(1e-4)) as u64;
+            columns = (left as f64).sqrt().ceil() as u64;
+            place = [120_000.0 + stream.next() * 950_000.0, 6_100_000.0 + stream.next() * 950_000.0];
+        }
+        left -= 1;
+        let (column, row) = (left % columns, left / columns);
+        let (west, south) = (place[0] + column as f64 * 22.0, place[1] + row as f64 * 31.0);
+        let (east, north) = (west + 7.0 + 9.0 * stream.next(), south + 8.0 + 9.0 * stream.next());
+        blob.truncate(head);
+        for value in [west, south, east, south, east, north, west, north, west, south] {
+            blob.extend(value.to_le_bytes());
+        }
+        number += 1;
+        insert.execute((i64::try_from(number)?, &blob, 1 + (number % 4) as i64))?;
+    }
+    drop(insert);
+    connection.execute_batch("COMMIT")?;
+    Ok(())
+}
+
+/// Writes a manifest and a content of one byte for each tile.
+fn write_manifests(folder: &TileFolder, plan: &TilePlan) -> Outcome<()> {
+    let frame = plan.frame.reference()?;
+    let map = EarthMap::new(&frame, plan.frame.geoid_height)?;
+    for tile in &plan.tiles {
+        let PlannedTile { region: [west, south, east, north], .. } = *tile;
+        let axes = map.axes(tile.origin())?;
+        let middle = [west.midpoint(east) - tile.origin()[0], south.midpoint(north) - tile.origin()[1]];
+        let (x, y) = ((east - west) / 2.0, (north - south) / 2.0);
+        let file = TileFile {
+            bytes: 1,
+            hash: String::new(),
+            degrees: axes.degrees,
+            bounds: [middle[0], middle[1], 5.0, x, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, 5.0],
+            triangles: 1,
+            instances: 1,
+        };
+        let manifest = TileManifest {
+            version: PLAN_VERSION,
+            tile: tile.id,
+            hash: tile.hash.clone(),
+            content: Some(file),
+            features: tile.features,
+            missing: Vec::new(),
+            error: None,
+            errors: Vec::new(),
+            warnings: Vec::new(),
+        };
+        let path = folder.content(tile.id);
+        path.parent().map_or(Ok(()), fs::create_dir_all)?;
+        fs::write(path, "a")?;
+        fs::write(folder.manifest(tile.id), serde_json::to_string_pretty(&manifest)?)?;
+    }
+    Ok(())
+}
+
+fn main() -> Outcome<()> {
+    let count = std::env::args().find_map(|argument| argument.parse().ok()).unwrap_or(FEATURES);
+    let folder = tempfile::tempdir()?;
+    let path = |name: &str| folder.path().join(name);
+    let begin = Instant::now();
+    write_country(&path("country.gpkg"), count)?;
+    fs::write(path("country.lua"), SCRIPT)?;
+    println!("{count} features written in {:.1} s", begin.elapsed().as_secs_f64());
+    // As many tiles for each feature as other programs make of a country: 117,745 tiles for 46,286,334 features.
+    let begin = Instant::now();
+    let output = Command::new(env!("CARGO_BIN_EXE_burgeon"))
+        .args([
+            "tiles",
+            "plan",
+            "country.lua",
+            "-o",
+            "out",
+            "--target-features",
+            "870",
+            "--geoid-height",
+            "44",
+            "--json",
+        ])
+        .current_dir(folder.path())
+        .output()?;
+    let (text, problem) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    println!("plan: {:.1} s; {}{problem}", begin.elapsed().as_secs_f64(), text.trim());
+    let out = TileFolder(path("out"));
+    let begin = Instant::now();
+    let plan = TilePlan::read(&out.plan())?;
+    let size = fs::metadata(out.plan())?.len() / 1_000_000;
+    println!(
+        "plan of {} tiles and {size} MB read in {:.2} s",
+        plan.tiles.len(),
+        begin.elapsed().as_secs_f64()
+    );
+    let begin = Instant::now();
+    let mut again = plan.clone();
+    again.set_hashes()?;
+    let hashed = begin.elapsed().as_secs_f64();
+    println!(
+        "hashes: {hashed:.2} s; text: {} bytes in {:.2} s",
+        again.text()?.len(),
+        begin.elapsed().as_secs_f64() - hashed
+    );
+    let begin = Instant::now();
+    again.reach = 20.0;
+    again.set_hashes()?;
+    println!("hashes with a reach: {:.2} s", begin.elapsed().as_secs_f64());
+    let begin = Instant::now();
+    write_manifests(&out, &plan)?;
+    println!("manifests written in {:.1} s", begin.elapsed().as_secs_f64());
+    for tiling in [Tiling::Explicit, Tiling::Implicit] {
+        let begin = Instant::now();
+        let joined = join_tiles(&out, &plan, tiling)?;
+        let time = begin.elapsed().as_secs_f64();
+        println!(
+            "{tiling:?}: {} tiles joined in {time:.2} s, {} + {} files",
+            joined.tiles, joined.tilesets, joined.subtrees
+        );
+    }
+    Ok(())
+}

@@ -1,0 +1,122 @@
+//! Drawings of the features of a scene, and their distances in another level of detail.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use burgeon_scene::{Instance, Scene};
+
+use super::hausdorff::{NEAR, PART, hausdorff};
+use super::tree::TriangleTree;
+
+/// System and id of a feature.
+type FeatureKey<'a> = (usize, &'a str);
+
+/// Drawings of the features of a scene.
+pub struct FeatureDrawings<'a> {
+    scene: &'a Scene,
+    instances: BTreeMap<FeatureKey<'a>, Vec<&'a Instance>>,
+}
+
+impl<'a> FeatureDrawings<'a> {
+    /// Finds the instances of each feature of a scene. Instances without a feature count as one feature of their system.
+    pub fn new(scene: &'a Scene) -> Self {
+        let mut instances: BTreeMap<FeatureKey<'a>, Vec<&'a Instance>> = BTreeMap::new();
+        for instance in &scene.instances {
+            let system = instance.origin.map_or(usize::MAX, |origin| origin.system);
+            let feature = instance.feature.as_deref().unwrap_or_default();
+            instances.entry((system, feature)).or_default().push(instance);
+        }
+        Self { scene, instances }
+    }
+
+    /// Returns the largest Hausdorff distance (m) between the drawings of a feature in this scene and in another.
+    ///
+    /// If only one of the scenes draws a feature, its distance is the diagonal of its drawing. The result is at least the distance,
+    /// and exceeds it by at most a hundredth and a millimetre.
+    pub fn error(&self, other: &Self) -> f64 {
+        let keys: BTreeSet<&FeatureKey<'_>> = self.instances.keys().chain(other.instances.keys()).collect();
+        let of = |known: f64, key: &FeatureKey<'_>| hausdorff(&self.tree(key), &other.tree(key), known);
+        keys.into_iter().fold(0.0, of) * (1.0 + PART) + NEAR
+    }
+
+    /// Returns the triangles of a feature.
+    fn tree(&self, key: &FeatureKey<'_>) -> TriangleTree {
+        let mut triangles = Vec::new();
+        for instance in self.instances.get(key).into_iter().flatten() {
+            let Some(mesh) = self.scene.meshes.get(instance.mesh) else { continue };
+            for part in &mesh.parts {
+                let place = |corner: u32| {
+                    let position = part.positions.get(corner as usize).copied().unwrap_or_default();
+                    instance.transform.transform_point3(position.as_dvec3())
+                };
+                triangles.extend(part.triangles.iter().map(|corners| corners.map(place)));
+            }
+        }
+        TriangleTree::new(triangles)
+    }
+}
+
+/// Returns true if two scenes have the same shapes at the same places. Materials may differ.
+pub fn draws_the_same(a: &Scene, b: &Scene) -> bool {
+    let is_same = |a_instance: &Instance, b_instance: &Instance| {
+        let meshes = a.meshes.get(a_instance.mesh).zip(b.meshes.get(b_instance.mesh));
+        a_instance.transform == b_instance.transform
+            && meshes.is_some_and(|(a, b)| {
+                let parts = a.parts.iter().zip(&b.parts);
+                a.parts.len() == b.parts.len()
+                    && parts
+                        .into_iter()
+                        .all(|(a, b)| a.positions == b.positions && a.triangles == b.triangles)
+            })
+    };
+    a.instances.len() == b.instances.len() && a.instances.iter().zip(&b.instances).all(|(a, b)| is_same(a, b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use burgeon_scene::{Mesh, Origin};
+    use glam::{DAffine3, DVec3, Vec3};
+
+    /// Returns a scene with a square of 10 m at a height for each feature.
+    fn scene(features: &[(&str, f64)]) -> Scene {
+        let mut scene = Scene::default();
+        let material = scene.material(&Default::default());
+        let mut mesh = Mesh::default();
+        let part = mesh.part(material);
+        part.positions =
+            [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]].map(|[x, y]| Vec3::new(x, y, 0.0)).to_vec();
+        part.triangles.push([0, 1, 2]);
+        part.triangles.push([0, 2, 3]);
+        scene.meshes.push(mesh);
+        scene.instances.extend(features.iter().map(|(id, height)| Instance {
+            mesh: 0,
+            transform: DAffine3::from_translation(DVec3::new(50.0, 70.0, *height)),
+            name: String::new(),
+            feature: Some((*id).to_owned()),
+            origin: Some(Origin { system: 0, chain: 0, record: None }),
+            placement: None,
+            meaning: None,
+        }));
+        scene
+    }
+
+    #[test]
+    fn the_error_is_the_largest_distance_of_a_feature_from_itself() {
+        let fine = scene(&[("a", 3.0), ("b", 9.0), ("c", 4.0)]);
+        let error = |other: &[(&str, f64)]| {
+            let coarse = scene(other);
+            let (fine, coarse) = (FeatureDrawings::new(&fine), FeatureDrawings::new(&coarse));
+            let error = fine.error(&coarse);
+            assert!((error - coarse.error(&fine)).abs() < 1e-9);
+            error
+        };
+        let is_nearly = |error: f64, distance: f64| (distance..distance * 1.0101 + 0.0011).contains(&error);
+        // Feature "b" is where "c" was, but it is 5 m away from itself.
+        assert!(is_nearly(error(&[("a", 3.0), ("b", 4.0), ("c", 4.0)]), 5.0));
+        assert!(is_nearly(error(&[("a", 3.0), ("b", 9.0), ("c", 4.0)]), 0.0));
+        // A feature that is not drawn has its diagonal as error.
+        assert!(is_nearly(error(&[("a", 3.0), ("b", 9.0)]), 200.0_f64.sqrt()));
+        assert!(draws_the_same(&fine, &fine.clone()));
+        assert!(!draws_the_same(&fine, &scene(&[("a", 3.0), ("b", 9.0), ("c", 4.5)])));
+    }
+}
