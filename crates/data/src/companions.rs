@@ -88,9 +88,9 @@ pub(crate) fn read_text(file: impl Read, name: &str, remedy: &str) -> Result<Str
     let mut bytes = Vec::new();
     file.take(LARGEST_TEXT + 1)
         .read_to_end(&mut bytes)
-        .map_err(|error| Error::data(format!("cannot read {name}: {error}")).help(remedy.to_owned()))?;
+        .map_err(|error| Error::data(format!("cannot read {name}: {error}")).help(remedy))?;
     if bytes.len() as u64 > LARGEST_TEXT {
-        return Err(Error::limit(Limit::Size, format!("{name} is larger than 1 MB")).help(remedy.to_owned()));
+        return Err(Error::limit(Limit::Size, format!("{name} is larger than 1 MB")).help(remedy));
     }
     Ok(String::from_utf8_lossy(&bytes).trim_start_matches('\u{feff}').to_owned())
 }

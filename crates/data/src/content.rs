@@ -1,5 +1,7 @@
 //! Bytes of a data file, on disk or unpacked in memory.
 
+use std::borrow::Cow;
+use std::ffi::OsStr;
 use std::fs::File;
 use std::io::{self, Cursor, Read, Seek};
 use std::path::{Path, PathBuf};
@@ -59,6 +61,11 @@ impl Content {
     }
 }
 
+/// Returns the file name in `path` without folders and extension, or `name` if it has none.
+pub(crate) fn stem<'a>(path: &'a Path, name: &'a str) -> Cow<'a, str> {
+    path.file_stem().map_or(Cow::Borrowed(name), OsStr::to_string_lossy)
+}
+
 impl DataFile {
     /// Creates a data file from the open file at `path`, called `name` in messages.
     pub(crate) fn new(file: File, path: &Path, name: &str) -> Self {
@@ -96,8 +103,8 @@ impl DataFile {
 
     /// Returns the file name without folders and extension.
     #[cfg(feature = "data")]
-    pub(crate) fn stem(&self) -> String {
-        self.path.file_stem().map_or_else(|| self.name.clone(), |stem| stem.to_string_lossy().into_owned())
+    pub(crate) fn stem(&self) -> Cow<'_, str> {
+        stem(&self.path, &self.name)
     }
 
     /// Returns the extension in lower case.

@@ -51,8 +51,7 @@ pub(crate) fn bring_into(frame: &ReferenceFrame, table: &mut FeatureTable) -> Re
     let crs = table.crs.clone()?;
     refuse_odd_degrees(&crs, table)?;
     let passage = frame.passage(&crs)?;
-    let name = table.shown.clone();
-    table.refuse_those(|feature| {
+    table.refuse_those(|name, feature| {
             let place = |point: &mut DVec3| -> Option<DVec3> {
                 let was = *point;
                 [point.x, point.y] = passage.enter([was.x, was.y]);
@@ -80,8 +79,7 @@ pub(super) fn refuse_odd_degrees(crs: &Crs, table: &mut FeatureTable) -> Result<
     if !crs.is_geographic() {
         return Ok(());
     }
-    let name = table.shown.clone();
-    table.refuse_those(|feature| {
+    table.refuse_those(|name, feature| {
         let DVec3 { x, y, .. } =
             *feature.geometry.points().find(|at| at.x.abs() > 360.0 || at.y.abs() > 90.0)?;
         let (id, x, y) = (shown(&feature.id), number(x), number(y));

@@ -1,5 +1,6 @@
 //! Listing of a data file's content, human-readable or machine-readable.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -191,8 +192,8 @@ impl LayerListing {
         let mut kinds = BTreeMap::new();
         let mut attributes: Vec<AttributeListing> = table
             .names
-            .iter()
-            .map(|name| AttributeListing { name: name.clone(), ..AttributeListing::default() })
+            .into_iter()
+            .map(|name| AttributeListing { name, ..AttributeListing::default() })
             .collect();
         for (attribute, count) in attributes.iter_mut().zip(&table.unplaced) {
             attribute.unplaced = *count;
@@ -209,7 +210,7 @@ impl LayerListing {
             }
         }
         Ok(Self {
-            name: table.layer.clone(),
+            name: table.layer,
             crs: table.crs.as_ref().map(burgeon_spatial::Crs::name).map_err(Clone::clone),
             records: table.records,
             kinds,
@@ -249,21 +250,21 @@ impl LayerListing {
 
     fn write(&self, text: &mut String) {
         let crs = match &self.crs {
-            Ok(crs) => crs.clone(),
-            Err(error) => error.message().to_owned(),
+            Ok(crs) => crs,
+            Err(error) => error.message(),
         };
         let kinds: Vec<String> = self
             .kinds
             .iter()
             .map(|(kind, count)| format!("{count} {}{}", kind.name(), if *count == 1 { "" } else { "s" }))
             .collect();
-        let kinds = if kinds.is_empty() { "no features".to_owned() } else { kinds.join(", ") };
+        let kinds = if kinds.is_empty() { "no features".into() } else { Cow::Owned(kinds.join(", ")) };
         let features: usize = self.kinds.values().sum();
         let parts =
             if features == self.records { String::new() } else { format!(" in {} records", self.records) };
         let empty = if self.empty > 0 { format!(", {} without geometry", self.empty) } else { String::new() };
         // Writing into a string cannot fail.
-        let _ = writeln!(text, "  {}: {kinds}{parts}{empty}; {}", shown(&self.name), escaped(&crs));
+        let _ = writeln!(text, "  {}: {kinds}{parts}{empty}; {}", shown(&self.name), escaped(crs));
         if let Some((count, why)) = &self.refused {
             let _ = writeln!(text, "    {count} skipped, e.g.: {}", escaped(why));
         }
@@ -307,12 +308,12 @@ impl AttributeListing {
         })
     }
 
-    fn text(&self) -> String {
+    fn text(&self) -> Cow<'static, str> {
         if self.count == 0 {
             return match self.unplaced {
-                0 => "never set".to_owned(),
-                1 => "set in 1 feature without geometry".to_owned(),
-                count => format!("set in {count} features without geometry"),
+                0 => "never set".into(),
+                1 => "set in 1 feature without geometry".into(),
+                count => format!("set in {count} features without geometry").into(),
             };
         }
         let types: Vec<&str> = self.types.iter().copied().collect();
@@ -328,7 +329,7 @@ impl AttributeListing {
                 .collect();
             let _ = write!(text, ", such as {}", shown.join(", "));
         }
-        text
+        text.into()
     }
 }
 

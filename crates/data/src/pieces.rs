@@ -87,7 +87,7 @@ impl FrameExtent {
     ///
     /// Fails without features, or if the layer may be larger than a frame.
     pub fn centre(&self, shown: &str) -> Result<(Crs, [f64; 2])> {
-        let centre = self.crs.clone().zip(self.bounds.centre());
+        let centre = self.crs.as_ref().zip(self.bounds.centre());
         let Some((crs, (place, half))) = centre else {
             return Err(Error::data(format!("{shown} has no features")));
         };
@@ -96,7 +96,7 @@ impl FrameExtent {
                 "divide it into regions, each with a plan of its own: source(file, { within = { west, south, east, north } })",
             ));
         }
-        Ok((crs, place))
+        Ok((crs.clone(), place))
     }
 
     /// Returns the frame of the layer `shown`; fails as [`centre`](Self::centre) does.

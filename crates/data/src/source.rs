@@ -1,5 +1,6 @@
 //! Data files of any format.
 
+use std::borrow::Cow;
 use std::io::Read;
 use std::path::Path;
 
@@ -193,8 +194,8 @@ impl Source {
                 .help("tags are only for OpenStreetMap extracts (.osm.pbf and .osm); remove them"));
         }
         let (asked, asks_itself) = (wanted, self.asks_conditions());
-        let wanted = if asks_itself { asked.clone() } else { asked.without_condition() };
-        let wanted = &wanted;
+        let wanted = if asks_itself { Cow::Borrowed(asked) } else { asked.without_condition() };
+        let wanted = &*wanted;
         let mut table = match self {
             Self::Osm(file) => file.read(wanted)?,
             Self::GeoPackage(package) => {

@@ -1,5 +1,6 @@
 //! Options for reading a data file.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::sync::Arc;
 
@@ -60,10 +61,10 @@ impl fmt::Debug for SourceOptions {
 impl SourceOptions {
     /// Returns the options for a file that does not evaluate conditions itself. The condition and the limit are then
     /// applied after reading.
-    pub(super) fn without_condition(&self) -> Self {
+    pub(super) fn without_condition(&self) -> Cow<'_, Self> {
         match &self.condition {
-            Some(_) => Self { condition: None, limit: None, ..self.clone() },
-            None => self.clone(),
+            Some(_) => Cow::Owned(Self { condition: None, limit: None, ..self.clone() }),
+            None => Cow::Borrowed(self),
         }
     }
 }

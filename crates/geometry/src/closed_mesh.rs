@@ -1,5 +1,6 @@
 //! Closed triangle meshes as solids: inside and outside, nearest points, and hits of segments.
 
+use std::borrow::Cow;
 use std::cell::Cell;
 
 use burgeon_base::error::{Error, Result};
@@ -166,7 +167,8 @@ fn check_edges(triangles: &[[DVec3; 3]]) -> Result<()> {
         format!("{{{x:.3}, {y:.3}, {z:.3}}}")
     });
     let more = open.count();
-    let count = if more == 0 { "an open edge".to_owned() } else { format!("{} open edges", more + 1) };
+    let count =
+        if more == 0 { Cow::Borrowed("an open edge") } else { format!("{} open edges", more + 1).into() };
     Err(Error::argument(format!("the mesh has {count}, such as from {from} to {to} (m)"))
         .help("close the surface, with caps and without gaps, and orient all faces outwards"))
 }

@@ -87,11 +87,11 @@ pub(crate) fn reader(
     let described = fields.iter().map(|field| field.describe(declared));
     let texts: Vec<&String> = fields.iter().map(|field| &field.text).collect();
     let reads = fields.iter().map(|Declaration { name, text, of, .. }| {
-        let read = quote_spanned! { at(of) => <#of as #kit::Parameter>::from_value };
+        let read = quote_spanned! { at(of) => <#of as #kit::Parameter>::read_value };
         quote! {
             if let ::std::option::Option::Some(value) = table.get(#text) {
                 options.#name =
-                    #read(value.clone()).map_err(|expected| expected.refuse(#kind, #text, value))?;
+                    #read(value).map_err(|expected| expected.refuse(#kind, #text, value))?;
             }
         }
     });

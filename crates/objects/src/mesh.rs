@@ -6,6 +6,7 @@ use burgeon_geometry::{CornerShading, shaded_face};
 use burgeon_kit::{BufferBytes, Color, Drawing, Expectation, Field, Parameter, Table, Value, Vector, fields};
 use burgeon_scene::{Material, Part};
 use glam::{DAffine3, DVec2, DVec3};
+use std::borrow::Cow;
 
 /// Number of faces drawn between two checks for cancellation of the run.
 const STRETCH: usize = 1024;
@@ -222,8 +223,8 @@ fn check(kind: &str, count: usize, faces: &MeshFaces) -> Result<()> {
         }
         if face.iter().any(|corner| !(first..first + count).contains(&(*corner as usize))) {
             let what = match count {
-                0 => "a point, but no points are given".to_owned(),
-                _ => format!("a point that is not one of {first} to {}", first + count - 1),
+                0 => Cow::Borrowed("a point, but no points are given"),
+                _ => format!("a point that is not one of {first} to {}", first + count - 1).into(),
             };
             let kept = if first == 0 { " in a buffer" } else { "" };
             return Err(Error::argument(format!("{kind}:mesh: face {number} refers to {what}"))

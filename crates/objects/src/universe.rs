@@ -305,8 +305,8 @@ impl Parentage {
             Some(Value::Number(number)) if number.is_finite() => Some(*number),
             _ => None,
         };
-        let kind = String::from_value(table.get("kind")?.clone()).ok()?;
-        let seed = Seed::from_value(table.get("seed")?.clone()).ok()?;
+        let kind = String::read_value(table.get("kind")?).ok()?;
+        let seed = Seed::read_value(table.get("seed")?).ok()?;
         let sort = sorts.iter().find(|sort| sort.name == kind)?;
         Some(Self { key: ModuleKey(seed.0), sort, radius: number("radius")?, count: number(count)? })
     }

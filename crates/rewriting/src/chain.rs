@@ -92,11 +92,15 @@ impl Chain {
         let [Some(begin), Some(end)] = [starts.get(index), starts.get(index + 1)] else {
             return Self::default();
         };
-        let keys = if self.keys.is_empty() { &[] } else { &self.keys[begin.module..end.module] };
+        self.part(*begin, *end)
+    }
+
+    /// Returns a copy of the columns from `begin` to before `end`, without marks.
+    pub(crate) fn part(&self, begin: Mark, end: Mark) -> Self {
         Self {
             symbols: self.symbols[begin.module..end.module].to_vec(),
             params: self.params[begin.param..end.param].to_vec(),
-            keys: keys.to_vec(),
+            keys: self.keys.get(begin.module..end.module).unwrap_or_default().to_vec(),
             marks: Vec::new(),
         }
     }

@@ -318,15 +318,7 @@ struct Chains<'a> {
 impl Chains<'_> {
     /// Returns each chain alone.
     fn each(&self) -> impl Iterator<Item = Chain> + '_ {
-        self.begins.windows(2).map(|pair| {
-            let [begin, end] = [pair[0], pair[1]];
-            Chain {
-                symbols: self.chain.symbols[begin.module..end.module].to_vec(),
-                params: self.chain.params[begin.param..end.param].to_vec(),
-                keys: self.chain.keys[begin.module..end.module].to_vec(),
-                marks: Vec::new(),
-            }
-        })
+        self.begins.windows(2).map(|pair| self.chain.part(pair[0], pair[1]))
     }
 }
 

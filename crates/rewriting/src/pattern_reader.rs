@@ -5,6 +5,7 @@ use super::column_value::ColumnValue;
 use super::pattern::{Context, Item, Pattern, PatternValue, SymbolSet, single_spaced};
 use super::symbols::{NameScope, Symbols, count_text};
 use burgeon_base::error::{Error, Result};
+use std::borrow::Cow;
 
 /// Maximum number of characters of a pattern that an error shows before its position, and after it.
 const AROUND: usize = 100;
@@ -470,8 +471,8 @@ impl<'a> PatternReader<'a> {
     /// Returns an error that shows the current position.
     fn error_here(&self, help: &str) -> Error {
         let found = match self.text[self.at..].chars().next() {
-            Some(c) => format!("unexpected '{c}'"),
-            None => "unexpected end".to_owned(),
+            Some(c) => format!("unexpected '{c}'").into(),
+            None => Cow::Borrowed("unexpected end"),
         };
         let before = self.text[..self.at].chars().count();
         let shown = |c: char| if c.is_whitespace() { ' ' } else { c };

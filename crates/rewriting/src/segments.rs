@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::chain::{CLOSE, Chain, END, OPEN, Symbol};
+use crate::chain::{CLOSE, Chain, END, Mark, OPEN, Symbol};
 use crate::grammar::Grammar;
 use crate::regions::{Region, RegionChange, RegionPath};
 
@@ -213,12 +213,8 @@ fn divide(chain: &Chain, grammar: &Grammar, size: usize, located: &[bool], segme
     for symbols in chain.symbols.chunks(size) {
         let end = begin + symbols.len();
         let params: usize = symbols.iter().map(|symbol| usize::from(arities[usize::from(*symbol)])).sum();
-        let chain = Chain {
-            symbols: symbols.to_vec(),
-            params: chain.params[param..param + params].to_vec(),
-            keys: chain.keys.get(begin..end).unwrap_or_default().to_vec(),
-            marks: Vec::new(),
-        };
+        let from = Mark { module: begin, param, chain: 0 };
+        let chain = chain.part(from, Mark { module: end, param: param + params, chain: 0 });
         (begin, param) = (end, param + params);
         let has_rules = has_rules(&chain, grammar);
         segments.push(ChainSegment {

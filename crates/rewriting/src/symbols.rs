@@ -96,34 +96,31 @@ impl Signature {
     }
 
     /// Formats the module as written in a script, such as `Floor(n, radius)`.
-    pub fn usage(&self) -> String {
+    pub fn usage(&self) -> Cow<'_, str> {
         if self.parameters.is_empty() {
-            return self.name.clone();
+            return self.name.as_str().into();
         }
-        let shown: Vec<String> = self
-            .parameters
-            .iter()
-            .enumerate()
-            .map(|(index, name)| if index < self.required { name.clone() } else { format!("{name}?") })
-            .collect();
-        format!("{}({})", self.name, shown.join(", "))
+        let optional = |index: usize| if index < self.required { "" } else { "?" };
+        let shown: Vec<String> =
+            (0..).zip(&self.parameters).map(|(index, name)| format!("{name}{}", optional(index))).collect();
+        format!("{}({})", self.name, shown.join(", ")).into()
     }
 
     /// Formats the number of parameters.
-    pub fn count(&self) -> String {
+    pub fn count(&self) -> Cow<'static, str> {
         match (self.required, self.arity()) {
-            (least, most) if least < most => format!("{least} to {most} parameters"),
+            (least, most) if least < most => format!("{least} to {most} parameters").into(),
             (_, arity) => count_text(arity),
         }
     }
 }
 
 /// Formats a number of parameters.
-pub(crate) fn count_text(count: usize) -> String {
+pub(crate) fn count_text(count: usize) -> Cow<'static, str> {
     match count {
-        0 => "no parameters".to_owned(),
-        1 => "1 parameter".to_owned(),
-        count => format!("{count} parameters"),
+        0 => "no parameters".into(),
+        1 => "1 parameter".into(),
+        count => format!("{count} parameters").into(),
     }
 }
 
@@ -203,11 +200,11 @@ impl Symbols {
 
     /// Declares a module of the package `owner`, or of the script; see [`declare`](Self::declare).
     pub fn declare_in(&mut self, signature: Signature, owner: Option<&str>) -> Result<Symbol> {
-        let known = self.by_name.get(&signature.name).map(Vec::as_slice).unwrap_or_default();
+        let named = self.by_name.get(&signature.name).map(Vec::as_slice).unwrap_or_default();
         let known =
-            known.iter().filter(|symbol| !self.is_standard(**symbol) || self.reserved != Some(**symbol));
-        let own = known.clone().rev().find(|symbol| self.owner(**symbol) == owner);
-        let standard = known.clone().find(|symbol| self.is_standard(**symbol));
+            || named.iter().filter(|symbol| !self.is_standard(**symbol) || self.reserved != Some(**symbol));
+        let own = known().rev().find(|symbol| self.owner(**symbol) == owner);
+        let standard = known().find(|symbol| self.is_standard(**symbol));
         for symbol in own.into_iter().chain(standard).copied() {
             if *self.signature(symbol) == signature {
                 return Ok(symbol);

@@ -13,10 +13,9 @@ impl Geometry {
         Some(match self {
             Self::Point(Some(_)) => return None,
             Self::Point(None) => Vec::new(),
-            Self::MultiPoint(points) => points.iter().copied().map(Self::point).collect(),
-            Self::MultiLine(lines) => lines.iter().cloned().map(Self::Line).collect(),
-            Self::MultiPolygon(polygons) => polygons.iter().cloned().map(Self::Polygon).collect(),
-            Self::Collection(members) => members.clone(),
+            Self::MultiPoint(_) | Self::MultiLine(_) | Self::MultiPolygon(_) | Self::Collection(_) => {
+                self.geometries()
+            }
             Self::Polygon(rings) => rings.iter().map(|ring| Self::Line(closed(ring))).collect(),
             Self::Line(points) if points.len() == 2 => points.iter().copied().map(Self::point).collect(),
             Self::Line(points) => {

@@ -43,20 +43,21 @@ impl Geometry {
         super::plane::collect_lines(self, &mut |line: &[DVec3]| {
             if line.first().is_some_and(|first| line.iter().all(|point| point.truncate() == first.truncate()))
             {
-                short = Some("a line has no length".to_owned());
+                short = Some("a line has no length");
             }
         });
         let mut flat = None;
         super::plane::collect_polygons(self, &mut |rings: &Rings| {
             let is_flat = |ring: &Vec<DVec3>| is_flat(ring.iter().map(|point| point.truncate()));
             if rings.iter().any(|ring| !ring.is_empty() && is_flat(ring)) {
-                flat = Some("a ring has no area".to_owned());
+                flat = Some("a ring has no area");
             }
         });
-        if short.is_some() {
-            return Ok(short);
-        }
-        Ok(area_flaw(&Plane::of(&[self]).geo(self), budget)?.or(flat))
+        let flaw = match short {
+            None => area_flaw(&Plane::of(&[self]).geo(self), budget)?,
+            Some(_) => None,
+        };
+        Ok(flaw.or_else(|| Some(short.or(flat)?.to_owned())))
     }
 
     /// Returns the most similar valid geometry: itself if it is valid.

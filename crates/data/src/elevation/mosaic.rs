@@ -5,6 +5,7 @@ use crate::heights::{MOST, SampleGrid, count};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_spatial::Crs;
+use std::borrow::Cow;
 
 /// Tolerance (samples) for the alignment of samples with the grid.
 const TOLERANCE: f64 = 0.02;
@@ -78,12 +79,12 @@ pub(super) fn join(mut tiles: Vec<Raster>, budget: &Budget) -> Result<Raster> {
 }
 
 /// Returns a name for messages.
-fn file_names(tiles: &[Raster]) -> String {
+fn file_names(tiles: &[Raster]) -> Cow<'_, str> {
     match tiles {
-        [one] => one.name.clone(),
-        [first, second] => format!("{} and {}", first.name, second.name),
-        [first, .., last] => format!("{} to {} ({} files)", first.name, last.name, tiles.len()),
-        [] => String::new(),
+        [one] => one.name.as_str().into(),
+        [first, second] => format!("{} and {}", first.name, second.name).into(),
+        [first, .., last] => format!("{} to {} ({} files)", first.name, last.name, tiles.len()).into(),
+        [] => "".into(),
     }
 }
 
@@ -99,8 +100,8 @@ fn unwrap_longitudes(tiles: &mut [Raster]) {
 
 /// Fails if a raster cannot be joined with another one.
 fn check_same(first: &Raster, other: &Raster) -> Result<()> {
-    let [a, b] =
-        [first, other].map(|tile| tile.crs.as_ref().map_or("metres of the run".to_owned(), Crs::name));
+    let [a, b] = [first, other]
+        .map(|tile| tile.crs.as_ref().map_or("metres of the run".into(), |crs| Cow::Owned(crs.name())));
     let warp = "resample all files to one grid: gdalwarp -t_srs EPSG:CODE -tr X Y -tap IN... OUT.tif";
     if a != b {
         let what = format!("{} is in {a}, and {} in {b}", first.name, other.name);
@@ -160,16 +161,17 @@ pub(super) fn extend(raster: &mut Raster) {
     if raster.parts.is_empty() {
         return;
     }
-    let (columns, parts) = (raster.columns, raster.parts.clone());
+    let Raster { columns, rows, parts, heights, .. } = raster;
+    let columns = *columns;
     let mut last: Option<usize> = None;
     let mut bare = Vec::new();
-    for row in 0..raster.rows {
+    for row in 0..*rows {
         let spans: Vec<(usize, usize)> = parts
             .iter()
             .filter(|[_, top, _, bottom]| (*top..*bottom).contains(&row))
             .map(|[left, _, right, _]| (*left, *right))
             .collect();
-        let line = &mut raster.heights[row * columns..][..columns];
+        let line = &mut heights[row * columns..][..columns];
         let inside = |column: usize| spans.iter().any(|(left, right)| (*left..*right).contains(&column));
         // Columns in gaps, and the nearest known heights to the west and to the east of each column.
         let mut west: Option<(usize, f32)> = None;

@@ -53,7 +53,8 @@ impl Relief {
         let Some(crs) = &raster.crs else {
             let SampleGrid { first, step } = raster.grid;
             let way = RasterMapping::Straight { first: first.into(), step: step.into() };
-            return Self::along(Arc::clone(&raster), way, corners(&raster, 1), step.into());
+            let edge = corners(&raster, 1);
+            return Self::along(raster, way, edge, step.into());
         };
         let [west, south, east, north] = raster.bounds();
         let middle = [(west + east) / 2.0, (south + north) / 2.0];
@@ -95,7 +96,7 @@ impl Relief {
                 .help("cut out a part of it, or convert it: gdalwarp -t_srs EPSG:4326 IN OUT.tif")
             })?)
         };
-        Self::along(Arc::clone(&raster), way, edge, unit)
+        Self::along(raster, way, edge, unit)
     }
 
     /// Creates a relief from a raster with a known edge (m) and mapping.

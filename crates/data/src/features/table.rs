@@ -323,12 +323,14 @@ impl FeatureTable {
         Ok(())
     }
 
-    /// Skips the features for which `why` returns an error.
+    /// Skips the features for which `why` returns an error; it gets the name of the layer in messages.
     pub(crate) fn refuse_those(
         &mut self,
-        why: impl Fn(&mut Feature) -> Option<Error> + Send + Sync,
+        why: impl Fn(&str, &mut Feature) -> Option<Error> + Send + Sync,
     ) -> Result<()> {
-        let wrong: Vec<Option<Error>> = self.features.par_iter_mut().map(why).collect();
+        let shown = &self.shown;
+        let wrong: Vec<Option<Error>> =
+            self.features.par_iter_mut().map(|feature| why(shown, feature)).collect();
         if wrong.iter().all(Option::is_none) {
             return Ok(());
         }
@@ -344,8 +346,7 @@ impl FeatureTable {
 
     /// Skips features with coordinates that are not finite.
     pub(crate) fn refuse_endless(&mut self) -> Result<()> {
-        let name = self.shown.clone();
-        self.refuse_those(|feature| {
+        self.refuse_those(|name, feature| {
             let endless = feature.geometry.points().any(|point| !point.is_finite());
             endless.then(|| {
                 let id = shown(&feature.id);

@@ -5,6 +5,7 @@
 //!
 //! Source: RFC 4180; delimiters and column names as programs write them.
 
+use std::borrow::Cow;
 use std::io::{BufRead, BufReader};
 
 use crate::codepages::{CodePage, WESTERN};
@@ -70,7 +71,7 @@ impl CsvFile {
     }
 
     pub(crate) fn open(file: DataFile) -> Self {
-        let layer = file.stem();
+        let layer = file.stem().into_owned();
         Self { file, layer }
     }
 }
@@ -170,7 +171,8 @@ fn parts(
         PlaceColumns::Pair { x, y, z, .. } => {
             let number = |column: usize| {
                 let text = field(column);
-                let text = if comma_is_decimal { text.replace(',', ".") } else { text.to_owned() };
+                let text =
+                    if comma_is_decimal { Cow::Owned(text.replace(',', ".")) } else { Cow::Borrowed(text) };
                 match text.parse::<f64>() {
                     Ok(number) => Ok(Some(number)),
                     Err(_) if text.is_empty() => Ok(None),
@@ -245,16 +247,16 @@ fn unique(names: Vec<String>) -> Vec<String> {
     let mut known: Vec<String> = Vec::with_capacity(names.len());
     for (number, name) in names.into_iter().enumerate() {
         let name = match name.trim() {
-            "" => format!("column_{}", number + 1),
-            name => name.to_owned(),
+            "" => format!("column_{}", number + 1).into(),
+            name => Cow::Borrowed(name),
         };
-        let mut unique = name.clone();
+        let mut unique = Cow::Borrowed(&*name);
         let mut count = 1;
-        while known.contains(&unique) && count < 1000 {
+        while known.iter().any(|known| *known == unique) && count < 1000 {
             count += 1;
-            unique = format!("{name}_{count}");
+            unique = format!("{name}_{count}").into();
         }
-        known.push(unique);
+        known.push(unique.into_owned());
     }
     known
 }

@@ -3,6 +3,7 @@
 //! Source: Topografix, GPX 1.1 Schema Documentation.
 
 use glam::DVec3;
+use std::borrow::Cow;
 
 use crate::content::DataFile;
 use crate::features::table::FeatureTable;
@@ -84,7 +85,11 @@ impl LayeredFile for GpxFile {
 
     fn read(&self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
         let name = &self.file.name;
-        let label = if self.layers.len() > 1 { format!("{name}:{layer}") } else { name.clone() };
+        let label = if self.layers.len() > 1 {
+            format!("{name}:{layer}").into()
+        } else {
+            Cow::Borrowed(name.as_str())
+        };
         let mut table = FeatureTable::new(layer, &label, Crs::epsg(4326), wanted);
         let mut types = TextTypes::default();
         let wanted_name = LAYERS.iter().find(|(known, _)| *known == layer).map_or("", |(_, name)| *name);
@@ -175,12 +180,11 @@ impl GpxFeature {
                         xml.leave(xml.depth - 1)?;
                     }
                     name => {
-                        let name = name.to_owned();
                         let value = xml.inner_text()?;
-                        if let (Some(place), "ele") = (&mut place, name.as_str()) {
+                        if let (Some(place), "ele") = (&mut place, name) {
                             place.z = value.parse().unwrap_or_default();
                         }
-                        self.add(&name, value);
+                        self.add(name, value);
                     }
                 },
                 XmlPiece::End if xml.depth < depth => break,

@@ -51,7 +51,7 @@ impl KmlFile {
     }
 
     pub(crate) fn open(file: DataFile) -> Self {
-        let layer = file.stem();
+        let layer = file.stem().into_owned();
         Self { file, layer }
     }
 }
@@ -209,15 +209,10 @@ impl PlacemarkReader {
             }
             // A schema value is named by an attribute of its element.
             "SimpleData" => {
-                let name = element.attribute("name").unwrap_or_default().to_owned();
-                let value = xml.inner_text()?;
-                found.add(&name, value, &self.budget)
+                let name = element.attribute("name").unwrap_or_default();
+                found.add(name, xml.inner_text()?, &self.budget)
             }
-            name => {
-                let name = name.to_owned();
-                let value = xml.inner_text()?;
-                found.add(&name, value, &self.budget)
-            }
+            name => found.add(name, xml.inner_text()?, &self.budget),
         }
     }
 
@@ -274,7 +269,7 @@ impl PlacemarkReader {
                     }
                 }
                 if outer.len() > 1 {
-                    return Ok(Err("has a polygon with more than one outer ring".to_owned()));
+                    return Ok(Err("has a polygon with more than one outer ring".into()));
                 }
                 if !outer.is_empty() {
                     outer.append(&mut holes);

@@ -59,8 +59,8 @@ impl TextTypes {
         if !self.kinds.iter().any(|kind| kind.numbers || kind.booleans) {
             return Ok(());
         }
-        let budget = Arc::clone(&table.budget);
-        for feature in &mut table.features {
+        let FeatureTable { budget, features, .. } = table;
+        for feature in features {
             budget.tick()?;
             for (number, value) in Arc::make_mut(&mut feature.attributes) {
                 let (Attribute::Text(text), Some(kind)) = (&*value, self.kinds.get(*number)) else {

@@ -1,5 +1,6 @@
 //! Reader of GeoJSON, feature by feature.
 
+use crate::content::stem;
 use std::borrow::Cow;
 use std::path::Path;
 use std::sync::Arc;
@@ -85,9 +86,7 @@ pub(super) struct FeatureReader<'a> {
 impl<'a> FeatureReader<'a> {
     /// Creates a reader of the file at `path`, called `name` in messages.
     pub(super) fn new(path: &Path, name: &'a str, wanted: &'a SourceOptions) -> Self {
-        let stem =
-            path.file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned());
-        let table = FeatureTable::new(&stem, name, Crs::epsg(4326), wanted);
+        let table = FeatureTable::new(&stem(path, name), name, Crs::epsg(4326), wanted);
         Self { table, name, wanted, records: 0, failure: None }
     }
 

@@ -3,6 +3,7 @@
 use geo::line_intersection::{LineIntersection, line_intersection};
 use geo::{Coord, Orientation};
 use glam::DVec2;
+use std::borrow::Cow;
 
 use super::point::SectionPoint;
 use super::simplify::corners;
@@ -26,7 +27,7 @@ impl Point for NumberedPoint {
 
 /// A ring with its name in error messages.
 struct NamedRing {
-    name: String,
+    name: Cow<'static, str>,
     points: Vec<NumberedPoint>,
 }
 
@@ -96,7 +97,7 @@ fn rings_within(
         let manner = OutlineOptions { straight: manner.straight * finer, ..*manner };
         let mut rings = vec![ring("the outer ring".into(), outer, false, &manner)?];
         for (index, hole) in holes.iter().enumerate() {
-            rings.push(ring(format!("hole {}", index + 1), hole, true, &manner)?);
+            rings.push(ring(format!("hole {}", index + 1).into(), hole, true, &manner)?);
         }
         match refuse_crossings(&rings, true, &manner) {
             Ok(()) => return Ok(rings),
@@ -108,25 +109,30 @@ fn rings_within(
 
 /// Returns a cleaned open line of at least 2 distinct points; fails if it crosses or touches itself.
 pub(crate) fn open(points: &[SectionPoint]) -> Result<Vec<SectionPoint>> {
-    let name = "the line".to_owned();
-    let mut points = number_points(&name, points, &SECTION)?;
+    let name = "the line";
+    let mut points = number_points(name, points, &SECTION)?;
     drop_repeated(&mut points, SECTION.near, false);
     if points.len() < 2 {
         return Err(Error::geometry("the line of an open cross-section has fewer than 2 distinct points")
             .help("give at least 2 distinct points"));
     }
     drop_straight(&mut points, false);
-    let line = NamedRing { name, points };
+    let line = NamedRing { name: name.into(), points };
     refuse_crossings(std::slice::from_ref(&line), false, &SECTION)?;
     Ok(line.points.into_iter().map(|point| point.point).collect())
 }
 
 /// Returns true if the points form a valid hole, regardless of other rings.
 pub(crate) fn is_hole(points: &[SectionPoint], manner: &OutlineOptions) -> bool {
-    ring(String::new(), points, true, manner).is_ok()
+    ring("".into(), points, true, manner).is_ok()
 }
 
-fn ring(name: String, points: &[SectionPoint], is_hole: bool, manner: &OutlineOptions) -> Result<NamedRing> {
+fn ring(
+    name: Cow<'static, str>,
+    points: &[SectionPoint],
+    is_hole: bool,
+    manner: &OutlineOptions,
+) -> Result<NamedRing> {
     let owner = manner.owner;
     let mut points = number_points(&name, points, manner)?;
     let simplifies = manner.straight > 0.0;

@@ -122,20 +122,21 @@ pub fn unite(parts: Vec<Rings<DVec2>>) -> Result<PolygonArea> {
 /// Computes the union of areas, each of which is valid.
 pub(super) fn unite_valid(areas: Vec<PolygonArea>) -> Result<PolygonArea> {
     let mut made = PolygonArea::new();
-    let all: Vec<Rings<DVec2>> = areas.iter().flatten().cloned().collect();
     let owners = owners(&areas);
+    let mut all: Vec<Rings<DVec2>> = areas.into_iter().flatten().collect();
     let middles: Vec<DVec2> = all.iter().map(middle).collect();
+    // Each polygon is in one group.
     for mut group in groups(all.iter())? {
         if is_of_one(&group, &owners) {
-            made.extend(group.into_iter().map(|index| all[index].clone()));
+            made.extend(group.into_iter().map(|index| std::mem::take(&mut all[index])));
             continue;
         }
         let low = group.iter().fold(DVec2::INFINITY, |low, index| low.min(middles[*index]));
         let high = group.iter().fold(DVec2::NEG_INFINITY, |high, index| high.max(middles[*index]));
         let axis = usize::from((high - low).y > (high - low).x);
         group.sort_by(|a, b| middles[*a][axis].total_cmp(&middles[*b][axis]));
-        let sorted: Vec<PolygonArea> = group.into_iter().map(|index| vec![all[index].clone()]).collect();
-        made.extend(join(sorted)?);
+        let sorted = group.into_iter().map(|index| vec![std::mem::take(&mut all[index])]);
+        made.extend(join(sorted.collect())?);
     }
     Ok(made)
 }

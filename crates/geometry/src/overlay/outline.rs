@@ -197,7 +197,8 @@ impl Outliner {
             Cap::Flat => None,
             Cap::Square => {
                 let corner = DVec2::splat(self.distance);
-                Some([-corner, -corner.perp(), corner, corner.perp()].map(|at| place + at).to_vec())
+                let corners = [-corner, -corner.perp(), corner, corner.perp()];
+                Some(corners.into_iter().map(|at| place + at).collect())
             }
             Cap::Round => {
                 let mut ring = vec![place + right];

@@ -1,5 +1,6 @@
 //! Polygons with holes.
 
+use std::borrow::Cow;
 use std::ops::{Add, Deref};
 
 use geo::Simplify;
@@ -71,7 +72,10 @@ impl<P: Point> Polygon<P> {
     fn check_rings(rings: Rings<P>, turned: impl Fn(Ring<P>, bool, &str) -> Result<Ring<P>>) -> Result<Self> {
         let mut checked = Vec::with_capacity(rings.len());
         for (index, points) in rings.0.into_iter().enumerate() {
-            let name = if index == 0 { "the outer ring".to_owned() } else { format!("hole {index}") };
+            let name = match index {
+                0 => Cow::Borrowed("the outer ring"),
+                _ => format!("hole {index}").into(),
+            };
             let ring = Ring::with_name(&name, points)?;
             let last = ring.len();
             let pairs = (1..).zip(ring.edges());

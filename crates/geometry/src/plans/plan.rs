@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
+use std::borrow::Cow;
 
 use super::repair::{PlanRepair, fill, repair};
 use crate::cross_section::outline::{OutlineOptions, numbered_rings};
@@ -80,7 +81,10 @@ impl Plan {
             points.iter().enumerate().map(move |(number, point)| (ring, number + 1, point))
         }) {
             if point.z.is_nan() || point.z.abs() > 20_000.0 {
-                let name = if ring == 0 { "the outer ring".to_owned() } else { format!("hole {ring}") };
+                let name = match ring {
+                    0 => Cow::Borrowed("the outer ring"),
+                    _ => format!("hole {ring}").into(),
+                };
                 let message =
                     format!("point {number} of {name} of the footprint has the height {} m", point.z);
                 return Err(Error::geometry(message).help("give heights from -20000 to 20000 m"));

@@ -304,8 +304,8 @@ fn notches(rings: &Rings<DVec2>, near: f64) -> PolygonArea {
             });
             if touches {
                 let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-                let corners = corners.map(|(x, y)| at + DVec2::new(x, y) * NOTCH);
-                found.push(Rings(vec![corners.to_vec()]));
+                let corners = corners.into_iter().map(|(x, y)| at + DVec2::new(x, y) * NOTCH);
+                found.push(Rings(vec![corners.collect()]));
             }
         }
         number += ring.len();

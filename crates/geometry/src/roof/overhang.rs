@@ -111,7 +111,7 @@ impl Rim<'_> {
         let apex = border[highest];
         let ends = [border[..highest].to_vec(), border[highest + 1..].iter().rev().copied().collect()];
         // Each end runs from the eaves to the top of the walls and on to the ridge, in one line.
-        let [Some(from_right), Some(from_left)] = ends.map(|side| self.side(&side)) else { return None };
+        let [Some(from_right), Some(from_left)] = ends.map(|side| self.side(side)) else { return None };
         let place = self.place(edge);
         let [left, right] = place.ends(self.walls);
         let along = (right - left).normalize_or_zero();
@@ -159,9 +159,9 @@ impl Rim<'_> {
 
     /// Returns the end of a slope from the eaves to the top of the walls, if it has no other points up to the
     /// ridge.
-    fn side(&self, points: &[DVec3]) -> Option<Vec<DVec3>> {
+    fn side(&self, points: Vec<DVec3>) -> Option<Vec<DVec3>> {
         let at_walls = points.last().is_some_and(|last| self.is_at_wall(*last));
-        (at_walls && points.len() <= 2).then(|| points.to_vec())
+        (at_walls && points.len() <= 2).then_some(points)
     }
 
     /// Adds all faces below the slopes, and the lower edges of gables that are in `patches`.
@@ -244,8 +244,8 @@ impl Rim<'_> {
         let (low, high) = (self.under(0.0), self.base + self.profile.corners[0].y);
         push(PatchKind::Fascia, vec![a.extend(low), b.extend(low), b.extend(high), a.extend(high)]);
         if self.distances[edge] > 0.0 {
-            let ring = [b.extend(low), a.extend(low), left.extend(self.base), right.extend(self.base)];
-            push(PatchKind::Underside, ring.to_vec());
+            let ring = vec![b.extend(low), a.extend(low), left.extend(self.base), right.extend(self.base)];
+            push(PatchKind::Underside, ring);
         }
     }
 

@@ -36,13 +36,13 @@ pub fn kind() -> &'static Arc<Kind> {
         let kind = Kind::new("bordered", "A wall between four margins.")
             .first("wall")
             .example(include_str!("../../scripts/bordered.lua"));
-        wall_kind(kind, BorderedOptions::fields(), |table| make(&BorderedOptions::from_table(table)?))
+        wall_kind(kind, BorderedOptions::fields(), |table| make(BorderedOptions::from_table(table)?))
     });
     &KIND
 }
 
-fn make(options: &BorderedOptions) -> Result<Wall> {
-    let Some(wall) = options.wall.clone() else {
+fn make(options: BorderedOptions) -> Result<Wall> {
+    let Some(wall) = options.wall else {
         return Err(Error::argument("bordered: missing wall between the margins")
             .help("write bordered { wall = panel { }, left = 0.5 }"));
     };

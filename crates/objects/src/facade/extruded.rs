@@ -50,7 +50,7 @@ pub fn kind() -> &'static Arc<Kind> {
         let kind = Kind::new("extruded", "A wall that projects or recedes, with faces at its sides.")
             .first("wall")
             .example(include_str!("../../scripts/extruded.lua"));
-        wall_kind(kind, ExtrudedOptions::fields(), |table| make(&ExtrudedOptions::from_table(table)?))
+        wall_kind(kind, ExtrudedOptions::fields(), |table| make(ExtrudedOptions::from_table(table)?))
     });
     &KIND
 }
@@ -58,8 +58,8 @@ pub fn kind() -> &'static Arc<Kind> {
 /// Maximum distance (m) by which a wall may be moved.
 const FURTHEST: f64 = 100.0;
 
-fn make(options: &ExtrudedOptions) -> Result<Wall> {
-    let Some(wall) = options.wall.clone() else {
+fn make(options: ExtrudedOptions) -> Result<Wall> {
+    let Some(wall) = options.wall else {
         return Err(Error::argument("extruded: missing wall to extrude")
             .help("write extruded { wall = panel { }, depth = 0.3 }"));
     };
@@ -67,8 +67,7 @@ fn make(options: &ExtrudedOptions) -> Result<Wall> {
         return Err(Error::argument(format!("extruded: depth is {} m", number(options.depth)))
             .help(format!("give metres from -{FURTHEST} to {FURTHEST}")));
     }
-    let model = options.model.clone();
-    let fixture = model.map(|model| Fixture::new(model, options.stretch, options.at));
+    let fixture = options.model.map(|model| Fixture::new(model, options.stretch, options.at));
     let sides = [options.left, options.right, options.bottom, options.top];
     let (sizes, targets) = (wall.0.sizes.clone(), wall.0.targets);
     let rule = WallRule::Extruded { depth: options.depth, sides, fixture, wall };

@@ -59,7 +59,7 @@ impl Parameter for PanelMeaning {
 
     fn into_value(self) -> Value {
         let named = MEANINGS.iter().find(|(_, meaning)| *meaning == self.0);
-        named.map_or("wall", |(name, _)| name).to_owned().into_value()
+        Value::Text(named.map_or("wall", |(name, _)| name).into())
     }
 }
 
@@ -89,6 +89,6 @@ impl Parameter for Anchor {
 
     fn into_value(self) -> Value {
         let nearest = ANCHORS.iter().min_by(|a, b| (a.1 - self.0).abs().total_cmp(&(b.1 - self.0).abs()));
-        nearest.map_or("center", |(name, _)| name).to_owned().into_value()
+        Value::Text(nearest.map_or("center", |(name, _)| name).into())
     }
 }

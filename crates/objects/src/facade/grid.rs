@@ -32,13 +32,13 @@ pub fn kind() -> &'static Arc<Kind> {
         )
         .first("wall")
         .example(include_str!("../../scripts/grid.lua"));
-        wall_kind(kind, GridOptions::fields(), |table| make(&GridOptions::from_table(table)?))
+        wall_kind(kind, GridOptions::fields(), |table| make(GridOptions::from_table(table)?))
     });
     &KIND
 }
 
-fn make(options: &GridOptions) -> Result<Wall> {
-    let Some(wall) = options.wall.clone() else {
+fn make(options: GridOptions) -> Result<Wall> {
+    let Some(wall) = options.wall else {
         return Err(Error::argument("grid: missing wall to repeat").help("write grid { wall = panel { } }"));
     };
     let counts = [options.columns, options.rows].map(|count| count.low..=count.high);

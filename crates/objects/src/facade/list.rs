@@ -29,7 +29,7 @@ pub fn kind() -> &'static Arc<Kind> {
         let kind = Kind::new("list", "Walls from left to right, or from the bottom up.")
             .first("walls")
             .example(include_str!("../../scripts/list.lua"));
-        wall_kind(kind, ListOptions::fields(), |table| make(&ListOptions::from_table(table)?))
+        wall_kind(kind, ListOptions::fields(), |table| make(ListOptions::from_table(table)?))
     });
     &KIND
 }
@@ -37,7 +37,7 @@ pub fn kind() -> &'static Arc<Kind> {
 /// Maximum number of walls in a list.
 const MOST: usize = 500;
 
-fn make(options: &ListOptions) -> Result<Wall> {
+fn make(options: ListOptions) -> Result<Wall> {
     let upwards = match options.direction.as_str() {
         "horizontal" => false,
         "vertical" => true,
@@ -80,6 +80,6 @@ fn make(options: &ListOptions) -> Result<Wall> {
         sizes.reverse();
         targets.reverse();
     }
-    let rule = WallRule::List { upwards, split, walls: options.walls.clone() };
+    let rule = WallRule::List { upwards, split, walls: options.walls };
     Wall::new(kind(), rule, sizes, targets, [options.width, options.height], None::<&MaterialOptions>)
 }

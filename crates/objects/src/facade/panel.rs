@@ -40,16 +40,16 @@ pub fn kind() -> &'static Arc<Kind> {
     static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
         let kind = Kind::new("panel", "A plain wall panel, optionally with a model or an image on it.")
             .example(include_str!("../../scripts/panel.lua"));
-        wall_kind(kind, PanelOptions::fields(), |table| make(&PanelOptions::from_table(table)?))
+        wall_kind(kind, PanelOptions::fields(), |table| make(PanelOptions::from_table(table)?))
     });
     &KIND
 }
 
-fn make(options: &PanelOptions) -> Result<Wall> {
+fn make(options: PanelOptions) -> Result<Wall> {
     let decoration = options.decoration.as_ref().map(MaterialOptions::material).transpose()?;
-    let model = options.model.clone();
     let meaning = options.surface.map(|PanelMeaning(meaning)| meaning);
-    let fixture = model.map(|model| Fixture { meaning, ..Fixture::new(model, options.stretch, options.at) });
+    let fixture =
+        options.model.map(|model| Fixture { meaning, ..Fixture::new(model, options.stretch, options.at) });
     let extent = fixture.as_ref().map(Fixture::extent);
     // A model that is not stretched needs its full size.
     let room = extent.filter(|_| !options.stretch).unwrap_or_default();

@@ -60,7 +60,7 @@ impl Template {
 impl Template {
     fn from_table(table: &Table) -> Result<Self> {
         let options = TemplateOptions::from_table(table)?;
-        let Some(wall) = options.wall.clone() else {
+        let Some(wall) = options.wall else {
             return Err(Error::argument("template: missing wall").help("write template { wall = panel { } }"));
         };
         if !(0.0..=1e9).contains(&options.weight) {
@@ -68,8 +68,7 @@ impl Template {
                 .help("use a number of at least 0"));
         }
         let material = options.material.material()?;
-        let inner =
-            TemplateData { wall, keywords: options.keywords.clone(), material, weight: options.weight };
+        let inner = TemplateData { wall, keywords: options.keywords, material, weight: options.weight };
         Ok(Self(Arc::new(inner)))
     }
 

@@ -167,11 +167,13 @@ impl Footprint {
             return Ok(number - 1);
         }
         let message = format!("footprint:{method}: unknown edge {number}");
-        Err(Error::not_found("edge", number, [], message).help(if count == 0 {
-            "the footprint has no geometry".to_owned()
-        } else {
-            format!("it has the edges 1 to {count}: edges of the outer ring, followed by edges of holes")
-        }))
+        let error = Error::not_found("edge", number, [], message);
+        Err(match count {
+            0 => error.help("the footprint has no geometry"),
+            _ => error.help(format!(
+                "it has the edges 1 to {count}: edges of the outer ring, followed by edges of holes"
+            )),
+        })
     }
 
     /// Returns both ends (m) of a given edge.

@@ -1,5 +1,6 @@
 //! Existing streets, as scripts specify them for a network.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use burgeon_base::error::Result;
@@ -212,8 +213,11 @@ fn losses(report: &ExistingReport) -> Option<Warning> {
     let lost: f64 = report.losses.iter().map(|loss| loss.length).filter(|length| length.is_finite()).sum();
     let shown = |loss: &burgeon_streets::ExistingLoss| {
         let place = loss.at.map_or_else(String::new, |at| format!(" at {:.1}, {:.1}", at.x, at.y));
-        let length =
-            if loss.length.is_finite() { format!("{:.2} m", loss.length) } else { "endless".to_owned() };
+        let length = if loss.length.is_finite() {
+            format!("{:.2} m", loss.length).into()
+        } else {
+            Cow::Borrowed("endless")
+        };
         format!("{}{place} ({length}, {})", loss.name, loss.why.name())
     };
     let named: Vec<String> = report.losses.iter().take(NAMED).map(shown).collect();

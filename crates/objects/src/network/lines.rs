@@ -160,7 +160,7 @@ impl Parameter for StreetLines {
 
     fn from_value(value: Value) -> Result<Self, Expectation> {
         let mut lines = Self::default();
-        lines.collect(value, 0)?;
+        lines.collect(&value, 0)?;
         Ok(lines)
     }
 
@@ -175,24 +175,23 @@ impl Parameter for StreetLines {
 
 impl StreetLines {
     /// Adds the lines of a value, as [`Lines`] finds them, with the attributes of the value's feature.
-    fn collect(&mut self, value: Value, depth: usize) -> Result<(), Expectation> {
-        let layer = match &value {
+    fn collect(&mut self, value: &Value, depth: usize) -> Result<(), Expectation> {
+        let layer = match value {
             Value::Object(object) => {
                 let any: &dyn std::any::Any = &**object;
-                any.downcast_ref::<Features>().map(|features| Arc::clone(&features.0))
+                any.downcast_ref::<Features>()
             }
             _ => None,
         };
-        if let Some(layer) = layer {
+        if let Some(Features(layer)) = layer {
             for (number, feature) in layer.features.iter().enumerate() {
-                let geometry = feature.geometry.clone().into_value();
-                let facts = LineFacts::Layer(Arc::clone(&layer), number);
-                self.add(Lines::from_value(geometry)?, &facts, Some(feature.id.to_string()));
+                let facts = LineFacts::Layer(Arc::clone(layer), number);
+                self.add(Lines::of(&feature.geometry), &facts, Some(feature.id.to_string()));
             }
             return Ok(());
         }
-        let Value::Table(table) = &value else {
-            self.add(Lines::from_value(value)?, &LineFacts::None, None);
+        let Value::Table(table) = value else {
+            self.add(Lines::read_value(value)?, &LineFacts::None, None);
             return Ok(());
         };
         if table.get("geometry").is_some() {
@@ -202,7 +201,7 @@ impl StreetLines {
                 _ => None,
             };
             let facts = LineFacts::Table(Arc::clone(table));
-            self.add(Lines::from_value(value)?, &facts, id);
+            self.add(Lines::read_value(value)?, &facts, id);
             return Ok(());
         }
         let list = table.list();
@@ -215,13 +214,13 @@ impl StreetLines {
             _ => false,
         };
         if depth > DEEPEST || list.len() != table.entries.len() || !list.iter().copied().any(is_nested) {
-            self.add(Lines::from_value(value)?, &LineFacts::None, None);
+            self.add(Lines::read_value(value)?, &LineFacts::None, None);
             return Ok(());
         }
         // An invalid item of a list does not affect the other items.
         let (mut good, mut bad) = (0, None);
         for (number, item) in (1..).zip(list) {
-            match self.collect(item.clone(), depth + 1) {
+            match self.collect(item, depth + 1) {
                 Ok(()) => good += 1,
                 Err(error) => {
                     let (count, _) = self.refused.get_or_insert_with(|| (0, error.item(number)));

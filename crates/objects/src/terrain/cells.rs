@@ -1,6 +1,7 @@
 //! Division of the cells of a terrain by the rules of a system: a level of cells is a chain, and a derivation
 //! step replaces each cell by its four quadrants.
 
+use std::borrow::Cow;
 use std::cell::RefCell;
 use std::sync::Arc;
 
@@ -237,9 +238,9 @@ impl CellSystem {
         params.insert(self.heights[usize::from(symbol)].unwrap_or(0), cells.heights[from]);
         let module = module_brief(grammar.symbols(), &self.rules.values, symbol, &params);
         let count = match count {
-            0 => "nothing".to_owned(),
-            1 => "one module or a branch".to_owned(),
-            count => format!("{count} modules"),
+            0 => Cow::Borrowed("nothing"),
+            1 => "one module or a branch".into(),
+            count => format!("{count} modules").into(),
         };
         let error = Error::script(format!("a cell must be replaced by four quadrants, not by {count}"))
             .help("return four modules: north-west, north-east, south-west and south-east; or no value to keep the cell unchanged");

@@ -273,13 +273,13 @@ impl RuleLayer {
         let rest = vec![self.decay.unwrap_or(decay)];
         let (rules, start, rest) = match &self.rules {
             LayerRules::Table(table) => {
-                let names = table.names.iter().map(String::as_str);
                 let start = match &self.start {
                     None => 0,
-                    Some(start) => names.clone().position(|name| name == start).ok_or_else(|| {
+                    Some(start) => table.names.iter().position(|name| name == start).ok_or_else(|| {
                         let message = format!("{kind}: no rule for the start symbol {start}");
-                        burgeon_base::error::Error::not_found("rule", start, names.clone(), message)
-                            .help(format!("use {}", names.clone().collect::<Vec<_>>().join(", ")))
+                        let names = table.names.iter().map(String::as_str);
+                        burgeon_base::error::Error::not_found("rule", start, names, message)
+                            .help(format!("use {}", table.names.join(", ")))
                     })?,
                 };
                 (DivisionRules::Table(Arc::clone(table)), start, rest)

@@ -29,7 +29,7 @@ impl Parameter for ViewArgument {
         }
         let cell = table.get("cell").map(f64::read_value).transpose().map_err(|_| what())?;
         let cell = cell.filter(|cell| *cell > 0.0).ok_or_else(what)?;
-        let rings = Vec::<Vec<u32>>::from_value(table.get("rings").cloned().unwrap_or(Value::Nil));
+        let rings = Vec::<Vec<u32>>::read_value(table.get("rings").unwrap_or(&Value::Nil));
         let rings = rings.map_err(|_| what())?.into_iter().map(|ring| match ring.as_slice() {
             [across, levels] if (1..=1024).contains(across) => {
                 Ok(TileRing { across: *across, levels: *levels })

@@ -89,13 +89,13 @@ impl Water {
             return None;
         }
         let corners = [DVec2::ZERO, DVec2::new(size, 0.0), DVec2::splat(size), DVec2::new(0.0, size)];
-        let positions = corners.map(|at| ((corner + at).extend(self.level) - origin).as_vec3());
-        let uvs = corners.map(|at| (at + step / 2.0).as_vec2());
+        let positions = corners.iter().map(|at| ((corner + at).extend(self.level) - origin).as_vec3());
+        let uvs = corners.iter().map(|at| (at + step / 2.0).as_vec2());
         let part = Part {
             material: 0,
-            positions: positions.to_vec(),
+            positions: positions.collect(),
             normals: vec![Normal::Z; 4],
-            uvs: uvs.map(|uv| Vec2::new(uv.x, uv.y)).to_vec(),
+            uvs: uvs.map(|uv| Vec2::new(uv.x, uv.y)).collect(),
             triangles: vec![[0, 1, 2], [0, 2, 3]].into(),
             ..Part::default()
         };

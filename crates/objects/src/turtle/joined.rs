@@ -4,6 +4,7 @@ use burgeon_base::error::Result;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{AxisPoint, CylinderPoint, JointAxis, joined_tubes};
 use burgeon_kit::Drawing;
+use std::borrow::Cow;
 
 use super::state::TurtleState;
 
@@ -150,10 +151,11 @@ impl JoinedBranches {
 
 /// Returns the warning for branches that do not fit into their joints.
 fn without_joint(separate: usize, joints: usize) -> Warning {
-    let branches = match separate {
-        1 => "1 branch does not fit into its joint, so it is a closed tube of its own".to_owned(),
+    let branches: Cow<'_, str> = match separate {
+        1 => "1 branch does not fit into its joint, so it is a closed tube of its own".into(),
         count => {
             format!("{count} branches do not fit into their joints, so they are closed tubes of their own")
+                .into()
         }
     };
     let text = format!("{branches}; smooth joints: {joints}");

@@ -37,16 +37,16 @@ impl PaletteImage {
                 (usize::from(*length) * (range.len().ilog2() as usize + 1), usize::MAX - number)
             });
             let Some(((_, channel), number)) = cut else { break };
-            let range = boxes[number].clone();
-            let inner = &mut pixels[range.clone()];
+            let std::ops::Range { start, end } = boxes[number];
+            let inner = &mut pixels[start..end];
             inner.sort_by_key(|(place, color)| (color[channel], *place));
             // Equal values stay together.
             let middle = inner[inner.len() / 2].1[channel];
             let below = inner.partition_point(|(_, color)| color[channel] < middle);
             let cut =
                 if below > 0 { below } else { inner.partition_point(|(_, color)| color[channel] <= middle) };
-            boxes[number] = range.start..range.start + cut;
-            boxes.push(range.start + cut..range.end);
+            boxes[number] = start..start + cut;
+            boxes.push(start + cut..end);
         }
         let mut found = Self { colors: Vec::new(), pixels: vec![0; pixels.len()] };
         for range in boxes.into_iter().filter(|range| !range.is_empty()) {
@@ -66,8 +66,8 @@ impl PaletteImage {
 /// Returns the length of the longest side of the bounding box of some colours, and its channel.
 fn side(pixels: &[(usize, [u8; 3])]) -> (u8, usize) {
     let length = |channel: usize| {
-        let values = pixels.iter().map(|(_, color)| color[channel]);
-        values.clone().max().unwrap_or(0) - values.min().unwrap_or(0)
+        let values = || pixels.iter().map(|(_, color)| color[channel]);
+        values().max().unwrap_or(0) - values().min().unwrap_or(0)
     };
     (0..3)
         .map(|channel| (length(channel), channel))

@@ -111,8 +111,8 @@ pub(crate) fn rows(
     frame: Option<&ReferenceFrame>,
     budget: &Arc<Budget>,
 ) -> Result<QueryRows<Cell>, QueryFailure> {
-    let mut made = prepared.rewritten.iter().flat_map(|rewritten| &rewritten.made);
-    for table in made.clone() {
+    let made = || prepared.rewritten.iter().flat_map(|rewritten| &rewritten.made);
+    for table in made() {
         link.make(table, |statement| -> Result<(), QueryFailure> {
             for index in 1..=statement.parameter_count() {
                 let name = statement.parameter_name(index).map(str::to_owned);
@@ -123,7 +123,7 @@ pub(crate) fn rows(
         })?;
     }
     let answer = all_rows(link, prepared, parameters, frame, budget);
-    made.try_for_each(|table| link.forget(table))?;
+    made().try_for_each(|table| link.forget(table))?;
     answer
 }
 

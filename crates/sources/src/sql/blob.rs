@@ -7,26 +7,26 @@ use burgeon_spatial::{Geometry, wkb};
 const NEAR: f64 = 0.01;
 
 /// Returns the well-known binary in a blob, which may be a GeoPackage blob. Fails with the reason.
-fn body(bytes: &[u8]) -> Result<&[u8], String> {
+fn body(bytes: &[u8]) -> Result<&[u8], &'static str> {
     if !bytes.starts_with(b"GP") {
         return Ok(bytes);
     }
     let envelope = envelope_size(bytes)?;
-    bytes.get(8 + envelope..).ok_or_else(|| "ends too early".to_owned())
+    bytes.get(8 + envelope..).ok_or("ends too early")
 }
 
 /// Returns the size (bytes) of the envelope in a GeoPackage blob.
-fn envelope_size(bytes: &[u8]) -> Result<usize, String> {
+fn envelope_size(bytes: &[u8]) -> Result<usize, &'static str> {
     let flags = *bytes.get(3).ok_or("ends too early")?;
     if flags & 0x20 != 0 {
-        return Err("is of an extended type".into());
+        return Err("is of an extended type");
     }
     match (flags >> 1) & 7 {
         0 => Ok(0),
         1 => Ok(32),
         2 | 3 => Ok(48),
         4 => Ok(64),
-        _ => Err("has an envelope that is not known".into()),
+        _ => Err("has an envelope that is not known"),
     }
 }
 
@@ -58,9 +58,9 @@ pub(crate) fn write(geometry: &Geometry) -> Vec<u8> {
 /// Writes a geometry as a GeoPackage blob, with the code of its reference system if it is not the run's.
 pub(crate) fn write_in(geometry: &Geometry, foreign: Option<u32>) -> Vec<u8> {
     let bounds = geometry.bounds();
-    let mut bytes = b"GP".to_vec();
-    bytes.push(if foreign.is_some() { FOREIGN } else { 0 });
-    bytes.push(1 | if bounds.is_some() { 2 } else { 0x10 });
+    let version = if foreign.is_some() { FOREIGN } else { 0 };
+    let flags = 1 | if bounds.is_some() { 2 } else { 0x10 };
+    let mut bytes = vec![b'G', b'P', version, flags];
     bytes.extend(foreign.unwrap_or(0).to_le_bytes());
     if let Some([low, high]) = bounds {
         for value in [low.x, high.x, low.y, high.y] {

@@ -71,7 +71,7 @@ struct TableSet {
     files: Vec<AttachedFile>,
     views: Vec<TableView>,
     /// Origin of each table, which distinguishes a table that is added twice from another table of the same name.
-    origins: FxHashMap<String, String>,
+    origins: FxHashMap<String, Cow<'static, str>>,
     /// Memory (bytes) of each table of rows.
     memory: FxHashMap<String, usize>,
     /// Number of changes so far.
@@ -140,7 +140,7 @@ impl Database {
         }
         let writer = self.writer.lock().recover();
         let info = tables::write_layer(&writer, name, layer, budget)?;
-        tables.add(info, origin);
+        tables.add(info, origin.into());
         Ok(())
     }
 
@@ -167,24 +167,22 @@ impl Database {
         if !fits {
             let writer = self.writer.lock().recover();
             let info = found.copy(&writer, name, self.frame.as_ref(), budget)?;
-            tables.add(info, origin);
+            tables.add(info, origin.into());
             return Ok(());
         }
-        let schema = match known {
-            Some(index) => tables.files[index].schema.clone(),
-            None => {
-                let schema = format!("file{}", tables.files.len() + 1);
-                tables.files.push(AttachedFile { schema: schema.clone(), state: Arc::clone(&found.state) });
-                schema
-            }
-        };
+        let index = known.unwrap_or(tables.files.len());
+        if known.is_none() {
+            let schema = format!("file{}", index + 1);
+            tables.files.push(AttachedFile { schema, state: found.state });
+        }
         // Another file may have a table of the same name.
         let alone = tables.files.len() == 1 && name == layer;
         if !alone {
+            let schema = tables.files[index].schema.clone();
             tables.views.push(TableView { name: name.to_owned(), schema, table: layer.to_owned() });
         }
         let info = TableInfo { name: name.to_owned(), ..found.info };
-        tables.add(info, origin);
+        tables.add(info, origin.into());
         Ok(())
     }
 
@@ -201,7 +199,7 @@ impl Database {
         tables.memory.insert(info.name.to_ascii_lowercase(), budget.used_bytes().saturating_sub(before));
         let prefix = format!("{}.", info.name);
         self.indexes.write().recover().retain(|index, _| !index.starts_with(&prefix));
-        tables.add(info, ROWS.to_owned());
+        tables.add(info, ROWS.into());
         Ok(())
     }
 
@@ -381,16 +379,17 @@ impl TableSet {
         if self.origins.get(&key).is_none_or(|origin| origin != ROWS) {
             return Ok(());
         }
-        let known = self.catalogue.remove(&key).map_or_else(|| name.to_owned(), |table| table.name);
+        let removed = self.catalogue.remove(&key);
+        let known = removed.as_ref().map_or(name, |table| &table.name);
         self.origins.remove(&key);
         self.generation += 1;
         budget.give(self.memory.remove(&key).unwrap_or_default());
         writer
-            .execute_batch(&format!("DROP TABLE IF EXISTS {}", quote_name(&known)))
+            .execute_batch(&format!("DROP TABLE IF EXISTS {}", quote_name(known)))
             .map_err(|error| errors::internal(&error))
     }
 
-    fn add(&mut self, info: TableInfo, origin: String) {
+    fn add(&mut self, info: TableInfo, origin: Cow<'static, str>) {
         let key = info.name.to_ascii_lowercase();
         self.origins.insert(key.clone(), origin);
         self.catalogue.insert(key, info);

@@ -1,5 +1,7 @@
 //! Errors of statements: the position of the error, and the available names.
 
+use std::borrow::Cow;
+
 use rusqlite::ffi::ErrorCode;
 
 use crate::sql::cell::Cell;
@@ -76,11 +78,11 @@ pub(crate) fn is_syntax(error: &rusqlite::Error) -> bool {
 }
 
 /// Returns SQLite's message.
-fn words(error: &rusqlite::Error) -> String {
+fn words(error: &rusqlite::Error) -> Cow<'_, str> {
     match error {
-        rusqlite::Error::SqliteFailure(_, Some(text)) => text.clone(),
-        rusqlite::Error::SqlInputError { msg, .. } => msg.clone(),
-        other => other.to_string(),
+        rusqlite::Error::SqliteFailure(_, Some(text)) => text.into(),
+        rusqlite::Error::SqlInputError { msg, .. } => msg.into(),
+        other => other.to_string().into(),
     }
 }
 
@@ -91,7 +93,7 @@ pub(crate) fn statement_error(error: &rusqlite::Error, sql: &str, catalogue: &Ca
     if code == Some(ErrorCode::AuthorizationForStatementDenied) || text.starts_with(NOT_ALLOWED) {
         return refusal(&text, sql);
     }
-    let named = |prefix: &str| text.strip_prefix(prefix).map(|rest| rest.trim().trim_matches('"').to_owned());
+    let named = |prefix: &str| text.strip_prefix(prefix).map(|rest| rest.trim().trim_matches('"'));
     let offset = match error {
         rusqlite::Error::SqlInputError { offset, sql: asked, .. } if asked.ends_with(sql) => {
             usize::try_from(*offset).ok().and_then(|offset| offset.checked_sub(asked.len() - sql.len()))
@@ -100,41 +102,38 @@ pub(crate) fn statement_error(error: &rusqlite::Error, sql: &str, catalogue: &Ca
     };
     if let Some(name) = named("no such table: ") {
         let known = || catalogue.values().map(|table| table.name.as_str());
-        let what = format!("{}no table called {}", place(sql, offset, &name), shown(&name));
-        let names: Vec<&str> = known().collect();
-        let help = match names.is_empty() {
-            true => "there are none: a table is what source(file) has read, or a module".to_owned(),
-            false => {
-                format!(
-                    "there are {}; a table is what source(file) has read, or a module",
-                    listed(names.iter().copied())
-                )
-            }
-        };
-        return Error::not_found("table", &name, known(), what).help(help);
+        let what = format!("{}no table called {}", place(sql, offset, name), shown(name));
+        let error = Error::not_found("table", name, known(), what);
+        if catalogue.is_empty() {
+            return error.help("there are none: a table is what source(file) has read, or a module");
+        }
+        return error.help(format!(
+            "there are {}; a table is what source(file) has read, or a module",
+            listed(known())
+        ));
     }
     if let Some(name) = named("no such column: ") {
-        let own = name.rsplit('.').next().unwrap_or(&name).to_owned();
+        let own = name.rsplit('.').next().unwrap_or(name);
         let mut known: Vec<&str> = Vec::new();
         for table in catalogue.values().filter(|table| mentions(sql, &table.name)) {
             known.extend(table.columns.iter().map(String::as_str));
         }
         let mut seen = rustc_hash::FxHashSet::default();
         known.retain(|name| seen.insert(*name));
-        let what = format!("{}no column called {}", place(sql, offset, &own), shown(&name));
-        return Error::not_found("column", &own, known.iter().copied(), what)
+        let what = format!("{}no column called {}", place(sql, offset, own), shown(name));
+        return Error::not_found("column", own, known.iter().copied(), what)
             .help(format!("there are {}; texts stand in single quotes", listed(known.iter().copied())));
     }
     if let Some(name) = named("no such function: ") {
-        let what = format!("{}no function called {}", place(sql, offset, &name), shown(&name));
-        return Error::not_found("function", &name, functions::names(), what)
+        let what = format!("{}no function called {}", place(sql, offset, name), shown(name));
+        return Error::not_found("function", name, functions::names(), what)
             .help("the book's page on SQL lists what there is");
     }
     if text.starts_with("wrong number of arguments to function") {
-        let name = text.split_whitespace().last().unwrap_or_default().trim_end_matches("()").to_owned();
-        let takes = functions::find(&name)
+        let name = text.split_whitespace().last().unwrap_or_default().trim_end_matches("()");
+        let takes = functions::find(name)
             .map_or_else(String::new, |function| format!("it takes {}{}", function.name, function.takes));
-        let error = Error::argument(format!("{}{text}", place(sql, offset, &name)));
+        let error = Error::argument(format!("{}{text}", place(sql, offset, name)));
         return if takes.is_empty() { error } else { error.help(takes) };
     }
     let at_end = text == "incomplete input";
@@ -202,10 +201,10 @@ pub(crate) fn only_reading() -> Error {
 }
 
 /// Describes the position of a name in a statement, if known, as the start of a message.
-fn place(sql: &str, offset: Option<usize>, name: &str) -> String {
+pub(crate) fn place(sql: &str, offset: Option<usize>, name: &str) -> Cow<'static, str> {
     match offset.or_else(|| rewrite::find_word(sql, name)) {
-        Some(offset) => format!("SQL, {}: ", describe_position(sql, offset)),
-        None => "SQL: ".to_owned(),
+        Some(offset) => format!("SQL, {}: ", describe_position(sql, offset)).into(),
+        None => "SQL: ".into(),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Layers as tables: GeoPackage layers in place or copied, and layers of other files.
 
+use std::borrow::Cow;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
@@ -74,25 +75,26 @@ pub(crate) struct FileLayer {
     pub state: Arc<PackageState>,
     crs: Result<Crs>,
     shown: String,
-    /// Declared types of the columns.
-    kinds: Vec<(String, String)>,
+    /// Declared types of the columns, which `info` names.
+    kinds: Vec<String>,
 }
 
 impl FileLayer {
     /// Finds a layer in a file.
     pub(crate) fn find(path: &Path, name: &str, layer: &str, budget: &Arc<Budget>) -> Result<Self> {
         let shape = GeoPackage::shape(path, name, layer, budget)?;
+        let (columns, kinds): (Vec<String>, Vec<String>) = shape.columns.into_iter().unzip();
         let info = TableInfo {
             name: layer.to_owned(),
-            columns: shape.columns.iter().map(|(name, _)| name.clone()).collect(),
-            kinds: shape.columns.iter().map(|(_, kind)| SqlType::from_declaration(kind)).collect(),
+            columns,
+            kinds: kinds.iter().map(|kind| SqlType::from_declaration(kind)).collect(),
             geometries: vec![shape.geometry],
             key: shape.key,
             rows: shape.rows,
             ..TableInfo::default()
         };
         let state = PackageState::open(path, name, budget)?;
-        Ok(Self { info, state, crs: shape.crs, shown: format!("{name}:{layer}"), kinds: shape.columns })
+        Ok(Self { info, state, crs: shape.crs, shown: format!("{name}:{layer}"), kinds })
     }
 
     /// Returns true if the layer can be read in place: its coordinates are in the frame's projection, and its rows have
@@ -105,16 +107,16 @@ impl FileLayer {
 
     /// Copies the layer as the table `name`, with coordinates in the frame's projection.
     pub(crate) fn copy(
-        &self,
+        self,
         writer: &Connection,
         name: &str,
         frame: Option<&ReferenceFrame>,
         budget: &Arc<Budget>,
     ) -> Result<TableInfo> {
-        let crs = self.crs.clone();
+        let Self { info, state, crs, shown, kinds } = self;
         let passage = match frame {
             Some(frame) => {
-                let crs = crs.map_err(|error| error.about(&self.shown))?;
+                let crs = crs.map_err(|error| error.about(&shown))?;
                 Some((frame.passage(&crs)?, frame.origin))
             }
             None => None,
@@ -128,12 +130,13 @@ impl FileLayer {
             }
             geometry
         };
-        let geometry = &self.info.geometries[0];
-        let key = self.info.key.clone().unwrap_or_else(|| free("fid", &self.info.columns));
+        let own = info.key.as_deref();
+        let mut read = vec![own.map_or(Cow::Borrowed("NULL"), |key| quote_name(key).into())];
+        let key = info.key.unwrap_or_else(|| free("fid", &info.columns));
         let mut columns = vec![format!("{} INTEGER PRIMARY KEY", quote_name(&key))];
-        let mut read = vec![self.info.key.as_deref().map_or_else(|| "NULL".to_owned(), quote_name)];
         let mut names = vec![key.clone()];
-        for (column, kind) in self.kinds.iter().filter(|(column, _)| *column != key).take(MOST_COLUMNS) {
+        let declared = info.columns.into_iter().zip(kinds).filter(|(column, _)| *column != key);
+        for (column, kind) in declared.take(MOST_COLUMNS) {
             // A custom type name would change the affinity of the column, and so the comparisons.
             let plain = ["BOOLEAN", "INTEGER", "REAL", "TEXT"]
                 .into_iter()
@@ -144,21 +147,18 @@ impl FileLayer {
                 "DOUBLE" | "FLOAT" => "REAL",
                 _ => "BLOB",
             });
-            columns.push(format!("{} {kind}", quote_name(column)));
-            read.push(quote_name(column));
-            names.push(column.clone());
+            columns.push(format!("{} {kind}", quote_name(&column)));
+            read.push(quote_name(&column).into());
+            names.push(column);
         }
-        let position = names.iter().position(|known| known == geometry);
+        let position = names.iter().position(|known| *known == info.geometries[0]);
         let declared = columns.iter().map(|column| kind_of(column)).collect();
         let work = || -> std::result::Result<usize, TableError> {
-            let mut source = self.state.connect()?;
+            let mut source = state.connect()?;
             let clock = Arc::clone(budget);
             source.progress_handler(1000, Some(move || clock.check().is_err()))?;
-            let mut statement = source.prepare(&format!(
-                "SELECT {} FROM {}",
-                read.join(", "),
-                quote_name(&self.info.name)
-            ))?;
+            let mut statement =
+                source.prepare(&format!("SELECT {} FROM {}", read.join(", "), quote_name(&info.name)))?;
             let mut rows = statement.raw_query();
             write(writer, name, &columns, budget, || {
                 let Some(row) = rows.next()? else { return Ok(None) };
@@ -181,16 +181,16 @@ impl FileLayer {
         let rows = work().map_err(|error| {
             errors::or_sqlite(error, |error| {
                 budget.check().err().unwrap_or_else(|| {
-                    Error::data(format!("cannot read {}: {error}", self.shown))
+                    Error::data(format!("cannot read {shown}: {error}"))
                         .help("the file is damaged or cut short; get it again")
                 })
             })
         })?;
-        self.state.check()?;
+        state.check()?;
         Ok(TableInfo {
             name: name.to_owned(),
             key: Some(key),
-            geometries: vec![geometry.clone()],
+            geometries: info.geometries,
             kinds: declared,
             columns: names,
             rows,
@@ -221,13 +221,14 @@ pub(crate) fn write_layer(
     budget: &Budget,
 ) -> Result<TableInfo> {
     let mut taken: Vec<String> = Vec::new();
-    let mut attributes: Vec<Option<String>> = Vec::new();
+    let mut is_column: Vec<bool> = Vec::new();
     for own in &layer.names {
         // Attributes that cannot be columns are skipped: those without a name, with a NUL in it, or above the limit.
         let kept = taken.len() < MOST_COLUMNS && !own.is_empty() && !own.contains('\0');
-        let column = kept.then(|| free(own, &taken));
-        taken.extend(column.clone());
-        attributes.push(column);
+        if kept {
+            taken.push(free(own, &taken));
+        }
+        is_column.push(kept);
     }
     let has_id = taken.iter().any(|known| known.eq_ignore_ascii_case("id"));
     let key = free("fid", &taken);
@@ -239,11 +240,10 @@ pub(crate) fn write_layer(
         columns.push("\"id\" TEXT".into());
         names.push("id".into());
     }
-    for (column, kind) in attributes.iter().zip(kinds) {
-        if let Some(column) = column {
-            columns.push(format!("{} {kind}", quote_name(column)));
-            names.push(column.clone());
-        }
+    let kept = kinds.into_iter().zip(&is_column).filter(|(_, is_column)| **is_column);
+    for (column, (kind, _)) in taken.into_iter().zip(kept) {
+        columns.push(format!("{} {kind}", quote_name(&column)));
+        names.push(column);
     }
     columns.push(format!("{} BLOB", quote_name(&geometry)));
     names.push(geometry.clone());
@@ -267,9 +267,8 @@ pub(crate) fn write_layer(
                 };
             }
         }
-        values.extend(
-            own.into_iter().zip(&attributes).filter(|(_, column)| column.is_some()).map(|(value, _)| value),
-        );
+        let kept = own.into_iter().zip(&is_column).filter(|(_, is_column)| **is_column);
+        values.extend(kept.map(|(value, _)| value));
         let mut placed = feature.geometry.clone();
         placed.points_mut().for_each(|point| *point += DVec3::new(x, y, 0.0));
         values.push(Value::Blob(blob::write(&placed)));

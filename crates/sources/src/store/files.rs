@@ -11,6 +11,7 @@ use super::tables::{SourceTable, TableContent};
 use burgeon_base::error::{Error, Result};
 use burgeon_data::{Cache, Layer, Source, SourceOptions, companions, split_name};
 use burgeon_kit::SourceRequest;
+use burgeon_spatial::ReferenceFrame;
 
 /// Reads the layer that `source(text, wanted)` names, and adds it as the table `table`, or as a table of its own name. `key`
 /// identifies the call.
@@ -37,12 +38,13 @@ pub(super) fn read(
     for beside in companions(&path) {
         request.resources.seek(&beside, beside.exists());
     }
-    let layer = match known.reading.clone() {
-        SourceReading::Whole => read_whole(&path, name, &wanted, known)?,
+    let LoadedSources { frame, cache, reading, .. } = &mut *known;
+    let layer = match reading {
+        SourceReading::Whole => read_whole(&path, name, &wanted, cache.as_deref(), frame)?,
         SourceReading::Survey(survey) => {
-            let (key, name, options) = (key.to_owned(), name.to_owned(), wanted.clone());
+            let (key, name, options) = (key.to_owned(), name.to_owned(), wanted);
             let found = SurveyedSource { key, path: path.clone(), name, options, label: String::new() };
-            Arc::new(survey.read(found, &mut known.frame)?)
+            Arc::new(survey.read(found, frame)?)
         }
         SourceReading::Window(window) => {
             let cache = known.cache.clone();
@@ -50,7 +52,7 @@ pub(super) fn read(
             let layer = match part? {
                 Some(layer) => Arc::new(layer),
                 None => {
-                    let whole = read_whole(&path, name, &wanted, known)?;
+                    let whole = read_whole(&path, name, &wanted, cache.as_deref(), frame)?;
                     window.choose(key, &whole).map_or(whole, Arc::new)
                 }
             };
@@ -96,22 +98,22 @@ fn read_whole(
     path: &Path,
     name: &str,
     wanted: &SourceOptions,
-    known: &mut LoadedSources,
+    cache: Option<&Cache>,
+    frame: &mut Option<ReferenceFrame>,
 ) -> Result<Arc<Layer>> {
-    let cache = known.cache.as_deref();
     let key = match cache {
-        Some(_) => Cache::key(path, name, wanted, known.frame.as_ref())?,
+        Some(_) => Cache::key(path, name, wanted, frame.as_ref())?,
         None => None,
     };
-    if let Some((layer, frame)) = cache.zip(key.as_deref()).and_then(|(cache, key)| cache.get(key)) {
-        known.frame = Some(frame);
+    if let Some((layer, known)) = cache.zip(key.as_deref()).and_then(|(cache, key)| cache.get(key)) {
+        *frame = Some(known);
         return Ok(layer);
     }
     let table = Source::open_within(path, name, wanted)?.read(name, wanted)?;
     let label = table.shown.clone();
-    let layer = Layer::new(table, &mut known.frame).map_err(|error| error.about(&label))?;
+    let layer = Layer::new(table, frame).map_err(|error| error.about(&label))?;
     let layer = Arc::new(layer);
-    if let (Some(cache), Some(key), Some(frame)) = (&known.cache, key, &known.frame) {
+    if let (Some(cache), Some(key), Some(frame)) = (cache, key, &*frame) {
         cache.keep(key, &layer, frame);
     }
     Ok(layer)

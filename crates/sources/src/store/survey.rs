@@ -58,7 +58,7 @@ impl SourceSurvey {
         mut source: SurveyedSource,
         frame: &mut Option<ReferenceFrame>,
     ) -> Result<Layer> {
-        let SurveyedSource { path, name, options, .. } = &source.clone();
+        let SurveyedSource { path, name, options, .. } = &source;
         let is_first = frame.is_none();
         let (mut first, mut extent) = (None, FrameExtent::default());
         each_piece(path, name, options, |mut table| {
@@ -69,7 +69,6 @@ impl SourceSurvey {
             Ok(if is_first { ControlFlow::Continue(()) } else { ControlFlow::Break(()) })
         })?;
         let mut table = first.ok_or_else(|| Error::internal("a layer has no pieces"))?;
-        source.label.clone_from(&table.shown);
         if is_first {
             let (crs, place) = extent.centre(&table.shown)?;
             *frame = Some(ReferenceFrame::around(&crs, place, &table.shown)?);
@@ -85,6 +84,7 @@ impl SourceSurvey {
             layer.notes.clear();
             (layer.empty, layer.collapsed, layer.derived) = (0, 0, 0);
         }
+        source.label.clone_from(&layer.shown);
         self.found.lock().recover().push(source);
         Ok(layer)
     }
@@ -139,18 +139,18 @@ impl SourceWindow {
         if wanted.limit.is_some() || wanted.within.is_some() {
             return Ok(None);
         }
-        let indexed = SourceOptions { records: Some(RecordChoice::Indexed), ..wanted.clone() };
-        let source = Source::open_within(path, name, &indexed)?;
+        let mut part = SourceOptions { records: Some(RecordChoice::Indexed), ..wanted.clone() };
+        let source = Source::open_within(path, name, &part)?;
         if !matches!(source, Source::GeoPackage(_)) {
             return Ok(None);
         }
         // The box is in the coordinates of the file, which an empty piece tells.
-        let none =
-            SourceOptions { records: Some(RecordChoice::After { key: i64::MAX, most: 0 }), ..wanted.clone() };
-        let crs = Source::open_within(path, name, &none)?.read(name, &none)?.crs?;
+        part.records = Some(RecordChoice::After { key: i64::MAX, most: 0 });
+        let crs = Source::open_within(path, name, &part)?.read(name, &part)?.crs?;
         let within = frame.passage(&crs)?.leave_box(*needed);
         let Some(within) = within else { return Ok(None) };
-        let table = source.read(name, &SourceOptions { within: Some(within), ..indexed })?;
+        (part.records, part.within) = (Some(RecordChoice::Indexed), Some(within));
+        let table = source.read(name, &part)?;
         let mut frame = Some(frame.clone());
         let layer = Layer::new(table, &mut frame)?;
         Ok(Some(Layer { bounds: *bounds, ..layer }))

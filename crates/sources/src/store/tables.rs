@@ -56,9 +56,8 @@ impl SourceTables {
     pub(super) fn lists(&self) -> Vec<(String, Arc<dyn FeatureSource>)> {
         let list = |table: &SourceTable| match &table.content {
             TableContent::List(list) => {
-                let layer: Arc<dyn FeatureSource> =
-                    Arc::new(list.to_layer(&table.name, table.name.clone(), [0.0; 2]));
-                Some((table.name.clone(), layer))
+                let layer = list.to_layer(&table.name, table.name.clone(), [0.0; 2]);
+                Some((layer.name.clone(), Arc::new(layer) as Arc<dyn FeatureSource>))
             }
             _ => None,
         };

@@ -1,5 +1,6 @@
 //! Tag filters in scripts: `{ building = true, height = "*" }`, or a list of such tables.
 
+use std::fmt;
 use std::sync::Arc;
 
 use burgeon_base::error::{Error, Result};
@@ -16,7 +17,7 @@ pub(super) fn filter(value: &Value) -> Result<TagFilter> {
         return Ok(TagFilter { alternatives: vec![tests(table)?] });
     }
     if tables.len() < table.entries.len() {
-        return Err(wrong("tags is a list of tables and has keys too".to_owned()));
+        return Err(wrong("tags is a list of tables and has keys too"));
     }
     let alternatives = tables.into_iter().map(|table| match table {
         Value::Table(table) => tests(table),
@@ -28,11 +29,11 @@ pub(super) fn filter(value: &Value) -> Result<TagFilter> {
 /// Parses the test of each key.
 fn tests(table: &Table) -> Result<Vec<(Arc<str>, TagTest)>> {
     if table.entries.is_empty() {
-        return Err(wrong("tags is empty, which chooses nothing".to_owned()));
+        return Err(wrong("tags is empty, which chooses nothing"));
     }
     let test = |(key, value): &(TableKey, Value)| {
         let TableKey::Name(key) = key else {
-            return Err(wrong("tags has values without keys".to_owned()));
+            return Err(wrong("tags has values without keys"));
         };
         Ok((Arc::clone(key), test(key, value)?))
     };
@@ -58,7 +59,7 @@ fn test(key: &str, value: &Value) -> Result<TagTest> {
     })
 }
 
-fn wrong(message: String) -> Error {
+fn wrong(message: impl fmt::Display) -> Error {
     Error::argument(format!("source: {message}")).help(
         "write { tags = { building = true, [\"roof:shape\"] = { \"gabled\", \"hipped\" } } }: true for any value but no, \
          \"*\" for any, false for none, a text, or a list of strings; a list of such tables for one or another",

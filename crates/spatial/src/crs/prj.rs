@@ -35,7 +35,7 @@ pub fn crs_of_text(text: &str, label: &str, remedy: &str) -> Result<Crs> {
     if let Some(code) = node.code() {
         return Crs::epsg(code);
     }
-    let name = node.name().to_owned();
+    let name = node.name();
     let method = node.child(&["PROJECTION"]).map(|method| plain(method.name()));
     if method.as_deref() == Some("mercatorauxiliarysphere") {
         return Crs::epsg(3857);
@@ -46,9 +46,9 @@ pub fn crs_of_text(text: &str, label: &str, remedy: &str) -> Result<Crs> {
         && kind == "PROJ4"
         && !definition.contains("+nadgrids")
     {
-        return Crs::of_definition(&name, definition);
+        return Crs::of_definition(name, definition);
     }
-    let Some(wanted) = Parameters::of(&node) else { return Err(unknown(&name)) };
+    let Some(wanted) = Parameters::of(&node) else { return Err(unknown(name)) };
     let mut best: Option<(f64, u16)> = None;
     epsg::for_each(|code, text| {
         // Most entries are of another type, which is the first word of their text.
@@ -62,7 +62,7 @@ pub fn crs_of_text(text: &str, label: &str, remedy: &str) -> Result<Crs> {
         if datums < SAME_DATUM && !wanted.is_modern() || replacement(code).is_some() {
             return;
         }
-        let score = likeness(&plain(&name), &plain(known.name())) + datums;
+        let score = likeness(&plain(name), &plain(known.name())) + datums;
         if best.is_none_or(|(most, _)| score > most) {
             best = Some((score, code));
         }
@@ -70,7 +70,7 @@ pub fn crs_of_text(text: &str, label: &str, remedy: &str) -> Result<Crs> {
     match (best, wanted.middle()) {
         (Some((_, code)), _) => Crs::epsg(code.into()),
         (None, Some(middle)) => Ok(Crs::around(middle)),
-        (None, None) => Err(unknown(&name)),
+        (None, None) => Err(unknown(name)),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Functions with which scripts make geometries: `geometry`, `point`, `line` and `polygon`.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use burgeon_base::error::{Error, Result};
@@ -83,8 +84,8 @@ fn polygon(given: &[Value]) -> Result<Value> {
     });
     if few.is_some() || rings.is_empty() {
         let name = match few {
-            Some(0) | None => "its outer ring".to_owned(),
-            Some(number) => format!("hole {number}"),
+            Some(0) | None => Cow::Borrowed("its outer ring"),
+            Some(number) => format!("hole {number}").into(),
         };
         return Err(Error::argument(format!("polygon: {name} has fewer than 3 points"))
             .help("write polygon({ { 0, 0 }, { 4, 0 }, { 4, 3 } })"));

@@ -1,7 +1,5 @@
 //! Conversion of tables and features from scripts to rings and lines in the plane.
 
-use std::sync::Arc;
-
 use burgeon_geometry::Line;
 use burgeon_kit::{Expectation, Parameter, Value, Vector};
 use glam::DVec3;
@@ -35,6 +33,10 @@ impl Parameter for Lines {
     }
 
     fn from_value(value: Value) -> Result<Self, Expectation> {
+        Self::read_value(&value)
+    }
+
+    fn read_value(value: &Value) -> Result<Self, Expectation> {
         let mut lines = Self::default();
         lines.collect(value, 0)?;
         Ok(lines)
@@ -46,12 +48,19 @@ impl Parameter for Lines {
 }
 
 impl Lines {
+    /// Returns the lines of a geometry.
+    pub fn of(geometry: &Geometry) -> Self {
+        let mut lines = Self::default();
+        lines.add(geometry);
+        lines
+    }
+
     /// Adds the lines of a value: of a source, a feature, a geometry, or a list of these or of points.
-    fn collect(&mut self, value: Value, depth: usize) -> Result<(), Expectation> {
+    fn collect(&mut self, value: &Value, depth: usize) -> Result<(), Expectation> {
         let what = || Expectation::new("a source of lines, a list of lines, or a list of points");
         match value {
             Value::Object(object) => {
-                if let Some(geometry) = GeometryObject::of(&*object) {
+                if let Some(geometry) = GeometryObject::of(&**object) {
                     self.add(geometry);
                     return Ok(());
                 }
@@ -62,17 +71,17 @@ impl Lines {
             }
             Value::Table(table) => {
                 if let Some(geometry) = table.get("geometry") {
-                    return self.collect(geometry.clone(), depth + 1);
+                    return self.collect(geometry, depth + 1);
                 }
                 if let Some(points) = table.get("points") {
-                    return self.collect(points.clone(), depth + 1);
+                    return self.collect(points, depth + 1);
                 }
                 if let Some(rings) = table.get("rings") {
                     let rings = Vec::<Vec<Vector>>::read_value(rings).map_err(|_| what())?;
                     self.lines.extend(rings.into_iter().filter_map(|ring| around(positions(ring))));
                     return Ok(());
                 }
-                if let Ok(points) = Vec::<Vector>::from_value(Value::Table(Arc::clone(&table))) {
+                if let Ok(points) = Vec::<Vector>::read_value(value) {
                     self.lines.extend(Line::without_repeats(positions(points)));
                     return Ok(());
                 }
@@ -84,7 +93,7 @@ impl Lines {
                 let (mut good, mut bad) = (0, None);
                 for (number, item) in (1..).zip(list) {
                     let known = self.lines.len();
-                    match self.collect(item.clone(), depth + 1) {
+                    match self.collect(item, depth + 1) {
                         Ok(()) => good += 1,
                         Err(error) => {
                             self.lines.truncate(known);

@@ -48,14 +48,14 @@ impl Parameter for PolygonArgument {
             _ => return Err(what()),
         };
         let rings = match (table.get("rings"), table.get("kind")) {
-            (Some(rings), _) => rings.clone(),
+            (Some(rings), _) => rings,
             (None, Some(Value::Text(kind))) => return Err(not_this(kind)),
-            _ => value.clone(),
+            _ => &value,
         };
         let is_ring = |value: &Value| matches!(first(value).and_then(first), Some(Value::Number(_)));
-        let rings = Vec::<Vec<Vector>>::read_value(&rings).or_else(|error| {
-            let ring = Vec::<Vector>::read_value(&rings);
-            ring.map(|ring| vec![ring]).map_err(|of_ring| if is_ring(&rings) { of_ring } else { error })
+        let rings = Vec::<Vec<Vector>>::read_value(rings).or_else(|error| {
+            let ring = Vec::<Vector>::read_value(rings);
+            ring.map(|ring| vec![ring]).map_err(|of_ring| if is_ring(rings) { of_ring } else { error })
         })?;
         Ok(Self(rings.into_iter().map(positions).collect()))
     }

@@ -7,6 +7,7 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 use glam::DVec3;
+use std::borrow::Cow;
 
 use crate::geometry::opened;
 use crate::wkb::{NEAR, add_arc};
@@ -105,11 +106,11 @@ impl WktReader<'_> {
 
     fn expected(&mut self, what: &str) -> Error {
         let there = match self.peek() {
-            None => "its end".to_owned(),
+            None => Cow::Borrowed("its end"),
             Some(_) => {
                 let end = self.rest().find([' ', ',', '(', ')']).unwrap_or(self.rest().len()).max(1);
                 let word: String = self.rest().chars().take(end.min(20)).collect();
-                format!("\"{}\"", shown(&word))
+                format!("\"{}\"", shown(&word)).into()
             }
         };
         let letter = self.text[..self.at].chars().count() + 1;

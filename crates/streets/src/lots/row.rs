@@ -75,8 +75,8 @@ fn part_before(part: Polygon, way: DVec2, last: f64) -> Vec<Polygon> {
     let size = (high - low).length() + 1.0;
     let from = way * last + way.perp() * way.perp().dot((low + high) / 2.0);
     let corners = [(0.0, size), (0.0, -size), (size, -size), (size, size)];
-    let ring = corners.map(|(along, aside)| from + way * along + way.perp() * aside).to_vec();
-    match Polygon::turned(Rings(vec![ring])) {
+    let ring = corners.into_iter().map(|(along, aside)| from + way * along + way.perp() * aside);
+    match Polygon::turned(Rings(vec![ring.collect()])) {
         Ok(behind) => part.without(&[behind]),
         Err(_) => Vec::new(),
     }

@@ -111,9 +111,9 @@ impl StreetNetwork {
     /// Returns true if a walk has an area on its left, which a walk around streets without a cycle has not. Exact.
     fn encloses_area(&self, way: &[Course]) -> bool {
         let places =
-            way.iter().map(|course| self.junctions[course.from as usize].place.steps().map(i128::from));
-        let next = places.clone().cycle().skip(1);
-        places.zip(next).map(|([ax, ay], [bx, by])| ax * by - ay * bx).sum::<i128>() > 0
+            || way.iter().map(|course| self.junctions[course.from as usize].place.steps().map(i128::from));
+        let next = places().cycle().skip(1);
+        places().zip(next).map(|([ax, ay], [bx, by])| ax * by - ay * bx).sum::<i128>() > 0
     }
 
     /// Returns the areas that the streets enclose, in a fixed order.

@@ -248,7 +248,8 @@ impl<'a> PieceRows<'a> {
         let [near, far] = noses;
         let mut ring: Vec<DVec3> = Vec::new();
         let mut open = Vec::new();
-        for (part, is_there) in [(right, true), (far.clone(), !far.is_empty()), (left, true)] {
+        let has_far = !far.is_empty();
+        for (part, is_there) in [(right, true), (far, has_far), (left, true)] {
             if !is_there {
                 open.push(std::mem::take(&mut ring));
             }

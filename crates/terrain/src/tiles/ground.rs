@@ -163,7 +163,7 @@ impl Ground {
             let first = cells.area.index(wanted.x, y);
             let row = first..first + wanted.columns;
             let begin = heights.len();
-            heights.extend_from_slice(&surface[row.clone()]);
+            heights.extend_from_slice(&surface[first..][..wanted.columns]);
             let heights = &mut heights[begin..];
             if is_remapped {
                 heights.iter_mut().for_each(|height| *height = self.world.remap_height(*height));

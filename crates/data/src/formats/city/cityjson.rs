@@ -1,5 +1,6 @@
 //! Reader of CityJSON, and of CityJSONSeq with one object per line.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::sync::Arc;
 
@@ -159,11 +160,8 @@ impl CityJson {
             wanted.budget.check()?;
             let line = || text[..before].matches('\n').count() + 1;
             let broken = |error: &serde_json::Error| {
-                let why = if error.is_eof() {
-                    "it is cut short".to_owned()
-                } else {
-                    shown(&error.to_string()).into_owned()
-                };
+                let text = error.to_string();
+                let why = if error.is_eof() { "it is cut short".into() } else { shown(&text) };
                 Error::data(format!("{name} is not CityJSON: {why}, from line {} on", line()))
                     .help("CityJSON is described at https://www.cityjson.org/specs")
             };
@@ -205,8 +203,8 @@ impl LayeredFile for CityJson {
 
     fn read(&self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
         let label = match self.types.len() {
-            1 => self.file.name.clone(),
-            _ => format!("{}:{}", self.file.name, shown(layer)),
+            1 => Cow::Borrowed(self.file.name.as_str()),
+            _ => format!("{}:{}", self.file.name, shown(layer)).into(),
         };
         let none = Error::data("the layer has no coordinate system")
             .help("specify its EPSG code: source(file, { crs = 3067 })");
@@ -335,10 +333,10 @@ fn single(
             },
             nested => Attribute::Nested(Arc::new(nested)),
         };
-        made.values.push((name, CityValue::Known(value)));
+        made.values.push((name.into(), CityValue::Known(value)));
     }
     if let Some(parent) = raw.parents.first() {
-        made.values.push(("parent".to_owned(), CityValue::Known(Attribute::Text(parent.as_str().into()))));
+        made.values.push(("parent".into(), CityValue::Known(Attribute::Text(parent.as_str().into()))));
     }
     for geometry in &raw.geometry {
         if let Err(why) = add_geometry(geometry, vertices, &mut made.shape, budget)? {

@@ -6,6 +6,7 @@ use crate::formats::typing::{TextTypes, as_number};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 use burgeon_kit::Attribute;
+use std::borrow::Cow;
 
 /// Value of an object.
 #[derive(Debug, Clone)]
@@ -21,7 +22,7 @@ pub(in crate::formats) enum CityValue {
 pub(in crate::formats) struct CityRecord {
     /// Id, if any.
     pub(in crate::formats) id: Option<String>,
-    pub(in crate::formats) values: Vec<(String, CityValue)>,
+    pub(in crate::formats) values: Vec<(Cow<'static, str>, CityValue)>,
     pub(in crate::formats) shape: CityShape,
     /// Parts, such as building parts.
     pub(in crate::formats) parts: Vec<CityRecord>,
@@ -39,7 +40,7 @@ impl CityRecord {
                 known.push_str(value);
             }
             Some(_) => {}
-            None => self.values.push((name.to_owned(), CityValue::Text(value.to_owned()))),
+            None => self.values.push((Cow::Owned(name.to_owned()), CityValue::Text(value.to_owned()))),
         }
     }
 
@@ -74,8 +75,7 @@ impl CityRecord {
                 }
             }
             if let Some(id) = &self.id {
-                part.values
-                    .push(("parent".to_owned(), CityValue::Known(Attribute::Text(id.as_str().into()))));
+                part.values.push(("parent".into(), CityValue::Known(Attribute::Text(id.as_str().into()))));
             }
             part.push(heights, table, types, budget)?;
         }

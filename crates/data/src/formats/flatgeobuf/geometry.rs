@@ -1,6 +1,7 @@
 //! Geometries of FlatGeobuf.
 
 use glam::DVec3;
+use std::borrow::Cow;
 
 use super::buffer::{BufferDamage, BufferTable};
 use super::header::doubles;
@@ -16,10 +17,10 @@ pub(super) fn read(
     budget: &Budget,
     depth: usize,
     parts: &mut Vec<Geometry>,
-) -> Result<(), String> {
+) -> Result<(), Cow<'static, str>> {
     budget.tick().map_err(|error| error.into_message())?;
     if depth > DEEPEST {
-        return Err(format!("is nested more than {DEEPEST} deep"));
+        return Err(format!("is nested more than {DEEPEST} deep").into());
     }
     let broken = |why: BufferDamage| format!("has a geometry that {why}");
     let kind = match (kind, table.field_bytes(6).map_err(broken)?) {
@@ -45,18 +46,18 @@ pub(super) fn read(
                 read(&part.map_err(broken)?, inner, budget, depth + 1, parts)?;
             }
         }
-        8..=14 => return Err("is a curve, which is not supported".to_owned()),
-        kind => return Err(format!("has a geometry of unknown type {kind}")),
+        8..=14 => return Err("is a curve, which is not supported".into()),
+        kind => return Err(format!("has a geometry of unknown type {kind}").into()),
     }
     Ok(())
 }
 
 /// Returns the points of a geometry.
-fn points(table: &BufferTable<'_>, budget: &Budget) -> Result<Vec<DVec3>, String> {
+fn points(table: &BufferTable<'_>, budget: &Budget) -> Result<Vec<DVec3>, Cow<'static, str>> {
     let broken = |why: BufferDamage| format!("has a geometry that {why}");
     let (places, heights) = (table.list(1, 8).map_err(broken)?, table.list(2, 8).map_err(broken)?);
     if !places.len().is_multiple_of(16) || !(heights.is_empty() || heights.len() * 2 == places.len()) {
-        return Err("has points with a missing coordinate".to_owned());
+        return Err("has points with a missing coordinate".into());
     }
     budget.take(places.len() * 3 / 2).map_err(|error| error.into_message())?;
     let mut heights = doubles(heights);
@@ -71,7 +72,7 @@ fn points(table: &BufferTable<'_>, budget: &Budget) -> Result<Vec<DVec3>, String
 }
 
 /// Returns the lists of points into which a geometry is divided.
-fn lists(table: &BufferTable<'_>, budget: &Budget) -> Result<Vec<Vec<DVec3>>, String> {
+fn lists(table: &BufferTable<'_>, budget: &Budget) -> Result<Vec<Vec<DVec3>>, Cow<'static, str>> {
     let ends = table.list(0, 4).map_err(|why| format!("has a geometry that {why}"))?;
     let all = points(table, budget)?;
     if ends.is_empty() {
@@ -85,5 +86,5 @@ fn lists(table: &BufferTable<'_>, budget: &Budget) -> Result<Vec<Vec<DVec3>>, St
         lists.push(list.to_vec());
         begin = end;
     }
-    if begin < all.len() { Err("has points outside its parts".to_owned()) } else { Ok(lists) }
+    if begin < all.len() { Err("has points outside its parts".into()) } else { Ok(lists) }
 }

@@ -1,5 +1,6 @@
 //! Reader of FlatGeobuf features.
 
+use crate::content::stem;
 use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
@@ -73,9 +74,8 @@ impl FlatGeobuf {
         let Some(features) = features else {
             return Err(damage_error(&format!("it is too short for an index of {} features", header.count)));
         };
-        let stem =
-            path.file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned());
-        let layer = if header.name.is_empty() { stem } else { header.name.clone() };
+        let layer =
+            if header.name.is_empty() { stem(path, name) } else { header.name.as_str().into() }.into_owned();
         Ok(Self { file, name: name.to_owned(), layer, header, levels, index, features, end })
     }
 

@@ -1,5 +1,6 @@
 //! SQLite database of a GeoPackage.
 
+use std::borrow::Cow;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -81,39 +82,41 @@ impl GeoPackage {
 
     pub(crate) fn read(self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
         let Self { connection, state, name, layers, indices } = self;
-        let (layer, wanted) = (layer.to_owned(), wanted.clone());
-        let budget = Arc::clone(&wanted.budget);
-        run_watched(connection, &budget, move |connection| {
+        let (layer, own) = (layer.to_owned(), wanted.clone());
+        run_watched(connection, &wanted.budget, move |connection| {
             let opened = Self { connection, state: Arc::clone(&state), name, layers, indices };
-            let read = opened.table(&layer, &wanted);
+            let read = opened.table(&layer, &own);
             // An error may be caused by reading two different states.
             state.check()?;
             read
         })
     }
 
-    fn table(mut self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
-        let name = self.name.clone();
+    fn table(self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
+        let Self { connection, state: _, name, layers, indices } = self;
         let error = |error: rusqlite::Error| read_error(&name, &error);
-        let Some(position) = self.layers.iter().position(|known| known.table == layer) else {
+        let Some(described) = layers.into_iter().find(|known| known.table == layer) else {
             return Err(Error::not_found("layer", layer, [], format!("{name}: no layer named `{layer}`")));
         };
-        let described = self.layers.swap_remove(position);
         let label = format!("{name}:{}", shown(layer));
         let mut table = FeatureTable::new(layer, &label, described.crs, wanted);
-        let crs = wanted.crs.map_or_else(|| table.crs.clone(), Crs::epsg);
-        let near = burgeon_spatial::wkb::NEAR / crs.map_or(1.0, |crs| crs.metres());
-        let columns = LayerColumns::read(&self.connection, layer, &described.column).map_err(error)?;
-        table.names = columns.names.clone();
+        let metres = match wanted.crs {
+            Some(code) => Crs::epsg(code).map_or(1.0, |crs| crs.metres()),
+            None => table.crs.as_ref().map_or(1.0, Crs::metres),
+        };
+        let near = burgeon_spatial::wkb::NEAR / metres;
+        let columns = LayerColumns::read(&connection, layer, &described.column).map_err(error)?;
+        let index = format!("rtree_{layer}_{}", described.column);
+        let index = indices.iter().find(|known| known.eq_ignore_ascii_case(&index));
+        let sql = columns.select((layer, &described.column), index.map(String::as_str), wanted);
+        let LayerColumns { names, booleans, key: _ } = columns;
+        table.names = names;
         let id = match &wanted.id {
             Some(id) => Some(table.column(id)?),
             None => table.names.iter().position(|name| name.eq_ignore_ascii_case("id")),
         };
-        let index = format!("rtree_{layer}_{}", described.column);
-        let index = self.indices.iter().find(|known| known.eq_ignore_ascii_case(&index));
-        let sql = columns.select((layer, &described.column), index.map(String::as_str), wanted);
         let mut statement =
-            self.connection.prepare(&sql).map_err(|error| query_error(&table.shown, wanted, &error))?;
+            connection.prepare(&sql).map_err(|error| query_error(&table.shown, wanted, &error))?;
         let mut rows = statement.query([]).map_err(|error| query_error(&table.shown, wanted, &error))?;
         let mut count: usize = 0;
         while let Some(row) = rows.next().map_err(|error| query_error(&table.shown, wanted, &error))? {
@@ -123,7 +126,7 @@ impl GeoPackage {
                 table.last_key = Some(key);
             }
             let key = first.and_then(id_text).unwrap_or_else(|| count.to_string());
-            let id = id.and_then(|id| id_text(row.get_ref(id + 2).ok()?)).unwrap_or_else(|| key.clone());
+            let id = id.and_then(|id| id_text(row.get_ref(id + 2).ok()?)).unwrap_or(key);
             let wrong = |why: &str| {
                 Error::data(format!("the geometry of feature {} of {label} {why}", shown(&id))).help(
                     "supported types are points, lines, polygons, curves, surfaces and collections of these",
@@ -148,9 +151,9 @@ impl GeoPackage {
                 }
             };
             let mut attributes = Vec::new();
-            for index in 0..columns.names.len() {
+            for (index, is_boolean) in booleans.iter().enumerate() {
                 let value = match row.get_ref(index + 2).map_err(error)? {
-                    ValueRef::Integer(value) if columns.booleans[index] => Attribute::Boolean(value != 0),
+                    ValueRef::Integer(value) if *is_boolean => Attribute::Boolean(value != 0),
                     #[allow(clippy::cast_precision_loss, reason = "Lua's own numbers are f64")]
                     ValueRef::Integer(value) => Attribute::Number(value as f64),
                     ValueRef::Real(value) => Attribute::Number(value),
@@ -320,7 +323,7 @@ impl LayerColumns {
 
     /// Returns the statement that reads a layer, with its table and its geometry column, by a spatial index if there is one.
     fn select(&self, (layer, geometry): (&str, &str), index: Option<&str>, wanted: &SourceOptions) -> String {
-        let key = self.key.as_deref().map_or_else(|| "NULL".to_owned(), quote);
+        let key = self.key.as_deref().map_or(Cow::Borrowed("NULL"), |key| quote(key).into());
         let mut sql = format!("SELECT {key}, {}", quote(geometry));
         for name in &self.names {
             sql += &format!(", {}", quote(name));

@@ -2,14 +2,15 @@
 
 use crate::source_options::SourceOptions;
 use burgeon_base::error::Error;
+use std::borrow::Cow;
 
 /// Returns the message text of an SQLite error.
-fn error_text(error: &rusqlite::Error) -> String {
+fn error_text(error: &rusqlite::Error) -> Cow<'_, str> {
     match error {
-        rusqlite::Error::SqliteFailure(_, Some(text)) => text.clone(),
-        rusqlite::Error::SqlInputError { msg, .. } => msg.clone(),
-        rusqlite::Error::MultipleStatement => "it contains more than one statement".to_owned(),
-        other => other.to_string(),
+        rusqlite::Error::SqliteFailure(_, Some(text)) => text.into(),
+        rusqlite::Error::SqlInputError { msg, .. } => msg.into(),
+        rusqlite::Error::MultipleStatement => "it contains more than one statement".into(),
+        other => other.to_string().into(),
     }
 }
 

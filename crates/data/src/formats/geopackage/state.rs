@@ -335,19 +335,26 @@ impl Attempt<'_> {
             }
             return Ok(copied?);
         }
-        Ok(PackageState {
+        let keeper = Keeper::Lock {
+            _transaction: Mutex::new(connection),
+            observer: Mutex::new(observer),
+            version,
+            _lock: lock,
+        };
+        let key = (!logged).then(|| format!("{stamp:?}"));
+        Ok(self.new_state(address(self.path, "mode=ro"), key, keeper))
+    }
+
+    /// Creates the state of the file, which is read at `address`.
+    fn new_state(&self, address: String, key: Option<String>, keeper: Keeper) -> PackageState {
+        PackageState {
             path: self.path.to_path_buf(),
             shown: self.shown.to_owned(),
-            address: address(self.path, "mode=ro"),
-            key: (!logged).then(|| format!("{stamp:?}")),
-            keeper: Keeper::Lock {
-                _transaction: Mutex::new(connection),
-                observer: Mutex::new(observer),
-                version,
-                _lock: lock,
-            },
+            address,
+            key,
+            keeper,
             stamps: None,
-        })
+        }
     }
 
     /// Returns the state of a file that no program has open, or that cannot be locked.
@@ -356,14 +363,8 @@ impl Attempt<'_> {
             return Err(StateFailure::Busy);
         }
         if stamp.length > COPIED {
-            return Ok(PackageState {
-                path: self.path.to_path_buf(),
-                shown: self.shown.to_owned(),
-                address: address(self.path, "mode=ro&immutable=1"),
-                key: Some(format!("{stamp:?}")),
-                keeper: Keeper::Stamp(stamp),
-                stamps: None,
-            });
+            let (address, key) = (address(self.path, "mode=ro&immutable=1"), format!("{stamp:?}"));
+            return Ok(self.new_state(address, Some(key), Keeper::Stamp(stamp)));
         }
         let open = || -> rusqlite::Result<Connection> {
             let connection = connect(self.path, "mode=ro&immutable=1")?;
@@ -414,14 +415,8 @@ impl Attempt<'_> {
             Ok((memory, address))
         };
         let (memory, address) = copy().map_err(failed)?;
-        Ok(PackageState {
-            path: self.path.to_path_buf(),
-            shown: self.shown.to_owned(),
-            address: format!("{address}&mode=ro"),
-            key: Some(key),
-            keeper: Keeper::Copy { _memory: Mutex::new(memory) },
-            stamps: None,
-        })
+        let keeper = Keeper::Copy { _memory: Mutex::new(memory) };
+        Ok(self.new_state(format!("{address}&mode=ro"), Some(key), keeper))
     }
 }
 

@@ -1,9 +1,9 @@
 //! CityGML objects, whose geometries are in space.
 
+use std::borrow::Cow;
 use std::rc::Rc;
-use std::sync::Arc;
 
-use super::geometry::{GeometryReader, GmlContext, GmlPiece, is_geometry};
+use super::geometry::{GeometryReader, GmlPiece, is_geometry};
 use super::reader::{FeatureBuilder, Surroundings, note_problem, text_or_link};
 use super::system::NamedSystem;
 use crate::formats::city::{CityRecord, CitySurface, SurfaceRole};
@@ -52,7 +52,7 @@ fn is_beside(name: &str) -> bool {
         || name.contains("TerrainIntersection")
 }
 
-impl FeatureBuilder {
+impl FeatureBuilder<'_> {
     /// Reads the object that `element` begins, and adds its features.
     pub(super) fn city_object(
         &mut self,
@@ -68,20 +68,20 @@ impl FeatureBuilder {
         around.context = before;
         let OpenObject { object, system, wrong } = read?;
         let has_shape = !object.shape.is_empty() || object.parts.iter().any(|part| !part.shape.is_empty());
-        let id = object.id.clone().unwrap_or_else(|| self.number.to_string());
-        let refuse = |builder: &mut Self, why: &str| {
-            let error = Error::data(format!("feature {} of {} {why}", shown(&id), builder.label)).help(
+        let refuse = |builder: &mut Self, id: Option<String>, why: &str| {
+            let id = id.unwrap_or_else(|| builder.number.to_string());
+            let error = Error::data(format!("feature {} of {} {why}", shown(&id), builder.table.shown)).help(
                 "supported types are points, curves, polygons, surfaces, solids and collections of these",
             );
-            builder.table.refuse(id.clone(), error)
+            builder.table.refuse(id, error)
         };
         if let (false, Some(why)) = (has_shape, &wrong) {
-            return refuse(self, why);
+            return refuse(self, object.id, why);
         }
         if let Some(why) = self.join_system(system.as_ref(), has_shape) {
-            return refuse(self, &why);
+            return refuse(self, object.id, &why);
         }
-        object.add_to(&mut self.table, &mut self.types, &self.budget)
+        object.add_to(&mut self.table, &mut self.types, self.budget)
     }
 
     fn object(&mut self, xml: &mut Xml, element: &Element, around: &mut Surroundings) -> Result<OpenObject> {
@@ -129,7 +129,7 @@ impl FeatureBuilder {
             return generic(xml, property, &mut open.object);
         }
         let place = GeometryPlace::of_property(name);
-        self.value(xml, property, (name.to_owned(), place), open, around)
+        self.value(xml, property, (name, place), open, around)
     }
 
     /// Reads a boundary of an object: a box, or a surface with a role.
@@ -137,8 +137,7 @@ impl FeatureBuilder {
         let depth = xml.depth;
         while let Some(inner) = xml.next_child(depth)? {
             if matches!(&*inner.name, "Envelope" | "Box" | "Null" | "null") {
-                let before = around.context.clone();
-                around.context = before.within(&inner, |name| around.named(name));
+                around.context = around.context.within(&inner, |name| around.systems.named(name));
                 xml.leave(xml.depth - 1)?;
                 continue;
             }
@@ -165,7 +164,7 @@ impl FeatureBuilder {
         &mut self,
         xml: &mut Xml,
         element: &Element,
-        (name, place): (String, GeometryPlace),
+        (name, place): (&str, GeometryPlace),
         open: &mut OpenObject,
         around: &mut Surroundings,
     ) -> Result<()> {
@@ -182,10 +181,10 @@ impl FeatureBuilder {
                     // Capitalised elements are objects, whose names add no information.
                     let is_object = inner.name.starts_with(|letter: char| letter.is_ascii_uppercase());
                     let name = match (is_object, &*inner.name) {
-                        (true, _) | (false, "value") => name.clone(),
-                        (false, inner) => format!("{name}.{inner}"),
+                        (true, _) | (false, "value") => Cow::Borrowed(name),
+                        (false, inner) => format!("{name}.{inner}").into(),
                     };
-                    self.value(xml, &inner, (name, place), open, around)?;
+                    self.value(xml, &inner, (&name, place), open, around)?;
                 }
                 XmlPiece::End if xml.depth < depth => break,
                 XmlPiece::End => {}
@@ -195,7 +194,7 @@ impl FeatureBuilder {
         if is_simple {
             let value = text_or_link(xml, element);
             self.budget.take(name.len() + value.len())?;
-            open.object.add_text(&name, value);
+            open.object.add_text(name, value);
         }
         Ok(())
     }
@@ -210,7 +209,7 @@ impl FeatureBuilder {
         around: &mut Surroundings,
     ) -> Result<()> {
         let depth = xml.depth;
-        let context: GmlContext = around.context.clone();
+        let Surroundings { context, systems } = around;
         let is_solid = place.is_solid || element.name.ends_with("Solid");
         let role = match place.role {
             Some(role) => role,
@@ -225,10 +224,9 @@ impl FeatureBuilder {
             GmlPiece::Line(line) => shape.lines.push(line),
             GmlPiece::Point(point) => shape.points.push(point),
         };
-        let mut named = |name: &str| around.named(name);
-        let budget = Arc::clone(&self.budget);
-        let mut reader = GeometryReader { xml, named: &mut named, system: None, budget };
-        let read = reader.surfaces(element, &context, &mut add);
+        let mut named = |name: &str| systems.named(name);
+        let mut reader = GeometryReader { xml, named: &mut named, system: None, budget: self.budget };
+        let read = reader.surfaces(element, context, &mut add);
         let system = reader.system.take().or_else(|| context.system.clone());
         xml.leave(depth - 1)?;
         if open.system.is_none() {

@@ -1,7 +1,6 @@
 //! GML geometries.
 
 use std::rc::Rc;
-use std::sync::Arc;
 
 use glam::DVec3;
 
@@ -122,7 +121,7 @@ pub(super) struct GeometryReader<'x> {
     pub(super) named: &'x mut dyn FnMut(&str) -> Rc<Checked<NamedSystem>>,
     /// First coordinate system that was found.
     pub(super) system: Option<Rc<Checked<NamedSystem>>>,
-    pub(super) budget: Arc<Budget>,
+    pub(super) budget: &'x Budget,
 }
 
 impl GeometryReader<'_> {
@@ -151,7 +150,7 @@ impl GeometryReader<'_> {
         context: &GmlContext,
         each: &mut dyn FnMut(GmlPiece),
     ) -> GeometryResult<()> {
-        let budget = Arc::clone(&self.budget);
+        let budget = self.budget;
         self.pieces(element, context, Solids::Read, &mut |mut piece| {
             if let GmlPiece::Surface(rings) = &mut piece {
                 for ring in rings.iter_mut().filter(|ring| ring.len() > 1 && ring.first() == ring.last()) {

@@ -1,7 +1,7 @@
 //! Reader of the features in a collection.
 
+use std::borrow::Cow;
 use std::rc::Rc;
-use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
@@ -22,7 +22,6 @@ use burgeon_spatial::Geometry;
 /// Open GML file.
 pub(crate) struct GmlFile {
     file: DataFile,
-    name: String,
     /// Feature types in order of appearance.
     types: Vec<String>,
 }
@@ -42,18 +41,17 @@ const MOST_TYPES: usize = 1000;
 
 impl GmlFile {
     pub(crate) fn open(file: DataFile, wanted: &SourceOptions) -> Result<Self> {
-        let name = file.name.clone();
-        let mut found = Self { file, name: name.clone(), types: Vec::new() };
+        let mut found = Self { file, types: Vec::new() };
         let mut types: Vec<String> = Vec::new();
         found.walk(wanted, |xml, element, _| {
             if !types.contains(&element.name) && types.len() < MOST_TYPES {
-                types.push(element.name.clone());
+                types.push(element.name);
             }
             xml.leave(xml.depth - 1)?;
             Ok(true)
         })?;
         if types.is_empty() {
-            let what = found.root(wanted)?;
+            let (name, what) = (&found.file.name, found.root(wanted)?);
             return Err(Error::data(format!("{name} is XML ({what}), but contains no GML features")).help(
                 "features are in elements named featureMember, featureMembers, member or cityObjectMember; convert another format: ogr2ogr out.gpkg FILE",
             ));
@@ -63,11 +61,11 @@ impl GmlFile {
     }
 
     /// Returns the name of the root element.
-    fn root(&self, wanted: &SourceOptions) -> Result<String> {
-        let mut xml = Xml::new(&self.file.content, &self.name, &wanted.budget)?;
+    fn root(&self, wanted: &SourceOptions) -> Result<Cow<'static, str>> {
+        let mut xml = Xml::new(&self.file.content, &self.file.name, &wanted.budget)?;
         Ok(match xml.next()? {
-            XmlPiece::Start(element) => shown(&element.name).into_owned(),
-            XmlPiece::End | XmlPiece::Eof => "empty".to_owned(),
+            XmlPiece::Start(element) => shown(&element.name).into_owned().into(),
+            XmlPiece::End | XmlPiece::Eof => "empty".into(),
         })
     }
 
@@ -77,9 +75,9 @@ impl GmlFile {
         wanted: &SourceOptions,
         mut each: impl FnMut(&mut Xml, Element, (&mut Surroundings, bool)) -> Result<bool>,
     ) -> Result<()> {
-        let mut xml = Xml::new(&self.file.content, &self.name, &wanted.budget)?;
-        let mut around =
-            Surroundings { context: GmlContext::default(), names: FxHashMap::default(), forced: wanted.crs };
+        let mut xml = Xml::new(&self.file.content, &self.file.name, &wanted.budget)?;
+        let systems = KnownSystems { names: FxHashMap::default(), forced: wanted.crs };
+        let mut around = Surroundings { context: GmlContext::default(), systems };
         let mut levels: Vec<Level> = Vec::new();
         loop {
             let element = match xml.next()? {
@@ -124,14 +122,16 @@ impl LayeredFile for GmlFile {
     }
 
     fn read(&self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
-        let label =
-            if self.types.len() > 1 { format!("{}:{}", self.name, shown(layer)) } else { self.name.clone() };
+        let name = &self.file.name;
+        let label = match self.types.len() {
+            0 | 1 => Cow::Borrowed(name.as_str()),
+            _ => format!("{name}:{}", shown(layer)).into(),
+        };
         let none = Error::data("the layer has no coordinate system")
             .help("specify its EPSG code: source(file, { crs = 3067 })");
         let table = FeatureTable::new(layer, &label, Err(none), wanted);
-        let budget = Arc::clone(&wanted.budget);
         let types = TextTypes::default();
-        let mut features = FeatureBuilder { table, label, system: None, types, number: 0, budget };
+        let mut features = FeatureBuilder { table, system: None, types, number: 0, budget: &wanted.budget };
         self.walk(wanted, |xml, element, (around, is_city)| {
             if element.name != layer {
                 xml.leave(xml.depth - 1)?;
@@ -150,11 +150,17 @@ impl LayeredFile for GmlFile {
 /// Context shared by all features.
 pub(super) struct Surroundings {
     pub(super) context: GmlContext,
+    pub(super) systems: KnownSystems,
+}
+
+/// Coordinate systems of a file by their names.
+pub(super) struct KnownSystems {
     names: FxHashMap<String, Rc<Result<NamedSystem>>>,
+    /// EPSG code that replaces all systems.
     forced: Option<u32>,
 }
 
-impl Surroundings {
+impl KnownSystems {
     /// Returns the coordinate system with a name.
     pub(super) fn named(&mut self, name: &str) -> Rc<Result<NamedSystem>> {
         if let Some(known) = self.names.get(name) {
@@ -164,15 +170,16 @@ impl Surroundings {
         self.names.insert(name.to_owned(), Rc::clone(&system));
         system
     }
+}
 
+impl Surroundings {
     /// Reads the coordinate system in a `boundedBy` element around features.
     pub(super) fn bounds(&mut self, xml: &mut Xml) -> Result<()> {
         let depth = xml.depth;
         while xml.depth >= depth {
             match xml.next()? {
                 XmlPiece::Start(element) => {
-                    let context = self.context.clone();
-                    self.context = context.within(&element, |name| self.named(name));
+                    self.context = self.context.within(&element, |name| self.systems.named(name));
                 }
                 XmlPiece::End => {}
                 XmlPiece::Eof => break,
@@ -183,16 +190,15 @@ impl Surroundings {
 }
 
 /// Builder of the feature table.
-pub(super) struct FeatureBuilder {
+pub(super) struct FeatureBuilder<'b> {
     pub(super) table: FeatureTable,
-    pub(super) label: String,
     pub(super) system: Option<Rc<Result<NamedSystem>>>,
     pub(super) types: TextTypes,
     pub(super) number: usize,
-    pub(super) budget: Arc<Budget>,
+    pub(super) budget: &'b Budget,
 }
 
-impl FeatureBuilder {
+impl FeatureBuilder<'_> {
     /// Reads the feature that `element` begins.
     fn feature(&mut self, xml: &mut Xml, element: &Element, around: &mut Surroundings) -> Result<()> {
         self.number += 1;
@@ -200,38 +206,34 @@ impl FeatureBuilder {
         let id = id.map(str::to_owned);
         let depth = xml.depth;
         let mut found = FeatureContent { parts: Vec::new(), values: Vec::new(), system: None, wrong: None };
-        let mut context = around.context.clone();
+        let before = around.context.clone();
         loop {
             match xml.next()? {
-                XmlPiece::Start(property) if property.name == "boundedBy" => {
-                    let before = std::mem::replace(&mut around.context, context);
-                    around.bounds(xml)?;
-                    context = std::mem::replace(&mut around.context, before);
-                }
+                XmlPiece::Start(property) if property.name == "boundedBy" => around.bounds(xml)?,
                 XmlPiece::Start(property) => {
-                    let name = property.name.clone();
-                    found.property(xml, &property, name, (&context, around, &self.budget))?;
+                    found.property(xml, &property, &property.name, (around, self.budget))?;
                 }
                 XmlPiece::End if xml.depth < depth => break,
                 XmlPiece::End => {}
                 XmlPiece::Eof => break,
             }
         }
+        around.context = before;
         self.add(id, found)
     }
 
     fn add(&mut self, id: Option<String>, found: FeatureContent) -> Result<()> {
-        let shown_id = id.clone().unwrap_or_else(|| self.number.to_string());
-        let refuse = |builder: &mut Self, why: &str| {
-            let error = Error::data(format!("feature {} of {} {why}", shown(&shown_id), builder.label))
+        let refuse = |builder: &mut Self, id: Option<String>, why: &str| {
+            let id = id.unwrap_or_else(|| builder.number.to_string());
+            let error = Error::data(format!("feature {} of {} {why}", shown(&id), builder.table.shown))
                 .help("supported types are points, curves, polygons, surfaces and collections of these");
-            builder.table.refuse(shown_id.clone(), error)
+            builder.table.refuse(id, error)
         };
         if let (true, Some(why)) = (found.parts.is_empty(), &found.wrong) {
-            return refuse(self, why);
+            return refuse(self, id, why);
         }
         if let Some(why) = self.join_system(found.system.as_ref(), !found.parts.is_empty()) {
-            return refuse(self, &why);
+            return refuse(self, id, &why);
         }
         let mut attributes: Vec<(usize, Attribute)> = Vec::with_capacity(found.values.len());
         for (name, value) in found.values {
@@ -286,10 +288,9 @@ impl FeatureContent {
         &mut self,
         xml: &mut Xml,
         element: &Element,
-        name: String,
-        all: (&GmlContext, &mut Surroundings, &Arc<Budget>),
+        name: &str,
+        (around, budget): (&mut Surroundings, &Budget),
     ) -> Result<()> {
-        let (context, around, budget) = all;
         let depth = xml.depth;
         let mut is_simple = true;
         loop {
@@ -297,10 +298,10 @@ impl FeatureContent {
                 XmlPiece::Start(inner) => {
                     is_simple = false;
                     if is_geometry(&inner.name) {
-                        self.geometry(xml, &inner, (context, around, budget))?;
+                        self.geometry(xml, &inner, (around, budget))?;
                     } else {
                         let name = format!("{name}.{}", inner.name);
-                        self.property(xml, &inner, name, (context, around, budget))?;
+                        self.property(xml, &inner, &name, (around, budget))?;
                     }
                 }
                 XmlPiece::End if xml.depth < depth => break,
@@ -316,13 +317,13 @@ impl FeatureContent {
             return Ok(());
         }
         budget.take(100 + name.len() + value.len())?;
-        match self.values.iter_mut().find(|(known, _)| *known == name) {
+        match self.values.iter_mut().find(|(known, _)| known == name) {
             // Repeated values are joined in a list.
             Some((_, known)) => {
                 known.push(';');
                 known.push_str(value);
             }
-            None => self.values.push((name, value.to_owned())),
+            None => self.values.push((name.to_owned(), value.to_owned())),
         }
         budget.give(100);
         Ok(())
@@ -333,12 +334,12 @@ impl FeatureContent {
         &mut self,
         xml: &mut Xml,
         element: &Element,
-        (context, around, budget): (&GmlContext, &mut Surroundings, &Arc<Budget>),
+        (Surroundings { context, systems }, budget): (&mut Surroundings, &Budget),
     ) -> Result<()> {
         let depth = xml.depth;
         let mut parts = Vec::new();
-        let mut named = |name: &str| around.named(name);
-        let mut reader = GeometryReader { xml, named: &mut named, system: None, budget: Arc::clone(budget) };
+        let mut named = |name: &str| systems.named(name);
+        let mut reader = GeometryReader { xml, named: &mut named, system: None, budget };
         let read = reader.geometry(element, context, &mut parts);
         let system = reader.system.take().or_else(|| context.system.clone());
         xml.leave(depth - 1)?;

@@ -3,6 +3,7 @@
 
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::borrow::Cow;
 
 use super::blobs::{BlobFile, is_packed_extract};
 use super::block::{BlockContents, OsmBlock, Visitor};
@@ -40,9 +41,10 @@ impl OsmFile {
         let stem = file.stem();
         if is_xml_extract(head) {
             let blobs = BlobFile::of_blocks(blocks(&file, &wanted.budget)?, &file.name);
+            let stem = stem.into_owned();
             return Ok(Self { blobs, name: file.name, stem });
         }
-        let stem = stem.strip_suffix(".osm").map_or_else(|| stem.clone(), str::to_owned);
+        let stem = stem.strip_suffix(".osm").unwrap_or(&stem).to_owned();
         let (file, _, name) = file.on_disk("OpenStreetMap extract")?;
         Ok(Self { blobs: BlobFile::open(file, &name, &wanted.budget)?, name, stem })
     }
@@ -74,8 +76,8 @@ impl OsmFile {
             .help(help));
         }
         let label = match layer {
-            Some(layer) => format!("{}:{}", self.name, layer.name),
-            None => self.name.clone(),
+            Some(layer) => format!("{}:{}", self.name, layer.name).into(),
+            None => Cow::Borrowed(self.name.as_str()),
         };
         let title = layer.map_or(&*self.stem, |layer| layer.name);
         let mut table = FeatureTable::new(title, &label, Crs::epsg(4326), wanted);
@@ -222,15 +224,15 @@ impl OsmFile {
                 unread.get_or_insert((0, first)).0 += count;
             }
         }
-        let shown = table.shown.clone();
+        let FeatureTable { shown, notes, .. } = table;
         if cut > 0 {
             let lines = if cut == 1 { "line ends" } else { "lines end" };
-            table.notes.push(format!("{shown}: {cut} {lines} at the boundary of the extract"));
+            notes.push(format!("{shown}: {cut} {lines} at the boundary of the extract"));
         }
         if let Some((count, first)) = unread {
             let values =
                 if count == 1 { "tag is not a number and was" } else { "tags are not numbers and were" };
-            table.notes.push(format!("{shown}: {count} {values} skipped, e.g. {first}"));
+            notes.push(format!("{shown}: {count} {values} skipped, e.g. {first}"));
         }
         Ok(())
     }

@@ -4,6 +4,7 @@
 //! rule), so the roles of members are ignored. The border of each connected interior part is traversed. If a walk
 //! returns to a position, a ring is split off, so rings that touch at points are separated.
 
+use std::borrow::Cow;
 use std::cmp::Ordering;
 
 use rustc_hash::FxHashMap;
@@ -18,7 +19,7 @@ pub(super) type PolygonRings = Vec<Vec<Place>>;
 pub(super) fn assemble<'w>(
     ways: impl Iterator<Item = &'w [Place]>,
     budget: &Budget,
-) -> Result<Vec<PolygonRings>, String> {
+) -> Result<Vec<PolygonRings>, Cow<'static, str>> {
     let graph = Graph::new(ways, budget)?;
     graph.refuse_crossing(budget)?;
     let walks = graph.walks();
@@ -28,7 +29,7 @@ pub(super) fn assemble<'w>(
 
 /// Returns the polygons of a closed way: one, or several if the way passes through a position twice. The last position
 /// equals the first.
-pub(super) fn of_way(places: &[Place], budget: &Budget) -> Result<Vec<PolygonRings>, String> {
+pub(super) fn of_way(places: &[Place], budget: &Budget) -> Result<Vec<PolygonRings>, Cow<'static, str>> {
     let mut ring = places.to_vec();
     ring.dedup();
     ring.pop();
@@ -38,7 +39,7 @@ pub(super) fn of_way(places: &[Place], budget: &Budget) -> Result<Vec<PolygonRin
         return assemble(std::iter::once(places), budget);
     }
     if ring.len() < 3 || area(&ring) == 0 {
-        return Err("has no area".to_owned());
+        return Err("has no area".into());
     }
     Ok(vec![vec![ring]])
 }
@@ -52,8 +53,8 @@ struct Graph {
     next: Vec<usize>,
 }
 
-fn tick(budget: &Budget) -> Result<(), String> {
-    budget.tick().map_err(|error| error.into_message())
+fn tick(budget: &Budget) -> Result<(), Cow<'static, str>> {
+    budget.tick().map_err(|error| error.into_message().into())
 }
 
 fn place_text(place: Place) -> String {
@@ -62,7 +63,7 @@ fn place_text(place: Place) -> String {
 }
 
 impl Graph {
-    fn new<'w>(ways: impl Iterator<Item = &'w [Place]>, budget: &Budget) -> Result<Self, String> {
+    fn new<'w>(ways: impl Iterator<Item = &'w [Place]>, budget: &Budget) -> Result<Self, Cow<'static, str>> {
         let mut segments: Vec<[Place; 2]> = Vec::new();
         for way in ways {
             budget.take(way.len() * 150).map_err(|error| error.into_message())?;
@@ -79,7 +80,7 @@ impl Graph {
             }
         }
         if single.is_empty() {
-            return Err("has no area".to_owned());
+            return Err("has no area".into());
         }
         let mut places: Vec<Place> = single.iter().flatten().copied().collect();
         places.sort_unstable();
@@ -100,7 +101,7 @@ impl Graph {
     }
 
     /// Computes the successor of each half-edge. Fails if a border ends.
-    fn connect(&mut self) -> Result<(), String> {
+    fn connect(&mut self) -> Result<(), Cow<'static, str>> {
         let mut around: Vec<usize> = (0..self.from.len()).collect();
         around.sort_unstable_by(|a, b| {
             self.from[*a].cmp(&self.from[*b]).then_with(|| {
@@ -114,7 +115,9 @@ impl Graph {
             let count = rest.iter().take_while(|edge| self.from[**edge] == from).count();
             let (here, after) = rest.split_at(count);
             if !count.is_multiple_of(2) {
-                return Err(format!("has an open boundary, which ends at {}", place_text(self.places[from])));
+                return Err(
+                    format!("has an open boundary, which ends at {}", place_text(self.places[from])).into()
+                );
             }
             // A walk leaves a position by the next half-edge to the right, so the face to its left stays the same.
             for (at, edge) in here.iter().enumerate() {
@@ -126,7 +129,7 @@ impl Graph {
     }
 
     /// Fails if segments cross or overlap.
-    fn refuse_crossing(&self, budget: &Budget) -> Result<(), String> {
+    fn refuse_crossing(&self, budget: &Budget) -> Result<(), Cow<'static, str>> {
         // Segments are sorted by their western ends.
         let segments: Vec<[Place; 2]> = (0..self.from.len() / 2).map(|at| self.ends(at)).collect();
         for (at, [a, b]) in segments.iter().enumerate() {
@@ -142,7 +145,7 @@ impl Graph {
                 // Collinear segments overlap if each begins before the other one ends.
                 let along = sides == [0; 4] && a.max(c) < b.min(d);
                 if crosses || along {
-                    return Err(format!("has boundaries that cross near {}", place_text(*c)));
+                    return Err(format!("has boundaries that cross near {}", place_text(*c)).into());
                 }
             }
         }
@@ -172,7 +175,7 @@ impl Graph {
     }
 
     /// Returns for each walk whether the interior is to its left, and its component.
-    fn find_inner_sides(&self, walks: &Walks, budget: &Budget) -> Result<Vec<WalkSide>, String> {
+    fn find_inner_sides(&self, walks: &Walks, budget: &Budget) -> Result<Vec<WalkSide>, Cow<'static, str>> {
         let mut sides: Vec<Option<WalkSide>> = vec![None; walks.begins.len()];
         for first in 0..walks.begins.len() {
             if sides[first].is_some() {
@@ -226,7 +229,7 @@ impl Graph {
         walks: &Walks,
         sides: &[WalkSide],
         budget: &Budget,
-    ) -> Result<Vec<PolygonRings>, String> {
+    ) -> Result<Vec<PolygonRings>, Cow<'static, str>> {
         let (mut polygons, mut loose): (Vec<PolygonRings>, Vec<Vec<Place>>) = (Vec::new(), Vec::new());
         for (begin, side) in walks.begins.iter().zip(sides) {
             tick(budget)?;
@@ -262,10 +265,10 @@ impl Graph {
             }
             match around {
                 Some(index) => polygons[index].push(hole),
-                None => return Err(format!("has a hole outside its area, at {}", place_text(at))),
+                None => return Err(format!("has a hole outside its area, at {}", place_text(at)).into()),
             }
         }
-        if polygons.is_empty() { Err("has no area".to_owned()) } else { Ok(polygons) }
+        if polygons.is_empty() { Err("has no area".into()) } else { Ok(polygons) }
     }
 
     /// Returns the rings of a walk; no ring passes through a position twice.

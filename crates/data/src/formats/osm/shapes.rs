@@ -1,6 +1,7 @@
 //! Features selected in an extract, and the geometries built from them.
 
 use rustc_hash::FxHashMap;
+use std::borrow::Cow;
 
 use super::places::Place;
 use super::rings;
@@ -35,7 +36,7 @@ pub(super) enum OsmShape {
 }
 
 /// Result of building a shape: its parts, and true if nodes are missing.
-pub(super) type BuildResult = Result<(Vec<Geometry>, bool), String>;
+pub(super) type BuildResult = Result<(Vec<Geometry>, bool), Cow<'static, str>>;
 
 impl OsmRecord {
     /// Returns the feature's id as in OpenStreetMap URLs.
@@ -116,14 +117,14 @@ fn polygons(rings: Vec<rings::PolygonRings>) -> Vec<Geometry> {
 }
 
 /// Returns the positions of all nodes; fails if any is missing.
-fn all_places(nodes: &[i64], places: &FxHashMap<i64, Place>) -> Result<Vec<Place>, String> {
+fn all_places(nodes: &[i64], places: &FxHashMap<i64, Place>) -> Result<Vec<Place>, Cow<'static, str>> {
     let found: Vec<Place> = nodes.iter().filter_map(|node| places.get(node)).copied().collect();
     if let Some(odd) = found.iter().find(|place| !place.is_sane()) {
-        return Err(format!("has a node at {}", odd.degrees().truncate()));
+        return Err(format!("has a node at {}", odd.degrees().truncate()).into());
     }
     match nodes.len() - found.len() {
         0 => Ok(found),
-        count => Err(format!("lacks {count} of its {} nodes", nodes.len())),
+        count => Err(format!("lacks {count} of its {} nodes", nodes.len()).into()),
     }
 }
 
@@ -138,8 +139,8 @@ fn lines(nodes: &[i64], places: &FxHashMap<i64, Place>) -> BuildResult {
         parts.extend(Geometry::line(run.into_iter().map(Place::degrees).collect()));
     }
     match (parts.is_empty(), lacking) {
-        (true, 0) => Err("has fewer than two positions".to_owned()),
-        (true, count) => Err(format!("lacks {count} of its {} nodes", nodes.len())),
+        (true, 0) => Err("has fewer than two positions".into()),
+        (true, count) => Err(format!("lacks {count} of its {} nodes", nodes.len()).into()),
         (false, count) => Ok((parts, count > 0)),
     }
 }

@@ -47,20 +47,22 @@ pub(super) enum TextEncoding {
 impl TextEncoding {
     /// Returns the encoding named in a `.cpg` file, or otherwise by the number `mark` in the `.dbf` file. Fails with
     /// its name if it is not supported.
-    pub(super) fn of_name(cpg: Option<&str>, mark: u8) -> std::result::Result<Self, String> {
+    pub(super) fn of_name(cpg: Option<&str>, mark: u8) -> std::result::Result<Self, Cow<'_, str>> {
         let number = match cpg.map(str::trim).filter(|name| !name.is_empty()) {
             Some(name) => match page_of_name(name) {
                 Some(65001) => return Ok(Self::Utf8),
                 Some(number) => number,
-                None => return Err(name.to_owned()),
+                None => return Err(name.into()),
             },
             None => match page_of_mark(mark) {
                 Some(number) => number,
                 None => return Ok(Self::Unknown),
             },
         };
-        let of_name = || cpg.map_or_else(|| format!("code page {number}"), |name| name.trim().to_owned());
-        CodePage::of_number(number).map(Self::Page).ok_or_else(of_name)
+        CodePage::of_number(number).map(Self::Page).ok_or_else(|| match cpg {
+            Some(name) => name.trim().into(),
+            None => format!("code page {number}").into(),
+        })
     }
 
     /// Decodes bytes; the flag is true if the code page was assumed.
@@ -183,11 +185,11 @@ impl DbfReader {
                 found.left_out.push(title.into_owned());
                 continue;
             }
-            let mut unique = title.clone().into_owned();
+            let mut unique = Cow::Borrowed(&*title);
             let mut count = 1;
-            while table.names.contains(&unique) {
+            while table.names.iter().any(|known| *known == unique) {
                 count += 1;
-                unique = format!("{title}_{count}");
+                unique = format!("{title}_{count}").into();
             }
             let name = table.name(&unique);
             found.columns.push(DbfColumn { name, kind: field[11], place });

@@ -36,7 +36,7 @@ impl Shapefile {
             Some(DataFile::new(file, &path, &name))
         });
         let (prj, cpg) = (prj.as_ref().map(prj_text), cpg.as_ref().map(cpg_text).transpose()?);
-        let (name, layer) = (shp.name.clone(), shp.stem());
+        let (name, layer) = (shp.name.clone(), shp.stem().into_owned());
         Ok(Self { name, layers: vec![ShapeFiles { layer, shp, dbf, prj, cpg }] })
     }
 

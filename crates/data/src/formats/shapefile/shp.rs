@@ -1,5 +1,6 @@
 //! Geometries of a `.shp` file, record by record.
 
+use std::borrow::Cow;
 use std::io::{BufReader, Read};
 
 use glam::DVec3;
@@ -17,7 +18,7 @@ pub(super) const MAGIC: [u8; 4] = [0, 0, 0x27, 0x0a];
 const LARGEST: usize = 500_000_000;
 
 /// Description of the damage in a file.
-pub(super) type ShapeDamage = String;
+pub(super) type ShapeDamage = Cow<'static, str>;
 
 /// Records of a file, from the beginning.
 pub(super) struct ShapeReader {
@@ -31,7 +32,7 @@ pub(super) struct ShapeReader {
 type ShapeRecord = (ShapeResult, Option<[f64; 4]>);
 
 /// Geometry of a record, or the reason why it cannot be read.
-pub(super) type ShapeResult = std::result::Result<Vec<Geometry>, String>;
+pub(super) type ShapeResult = std::result::Result<Vec<Geometry>, Cow<'static, str>>;
 
 fn whole(bytes: &[u8], at: usize) -> Option<u32> {
     Some(u32::from_le_bytes(bytes.get(at..at + 4)?.try_into().ok()?))
@@ -48,7 +49,7 @@ impl ShapeReader {
         let mut header = [0; 100];
         file.read_exact(&mut header).map_err(|_| "its header is cut short")?;
         if header[..4] != MAGIC || whole(&header, 28) != Some(1000) {
-            return Err("it does not begin like a shapefile".to_owned());
+            return Err("it does not begin like a shapefile".into());
         }
         Ok(Self { file, number: 0, record: Vec::new() })
     }
@@ -64,7 +65,7 @@ impl ShapeReader {
         while filled < header.len() {
             match self.file.read(&mut header[filled..]) {
                 Ok(0) if filled == 0 => return Ok(Ok(None)),
-                Ok(0) | Err(_) => return Ok(Err(format!("record {} is cut short", self.number + 1))),
+                Ok(0) | Err(_) => return Ok(Err(format!("record {} is cut short", self.number + 1).into())),
                 Ok(count) => filled += count,
             }
         }
@@ -72,14 +73,14 @@ impl ShapeReader {
         let [_, words] = [0, 4].map(|at| header[at..at + 4].try_into().map_or(0, u32::from_be_bytes));
         let size = words as usize * 2;
         if size > LARGEST {
-            return Ok(Err(format!("record {} has {size} bytes", self.number)));
+            return Ok(Err(format!("record {} has {size} bytes", self.number).into()));
         }
         // The bytes, and the points decoded from them.
         let held = budget.hold(size.saturating_mul(4))?;
         self.record.clear();
         let read = (&mut self.file).take(size as u64).read_to_end(&mut self.record);
         if !read.is_ok_and(|count| count == size) {
-            return Ok(Err(format!("record {} is cut short", self.number)));
+            return Ok(Err(format!("record {} is cut short", self.number).into()));
         }
         let result = shape(&self.record, budget)?;
         drop(held);
@@ -96,7 +97,7 @@ impl ShapeReader {
 
 /// Decodes the geometry in the bytes of a record.
 fn shape(bytes: &[u8], budget: &Budget) -> Result<ShapeResult> {
-    let short = || "has a shape that is cut short".to_owned();
+    let short = || Cow::Borrowed("has a shape that is cut short");
     let Some(kind) = whole(bytes, 0) else { return Ok(Err(short())) };
     // Z and M values follow the points.
     let (base, has_z) = match kind {
@@ -113,7 +114,7 @@ fn shape(bytes: &[u8], budget: &Budget) -> Result<ShapeResult> {
     if !matches!(base, 3 | 5 | 8) {
         let what =
             if kind == 31 { "is a multipatch, a surface in space" } else { "has a shape of unknown type" };
-        return Ok(Err(format!("{what} ({kind})")));
+        return Ok(Err(format!("{what} ({kind})").into()));
     }
     let (starts, count, first) = if base == 8 {
         (vec![0], whole(bytes, 36), 40)
@@ -148,7 +149,7 @@ fn shape(bytes: &[u8], budget: &Budget) -> Result<ShapeResult> {
     for (start, end) in starts.iter().copied().zip(ends) {
         match points.get(start..end) {
             Some(part) => parts.push(part.to_vec()),
-            None => return Ok(Err("has parts that begin beyond its points".to_owned())),
+            None => return Ok(Err("has parts that begin beyond its points".into())),
         }
     }
     Ok(match base {

@@ -79,21 +79,21 @@ pub(super) fn run_list(
     context: &Context<'_>,
     state: &ConnectionState,
     name: &str,
-    run: impl FnOnce(&GeometryArgument, &Context<'_>) -> Result<Vec<Geometry>, String>,
+    run: impl FnOnce(Geometry, &Context<'_>) -> Result<Vec<Geometry>, String>,
 ) -> rusqlite::Result<KeyList> {
     state.budget().tick().map_err(|error| function_error(error.into_message()))?;
     let told = |why: String| function_error(format!("{name}: {why}"));
     let foreign = foreign(context).map_err(told)?;
-    let parsed = match context.get_raw(0) {
+    let geometry = match context.get_raw(0) {
         ValueRef::Null => return Ok(keys(&[])),
-        ValueRef::Blob(bytes) => state.geometry(bytes).map_err(told)?,
+        ValueRef::Blob(bytes) => state.geometry(bytes).map_err(told)?.geometry.clone(),
         ValueRef::Text(text) => {
             let read = Geometry::from_wkt_within(&String::from_utf8_lossy(text), &state.budget());
-            Arc::new(GeometryArgument::from(read.map_err(|error| told(error.into_message()))?))
+            read.map_err(|error| told(error.into_message()))?
         }
         other => return Err(told(super::texts::wrong_argument(0, "a geometry", other))),
     };
-    let made = run(&parsed, context).map_err(told)?;
+    let made = run(geometry, context).map_err(told)?;
     let values = made.iter().map(|geometry| Value::Blob(blob::write_in(geometry, foreign))).collect();
     Ok(KeyList(Rc::new(values)))
 }

@@ -44,9 +44,9 @@ pub(super) const FORMS: &[SpatialFunction] = &[
         |call| {
             let [west, south, east, north] =
                 [call.number(0)?, call.number(1)?, call.number(2)?, call.number(3)?];
-            let ring = [[west, south], [west, north], [east, north], [east, south]]
-                .map(|[x, y]| DVec3::new(x, y, 0.0));
-            place_in_system(call, 4, Geometry::Polygon(Rings(vec![ring.to_vec()])))
+            let corners = [[west, south], [west, north], [east, north], [east, south]];
+            let ring = corners.into_iter().map(|[x, y]| DVec3::new(x, y, 0.0)).collect();
+            place_in_system(call, 4, Geometry::Polygon(Rings(vec![ring])))
         },
     ),
     function(

@@ -1,5 +1,6 @@
 //! Aggregate functions that do not combine geometries: booleans, lists, boxes and clusters.
 
+use std::borrow::Cow;
 use std::panic::AssertUnwindSafe;
 use std::sync::Arc;
 
@@ -68,13 +69,12 @@ impl Aggregate<String, Option<String>> for List {
     }
 
     fn step(&self, context: &mut Context<'_>, list: &mut String) -> rusqlite::Result<()> {
-        let item = match context.get_raw(0) {
-            ValueRef::Null => "null".to_owned(),
-            ValueRef::Integer(number) if self.booleans => (number != 0).to_string(),
-            ValueRef::Integer(number) => number.to_string(),
-            ValueRef::Real(number) if number.is_finite() => format!("{number:?}"),
-            ValueRef::Real(_) => "null".to_owned(),
-            ValueRef::Text(text) => quote_json(&String::from_utf8_lossy(text)),
+        let item: Cow<'_, str> = match context.get_raw(0) {
+            ValueRef::Integer(number) if self.booleans => (number != 0).to_string().into(),
+            ValueRef::Integer(number) => number.to_string().into(),
+            ValueRef::Real(number) if number.is_finite() => format!("{number:?}").into(),
+            ValueRef::Null | ValueRef::Real(_) => "null".into(),
+            ValueRef::Text(text) => quote_json(&String::from_utf8_lossy(text)).into(),
             ValueRef::Blob(_) => {
                 return Err(function_error("array_agg: geometries are gathered by ST_Collect"));
             }

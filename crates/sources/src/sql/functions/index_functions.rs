@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use rusqlite::Connection;
-use rusqlite::functions::{Context, FunctionFlags};
+use rusqlite::functions::Context;
 use rusqlite::types::ValueRef;
 
 use super::argument::GeometryArgument;
 use super::call::{bounds, function_error, keys, number};
+use super::registry::FunctionRegistrar;
 use super::state::ConnectionState;
 use crate::sql::blob;
 use crate::sql::index::SpatialIndex;
@@ -15,25 +15,22 @@ use burgeon_base::locks::LockRecovery;
 use burgeon_spatial::Geometry;
 
 /// Registers the functions with a connection.
-pub(super) fn register(connection: &Connection, state: &Arc<ConnectionState>) -> rusqlite::Result<()> {
-    let flags = FunctionFlags::SQLITE_UTF8 | FunctionFlags::SQLITE_DETERMINISTIC;
-    let own = Arc::clone(state);
-    connection.create_scalar_function("burgeon_near", 3, flags, move |context| {
-        let index = index(context, &own)?;
+pub(super) fn register(functions: &FunctionRegistrar<'_>) -> rusqlite::Result<()> {
+    functions.register("burgeon_near", 3, |context, state| {
+        let index = index(context, state)?;
         let distance = number(context.get_raw(2)).unwrap_or(f64::NAN);
-        let Some(bounds) = argument_bounds(context, &own)? else { return Ok(keys(&[])) };
+        let Some(bounds) = argument_bounds(context, state)? else { return Ok(keys(&[])) };
         Ok(keys(&index.keys_near(bounds, distance)))
     })?;
-    let own = Arc::clone(state);
-    connection.create_scalar_function("burgeon_nearest", 3, flags, move |context| {
-        let index = index(context, &own)?;
+    functions.register("burgeon_nearest", 3, |context, state| {
+        let index = index(context, state)?;
         #[allow(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
             reason = "it saturates, and is checked"
         )]
         let found = match number(context.get_raw(2)).unwrap_or(-1.0) {
-            count if count >= 0.0 => match geometry(context, &own)? {
+            count if count >= 0.0 => match geometry(context, state)? {
                 Some(from) if !from.geometry.is_empty() => index.nearest(from.flat(), count as usize),
                 _ => index.all(),
             },
@@ -41,10 +38,9 @@ pub(super) fn register(connection: &Connection, state: &Arc<ConnectionState>) ->
         };
         Ok(keys(&found))
     })?;
-    let own = Arc::clone(state);
-    connection.create_scalar_function("burgeon_nearest_one", 2, flags, move |context| {
-        let index = index(context, &own)?;
-        Ok(match geometry(context, &own)? {
+    functions.register("burgeon_nearest_one", 2, |context, state| {
+        let index = index(context, state)?;
+        Ok(match geometry(context, state)? {
             Some(from) if !from.geometry.is_empty() => index.nearest_one(from.flat()),
             _ => index.first(),
         })

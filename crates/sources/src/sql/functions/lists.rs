@@ -1,17 +1,15 @@
 //! Functions that return several rows, as lists for `rarray`: the parts of geometries, and series of numbers.
 
 use std::rc::Rc;
-use std::sync::Arc;
 
 use burgeon_spatial::{Geometry, Rings};
 use glam::DVec3;
-use rusqlite::Connection;
-use rusqlite::functions::{Context, FunctionFlags};
+use rusqlite::functions::Context;
 use rusqlite::types::{Value, ValueRef};
 
 use super::call::{KeyList, keys, run_list};
 use super::parts::members;
-use super::state::ConnectionState;
+use super::registry::FunctionRegistrar;
 
 /// Functions of PostGIS, and their names in rewritten statements.
 pub(crate) const NAMES: [(&str, &str); 6] = [
@@ -27,53 +25,57 @@ pub(crate) const NAMES: [(&str, &str); 6] = [
 const MOST: usize = 10_000_000;
 
 /// Collects the single geometries of a geometry, in order.
-fn singles(geometry: &Geometry, found: &mut Vec<Geometry>) {
+fn singles(geometry: Geometry, found: &mut Vec<Geometry>) {
     match geometry {
         Geometry::Collection(_)
         | Geometry::MultiPoint(_)
         | Geometry::MultiLine(_)
-        | Geometry::MultiPolygon(_) => members(geometry).iter().for_each(|member| singles(member, found)),
+        | Geometry::MultiPolygon(_) => {
+            members(geometry).into_iter().for_each(|member| singles(member, found));
+        }
         single if single.is_empty() => {}
-        single => found.push(single.clone()),
+        single => found.push(single),
     }
 }
 
-fn parts(geometry: &Geometry, each: impl Fn(&Geometry, &mut Vec<Geometry>)) -> Vec<Geometry> {
+fn parts(geometry: Geometry, each: impl Fn(Geometry, &mut Vec<Geometry>)) -> Vec<Geometry> {
     let (mut all, mut found) = (Vec::new(), Vec::new());
     singles(geometry, &mut all);
-    all.iter().for_each(|single| each(single, &mut found));
+    all.into_iter().for_each(|single| each(single, &mut found));
     found
 }
 
 /// Returns the rings of polygons as closed lines, and lines unchanged.
-fn lines(geometry: &Geometry) -> Vec<Vec<DVec3>> {
+fn lines(geometry: Geometry) -> Vec<Vec<DVec3>> {
     let ring = |ring: &Vec<DVec3>| ring.iter().chain(ring.first()).copied().collect();
     match geometry {
-        Geometry::Point(point) => vec![point.iter().copied().collect()],
-        Geometry::Line(points) => vec![points.clone()],
+        Geometry::Point(point) => vec![point.into_iter().collect()],
+        Geometry::Line(points) => vec![points],
         Geometry::Polygon(rings) => rings.iter().map(ring).collect(),
         _ => Vec::new(),
     }
 }
 
-/// Divides a geometry into parts with at most `most` points, by halving its box as PostGIS does.
-fn subdivide(
-    geometry: &Geometry,
-    most: usize,
-    depth: usize,
-    found: &mut Vec<Geometry>,
-) -> Result<(), String> {
-    if let Geometry::Collection(_) = geometry {
-        return members(geometry).iter().try_for_each(|member| subdivide(member, most, depth, found));
+/// Returns the number of points of a geometry, where the rings of polygons are closed lines.
+fn count_points(geometry: &Geometry) -> usize {
+    let area = |rings: &Rings| rings.iter().map(|ring| ring.len() + usize::from(!ring.is_empty())).sum();
+    match geometry {
+        Geometry::Polygon(rings) => area(rings),
+        Geometry::MultiPolygon(polygons) => polygons.iter().map(area).sum(),
+        Geometry::Collection(members) => members.iter().map(count_points).sum(),
+        other => other.points().count(),
     }
-    let count: usize = parts(geometry, |single, found| found.push(single.clone()))
-        .iter()
-        .flat_map(lines)
-        .map(|line| line.len())
-        .sum();
+}
+
+/// Divides a geometry into parts with at most `most` points, by halving its box as PostGIS does.
+fn subdivide(geometry: Geometry, most: usize, depth: usize, found: &mut Vec<Geometry>) -> Result<(), String> {
+    if let Geometry::Collection(_) = geometry {
+        return members(geometry).into_iter().try_for_each(|member| subdivide(member, most, depth, found));
+    }
+    let count = count_points(&geometry);
     let Some([low, high]) = geometry.bounds().filter(|_| count > 0) else { return Ok(()) };
     if count <= most || depth > 50 || found.len() > MOST {
-        found.push(geometry.clone());
+        found.push(geometry);
         return Ok(());
     }
     if let Geometry::Point(_) | Geometry::MultiPoint(_) = geometry {
@@ -94,16 +96,16 @@ fn subdivide(
             bound.y = middle.y
         }
         let corners = [[from.x, from.y], [to.x, from.y], [to.x, to.y], [from.x, to.y]];
-        let ring = corners.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec();
+        let ring = corners.into_iter().map(|[x, y]| DVec3::new(x, y, 0.0)).collect();
         let part = geometry.intersection(&Geometry::Polygon(Rings(vec![ring])));
         let wanted = geometry.dimension();
-        let kept = parts(&part, |single, found| {
+        let kept = parts(part, |single, found| {
             if single.dimension() == wanted {
-                found.push(single.clone());
+                found.push(single);
             }
         });
         if !kept.is_empty() {
-            subdivide(&super::parts::collect_single(kept), most, depth + 1, found)?;
+            subdivide(super::parts::collect_single(kept), most, depth + 1, found)?;
         }
     }
     Ok(())
@@ -144,11 +146,10 @@ fn series(context: &Context<'_>) -> Result<KeyList, String> {
 }
 
 /// Registers the functions with a connection.
-pub(super) fn register(connection: &Connection, state: &Arc<ConnectionState>) -> rusqlite::Result<()> {
-    type Parts = fn(&Geometry) -> Vec<Geometry>;
-    let flags = FunctionFlags::SQLITE_UTF8 | FunctionFlags::SQLITE_DETERMINISTIC;
-    let functions: [(&str, &str, Parts); 4] = [
-        ("ST_Dump", "burgeon_dump", |geometry| parts(geometry, |single, found| found.push(single.clone()))),
+pub(super) fn register(functions: &FunctionRegistrar<'_>) -> rusqlite::Result<()> {
+    type Parts = fn(Geometry) -> Vec<Geometry>;
+    let dumps: [(&str, &str, Parts); 4] = [
+        ("ST_Dump", "burgeon_dump", |geometry| parts(geometry, |single, found| found.push(single))),
         ("ST_DumpPoints", "burgeon_dump_points", |geometry| {
             parts(geometry, |single, found| {
                 found.extend(lines(single).into_iter().flatten().map(Geometry::point));
@@ -157,7 +158,7 @@ pub(super) fn register(connection: &Connection, state: &Arc<ConnectionState>) ->
         ("ST_DumpRings", "burgeon_dump_rings", |geometry| {
             parts(geometry, |single, found| {
                 if let Geometry::Polygon(rings) = single {
-                    found.extend(rings.iter().map(|ring| Geometry::Polygon(Rings(vec![ring.clone()]))));
+                    found.extend(rings.0.into_iter().map(|ring| Geometry::Polygon(Rings(vec![ring]))));
                 }
             })
         }),
@@ -169,16 +170,14 @@ pub(super) fn register(connection: &Connection, state: &Arc<ConnectionState>) ->
             })
         }),
     ];
-    for (name, own, run) in functions {
-        let state = Arc::clone(state);
-        connection.create_scalar_function(own, 1, flags, move |context| {
-            run_list(context, &state, name, |geometry, _| Ok(run(&geometry.geometry)))
+    for (name, own, run) in dumps {
+        functions.register(own, 1, move |context, state| {
+            run_list(context, state, name, |geometry, _| Ok(run(geometry)))
         })?;
     }
     for count in 1..=2 {
-        let state = Arc::clone(state);
-        connection.create_scalar_function("burgeon_subdivide", count, flags, move |context| {
-            run_list(context, &state, "ST_Subdivide", |geometry, context| {
+        functions.register("burgeon_subdivide", count, |context, state| {
+            run_list(context, state, "ST_Subdivide", |geometry, context| {
                 let most = if context.len() > 1 { number(context, 1)? } else { 256.0 };
                 if most < 5.0 {
                     return Err(format!("a part has at least 5 points, not {most}"));
@@ -189,13 +188,13 @@ pub(super) fn register(connection: &Connection, state: &Arc<ConnectionState>) ->
                     clippy::cast_sign_loss,
                     reason = "it is positive, and saturates"
                 )]
-                subdivide(&geometry.geometry, most as usize, 0, &mut found)?;
+                subdivide(geometry, most as usize, 0, &mut found)?;
                 Ok(found)
             })
         })?;
     }
     for count in 2..=3 {
-        connection.create_scalar_function("burgeon_series", count, flags, |context| {
+        functions.register("burgeon_series", count, |context, _| {
             series(context)
                 .map_err(|why| rusqlite::Error::UserFunctionError(format!("generate_series: {why}").into()))
         })?;

@@ -172,8 +172,8 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         "A geometry of a collection; numbers count from 1.",
         |call| {
             let number = nth(call, 1)?.and_then(|number| number.checked_sub(1));
-            let found =
-                number.and_then(|number| members(&call.geometry(0).ok()?.geometry).into_iter().nth(number));
+            let found = number
+                .and_then(|number| members(call.geometry(0).ok()?.geometry.clone()).into_iter().nth(number));
             Ok(found.map_or(FunctionResult::Nothing, FunctionResult::Geometry))
         },
     ),

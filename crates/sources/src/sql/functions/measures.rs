@@ -4,7 +4,7 @@ use burgeon_spatial::{Geometry, Rings};
 use glam::DVec3;
 
 use super::call::{FunctionCall, FunctionResult};
-use super::parts::{members, place};
+use super::parts::{count_members, place};
 use super::spatial_function::{ONE, SpatialFunction, function};
 
 /// Returns one of the four bounds.
@@ -86,7 +86,7 @@ pub(super) const MEASURES: &[SpatialFunction] = &[
                 Geometry::MultiPoint(_)
                 | Geometry::MultiLine(_)
                 | Geometry::MultiPolygon(_)
-                | Geometry::Collection(_) => members(geometry).len(),
+                | Geometry::Collection(_) => count_members(geometry),
                 single => usize::from(!single.is_empty()),
             }))
         },

@@ -14,13 +14,24 @@ pub(super) fn place(call: &FunctionCall<'_>, index: usize) -> Result<Option<DVec
 }
 
 /// Returns the members of a geometry, or the geometry itself if it is a single one.
-pub(super) fn members(geometry: &Geometry) -> Vec<Geometry> {
+pub(super) fn members(geometry: Geometry) -> Vec<Geometry> {
     match geometry {
-        Geometry::MultiPoint(points) => points.iter().map(|at| Geometry::point(*at)).collect(),
-        Geometry::MultiLine(lines) => lines.iter().cloned().map(Geometry::Line).collect(),
-        Geometry::MultiPolygon(polygons) => polygons.iter().cloned().map(Geometry::Polygon).collect(),
-        Geometry::Collection(members) => members.clone(),
-        single => vec![single.clone()],
+        Geometry::MultiPoint(points) => points.into_iter().map(Geometry::point).collect(),
+        Geometry::MultiLine(lines) => lines.into_iter().map(Geometry::Line).collect(),
+        Geometry::MultiPolygon(polygons) => polygons.into_iter().map(Geometry::Polygon).collect(),
+        Geometry::Collection(members) => members,
+        single => vec![single],
+    }
+}
+
+/// Returns the number of members of a geometry; 1 for a single geometry.
+pub(super) fn count_members(geometry: &Geometry) -> usize {
+    match geometry {
+        Geometry::MultiPoint(points) => points.len(),
+        Geometry::MultiLine(lines) => lines.len(),
+        Geometry::MultiPolygon(polygons) => polygons.len(),
+        Geometry::Collection(members) => members.len(),
+        _ => 1,
     }
 }
 

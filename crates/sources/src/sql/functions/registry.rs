@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use rusqlite::Connection;
-use rusqlite::functions::FunctionFlags;
+use rusqlite::functions::{Context, FunctionFlags, SqlFnOutput};
 
 use super::spatial_function::SpatialFunction;
 use super::state::ConnectionState;
@@ -125,27 +125,45 @@ pub(crate) fn names() -> impl Iterator<Item = &'static str> {
     all.chain(own).chain(lists::NAMES.iter().map(|(name, _)| *name)).chain(["ST_ClusterDBSCAN"])
 }
 
+/// A connection to which functions are added, and the state that they share.
+pub(super) struct FunctionRegistrar<'a> {
+    connection: &'a Connection,
+    state: &'a Arc<ConnectionState>,
+}
+
+impl FunctionRegistrar<'_> {
+    /// Registers a deterministic function of `count` arguments, or of any number if `count` is -1.
+    pub(super) fn register<T: SqlFnOutput>(
+        &self,
+        name: &str,
+        count: i32,
+        run: impl Fn(&Context<'_>, &ConnectionState) -> rusqlite::Result<T> + Send + 'static,
+    ) -> rusqlite::Result<()> {
+        let flags = FunctionFlags::SQLITE_UTF8 | FunctionFlags::SQLITE_DETERMINISTIC;
+        let state = Arc::clone(self.state);
+        self.connection.create_scalar_function(name, count, flags, move |context| run(context, &state))
+    }
+}
+
 /// Registers all functions with a connection.
 pub(crate) fn register(connection: &Connection, state: &Arc<ConnectionState>) -> rusqlite::Result<()> {
-    let flags = FunctionFlags::SQLITE_UTF8 | FunctionFlags::SQLITE_DETERMINISTIC;
+    let registrar = FunctionRegistrar { connection, state };
     for function in FUNCTIONS {
         for count in function.least..=function.most {
-            let state = Arc::clone(state);
-            let run = move |context: &rusqlite::functions::Context<'_>| {
-                spatial_function::run(function, context, &state)
-            };
-            connection.create_scalar_function(function.name, i32::from(count), flags, run)?;
+            registrar.register(function.name, i32::from(count), |context, state| {
+                spatial_function::run(function, context, state)
+            })?;
         }
     }
-    index_functions::register(connection, state)?;
+    index_functions::register(&registrar)?;
     aggregates::register(connection, state)?;
     groups::register(connection, state)?;
-    lists::register(connection, state)?;
+    lists::register(&registrar)?;
     numbers::register(connection)?;
     operators::register(connection)?;
     texts::register(connection)?;
     for (name, greater) in [("greatest", true), ("least", false)] {
-        connection.create_scalar_function(name, -1, flags, move |context| call::extreme(context, greater))?;
+        registrar.register(name, -1, move |context, _| call::extreme(context, greater))?;
     }
     Ok(())
 }

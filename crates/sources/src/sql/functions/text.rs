@@ -6,7 +6,7 @@ use burgeon_spatial::{Geometry, Rings};
 use glam::DVec3;
 
 use super::decimals::coordinate_text;
-use super::parts::members;
+use super::parts::count_members;
 
 /// The format of the parts of geometries.
 struct Form {
@@ -44,7 +44,7 @@ fn write_text(geometry: &Geometry, form: &Form, text: &mut String) {
     if form.heights {
         text.push_str(" Z ");
     }
-    if geometry.is_empty() && members(geometry).is_empty() || is_void(geometry) {
+    if geometry.is_empty() && count_members(geometry) == 0 || is_void(geometry) {
         text.push_str(if form.heights { "EMPTY" } else { " EMPTY" });
         return;
     }

@@ -203,7 +203,7 @@ impl ServerAddress {
             _ => {
                 let is_name = name.chars().all(|letter| letter.is_ascii_lowercase() || letter == '_');
                 // Any other name may be a part of a password.
-                let name = if is_name { shown(name).into_owned() } else { "that is no name".to_owned() };
+                let name = if is_name { shown(name) } else { "that is no name".into() };
                 return Err(Error::not_found(
                     "option",
                     &name,

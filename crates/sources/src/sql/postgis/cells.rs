@@ -138,11 +138,11 @@ impl<'a> FromSql<'a> for ServerCell {
                 text(raw)
             }
             _ => {
-                let name = match kind.kind() {
-                    Kind::Array(of) => format!("{}[]", of.name()),
-                    _ => kind.name().to_owned(),
+                let (name, list) = match kind.kind() {
+                    Kind::Array(of) => (of.name(), "[]"),
+                    _ => (kind.name(), ""),
                 };
-                return Err(format!("is of type {name}; make it text: ...::text").into());
+                return Err(format!("is of type {name}{list}; make it text: ...::text").into());
             }
         }))
     }
@@ -175,8 +175,7 @@ fn numeric(raw: &[u8]) -> Option<f64> {
 
 fn uuid(raw: &[u8]) -> String {
     let hex: String = raw.iter().map(|byte| format!("{byte:02x}")).collect();
-    let parts =
-        [0..8, 8..12, 12..16, 16..20, 20..32].map(|range| hex.get(range).unwrap_or_default().to_owned());
+    let parts = [0..8, 8..12, 12..16, 16..20, 20..32].map(|range| hex.get(range).unwrap_or_default());
     parts.join("-")
 }
 

@@ -46,13 +46,10 @@ impl Encryption {
     /// Creates the encryption that an address specifies. Fails if the certificates of authorities cannot be read.
     pub(super) fn new(address: &ServerAddress) -> Result<Self> {
         let provider = Arc::new(ring::default_provider());
-        let verifier: Arc<dyn ServerCertVerifier> = match address.encryption {
-            EncryptionMode::Disable | EncryptionMode::Prefer | EncryptionMode::Require => {
-                Arc::new(ServerVerifier { provider: Arc::clone(&provider), chain: None })
-            }
+        let chain = match address.encryption {
+            EncryptionMode::Disable | EncryptionMode::Prefer | EncryptionMode::Require => None,
             EncryptionMode::VerifyCa | EncryptionMode::VerifyFull => {
                 let (roots, known) = authorities(address.authorities.as_deref())?;
-                let provider = Arc::clone(&provider);
                 let chain =
                     WebPkiServerVerifier::builder_with_provider(Arc::new(roots), Arc::clone(&provider))
                         .build();
@@ -61,9 +58,10 @@ impl Encryption {
                         .help("name a file of certificates in PEM: sslrootcert=FILE")
                 })?;
                 let names = address.encryption == EncryptionMode::VerifyFull;
-                Arc::new(ServerVerifier { provider, chain: Some(ChainVerifier { chain, known, names }) })
+                Some(ChainVerifier { chain, known, names })
             }
         };
+        let verifier = Arc::new(ServerVerifier { provider: Arc::clone(&provider), chain });
         let versions = ClientConfig::builder_with_provider(provider).with_safe_default_protocol_versions();
         let config = versions
             .map_err(|error| Error::internal(format!("TLS: {error}")))?

@@ -1,13 +1,14 @@
 //! Errors of unreachable servers, and of statements that a server refuses.
 
+use std::borrow::Cow;
 use std::time::Duration;
 
 use tokio_postgres::error::{ErrorPosition, SqlState};
 
 use super::ServerAddress;
+use crate::sql::errors::place;
 use crate::sql::functions;
 use crate::sql::rewrite::{Catalogue, find_word};
-use crate::sql::statement_text::describe_position;
 use burgeon_base::error::{Error, Limit};
 use burgeon_base::text::{listed, shown};
 
@@ -75,40 +76,36 @@ pub(super) fn server_error(
         Some(ErrorPosition::Original(position)) => {
             let begin = usize::try_from(*position).unwrap_or(0).saturating_sub(1);
             let rest: String = asked.chars().skip(begin).collect();
-            rest.split(|letter: char| !(letter.is_alphanumeric() || letter == '_'))
-                .next()
-                .unwrap_or("")
-                .to_owned()
+            rest.chars().take_while(|letter| letter.is_alphanumeric() || *letter == '_').collect()
         }
         _ => String::new(),
     };
-    let place = |name: &str| {
-        let found = find_word(sql, name).filter(|_| !name.is_empty());
-        found
-            .map_or_else(|| "SQL: ".to_owned(), |offset| format!("SQL, {}: ", describe_position(sql, offset)))
+    let place = |name: &str| match name.is_empty() {
+        true => Cow::Borrowed("SQL: "),
+        false => place(sql, None, name),
     };
-    let quoted = || message.split('"').nth(1).map(str::to_owned);
+    let quoted = || message.split('"').nth(1);
     let code = told.code();
     if *code == SqlState::UNDEFINED_TABLE {
-        let name = quoted().unwrap_or(word);
+        let name = quoted().unwrap_or(&word);
         let known: Vec<&str> =
             catalogue.values().filter(|table| !table.is_alias).map(|table| table.name.as_str()).collect();
-        let what = format!("{}no table called {}", place(&name), shown(&name));
-        return Error::not_found("table", &name, known.iter().copied(), what)
+        let what = format!("{}no table called {}", place(name), shown(name));
+        return Error::not_found("table", name, known.iter().copied(), what)
             .help(format!("the database has {}", listed(known.iter().copied())));
     }
     if *code == SqlState::UNDEFINED_COLUMN {
-        let name = quoted().unwrap_or(word);
+        let name = quoted().unwrap_or(&word);
         let used = catalogue.values().filter(|table| find_word(sql, &table.name).is_some());
         let known: Vec<&str> = used.flat_map(|table| table.columns.iter().map(String::as_str)).collect();
-        let what = format!("{}no column called {}", place(&name), shown(&name));
-        return Error::not_found("column", &name, known.iter().copied(), what)
+        let what = format!("{}no column called {}", place(name), shown(name));
+        return Error::not_found("column", name, known.iter().copied(), what)
             .help(format!("there are {}; texts stand in single quotes", listed(known.iter().copied())));
     }
     if *code == SqlState::UNDEFINED_FUNCTION && message.starts_with("function ") {
-        let name = message["function ".len()..].split('(').next().unwrap_or_default().to_owned();
-        let what = format!("{}{}", place(&name), shown(message));
-        return Error::not_found("function", &name, functions::names(), what)
+        let name = message["function ".len()..].split('(').next().unwrap_or_default();
+        let what = format!("{}{}", place(name), shown(message));
+        return Error::not_found("function", name, functions::names(), what)
             .help("check what it is given; PostGIS tells numbers from whole numbers and texts");
     }
     let what = format!("{}{}", place(&word), shown(message));
@@ -121,8 +118,6 @@ pub(super) fn server_error(
     }
     match *code == SqlState::SYNTAX_ERROR {
         true => Error::syntax(what).help("write SQL as PostgreSQL takes it: SELECT ... FROM ... WHERE ..."),
-        false => Error::argument(what).help(
-            told.hint().map_or_else(|| "check the statement".to_owned(), |hint| shown(hint).into_owned()),
-        ),
+        false => Error::argument(what).help(told.hint().map_or("check the statement".into(), shown)),
     }
 }

@@ -1,5 +1,6 @@
 //! Layers of a server.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
@@ -27,17 +28,10 @@ impl Server {
     pub fn listing(&self, budget: &Arc<Budget>) -> Result<Listing> {
         let before = budget.used_bytes();
         let tables = self.server_tables(budget)?.catalogue.values();
-        let names: Vec<&String> = tables
-            .filter(|table| !table.geometries.is_empty() && !table.is_alias)
-            .map(|table| &table.name)
-            .collect();
         let mut layers = Vec::new();
-        for name in names {
-            let wanted = SourceOptions {
-                layer: Some(name.clone()),
-                budget: Arc::clone(budget),
-                ..SourceOptions::default()
-            };
+        let mut wanted = SourceOptions { budget: Arc::clone(budget), ..SourceOptions::default() };
+        for table in tables.filter(|table| !table.geometries.is_empty() && !table.is_alias) {
+            wanted.layer = Some(table.name.clone());
             layers.push(LayerListing::of(self.table(&wanted)?)?);
             budget.settle(before, 0);
         }
@@ -73,12 +67,20 @@ impl Server {
         let geometry = &table.geometries[0];
         let quoted = |name: &str| format!("\"{}\"", name.replace('"', "\"\""));
         let key = table.key.as_deref();
-        let own: Vec<&String> =
-            table.columns.iter().filter(|name| *name != geometry && Some(name.as_str()) != key).collect();
-        let mut sql =
-            format!("SELECT {}, {}", key.map_or_else(|| "NULL".to_owned(), quoted), quoted(geometry));
+        let own: Vec<String> = table
+            .columns
+            .iter()
+            .filter(|name| *name != geometry && Some(name.as_str()) != key)
+            .cloned()
+            .collect();
+        let mut sql = format!(
+            "SELECT {}, {}",
+            key.map_or(Cow::Borrowed("NULL"), |key| quoted(key).into()),
+            quoted(geometry)
+        );
+        let foreign = known.foreign.get(&layer.to_ascii_lowercase());
         for name in &own {
-            let foreign = known.foreign.contains(&(layer.to_ascii_lowercase(), (*name).clone()));
+            let foreign = foreign.is_some_and(|columns| columns.contains(name));
             sql += &format!(", {}{}", quoted(name), if foreign { "::text" } else { "" });
         }
         let place = match &table.place {
@@ -120,8 +122,7 @@ impl Server {
                 .help("name its EPSG code: source(address, { crs = 3067 })")),
             srid => Crs::epsg(srid),
         };
-        let names = own.iter().map(|name| (*name).clone()).collect();
-        let features = features(&answer, FeatureTable::of_layer(layer, &label, crs, names, wanted), wanted)?;
+        let features = features(&answer, FeatureTable::of_layer(layer, &label, crs, own, wanted), wanted)?;
         let ordered = key.map_or_else(String::new, |key| format!(" ORDER BY {}", quoted(key)));
         let part = limited.map_or_else(String::new, |limit| format!("{ordered} LIMIT {limit}"));
         let all = wanted.condition.is_none() && limited.is_none();

@@ -117,10 +117,10 @@ impl Server {
         };
         let chosen = self.chosen_rows(sql)?;
         let rewritten = rewrite::rewrite(sql, &known.catalogue, &chosen, Dialect::Postgis)?;
-        let (asked, ordered) = rewritten.map_or((sql.to_owned(), false), |it| (it.sql, it.ordered));
+        let (asked, ordered) = rewritten.as_ref().map_or((sql, false), |it| (&*it.sql, it.ordered));
         let given = |name: &str| errors::parameter(sql, Some(&format!("${name}")), parameters).cloned();
         let ServerAnswer { rows: mut answer, faults } =
-            self.run_statement(&asked, srid, &given, &place, budget).map_err(|failure| {
+            self.run_statement(asked, srid, &given, &place, budget).map_err(|failure| {
                 budget.check().err().unwrap_or_else(|| match failure {
                     ServerFailure::Told(error) => error,
                     ServerFailure::Server(error, asked) => {

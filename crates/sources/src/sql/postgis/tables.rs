@@ -39,13 +39,13 @@ pub(super) struct ServerTables {
     /// Reference system of each table.
     pub(super) systems: BTreeMap<String, u32>,
     /// Tables and columns whose values must be cast to text.
-    pub(super) foreign: BTreeSet<(String, String)>,
+    pub(super) foreign: BTreeMap<String, BTreeSet<String>>,
 }
 
 impl ServerTables {
     pub(super) fn read(rows: &QueryRows<Cell>) -> Self {
         let mut tables =
-            Self { catalogue: Catalogue::new(), systems: BTreeMap::new(), foreign: BTreeSet::new() };
+            Self { catalogue: Catalogue::new(), systems: BTreeMap::new(), foreign: BTreeMap::new() };
         for row in rows.iter() {
             if let [_, Cell::Text(schema), Cell::Text(table), visible, ..] = row {
                 let qualified = format!("{schema}.{table}");
@@ -77,7 +77,7 @@ impl ServerTables {
         if &**kind == "geometry" {
             info.geometries.push(column.to_string());
         } else if *is_enum != Cell::Boolean(true) && !COME_AS_THEY_ARE.contains(&&**kind) {
-            self.foreign.insert((name.clone(), column.to_string()));
+            self.foreign.entry(name.clone()).or_default().insert(column.to_string());
         }
         if *key == Cell::Boolean(true) {
             info.key = Some(column.to_string());

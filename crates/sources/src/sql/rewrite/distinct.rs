@@ -1,5 +1,7 @@
 //! `DISTINCT ON`, which SQLite lacks, as the first row of each window.
 
+use std::borrow::Cow;
+
 use sqlparser::ast::{
     Distinct, Expr, Ident, OrderBy, OrderByExpr, OrderByKind, Query, SelectItem,
     SelectItemQualifiedWildcardKind, SetExpr, Value,
@@ -28,48 +30,58 @@ pub(super) fn rewrite(query: &mut Query, tables: &Catalogue) -> Result<()> {
     })
 }
 
-fn window_query(query: &Query, tables: &Catalogue) -> Option<Query> {
-    let SetExpr::Select(select) = &*query.body else { return None };
-    let Some(Distinct::On(keys)) = &select.distinct else { return None };
+/// A column of the result, with its name and its expression.
+type ResultColumn<'a> = (Cow<'a, str>, Expr);
+
+/// Returns the column that an expression of an order or a key means by its name or its number, or the expression
+/// itself.
+fn meant<'a>(expression: &'a Expr, columns: &'a [ResultColumn<'_>]) -> Option<&'a Expr> {
+    match expression {
+        Expr::Value(value) => match &value.value {
+            Value::Number(number, _) => {
+                let index = number.parse::<usize>().ok()?.checked_sub(1)?;
+                columns.get(index).map(|(_, expression)| expression)
+            }
+            _ => Some(expression),
+        },
+        Expr::Identifier(name) => {
+            let named = columns.iter().find(|(known, _)| known.eq_ignore_ascii_case(&name.value));
+            Some(named.map_or(expression, |(_, expression)| expression))
+        }
+        other => Some(other),
+    }
+}
+
+/// Returns the query of windows that replaces `query`, whose parts it takes.
+fn window_query(query: &mut Query, tables: &Catalogue) -> Option<Query> {
+    let SetExpr::Select(select) = &mut *query.body else { return None };
+    let Some(Distinct::On(keys)) = select.distinct.take() else { return None };
     let relations = relations(select, tables);
-    let mut columns: Vec<(String, Expr)> = Vec::new();
-    for item in &select.projection {
+    let mut columns: Vec<ResultColumn<'_>> = Vec::new();
+    for item in std::mem::take(&mut select.projection) {
         match item {
             SelectItem::UnnamedExpr(expression) => {
-                columns.push((column_name(expression), expression.clone()))
+                columns.push((column_name(&expression).into(), expression))
             }
-            SelectItem::ExprWithAlias { expr, alias } => columns.push((alias.value.clone(), expr.clone())),
+            SelectItem::ExprWithAlias { expr, alias } => columns.push((alias.value.into(), expr)),
             SelectItem::Wildcard(_) => columns.extend(all(&relations, None)?),
             SelectItem::QualifiedWildcard(SelectItemQualifiedWildcardKind::ObjectName(name), _) => {
-                let owner = name.0.last()?.as_ident()?.value.clone();
-                columns.extend(all(&relations, Some(&owner))?);
+                columns.extend(all(&relations, Some(&name.0.last()?.as_ident()?.value))?);
             }
             _ => return None,
         }
     }
-    // An order or a key may refer to a column by its name or its number.
-    let meant = |expression: &Expr| match expression {
-        Expr::Value(value) => match &value.value {
-            Value::Number(number, _) => {
-                let index = number.parse::<usize>().ok()?.checked_sub(1)?;
-                columns.get(index).map(|(_, expression)| expression.clone())
-            }
-            _ => Some(expression.clone()),
-        },
-        Expr::Identifier(name) => {
-            let named = columns.iter().find(|(known, _)| known.eq_ignore_ascii_case(&name.value));
-            Some(named.map_or_else(|| expression.clone(), |(_, expression)| expression.clone()))
-        }
-        other => Some(other.clone()),
-    };
-    let given: Vec<OrderByExpr> = match query.order_by.as_ref().map(|order| &order.kind) {
-        Some(OrderByKind::Expressions(keys)) => keys.clone(),
+    let is_ordered = query.order_by.is_some();
+    let mut order: Vec<OrderByExpr> = match query.order_by.take().map(|order| order.kind) {
+        Some(OrderByKind::Expressions(keys)) => keys,
         Some(OrderByKind::All(_)) => return None,
         None => Vec::new(),
     };
-    let mut order = Vec::new();
-    for key in &given {
-        order.push(OrderByExpr { expr: meant(&key.expr)?, ..key.clone() });
+    for key in &mut order {
+        let column = meant(&key.expr, &columns)?;
+        if !std::ptr::eq(column, &raw const key.expr) {
+            key.expr = column.clone();
+        }
     }
     // As in PostgreSQL, null is greater than all other values.
     for key in order.iter_mut().filter(|key| key.options.nulls_first.is_none()) {
@@ -81,28 +93,12 @@ fn window_query(query: &Query, tables: &Catalogue) -> Option<Query> {
         Some(format!("{}.{}", quote_name(&alias.value), quote_name(key)))
     });
     let ordered: Vec<String> = order.iter().map(ToString::to_string).chain(ties).collect();
-    let parts: Option<Vec<String>> = keys.iter().map(|key| Some(meant(key)?.to_string())).collect();
+    let parts: Option<Vec<String>> = keys.iter().map(|key| Some(meant(key, &columns)?.to_string())).collect();
     let parts = parts?;
     let over = match ordered.is_empty() {
         true => format!("PARTITION BY {}", parts.join(", ")),
         false => format!("PARTITION BY {} ORDER BY {}", parts.join(", "), ordered.join(", ")),
     };
-    let mut inner = select.clone();
-    inner.distinct = None;
-    inner.projection = Vec::new();
-    let mut add = |expression: Expr, alias: String| {
-        inner.projection.push(SelectItem::ExprWithAlias { expr: expression, alias: Ident::new(alias) });
-    };
-    for (index, (_, expression)) in columns.iter().enumerate() {
-        add(expression.clone(), format!("burgeon_c{}", index + 1));
-    }
-    for (index, key) in order.iter().enumerate() {
-        add(key.expr.clone(), format!("burgeon_k{}", index + 1));
-    }
-    for (index, part) in parts.iter().enumerate() {
-        add(parse::expression(part)?, format!("burgeon_p{}", index + 1));
-    }
-    add(parse::expression(&format!("row_number() OVER ({over})"))?, "burgeon_row".into());
     let outer: Vec<String> = columns
         .iter()
         .enumerate()
@@ -117,23 +113,36 @@ fn window_query(query: &Query, tables: &Catalogue) -> Option<Query> {
             .map(|(index, key)| format!("burgeon_k{}{}", index + 1, key.options))
             .collect(),
     };
+    let mut add = |expression: Expr, alias: String| {
+        select.projection.push(SelectItem::ExprWithAlias { expr: expression, alias: Ident::new(alias) });
+    };
+    for (index, (_, expression)) in columns.into_iter().enumerate() {
+        add(expression, format!("burgeon_c{}", index + 1));
+    }
+    for (index, key) in order.into_iter().enumerate() {
+        add(key.expr, format!("burgeon_k{}", index + 1));
+    }
+    for (index, part) in parts.iter().enumerate() {
+        add(parse::expression(part)?, format!("burgeon_p{}", index + 1));
+    }
+    add(parse::expression(&format!("row_number() OVER ({over})"))?, "burgeon_row".into());
     let text = format!(
-        "SELECT {} FROM ({inner}) AS burgeon_first WHERE burgeon_row = 1 ORDER BY {}",
+        "SELECT {} FROM ({select}) AS burgeon_first WHERE burgeon_row = 1 ORDER BY {}",
         outer.join(", "),
         sorted.join(", ")
     );
     let mut made = *parse::parse(&text).ok()?.query;
-    made.with.clone_from(&query.with);
-    made.limit_clause.clone_from(&query.limit_clause);
-    made.fetch.clone_from(&query.fetch);
-    if query.limit_clause.is_none() && query.order_by.is_none() {
+    made.with = query.with.take();
+    made.limit_clause = query.limit_clause.take();
+    made.fetch = query.fetch.take();
+    if made.limit_clause.is_none() && !is_ordered {
         made.order_by = None::<OrderBy>;
     }
     Some(made)
 }
 
 /// Returns the columns of all relations, or of one.
-fn all(relations: &[FromItem<'_>], owner: Option<&str>) -> Option<Vec<(String, Expr)>> {
+fn all<'a>(relations: &[FromItem<'a>], owner: Option<&str>) -> Option<Vec<ResultColumn<'a>>> {
     let mut columns = Vec::new();
     for relation in relations {
         let alias = &relation.alias.as_ref()?.value;
@@ -142,7 +151,7 @@ fn all(relations: &[FromItem<'_>], owner: Option<&str>) -> Option<Vec<(String, E
         }
         for name in &relation.table?.columns {
             let expression = parse::expression(&format!("{}.{}", quote_name(alias), quote_name(name)))?;
-            columns.push((name.clone(), expression));
+            columns.push((Cow::Borrowed(name.as_str()), expression));
         }
     }
     Some(columns)

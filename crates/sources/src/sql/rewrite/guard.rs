@@ -1,15 +1,16 @@
 //! The names that a statement may use on a server: known tables, and functions of a list.
 
+use std::borrow::Cow;
 use std::ops::ControlFlow;
 
 use sqlparser::ast::{Expr, FunctionArguments, ObjectName, Query, TableFactor};
 
 use super::Catalogue;
-use super::parse::{find_word, parse, with_stack};
+use super::parse::{parse, with_stack};
 use super::scope::declared_names;
 use super::walk::{StatementPart, walk};
+use crate::sql::errors::place;
 use crate::sql::functions;
-use crate::sql::statement_text::describe_position;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
 
@@ -96,12 +97,8 @@ struct Guard<'a> {
 }
 
 impl Guard<'_> {
-    fn place(&self, name: &str) -> String {
-        let found = find_word(self.sql, name);
-        found.map_or_else(
-            || "SQL: ".to_owned(),
-            |offset| format!("SQL, {}: ", describe_position(self.sql, offset)),
-        )
+    fn place(&self, name: &str) -> Cow<'static, str> {
+        place(self.sql, None, name)
     }
 
     fn never_the_same(&self, word: &str) -> Result<()> {

@@ -5,13 +5,13 @@
 //! - Rows of one table are joined by key: `b.fid IN (SELECT ... ORDER BY ... LIMIT 3)`.
 
 use sqlparser::ast::{
-    Expr, JoinOperator, OrderByKind, Query, Select, SelectItem, SetExpr, TableFactor, TableWithJoins, Value,
+    Expr, Ident, JoinOperator, OrderByKind, Query, SelectItem, SetExpr, TableFactor, TableWithJoins, Value,
 };
 
 use super::Catalogue;
 use super::parse;
 use super::scope::{condition_mut, relations};
-use super::substitute::{Substitution, each_query, select_of, substitute};
+use super::substitute::{Substitution, each_query, select_of, set_alias, substitute};
 use super::typing::column_name;
 use super::{order, walk};
 use crate::sql::statement_text::quote_name;
@@ -38,7 +38,7 @@ pub(super) fn flatten(query: &mut Query, tables: &Catalogue) -> Result<()> {
         for mut item in std::mem::take(&mut select.from) {
             let joins = std::mem::take(&mut item.joins);
             // A comma is equivalent to CROSS JOIN.
-            match flat_form(&item.relation, tables, &known)? {
+            match flat_form(&mut item.relation, tables, &known)? {
                 Some(LateralForm { substitutions: more, join }) => {
                     substitutions.extend(more);
                     if let Some((relation, condition)) = join {
@@ -50,7 +50,7 @@ pub(super) fn flatten(query: &mut Query, tables: &Catalogue) -> Result<()> {
             }
             for mut join in joins {
                 let Some(LateralForm { substitutions: more, join: other }) =
-                    flat_form(&join.relation, tables, &known)?
+                    flat_form(&mut join.relation, tables, &known)?
                 else {
                     match kept.last_mut() {
                         Some(last) => last.joins.push(join),
@@ -63,11 +63,7 @@ pub(super) fn flatten(query: &mut Query, tables: &Catalogue) -> Result<()> {
                     Some((relation, condition)) => {
                         join.relation = relation;
                         match condition_mut(&mut join.join_operator) {
-                            Some(on) => {
-                                let mut old = Some(std::mem::replace(on, condition.clone()));
-                                and(&mut old, condition);
-                                *on = old.unwrap_or_else(|| on.clone());
-                            }
+                            Some(on) => *on = both(take(on), condition),
                             None => and(&mut select.selection, condition),
                         }
                         match kept.last_mut() {
@@ -86,7 +82,7 @@ pub(super) fn flatten(query: &mut Query, tables: &Catalogue) -> Result<()> {
                             if outer {
                                 return Err(unsupported_lateral("with a condition other than true"));
                             }
-                            and(&mut select.selection, on.clone());
+                            and(&mut select.selection, take(on));
                         }
                     }
                 }
@@ -118,9 +114,14 @@ fn unsupported_lateral(what: &str) -> Error {
 /// Keeps the name of a column whose expression changes.
 fn name(item: &mut SelectItem) {
     if let SelectItem::UnnamedExpr(expression) = item {
-        let alias = sqlparser::ast::Ident::with_quote('"', column_name(expression));
-        *item = SelectItem::ExprWithAlias { expr: expression.clone(), alias };
+        let alias = Ident::with_quote('"', column_name(expression));
+        set_alias(item, alias);
     }
+}
+
+/// Takes an expression, and leaves null in its place.
+fn take(expression: &mut Expr) -> Expr {
+    std::mem::replace(expression, Expr::Value(Value::Null.into()))
 }
 
 fn is_true(expression: &Expr) -> bool {
@@ -129,42 +130,50 @@ fn is_true(expression: &Expr) -> bool {
 
 fn and(place: &mut Option<Expr>, condition: Expr) {
     *place = Some(match place.take() {
-        Some(known) if !is_true(&known) => Expr::BinaryOp {
-            left: Box::new(Expr::Nested(Box::new(known))),
-            op: sqlparser::ast::BinaryOperator::And,
-            right: Box::new(condition),
-        },
-        _ => condition,
+        Some(known) => both(known, condition),
+        None => condition,
     });
 }
 
-fn flat_form(factor: &TableFactor, tables: &Catalogue, known: &[String]) -> Result<Option<LateralForm>> {
+/// Returns the condition that both conditions hold.
+fn both(known: Expr, condition: Expr) -> Expr {
+    if is_true(&known) {
+        return condition;
+    }
+    Expr::BinaryOp {
+        left: Box::new(Expr::Nested(Box::new(known))),
+        op: sqlparser::ast::BinaryOperator::And,
+        right: Box::new(condition),
+    }
+}
+
+/// Returns the replacement of a LATERAL subquery, whose columns it takes. Other relations stay unchanged.
+fn flat_form(factor: &mut TableFactor, tables: &Catalogue, known: &[String]) -> Result<Option<LateralForm>> {
     let TableFactor::Derived { lateral: true, subquery, alias: Some(alias), .. } = factor else {
         return Ok(None);
     };
-    let owner = alias.name.value.clone();
-    let SetExpr::Select(select) = &*subquery.body else {
+    let owner = std::mem::take(&mut alias.name.value);
+    let SetExpr::Select(select) = &mut *subquery.body else {
         return Err(unsupported_lateral("with UNION or VALUES"));
     };
     let plain = subquery.with.is_none() && select.distinct.is_none() && select.having.is_none();
+    let aggregates = order::aggregates(select);
     let mut columns: Vec<(String, Expr)> = Vec::new();
     let mut starred = false;
-    for item in &select.projection {
+    for item in std::mem::take(&mut select.projection) {
         match item {
-            SelectItem::UnnamedExpr(expression) => {
-                columns.push((column_name(expression), expression.clone()))
-            }
-            SelectItem::ExprWithAlias { expr, alias } => columns.push((alias.value.clone(), expr.clone())),
+            SelectItem::UnnamedExpr(expression) => columns.push((column_name(&expression), expression)),
+            SelectItem::ExprWithAlias { expr, alias } => columns.push((alias.value, expr)),
             _ => starred = true,
         }
     }
-    for (column, renamed) in columns.iter_mut().zip(&alias.columns) {
-        column.0.clone_from(&renamed.name.value);
+    for (column, renamed) in columns.iter_mut().zip(std::mem::take(&mut alias.columns)) {
+        column.0 = renamed.name.value;
     }
     let substitution = |column: String, expression: Expr| Substitution {
         owner: owner.clone(),
         alone: !known.contains(&column.to_ascii_lowercase()),
-        column,
+        column: column.into(),
         expression: Expr::Nested(Box::new(expression)),
     };
     if plain && select.from.is_empty() && select.selection.is_none() && !starred {
@@ -172,7 +181,7 @@ fn flat_form(factor: &TableFactor, tables: &Catalogue, known: &[String]) -> Resu
         return Ok(Some(LateralForm { substitutions, join: None }));
     }
     let grouped = !order::is_ungrouped(&select.group_by);
-    if order::aggregates(select) && !grouped && !starred {
+    if aggregates && !grouped && !starred {
         let scalar = |(name, expression): (String, Expr)| {
             let mut query = subquery.clone();
             if let SetExpr::Select(select) = &mut *query.body {
@@ -185,10 +194,10 @@ fn flat_form(factor: &TableFactor, tables: &Catalogue, known: &[String]) -> Resu
             join: None,
         }));
     }
-    if !plain || grouped || order::aggregates(select) {
+    if !plain || grouped || aggregates {
         return Err(unsupported_lateral("with DISTINCT, GROUP BY or HAVING"));
     }
-    join_form(subquery, select, &owner, tables, columns, starred, substitution).map(Some)
+    join_form(subquery, &owner, tables, columns, starred, substitution).map(Some)
 }
 
 /// Returns the column that an ORDER BY expression refers to by its name or its number.
@@ -207,21 +216,19 @@ fn ordered_column<'c>(key: &Expr, columns: &'c [(String, Expr)]) -> Option<&'c (
 
 /// Creates a join with the rows of one table that a subquery returns.
 fn join_form(
-    subquery: &Query,
-    select: &Select,
+    keys: &mut Query,
     owner: &str,
     tables: &Catalogue,
     columns: Vec<(String, Expr)>,
     starred: bool,
     substitution: impl Fn(String, Expr) -> Substitution,
 ) -> Result<LateralForm> {
-    let inner = relations(select, tables);
+    let inner = select_of(keys).map(|select| relations(select, tables)).unwrap_or_default();
     let [only] = inner.as_slice() else { return Err(unsupported_lateral("with several tables")) };
     let (Some(table), Some(alias)) = (only.table, &only.alias) else {
         return Err(unsupported_lateral("with another subquery"));
     };
     let Some(key) = &table.key else { return Err(unsupported_lateral("with a table without a key")) };
-    let mut keys = subquery.clone();
     if let Some(OrderByKind::Expressions(order)) = keys.order_by.as_mut().map(|order| &mut order.kind) {
         // The columns are removed, so the expressions of the order are written out.
         for key in order {
@@ -239,27 +246,24 @@ fn join_form(
     let parsed = parse::expression(&condition).zip(parse::relation(&relation));
     let Some((condition, relation)) = parsed else { return Err(unsupported_lateral("so deep")) };
     // The alias in the subquery is replaced with the name of the relation.
-    let renamed = |expression: &Expr| {
-        let mut holder = parse::holder(expression.clone());
+    let renamed = |mut expression: Expr| {
         let mut change = |part: &mut Expr| match part {
             Expr::CompoundIdentifier(names)
                 if names.len() == 2 && names[0].value.eq_ignore_ascii_case(&alias.value) =>
             {
-                names[0] = sqlparser::ast::Ident::with_quote('"', owner);
+                names[0] = Ident::with_quote('"', owner);
             }
             Expr::Identifier(name) if table.has(&name.value) => {
-                *part = Expr::CompoundIdentifier(vec![
-                    sqlparser::ast::Ident::with_quote('"', owner),
-                    name.clone(),
-                ]);
+                let column = std::mem::replace(name, Ident::new(""));
+                *part = Expr::CompoundIdentifier(vec![Ident::with_quote('"', owner), column]);
             }
             _ => {}
         };
-        walk::walk_expressions(&mut holder, &mut change);
-        parse::unwrap_holder(holder).unwrap_or_else(|| expression.clone())
+        walk::walk_expressions(&mut expression, &mut change);
+        expression
     };
     let computed = columns.into_iter().filter_map(|(name, expression)| {
-        let made = renamed(&expression);
+        let made = renamed(expression);
         // A column of the table is available under its own name.
         let same = matches!(&made, Expr::CompoundIdentifier(names)
             if names.len() == 2 && names[0].value == owner && names[1].value.eq_ignore_ascii_case(&name));

@@ -46,7 +46,7 @@ fn least_query(query: &Query, tables: &Catalogue) -> Option<Query> {
     // All aggregates must be minimum distances to one relation, and no other expression may refer to it.
     let mut target: Option<usize> = None;
     let mut fits = true;
-    let mut distances: Vec<Expr> = Vec::new();
+
     let mut holder = query.clone();
     let inner = select_of(&mut holder)?;
     let (from, selection) = (std::mem::take(&mut inner.from), inner.selection.take());
@@ -54,10 +54,9 @@ fn least_query(query: &Query, tables: &Catalogue) -> Option<Query> {
         if let Some((name, arguments)) = call(part)
             && name == "min"
             && let [only] = arguments.as_slice()
-            && let Some((relation, distance)) = distance_to(only, &items)
+            && let Some(relation) = distance_to(only, &items)
         {
             fits &= *target.get_or_insert(relation) == relation;
-            distances.push(distance);
             *part = Expr::Value(sqlparser::ast::Value::Null.into());
         }
     });
@@ -72,7 +71,7 @@ fn least_query(query: &Query, tables: &Catalogue) -> Option<Query> {
         }
         _ => ControlFlow::Continue(()),
     });
-    if rest.is_break() || distances.is_empty() {
+    if rest.is_break() {
         return None;
     }
     let nearest = nearest(item, target, &items, &from, selection.as_ref())?;
@@ -111,10 +110,9 @@ fn least_query(query: &Query, tables: &Catalogue) -> Option<Query> {
         if let Some((name, arguments)) = call(part)
             && name == "min"
             && let [only] = arguments.as_slice()
-            && let Some((relation_index, distance)) = distance_to(only, &items)
-            && relation_index == target
+            && distance_to(only, &items) == Some(target)
             && let Some(expression) = parse::expression(&format!(
-                "min((SELECT {distance} FROM {relation}{filter} ORDER BY {distance} LIMIT 1))"
+                "min((SELECT {only} FROM {relation}{filter} ORDER BY {only} LIMIT 1))"
             ))
         {
             *part = expression;
@@ -123,9 +121,8 @@ fn least_query(query: &Query, tables: &Catalogue) -> Option<Query> {
     Some(made)
 }
 
-/// Returns the relation to whose geometry a distance is measured, and the distance. Of two relations, it is the later
-/// one.
-fn distance_to(expression: &Expr, items: &[FromItem<'_>]) -> Option<(usize, Expr)> {
+/// Returns the relation to whose geometry a distance is measured. Of two relations, it is the later one.
+fn distance_to(expression: &Expr, items: &[FromItem<'_>]) -> Option<usize> {
     let (name, arguments) = call(expression)?;
     let [a, b] = arguments.as_slice() else { return None };
     if name != "st_distance" {
@@ -137,8 +134,7 @@ fn distance_to(expression: &Expr, items: &[FromItem<'_>]) -> Option<(usize, Expr
         let others = mentioned_relations(other, items);
         (!others.is_empty() && !others.contains(&relation)).then_some(relation)
     };
-    let relation = side(a, b).into_iter().chain(side(b, a)).max()?;
-    Some((relation, expression.clone()))
+    side(a, b).into_iter().chain(side(b, a)).max()
 }
 
 fn is_other_aggregate(expression: &Expr) -> bool {

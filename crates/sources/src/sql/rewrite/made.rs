@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 
 use rustc_hash::FxBuildHasher;
 use sqlparser::ast::{
-    Expr, Ident, Query, Select, SelectItem, SelectItemQualifiedWildcardKind, SetExpr, TableFactor, With,
+    Expr, Ident, Query, Select, SelectItem, SelectItemQualifiedWildcardKind, SetExpr, TableFactor,
 };
 
 use super::operators::call;
@@ -49,16 +49,16 @@ pub(crate) struct MadeTable {
 
 /// Replaces the names of declared subqueries with the subqueries themselves if they are joined by geometries.
 pub(super) fn inline(query: &mut Query, tables: &Catalogue) {
-    let Some(with) = query.with.clone().filter(|with| !with.recursive) else { return };
+    let Some(with) = query.with.as_ref().filter(|with| !with.recursive) else { return };
     let SetExpr::Select(select) = &mut *query.body else { return };
     let wanted = joined_subqueries(select, tables);
     for factor in factors(select) {
         let TableFactor::Table { name, alias, args: None, .. } = factor else { continue };
         let own = name.to_string();
-        let called = alias.as_ref().map_or_else(|| own.clone(), |alias| alias.name.value.clone());
+        let called = alias.as_ref().map_or(own.as_str(), |alias| alias.name.value.as_str());
         let declared =
             with.cte_tables.iter().position(|table| table.alias.name.value.eq_ignore_ascii_case(&own));
-        let Some(index) = declared.filter(|_| wanted.iter().any(|name| name.eq_ignore_ascii_case(&called)))
+        let Some(index) = declared.filter(|_| wanted.iter().any(|name| name.eq_ignore_ascii_case(called)))
         else {
             continue;
         };
@@ -66,12 +66,9 @@ pub(super) fn inline(query: &mut Query, tables: &Catalogue) {
         if !table.alias.columns.is_empty() || table.query.with.is_some() {
             continue;
         }
-        let mut subquery = table.query.clone();
-        if index > 0 {
-            let before = with.cte_tables[..index].to_vec();
-            subquery.with = Some(With { cte_tables: before, ..with.clone() });
-        }
-        let text = format!("({subquery}) AS {}", quote_name(&called));
+        let before: Vec<String> = with.cte_tables[..index].iter().map(ToString::to_string).collect();
+        let before = if before.is_empty() { String::new() } else { format!("WITH {} ", before.join(", ")) };
+        let text = format!("({before}{}) AS {}", table.query, quote_name(called));
         if let Some(made) = parse::relation(&text) {
             *factor = made;
         }
@@ -86,11 +83,11 @@ pub(super) fn make(select: &mut Select, tables: &mut Catalogue) -> Vec<MadeTable
             TableFactor::Derived { lateral: false, subquery, alias: Some(alias), .. }
                 if alias.name.value.eq_ignore_ascii_case(&called) && alias.columns.is_empty() =>
             {
-                Some(subquery.clone())
+                Some(&**subquery)
             }
             _ => None,
         });
-        let Some(table) = found.and_then(|subquery| table(&subquery, tables)) else { continue };
+        let Some(table) = found.and_then(|subquery| table(subquery, tables)) else { continue };
         // A star must not include the key.
         if !expand_stars(select, tables, &called, &table.info) {
             continue;
@@ -111,7 +108,7 @@ pub(super) fn make(select: &mut Select, tables: &mut Catalogue) -> Vec<MadeTable
 
 /// Returns the names of subqueries whose geometries are compared with those of other subqueries.
 fn joined_subqueries(select: &Select, tables: &Catalogue) -> Vec<String> {
-    let items = relations(select, tables);
+    let mut items = relations(select, tables);
     let unknown = |name: &Ident| {
         items
             .iter()
@@ -156,7 +153,7 @@ fn joined_subqueries(select: &Select, tables: &Catalogue) -> Vec<String> {
     }
     found.sort_unstable();
     found.dedup();
-    found.into_iter().filter_map(|index| Some(items[index].alias.as_ref()?.value.clone())).collect()
+    found.into_iter().filter_map(|index| Some(items[index].alias.take()?.value)).collect()
 }
 
 /// Returns the table of a subquery, if it does not depend on outer columns, and its columns are known.
@@ -176,15 +173,13 @@ fn table(subquery: &Query, tables: &Catalogue) -> Option<MadeTable> {
     }
     let sql = subquery.to_string();
     let name = format!("burgeon_made_{:016x}", FxBuildHasher.hash_one(&sql));
-    let mut all = vec![KEY.to_owned()];
-    all.extend(columns.iter().map(|(name, _)| name.clone()));
-    let mut kinds = vec![SqlType::Integer];
-    kinds.extend(columns.iter().map(|(_, kind)| *kind));
+    let all = std::iter::once((KEY.into(), SqlType::Integer)).chain(columns);
+    let (columns, kinds): (Vec<String>, Vec<SqlType>) = all.unzip();
     let info = TableInfo {
         name,
         key: Some(KEY.into()),
         geometries,
-        columns: all,
+        columns,
         kinds,
         rows: 1000,
         ..TableInfo::default()
@@ -252,28 +247,25 @@ fn expand_stars(select: &mut Select, tables: &Catalogue, called: &str, info: &Ta
         };
         names.iter().map(column).collect()
     };
-    let mut expanded = Vec::new();
+    let mut expanded: Vec<Option<Vec<SelectItem>>> = Vec::new();
     for item in &select.projection {
-        let owners: Option<Vec<String>> = match item {
+        let owners: Option<Vec<&str>> = match item {
             SelectItem::Wildcard(_) => {
-                items.iter().map(|item| Some(item.alias.as_ref()?.value.clone())).collect()
+                items.iter().map(|item| Some(item.alias.as_ref()?.value.as_str())).collect()
             }
             SelectItem::QualifiedWildcard(SelectItemQualifiedWildcardKind::ObjectName(name), _) => {
-                name.0.last().and_then(|part| part.as_ident()).map(|name| vec![name.value.clone()])
+                name.0.last().and_then(|part| part.as_ident()).map(|name| vec![name.value.as_str()])
             }
-            other => {
-                expanded.push(other.clone());
+            _ => {
+                expanded.push(None);
                 continue;
             }
         };
         let Some(owners) = owners else { return false };
-        for owner in owners {
-            match columns(&owner) {
-                Some(columns) => expanded.extend(columns),
-                None => return false,
-            }
-        }
+        let Some(found) = owners.into_iter().map(columns).collect::<Option<Vec<_>>>() else { return false };
+        expanded.push(Some(found.into_iter().flatten().collect()));
     }
-    select.projection = expanded;
+    let items = std::mem::take(&mut select.projection).into_iter().zip(expanded);
+    select.projection = items.flat_map(|(item, columns)| columns.unwrap_or_else(|| vec![item])).collect();
     true
 }

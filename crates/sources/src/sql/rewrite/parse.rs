@@ -1,6 +1,6 @@
 //! Parses statements: in the common grammar of SQLite and PostgreSQL, with the operators of PostGIS.
 
-use sqlparser::ast::{BinaryOperator, Expr, Parens, Query, SetExpr, TableFactor, Values};
+use sqlparser::ast::{BinaryOperator, Expr, Query, SetExpr, TableFactor};
 use sqlparser::dialect::Dialect as Grammar;
 use sqlparser::keywords::Keyword;
 use sqlparser::parser::{Parser, ParserError};
@@ -159,35 +159,6 @@ pub(super) fn relation(text: &str) -> Option<TableFactor> {
     let parsed = parse(&format!("SELECT 1 FROM {text}")).ok()?;
     match *parsed.query.body {
         SetExpr::Select(mut select) => Some(select.from.pop()?.relation),
-        _ => None,
-    }
-}
-
-/// Wraps an expression in a query, so that it can be walked.
-pub(super) fn holder(expression: Expr) -> Query {
-    let values = Values {
-        explicit_row: false,
-        value_keyword: false,
-        rows: vec![Parens::with_empty_span(vec![expression])],
-    };
-    Query {
-        with: None,
-        body: Box::new(SetExpr::Values(values)),
-        order_by: None,
-        limit_clause: None,
-        fetch: None,
-        locks: Vec::new(),
-        for_clause: None,
-        settings: None,
-        format_clause: None,
-        pipe_operators: Vec::new(),
-    }
-}
-
-/// Returns the expression wrapped in a query.
-pub(super) fn unwrap_holder(query: Query) -> Option<Expr> {
-    match *query.body {
-        SetExpr::Values(mut values) => values.rows.pop()?.content.pop(),
         _ => None,
     }
 }

@@ -41,9 +41,9 @@ pub(crate) fn rename_tables(sql: &str, names: &[(&str, Cow<'_, str>)]) -> Result
 
 /// Returns the last part of a name, and the whole name.
 fn name_parts(name: &ObjectName) -> Option<(String, String)> {
-    let parts = name.0.iter().map(|part| Some(part.as_ident()?.value.clone()));
-    let parts: Vec<String> = parts.collect::<Option<_>>()?;
-    Some((parts.last()?.clone(), parts.join(".")))
+    let parts = name.0.iter().map(|part| Some(part.as_ident()?.value.as_str()));
+    let parts: Vec<&str> = parts.collect::<Option<_>>()?;
+    Some(((*parts.last()?).to_owned(), parts.join(".")))
 }
 
 #[cfg(test)]

@@ -1,13 +1,15 @@
 //! Functions that return several rows, after FROM or in a projection, as lists that SQLite reads.
 
+use std::borrow::Cow;
+
 use sqlparser::ast::{
-    AccessExpr, Expr, Function, FunctionArguments, Query, Select, SelectItem, TableAlias, TableFactor,
+    AccessExpr, Expr, Function, FunctionArguments, Ident, Query, Select, SelectItem, Spanned, TableFactor,
 };
 
 use super::Catalogue;
 use super::parse;
 use super::scope::relations;
-use super::substitute::{Substitution, each_query, factors, select_of, substitute};
+use super::substitute::{Substitution, each_query, factors, select_of, set_alias, substitute};
 use super::typing::{column_name, error_at};
 use super::walk::walk_expressions;
 use crate::sql::functions::ROW_FUNCTIONS;
@@ -45,8 +47,7 @@ fn substitute_named(query: &mut Query, found: &[Substitution]) {
         if let (SelectItem::UnnamedExpr(expression), Some((name, text))) = (&*item, named)
             && expression.to_string() != text
         {
-            let alias = sqlparser::ast::Ident::with_quote('"', name);
-            *item = SelectItem::ExprWithAlias { expr: expression.clone(), alias };
+            set_alias(item, Ident::with_quote('"', name));
         }
     }
 }
@@ -72,28 +73,32 @@ fn in_from(select: &mut Select, tables: &Catalogue) -> Vec<Substitution> {
         };
         let Some((plain, own)) = own(&name.to_string()) else { continue };
         let arguments: Vec<String> = arguments.iter().map(ToString::to_string).collect();
-        let called = alias.as_ref().map_or_else(|| plain.to_owned(), |alias| alias.name.value.clone());
-        let columns = alias.as_ref().map(|alias: &TableAlias| alias.columns.clone()).unwrap_or_default();
-        let text = format!("rarray({own}({})) AS {}", arguments.join(", "), quote_name(&called));
+        let called = alias.as_ref().map_or(plain, |alias| alias.name.value.as_str());
+        let text = format!("rarray({own}({})) AS {}", arguments.join(", "), quote_name(called));
         let Some(list) = parse::relation(&text) else { continue };
-        *factor = list;
-        let mut add = |column: &str, of_list: &str, alone: bool| {
+        let (TableFactor::Table { alias, .. } | TableFactor::Function { alias, .. }) =
+            std::mem::replace(factor, list)
+        else {
+            continue;
+        };
+        let (called, columns) = match alias {
+            Some(alias) => (Cow::Owned(alias.name.value), alias.columns),
+            None => (Cow::Borrowed(plain), Vec::new()),
+        };
+        let mut add = |column: Cow<'static, str>, of_list: &str, alone: bool| {
             if let Some(expression) = parse::expression(&format!("{}.{of_list}", quote_name(&called))) {
-                found.push(Substitution {
-                    owner: called.clone(),
-                    column: column.to_owned(),
-                    alone,
-                    expression,
-                });
+                found.push(Substitution { owner: called.to_string(), column, alone, expression });
             }
         };
         if plain.starts_with("st_dump") {
             for (column, of_list) in DUMPED {
-                add(column, of_list, !known.contains(&column.to_owned()));
+                add(column.into(), of_list, !known.iter().any(|known| known == column));
             }
         } else {
-            let column = columns.first().map_or_else(|| called.clone(), |column| column.name.value.clone());
-            add(&column, "value", !known.contains(&column.to_ascii_lowercase()));
+            let named = columns.into_iter().next().map(|column| Cow::Owned(column.name.value));
+            let column = named.unwrap_or_else(|| called.clone());
+            let alone = !known.contains(&column.to_ascii_lowercase());
+            add(column, "value", alone);
         }
     }
     found
@@ -111,8 +116,8 @@ fn in_projection(query: &mut Query, _: &Catalogue) -> Result<Vec<Substitution>> 
             continue;
         };
         let (before, written) = (calls.len(), column_name(expression));
-        let mut holder = parse::holder(expression.clone());
-        walk_expressions(&mut holder, &mut |part: &mut Expr| {
+        let start = expression.span().start;
+        walk_expressions(expression, &mut |part: &mut Expr| {
             let (call, column) = match &*part {
                 Expr::CompoundFieldAccess { root, access_chain } => {
                     let root = if let Expr::Nested(inner) = &**root { &**inner } else { &**root };
@@ -143,19 +148,13 @@ fn in_projection(query: &mut Query, _: &Catalogue) -> Result<Vec<Substitution>> 
         });
         if calls.len() > 1 {
             wrong.get_or_insert_with(|| {
-                error_at(expression, "several functions that give rows stand in one SELECT")
+                error_at(&start, "several functions that give rows stand in one SELECT")
                     .help("put them behind FROM: SELECT ... FROM houses, ST_Dump(houses.geom) AS d")
             });
         }
-        if let Some(made) = parse::unwrap_holder(holder) {
-            *expression = made;
-        }
         // A column keeps its name.
-        if let (SelectItem::UnnamedExpr(expression), true) = (&*item, calls.len() > before) {
-            *item = SelectItem::ExprWithAlias {
-                expr: expression.clone(),
-                alias: sqlparser::ast::Ident::with_quote('"', written),
-            };
+        if let (SelectItem::UnnamedExpr(_), true) = (&*item, calls.len() > before) {
+            set_alias(item, Ident::with_quote('"', written));
         }
     }
     if let Some(wrong) = wrong {

@@ -1,6 +1,10 @@
 //! The substitution of columns by expressions.
 
-use sqlparser::ast::{AccessExpr, Expr, Ident, Query, Select, SetExpr, TableFactor};
+use std::borrow::Cow;
+
+use sqlparser::ast::{
+    AccessExpr, Expr, Ident, Query, Select, SelectItem, SetExpr, TableFactor, WildcardAdditionalOptions,
+};
 
 use super::walk::{StatementPartMut, walk_expressions};
 
@@ -9,7 +13,7 @@ pub(super) struct Substitution {
     /// Alias of the column's relation.
     pub(super) owner: String,
     /// Name of the column.
-    pub(super) column: String,
+    pub(super) column: Cow<'static, str>,
     /// Set if the unqualified name identifies the column.
     pub(super) alone: bool,
     /// Replacement.
@@ -48,6 +52,17 @@ pub(super) fn substitute(query: &mut Query, substitutions: &[Substitution]) {
     let with = query.with.take();
     walk_expressions(query, &mut change);
     query.with = with;
+}
+
+/// Names the expression of an item of a projection `alias`, instead of any alias that it has.
+pub(super) fn set_alias(item: &mut SelectItem, alias: Ident) {
+    let star = SelectItem::Wildcard(WildcardAdditionalOptions::default());
+    *item = match std::mem::replace(item, star) {
+        SelectItem::UnnamedExpr(expr) | SelectItem::ExprWithAlias { expr, .. } => {
+            SelectItem::ExprWithAlias { expr, alias }
+        }
+        other => other,
+    };
 }
 
 /// Returns the select of a query, if its body is a select.

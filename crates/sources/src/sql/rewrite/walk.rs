@@ -46,9 +46,9 @@ pub(super) fn walk_mut(query: &mut Query, mut change: impl FnMut(StatementPartMu
     let _ = VisitMut::visit(query, &mut PartMutVisitor(&mut change));
 }
 
-/// Calls `change` with the expressions of `query`, the inner before the outer.
-pub(super) fn walk_expressions(query: &mut Query, change: &mut dyn FnMut(&mut Expr)) {
-    let _ = VisitMut::visit(query, &mut ExpressionVisitor(change));
+/// Calls `change` with the expressions of `tree`, a query or an expression, the inner before the outer.
+pub(super) fn walk_expressions(tree: &mut impl VisitMut, change: &mut dyn FnMut(&mut Expr)) {
+    let _ = tree.visit(&mut ExpressionVisitor(change));
 }
 
 struct ExpressionVisitor<'a>(&'a mut dyn FnMut(&mut Expr));

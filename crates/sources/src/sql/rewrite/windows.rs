@@ -1,13 +1,14 @@
 //! Other differences of SQLite: clusters over windows, and names for the columns of subqueries.
 
 use sqlparser::ast::{
-    Expr, Function, FunctionArguments, Ident, Query, SelectItem, SetExpr, TableFactor, WindowSpec, WindowType,
+    Expr, Function, FunctionArguments, Ident, Query, SelectItem, SetExpr, TableAliasColumnDef, TableFactor,
+    WindowSpec, WindowType,
 };
 
 use super::Catalogue;
 use super::parse;
 use super::scope::relations;
-use super::substitute::{each_query, factors, select_of};
+use super::substitute::{each_query, factors, select_of, set_alias};
 use super::typing::{column_name, error_at};
 use super::walk::walk_expressions;
 use crate::sql::statement_text::quote_name;
@@ -33,9 +34,8 @@ pub(super) fn cluster(query: &mut Query, tables: &Catalogue) -> Result<()> {
                 continue;
             };
             let written = column_name(expression);
-            let mut holder = parse::holder(expression.clone());
             let mut changed = false;
-            walk_expressions(&mut holder, &mut |part: &mut Expr| {
+            walk_expressions(expression, &mut |part: &mut Expr| {
                 let Expr::Function(Function { name, args: FunctionArguments::List(list), over, .. }) = &*part
                 else {
                     return;
@@ -55,10 +55,11 @@ pub(super) fn cluster(query: &mut Query, tables: &Catalogue) -> Result<()> {
                     true => String::new(),
                     false => format!("PARTITION BY {} ", parts.join(", ")),
                 };
-                let mut order: Vec<String> = order_by.iter().map(ToString::to_string).collect();
-                order.extend(keys.iter().cloned());
+                let own: Vec<String> = order_by.iter().map(ToString::to_string).collect();
+                let first = list.args.first().map(ToString::to_string);
+                let mut order: Vec<&str> = own.iter().chain(&keys).map(String::as_str).collect();
                 if order.is_empty() {
-                    order.extend(list.args.first().map(ToString::to_string));
+                    order.extend(first.as_deref());
                 }
                 let window = format!("{parts}ORDER BY {}", order.join(", "));
                 changed = true;
@@ -69,12 +70,8 @@ pub(super) fn cluster(query: &mut Query, tables: &Catalogue) -> Result<()> {
                     *part = made;
                 }
             });
-            if let (true, Some(made)) = (changed, parse::unwrap_holder(holder)) {
-                let alias = match &*item {
-                    SelectItem::ExprWithAlias { alias, .. } => alias.clone(),
-                    _ => Ident::with_quote('"', written),
-                };
-                *item = SelectItem::ExprWithAlias { expr: made, alias };
+            if let (SelectItem::UnnamedExpr(_), true) = (&*item, changed) {
+                set_alias(item, Ident::with_quote('"', written));
             }
         }
         wrong.map_or(Ok(()), Err)
@@ -90,8 +87,7 @@ pub(super) fn rename(query: &mut Query) -> Result<()> {
             if alias.columns.is_empty() {
                 continue;
             }
-            let names: Vec<Ident> = alias.columns.iter().map(|column| column.name.clone()).collect();
-            if name_columns(subquery, &names) {
+            if name_columns(subquery, &alias.columns) {
                 alias.columns.clear();
             }
         }
@@ -99,7 +95,7 @@ pub(super) fn rename(query: &mut Query) -> Result<()> {
     })
 }
 
-fn name_columns(subquery: &mut Query, names: &[Ident]) -> bool {
+fn name_columns(subquery: &mut Query, names: &[TableAliasColumnDef]) -> bool {
     match &mut *subquery.body {
         SetExpr::Select(select) => {
             let plain = select
@@ -110,17 +106,14 @@ fn name_columns(subquery: &mut Query, names: &[Ident]) -> bool {
                 return false;
             }
             for (item, name) in select.projection.iter_mut().zip(names) {
-                let (SelectItem::UnnamedExpr(expr) | SelectItem::ExprWithAlias { expr, .. }) = &*item else {
-                    continue;
-                };
-                *item = SelectItem::ExprWithAlias { expr: expr.clone(), alias: name.clone() };
+                set_alias(item, name.name.clone());
             }
             true
         }
         SetExpr::Values(values) => {
             let count = values.rows.first().map_or(0, |row| row.content.len());
             let column = |index: usize| {
-                let name = names.get(index).map(ToString::to_string);
+                let name = names.get(index).map(|column| column.name.to_string());
                 format!("column{} AS {}", index + 1, name.unwrap_or_else(|| format!("column{}", index + 1)))
             };
             let columns: Vec<String> = (0..count).map(column).collect();

@@ -161,12 +161,11 @@ fn sort_out(cover: &CoverIndex, triangles: &[MeshTriangle], has_blocks: bool, ma
     let mut covered: Vec<StreetCover> = triangles.iter().map(|triangle| cover.at(middle(triangle))).collect();
     let free = components(triangles, &covered);
     for component in &free {
-        let all = component.iter().map(|number| &triangles[*number as usize]);
-        let area: f64 = all
-            .clone()
+        let all = || component.iter().map(|number| &triangles[*number as usize]);
+        let area: f64 = all()
             .map(|triangle| twice_area(triangle.corners.map(|corner| made.points[corner as usize])) / 2.0)
             .sum();
-        let sides = all.clone().flat_map(|triangle| (0..3).map(move |side| (triangle, side)));
+        let sides = all().flat_map(|triangle| (0..3).map(move |side| (triangle, side)));
         let border = sides.filter(|(triangle, side)| {
             triangle.beyond[*side].is_none_or(|beyond| covered[beyond as usize] != StreetCover::Free)
         });
@@ -209,9 +208,8 @@ fn sort_out(cover: &CoverIndex, triangles: &[MeshTriangle], has_blocks: bool, ma
             }
         }
     }
-    let of_blocks: Vec<Vec<[u32; 3]>> = made.blocks.iter().map(|block| block.triangles.clone()).collect();
-    for (block, triangles) in made.blocks.iter_mut().zip(of_blocks) {
-        block.rings = loops(&triangles, &made.points);
+    for block in &mut made.blocks {
+        block.rings = loops(&block.triangles, &made.points);
     }
     made.blocks.retain(|block| !block.rings.is_empty());
 }

@@ -67,8 +67,8 @@ impl StreetNetwork {
 
     /// Returns the deck that carries a level.
     fn deck(&self, level: &MergedLevel, points: &[DVec3], profiles: &StreetProfiles) -> StreetDeck {
-        let mut triangles = level.walks.clone();
-        triangles.extend(level.carriageways.iter().flat_map(|(_, triangles)| triangles));
+        let carriageways = level.carriageways.iter().flat_map(|(_, triangles)| triangles);
+        let triangles: Vec<[u32; 3]> = level.walks.iter().chain(carriageways).copied().collect();
         let sides = level.edges.iter().map(|edge| {
             let [a, b] = edge.map(|end| points[end as usize]);
             let way = (b - a).truncate().normalize_or_zero();

@@ -2,10 +2,10 @@
 
 use sqlparser::ast::{
     Expr, Function, FunctionArg, FunctionArgExpr, FunctionArgumentClause, FunctionArguments, Ident,
-    ObjectName, WindowType,
+    ObjectName, Spanned, WindowType,
 };
 
-use super::conversions::{as_text, error_at, parse_generated};
+use super::conversions::{error_at, make_text, parse_generated};
 use super::scope::{TypeScope, Typing};
 use super::signatures::{self, FunctionSignature};
 use crate::sql::functions::BOOLEAN_LIST;
@@ -15,7 +15,7 @@ use burgeon_base::error::Result;
 impl Typing<'_> {
     /// Types a call of a function, and rewrites it for SQLite.
     pub(super) fn function(&mut self, expression: &mut Expr, scope: &TypeScope<'_>) -> Result<SqlType> {
-        let place = expression.clone();
+        let start = expression.span().start;
         let Expr::Function(function) = expression else { return Ok(SqlType::Unknown) };
         let name = function.name.to_string().trim_matches('"').to_ascii_lowercase();
         if let Some(filter) = &mut function.filter {
@@ -59,7 +59,7 @@ impl Typing<'_> {
         if wrong.is_some() {
             let kinds: Vec<&str> = kinds.iter().map(|kind| kind.name()).collect();
             let what = format!("function {name}({}) does not exist", kinds.join(", "));
-            return Err(error_at(&place, &what).help(match takes {
+            return Err(error_at(&start, &what).help(match takes {
                 signatures::Takes::Texts => "a cast makes a text of a number: height::text",
                 _ => "a cast makes a number of a text: name::integer",
             }));
@@ -102,7 +102,7 @@ fn rewrite_call(expression: &mut Expr, name: &str, kinds: &[SqlType]) -> Result<
             for (value, kind) in values.iter_mut().zip(kinds) {
                 // PostgreSQL converts a boolean to a letter here, unlike in `||`.
                 if *kind == SqlType::Boolean {
-                    **value = parse_generated(&format!("substr(burgeon_truth({value}), 1, 1)"), value)?;
+                    **value = parse_generated(&format!("substr(burgeon_truth({value}), 1, 1)"), &**value)?;
                 }
             }
             return Ok(());
@@ -111,7 +111,7 @@ fn rewrite_call(expression: &mut Expr, name: &str, kinds: &[SqlType]) -> Result<
         ("every", [truth]) => format!("bool_and({truth})"),
         ("string_agg", [value, _]) => {
             if let Some(kind) = kinds.first() {
-                **value = as_text(value, *kind)?;
+                make_text(value, *kind)?;
             }
             return Ok(());
         }

@@ -1,8 +1,8 @@
 //! Casts with the meaning of PostgreSQL.
 
-use sqlparser::ast::{CastKind, DataType, Expr};
+use sqlparser::ast::{CastKind, DataType, Expr, Spanned};
 
-use super::conversions::{as_text, error_at, parse_generated, unsupported_error};
+use super::conversions::{error_at, make_text, parse_generated, unsupported_error};
 use super::scope::{TypeScope, Typing};
 use crate::sql::rewrite::types::SqlType;
 use burgeon_base::error::Result;
@@ -12,10 +12,10 @@ impl Typing<'_> {
     /// Types a cast, and rewrites it as a function that rounds and fails like PostgreSQL.
     pub(super) fn cast(&mut self, expression: &mut Expr, scope: &TypeScope<'_>) -> Result<SqlType> {
         use SqlType as T;
-        let place = expression.clone();
+        let start = expression.span().start;
         let Expr::Cast { kind, expr, data_type, .. } = &mut *expression else { return Ok(T::Unknown) };
         if !matches!(kind, CastKind::Cast | CastKind::DoubleColon) {
-            return Err(unsupported_error(&place, "such a cast", "write value::type"));
+            return Err(unsupported_error(&start, "such a cast", "write value::type"));
         }
         let name = data_type.to_string();
         let from = self.expression(expr, scope)?;
@@ -24,20 +24,20 @@ impl Typing<'_> {
             return match data_type {
                 DataType::Custom(name, _) if name.to_string().eq_ignore_ascii_case("geography") => {
                     Err(unsupported_error(
-                        &place,
+                        &start,
                         "the type geography",
                         "geometries are in metres here: leave the cast out",
                     ))
                 }
                 _ => Err(unsupported_error(
-                    &place,
+                    &start,
                     &format!("the type {}", shown(&name.to_ascii_lowercase())),
                     "values are text, integer, numeric, double precision, boolean or geometry; dates are texts",
                 )),
             };
         };
         let wrong = |to: &str, remedy: &str| -> Result<SqlType> {
-            Err(error_at(&place, &format!("cannot cast type {} to {to}", from.name())).help(remedy))
+            Err(error_at(&start, &format!("cannot cast type {} to {to}", from.name())).help(remedy))
         };
         let written = match to {
             T::Boolean if from == T::Boolean => expr.to_string(),
@@ -55,14 +55,17 @@ impl Typing<'_> {
                 None => format!("burgeon_decimal({expr})"),
             },
             T::Double if name.eq_ignore_ascii_case("real") || name.eq_ignore_ascii_case("float4") => {
-                return Err(unsupported_error(&place, "the type real", "take double precision"));
+                return Err(unsupported_error(&start, "the type real", "take double precision"));
             }
             T::Double => format!("burgeon_number({expr})"),
             T::Text => {
                 let text = match (from, &**expr) {
                     // The literal is used as written, with its trailing zeros.
                     (T::Numeric, Expr::Value(value)) => format!("'{value}'"),
-                    (from, expr) => as_text(expr, from)?.to_string(),
+                    (from, _) => {
+                        make_text(expr, from)?;
+                        expr.to_string()
+                    }
                 };
                 match length(&name) {
                     Some(length) => format!("left({text}, {length})"),
@@ -75,7 +78,7 @@ impl Typing<'_> {
             },
             T::List | T::Literal | T::Unknown => return Ok(T::Unknown),
         };
-        *expression = parse_generated(&format!("({written})"), &place)?;
+        *expression = parse_generated(&format!("({written})"), &start)?;
         Ok(to)
     }
 }

@@ -2,7 +2,7 @@
 
 use sqlparser::ast::{BinaryOperator, Expr, Query, Value};
 
-use super::conversions::{as_number, as_text, no_operator, parse_generated, unsupported_error};
+use super::conversions::{make_number, make_text, no_operator, parse_generated, unsupported_error};
 use super::scope::{TypeScope, Typing};
 use crate::sql::rewrite::types::SqlType;
 use burgeon_base::error::Result;
@@ -45,7 +45,7 @@ impl Typing<'_> {
                     return Err(no_operator(expression, &what));
                 }
                 for (side, kind) in [left, right].into_iter().zip(kinds) {
-                    **side = as_text(side, kind)?;
+                    make_text(side, kind)?;
                 }
                 Ok(T::Text)
             }
@@ -79,7 +79,7 @@ impl Typing<'_> {
             return Err(no_operator(expression, &what));
         }
         for (side, other) in [(&mut *left, kinds[1]), (&mut *right, kinds[0])] {
-            **side = as_number(side, other)?;
+            make_number(side, other)?;
         }
         let kind = kinds[0].with(kinds[1]);
         let nonzero = matches!(&**right, Expr::Value(value) if matches!(&value.value, Value::Number(number, _)
@@ -136,11 +136,11 @@ impl Typing<'_> {
         }
         for (side, own, other) in [(&mut *left, kinds[0], kinds[1]), (&mut *right, kinds[1], kinds[0])] {
             if own == T::Literal && (other.is_number() || other == T::Boolean) {
-                *side = match other {
-                    T::Boolean => parse_generated(&format!("burgeon_boolean({side})"), side)?,
-                    T::Integer => parse_generated(&format!("burgeon_whole({side})"), side)?,
-                    _ => as_number(side, other)?,
-                };
+                match other {
+                    T::Boolean => *side = parse_generated(&format!("burgeon_boolean({side})"), side)?,
+                    T::Integer => *side = parse_generated(&format!("burgeon_whole({side})"), side)?,
+                    _ => make_number(side, other)?,
+                }
             } else if own == T::Unknown && other.is_number() && is_placeholder(side) {
                 // A parameter with a string value is converted to a number.
                 *side = parse_generated(

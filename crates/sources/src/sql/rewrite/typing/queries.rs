@@ -1,8 +1,8 @@
 //! The types of queries: of the columns that they return, and of the expressions in their clauses.
 
 use sqlparser::ast::{
-    Expr, Fetch, GroupByExpr, LimitClause, OrderBy, OrderByExpr, OrderByKind, Query, Select, SelectItem,
-    SelectItemQualifiedWildcardKind, SetExpr, TableFactor, Value,
+    Expr, GroupByExpr, LimitClause, OrderBy, OrderByExpr, OrderByKind, Query, Select, SelectItem,
+    SelectItemQualifiedWildcardKind, SetExpr, TableAliasColumnDef, TableFactor, Value,
 };
 
 use super::column_name::column_name;
@@ -24,16 +24,16 @@ impl Typing<'_> {
         if let Some(with) = &mut query.with {
             for table in &mut with.cte_tables {
                 let name = table.alias.name.value.to_ascii_lowercase();
-                let renamed: Vec<String> =
-                    table.alias.columns.iter().map(|column| column.name.value.clone()).collect();
                 if with.recursive {
-                    self.declared.push((name.clone(), None));
+                    self.declared.push((name, None));
+                    let columns = rename(self.query(&mut table.query, outer)?, &table.alias.columns);
+                    if let Some(own) = self.declared.last_mut() {
+                        own.1 = columns;
+                    }
+                } else {
+                    let columns = rename(self.query(&mut table.query, outer)?, &table.alias.columns);
+                    self.declared.push((name, columns));
                 }
-                let columns = rename(self.query(&mut table.query, outer)?, &renamed);
-                if with.recursive {
-                    self.declared.pop();
-                }
-                self.declared.push((name, columns));
             }
         }
         limit(query);
@@ -156,8 +156,8 @@ impl Typing<'_> {
             }
             SelectItem::Wildcard(_) => all(&scope.relations, |_| true),
             SelectItem::QualifiedWildcard(SelectItemQualifiedWildcardKind::ObjectName(name), _) => {
-                let owner = name.0.last().and_then(|part| part.as_ident()).map(|name| name.value.clone());
-                all(&scope.relations, |relation| match (&relation.alias, &owner) {
+                let owner = name.0.last().and_then(|part| part.as_ident()).map(|name| &name.value);
+                all(&scope.relations, |relation| match (&relation.alias, owner) {
                     (Some(alias), Some(owner)) => alias.eq_ignore_ascii_case(owner),
                     _ => false,
                 })
@@ -176,10 +176,9 @@ impl Typing<'_> {
             TableFactor::Table { name, alias, args: None, .. } => {
                 let own = name.0.last().and_then(|part| part.as_ident()).map(|name| name.value.clone());
                 let columns = self.columns_of(name);
-                let renamed = alias.iter().flat_map(|alias| &alias.columns);
-                let renamed: Vec<String> = renamed.map(|column| column.name.value.clone()).collect();
+                let columns = rename(columns, alias.iter().flat_map(|alias| &alias.columns));
                 let alias = alias.as_ref().map(|alias| alias.name.value.clone()).or(own);
-                vec![TypedRelation { alias, columns: rename(columns, &renamed) }]
+                vec![TypedRelation { alias, columns }]
             }
             TableFactor::Table { alias, args: Some(args), .. } => {
                 for argument in &mut args.args {
@@ -192,10 +191,9 @@ impl Typing<'_> {
                 let nothing = TypeScope { relations: Vec::new(), outer: None };
                 let outer = scope.outer.unwrap_or(&nothing);
                 let columns = self.query(subquery, outer)?;
-                let renamed = alias.iter().flat_map(|alias| &alias.columns);
-                let renamed: Vec<String> = renamed.map(|column| column.name.value.clone()).collect();
+                let columns = rename(columns, alias.iter().flat_map(|alias| &alias.columns));
                 let alias = alias.as_ref().map(|alias| alias.name.value.clone());
-                vec![TypedRelation { alias, columns: rename(columns, &renamed) }]
+                vec![TypedRelation { alias, columns }]
             }
             TableFactor::NestedJoin { table_with_joins, .. } => {
                 let mut relations = self.relation(&mut table_with_joins.relation, scope)?;
@@ -214,9 +212,9 @@ fn column_type(kind: SqlType) -> SqlType {
     if kind == SqlType::Literal { SqlType::Text } else { kind }
 }
 
-fn rename(columns: ColumnTypes, names: &[String]) -> ColumnTypes {
+fn rename<'a>(columns: ColumnTypes, names: impl IntoIterator<Item = &'a TableAliasColumnDef>) -> ColumnTypes {
     let mut columns = columns?;
-    columns.iter_mut().zip(names).for_each(|(column, name)| column.0.clone_from(name));
+    columns.iter_mut().zip(names).for_each(|(column, name)| column.0.clone_from(&name.name.value));
     Some(columns)
 }
 
@@ -231,20 +229,16 @@ fn all(relations: &[TypedRelation], meant: impl Fn(&TypedRelation) -> bool) -> C
 /// Rewrites FETCH, and OFFSET without LIMIT, for SQLite.
 fn limit(query: &mut Query) {
     let number = |text: &str| Expr::Value(Value::Number(text.into(), false).into());
-    if let Some(Fetch { with_ties: false, percent: false, quantity }) = &query.fetch {
-        let wanted = quantity.clone().unwrap_or_else(|| number("1"));
+    let is_free = matches!(query.limit_clause, None | Some(LimitClause::LimitOffset { limit: None, .. }));
+    if let Some(fetch) = query.fetch.take_if(|fetch| is_free && !fetch.with_ties && !fetch.percent) {
+        let wanted = Some(fetch.quantity.unwrap_or_else(|| number("1")));
         match &mut query.limit_clause {
-            Some(LimitClause::LimitOffset { limit: limit @ None, .. }) => *limit = Some(wanted),
-            None => {
-                query.limit_clause = Some(LimitClause::LimitOffset {
-                    limit: Some(wanted),
-                    offset: None,
-                    limit_by: Vec::new(),
-                });
+            Some(LimitClause::LimitOffset { limit, .. }) => *limit = wanted,
+            clause => {
+                *clause =
+                    Some(LimitClause::LimitOffset { limit: wanted, offset: None, limit_by: Vec::new() });
             }
-            Some(_) => return,
         }
-        query.fetch = None;
     }
     if let Some(LimitClause::LimitOffset { limit: limit @ None, offset: Some(_), .. }) =
         &mut query.limit_clause
