@@ -47,12 +47,12 @@ pub(super) fn read(
             Arc::new(survey.read(found, frame)?)
         }
         SourceReading::Window(window) => {
-            let cache = known.cache.clone();
-            let part = lending(cache.as_deref(), &path, &wanted, || window.read(key, &path, name, &wanted));
+            let cache = cache.as_deref();
+            let part = lending(cache, &path, &wanted, || window.read(key, &path, name, &wanted));
             let layer = match part? {
                 Some(layer) => Arc::new(layer),
                 None => {
-                    let whole = read_whole(&path, name, &wanted, cache.as_deref(), frame)?;
+                    let whole = read_whole(&path, name, &wanted, cache, frame)?;
                     window.choose(key, &whole).map_or(whole, Arc::new)
                 }
             };
