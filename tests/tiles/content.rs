@@ -73,7 +73,7 @@ fn a_plan_with_other_choices_for_models_needs_to_be_replaced() {
     city.plan("out");
     let plan =
         ["plan", "city.lua", "-o", "out", "--reach", "2", "--target-features", "30", "--geoid-height", "44"];
-    let text = city.fails(&[&plan[..], &["--expand-instances"]].concat(), 2);
+    let text = city.fails(&[&plan[..], &["--expand-instances"]].concat(), 1);
     assert!(text.contains("--replace"), "{text}");
     for (option, value) in [("--compress", "zip"), ("--precision", "0"), ("--precision", "a")] {
         city.fails(&[&plan[..], &[option, value]].concat(), 2);

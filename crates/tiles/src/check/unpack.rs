@@ -216,7 +216,7 @@ mod tests {
     fn bytes(stride: usize) -> impl Strategy<Value = Vec<u8>> {
         let item = (0..4_u8, prop::collection::vec(any::<u8>(), stride));
         prop::collection::vec(item, 0..700).prop_map(move |items| {
-            let mut last = vec![7; stride];
+            let mut last = vec![7_u8; stride];
             let mut all = Vec::new();
             for (size, item) in items {
                 for (value, random) in last.iter_mut().zip(item) {

@@ -54,6 +54,10 @@ impl<'a> MergedMesh<'a> {
             merged.is_textured = texture.is_some();
             merged.add(part, transform, texture, feature, &self.format);
         }
+    }
+
+    /// Removes the parts whose triangles were all too small.
+    pub(super) fn remove_empty(&mut self) {
         self.parts.retain(|_, part| !part.triangles.is_empty());
     }
 }
@@ -134,6 +138,7 @@ pub(super) fn merge<'a>(
         transform.translation -= checked.origin;
         merged.add(instance.mesh, &transform, table, feature);
     }
+    merged.remove_empty();
     merged
 }
 

@@ -251,7 +251,7 @@ fn repeated_models_are_instances_that_look_as_their_copies_do() {
             let centre = |face: &Face| face.points.iter().sum::<DVec3>() / 3.0;
             let mut faces: Vec<_> =
                 file.faces().iter().map(|face| (face.feature, face.material, centre(face))).collect();
-            faces.sort_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)));
+            faces.sort_by_key(|face| (face.0, face.1));
             faces
         };
         for (is, wanted) in sorted(&file).into_iter().zip(sorted(&expanded)) {

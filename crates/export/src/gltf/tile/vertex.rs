@@ -43,17 +43,13 @@ impl VertexFormat {
         if options.compression == TileCompression::None {
             return Self { places: PlaceFormat::Exact, byte_normals: false };
         }
-        let extent = (high - low).max_element();
-        // A power of two, so that a product with it is exact.
-        let power = |metres: f64, up: bool| {
-            let log = metres.max(1e-6).log2();
-            if up { log.ceil() } else { log.floor() }.exp2()
-        };
-        let (step, most) = (power(extent / (MOST - 1.0), true), options.precision);
+        // A power of two, so that products with it are exact.
+        let step = options.precision.max(1e-6).log2().floor().exp2();
         let origin = (low / step).floor() * step;
-        let places = match step <= most && origin.as_vec3().as_dvec3() == origin {
+        let fits = (high - low).max_element() <= (MOST - 1.0) * step;
+        let places = match fits && origin.as_vec3().as_dvec3() == origin {
             true => PlaceFormat::Short { origin, step },
-            false => PlaceFormat::Rounded(power(most, false)),
+            false => PlaceFormat::Rounded(step),
         };
         Self { places, byte_normals: true }
     }
@@ -132,8 +128,9 @@ mod tests {
                 _ => Vec3::from(stored.map(f32::from_bits)).as_dvec3(),
             };
             prop_assert!((read - point).abs().max_element() <= precision / 2.0 + 5e-4, "{read} {point}");
-            let is_short = matches!(format.places, PlaceFormat::Short { .. });
-            prop_assert_eq!(is_short, (size / 65_534.0).log2().ceil().exp2().max(2_f64.powi(-19)) <= precision);
+            let (is_short, least) = (matches!(format.places, PlaceFormat::Short { .. }), precision / 2.0);
+            prop_assert!(is_short || size > 65_533.0 * least || precision < 0.001);
+            prop_assert!(!is_short || size < 65_536.0 * precision);
         }
     }
 }

@@ -112,6 +112,7 @@ fn describe<'a>(
         let single = VertexFormat { places: PlaceFormat::Exact, ..format };
         let mut merged = MergedMesh::new(checked.scene, single);
         merged.add(mesh, &DAffine3::IDENTITY, None, 0);
+        merged.remove_empty();
         if merged.parts.is_empty() {
             continue;
         }
