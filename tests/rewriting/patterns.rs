@@ -174,7 +174,7 @@ fn compare_systems(count: u64, make: fn(&mut systems::Dice) -> RandomSystem) -> 
 #[test]
 fn random_systems_of_dependent_modules_derive_the_same_chains_in_lua_and_plainly() {
     let mut changed = 0;
-    for seed in 0..1_000 {
+    for seed in 0..600 {
         let system = RandomSystem::of_dependents(&mut systems::Dice::new(seed));
         let axiom = plain::axiom(system.axiom.clone(), 0);
         let (mut expected, mut steps) = (axiom.clone(), 0);
@@ -190,7 +190,7 @@ fn random_systems_of_dependent_modules_derive_the_same_chains_in_lua_and_plainly
         assert_eq!(all_chains(&run).trim_end(), text(&expected), "seed {seed}: {text_of}");
         changed += usize::from(expected != axiom);
     }
-    assert!(changed > 600, "{changed}");
+    assert!(changed > 400, "{changed}");
 }
 
 #[test]
