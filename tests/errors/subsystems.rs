@@ -2,59 +2,117 @@
 
 use insta::assert_snapshot;
 
-use crate::support::{Folder, HEAD, printed, refused, refused_rules};
+use crate::support::{Folder, printed, refused, refused_rules};
 
 /// Returns the error for declarations of a module `In` and a system `t`, of which `options` are the fields.
 fn with(options: &str, declared: &str) -> String {
-    refused_rules(&format!(
-        "local In, t = module(\"In\", \"scale\"), lsystem({{ {options} }})\ns:axiom(In(0.5), A(1))\n{declared}"
-    ))
+    refused_rules(&format!("local In, t = module(\"In\", \"scale\"), lsystem({{ {options} }})\n{declared}"))
 }
 
 const TURTLE: &str = "object = turtle()";
 
 #[test]
 fn subsystem_takes_a_declared_module_and_a_system() {
-    assert_snapshot!(with(TURTLE, "s:subsystem(\"In\")"), @"");
-    assert_snapshot!(with(TURTLE, "s:subsystem(\"In\", turtle())"), @"");
-    assert_snapshot!(with(TURTLE, "s:subsystem(\"Im\", t)"), @"");
-    assert_snapshot!(with(TURTLE, "s:subsystem(\"F\", t)"), @"");
+    assert_snapshot!(with(TURTLE, "s:subsystem(\"In\")"), @r#"
+    error: s.lua:4: subsystem takes the name of a module and a system
+      | s:subsystem("In")
+      help: write system:subsystem("Leaf", leaf), with a module and a system
+    "#);
+    assert_snapshot!(with(TURTLE, "s:subsystem(\"In\", turtle())"), @r#"
+    error: s.lua:4: subsystem takes the name of a module and a system
+      | s:subsystem("In", turtle())
+      help: write system:subsystem("Leaf", leaf), with a module and a system
+    "#);
+    assert_snapshot!(with(TURTLE, "s:subsystem(\"Im\", t)"), @r#"
+    error: s.lua:4: unknown symbol Im
+      | s:subsystem("Im", t)
+      help: did you mean In?
+    "#);
+    assert_snapshot!(with(TURTLE, "s:subsystem(\"F\", t)"), @r#"
+    error: s.lua:4: F is a module of the standard library
+      | s:subsystem("F", t)
+      help: declare a module that begins the sub-system: local InLeaf = module("InLeaf", "scale")
+    "#);
 }
 
 #[test]
 fn a_module_begins_one_subsystem() {
-    assert_snapshot!(with(TURTLE, "s:subsystem(\"In\", t)\ns:subsystem(\"In\", s)"), @"");
-    assert_snapshot!(with(TURTLE, "s:subsystem(\"In\", t)\nt:subsystem(\"In\", s)"), @"");
+    assert_snapshot!(with(TURTLE, "s:subsystem(\"In\", t)\ns:subsystem(\"In\", s)"), @r#"
+    error: s.lua:5: In already begins a sub-system in s.lua:4
+      | s:subsystem("In", s)
+      help: declare another module for the other sub-system
+    "#);
+    assert_snapshot!(with(TURTLE, "s:subsystem(\"In\", t)\nt:subsystem(\"In\", s)"), @r#"
+    error: s.lua:5: In begins another sub-system in s.lua:4
+      | t:subsystem("In", s)
+      help: use a module of its own for each sub-system
+    "#);
 }
 
 #[test]
 fn the_objects_of_both_systems_have_the_same_type() {
-    assert_snapshot!(with("object = extruder()", "s:subsystem(\"In\", t)"), @"");
-    assert_snapshot!(with("", "s:subsystem(\"In\", t)"), @"");
+    assert_snapshot!(with("object = extruder()", "s:subsystem(\"In\", t)"), @r#"
+    error: s.lua:4: the sub-system has the object extruder, but this system has the object turtle
+      | s:subsystem("In", t)
+      help: give both systems the same type of object
+    "#);
+    assert_snapshot!(with("", "s:subsystem(\"In\", t)"), @r#"
+    error: s.lua:4: the sub-system has no object, but this system has the object turtle
+      | s:subsystem("In", t)
+      help: give both systems the same type of object
+    "#);
     assert_snapshot!(refused(
         "local A, In = module(\"A\"), module(\"In\", \"scale\")
 local s, t = lsystem({ object = extruder() }), lsystem({ object = extruder() })
 s:axiom(In(0.5), A())
 s:subsystem(\"In\", t)
 s:derive(1)"
-    ), @"");
+    ), @r#"
+    error: s.lua:4: an object of the type extruder has no scale
+      | s:subsystem("In", t)
+      help: declare In without a parameter scale
+    "#);
 }
 
 #[test]
 fn what_belongs_to_whole_derivations_is_refused_in_a_subsystem() {
     let hook = "s:subsystem(\"In\", t)\nt:after_step(function(now) end)";
-    assert_snapshot!(with(TURTLE, hook), @"");
-    assert_snapshot!(with("object = turtle(), ring = true", "s:subsystem(\"In\", t)"), @"");
-    assert_snapshot!(with("object = turtle(), variables = variables({ x = 1 })", "s:subsystem(\"In\", t)"), @"");
-    assert_snapshot!(with("object = turtle(), environment = shadow_voxels()", "s:subsystem(\"In\", t)"), @"");
+    assert_snapshot!(with(TURTLE, hook), @r#"
+    error: s.lua:4: the sub-system has a hook, after_step in s.lua:5, which would not run
+      | s:subsystem("In", t)
+      help: declare the hook in the system that is derived
+    "#);
+    assert_snapshot!(with("object = turtle(), ring = true", "s:subsystem(\"In\", t)"), @r#"
+    error: s.lua:4: the sub-system has rings, but its modules are parts of other chains
+      | s:subsystem("In", t)
+      help: set ring = true only in the system that is derived
+    "#);
+    assert_snapshot!(with("object = turtle(), variables = variables({ x = 1 })", "s:subsystem(\"In\", t)"), @r#"
+    error: s.lua:4: the sub-system has other variables than this system
+      | s:subsystem("In", t)
+      help: give both systems the same variables
+    "#);
+    assert_snapshot!(with("object = turtle(), environment = shadow_voxels()", "s:subsystem(\"In\", t)"), @r#"
+    error: s.lua:4: the sub-system has other environments than this system
+      | s:subsystem("In", t)
+      help: give both systems the same environments
+    "#);
 }
 
 #[test]
 fn events_are_refused_together_with_subsystems() {
     let of_outer = "s:subsystem(\"In\", t)\ns:rule(\"B\", { propensity = 1 }, function() return A(1) end)";
-    assert_snapshot!(with(TURTLE, of_outer), @"");
+    assert_snapshot!(with(TURTLE, of_outer), @r#"
+    error: s.lua:5: rule B: it has a propensity, but rules of sub-systems apply in every step
+      | s:rule("B", { propensity = 1 }, function() return A(1) end)
+      help: use guards or weights, or place a derived system: Place(model)
+    "#);
     let of_inner = "s:subsystem(\"In\", t)\nt:rule(\"B\", { propensity = 1 }, function() return A(1) end)";
-    assert_snapshot!(with(TURTLE, of_inner), @"");
+    assert_snapshot!(with(TURTLE, of_inner), @r#"
+    error: s.lua:5: rule B: it has a propensity, but rules of sub-systems apply in every step
+      | t:rule("B", { propensity = 1 }, function() return A(1) end)
+      help: use guards or weights, or place a derived system: Place(model)
+    "#);
 }
 
 #[test]
@@ -74,19 +132,42 @@ world:derive()",
 fn a_scale_is_a_number_above_0() {
     let of = |scale: &str| {
         refused(&format!(
-            "{HEAD}local In, t = module(\"In\", \"scale\"), lsystem({{ object = turtle() }})
+            "local In = module(\"In\", \"scale\")
+local s, t = lsystem({{ object = turtle() }}), lsystem({{ object = turtle() }})
 s:axiom(F(1), In({scale}), F(1))
 s:subsystem(\"In\", t)
 s:derive(0)"
         ))
     };
-    assert_snapshot!(of("0"), @"");
-    assert_snapshot!(of("\"half\""), @"");
+    assert_snapshot!(of("0"), @r#"
+    error: s.lua:4: the scale must be above 0 and finite, not 0
+      | s:subsystem("In", t)
+      module: In(0), step 0
+      help: use 0.5 for half of the size
+    "#);
+    assert_snapshot!(of("\"half\""), @r#"
+    error: s.lua:4: the scale must be a number, not "half"
+      | s:subsystem("In", t)
+      module: In("half"), step 0
+      help: use 0.5 for half of the size
+    "#);
 }
 
 #[test]
 fn rules_of_a_subsystem_are_blamed_as_other_rules() {
-    assert_snapshot!(with(TURTLE, "s:subsystem(\"In\", t)\nt:rule(\"A(x)\", function(this, x) return B(x) end)"), @"");
+    assert_snapshot!(refused(
+        "local A, B, In = module(\"A\", \"x\"), module(\"B\"), module(\"In\")
+local s, t = lsystem(), lsystem()
+s:axiom(In(), A(1))
+s:subsystem(\"In\", t)
+t:rule(\"A(x)\", function(this, x) return B(x) end)
+s:derive(1)"
+    ), @r#"
+    error: s.lua:5: rule A(x): B has no parameters, not 1
+      | t:rule("A(x)", function(this, x) return B(x) end)
+      module: A(1), step 1
+      help: it was declared as B
+    "#);
 }
 
 #[test]

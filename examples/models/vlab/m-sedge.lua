@@ -39,7 +39,7 @@ sedge:rule("SpikeBud(age)", function(this, age: number)
   return Pitch(-25), Elasticity(-0.1), Width(0.3), half, half, Elasticity(0), InFemale(1.25), Tip(-1)
 end)
 sedge:rule("LeafBud(age)", function(this, age: number)
-  return Pitch(-60), Width(0.1), Elasticity((age - 13) / 100), InLeaf(), Midrib(), Blade(age - 10)
+  return Pitch(-60), Width(0.1), Elasticity((age - 5) / 1000), InLeaf(), Midrib(), Blade(age - 9)
 end)
 sedge:rule("F(size)", function(this, size: number): any
   if size < 2 then
@@ -48,7 +48,7 @@ sedge:rule("F(size)", function(this, size: number): any
   return F(size * RATE / 2), F(size * RATE / 2)
 end)
 sedge:rule("Stem(width)", function(this, width: number)
-  return Stem(math.min(width * STEM_RATE, 0.25))
+  return Stem(math.min(width * STEM_RATE, 0.4))
 end)
 sedge:interpret("Stem(width)", function(this, width)
   this:width(width * 2)
@@ -100,7 +100,7 @@ leaf:rule("Blade(wait)", function(this, wait: number): any
   return Segment(0.16, 0.05), Blade(0)
 end)
 leaf:rule("Segment(length, width)", function(this, length: number, width: number)
-  return Segment(math.min(length * 1.05, 1.1), math.min(width * 1.04, 0.7))
+  return Segment(math.min(length * 1.05, 1.1), math.min(width * 1.08, 4))
 end)
 
 -- The organs are pointed and a little hollow.
@@ -110,17 +110,18 @@ local scale = surface({
     { vec(0, 0, 0), vec(0, -0.15, 0.4), vec(0, 0.1, 1) },
     { vec(0, 0, 0), vec(0.3, 0.05, 0.4), vec(0, 0.1, 1) },
   },
-  kind = "bezier",
-  divisions = 3,
+  kind = "b-spline",
+  degree = 2,
+  divisions = 2,
 })
 female:interpret("Bract(size)", function(this, size)
-  this:color("#7a8f4a"):surface(scale, size)
+  this:color("#5d8f3a"):surface(scale, vec(2.4, 2, 1.6) * size)
 end)
 female:interpret("Chaff(size)", function(this, size)
-  this:color("#5d6f35"):surface(scale, size * 0.7)
+  this:color("#4a6f2c"):surface(scale, vec(2, 2, 1.4) * size)
 end)
 male:interpret("Stamen(size)", function(this, size)
-  this:color("#a8783f"):surface(scale, vec(0.5, 1, 1) * size * 0.6)
+  this:color("#b8893c"):surface(scale, vec(3, 3, 1.2) * size)
 end)
 local rim: { Vector } = {}
 for k = 1, 8 do
@@ -138,7 +139,10 @@ local result = sedge:derive(steps)
 -- The apex has the age 4 at the start and 30 at its end, and makes nodes at the ages 10 and 21, in steps 7 and 18. Their
 -- spikes begin two steps later, and make 75 buds one step after another; the last bud of the second is still closed.
 expect({ result.counts.InLeaf, result.counts.InFemale, result.counts.InMale }, { 5 * 2, 5 * 2, 5 })
-expect({ result.counts.Bract, result.counts.Chaff, result.counts.Bud }, { 5 * (2 + 150 + 2 + 148), 5 * 149, 5 })
+expect(
+  { result.counts.Bract, result.counts.Chaff, result.counts.Bud },
+  { 5 * (2 + 150 + 2 + 148), 5 * 149, 5 }
+)
 expect(result.counts.Stamen, 5 * 55)
 -- The blades begin in steps 10 and 32.
 expect(result.counts.Segment, 5 * (86 + 64))

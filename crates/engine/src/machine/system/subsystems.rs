@@ -3,6 +3,8 @@
 //! A derivation of a system begins by adding the rules and interpretations of its sub-systems, and of theirs, to its own, with
 //! the number of their region. The system itself is region 0.
 
+use std::sync::Arc;
+
 use mlua::Value as LuaValue;
 
 use super::SystemDeclaration;
@@ -12,7 +14,7 @@ use crate::machine::library::Library;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::text::grouped;
 use burgeon_kit::{Object, Rescale};
-use burgeon_rewriting::{MOST_RULES, NameScope, Region, Symbol};
+use burgeon_rewriting::{MOST_RULES, NameScope, Region, Rule, Symbol};
 
 /// Name of the parameter of a module that scales the region which the module opens.
 const SCALE: &str = "scale";
@@ -100,7 +102,7 @@ impl SystemDeclaration {
     /// rule declares.
     pub(super) fn ignored_by<'a>(
         &'a self,
-        rule: &burgeon_rewriting::Rule,
+        rule: &Rule,
         own: &'a Option<IgnoredModules>,
     ) -> Option<&'a IgnoredModules> {
         let has_contexts = rule.has_contexts() || rule.has_new_contexts();
@@ -126,16 +128,14 @@ impl SystemDeclaration {
     /// Returns the reason why the system cannot be a sub-system of `outer`, and the remedy.
     fn unfit_within(&self, outer: &Self) -> Option<(String, &'static str)> {
         let kind = |system: &Self| system.object.as_ref().map(|object| object.kind().name.clone());
-        let named = |system: &Self| kind(system).map_or_else(|| "none".to_owned(), |name| name.to_string());
-        let is_shared = |environment: &std::sync::Arc<dyn Object>| {
-            outer.environments.iter().any(|known| std::sync::Arc::ptr_eq(known, environment))
+        let named = |system: &Self| {
+            kind(system).map_or_else(|| "no object".to_owned(), |name| format!("the object {name}"))
+        };
+        let is_shared = |environment: &Arc<dyn Object>| {
+            outer.environments.iter().any(|known| Arc::ptr_eq(known, environment))
         };
         if kind(self) != kind(outer) {
-            let text = format!(
-                "the object of the sub-system is {}, that of this system {}",
-                named(self),
-                named(outer)
-            );
+            let text = format!("the sub-system has {}, but this system has {}", named(self), named(outer));
             return Some((text, "give both systems the same type of object"));
         }
         if let Some(hook) = self.hooks.first() {
@@ -202,10 +202,19 @@ impl Library {
                 .extend(system.interpretations[..own.1].iter().map(|known| known.in_region(region)));
             linked.ignored.push(system.ignored.clone());
         }
+        let scales = |object: &Arc<dyn Object>| object.kind().has_capability::<dyn Rescale>();
+        if let Some(object) = outer.object.as_ref().filter(|object| !scales(object))
+            && let Some(opener) = linked.openers.iter().find(|opener| opener.scale.is_some())
+        {
+            let name = self.symbols.borrow().display_name(opener.symbol).to_owned();
+            let error = Error::argument(format!("an object of the type {} has no scale", object.kind().name));
+            return Err(error
+                .at(opener.place.clone())
+                .help(format!("declare {name} without a parameter {SCALE}")));
+        }
         let event = outer.rules.iter().chain(&rules).find(|declared| declared.rule.propensity().is_some());
         if let Some(event) = event {
-            let error =
-                Error::argument("a rule has a propensity, but rules of sub-systems apply in every step");
+            let error = Error::argument("it has a propensity, but rules of sub-systems apply in every step");
             let error = error.at(event.rule.place.clone()).rule(&event.rule.pattern.text);
             return Err(error.help("use guards or weights, or place a derived system: Place(model)"));
         }
@@ -239,16 +248,6 @@ impl Library {
                 });
                 let region = Region::try_from(number).unwrap_or(Region::MAX);
                 let name = || self.symbols.borrow().display_name(*opener).to_owned();
-                let scales = systems[*system].object.as_ref();
-                if scale.is_some()
-                    && let Some(object) =
-                        scales.filter(|object| !object.kind().has_capability::<dyn Rescale>())
-                {
-                    let error = Error::argument(format!("a {} cannot be scaled", object.kind().name));
-                    return Err(error
-                        .at(place.clone())
-                        .help(format!("declare {} without a parameter {SCALE}", name())));
-                }
                 match openers.iter().find(|known| known.symbol == *opener) {
                     Some(known) if known.region != region => {
                         let line =
