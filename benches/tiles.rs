@@ -63,7 +63,8 @@ fn measure(count: usize) {
     write_geopackage(&city.path("city.gpkg"), 2154, &self::city(count, [652_000.0, 6_862_000.0]));
     std::fs::write(city.path("city.lua"), include_str!("tiles.lua")).unwrap();
     let plan = |folder: &str| {
-        step(&city, &["plan", "city.lua", "-o", folder, "--reach", "2", "--geoid-height", "44"])
+        let options = ["--reach", "2", "--geoid-height", "44", "--compress", "meshopt"];
+        step(&city, &[&["plan", "city.lua", "-o", folder][..], &options].concat())
     };
     let planned = plan("one");
     plan("two");
