@@ -161,6 +161,7 @@ impl ScriptFlags {
     }
 
     /// Returns the flags that were given and that only a run of a script needs.
+    #[cfg(feature = "live")]
     pub(crate) fn given_flags(&self) -> Vec<&'static str> {
         let flags = [
             ("--set", !self.set.is_empty()),

@@ -11,7 +11,7 @@ use crate::support::Server;
 const HOUSES: &str = r#"local Walls = module("Walls", "height")
 local houses = lsystem({ object = footprint })
 houses:axiom(source("buildings.geojson"), function(feature)
-  if feature.id == 3 then error("houses of this kind are not supported") end
+  if feature.name == "b12" then error("houses of this kind are not supported") end
   return footprint(feature.geometry), Walls(3 * feature.floors)
 end)
 houses:interpret("Walls(height)", function(this, height) this:walls({ height = height }) end)

@@ -19,7 +19,7 @@ const WIDTHS = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT2: 4, MAT3: 9, MAT4: 1
 
 export class Attributes {
   constructor(glb) {
-    this.glb = glb;
+    this.source = glb;
     this.extension = glb.json.extensions?.[EXTENSION];
   }
 
@@ -83,8 +83,8 @@ export class Attributes {
   }
 
   #bytes(index) {
-    const { byteOffset = 0, byteLength } = this.glb.json.bufferViews[index];
-    return new Uint8Array(this.glb.file, this.glb.body + byteOffset, byteLength);
+    const { byteOffset = 0, byteLength } = this.source.json.bufferViews[index];
+    return new Uint8Array(this.source.file, this.source.body + byteOffset, byteLength);
   }
 }
 
