@@ -130,7 +130,18 @@ fn main() -> Outcome<()> {
     // As many tiles for each feature as other programs make of a country: 117,745 tiles for 46,286,334 features.
     let begin = Instant::now();
     let output = Command::new(env!("CARGO_BIN_EXE_burgeon"))
-        .args(["tiles", "plan", "country.lua", "-o", "out", "--target-features", "870", "--geoid-height", "44", "--json"])
+        .args([
+            "tiles",
+            "plan",
+            "country.lua",
+            "-o",
+            "out",
+            "--target-features",
+            "870",
+            "--geoid-height",
+            "44",
+            "--json",
+        ])
         .current_dir(folder.path())
         .output()?;
     let (text, problem) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
@@ -139,12 +150,20 @@ fn main() -> Outcome<()> {
     let begin = Instant::now();
     let plan = TilePlan::read(&out.plan())?;
     let size = fs::metadata(out.plan())?.len() / 1_000_000;
-    println!("plan of {} tiles and {size} MB read in {:.2} s", plan.tiles.len(), begin.elapsed().as_secs_f64());
+    println!(
+        "plan of {} tiles and {size} MB read in {:.2} s",
+        plan.tiles.len(),
+        begin.elapsed().as_secs_f64()
+    );
     let begin = Instant::now();
     let mut again = plan.clone();
     again.set_hashes()?;
     let hashed = begin.elapsed().as_secs_f64();
-    println!("hashes: {hashed:.2} s; text: {} bytes in {:.2} s", again.text()?.len(), begin.elapsed().as_secs_f64() - hashed);
+    println!(
+        "hashes: {hashed:.2} s; text: {} bytes in {:.2} s",
+        again.text()?.len(),
+        begin.elapsed().as_secs_f64() - hashed
+    );
     let begin = Instant::now();
     again.reach = 20.0;
     again.set_hashes()?;
@@ -156,7 +175,10 @@ fn main() -> Outcome<()> {
         let begin = Instant::now();
         let joined = join_tiles(&out, &plan, tiling)?;
         let time = begin.elapsed().as_secs_f64();
-        println!("{tiling:?}: {} tiles joined in {time:.2} s, {} + {} files", joined.tiles, joined.tilesets, joined.subtrees);
+        println!(
+            "{tiling:?}: {} tiles joined in {time:.2} s, {} + {} files",
+            joined.tiles, joined.tilesets, joined.subtrees
+        );
     }
     Ok(())
 }

@@ -50,7 +50,8 @@ fn every_script_of_the_book_runs() {
     for (name, text) in pages(&sources()) {
         for block in text.split("```lua\n").skip(1) {
             let script = block.split("```").next().unwrap();
-            let folder = Folder::new().with_roads().with("buildings.geojson", buildings).with("s.lua", script);
+            let folder =
+                Folder::new().with_roads().with("buildings.geojson", buildings).with("s.lua", script);
             let said = folder.burgeon(&["run", "s.lua", "--strict"]);
             assert_eq!(said.status, 0, "{name}: {}", said.stderr);
             count += 1;

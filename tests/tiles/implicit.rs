@@ -32,7 +32,10 @@ fn both_tilings_list_the_same_tiles_and_a_join_removes_the_files_of_another() {
     let roots = implicit(&tileset(&city, "implicit.json")["root"]);
     assert_eq!(roots.len() as u64, both["subtrees"]);
     for root in &roots {
-        assert!(root["children"].is_null() && root["implicitTiling"]["subtreeLevels"].as_u64() > Some(1), "{root}");
+        assert!(
+            root["children"].is_null() && root["implicitTiling"]["subtreeLevels"].as_u64() > Some(1),
+            "{root}"
+        );
     }
     let alone = city.json(&["join", "out", "--tiling", "implicit"]);
     assert_eq!((&alone["tilesets"], &alone["subtrees"]), (&1.into(), &both["subtrees"]));
@@ -55,7 +58,8 @@ fn a_check_finds_subtrees_that_differ_from_the_explicit_tiles() {
     let json = u64::from_le_bytes(bytes[8..16].try_into().unwrap()) as usize;
     let text: Value = serde_json::from_slice(&bytes[24..24 + json]).unwrap();
     let offset = |view: &Value| {
-        24 + json + text["bufferViews"][view.as_u64().unwrap() as usize]["byteOffset"].as_u64().unwrap() as usize
+        24 + json
+            + text["bufferViews"][view.as_u64().unwrap() as usize]["byteOffset"].as_u64().unwrap() as usize
     };
     // The last error is that of a tile without children.
     let mut changed = bytes.clone();

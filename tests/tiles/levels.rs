@@ -50,7 +50,10 @@ fn coarser_tiles_have_the_features_of_those_inside_and_the_errors_that_were_meas
     assert_eq!(inner.len() as u64, coarse);
     // Hip roofs of 1 to 3 m are a part of blocks, and footprints lack up to 12 m of walls and the roof.
     assert!(inner.iter().all(|(_, error)| (0.2..16.0).contains(error)), "{inner:?}");
-    assert!(inner.iter().any(|(_, error)| *error < 3.2) && inner.iter().any(|(_, error)| *error > 8.0), "{inner:?}");
+    assert!(
+        inner.iter().any(|(_, error)| *error < 3.2) && inner.iter().any(|(_, error)| *error > 8.0),
+        "{inner:?}"
+    );
     // The same bytes in another order.
     plan(&city, "other", "4");
     city.json(&["make", "other", "--threads", "1"]);
@@ -90,7 +93,10 @@ fn a_script_that_draws_the_same_has_no_coarser_tiles() {
     assert_eq!((&planned["coarse"], &planned["lods"]), (&0.into(), &serde_json::json!([])));
     let warnings = planned["warnings"].as_array().unwrap();
     let notes: Vec<&str> = warnings.iter().filter_map(Value::as_str).collect();
-    assert_eq!(notes, ["no coarser tiles at --lod 2: the script draws the same as at --lod 3; read lod in the script"]);
+    assert_eq!(
+        notes,
+        ["no coarser tiles at --lod 2: the script draws the same as at --lod 3; read lod in the script"]
+    );
 }
 
 #[test]

@@ -41,7 +41,12 @@ impl CheckTilesCommand {
         }
         report::eprint(&format!(
             "{} tiles with {} features, and {} coarser ones; {} triangles; {} points are inside their volumes; {} features are missing\n",
-            checked.tiles, checked.features, checked.coarse, checked.triangles, checked.points, checked.missing
+            checked.tiles,
+            checked.features,
+            checked.coarse,
+            checked.triangles,
+            checked.points,
+            checked.missing
         ));
         Ok(())
     }

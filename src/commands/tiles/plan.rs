@@ -258,7 +258,9 @@ impl PlanCommand {
         let largest = plan.tiles.iter().map(|tile| tile.features).max().unwrap_or(0);
         let height = plan.frame.geoid_height;
         let heights = match &self.geoid {
-            Some(path) => format!("heights above the geoid of {}, about {height} m above the ellipsoid", path.display()),
+            Some(path) => {
+                format!("heights above the geoid of {}, about {height} m above the ellipsoid", path.display())
+            }
             None => format!("heights begin {height} m above the ellipsoid"),
         };
         report::eprint(&format!(

@@ -33,14 +33,19 @@ impl<'a> Views<'a> {
         let mut views = Vec::new();
         for view in document["bufferViews"].as_array().into_iter().flatten() {
             let (begin, length) = (number(&view["byteOffset"]), number(&view["byteLength"]));
-            let bytes = begin.zip(length).and_then(|(begin, length)| binary.get(begin..begin.checked_add(length)?));
-            views.push(bytes.filter(|_| begin.is_some_and(|begin| begin % 8 == 0)).ok_or("a view is invalid")?);
+            let bytes =
+                begin.zip(length).and_then(|(begin, length)| binary.get(begin..begin.checked_add(length)?));
+            views.push(
+                bytes.filter(|_| begin.is_some_and(|begin| begin % 8 == 0)).ok_or("a view is invalid")?,
+            );
         }
         Ok(Self { views })
     }
 
     fn get(&self, index: &Value) -> Result<&'a [u8], String> {
-        number(index).and_then(|index| self.views.get(index).copied()).ok_or_else(|| "a view is missing".to_owned())
+        number(index)
+            .and_then(|index| self.views.get(index).copied())
+            .ok_or_else(|| "a view is missing".to_owned())
     }
 
     /// Returns the bits of an availability.
@@ -56,7 +61,8 @@ impl<'a> Views<'a> {
         if bytes.len() != length.div_ceil(8) {
             return Err(format!("a bit stream has {} bytes instead of {}", bytes.len(), length.div_ceil(8)));
         }
-        let mut bits: Vec<bool> = bytes.iter().flat_map(|byte| (0..8).map(move |bit| byte >> bit & 1 == 1)).collect();
+        let mut bits: Vec<bool> =
+            bytes.iter().flat_map(|byte| (0..8).map(move |bit| byte >> bit & 1 == 1)).collect();
         if bits.drain(length..).any(|bit| bit) {
             return Err("an unused bit is set".to_owned());
         }
@@ -73,7 +79,10 @@ impl<'a> Views<'a> {
         if bytes.len() != count * width * 8 {
             return Err("a property has the wrong number of values".to_owned());
         }
-        Ok(bytes.chunks_exact(8).map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap_or_default())).collect())
+        Ok(bytes
+            .chunks_exact(8)
+            .map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap_or_default()))
+            .collect())
     }
 }
 
@@ -104,8 +113,8 @@ impl SubtreeFile {
         if text % 8 != 0 || size % 8 != 0 || binary.len() != size {
             return Err("its parts do not have the lengths of the header, or no multiples of 8".to_owned());
         }
-        let document: Value =
-            serde_json::from_slice(&head[24..]).map_err(|error| format!("its JSON cannot be read: {error}"))?;
+        let document: Value = serde_json::from_slice(&head[24..])
+            .map_err(|error| format!("its JSON cannot be read: {error}"))?;
         let views = Views::new(&document, binary)?;
         let starts: Vec<usize> = (0..=levels).map(|level| ((1_usize << (2 * level)) - 1) / 3).collect();
         let all = starts.last().copied().unwrap_or(0);
@@ -113,14 +122,16 @@ impl SubtreeFile {
         let content = views.bits(&document["contentAvailability"][0], all)?;
         let below = views.bits(&document["childSubtreeAvailability"], 1 << (2 * levels))?;
         let count = present.iter().filter(|bit| **bit).count();
-        let table = &document["propertyTables"][number(&document["tileMetadata"]).ok_or("it has no metadata")?];
+        let table =
+            &document["propertyTables"][number(&document["tileMetadata"]).ok_or("it has no metadata")?];
         if number(&table["count"]) != Some(count) {
             return Err(format!("its metadata are not those of {count} tiles"));
         }
         let class = &schema["classes"][table["class"].as_str().unwrap_or_default()]["properties"];
         let named = |semantic: &str| -> Result<&Value, String> {
             let mut properties = class.as_object().into_iter().flatten();
-            let name = properties.find(|(_, property)| property["semantic"] == semantic).map(|(name, _)| name);
+            let name =
+                properties.find(|(_, property)| property["semantic"] == semantic).map(|(name, _)| name);
             Ok(&table["properties"][name.ok_or_else(|| format!("the schema has no {semantic}"))?])
         };
         let bounds = views.numbers(named("TILE_BOUNDING_BOX")?, count, 12)?;

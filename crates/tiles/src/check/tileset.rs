@@ -121,7 +121,8 @@ impl TilesetCheck<'_> {
     fn compare(&mut self, other: &BTreeMap<TileId, SeenTile>) {
         let seen = std::mem::take(&mut self.seen);
         let only = seen.keys().filter(|id| !other.contains_key(id));
-        let only: Vec<TileId> = only.chain(other.keys().filter(|id| !seen.contains_key(id))).copied().collect();
+        let only: Vec<TileId> =
+            only.chain(other.keys().filter(|id| !seen.contains_key(id))).copied().collect();
         for id in only {
             self.problem(format!("tile {id} is in one of tileset.json and {IMPLICIT_NAME} only"));
         }
@@ -251,7 +252,10 @@ impl TilesetCheck<'_> {
             return Ok(());
         };
         let corners = crate::join::corners(&tile.bounds.unwrap_or_default());
-        let seen = SeenTile { corners: corners.map(|corner| tile.transform.transform_point3(corner)), error: tile.error };
+        let seen = SeenTile {
+            corners: corners.map(|corner| tile.transform.transform_point3(corner)),
+            error: tile.error,
+        };
         if self.seen.insert(planned.id, seen).is_some() {
             self.problem(format!("{uri} is in the tileset twice"));
             return Ok(());

@@ -88,7 +88,8 @@ impl TilesetWriter<'_> {
         for child in &tile.children {
             inside.push(self.grow(child)?);
         }
-        let inside: Vec<(&DAffine3, [f64; 12])> = inside.iter().map(|(axes, bounds)| (axes, *bounds)).collect();
+        let inside: Vec<(&DAffine3, [f64; 12])> =
+            inside.iter().map(|(axes, bounds)| (axes, *bounds)).collect();
         let bounds = box_around(&tile.transform, Some(tile.bounds), &inside);
         self.grown.insert(tile.id, bounds);
         Ok((tile.transform, bounds))
@@ -99,7 +100,8 @@ impl TilesetWriter<'_> {
         match self.is_implicit && tile.id.level >= TileId::ANCHOR {
             true => 1,
             false => {
-                usize::from(tile.has_content) + tile.children.iter().map(|child| self.tiles(child)).sum::<usize>()
+                usize::from(tile.has_content)
+                    + tile.children.iter().map(|child| self.tiles(child)).sum::<usize>()
             }
         }
     }

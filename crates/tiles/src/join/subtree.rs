@@ -90,45 +90,46 @@ impl SubtreeBuffer {
 impl Subtree<'_> {
     /// Returns the file.
     fn file(&self, levels: u32) -> Vec<u8> {
-    let mut buffer = SubtreeBuffer::default();
-    let bits = |length: usize, numbers: &mut dyn Iterator<Item = usize>| -> Vec<bool> {
-        let mut bits = vec![false; length];
-        numbers.for_each(|number| bits[number] = true);
-        bits
-    };
-    let all = count(levels);
-    let tile_availability = buffer.availability(&bits(all, &mut self.tiles.keys().copied()));
-    let contents = self.tiles.iter().filter(|(_, tile)| tile.has_content);
-    let content_availability = buffer.availability(&bits(all, &mut contents.map(|(number, _)| *number)));
-    let below = 1 << (2 * levels);
-    let child_availability = buffer.availability(&bits(below, &mut self.children.iter().copied()));
-    let present: Vec<&ImplicitTile> = self.tiles.values().copied().collect();
-    let bounds: Vec<u8> = present.iter().flat_map(|tile| tile.bounds).flat_map(f64::to_le_bytes).collect();
-    let errors: Vec<u8> = present.iter().flat_map(|tile| tile.error.to_le_bytes()).collect();
-    let (bounds, errors) = (buffer.view(&bounds), buffer.view(&errors));
-    let SubtreeBuffer { bytes, views } = buffer;
-    let document = json!({
-        "buffers": [{ "byteLength": bytes.len() }],
-        "bufferViews": views,
-        "tileAvailability": tile_availability,
-        "contentAvailability": [content_availability],
-        "childSubtreeAvailability": child_availability,
-        "propertyTables": [{
-            "class": "tile",
-            "count": present.len(),
-            "properties": { "boundingBox": { "values": bounds }, "geometricError": { "values": errors } },
-        }],
-        "tileMetadata": 0,
-    });
-    let mut text = document.to_string().into_bytes();
-    text.resize(text.len().next_multiple_of(8), b' ');
-    let mut file = b"subt".to_vec();
-    file.extend(1_u32.to_le_bytes());
-    file.extend((text.len() as u64).to_le_bytes());
-    file.extend((bytes.len() as u64).to_le_bytes());
-    file.extend(text);
-    file.extend(bytes);
-    file
+        let mut buffer = SubtreeBuffer::default();
+        let bits = |length: usize, numbers: &mut dyn Iterator<Item = usize>| -> Vec<bool> {
+            let mut bits = vec![false; length];
+            numbers.for_each(|number| bits[number] = true);
+            bits
+        };
+        let all = count(levels);
+        let tile_availability = buffer.availability(&bits(all, &mut self.tiles.keys().copied()));
+        let contents = self.tiles.iter().filter(|(_, tile)| tile.has_content);
+        let content_availability = buffer.availability(&bits(all, &mut contents.map(|(number, _)| *number)));
+        let below = 1 << (2 * levels);
+        let child_availability = buffer.availability(&bits(below, &mut self.children.iter().copied()));
+        let present: Vec<&ImplicitTile> = self.tiles.values().copied().collect();
+        let bounds: Vec<u8> =
+            present.iter().flat_map(|tile| tile.bounds).flat_map(f64::to_le_bytes).collect();
+        let errors: Vec<u8> = present.iter().flat_map(|tile| tile.error.to_le_bytes()).collect();
+        let (bounds, errors) = (buffer.view(&bounds), buffer.view(&errors));
+        let SubtreeBuffer { bytes, views } = buffer;
+        let document = json!({
+            "buffers": [{ "byteLength": bytes.len() }],
+            "bufferViews": views,
+            "tileAvailability": tile_availability,
+            "contentAvailability": [content_availability],
+            "childSubtreeAvailability": child_availability,
+            "propertyTables": [{
+                "class": "tile",
+                "count": present.len(),
+                "properties": { "boundingBox": { "values": bounds }, "geometricError": { "values": errors } },
+            }],
+            "tileMetadata": 0,
+        });
+        let mut text = document.to_string().into_bytes();
+        text.resize(text.len().next_multiple_of(8), b' ');
+        let mut file = b"subt".to_vec();
+        file.extend(1_u32.to_le_bytes());
+        file.extend((text.len() as u64).to_le_bytes());
+        file.extend((bytes.len() as u64).to_le_bytes());
+        file.extend(text);
+        file.extend(bytes);
+        file
     }
 }
 
@@ -190,9 +191,14 @@ mod tests {
         let places: Vec<String> = files.iter().map(|(place, _)| place.to_string()).collect();
         assert_eq!(places, ["0/0/0", "2/2/1"]);
         for (_, file) in files {
-            let word = |at: usize| usize::try_from(u64::from_le_bytes(file[at..at + 8].try_into().unwrap())).unwrap();
+            let word = |at: usize| {
+                usize::try_from(u64::from_le_bytes(file[at..at + 8].try_into().unwrap())).unwrap()
+            };
             let (text, binary) = (word(8), word(16));
-            assert_eq!((&file[..4], text % 8, binary % 8, file.len()), (&b"subt"[..], 0, 0, 24 + text + binary));
+            assert_eq!(
+                (&file[..4], text % 8, binary % 8, file.len()),
+                (&b"subt"[..], 0, 0, 24 + text + binary)
+            );
             let document: Value = serde_json::from_slice(&file[24..24 + text]).unwrap();
             for view in document["bufferViews"].as_array().unwrap() {
                 assert_eq!(view["byteOffset"].as_u64().unwrap() % 8, 0);

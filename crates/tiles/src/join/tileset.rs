@@ -154,7 +154,8 @@ fn remove_subtrees(folder: &Path, written: &BTreeSet<PathBuf>) -> Result<()> {
         let path = entry.path();
         if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
             remove_subtrees(&path, written)?;
-        } else if path.extension().is_some_and(|extension| extension == "subtree") && !written.contains(&path) {
+        } else if path.extension().is_some_and(|extension| extension == "subtree") && !written.contains(&path)
+        {
             remove(&path)?;
         }
     }

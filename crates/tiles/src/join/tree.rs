@@ -111,7 +111,9 @@ impl TreeJoin<'_> {
             children,
         };
         match content {
-            Some(JoinedTile { planned: PlannedTile { lod: None, .. }, errors: own, .. }) => raise(&mut errors, own),
+            Some(JoinedTile { planned: PlannedTile { lod: None, .. }, errors: own, .. }) => {
+                raise(&mut errors, own)
+            }
             Some(JoinedTile { planned, .. }) if !tile.children.is_empty() => {
                 let level = self.lods.iter().position(|lod| Some(*lod) == planned.lod);
                 tile.error = tile.error.max(level.map_or(0.0, |level| errors[level]));
@@ -123,7 +125,12 @@ impl TreeJoin<'_> {
     }
 
     /// Returns the axes of a tile: those of its content, or of the largest tile of a plan that contains it.
-    fn axes(&self, id: TileId, content: Option<&JoinedTile<'_>>, tiles: &[JoinedTile<'_>]) -> Result<TileAxes> {
+    fn axes(
+        &self,
+        id: TileId,
+        content: Option<&JoinedTile<'_>>,
+        tiles: &[JoinedTile<'_>],
+    ) -> Result<TileAxes> {
         if let Some(tile) = content {
             return self.map.axes(tile.planned.origin());
         }
@@ -182,7 +189,14 @@ mod tests {
         let at = |x: f64, y: f64, z: f64| map.local(&axes, DVec3::new(x, y, z)).unwrap();
         let [west, south, east, north] = tile.region;
         let bounds = bounding_box(at(west, south, 0.0) - 1.0, at(east, north, 9.0) + 1.0);
-        let file = TileFile { bytes: 1, hash: String::new(), degrees: axes.degrees, bounds, triangles: 1, instances: 1 };
+        let file = TileFile {
+            bytes: 1,
+            hash: String::new(),
+            degrees: axes.degrees,
+            bounds,
+            triangles: 1,
+            instances: 1,
+        };
         (file, vec![0.5 + (number % 7) as f64, 3.0 + (number % 5) as f64])
     }
 
@@ -203,7 +217,8 @@ mod tests {
         all.sort_by_key(|tile| tile.id.curve());
         let contents: Vec<(TileFile, Vec<f64>)> =
             all.iter().enumerate().map(|(number, tile)| content(number, &map, tile)).collect();
-        let joined = all.iter().zip(&contents).map(|(planned, (file, errors))| JoinedTile { planned, file, errors });
+        let joined =
+            all.iter().zip(&contents).map(|(planned, (file, errors))| JoinedTile { planned, file, errors });
         let root = join_tree(&joined.collect::<Vec<_>>(), &map, &lods).unwrap().unwrap();
         assert_eq!(root.contents(), all.len());
         let mut open = vec![&root];
@@ -213,7 +228,8 @@ mod tests {
             let inside = |id: TileId| id.level >= tile.id.level && id.ancestor(tile.id.level) == tile.id;
             if let Some(lod) = index.and_then(|index| all[index].lod) {
                 let level = lods.iter().position(|known| *known == lod).unwrap();
-                let leaves = all.iter().zip(&contents).filter(|(leaf, _)| leaf.lod.is_none() && inside(leaf.id));
+                let leaves =
+                    all.iter().zip(&contents).filter(|(leaf, _)| leaf.lod.is_none() && inside(leaf.id));
                 let largest = leaves.map(|(_, (_, errors))| errors[level]).fold(0.0, f64::max);
                 assert!(tile.error >= largest && tile.error < 8.5, "{} {largest}", tile.error);
                 coarse += 1;

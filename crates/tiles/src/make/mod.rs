@@ -4,8 +4,8 @@ mod manifest;
 mod sweep;
 mod tile;
 
-pub(crate) use manifest::{write_bytes, write_text};
 pub use manifest::{ManifestError, MissingFeature, TileFile, TileManifest, hash_file};
+pub(crate) use manifest::{write_bytes, write_text};
 pub use sweep::sweep_temporary;
 pub(crate) use tile::bounding_box;
 pub use tile::{

@@ -58,8 +58,7 @@ fn sum(id: TileId, tiles: &[PlannedTile], lod: u8) -> PlannedTile {
         features += tile.features;
         cost += tile.cost * PART;
         let [west, south, east, north] = tile.region;
-        region =
-            [region[0].min(west), region[1].min(south), region[2].max(east), region[3].max(north)];
+        region = [region[0].min(west), region[1].min(south), region[2].max(east), region[3].max(north)];
         for (sum, text) in [(&mut ids, &tile.ids), (&mut data, &tile.data)] {
             sum.add(FeatureDigest::parse(text).unwrap_or_default());
         }

@@ -121,8 +121,7 @@ impl TilePlan {
         let is_odd =
             |tile: &PlannedTile| tile.id.to_string().parse::<TileId>().is_err() || !tile.cost.is_finite();
         let are_odd = |tiles: &[PlannedTile]| {
-            tiles.iter().any(is_odd)
-                || tiles.windows(2).any(|pair| pair[0].id.curve() >= pair[1].id.curve())
+            tiles.iter().any(is_odd) || tiles.windows(2).any(|pair| pair[0].id.curve() >= pair[1].id.curve())
         };
         if are_odd(&plan.tiles) || are_odd(&plan.coarse) {
             return Err(refuse("its tiles are not in order".to_owned()));
