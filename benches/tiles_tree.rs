@@ -1,5 +1,5 @@
 //! Tree of the tiles of a country with synthetic footprints: plan, join and check of the tree, without content.
-//! `cargo bench --bench tiles_tree`, or `-- 10000000` for that number of features.
+//! `cargo bench --bench tiles_tree`, or `-- 10000000 870` for that number of features, and of features of a tile.
 
 #![allow(clippy::print_stdout, clippy::cast_precision_loss, reason = "a bench prints its figures")]
 
@@ -18,6 +18,10 @@ type Outcome<T> = Result<T, Box<dyn Error>>;
 
 /// Number of features without an argument.
 const FEATURES: u64 = 1_000_000;
+
+/// Number of features of a tile without an argument. With [`FEATURES`], there are about as many tiles as other programs make of
+/// the 46,286,334 buildings of France: 117,745.
+const TARGET: u64 = 12;
 
 /// Script whose tiles are planned.
 const SCRIPT: &str = r#"local Walls = module("Walls")
@@ -120,14 +124,15 @@ fn write_manifests(folder: &TileFolder, plan: &TilePlan) -> Outcome<()> {
 }
 
 fn main() -> Outcome<()> {
-    let count = std::env::args().find_map(|argument| argument.parse().ok()).unwrap_or(FEATURES);
+    let mut numbers = std::env::args().filter_map(|argument| argument.parse::<u64>().ok());
+    let count = numbers.next().unwrap_or(FEATURES);
+    let target = numbers.next().unwrap_or(TARGET).to_string();
     let folder = tempfile::tempdir()?;
     let path = |name: &str| folder.path().join(name);
     let begin = Instant::now();
     write_country(&path("country.gpkg"), count)?;
     fs::write(path("country.lua"), SCRIPT)?;
     println!("{count} features written in {:.1} s", begin.elapsed().as_secs_f64());
-    // As many tiles for each feature as other programs make of a country: 117,745 tiles for 46,286,334 features.
     let begin = Instant::now();
     let output = Command::new(env!("CARGO_BIN_EXE_burgeon"))
         .args([
@@ -137,7 +142,7 @@ fn main() -> Outcome<()> {
             "-o",
             "out",
             "--target-features",
-            "870",
+            &target,
             "--geoid-height",
             "44",
             "--json",

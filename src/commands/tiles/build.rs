@@ -58,13 +58,11 @@ impl<'a> TileBuilder<'a> {
 
     /// Returns the errors (m) of the coarser levels of detail of a tile, whose features are `fine`.
     fn errors(&self, tile: &PlannedTile, fine: &Scene) -> Vec<f64> {
-        let drawings = FeatureDrawings::new(fine);
-        let error = |lod: &u8| {
-            // Where the coarser level fails, its tile reports the failure, and nothing is drawn.
-            let coarse = self.scene(tile, *lod).unwrap_or_default();
-            drawings.error(&FeatureDrawings::new(&coarse))
-        };
-        self.plan.lods.iter().map(error).collect()
+        // Where a coarser level fails, its tile reports the failure, and nothing is drawn.
+        let scenes = self.plan.lods.iter().map(|lod| self.scene(tile, *lod).unwrap_or_default());
+        let scenes: Vec<Scene> = scenes.collect();
+        let coarse: Vec<FeatureDrawings<'_>> = scenes.iter().map(FeatureDrawings::new).collect();
+        FeatureDrawings::new(fine).errors(&coarse)
     }
 
     /// Returns the boxes of the features that a tile needs.

@@ -7,7 +7,7 @@ use burgeon_base::error::{Error, Result};
 use serde_json::Value;
 
 use super::subtree::{SubtreeFile, SubtreeTile};
-use super::tileset::{ParentTile, TileContent, TilesetCheck};
+use super::tileset::{ParentTile, ShownContent, TilesetCheck};
 
 /// Largest number of levels of a subtree that is read.
 const LEVELS: u64 = 10;
@@ -100,7 +100,7 @@ impl TilesetCheck<'_> {
             if tile.has_content {
                 let child = |quarter: u32| [level + 1, x * 2 + (quarter & 1), y * 2 + (quarter >> 1)];
                 let has_children = (0..4).any(|quarter| tiles.contains_key(&child(quarter)));
-                self.content(&TileContent { uri: &uri, has_children, replaces: tiling.replaces }, &inner)?;
+                self.content(&ShownContent { uri: &uri, has_children, replaces: tiling.replaces }, &inner)?;
             }
         }
         Ok(())

@@ -211,7 +211,7 @@ mod tests {
             }
             let places: Vec<TileId> = places.into_iter().collect();
             let numbered = places.iter().zip(0_u32..);
-            let expected = numbered.map(|(id, number)| ([id.level, id.x, id.y], f64::from(number).to_bits(), number % 2 == 0));
+            let expected = numbered.map(|(id, number)| ([id.level, id.x, id.y], f64::from(number).to_bits(), number.is_multiple_of(2)));
             let files = crate::join::numbered_subtrees(&places, levels);
             prop_assert_eq!(read_all(&files, levels), expected.collect());
         }

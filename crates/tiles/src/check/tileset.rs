@@ -65,7 +65,7 @@ pub(super) struct ParentTile {
 }
 
 /// Content of a tile.
-pub(super) struct TileContent<'a> {
+pub(super) struct ShownContent<'a> {
     pub(super) uri: &'a str,
     pub(super) has_children: bool,
     /// Set if the children replace the content.
@@ -212,7 +212,7 @@ impl TilesetCheck<'_> {
             }
             Some(uri) => {
                 let (has_children, replaces) = (!children.is_empty(), described["refine"] == "REPLACE");
-                self.content(&TileContent { uri, has_children, replaces }, &own)?;
+                self.content(&ShownContent { uri, has_children, replaces }, &own)?;
             }
             None => {}
         }
@@ -245,7 +245,7 @@ impl TilesetCheck<'_> {
     }
 
     /// Checks the content of a tile.
-    pub(super) fn content(&mut self, content: &TileContent<'_>, tile: &ParentTile) -> Result<()> {
+    pub(super) fn content(&mut self, content: &ShownContent<'_>, tile: &ParentTile) -> Result<()> {
         let uri = content.uri;
         let Some(planned) = self.plan.get(uri).copied() else {
             self.problem(format!("{uri} is not in the plan"));

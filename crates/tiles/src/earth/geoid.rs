@@ -83,12 +83,15 @@ fn cell(place: f64, count: usize) -> Option<(f64, usize)> {
 mod tests {
     use super::*;
 
-    fn grid(text: &str, crs: u32) -> Result<GeoidGrid> {
+    const DEGREES: &str = r#"GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433],AUTHORITY["EPSG","4326"]]"#;
+
+    const METRES: &str = r#"PROJCS["RGF93 / Lambert-93",GEOGCS["RGF93",DATUM["RGF93",SPHEROID["GRS 1980",6378137,298.257222101]],PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],PROJECTION["Lambert_Conformal_Conic_2SP"],PARAMETER["standard_parallel_1",49],PARAMETER["standard_parallel_2",44],PARAMETER["latitude_of_origin",46.5],PARAMETER["central_meridian",3],PARAMETER["false_easting",700000],PARAMETER["false_northing",6600000],UNIT["metre",1],AUTHORITY["EPSG","2154"]]"#;
+
+    fn grid(text: &str, crs: &str) -> Result<GeoidGrid> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("geoid.asc");
         std::fs::write(&path, text).unwrap();
-        let definition = Crs::epsg(crs).unwrap().well_known_text().unwrap();
-        std::fs::write(path.with_extension("prj"), definition).unwrap();
+        std::fs::write(path.with_extension("prj"), crs).unwrap();
         GeoidGrid::open(&path, "geoid.asc")
     }
 
@@ -96,7 +99,7 @@ mod tests {
     fn heights_are_interpolated_and_not_extrapolated() {
         let text =
             "ncols 3\nnrows 3\nxllcenter 2\nyllcenter 48\ncellsize 0.5\n44 45 46\n44 45 46\n40 41 42\n";
-        let grid = grid(text, 4326).unwrap();
+        let grid = grid(text, DEGREES).unwrap();
         let height = |longitude: f64, latitude: f64| grid.height([longitude, latitude]).ok();
         assert_eq!(height(2.0, 49.0), Some(44.0));
         assert!((height(2.25, 48.75).unwrap() - 44.5).abs() < 1e-6);
@@ -113,10 +116,10 @@ mod tests {
     fn a_grid_in_metres_or_with_missing_heights_is_refused() {
         let holes =
             "ncols 2\nnrows 2\nxllcorner 2\nyllcorner 48\ncellsize 1\nNODATA_value -9999\n1 2\n3 -9999\n";
-        let error = grid(holes, 4326).unwrap_err();
+        let error = grid(holes, DEGREES).unwrap_err();
         assert!(error.message().starts_with("1 heights of the geoid grid geoid.asc are missing"), "{error}");
         let error =
-            grid("ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2\n3 4\n", 2154).unwrap_err();
+            grid("ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2\n3 4\n", METRES).unwrap_err();
         assert!(error.message().contains("not a grid of longitudes"), "{error}");
     }
 }

@@ -154,7 +154,7 @@ pub(super) fn schema() -> Value {
 pub(crate) fn numbered_subtrees(places: &[TileId], levels: u32) -> Vec<(TileId, Vec<u8>)> {
     let tile = |number: u32| {
         let error = f64::from(number);
-        ImplicitTile { bounds: [error; 12], error, has_content: number % 2 == 0 }
+        ImplicitTile { bounds: [error; 12], error, has_content: number.is_multiple_of(2) }
     };
     let tiles = places.iter().zip(0..).map(|(place, number)| (*place, tile(number))).collect();
     subtrees(&tiles, levels)

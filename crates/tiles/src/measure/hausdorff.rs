@@ -8,13 +8,13 @@ use glam::DVec3;
 use super::tree::{Corners, TriangleTree, distance_squared};
 
 /// Tolerance of distances, as a part of them.
-pub(super) const PART: f64 = 0.01;
+pub(super) const PART: f64 = 0.1;
 
-/// Tolerance (m) of distances.
-pub(super) const NEAR: f64 = 1e-3;
+/// Tolerance (m) of distances. With a smaller one, most of the time goes to the borders of windows, all as deep as each other.
+pub(super) const NEAR: f64 = 0.2;
 
 /// Largest number of boxes and parts of triangles that are divided for a distance.
-const MOST: usize = 200_000;
+const MOST: usize = 50_000;
 
 /// Part of a mesh, and an upper bound of the distance (m) of its points.
 struct MeshPart {
@@ -54,8 +54,8 @@ pub fn hausdorff(a: &TriangleTree, b: &TriangleTree, known: f64) -> f64 {
     one_sided(b, a, one_sided(a, b, known))
 }
 
-/// Returns the largest distance (m) of a point of `a` from `b`, exact to a hundredth and a millimetre, by which it may be too small; or
-/// `known` if the distance is smaller.
+/// Returns the largest distance (m) of a point of `a` from `b`, or `known` if the distance is smaller. The result may be too small by
+/// a tenth of it and 20 cm.
 ///
 /// If a mesh has no triangles, the distance is the diagonal of the other one. Method: triangles are divided while the upper bound
 /// of their distances is larger than a distance that was found (Cignoni, Rocchini and Scopigno, "Metro: measuring error on
@@ -80,7 +80,7 @@ pub fn one_sided(a: &TriangleTree, b: &TriangleTree, known: f64) -> f64 {
     search.add_box(0);
     for _ in 0..MOST {
         let Some(MeshPart { bound, shape }) = search.heap.pop() else { break };
-        if bound <= search.largest * (1.0 + PART) + NEAR {
+        if bound <= search.limit() {
             // This is the largest bound that is left.
             return search.largest;
         }
@@ -100,6 +100,11 @@ struct DistanceSearch<'a> {
 }
 
 impl DistanceSearch<'_> {
+    /// Returns the bound (m) up to which parts need not be divided.
+    fn limit(&self) -> f64 {
+        self.largest * (1.0 + PART) + NEAR
+    }
+
     fn divide(&mut self, shape: &PartShape) {
         match *shape {
             PartShape::Box(index) => match self.a.halves(index) {
@@ -119,25 +124,32 @@ impl DistanceSearch<'_> {
         let corners = self.a.box_corners(index);
         let centre = corners[0].midpoint(corners[7]);
         let (bound, _) = self.bound(centre, &corners);
-        self.heap.push(MeshPart { bound, shape: PartShape::Box(index) });
+        if bound > self.limit() {
+            self.heap.push(MeshPart { bound, shape: PartShape::Box(index) });
+        }
     }
 
     fn add_triangle(&mut self, corners: Corners) {
         let (bound, distance) = self.bound(corners.iter().sum::<DVec3>() / 3.0, &corners);
         self.largest = self.largest.max(distance);
-        self.heap.push(MeshPart { bound, shape: PartShape::Triangle(corners) });
+        if bound > self.limit() {
+            self.heap.push(MeshPart { bound, shape: PartShape::Triangle(corners) });
+        }
     }
 
-    /// Returns an upper bound of the distances (m) of the points of a convex shape, and the distance of its centre.
+    /// Returns an upper bound of the distances (m) of the points of a convex shape, and the distance of its centre, or 0 if the
+    /// bound is small enough.
     fn bound(&self, centre: DVec3, corners: &[DVec3]) -> (f64, f64) {
-        let Some((distance, number)) = self.b.nearest(centre) else { return (f64::INFINITY, 0.0) };
-        let farthest = |distance: &dyn Fn(DVec3) -> f64| {
-            corners.iter().map(|corner| distance(*corner)).fold(0.0, f64::max)
-        };
-        let of_centre = distance + farthest(&|corner| corner.distance(centre));
+        let squares = corners.iter().map(|corner| corner.distance_squared(centre));
+        let radius = squares.fold(0.0, f64::max).sqrt();
+        let enough = self.limit() - radius;
+        let Some((distance, number)) = self.b.nearest(centre, enough) else { return (f64::INFINITY, 0.0) };
+        if distance <= enough {
+            return (distance + radius, 0.0);
+        }
         let nearest = &self.b.triangles()[number];
-        let of_triangle = farthest(&|corner| distance_squared(nearest, corner)).sqrt();
-        (of_centre.min(of_triangle), distance)
+        let squares = corners.iter().map(|corner| distance_squared(nearest, *corner));
+        (squares.fold(0.0, f64::max).sqrt().min(distance + radius), distance)
     }
 }
 
@@ -172,7 +184,7 @@ mod tests {
         fn no_sample_is_farther_than_the_distance_and_one_is_nearly_as_far(a in triangles(), b in triangles()) {
             let (a, b) = (TriangleTree::new(a), TriangleTree::new(b));
             let (distance, least) = (one_sided(&a, &b, 0.0), sampled(&a, &b));
-            prop_assert!(distance * 1.01 + 1e-3 >= least, "{distance} {least}");
+            prop_assert!(distance * 1.1 + 0.2 + 1e-9 >= least, "{distance} {least}");
             prop_assert!(distance <= least * 1.02 + 2.0, "{distance} {least}");
             prop_assert_eq!(one_sided(&a, &b, 1000.0), 1000.0);
             prop_assert!(hausdorff(&a, &b, 0.0) >= distance);
@@ -181,7 +193,7 @@ mod tests {
         #[test]
         fn a_mesh_that_is_moved_across_its_planes_has_the_distance_of_the_move(height in 0.0..50.0_f64, b in triangles()) {
             let flat = |z: f64| TriangleTree::new(vec![[DVec3::Z * z, DVec3::new(90.0, 0.0, z), DVec3::new(0.0, 90.0, z)]]);
-            prop_assert!((hausdorff(&flat(0.0), &flat(height), 0.0) - height).abs() < 1.1e-3);
+            prop_assert!((hausdorff(&flat(0.0), &flat(height), 0.0) - height).abs() < 0.2001);
             let b = TriangleTree::new(b);
             prop_assert!(hausdorff(&b, &b, 0.0) < 1e-6);
         }
@@ -195,9 +207,9 @@ mod tests {
         let tip = at(4.0, 4.0, 9.0);
         let flat = TriangleTree::new(vec![[a, b, c], [a, c, d]]);
         let roof = TriangleTree::new(vec![[a, b, tip], [b, c, tip], [c, d, tip], [d, a, tip]]);
-        assert!((one_sided(&roof, &flat, 0.0) - 3.0).abs() < 0.031);
+        assert!((one_sided(&roof, &flat, 0.0) - 3.0).abs() < 0.46);
         // The middle of the flat roof is 3 m below the tip, and nearer to the slopes: 3 · cos(atan(3/4)).
-        assert!((one_sided(&flat, &roof, 0.0) - 2.4).abs() < 0.025);
+        assert!((one_sided(&flat, &roof, 0.0) - 2.4).abs() < 0.4);
         let empty = TriangleTree::default();
         assert_eq!(hausdorff(&empty, &flat, 0.0), flat.diagonal());
         assert_eq!(hausdorff(&empty, &empty, 0.0), 0.0);

@@ -6,7 +6,7 @@ use glam::DVec3;
 pub(super) type Corners = [DVec3; 3];
 
 /// Largest number of triangles in a box that is not divided.
-const FEW: usize = 4;
+const FEW: usize = 6;
 
 /// Triangles in a tree of boxes.
 ///
@@ -15,7 +15,7 @@ const FEW: usize = 4;
 /// use glam::DVec3;
 ///
 /// let tree = TriangleTree::new(vec![[DVec3::ZERO, DVec3::X, DVec3::Y]]);
-/// assert_eq!(tree.nearest(DVec3::new(0.2, 0.2, 3.0)), Some((3.0, 0)));
+/// assert_eq!(tree.nearest(DVec3::new(0.2, 0.2, 3.0), 0.0), Some((3.0, 0)));
 /// ```
 #[derive(Debug, Clone, Default)]
 pub struct TriangleTree {
@@ -58,12 +58,17 @@ impl TriangleTree {
         &self.triangles
     }
 
-    /// Returns the distance (m) of the nearest triangle from a point, and its number; `None` without triangles.
-    pub fn nearest(&self, point: DVec3) -> Option<(f64, usize)> {
+    /// Returns the distance (m) of the nearest triangle from a point, and its number; or of one that is at most `enough` (m) away.
+    /// `None` without triangles.
+    pub fn nearest(&self, point: DVec3, enough: f64) -> Option<(f64, usize)> {
+        let enough = enough.max(0.0) * enough.max(0.0);
         let mut best = (f64::INFINITY, None);
-        let mut open = Vec::with_capacity(32);
-        open.push((0.0, 0));
-        while let Some((distance, index)) = open.pop() {
+        // A tree of 2^32 triangles has this depth, and each level leaves one half open.
+        let mut open = [(0.0, 0_usize); 64];
+        let mut count = 1;
+        while count > 0 && best.0 > enough {
+            count -= 1;
+            let (distance, index) = open[count];
             let Some(inner) = self.boxes.get(index).filter(|_| distance < best.0) else { continue };
             if inner.second == 0 {
                 for number in inner.first..inner.first + inner.count {
@@ -77,7 +82,11 @@ impl TriangleTree {
             let halves = [index + 1, inner.second].map(|half| (self.boxes[half].distance(point), half));
             // The nearer half is taken first.
             let [a, b] = halves;
-            open.extend(if a.0 < b.0 { [b, a] } else { [a, b] });
+            for half in if a.0 < b.0 { [b, a] } else { [a, b] } {
+                if let Some(place) = open.get_mut(count).filter(|_| half.0 < best.0) {
+                    (*place, count) = (half, count + 1);
+                }
+            }
         }
         best.1.map(|number| (best.0.sqrt(), number))
     }
@@ -208,10 +217,12 @@ mod tests {
             let tree = TriangleTree::new(triangles);
             let all = tree.triangles().iter().map(|corners| distance_squared(corners, place).sqrt());
             let least = all.reduce(f64::min);
-            let found = tree.nearest(place);
+            let found = tree.nearest(place, 0.0);
             prop_assert_eq!(found.map(|(distance, _)| distance), least);
             if let Some((distance, number)) = found {
                 prop_assert_eq!(distance_squared(&tree.triangles()[number], place).sqrt(), distance);
+                let near = tree.nearest(place, 4.0).unwrap().0;
+                prop_assert!(near == distance || near <= 4.0);
             }
         }
     }

@@ -131,9 +131,14 @@ impl TileDivision {
     }
 
     /// Adds the features of another division.
-    pub fn merge(&mut self, other: &Self) {
-        for (place, (tile, sums)) in &other.cells {
-            self.cells.entry(*place).or_insert((*tile, CellSums::NOTHING)).1.add(sums);
+    pub fn merge(&mut self, other: Self) {
+        if self.cells.is_empty() {
+            // Two copies of the cells of a country are large.
+            *self = other;
+            return;
+        }
+        for (place, (tile, sums)) in other.cells {
+            self.cells.entry(place).or_insert((tile, CellSums::NOTHING)).1.add(&sums);
         }
     }
 

@@ -64,7 +64,7 @@ pub fn scan_source(
     let SourceScan { label, bounds, left_out, notes, division: own, .. } = scan;
     let features = own.features();
     let bounds = if features == 0 { [[0.0; 3]; 2] } else { bounds };
-    division.merge(&own);
+    division.merge(own);
     Ok(ScanResult { label, features, bounds, in_parts, left_out, notes })
 }
 
