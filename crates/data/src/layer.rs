@@ -61,7 +61,7 @@ impl Layer {
             let warning = Warning::new(WarningKind::Data, text);
             warnings.push(warning.help(error.remedy().unwrap_or("repair the file, or remove them")));
         }
-        warnings.extend(self.notes.iter().map(|note| Warning::new(WarningKind::Data, note.clone())));
+        warnings.extend(self.notes.iter().map(|note| Warning::new(WarningKind::Data, note)));
         warnings
     }
 

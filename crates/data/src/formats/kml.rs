@@ -3,7 +3,6 @@
 //! Source: OGC 12-007r2, KML 2.3.
 
 use std::borrow::Cow;
-use std::sync::Arc;
 
 use glam::DVec3;
 
@@ -69,8 +68,8 @@ impl LayeredFile for KmlFile {
         let name = &self.file.name;
         let mut xml = Xml::new(&self.file.content, name, &wanted.budget)?;
         let table = FeatureTable::new(layer, name, Crs::epsg(4326), wanted);
-        let budget = Arc::clone(&wanted.budget);
-        let mut reader = PlacemarkReader { table, types: TextTypes::default(), number: 0, budget };
+        let mut reader =
+            PlacemarkReader { table, types: TextTypes::default(), number: 0, budget: &wanted.budget };
         // Names of the open folders, each with the depth of its element.
         let mut folders: Vec<(usize, String)> = Vec::new();
         let mut links = 0;
@@ -131,14 +130,14 @@ struct Placemark {
     wrong: Option<String>,
 }
 
-struct PlacemarkReader {
+struct PlacemarkReader<'b> {
     table: FeatureTable,
     types: TextTypes,
     number: usize,
-    budget: Arc<Budget>,
+    budget: &'b Budget,
 }
 
-impl PlacemarkReader {
+impl PlacemarkReader<'_> {
     fn placemark(&mut self, xml: &mut Xml, element: &Element, folder: &str) -> Result<()> {
         self.number += 1;
         let id = element.attribute("id").filter(|id| !id.is_empty()).map(str::to_owned);
@@ -198,7 +197,7 @@ impl PlacemarkReader {
                         XmlPiece::Start(inner) if inner.name == "displayName" => drop(xml.inner_text()?),
                         XmlPiece::Start(inner) if inner.name == "value" && own.is_some() => {
                             let value = xml.inner_text()?;
-                            found.add(own.as_deref().unwrap_or_default(), value, &self.budget)?;
+                            found.add(own.as_deref().unwrap_or_default(), value, self.budget)?;
                         }
                         XmlPiece::Start(inner) => self.property(xml, &inner, found)?,
                         XmlPiece::End if xml.depth < depth => return Ok(()),
@@ -210,9 +209,9 @@ impl PlacemarkReader {
             // A schema value is named by an attribute of its element.
             "SimpleData" => {
                 let name = element.attribute("name").unwrap_or_default();
-                found.add(name, xml.inner_text()?, &self.budget)
+                found.add(name, xml.inner_text()?, self.budget)
             }
-            name => found.add(name, xml.inner_text()?, &self.budget),
+            name => found.add(name, xml.inner_text()?, self.budget),
         }
     }
 
@@ -255,7 +254,7 @@ impl PlacemarkReader {
                             "innerBoundaryIs" => is_outer = false,
                             "coordinates" => {
                                 let text = xml.inner_text()?;
-                                match places(&text, &self.budget)? {
+                                match places(&text, self.budget)? {
                                     Ok(ring) if is_outer => outer.push(ring),
                                     Ok(ring) => holes.push(ring),
                                     Err(why) => return Ok(Err(why)),
@@ -284,7 +283,7 @@ impl PlacemarkReader {
                     match xml.next()? {
                         XmlPiece::Start(inner) if inner.name == "coordinates" => {
                             let text = xml.inner_text()?;
-                            match places(&text, &self.budget)? {
+                            match places(&text, self.budget)? {
                                 Ok(places) => found.extend(places),
                                 Err(why) => return Ok(Err(why)),
                             }
@@ -292,7 +291,7 @@ impl PlacemarkReader {
                         // A track has one position per element, with numbers separated by white space.
                         XmlPiece::Start(inner) if inner.name == "coord" => {
                             let text = xml.inner_text()?.split_whitespace().collect::<Vec<_>>().join(",");
-                            match places(&text, &self.budget)? {
+                            match places(&text, self.budget)? {
                                 Ok(places) => found.extend(places),
                                 Err(why) => return Ok(Err(why)),
                             }

@@ -1,5 +1,6 @@
 //! The reader for glTF files.
 
+use std::borrow::Cow;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -50,8 +51,8 @@ pub(super) fn read(content: &[u8], wanted: &mut ImportOptions<'_>) -> Result<Sce
         limit: wanted.triangles,
     };
     let start = match root.scene.and_then(|index| root.get(index)).or_else(|| root.scenes.first()) {
-        Some(scene) => scene.nodes.clone(),
-        None => roots(&root),
+        Some(scene) => Cow::Borrowed(scene.nodes.as_slice()),
+        None => roots(&root).into(),
     };
     model.nodes(&start, DAffine3::IDENTITY, 0)?;
     if model.scene.instances.is_empty() {

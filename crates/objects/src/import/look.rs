@@ -1,5 +1,6 @@
 //! The materials of a glTF file.
 
+use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -127,8 +128,8 @@ fn texture(
         }
     };
     let stem = PathBuf::from(wanted.name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let name = image.name.clone().filter(|name| !name.is_empty());
-    let own = name.unwrap_or_else(|| source.value().to_string());
+    let name = image.name.as_deref().filter(|name| !name.is_empty());
+    let own = name.map_or_else(|| source.value().to_string().into(), Cow::Borrowed);
     // A repetition of an image corresponds to 1 unit of the file's texture coordinates.
     let path = PathBuf::from(format!("{stem}_{}", own.replace(['/', '\\'], "_")));
     Ok(Texture { path, size: [1.0, 1.0], content: Some(content) })

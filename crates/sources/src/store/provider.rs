@@ -19,7 +19,7 @@ use burgeon_kit::{SourceProvider, SourceStore};
 /// registry.set_sources(Arc::new(DataSources::default()));
 /// assert_eq!(DataSources::default().file_name("town.gpkg:houses"), "town.gpkg");
 /// ```
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct DataSources {
     /// Layers that earlier runs have read.
     cache: Option<Arc<Cache>>,
@@ -55,12 +55,14 @@ impl DataSources {
 
 impl SourceProvider for DataSources {
     fn open(&self) -> Arc<dyn SourceStore> {
-        Arc::new(DataStore::new(self.cache.clone(), self.reading.clone()))
+        let Self { cache, reading } = self.clone();
+        Arc::new(DataStore::new(cache, reading))
     }
 
     fn with_cache(&self) -> Arc<dyn SourceProvider> {
-        let cache = Some(self.cache.clone().unwrap_or_default());
-        Arc::new(Self { cache, reading: self.reading.clone() })
+        let mut cached = self.clone();
+        cached.cache.get_or_insert_default();
+        Arc::new(cached)
     }
 
     fn file_name<'a>(&self, text: &'a str) -> &'a str {

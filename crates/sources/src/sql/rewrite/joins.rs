@@ -5,6 +5,7 @@
 //! of the table to look up is made here, because SQLite lacks statistics of both: it is the table with more remaining
 //! rows.
 
+use std::borrow::Cow;
 use std::ops::ControlFlow;
 
 use sqlparser::ast::{BinaryOperator, Expr, Select, Value};
@@ -43,7 +44,7 @@ enum Lookup {
         /// Geometry, as SQL.
         other: String,
         /// Maximum distance between the boxes, as SQL.
-        distance: String,
+        distance: Cow<'static, str>,
     },
     /// Lookup of the row with a key.
     Key(String),
@@ -302,7 +303,7 @@ fn side<'a>(
     let lookup = Lookup::Near {
         index: format!("{}.{column}", table.name),
         other: other.to_string(),
-        distance: distance.map_or_else(|| "0".to_owned(), ToString::to_string),
+        distance: distance.map_or("0".into(), |distance| distance.to_string().into()),
     };
     fits.then(|| ConditionSide { relation, table, lookups: vec![lookup], needs })
 }

@@ -7,6 +7,7 @@ use sqlparser::ast::{
     Expr, GroupByExpr, LimitClause, OrderBy, OrderByExpr, OrderByKind, OrderBySort, Query, Select,
     SelectItem, SetExpr, Value,
 };
+use std::borrow::Cow;
 
 use super::operators::call;
 use super::scope::{geometry_column, mentioned_relations, relations};
@@ -88,8 +89,8 @@ fn find_search(query: &Query, tables: &Catalogue) -> Option<NearestAnswer> {
             });
             let steps: Vec<String> = steps.collect();
             let enough = match steps.is_empty() {
-                true => "-1".to_owned(),
-                false => format!("CASE {} ELSE -1 END", steps.join(" ")),
+                true => Cow::Borrowed("-1"),
+                false => format!("CASE {} ELSE -1 END", steps.join(" ")).into(),
             };
             let nearest = format!("burgeon_nearest({index}, {other}, {enough})");
             (format!("{column_of_keys} IN (SELECT value FROM rarray({nearest})) AND ({condition})"), false)

@@ -4,6 +4,7 @@ use sqlparser::ast::{
     CaseWhen, CeilFloorKind, DateTimeField, Expr, FunctionArg, FunctionArgExpr, TrimWhereField,
     UnaryOperator, Value, WindowSpec,
 };
+use std::borrow::Cow;
 
 use super::conversions::{error_at, no_operator, parse_generated, unsupported_error};
 use super::scope::{TypeScope, Typing};
@@ -157,7 +158,7 @@ impl Typing<'_> {
                 self.expression(expression, scope)?
             }
             Expr::Substring { expr, substring_from, substring_for, .. } => {
-                let from = substring_from.as_ref().map_or_else(|| "1".to_owned(), ToString::to_string);
+                let from = substring_from.as_ref().map_or("1".into(), |from| Cow::Owned(from.to_string()));
                 let length = substring_for.as_ref().map_or_else(String::new, |length| format!(", {length}"));
                 *expression =
                     parse_generated(&format!("burgeon_substr({expr}, {from}{length})"), expression)?;
