@@ -43,7 +43,7 @@ impl SetupCommand {
         // Merge the files first, so that nothing is written if one of them cannot be merged.
         let merged = [
             (SETTINGS, merged_settings(read(&self.folder.join(SETTINGS))?.as_deref())),
-            (LUAURC, merged_luaurc(read(&self.folder.join(LUAURC))?.as_deref(), &self.aliases(&packages))),
+            (LUAURC, merged_luaurc(read(&self.folder.join(LUAURC))?.as_deref(), self.aliases(&packages))),
         ];
         let mut texts = Vec::new();
         for (file, merged) in merged {
@@ -99,14 +99,14 @@ impl SetupCommand {
     }
 
     /// Returns the name and the path of each package; paths inside the folder are relative.
-    fn aliases(&self, packages: &Packages) -> Vec<(String, String)> {
-        let alias = |package: &Package| {
+    fn aliases<'a>(&self, packages: &'a Packages) -> Vec<(&'a str, String)> {
+        let alias = |package: &'a Package| {
             let folder = match package.origin {
                 PackageOrigin::Beside => package.shown.strip_prefix(&self.folder).unwrap_or(&package.shown),
                 _ => package.folder.as_path(),
             };
             let parts: Vec<_> = folder.iter().map(|part| part.to_string_lossy()).collect();
-            (package.manifest.name.clone(), parts.join("/").replace("//", "/"))
+            (&*package.manifest.name, parts.join("/").replace("//", "/"))
         };
         packages.order().iter().map(alias).collect()
     }

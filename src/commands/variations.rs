@@ -77,7 +77,7 @@ impl VariationsCommand {
             return Err(Error::usage(format!("--set and --sweep both use `{name}`; remove one"))
                 .help(format!("remove --set {name} or --sweep {name}")));
         }
-        let variations = Arc::new(Variations::new(&self.script.script, &options, over)?);
+        let variations = Arc::new(Variations::new(&self.script.script, options, over)?);
         let picture = Picture { quality: Quality::Draft, ..self.picture.picture(self.size) };
         let layout = SheetLayout::new(variations.len(), self.columns, &picture)?;
         let framing = match self.fit {

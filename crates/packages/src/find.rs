@@ -98,8 +98,9 @@ impl Packages {
         }));
         let (packages, circles) = order::sort(packages);
         found.packages = packages;
-        let places = found.packages.iter().enumerate().map(|(place, it)| (it.manifest.name.clone(), place));
-        found.places = places.collect();
+        let mut places: Vec<usize> = (0..found.packages.len()).collect();
+        places.sort_by_key(|place| &*found.packages[*place].manifest.name);
+        found.places = places;
         check::check(&mut found, api, circles);
         found
     }
@@ -157,16 +158,27 @@ impl Packages {
             Ok(manifest) => manifest,
             Err(error) => return self.broken.push(BrokenPackage { folder, error }),
         };
-        let Some(known) = self.places.get(&manifest.name).map(|place| &mut self.packages[*place]) else {
-            let is_replacing = origin != PackageOrigin::User;
-            let problems = Vec::new();
-            self.places.insert(manifest.name.clone(), self.packages.len());
-            return self.packages.push(Package { manifest, folder, shown, origin, is_replacing, problems });
+        let known = match self.search_places(&manifest.name) {
+            Ok(found) => &mut self.packages[self.places[found]],
+            Err(missing) => {
+                let is_replacing = origin != PackageOrigin::User;
+                let problems = Vec::new();
+                self.places.insert(missing, self.packages.len());
+                return self.packages.push(Package {
+                    manifest,
+                    folder,
+                    shown,
+                    origin,
+                    is_replacing,
+                    problems,
+                });
+            }
         };
         if known.folder == folder {
             return;
         }
-        let (name, version) = (manifest.name.clone(), manifest.version.clone());
+        let begin = manifest.begin();
+        let Manifest { name, version, .. } = manifest;
         let both = format!("{} {} in {}", name, known.manifest.version, known.shown.display());
         if known.shown.parent() == shown.parent() {
             let error = Error::data(format!(
@@ -174,20 +186,18 @@ impl Packages {
                 shown.display()
             ))
             .help("remove one of them")
-            .at(Some(manifest.begin()));
+            .at(Some(begin));
             // Users of either package learn of the conflict.
             known.problems.push(error.clone());
             return self.broken.push(BrokenPackage { folder, error });
         }
         // The user's folder is shared by all scripts, and each script may have its own versions.
+        let by = known.shown.clone();
         if origin != PackageOrigin::User {
             let message = format!("ignored {name} {version} in {}: {both} takes precedence", shown.display());
             let warning = Warning::new(burgeon_base::WarningKind::HiddenPackage, message);
-            let warning = warning.at(Some(manifest.begin())).help("remove one of them");
-            self.warnings.push(warning.clone());
-            self.notices.push((name.clone(), warning));
+            self.notify(name.clone(), warning.at(Some(begin)).help("remove one of them"));
         }
-        let by = known.shown.clone();
         self.hidden.push(HiddenPackage { name, version, shown, by });
     }
 }

@@ -205,10 +205,10 @@ impl Session {
     /// replacement of the standard library, files that were read or searched, and package folders.
     pub fn sought(&self) -> Vec<(PathBuf, bool)> {
         let mut files = self.sought.lock().recover().clone();
-        let read =
-            self.files().into_iter().chain([self.script.clone()]).chain(self.options.inputs.stdlib.clone());
-        files.extend(read.map(|path| (path, true)));
-        files.extend(self.packages.searched_paths());
+        files.extend(self.files().into_iter().map(|path| (path, true)));
+        let named = std::iter::once(&self.script).chain(&self.options.inputs.stdlib);
+        files.extend(named.map(|path| (path.clone(), true)));
+        files.extend(self.packages.searched_paths().map(|(path, exists)| (path.to_path_buf(), exists)));
         files.into_iter().collect()
     }
 

@@ -30,7 +30,7 @@ struct FileChecks<'a> {
     files: &'a [CheckedFile],
     registry: &'a Registry,
     /// Inferred return values by file name; `Inference::Unknown` while a file is being checked.
-    exports: RefCell<FxHashMap<&'a str, Inference>>,
+    exports: RefCell<FxHashMap<&'a str, Inference<'a>>>,
     problems: RefCell<Vec<Error>>,
 }
 
@@ -51,7 +51,7 @@ pub fn call_problems(files: &[CheckedFile], registry: &Registry) -> Vec<Error> {
 
 impl<'a> FileChecks<'a> {
     /// Returns the inference for the return value of `file`.
-    fn exports(&self, file: &'a CheckedFile) -> Inference {
+    fn exports(&self, file: &'a CheckedFile) -> Inference<'a> {
         if let Some(known) = self.exports.borrow().get(&*file.name) {
             return known.clone();
         }
@@ -66,7 +66,7 @@ impl<'a> FileChecks<'a> {
     }
 
     /// Returns the inference for `require(name)` in the file `asker`.
-    fn infer_required(&self, asker: &CheckedFile, name: &str) -> Inference {
+    fn infer_required(&self, asker: &CheckedFile, name: &str) -> Inference<'a> {
         let meant = asker.required.get(name).and_then(|meant| self.files.iter().find(|it| it.name == *meant));
         meant.map_or(Inference::Unknown, |file| self.exports(file))
     }

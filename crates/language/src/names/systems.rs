@@ -47,6 +47,7 @@ pub static LSYSTEM: LazyLock<Name> = LazyLock::new(|| {
 pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
     let pattern = || argument("pattern", "string");
     let successor = || argument("successor", "((this: T, ...any) -> ...Module) | string");
+    let rule_options = || options("{ ... }", RULE.fields.clone());
     let draw = || argument("draw", "(this: T, ...any) -> ...any");
     let hook =
         |name, doc| Name::function(name, doc).form([argument("hook", "(now: Now) -> ...any")], "System<T>");
@@ -70,13 +71,13 @@ pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
         .form([argument("derived", "Derived")], "System<T>"),
         Name::function("rule", "Adds a rule: the successor of a module that matches the pattern. A string with the word return is the body of a Lua function; others are modules such as \"F[+F]F(x / 2)\".")
             .form([pattern(), successor()], "System<T>")
-            .form([pattern(), options("{ ... }", RULE.fields.clone()), successor()], "System<T>"),
+            .form([pattern(), rule_options(), successor()], "System<T>"),
         Name::function(
             "decompose",
             "Adds a decomposition rule, which applies repeatedly after the axiom and after each step.",
         )
         .form([pattern(), successor()], "System<T>")
-        .form([pattern(), options("{ ... }", RULE.fields.clone()), successor()], "System<T>"),
+        .form([pattern(), rule_options(), successor()], "System<T>"),
         Name::function(
             "interpret",
             "Adds an interpretation: the function that draws a module. It calls methods of `this`, and may return modules, which \
@@ -84,7 +85,7 @@ pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
              contexts in the chain, and with the options of a rule before the function, by guards and weights.",
         )
         .form([pattern(), draw()], "System<T>")
-        .form([pattern(), options("{ ... }", RULE.fields.clone()), draw()], "System<T>"),
+        .form([pattern(), rule_options(), draw()], "System<T>"),
         hook("at_start", "Adds a hook: a function that runs before the axiom is decomposed and interpreted."),
         hook(
             "before_step",

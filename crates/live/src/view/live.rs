@@ -33,15 +33,15 @@ pub struct Live {
 
 impl Live {
     /// Starts a server. Fails if the port, or every port that was tried, is occupied.
-    pub fn start(settings: Settings) -> Result<Self> {
+    pub fn start(mut settings: Settings) -> Result<Self> {
         let listener = listen(settings.port)?;
         let failed = |error: std::io::Error| Error::system(format!("cannot start the server: {error}"));
         listener.set_nonblocking(true).map_err(failed)?;
         let port = listener.local_addr().map_err(failed)?.port();
         let lasting = settings.token.is_none() && settings.port != Some(0);
         let keep = if lasting { Keep::of(port) } else { None };
-        let token = match (&settings.token, &keep) {
-            (Some(token), _) => token.clone(),
+        let token = match (settings.token.take(), &keep) {
+            (Some(token), _) => token,
             (None, Some(keep)) => keep.token()?,
             (None, None) => Token::random()?,
         };

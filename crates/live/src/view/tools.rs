@@ -93,7 +93,7 @@ pub(super) fn preset(state: &ServerState, action: &str, name: &str, replace: boo
         "load" => match Presets::read(&state.script).and_then(|presets| find(state, &presets, name)) {
             Ok(preset) => {
                 return state.change(None, Cause::Preset, |inner| {
-                    inner.request.load(&preset);
+                    inner.request.load(preset);
                     Ok(())
                 });
             }
@@ -188,7 +188,7 @@ pub(super) fn variations(
             let message = format!("unknown parameter `{name}`");
             return Err(Error::not_found("parameter", name, names, message));
         }
-        Variations::new(&state.script, &options, &over)
+        Variations::new(&state.script, options, &over)
     };
     let variations = match begin() {
         Ok(variations) => variations,

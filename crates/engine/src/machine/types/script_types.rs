@@ -123,7 +123,7 @@ impl ScriptTypeEntry {
         let own = entry.functions.iter().filter(|it| it.role != Role::Hook && !is_full_name(&it.name));
         let mut methods: Vec<Method> = own.map(|it| it.method(&machine.session)).collect();
         methods.extend(entry.contested.iter().map(|(name, owners)| contested_method(name, owners.keys())));
-        let kind = entry.declaration.clone().kind(name, &doc, methods)?;
+        let kind = entry.declaration.clone().kind(name, doc, methods)?;
         let table = entry.table(machine, &kind).map_err(|error| machine.translate(error))?;
         Ok(Self { kind, table, functions: entry.functions, contested: entry.contested })
     }
