@@ -43,18 +43,19 @@ impl LiveCommand {
         self.script.json
     }
 
-    pub(crate) fn run(&self) -> Result<()> {
+    pub(crate) fn run(self) -> Result<()> {
         let (interrupt, interrupted) = channel();
         on_interrupt(move || {
             // The receiver waits for only one interrupt.
             let _ = interrupt.send(());
         })?;
+        let options = self.script.options()?;
         let live = Live::start(Settings {
-            script: self.script.script.clone(),
-            options: self.script.options()?,
+            script: self.script.script,
+            options,
             port: self.port,
-            token: self.token.clone(),
-            editor: self.editor.clone(),
+            token: self.token,
+            editor: self.editor,
             tell: Box::new(tell),
         })?;
         let (port, address) = (live.port(), live.address());

@@ -128,8 +128,8 @@ impl SetupCommand {
         let beside = self.folder.join("mods");
         let of_packages = packages.order().iter().flat_map(|package| {
             // The displayed path of a package determines how its files are named.
-            let mods = std::iter::once(package.shown.clone()).chain(beside.is_dir().then(|| beside.clone()));
-            burgeon::declared_types_of_package(&package.shown, options(mods.collect()))
+            let mods = std::iter::once(&package.shown).chain(beside.is_dir().then_some(&beside));
+            burgeon::declared_types_of_package(&package.shown, options(mods.cloned().collect()))
         });
         of_scripts.chain(of_packages).collect()
     }

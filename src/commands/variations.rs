@@ -146,12 +146,12 @@ impl VariationsCommand {
 
 /// Combines the errors into one if all variations failed.
 fn refuse_if_all_failed(cells: &[Variation]) -> Result<()> {
-    let mut errors: Vec<(Error, String)> = Vec::new();
+    let mut errors: Vec<(&Error, String)> = Vec::new();
     for cell in cells {
         let Err(error) = &cell.made else { return Ok(()) };
         let text = error.to_string();
         if errors.iter().all(|(_, known)| *known != text) {
-            errors.push((error.clone(), text));
+            errors.push((error, text));
         }
     }
     // Many runs fail in the same way, with different numbers in the message.

@@ -40,7 +40,7 @@ pub(crate) fn check(found: &mut Packages, api: &Version, circles: Vec<Dependency
     let conflicts: Vec<Warning> = conflicts
         .map(|error| {
             let warning = Warning::new(WarningKind::BrokenPackage, error.message());
-            warning.help(error.remedy().unwrap_or_default()).at(error.place().cloned())
+            warning.help(error.remedy().unwrap_or_default()).at_place(error.place())
         })
         .collect();
     found.warnings.extend(conflicts);
@@ -224,7 +224,7 @@ fn unused_packages(found: &Packages) -> Vec<(String, Warning)> {
                 let message = format!("{name} changes nothing of {target}: {}", problem.message());
                 let warning = Warning::new(WarningKind::BrokenPackage, message);
                 let help = problem.remedy().unwrap_or("run burgeon mods check for details");
-                warnings.push((target.to_owned(), warning.help(help).at(problem.place().cloned())));
+                warnings.push((target.to_owned(), warning.help(help).at_place(problem.place())));
             }
         }
         for wanted in &manifest.optional {

@@ -108,7 +108,7 @@ impl Packages {
     fn warn(&mut self, error: Error) {
         let warning = Warning::new(burgeon_base::WarningKind::BrokenPackage, error.message());
         let warning = warning.help(error.remedy().unwrap_or("run burgeon mods check for details"));
-        self.warnings.push(warning.at(error.place().cloned()));
+        self.warnings.push(warning.at_place(error.place()));
     }
 
     /// Adds the packages in the folder `root`, which is displayed to users as `shown`.

@@ -141,7 +141,7 @@ impl Packages {
     /// Returns the warnings for scripts that use the package called `name`.
     pub fn notices(&self, name: &str) -> impl Iterator<Item = &Warning> {
         let own = self.notices.iter().filter(move |(users, _)| users == name);
-        own.map(|(_, index)| &self.warnings[*index])
+        own.filter_map(|(_, index)| self.warnings.get(*index))
     }
 
     /// Returns true if packages called `name` are disabled.

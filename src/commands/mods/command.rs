@@ -149,13 +149,13 @@ impl ModsCommand {
         let mut given = self.mods.clone();
         given.extend(folder.map(Path::to_path_buf));
         let search = PackageSearch { script: Some(self.beside()?), given, user: user_mods() };
-        let packages = Packages::find(&search, &api_version());
-        let mut problems = packages.problems.clone();
+        let mut packages = Packages::find(&search, &api_version());
+        let mut problems = std::mem::take(&mut packages.problems);
         if folder.is_none() {
-            problems.extend(packages.broken.iter().map(|broken| broken.error.clone()));
+            problems.extend(std::mem::take(&mut packages.broken).into_iter().map(|broken| broken.error));
         }
         let mut declared: BTreeMap<String, Vec<Param>> = BTreeMap::new();
-        let mut warnings: Vec<Warning> = packages.warnings.clone();
+        let mut warnings: Vec<Warning> = std::mem::take(&mut packages.warnings);
         let meant = match folder {
             None => packages.order().iter().collect(),
             Some(folder) => {
@@ -201,8 +201,8 @@ impl ModsCommand {
         for package in meant {
             let (name, version) = (&package.manifest.name, &package.manifest.version);
             let scripts = package.scripts().len();
-            let scripts = if scripts == 1 { "1 script".to_owned() } else { format!("{scripts} scripts") };
-            report::eprint(&format!("{name} {version}: no problems in {scripts}\n"));
+            let s = if scripts == 1 { "" } else { "s" };
+            report::eprint(&format!("{name} {version}: no problems in {scripts} script{s}\n"));
         }
         Ok(())
     }
@@ -294,7 +294,7 @@ impl ModsCommand {
         };
         let search = PackageSearch {
             script: Some(self.beside()?),
-            given: self.mods.iter().cloned().chain(into.is_dir().then(|| into.clone())).collect(),
+            given: self.mods.iter().chain(into.is_dir().then_some(&into)).cloned().collect(),
             user: user_mods(),
         };
         // Required packages may be in other folders than the one that the package is added to.

@@ -371,19 +371,19 @@ impl Session {
 
     /// Returns the errors in the calls of all files, once the script has declared its object types.
     pub(crate) fn call_problems(&self) -> Vec<Error> {
-        let required = self.required.lock().recover().clone();
+        let (required, none) = (self.required.lock().recover(), BTreeMap::new());
         let scripts = self.script_files();
         let mut files: Vec<CheckedFile> = scripts
             .read
             .values()
             .filter_map(|source| {
-                let (name, ast) = (source.name.clone(), Arc::clone(source.analysis.ast.as_ref()?));
-                let required = required.get(&name).cloned().unwrap_or_default();
-                let package = self.package_of(&name).map(|package| package.manifest.name.clone());
+                let (name, ast) = (source.name.as_str(), source.analysis.ast.as_deref()?);
+                let required = required.get(name).unwrap_or(&none);
+                let package = self.package_of(name).map(|package| package.manifest.name.as_str());
                 Some(CheckedFile { name, package, ast, required })
             })
             .collect();
-        files.sort_by(|a, b| a.name.cmp(&b.name));
+        files.sort_by(|a, b| a.name.cmp(b.name));
         call_problems(&files, &self.registry_with_types())
     }
 

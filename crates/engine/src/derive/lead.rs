@@ -39,7 +39,7 @@ fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -
     let session = &machine.session;
     let Derivation { mut axiom, plan, declared, traced, place, caller, axiom_place, draws, .. } = derivation;
     for warning in grown.warnings {
-        session.warn(warning.at(place.clone()).called_at(caller.clone()));
+        session.warn(warning.at_place(place.as_ref()).called_from(caller.as_ref()));
     }
     let symbols = grown.chain.symbols.iter().chain(&grown.undrawn).copied();
     let undrawn = machine.library.systems.borrow()[plan.system].undrawn(&machine.library, symbols);

@@ -233,7 +233,7 @@ impl Derivation {
             return Err(Error::script(
                 "hooks, variables and environments belong to all chains, but --part derives a part of them",
             )
-            .at(system.place.clone())
+            .at_place(system.place.as_ref())
             .help("run the script without --part, or keep values in parameters of modules"));
         }
         let plan = Arc::new(DerivationPlan {

@@ -41,7 +41,7 @@ pub(crate) fn freeze<'a>(
         let refuse = |what: &str| {
             Err(Error::scope(format!("the rule uses {what}, which keeps state from one module to the next"))
                 .help("create it inside the rule, or keep the state in a parameter of a module")
-                .at(reached.place.clone())
+                .at_place(reached.place.as_ref())
                 .rule(&reached.name))
         };
         let mut queue = vec![Value::Function(reached.function.clone())];

@@ -82,9 +82,9 @@ pub struct Ancestor {
 
 /// Symbols made by a rule, an interpretation rule or the axiom.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct RuleProducts {
+pub struct RuleProducts<'a> {
     /// Pattern of the rule, or "axiom".
-    pub name: String,
+    pub name: &'a str,
     /// First line of the declaration.
     pub line: usize,
     /// For each symbol of the final chain: true if this rule made it or one of its ancestors.
@@ -245,13 +245,13 @@ impl Trace {
 
     /// Returns the symbols made by the rule, interpretation rule or axiom at a line, or by the last one above
     /// it. `None` if there is none.
-    pub fn made_by(&self, file: &str, line: usize) -> Option<RuleProducts> {
+    pub fn made_by(&self, file: &str, line: usize) -> Option<RuleProducts<'_>> {
         let (what, line) = self.line(file, line)?;
         let (name, made) = match what {
-            LineSubject::Axiom => ("axiom".to_owned(), vec![true; self.chain.symbols.len()]),
+            LineSubject::Axiom => ("axiom", vec![true; self.chain.symbols.len()]),
             LineSubject::Interpretation(wanted) => {
                 let made = |symbol: &Symbol| self.interpreted[usize::from(*symbol)] == wanted;
-                let name = self.interpretations[usize::from(wanted)].text.clone();
+                let name = self.interpretations[usize::from(wanted)].text.as_str();
                 (name, self.chain.symbols.iter().map(made).collect())
             }
             LineSubject::Rule(wanted) => {
@@ -266,7 +266,7 @@ impl Trace {
                         .collect();
                 }
                 made.resize(self.chain.symbols.len(), false);
-                (self.rules[usize::from(wanted)].text.clone(), made)
+                (self.rules[usize::from(wanted)].text.as_str(), made)
             }
         };
         Some(RuleProducts { name, line, made })

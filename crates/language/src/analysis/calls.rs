@@ -20,7 +20,7 @@ use super::inference::Inference;
 use super::syntax::{is_function_option, string_of, text_of};
 use super::walk::FunctionRole;
 use crate::Literal;
-use burgeon_base::error::{Error, SourcePlace};
+use burgeon_base::error::Error;
 use burgeon_kit::{Kind, Registry};
 
 /// Walk that checks the calls of a script.
@@ -395,7 +395,7 @@ impl<'a, 'f> CallCheck<'a, 'f> {
     }
 
     pub(super) fn problem_at(&mut self, line: usize, error: Error) {
-        let error = error.at(Some(SourcePlace { file: self.file.to_owned(), line }));
+        let error = error.at_line(self.file, line);
         let error = match &self.rule {
             Some(rule) if self.role != FunctionRole::Script => error.rule(rule),
             _ => error,

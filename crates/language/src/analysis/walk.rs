@@ -13,7 +13,7 @@ use super::globals::Globals;
 use super::pure::stream_argument;
 use super::syntax::{declared_module, end_of, first_position, instead_of, text_of};
 use crate::CallForm;
-use burgeon_base::error::{Error, SourcePlace};
+use burgeon_base::error::Error;
 use burgeon_rewriting::Signature;
 
 /// Facts that the first walk collects about variables, in the order of declaration.
@@ -474,7 +474,7 @@ impl<'a> Walk<'a> {
 
     pub(super) fn problem(&mut self, token: &TokenReference, error: Error) {
         let line = token.start_position().map_or(1, |position| position.line());
-        let error = error.at(Some(SourcePlace { file: self.file.to_owned(), line }));
+        let error = error.at_line(self.file, line);
         let rule = self.functions.iter().rev().find_map(|function| function.rule.as_ref());
         self.problems.push(match rule {
             Some(rule) => error.rule(rule),

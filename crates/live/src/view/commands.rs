@@ -51,8 +51,9 @@ impl ServerState {
                 let idle = !waiting && !running;
                 idle.then(|| Event::rejection(None, &Error::unavailable("nothing is running")))
             }
-            Ok(PageCommand::Set { id, params }) => self
-                .change(id, Cause::Parameters, |inner| inner.request.set(params, inner.params.as_deref())),
+            Ok(PageCommand::Set { id, params }) => {
+                self.change(id, Cause::Parameters, |inner| inner.request.set(params, inner.params.as_deref()))
+            }
             Ok(PageCommand::Reset {}) => self.change(None, Cause::Parameters, |inner| {
                 inner.request.reset();
                 Ok(())

@@ -1,6 +1,5 @@
 //! Drawn functions and curves: their outlines while a page changes them, and their file.
 
-use std::sync::Arc;
 use std::time::Instant;
 
 use serde_json::Value;

@@ -12,7 +12,7 @@ use axum::body::Bytes;
 use super::job::{PROBLEMS, RunJob, options};
 use super::message::{Cause, Event, ModelMessage, ParamMessage};
 use super::request::Inputs;
-use super::state::{ActiveRun, LiveState, PresentModel, ServerState};
+use super::state::{ActiveRun, LiveState, PresentModel, ServerState, content_hash};
 use super::urls::model_url;
 use super::{LiveEvent, describe};
 use crate::presets::Presets;

@@ -275,9 +275,12 @@ impl SystemDeclaration {
         let ignored = self.ignored.among(&symbols);
         // Weights of interpretation rules draw from the keys of modules, too.
         let random = random || self.interpretations.iter().any(|known| known.rule.weight.is_some());
-        let with_ignored = |declared: &DeclaredRule| match &declared.ignored {
-            Some(ignored) => declared.rule.clone().ignoring(ignored.among(&symbols)),
-            None => declared.rule.clone(),
+        let with_ignored = |declared: &DeclaredRule| {
+            let rule = declared.rule.clone();
+            match &declared.ignored {
+                Some(ignored) => rule.ignoring(ignored.among(&symbols)),
+                None => rule,
+            }
         };
         let rules = self.rules.iter().map(with_ignored).collect();
         let grammar = Grammar::new(Arc::clone(&symbols), rules, &ignored, random).with_ring(self.ring);
@@ -334,8 +337,13 @@ impl SystemDeclaration {
             let arity = declared.rule.arguments();
             let symbols = machine.library.symbols.borrow();
             let places = argument_places(machine.lua(), &declared.rule.pattern, &symbols)?;
-            let [successor_reads, guard_reads] = declared.reads.clone();
-            made.drivers.push(prelude.driver.call((&declared.successor, arity, &places, successor_reads))?);
+            let [successor_reads, guard_reads] = &declared.reads;
+            made.drivers.push(prelude.driver.call((
+                &declared.successor,
+                arity,
+                &places,
+                successor_reads.as_deref(),
+            ))?);
             let reach = |function: &Function| ReachableFunction {
                 function: function.clone(),
                 name: declared.rule.pattern.text.clone(),
@@ -344,7 +352,8 @@ impl SystemDeclaration {
             reached.push(reach(&declared.successor));
             reached.extend(declared.guard.iter().chain(&declared.propensity).map(reach));
             let guard = declared.guard.as_ref();
-            let guard = guard.map(|guard| prelude.guard_driver.call((guard, arity, &places, guard_reads)));
+            let guard =
+                guard.map(|guard| prelude.guard_driver.call((guard, arity, &places, guard_reads.as_deref())));
             made.guards.push(guard.transpose()?);
             let propensity = declared.propensity.as_ref();
             let propensity = propensity.map(|it| prelude.propensity_driver.call((it, arity, &places)));

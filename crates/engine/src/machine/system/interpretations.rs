@@ -13,7 +13,7 @@ use burgeon_kit::{Object, ScriptType, Value};
 use burgeon_rewriting::{CLOSE, END, Grammar, OPEN, PatternValue, Rule, Symbol};
 
 use super::ignored::IgnoredModules;
-use mlua::{Function, Table, Value as LuaValue};
+use mlua::{Function, Table};
 
 /// Interpretation rule as a script declares it.
 pub(crate) struct DeclaredInterpretation {
@@ -94,9 +94,12 @@ impl SystemDeclaration {
         let rules = || self.interpretations.iter().map(|known| &known.rule);
         if rules().any(Rule::has_contexts) {
             let symbols = Arc::new(library.symbols.borrow().clone());
-            let with_ignored = |known: &DeclaredInterpretation| match &known.ignored {
-                Some(ignored) => known.rule.clone().ignoring(ignored.among(&symbols)),
-                None => known.rule.clone(),
+            let with_ignored = |known: &DeclaredInterpretation| {
+                let rule = known.rule.clone();
+                match &known.ignored {
+                    Some(ignored) => rule.ignoring(ignored.among(&symbols)),
+                    None => rule,
+                }
             };
             let rules = self.interpretations.iter().map(with_ignored).collect();
             let ignored = self.ignored.among(&symbols);
@@ -228,7 +231,7 @@ impl SystemDeclaration {
         let candidate = machine.lua().create_table()?;
         candidate.raw_set("rule", number)?;
         candidate.raw_set("weight", rule.weight)?;
-        candidate.raw_set("guard", guard.clone().map_or(LuaValue::Nil, LuaValue::Function))?;
+        candidate.raw_set("guard", guard.as_ref())?;
         candidate.raw_set("has_contexts", rule.has_contexts())?;
         candidate.raw_set("count", rule.arguments())?;
         candidate.raw_set("left", pattern.left_bound())?;
