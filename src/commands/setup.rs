@@ -93,9 +93,9 @@ impl SetupCommand {
 impl SetupCommand {
     /// Returns the packages that scripts of the folder can use.
     fn packages(&self) -> Packages {
-        let search =
-            PackageSearch { script: Some(self.folder.clone()), given: Vec::new(), user: user_mods() };
-        Packages::find(&search, &api_version())
+        let user = user_mods();
+        let search = PackageSearch { script: Some(&self.folder), given: &[], user: user.as_deref() };
+        Packages::find(search, &api_version())
     }
 
     /// Returns the name and the path of each package; paths inside the folder are relative.

@@ -119,12 +119,9 @@ impl ScriptFlags {
             return Ok((Presets::path_of(&self.script), Cow::Borrowed(name)));
         }
         let meant = FileName::parse(name)?;
-        let search = PackageSearch {
-            script: self.script.parent().map(Path::to_path_buf),
-            given: self.mods.clone(),
-            user: user_mods(),
-        };
-        let packages = Packages::find(&search, &api_version());
+        let user = user_mods();
+        let search = PackageSearch { script: self.script.parent(), given: &self.mods, user: user.as_deref() };
+        let packages = Packages::find(search, &api_version());
         let file = FileName { package: meant.package, path: "presets.json".to_owned() };
         let located = packages.locate("presets file", &file, None, &mut |_, _| {})?;
         Ok((located.shown, Cow::Owned(meant.path)))

@@ -237,7 +237,7 @@ mod tests {
         let text = |text: &str| Literal::Text(text.to_owned());
         let known = |name: &str| match name {
             "Color" => Some(LuauType::read("string | { number }")),
-            "Model" => Some(LuauType::Named("Model".to_owned())),
+            "Model" => Some(LuauType::Named(Cow::Borrowed("Model"))),
             _ => None,
         };
         let accepts = |luau: &str, literal: &Literal| LuauType::read(luau).accepts(literal, &known);
@@ -253,7 +253,7 @@ mod tests {
             ("any", Literal::Function),
             ("((this: T, ...any) -> boolean)?", Literal::Function),
             ("Unheard", Literal::Number),
-            ("Model", Literal::Object("Model".to_owned())),
+            ("Model", Literal::Object(Cow::Borrowed("Model"))),
             ("System<T>", Literal::Table),
         ] {
             assert!(accepts(luau, &literal), "{luau}: {literal:?}");
@@ -265,7 +265,7 @@ mod tests {
             ("Color", Literal::Number),
             ("\"last\"?", text("first")),
             ("Model?", Literal::Table),
-            ("Model?", Literal::Object("Template".to_owned())),
+            ("Model?", Literal::Object(Cow::Borrowed("Template"))),
             ("(a: number) -> number", Literal::Number),
             ("boolean", Literal::Number),
         ] {

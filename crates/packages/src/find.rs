@@ -18,14 +18,14 @@ const MOST: usize = 10_000;
 
 /// Folders to search for packages. If several packages have the same name, the one next to the script takes precedence,
 /// then one in the specified folders, then the user's.
-#[derive(Debug, Clone, Default)]
-pub struct PackageSearch {
+#[derive(Debug, Clone, Copy, Default)]
+pub struct PackageSearch<'a> {
     /// Folder of the script, as named, if there is a script.
-    pub script: Option<PathBuf>,
+    pub script: Option<&'a Path>,
     /// Specified folders, each a package or a folder of packages.
-    pub given: Vec<PathBuf>,
+    pub given: &'a [PathBuf],
     /// User's packages folder, which need not exist.
-    pub user: Option<PathBuf>,
+    pub user: Option<&'a Path>,
 }
 
 impl Packages {
@@ -40,15 +40,15 @@ impl Packages {
     /// let castle = folder.path().join("mods/castle");
     /// std::fs::create_dir_all(&castle)?;
     /// std::fs::write(castle.join("mod.toml"), "name = \"castle\"\nversion = \"1.2.0\"\napi = \"1.0\"\n")?;
-    /// let search = PackageSearch { script: Some(folder.path().into()), ..PackageSearch::default() };
-    /// let packages = Packages::find(&search, &Version::new(1, 0, 0));
+    /// let search = PackageSearch { script: Some(folder.path()), ..PackageSearch::default() };
+    /// let packages = Packages::find(search, &Version::new(1, 0, 0));
     /// assert_eq!(packages.get("castle").map(|package| package.manifest.version.clone()), Some(Version::new(1, 2, 0)));
     /// assert!(packages.get("masonry").is_none());
     /// # Ok::<(), std::io::Error>(())
     /// ```
-    pub fn find(search: &PackageSearch, api: &Version) -> Self {
+    pub fn find(search: PackageSearch<'_>, api: &Version) -> Self {
         let mut found = Self::default();
-        if let Some(script) = &search.script {
+        if let Some(script) = search.script {
             let folder = if script.as_os_str().is_empty() { Path::new(".") } else { script };
             if let Ok(script_root) = folder.canonicalize() {
                 let root = script_root.join(BESIDE);
@@ -68,7 +68,7 @@ impl Packages {
                 }
             }
         }
-        for given in &search.given {
+        for given in search.given {
             match given.canonicalize() {
                 Ok(root) if root.join(MANIFEST).is_file() => {
                     found.add(root, given.clone(), PackageOrigin::Given)
@@ -82,11 +82,11 @@ impl Packages {
                 }
             }
         }
-        if let Some(user) = &search.user {
+        if let Some(user) = search.user {
             match user.canonicalize() {
                 Ok(root) if root.is_dir() => found.search(&root, user, PackageOrigin::User),
                 Ok(_) => {}
-                Err(_) => found.roots.push(user.clone()),
+                Err(_) => found.roots.push(user.to_path_buf()),
             }
         }
         let off = std::mem::take(&mut found.packages);

@@ -40,8 +40,8 @@ impl Packages {
     /// std::fs::create_dir_all(&castle)?;
     /// std::fs::write(castle.join("mod.toml"), "name = \"castle\"\nversion = \"1.2.0\"\napi = \"1.0\"\n")?;
     /// std::fs::write(castle.join("towers.lua"), "return {}")?;
-    /// let search = PackageSearch { script: Some(folder.path().into()), ..PackageSearch::default() };
-    /// let packages = Packages::find(&search, &Version::new(1, 0, 0));
+    /// let search = PackageSearch { script: Some(folder.path()), ..PackageSearch::default() };
+    /// let packages = Packages::find(search, &Version::new(1, 0, 0));
     /// let mut locate = |name| packages.locate("script", &FileName::script(name)?, None, &mut |_, _| {});
     /// assert!(locate("@castle/towers")?.path.ends_with("mods/castle/towers.lua"));
     /// assert!(locate("@castle/walls").is_err());

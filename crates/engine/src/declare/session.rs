@@ -115,11 +115,11 @@ impl Session {
         let curves = CurvesFile::read(script)?;
         let data_roots = options.inputs.data.iter().map(|folder| data_root(folder)).collect::<Result<_>>()?;
         let search = PackageSearch {
-            script: script.parent().map(Path::to_path_buf),
-            given: options.inputs.mods.clone(),
-            user: options.inputs.user_mods.clone(),
+            script: script.parent(),
+            given: &options.inputs.mods,
+            user: options.inputs.user_mods.as_deref(),
         };
-        let packages = Packages::find(&search, &api_version());
+        let packages = Packages::find(search, &api_version());
         let warnings = Warnings::default();
         let deprecated = Deprecations::new(&options.registry);
         let stop = Stop::under(options.stop.clone()).with_memory_limit(options.limits.memory);

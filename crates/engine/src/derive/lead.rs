@@ -7,7 +7,7 @@ use super::plan::{Derivation, DerivationPlan};
 use super::threads::{LeadingMachine, ThreadPool};
 use crate::machine::{Axiom, DerivationRequest, Machine, Objects};
 use crate::results::{DerivedSystem, RowFeatures, RuleName, SystemUses, Trace, skipped_feature};
-use burgeon_base::error::{Error, Result, SourcePlace};
+use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::Warning;
 use burgeon_kit::{Drawing, Object};
@@ -55,10 +55,10 @@ fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -
     if traced.is_some()
         && let Some(objects) = objects
     {
-        let named =
-            |text: &str, place: &Option<SourcePlace>| RuleName { text: text.into(), place: place.clone() };
-        let rules = grammar.rules().iter().map(|rule| named(&rule.pattern.text, &rule.place));
-        let interpreters = interpretations.list.iter().map(|known| named(&known.name, &known.place));
+        let rules = grammar.rules().iter();
+        let rules = rules.map(|rule| RuleName::new(&rule.pattern.text, rule.place.as_ref()));
+        let interpreters = interpretations.list.iter();
+        let interpreters = interpreters.map(|known| RuleName::new(&known.name, known.place.as_ref()));
         let shared = (grammar.symbols(), &session.values);
         let by_symbol = interpretations.by_symbol.clone();
         let mut trace = Trace::new(shared, rules.collect(), interpreters.collect(), by_symbol, axiom_place);

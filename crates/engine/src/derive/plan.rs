@@ -80,6 +80,12 @@ impl DerivationPlan {
         self.variables.read().recover().clone()
     }
 
+    /// Sets the objects and the environments that the functions of a machine use from now on.
+    pub(super) fn show_objects(&self, machine: &Machine) {
+        machine.current.objects.replace(self.objects.clone());
+        machine.current.environments.replace(self.environments.clone());
+    }
+
     /// Sets the variables that functions read from now on.
     pub(super) fn set_variables(&self, variables: VariableValues) {
         *self.variables.write().recover() = Some(Arc::new(variables));

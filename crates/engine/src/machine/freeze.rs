@@ -14,6 +14,13 @@ pub(crate) struct ReachableFunction {
     pub place: Option<SourcePlace>,
 }
 
+impl ReachableFunction {
+    /// Creates a function that belongs to a rule called `name`.
+    pub(crate) fn of_rule(function: &Function, name: &str, place: Option<&SourcePlace>) -> Self {
+        Self { function: function.clone(), name: name.to_owned(), place: place.cloned() }
+    }
+}
+
 /// Frozen tables; they become writable again when this is dropped.
 pub(crate) struct TableFreeze(Vec<Table>);
 

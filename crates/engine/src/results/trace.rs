@@ -51,6 +51,13 @@ pub struct RuleName {
     pub place: Option<SourcePlace>,
 }
 
+impl RuleName {
+    /// Creates the name of a rule with this pattern.
+    pub(crate) fn new(text: &str, place: Option<&SourcePlace>) -> Self {
+        Self { text: text.to_owned(), place: place.cloned() }
+    }
+}
+
 /// Display form of a module.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Module {
@@ -199,8 +206,7 @@ impl Trace {
                     path.last_mut().into_iter().for_each(|rows: &mut Ancestor| rows.rule.clone_from(&rule));
                 } else if let Some(module) = self.module_of(after, here) {
                     let answer = step.answers.iter().find(|answer| answer.symbol == parent);
-                    let answer = answer
-                        .map(|answer| RuleName { text: answer.text.clone(), place: answer.place.clone() });
+                    let answer = answer.map(|answer| RuleName::new(&answer.text, answer.place.as_ref()));
                     let asked = step.asked.iter().filter(|(symbol, _)| *symbol == parent);
                     let asked = asked.map(|(_, text)| text.clone()).collect();
                     let ordinal = before.count();

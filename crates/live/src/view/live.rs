@@ -17,6 +17,7 @@ use super::token::{Keep, Token};
 use super::{changes, connections, tools, work};
 use crate::watch::Watch;
 use burgeon_base::error::{Error, Result};
+use burgeon_base::named_thread;
 
 /// Number of ports to try after an occupied one.
 const TRIES: u16 = 100;
@@ -56,8 +57,7 @@ impl Live {
         state.lock().post(DueRun { cause: Cause::Start, files: Vec::new(), at: Instant::now() });
         let thread = |name: &str, work: Box<dyn FnOnce(&ServerState) + Send>| {
             let state = Arc::clone(&state);
-            let builder = std::thread::Builder::new().name(format!("burgeon {name}"));
-            builder.spawn(move || work(&state)).map_err(failed)
+            named_thread(name).spawn(move || work(&state)).map_err(failed)
         };
         let threads = vec![
             thread("worker", Box::new(move |state| work::work(state, &watch)))?,

@@ -16,6 +16,7 @@ use crate::presets::Presets;
 use crate::variations::{Framing, Variation, VariationAxis, Variations};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
+use burgeon_base::named_thread;
 use burgeon_engine::script::{Param, ParamValues, Preset, RunOptions, Session};
 use burgeon_picture::{Background, Picture, Quality};
 use burgeon_scene::image;
@@ -240,7 +241,7 @@ pub(super) fn variations(
             let _ = page.blocking_send(state.to_text(&Event::rejection(Some(id), &error)));
         }
     };
-    match std::thread::Builder::new().name("burgeon variations".to_owned()).spawn(make) {
+    match named_thread("variations").spawn(make) {
         Ok(_) => None,
         Err(error) => {
             Some(Event::rejection(Some(id), &Error::system(format!("cannot start a thread: {error}"))))

@@ -344,10 +344,9 @@ impl SystemDeclaration {
                 &places,
                 successor_reads.as_deref(),
             ))?);
-            let reach = |function: &Function| ReachableFunction {
-                function: function.clone(),
-                name: declared.rule.pattern.text.clone(),
-                place: declared.rule.place.clone(),
+            let rule = &declared.rule;
+            let reach = |function: &Function| {
+                ReachableFunction::of_rule(function, &rule.pattern.text, rule.place.as_ref())
             };
             reached.push(reach(&declared.successor));
             reached.extend(declared.guard.iter().chain(&declared.propensity).map(reach));
@@ -360,12 +359,9 @@ impl SystemDeclaration {
             made.propensities.push(propensity.transpose()?);
         }
         for known in self.interpretations.iter().filter(|_| self.object.is_some()) {
-            reached.extend(std::iter::once(&known.function).chain(&known.guard).map(|function| {
-                ReachableFunction {
-                    function: function.clone(),
-                    name: known.rule.pattern.text.clone(),
-                    place: known.rule.place.clone(),
-                }
+            let functions = std::iter::once(&known.function).chain(&known.guard);
+            reached.extend(functions.map(|function| {
+                ReachableFunction::of_rule(function, &known.rule.pattern.text, known.rule.place.as_ref())
             }));
         }
         reached.extend(self.reachable_hooks());
@@ -374,8 +370,8 @@ impl SystemDeclaration {
             types.iter().flat_map(|known| known.functions.iter().map(|it| (&*known.kind.name, it)));
         let extensions = machine.library.extensions.borrow();
         for (of, known) in functions.chain(extensions.iter().map(|it| ("extend", &it.function))) {
-            let (name, function) = (format!("{of}: {}", known.name), known.function.clone());
-            reached.push(ReachableFunction { function, name, place: None });
+            let name = format!("{of}: {}", known.name);
+            reached.push(ReachableFunction::of_rule(&known.function, &name, None));
         }
         Ok(made)
     }
