@@ -242,11 +242,10 @@ impl Variations {
         };
         std::thread::scope(|scope| {
             let (outbox, inbox) = channel();
-            for _ in 0..self.workers() {
-                let (worker, outbox) = (&worker, outbox.clone());
+            for outbox in std::iter::repeat_n(outbox, self.workers()) {
+                let worker = &worker;
                 scope.spawn(move || worker(outbox));
             }
-            drop(outbox);
             let mut early = BTreeMap::new();
             let mut expected = 0;
             for (number, result) in inbox {

@@ -195,8 +195,7 @@ pub(super) fn variations(
         Ok(variations) => variations,
         Err(error) => return Some(Event::rejection(Some(id), &error)),
     };
-    let stop = Arc::clone(&variations.stop);
-    let before = state.variations.lock().recover().replace(Arc::clone(&stop));
+    let before = state.variations.lock().recover().replace(Arc::clone(&variations.stop));
     if let Some(before) = before {
         before.stop(Error::cancellation("others are made"));
     }
@@ -211,7 +210,7 @@ pub(super) fn variations(
         };
         let of = variations.len();
         let (over, ended) = channel::<()>();
-        let gone = || stop.stop(Error::cancellation("the page has gone"));
+        let gone = || variations.stop.stop(Error::cancellation("the page has gone"));
         let (running, page, state) = (&variations, &page, &*state);
         let tell = move || {
             // The loop ends when the other end of the channel is dropped.
@@ -235,7 +234,7 @@ pub(super) fn variations(
             made
         });
         if let Err(error) = made
-            && !stop.is_stopped()
+            && !variations.stop.is_stopped()
         {
             // An error means that the page has disconnected.
             let _ = page.blocking_send(state.to_text(&Event::rejection(Some(id), &error)));
