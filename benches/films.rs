@@ -34,7 +34,7 @@ fn main() {
     std::fs::write(&script, TREE).unwrap();
     let frames = if std::env::args().any(|argument| argument == "--bench") { 100 } else { 2 };
     let axis = format!("0:{}", frames - 1).parse().unwrap();
-    let film = Film::new(&script, &burgeon::options(), &axis, 100).unwrap();
+    let film = Film::new(&script, burgeon::options(), &axis, 100).unwrap();
     let settings = FilmSettings { frames, fps: 25.0, size: (800, 600), transparent: false };
     let begin = Instant::now();
     let paths = [folder.join("tree.gif")];

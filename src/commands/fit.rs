@@ -233,11 +233,11 @@ fn message(
     }
 }
 
-fn output(text: &str) -> Result<PathBuf, String> {
+fn output(text: &str) -> Result<PathBuf, &'static str> {
     let path = PathBuf::from(text);
     if Path::new(text).extension().is_some_and(|extension| extension == "lua") {
         Ok(path)
     } else {
-        Err("a rule table is a Lua file: specify a .lua file".to_owned())
+        Err("a rule table is a Lua file: specify a .lua file")
     }
 }

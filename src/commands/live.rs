@@ -48,7 +48,7 @@ impl LiveCommand {
         self.script.json
     }
 
-    pub(crate) fn run(&self) -> Result<()> {
+    pub(crate) fn run(self) -> Result<()> {
         let (interrupt, interrupted) = channel();
         on_interrupt(move || {
             // The receiver waits for only one interrupt.

@@ -30,28 +30,31 @@ impl NewCommand {
     }
 
     pub(crate) fn run(&self) -> Result<()> {
-        let path =
-            if self.path.extension().is_none() { self.path.with_extension("lua") } else { self.path.clone() };
+        let path = match self.path.extension() {
+            Some(_) => &self.path,
+            None => &self.path.with_extension("lua"),
+        };
         let shown = path.display();
-        let mut file = OpenOptions::new().write(true).create_new(true).open(&path).map_err(|error| {
-            match error.kind() {
-                ErrorKind::AlreadyExists => {
-                    Error::file(&path, format!("{shown} already exists")).help("choose another name")
+        let mut file =
+            OpenOptions::new().write(true).create_new(true).open(path).map_err(|error| {
+                match error.kind() {
+                    ErrorKind::AlreadyExists => {
+                        Error::file(path, format!("{shown} already exists")).help("choose another name")
+                    }
+                    ErrorKind::NotFound | ErrorKind::NotADirectory => {
+                        let folder =
+                            path.parent().map_or_else(|| ".".into(), |folder| folder.display().to_string());
+                        Error::file(path, format!("cannot create {shown}: folder not found: {folder}"))
+                            .help("create the folder first")
+                    }
+                    _ => Error::file(path, format!("cannot create {shown}: {error}"))
+                        .help("choose another folder"),
                 }
-                ErrorKind::NotFound | ErrorKind::NotADirectory => {
-                    let folder =
-                        path.parent().map_or_else(|| ".".into(), |folder| folder.display().to_string());
-                    Error::file(&path, format!("cannot create {shown}: folder not found: {folder}"))
-                        .help("create the folder first")
-                }
-                _ => Error::file(&path, format!("cannot create {shown}: {error}"))
-                    .help("choose another folder"),
-            }
-        })?;
+            })?;
         file.write_all(STARTER.as_bytes()).map_err(|error| {
             // An incomplete script would only be in the way.
-            let _ = std::fs::remove_file(&path);
-            Error::file(&path, format!("cannot write {shown}: {error}"))
+            let _ = std::fs::remove_file(path);
+            Error::file(path, format!("cannot write {shown}: {error}"))
                 .help("write to another folder or disk")
         })?;
         if self.json {

@@ -148,7 +148,7 @@ fn packages_json(packages: &[burgeon::scene::ScenePackage]) -> serde_json::Value
 
 /// Returns the parameters' values by name, as JSON.
 pub(crate) fn params_json(params: &[Param]) -> serde_json::Value {
-    params.iter().map(|param| (param.name.clone(), param.value.to_json())).collect()
+    params.iter().map(|param| (param.name.as_str(), param.value.to_json())).collect()
 }
 
 /// Returns the peak resident memory of this process (MB), if the system reports it.

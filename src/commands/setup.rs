@@ -43,7 +43,7 @@ impl SetupCommand {
         // Merge the files first, so that nothing is written if one of them cannot be merged.
         let merged = [
             (SETTINGS, merged_settings(read(&self.folder.join(SETTINGS))?.as_deref())),
-            (LUAURC, merged_luaurc(read(&self.folder.join(LUAURC))?.as_deref(), &self.aliases(&packages))),
+            (LUAURC, merged_luaurc(read(&self.folder.join(LUAURC))?.as_deref(), self.aliases(&packages))),
         ];
         let mut texts = Vec::new();
         for (file, merged) in merged {
@@ -93,20 +93,20 @@ impl SetupCommand {
 impl SetupCommand {
     /// Returns the packages that scripts of the folder can use.
     fn packages(&self) -> Packages {
-        let search =
-            PackageSearch { script: Some(self.folder.clone()), given: Vec::new(), user: user_mods() };
-        Packages::find(&search, &api_version())
+        let user = user_mods();
+        let search = PackageSearch { script: Some(&self.folder), given: &[], user: user.as_deref() };
+        Packages::find(search, &api_version())
     }
 
     /// Returns the name and the path of each package; paths inside the folder are relative.
-    fn aliases(&self, packages: &Packages) -> Vec<(String, String)> {
-        let alias = |package: &Package| {
+    fn aliases<'a>(&self, packages: &'a Packages) -> Vec<(&'a str, String)> {
+        let alias = |package: &'a Package| {
             let folder = match package.origin {
                 PackageOrigin::Beside => package.shown.strip_prefix(&self.folder).unwrap_or(&package.shown),
                 _ => package.folder.as_path(),
             };
             let parts: Vec<_> = folder.iter().map(|part| part.to_string_lossy()).collect();
-            (package.manifest.name.clone(), parts.join("/").replace("//", "/"))
+            (&*package.manifest.name, parts.join("/").replace("//", "/"))
         };
         packages.order().iter().map(alias).collect()
     }
@@ -128,8 +128,8 @@ impl SetupCommand {
         let beside = self.folder.join("mods");
         let of_packages = packages.order().iter().flat_map(|package| {
             // The displayed path of a package determines how its files are named.
-            let mods = std::iter::once(package.shown.clone()).chain(beside.is_dir().then(|| beside.clone()));
-            burgeon::declared_types_of_package(&package.shown, options(mods.collect()))
+            let mods = std::iter::once(&package.shown).chain(beside.is_dir().then_some(&beside));
+            burgeon::declared_types_of_package(&package.shown, options(mods.cloned().collect()))
         });
         of_scripts.chain(of_packages).collect()
     }

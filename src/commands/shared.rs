@@ -1,5 +1,6 @@
 //! Flags of several commands.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -113,20 +114,17 @@ impl ScriptFlags {
 
     /// Returns the file of the preset `name`, and its name in the file: `@castle/grand` is in the presets.json of a
     /// package.
-    fn presets(&self, name: &str) -> Result<(PathBuf, String)> {
+    fn presets<'a>(&self, name: &'a str) -> Result<(PathBuf, Cow<'a, str>)> {
         if !FileName::is_meant(name) {
-            return Ok((Presets::path_of(&self.script), name.to_owned()));
+            return Ok((Presets::path_of(&self.script), Cow::Borrowed(name)));
         }
         let meant = FileName::parse(name)?;
-        let search = PackageSearch {
-            script: self.script.parent().map(Path::to_path_buf),
-            given: self.mods.clone(),
-            user: user_mods(),
-        };
-        let packages = Packages::find(&search, &api_version());
+        let user = user_mods();
+        let search = PackageSearch { script: self.script.parent(), given: &self.mods, user: user.as_deref() };
+        let packages = Packages::find(search, &api_version());
         let file = FileName { package: meant.package, path: "presets.json".to_owned() };
         let located = packages.locate("presets file", &file, None, &mut |_, _| {})?;
-        Ok((located.shown, meant.path))
+        Ok((located.shown, Cow::Owned(meant.path)))
     }
 
     /// Returns the arguments that a later command needs for the same runs, with paths that `portable` has changed. Threads are
@@ -262,7 +260,7 @@ pub(crate) struct PictureFlags {
 }
 
 /// Parses `X,Y,Z,M`.
-fn look(text: &str) -> std::result::Result<ViewBall, String> {
+fn look(text: &str) -> std::result::Result<ViewBall, &'static str> {
     let numbers: Vec<f64> = text
         .split(',')
         .map(|part| part.trim().parse::<f64>())
@@ -272,7 +270,7 @@ fn look(text: &str) -> std::result::Result<ViewBall, String> {
         [x, y, z, radius] if numbers.iter().all(|number| number.is_finite()) && *radius > 0.0 => {
             Ok(ViewBall { at: [*x, *y, *z], radius: *radius })
         }
-        _ => Err("write a position and a distance above 0, such as 10,-5,0,40".to_owned()),
+        _ => Err("write a position and a distance above 0, such as 10,-5,0,40"),
     }
 }
 

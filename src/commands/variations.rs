@@ -77,7 +77,7 @@ impl VariationsCommand {
             return Err(Error::usage(format!("--set and --sweep both use `{name}`; remove one"))
                 .help(format!("remove --set {name} or --sweep {name}")));
         }
-        let variations = Arc::new(Variations::new(&self.script.script, &options, over)?);
+        let variations = Arc::new(Variations::new(&self.script.script, options, over)?);
         let picture = Picture { quality: Quality::Draft, ..self.picture.picture(self.size) };
         let layout = SheetLayout::new(variations.len(), self.columns, &picture)?;
         let framing = match self.fit {
@@ -146,12 +146,12 @@ impl VariationsCommand {
 
 /// Combines the errors into one if all variations failed.
 fn refuse_if_all_failed(cells: &[Variation]) -> Result<()> {
-    let mut errors: Vec<(Error, String)> = Vec::new();
+    let mut errors: Vec<(&Error, String)> = Vec::new();
     for cell in cells {
         let Err(error) = &cell.made else { return Ok(()) };
         let text = error.to_string();
         if errors.iter().all(|(_, known)| *known != text) {
-            errors.push((error.clone(), text));
+            errors.push((error, text));
         }
     }
     // Many runs fail in the same way, with different numbers in the message.

@@ -27,4 +27,4 @@ pub use module_key::{KeyPart, ModuleKey};
 pub use stop::Stop;
 pub use warning::Warning;
 pub use warning_kind::WarningKind;
-pub use work::{WorkLimits, WorkWithin};
+pub use work::{WorkLimits, WorkWithin, named_thread};

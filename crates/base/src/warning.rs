@@ -106,6 +106,18 @@ impl Warning {
         Self { told: self.told.at(place), ..self }
     }
 
+    /// Sets the location to a copy of `place`, unless it is already set.
+    #[must_use]
+    pub fn at_place(self, place: Option<&SourcePlace>) -> Self {
+        Self { told: self.told.at_place(place), ..self }
+    }
+
+    /// Sets the script line that led to the warning to a copy of `caller`, unless it is already set.
+    #[must_use]
+    pub fn called_from(self, caller: Option<&SourcePlace>) -> Self {
+        Self { told: self.told.called_from(caller), ..self }
+    }
+
     /// Sets the script line that led to the warning, unless it is already set.
     #[must_use]
     pub fn called_at(self, caller: Option<SourcePlace>) -> Self {

@@ -12,6 +12,11 @@ thread_local! {
     static BUDGETS: RefCell<Vec<Arc<Budget>>> = const { RefCell::new(Vec::new()) };
 }
 
+/// Returns the builder of a thread with a name that begins with `burgeon`, as debuggers show it.
+pub fn named_thread(purpose: &str) -> std::thread::Builder {
+    std::thread::Builder::new().name(format!("burgeon {purpose}"))
+}
+
 /// Stop of the run and budget of the query that a thread works on.
 #[derive(Debug, Default)]
 pub struct WorkLimits {

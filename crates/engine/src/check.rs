@@ -39,8 +39,8 @@ pub fn check_package(folder: &Path, options: RunOptions) -> Result<ScriptCheck> 
         // Another package takes precedence, or a problem explains why the package is not used.
         let shown = folder.display();
         let broken = packages.broken.iter().filter(|broken| broken.folder == session.root());
-        let broken = broken.map(|broken| broken.error.clone());
-        let problems: Vec<Error> = packages.problems.iter().cloned().chain(broken).collect();
+        let broken = broken.map(|broken| &broken.error);
+        let problems: Vec<Error> = packages.problems.iter().chain(broken).cloned().collect();
         return Err(if problems.is_empty() {
             Error::not_found("package", &shown, [], format!("the script does not use the package {shown}"))
                 .help("run burgeon mods to list the packages in use")
@@ -96,9 +96,9 @@ fn checked(session: &Arc<Session>, run: impl FnOnce(&Machine) -> Result<()>) -> 
     if let Err(error) = refuse_unknown(session, &session.params()) {
         problems.push(error);
     }
-    let warnings = session.warnings();
+    let mut warnings = session.warnings();
     if session.options.strict {
-        problems.extend(warnings.iter().cloned().map(Warning::into_error));
+        problems.extend(warnings.drain(..).map(Warning::into_error));
     }
     problems.sort_by(|a, b| a.place().cmp(&b.place()));
     if !problems.is_empty() {
@@ -109,9 +109,11 @@ fn checked(session: &Arc<Session>, run: impl FnOnce(&Machine) -> Result<()>) -> 
 
 /// Returns true if both errors report the same missing name at the same location.
 fn misses_same(one: &Error, other: &Error) -> bool {
-    let missed = |error: &Error| match error.kind() {
-        ErrorKind::NotFound { name, .. } => Some(name.clone()),
-        _ => None,
-    };
+    fn missed(error: &Error) -> Option<&str> {
+        match error.kind() {
+            ErrorKind::NotFound { name, .. } => Some(name),
+            _ => None,
+        }
+    }
     one.place() == other.place() && missed(one).is_some() && missed(one) == missed(other)
 }

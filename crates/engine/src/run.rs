@@ -117,26 +117,25 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     let begin = Instant::now();
     let mut scene = Scene::default();
     let mut idle = Vec::new();
-    for system in systems.iter_mut() {
+    for (number, system) in systems.iter_mut().enumerate() {
         session.stop.check()?;
         if system.is_placed() {
             let is_empty = system.placed_model().is_some_and(|model| model.size() == 0);
-            idle.extend(is_empty.then(|| Arc::clone(system)));
+            idle.extend(is_empty.then_some(number));
             continue;
         }
         if session.options.part.is_some_and(|part| !part.has_featureless()) && system.is_featureless() {
             // The first part shows it.
             continue;
         }
-        let (place, caller) = (system.place.clone(), system.caller.clone());
         let known = scene.instances.len();
         let shown = match Arc::get_mut(system) {
             Some(system) => system.hand_over(&mut scene),
             None => system.add_to(&mut scene),
         };
-        shown.map_err(|error| error.rather_at(place).called_at(caller))?;
+        shown.map_err(|error| error.rather_at(system.place.clone()).called_from(system.caller.as_ref()))?;
         let mut meshes = scene.instances[known..].iter().map(|instance| &scene.meshes[instance.mesh]);
-        idle.extend((!meshes.any(|mesh| mesh.triangles() > 0)).then(|| Arc::clone(system)));
+        idle.extend((!meshes.any(|mesh| mesh.triangles() > 0)).then_some(number));
     }
     session.stop.check()?;
     if let Some(note) = note_unplaced(&systems) {
@@ -151,7 +150,8 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     if scene.triangles() == 0 && is_whole(session) {
         emptiness(&session.warnings(), &systems).into_iter().for_each(|warning| session.warn(warning));
     }
-    let idle: Vec<Warning> = idle.iter().filter_map(|system| idleness(session, &scene, system)).collect();
+    let idle = idle.into_iter().map(|number: usize| &systems[number]);
+    let idle: Vec<Warning> = idle.filter_map(|system| idleness(session, &scene, system)).collect();
     idle.into_iter().for_each(|warning| session.warn(warning));
     let warnings = session.warnings();
     if session.options.strict && !warnings.is_empty() {
@@ -262,10 +262,11 @@ pub(crate) fn refuse_unknown(session: &Session, params: &[Param]) -> Result<()> 
 pub fn no_such(script: &Path, name: &str, params: &[Param]) -> Error {
     let names: Vec<&str> = params.iter().map(|param| param.name.as_str()).collect();
     let message = format!("{}: unknown parameter `{name}`", script.display());
-    Error::not_found("parameter", name, names.iter().copied(), message).help(match names.is_empty() {
-        true => "the script declares no parameters".to_owned(),
-        false => format!("it has {}", names.join(", ")),
-    })
+    let error = Error::not_found("parameter", name, names.iter().copied(), message);
+    match names.is_empty() {
+        true => error.help("the script declares no parameters"),
+        false => error.help(format!("it has {}", names.join(", "))),
+    }
 }
 
 /// Resolves texture names to files in the script's folder or in packages.

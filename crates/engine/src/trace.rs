@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::declare::{RunOptions, RunReports, Session, TraceRequest};
+use crate::declare::{RunOptions, Session, TraceRequest};
 use crate::results::{Ancestor, Module, RuleName, RuleProducts, Trace};
 use crate::run::run_traced;
 use burgeon_base::error::{Error, Result, SourcePlace};
@@ -121,8 +121,8 @@ pub fn highlight(
         if line > nearest {
             (found, nearest) = (LineProducts::default(), line);
         }
-        if !found.what.contains(&name) {
-            found.what.push(name);
+        if !found.what.iter().any(|known| known == name) {
+            found.what.push(name.to_owned());
         }
         let starts = trace.starts();
         found.modules += (0..trace.len()).filter(|index| made[*index] && trace.is_module(*index)).count();
@@ -185,8 +185,9 @@ fn trace_chain(script: &Path, options: &RunOptions, origin: Origin) -> Result<Tr
 
 /// Runs `script` until the wanted system is derived, with the lineage of the wanted chains.
 pub fn trace(script: &Path, options: &RunOptions, wanted: TraceRequest) -> Result<Trace> {
-    let reports = RunReports { trace: Some(wanted), ..options.reports.clone() };
-    let session = Session::new(script, RunOptions { reports, ..options.clone() })?;
+    let mut options = options.clone();
+    options.reports.trace = Some(wanted);
+    let session = Session::new(script, options)?;
     run_traced(&session)?.ok_or_else(|| {
         Error::script("the script no longer derives this system").help("wait until the model is updated")
     })

@@ -4,6 +4,8 @@
 //! either: y is up here, as in glTF. Materials have the classic lighting parameters and, for programs that support
 //! them, the physically based `Pr` and `Pm`.
 
+use std::borrow::Cow;
+
 use super::check::{SceneCheck, check, shown_parts, triangles};
 use super::color::{fraction, srgb};
 use super::facts::Export;
@@ -192,12 +194,14 @@ fn material_names(materials: &[Material]) -> Vec<String> {
     let mut taken = rustc_hash::FxHashSet::default();
     for material in materials {
         let plain = word(&material.name, "material");
-        let mut name = plain.clone();
+        let mut name = Cow::Borrowed(&*plain);
         let mut count = 1;
-        while !taken.insert(name.clone()) {
+        while taken.contains(&*name) {
             count += 1;
-            name = format!("{plain}_{count}");
+            name = Cow::Owned(format!("{plain}_{count}"));
         }
+        let name = name.into_owned();
+        taken.insert(name.clone());
         names.push(name);
     }
     names

@@ -46,7 +46,8 @@ impl Registry {
     pub fn refuse_taken(&self, name: &str) -> Result<()> {
         let Some(known) = self.get(name) else { return Ok(()) };
         let place = known.script.as_ref().and_then(|script| script.place());
-        let place = place.map_or_else(|| "as a built-in type".to_owned(), |place| format!("in {place}"));
+        let place = place.map(|place| format!("in {place}"));
+        let place = place.as_deref().unwrap_or("as a built-in type");
         Err(Error::argument(format!("object type `{name}` is already declared, {place}"))
             .help("rename this one, or add methods to the other: extend(constructor, { ... })"))
     }

@@ -58,40 +58,33 @@ pub fn merged_settings(there: Option<&str>) -> Result<Option<String>, String> {
 
 /// Adds to a `.luaurc` an alias for each of `packages`, a name and a folder, so that `require("@castle/towers")` is
 /// resolved. Existing settings are kept. `None` if nothing is missing. Fails like [`merged_settings`].
-pub fn merged_luaurc(there: Option<&str>, packages: &[(String, String)]) -> Result<Option<String>, String> {
-    let mut wanted = Map::new();
+pub fn merged_luaurc(there: Option<&str>, packages: Vec<(&str, String)>) -> Result<Option<String>, String> {
+    let mut wanted = json!({});
     if there.is_none_or(|there| there.trim().is_empty()) {
-        wanted.insert("languageMode".to_owned(), "nonstrict".into());
+        wanted["languageMode"] = json!("nonstrict");
     }
     if !packages.is_empty() {
-        let aliases = packages.iter().map(|(name, folder)| (name.clone(), Value::from(folder.as_str())));
-        wanted.insert("aliases".to_owned(), aliases.collect());
+        wanted["aliases"] = packages.into_iter().collect();
     }
     merge(there, &wanted)
 }
 
-fn merge(there: Option<&str>, wanted: &Map<String, Value>) -> Result<Option<String>, String> {
-    match there.filter(|text| !text.trim_start_matches('\u{feff}').trim().is_empty()) {
-        Some(text) if is_comments(text) => {
-            Ok(Some(format!("{}\n{}", text.trim_end(), format_json(&Value::Object(wanted.clone())))))
-        }
-        Some(text) => add_missing(text, wanted),
-        None => Ok(Some(format_json(&Value::Object(wanted.clone())))),
+fn merge(there: Option<&str>, wanted: &Value) -> Result<Option<String>, String> {
+    match (there.filter(|text| !text.trim_start_matches('\u{feff}').trim().is_empty()), wanted) {
+        (Some(text), Value::Object(wanted)) if !is_comments(text) => add_missing(text, wanted),
+        (Some(text), _) => Ok(Some(format!("{}\n{}", text.trim_end(), format_json(wanted)))),
+        (None, _) => Ok(Some(format_json(wanted))),
     }
 }
 
-fn settings() -> Map<String, Value> {
-    let settings = json!({
+fn settings() -> Value {
+    json!({
         "files.associations": { "*.lua": "luau" },
         "luau-lsp.platform.type": "standard",
         "luau-lsp.fflags.enableNewSolver": true,
         "luau-lsp.types.definitionFiles": { "@burgeon": ".burgeon/burgeon.d.luau" },
         "luau-lsp.types.documentationFiles": [".burgeon/burgeon.docs.json"],
-    });
-    match settings {
-        Value::Object(settings) => settings,
-        _ => Map::new(),
-    }
+    })
 }
 
 fn snippets() -> Value {
@@ -171,12 +164,12 @@ mod tests {
 
     #[test]
     fn packages_have_aliases_and_what_somebody_chose_stays() {
-        let packages = [("castle".to_owned(), "mods/castle".to_owned())];
-        let made = merged_luaurc(None, &packages).expect("nothing there").expect("all of it");
+        let packages = || vec![("castle", "mods/castle".to_owned())];
+        let made = merged_luaurc(None, packages()).expect("nothing there").expect("all of it");
         let read: Value = serde_json::from_str(&made).expect("JSON");
         assert_eq!(read, json!({ "languageMode": "nonstrict", "aliases": { "castle": "mods/castle" } }));
         let there = "{ \"languageMode\": \"strict\", // mine\n  \"aliases\": { \"castle\": \"elsewhere\" } }";
-        assert_eq!(merged_luaurc(Some(there), &packages).expect("JSON"), None);
-        assert_eq!(merged_luaurc(Some("{}"), &[]).expect("JSON"), None);
+        assert_eq!(merged_luaurc(Some(there), packages()).expect("JSON"), None);
+        assert_eq!(merged_luaurc(Some("{}"), Vec::new()).expect("JSON"), None);
     }
 }

@@ -11,6 +11,54 @@ pub struct CallForm {
     pub returns: String,
 }
 
+/// A view of the arguments of a signature.
+#[derive(Debug, Clone, Copy)]
+pub struct ArgumentList<'a>(pub &'a [Argument]);
+
+impl<'a> ArgumentList<'a> {
+    /// Returns the arguments of each signature.
+    pub fn of_all(forms: &'a [CallForm]) -> Vec<Self> {
+        forms.iter().map(|form| ArgumentList(&form.arguments)).collect()
+    }
+
+    /// Returns the argument at a position, counted from 0.
+    pub fn argument(self, place: usize) -> Option<&'a Argument> {
+        match self.0.get(place) {
+            Some(argument) => Some(argument),
+            None => self.0.last().filter(|last| last.name == "..."),
+        }
+    }
+
+    /// Returns the minimum number of arguments.
+    pub fn least(&self) -> usize {
+        let must = |argument: &&Argument| argument.name != "..." && !may_be_left_out(&argument.luau);
+        self.0.iter().rposition(|argument| must(&argument)).map_or(0, |last| last + 1)
+    }
+
+    /// Returns the maximum number of arguments; `None` for any number.
+    pub fn most(&self) -> Option<usize> {
+        (self.0.last().is_none_or(|last| last.name != "...")).then_some(self.0.len())
+    }
+}
+
+impl std::fmt::Display for ArgumentList<'_> {
+    /// Writes the arguments of a function type in Luau syntax, with their defaults.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("(")?;
+        for (index, Argument { name, luau, default, .. }) in self.0.iter().enumerate() {
+            f.write_str(if index > 0 { ", " } else { "" })?;
+            match &**name {
+                "..." => write!(f, "...{luau}")?,
+                name => write!(f, "{name}: {luau}")?,
+            }
+            if !default.is_empty() && default != "nil" {
+                write!(f, " = {default}")?;
+            }
+        }
+        f.write_str(")")
+    }
+}
+
 /// Creates an argument called `name` of type `luau`; a type that ends with `?` makes it optional.
 pub fn argument(name: &'static str, luau: &str) -> Argument {
     Argument::typed(name, luau)
@@ -50,39 +98,24 @@ impl CallForm {
 
     /// Returns the argument at a position, counted from 0.
     pub fn argument(&self, place: usize) -> Option<&Argument> {
-        match self.arguments.get(place) {
-            Some(argument) => Some(argument),
-            None => self.arguments.last().filter(|last| last.name == "..."),
-        }
+        ArgumentList(&self.arguments).argument(place)
     }
 
     /// Returns the minimum number of arguments.
     pub fn least(&self) -> usize {
-        let must = |argument: &&Argument| argument.name != "..." && !may_be_left_out(&argument.luau);
-        self.arguments.iter().rposition(|argument| must(&argument)).map_or(0, |last| last + 1)
+        ArgumentList(&self.arguments).least()
     }
 
     /// Returns the maximum number of arguments; `None` for any number.
     pub fn most(&self) -> Option<usize> {
-        (self.arguments.last().is_none_or(|last| last.name != "...")).then_some(self.arguments.len())
+        ArgumentList(&self.arguments).most()
     }
 }
 
 impl std::fmt::Display for CallForm {
     /// Writes a function type in Luau syntax, with the defaults of the arguments.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("(")?;
-        for (index, Argument { name, luau, default, .. }) in self.arguments.iter().enumerate() {
-            f.write_str(if index > 0 { ", " } else { "" })?;
-            match &**name {
-                "..." => write!(f, "...{luau}")?,
-                name => write!(f, "{name}: {luau}")?,
-            }
-            if !default.is_empty() && default != "nil" {
-                write!(f, " = {default}")?;
-            }
-        }
-        write!(f, ")")?;
+        write!(f, "{}", ArgumentList(&self.arguments))?;
         if self.returns.is_empty() { Ok(()) } else { write!(f, " -> {}", self.returns) }
     }
 }

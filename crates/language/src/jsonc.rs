@@ -1,5 +1,6 @@
 //! JSON with comments, the format of editor settings. Edits change the text in place, so comments and order are kept.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use serde_json::{Map, Value};
@@ -27,14 +28,21 @@ impl JsonNode {
         members.iter().rev().find(|(known, _)| known == name).map(|(_, node)| node)
     }
 
-    /// Returns the value without comments.
-    fn plain(&self) -> Value {
-        match &self.content {
-            NodeContent::Object(members) => {
-                members.iter().map(|(name, node)| (name.clone(), node.plain())).collect()
+    /// Returns true if the value is `other`, apart from comments.
+    fn is_equal(&self, other: &Value) -> bool {
+        match (&self.content, other) {
+            (NodeContent::Object(members), Value::Object(others)) => {
+                members.iter().all(|(name, _)| others.contains_key(name))
+                    && others
+                        .iter()
+                        .all(|(name, value)| self.member(name).is_some_and(|it| it.is_equal(value)))
             }
-            NodeContent::List(items) => items.iter().map(Self::plain).collect(),
-            NodeContent::Other(value) => value.clone(),
+            (NodeContent::List(items), Value::Array(others)) => {
+                items.len() == others.len()
+                    && items.iter().zip(others).all(|(item, value)| item.is_equal(value))
+            }
+            (NodeContent::Other(value), other) => value == other,
+            _ => false,
         }
     }
 }
@@ -44,7 +52,7 @@ impl JsonNode {
 ///
 /// Fails if `text` is not a JSON object. Comments and commas after the last member are allowed.
 pub(crate) fn add_missing(text: &str, wanted: &Map<String, Value>) -> Result<Option<String>, String> {
-    let mut edited = text.to_owned();
+    let mut edited = Cow::Borrowed(text);
     let mut root = read(&edited)?;
     if !matches!(root.content, NodeContent::Object(_)) {
         return Err("it is not an object".to_owned());
@@ -53,11 +61,11 @@ pub(crate) fn add_missing(text: &str, wanted: &Map<String, Value>) -> Result<Opt
         let into = path.map_or(Some(&*root), |path| root.member(path));
         let is_there = into.is_none_or(|into| match (name, &into.content) {
             (Some(name), _) => into.member(name).is_some(),
-            (None, NodeContent::List(items)) => items.iter().any(|item| item.plain() == *value),
+            (None, NodeContent::List(items)) => items.iter().any(|item| item.is_equal(value)),
             (None, _) => true,
         });
         if let (Some(into), false) = (into, is_there) {
-            edited = with_entry(&edited, into, name, value);
+            edited = Cow::Owned(with_entry(&edited, into, name, value));
             *root = read(&edited)?;
         }
         Ok::<(), String>(())
@@ -75,7 +83,7 @@ pub(crate) fn add_missing(text: &str, wanted: &Map<String, Value>) -> Result<Opt
             _ => {}
         }
     }
-    Ok((edited != text).then_some(edited))
+    Ok((edited != text).then(|| edited.into_owned()))
 }
 
 /// Returns true if `text` contains only comments and spaces.
@@ -98,11 +106,11 @@ fn with_entry(text: &str, of: &JsonNode, name: Option<&str>, value: &Value) -> S
         let rest = &text[line..];
         &rest[..rest.len() - rest.trim_start_matches([' ', '\t']).len()]
     };
-    let outer = indent_of(of.range.start).to_owned();
-    let is_one_line = !text[of.range.clone()].contains('\n') && !ranges.is_empty();
+    let outer = indent_of(of.range.start);
+    let is_one_line = !text[of.range.start..of.range.end].contains('\n') && !ranges.is_empty();
     let indent = match ranges.first() {
-        Some(first) if !is_one_line => indent_of(first.start).to_owned(),
-        _ => format!("{outer}  "),
+        Some(first) if !is_one_line => Cow::Borrowed(indent_of(first.start)),
+        _ => Cow::Owned(format!("{outer}  ")),
     };
     let value = match is_one_line {
         true => value.to_string(),
@@ -328,6 +336,17 @@ mod tests {
         }
     }
 
+    /// Returns the value without comments.
+    fn plain(node: &JsonNode) -> Value {
+        match &node.content {
+            NodeContent::Object(members) => {
+                members.iter().map(|(name, node)| (name.clone(), plain(node))).collect()
+            }
+            NodeContent::List(items) => items.iter().map(plain).collect(),
+            NodeContent::Other(value) => value.clone(),
+        }
+    }
+
     fn values() -> impl Strategy<Value = Value> {
         let leaf = prop_oneof![
             Just(Value::Null),
@@ -372,7 +391,9 @@ mod tests {
             let (Value::Object(there), Value::Object(more)) = (there, more) else { return Ok(()) };
             let text = untidy(&Value::Object(there.clone()), &mut style.into_iter());
             let edited = add_missing(&text, &more).unwrap().unwrap_or_else(|| text.clone());
-            let Value::Object(found) = read(&edited).unwrap().plain() else { panic!() };
+            let found = read(&edited).unwrap();
+            let Value::Object(found) = plain(&found) else { panic!() };
+            prop_assert!(read(&edited).unwrap().is_equal(&Value::Object(found.clone())));
             for (name, value) in &more {
                 match (there.get(name), value) {
                     (None, value) => prop_assert_eq!(&found[name], value),

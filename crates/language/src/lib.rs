@@ -19,7 +19,7 @@ mod script_types;
 pub use definitions::{Definitions, definitions};
 pub use editor::{EditorFile, LUAURC, SETTINGS, editor_files, merged_luaurc, merged_settings};
 pub use examples::EXAMPLES;
-pub use form::{CallForm, argument};
+pub use form::{ArgumentList, CallForm, argument};
 pub use luau_type::{Literal, LuauType};
 pub use names::{
     DERIVE, DERIVED, EXTEND, Effect, LAYER, LOCKED, LSYSTEM, NOW, Name, NameKind, OBJECT, Operator, PARAM,

@@ -1,16 +1,18 @@
 //! Luau types, as far as literal values in a script can be checked against them.
 
-/// Type of an argument or a field.
+use std::borrow::Cow;
+
+/// Type of an argument or a field, which borrows names from the text of the type.
 #[derive(Debug, Clone, PartialEq)]
-pub enum LuauType {
+pub enum LuauType<'a> {
     /// Any value.
     Any,
     /// The type of `nil`.
     Nil,
     /// `number`, `string`, `boolean`, or the name of a type that is declared elsewhere.
-    Named(String),
+    Named(Cow<'a, str>),
     /// The type of a single string.
-    Text(String),
+    Text(&'a str),
     /// A union of types.
     Union(Vec<Self>),
     /// A list with items of a type.
@@ -18,9 +20,9 @@ pub enum LuauType {
     /// A table with keys other than names.
     Map,
     /// A table with these fields.
-    Table(Vec<(String, Self)>),
+    Table(Vec<(&'a str, Self)>),
     /// A function type, as text.
-    Function(String),
+    Function(&'a str),
 }
 
 /// A value in the source text of a script, known without running it.
@@ -39,12 +41,12 @@ pub enum Literal {
     /// A function expression.
     Function,
     /// An object, with the Luau name of its type.
-    Object(String),
+    Object(Cow<'static, str>),
 }
 
-impl LuauType {
+impl<'a> LuauType<'a> {
     /// Parses a type. Unsupported syntax results in [`LuauType::Any`].
-    pub fn read(text: &str) -> Self {
+    pub fn read(text: &'a str) -> Self {
         let mut reader = Reader { rest: text };
         let found = reader.union();
         if reader.rest.trim().is_empty() { found.unwrap_or(Self::Any) } else { Self::Any }
@@ -61,7 +63,7 @@ impl LuauType {
     /// assert!(accepts(Literal::Number) && accepts(Literal::Text("left".into())));
     /// assert!(!accepts(Literal::Text("top".into())) && !accepts(Literal::Nil));
     /// ```
-    pub fn accepts(&self, literal: &Literal, known: &dyn Fn(&str) -> Option<Self>) -> bool {
+    pub fn accepts(&self, literal: &Literal, known: &dyn Fn(&str) -> Option<LuauType<'_>>) -> bool {
         match self {
             Self::Any => true,
             Self::Nil => *literal == Literal::Nil,
@@ -77,7 +79,8 @@ impl LuauType {
                 ("buffer", _) => false,
                 (name, Literal::Object(given)) if name == given => true,
                 (name, _) => known(name).is_none_or(|stands_for| {
-                    stands_for != Self::Named(name.to_owned()) && stands_for.accepts(literal, known)
+                    !matches!(&stands_for, LuauType::Named(same) if same == name)
+                        && stands_for.accepts(literal, known)
                 }),
             },
         }
@@ -101,7 +104,7 @@ impl LuauType {
     }
 
     /// Returns the fields, if the type is a table or a union with a table.
-    pub fn fields(&self) -> Option<&[(String, Self)]> {
+    pub fn fields(&self) -> Option<&[(&'a str, Self)]> {
         match self {
             Self::Table(fields) => Some(fields),
             Self::Union(of) => of.iter().find_map(Self::fields),
@@ -114,7 +117,7 @@ struct Reader<'a> {
     rest: &'a str,
 }
 
-impl Reader<'_> {
+impl<'a> Reader<'a> {
     fn take(&mut self, what: &str) -> bool {
         let rest = self.rest.trim_start();
         let found = rest.strip_prefix(what);
@@ -122,15 +125,15 @@ impl Reader<'_> {
         found.is_some()
     }
 
-    fn name(&mut self) -> Option<String> {
+    fn name(&mut self) -> Option<&'a str> {
         let rest = self.rest.trim_start();
         let end = rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(rest.len());
         let (name, rest) = rest.split_at(end);
         self.rest = rest;
-        (!name.is_empty()).then(|| name.to_owned())
+        (!name.is_empty()).then_some(name)
     }
 
-    fn union(&mut self) -> Option<LuauType> {
+    fn union(&mut self) -> Option<LuauType<'a>> {
         let mut of = vec![self.optional()?];
         while self.take("|") {
             of.push(self.optional()?);
@@ -138,7 +141,7 @@ impl Reader<'_> {
         Some(if of.len() == 1 { of.remove(0) } else { LuauType::Union(of) })
     }
 
-    fn optional(&mut self) -> Option<LuauType> {
+    fn optional(&mut self) -> Option<LuauType<'a>> {
         let mut found = self.single()?;
         while self.take("?") {
             found = LuauType::Union(vec![found, LuauType::Nil]);
@@ -146,9 +149,10 @@ impl Reader<'_> {
         Some(found)
     }
 
-    fn single(&mut self) -> Option<LuauType> {
+    fn single(&mut self) -> Option<LuauType<'a>> {
+        let begin = self.rest.trim_start();
         if self.take("(") {
-            return self.bracket();
+            return self.bracket(begin);
         }
         if self.take("{") {
             return self.table();
@@ -156,25 +160,24 @@ impl Reader<'_> {
         if self.take("\"") {
             let (text, rest) = self.rest.split_once('"')?;
             self.rest = rest;
-            return Some(LuauType::Text(text.to_owned()));
+            return Some(LuauType::Text(text));
         }
         let name = self.name()?;
         if self.take("<") {
             self.union()?;
             return self.take(">").then_some(LuauType::Any);
         }
-        Some(match &*name {
+        Some(match name {
             "any" | "unknown" => LuauType::Any,
             "nil" => LuauType::Nil,
             // `T` is the type of a system's object.
             "T" => LuauType::Any,
-            _ => LuauType::Named(name),
+            _ => LuauType::Named(Cow::Borrowed(name)),
         })
     }
 
-    /// Parses a function type or a type in brackets, after the opening bracket.
-    fn bracket(&mut self) -> Option<LuauType> {
-        let begin = self.rest;
+    /// Parses a function type or a type in brackets, after the opening bracket, with which `begin` starts.
+    fn bracket(&mut self, begin: &'a str) -> Option<LuauType<'a>> {
         let mut inner = Vec::new();
         while !self.take(")") {
             let before = self.rest;
@@ -190,12 +193,12 @@ impl Reader<'_> {
             self.take("...");
             self.union()?;
             let text = &begin[..begin.len() - self.rest.len()];
-            return Some(LuauType::Function(format!("({}", text.trim_end())));
+            return Some(LuauType::Function(text.trim_end()));
         }
         if inner.len() == 1 { inner.pop() } else { Some(LuauType::Any) }
     }
 
-    fn table(&mut self) -> Option<LuauType> {
+    fn table(&mut self) -> Option<LuauType<'a>> {
         if self.take("[") {
             self.union()?;
             if !self.take("]") || !self.take(":") {
@@ -234,7 +237,7 @@ mod tests {
         let text = |text: &str| Literal::Text(text.to_owned());
         let known = |name: &str| match name {
             "Color" => Some(LuauType::read("string | { number }")),
-            "Model" => Some(LuauType::Named("Model".to_owned())),
+            "Model" => Some(LuauType::Named(Cow::Borrowed("Model"))),
             _ => None,
         };
         let accepts = |luau: &str, literal: &Literal| LuauType::read(luau).accepts(literal, &known);
@@ -250,7 +253,7 @@ mod tests {
             ("any", Literal::Function),
             ("((this: T, ...any) -> boolean)?", Literal::Function),
             ("Unheard", Literal::Number),
-            ("Model", Literal::Object("Model".to_owned())),
+            ("Model", Literal::Object(Cow::Borrowed("Model"))),
             ("System<T>", Literal::Table),
         ] {
             assert!(accepts(luau, &literal), "{luau}: {literal:?}");
@@ -262,7 +265,7 @@ mod tests {
             ("Color", Literal::Number),
             ("\"last\"?", text("first")),
             ("Model?", Literal::Table),
-            ("Model?", Literal::Object("Template".to_owned())),
+            ("Model?", Literal::Object(Cow::Borrowed("Template"))),
             ("(a: number) -> number", Literal::Number),
             ("boolean", Literal::Number),
         ] {

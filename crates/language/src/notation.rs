@@ -1,6 +1,8 @@
 //! Notation of signatures and types for Luau's type checker.
 
-use burgeon_kit::{Argument, Kind, Method, is_keyword};
+use std::borrow::Cow;
+
+use burgeon_kit::{Argument, Method, is_keyword, luau_name};
 
 use crate::form::{CallForm, argument, is_name};
 use crate::luau_type::LuauType;
@@ -15,23 +17,23 @@ pub(crate) fn is_plain(item: &LuauType) -> bool {
 }
 
 /// Formats the name of a field in a table type.
-pub(crate) fn key(name: &str) -> String {
-    if is_keyword(name) { format!("[\"{name}\"]") } else { name.to_owned() }
+pub(crate) fn key(name: &str) -> Cow<'_, str> {
+    if is_keyword(name) { Cow::Owned(format!("[\"{name}\"]")) } else { Cow::Borrowed(name) }
 }
 
 /// Formats a type as optional.
-pub(crate) fn optional(luau: &str) -> String {
+pub(crate) fn optional(luau: &str) -> Cow<'_, str> {
     let is_one = is_name(luau) || luau.starts_with('{') && luau.find('}') == Some(luau.len() - 1);
     match luau {
-        "any" => luau.to_owned(),
-        _ if is_one => format!("{luau}?"),
-        _ => format!("({luau})?"),
+        "any" => Cow::Borrowed(luau),
+        _ if is_one => Cow::Owned(format!("{luau}?")),
+        _ => Cow::Owned(format!("({luau})?")),
     }
 }
 
 /// Formats a name as a part of a type name.
 pub(crate) fn capital(name: &str) -> String {
-    Kind::new(name.to_owned(), "").luau()
+    luau_name(name)
 }
 
 /// Returns the signature of a module's constructor, completed by the arguments of the method that it calls.
@@ -93,15 +95,15 @@ pub(crate) fn merge(forms: &[CallForm]) -> CallForm {
 }
 
 /// Returns the type of an argument. If it is a table with fields, the table type is written out.
-fn in_place(argument: &Argument) -> String {
+fn in_place(argument: &Argument) -> Cow<'_, str> {
     if argument.fields.is_empty() {
-        return argument.luau.clone();
+        return Cow::Borrowed(&argument.luau);
     }
     let fields = argument.fields.iter().map(|field| {
         let luau = with_parameters(field.luau.trim_end_matches('?'));
         format!("read {}: {}", key(&field.name), optional(luau.trim()))
     });
-    format!("{{ {} }}", fields.collect::<Vec<_>>().join(", "))
+    Cow::Owned(format!("{{ {} }}", fields.collect::<Vec<_>>().join(", ")))
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Object types that scripts declare, in the form for editors.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -12,16 +13,14 @@ pub fn with_types(registry: &Registry, declared: impl IntoIterator<Item = Arc<Ki
     let mut kinds: Vec<Arc<Kind>> = registry.kinds().cloned().collect();
     let own = kinds.len();
     let mut differing: Vec<String> = Vec::new();
-    for kind in declared {
+    for mut kind in declared {
         match kinds.iter().position(|known| known.name == kind.name) {
             None => kinds.push(kind),
             Some(place) if place < own => {
                 let known = Arc::make_mut(&mut kinds[place]);
-                for method in &kind.methods {
-                    if !known.methods.iter().any(|it| it.name == method.name) {
-                        known.methods.push(method.clone());
-                    }
-                }
+                let mut more = std::mem::take(&mut Arc::make_mut(&mut kind).methods);
+                more.retain(|method| !known.methods.iter().any(|it| it.name == method.name));
+                known.methods.append(&mut more);
             }
             Some(place) if is_same(&kinds[place], &kind) => {}
             Some(_) => differing.push(kind.name.to_string()),
@@ -47,11 +46,13 @@ pub(crate) fn plain_name(kind: &Kind) -> &str {
 }
 
 /// Returns the fields and state variables of a type that a script declares, with their types.
-pub(crate) fn members(kind: &Kind) -> BTreeMap<String, String> {
+pub(crate) fn members(kind: &Kind) -> BTreeMap<String, Cow<'static, str>> {
     let Some(script) = ScriptType::of(kind) else { return BTreeMap::new() };
     let mut members = BTreeMap::new();
     for field in &script.fields {
-        members.insert(field.name.to_string(), field.describe().luau.trim_end_matches('?').to_owned());
+        let mut luau = field.describe().luau;
+        luau.truncate(luau.trim_end_matches('?').len());
+        members.insert(field.name.to_string(), Cow::Owned(luau));
     }
     for (key, value) in &script.state.entries {
         let luau = match value {
@@ -61,11 +62,11 @@ pub(crate) fn members(kind: &Kind) -> BTreeMap<String, String> {
             _ => "any",
         };
         if let burgeon_kit::TableKey::Name(name) = key {
-            members.insert(name.to_string(), luau.to_owned());
+            members.insert(name.to_string(), Cow::Borrowed(luau));
         }
     }
     for (name, object) in &script.held {
-        members.insert(name.to_string(), object.kind().luau());
+        members.insert(name.to_string(), Cow::Owned(object.kind().luau()));
     }
     // A name that is also a method can mean either, depending on the syntax of the access.
     members.retain(|name, _| kind.method(name).is_none());

@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use serde_json::{Map, Value};
+use serde_json::Value;
 
 use super::json_file::write_json;
 use crate::watch::settled;
@@ -38,13 +38,12 @@ pub fn save_curve(script: &Path, name: &str, points: Option<PointRows>) -> Resul
     let mut file = settled(&path, || CurvesFile::read(script))?;
     let was_empty = file.curves().len() == 0;
     file.set(name, points);
-    let curves: Map<String, Value> =
-        file.curves().map(|(name, points)| (name.to_owned(), points.to_json())).collect();
-    match (curves.is_empty(), was_empty) {
+    let curves: Value = file.curves().map(|(name, points)| (name, points.to_json())).collect();
+    match (file.curves().len() == 0, was_empty) {
         (true, true) => {}
         (true, false) => std::fs::remove_file(&path)
             .map_err(|error| Error::file(&path, format!("cannot remove {}: {error}", path.display())))?,
-        (false, _) => write_json(&path, &Value::Object(curves))?,
+        (false, _) => write_json(&path, &curves)?,
     }
     Ok(file)
 }

@@ -159,17 +159,16 @@ impl Presets {
             return std::fs::remove_file(&self.path)
                 .map_err(|error| Error::file(&self.path, format!("cannot remove {path}: {error}")));
         }
-        let mut file = Map::new();
-        for preset in &self.presets {
+        let presets = self.presets.iter().map(|preset| {
             let mut object = Map::new();
             if let Some(seed) = preset.seed {
                 object.insert("seed".into(), seed.into());
             }
-            let params = preset.params.iter().map(|(name, setting)| (name.clone(), value(setting)));
-            object.insert("params".into(), Value::Object(params.collect()));
-            file.insert(preset.name.clone(), object.into());
-        }
-        write_json(&self.path, &Value::Object(file))
+            let params = preset.params.iter().map(|(name, setting)| (name.as_str(), value(setting)));
+            object.insert("params".into(), params.collect());
+            (preset.name.as_str(), object)
+        });
+        write_json(&self.path, &presets.collect())
     }
 }
 

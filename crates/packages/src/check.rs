@@ -19,27 +19,28 @@ pub(crate) fn check(found: &mut Packages, api: &Version, circles: Vec<Dependency
     let own: Vec<Vec<Error>> =
         found.order().iter().map(|package| problems(found, package, api, &circles)).collect();
     let all = inherit_problems(found, &own);
-    let mut chosen: BTreeSet<String> = BTreeSet::new();
+    let mut chosen: BTreeSet<&str> = BTreeSet::new();
     for package in found.order().iter().filter(|package| package.origin != PackageOrigin::User) {
-        if !chosen.contains(&package.manifest.name) {
+        if !chosen.contains(&*package.manifest.name) {
             let wanted = found.with_wanted(&package.manifest.name);
-            chosen.extend(wanted.into_iter().map(|package| package.manifest.name.clone()));
+            chosen.extend(wanted.into_iter().map(|package| &*package.manifest.name));
         }
     }
-    for (package, problems) in found.order_mut().iter_mut().zip(all) {
+    let is_replacing = |package: &Package| chosen.contains(&*package.manifest.name);
+    let replacing: Vec<bool> = found.order().iter().map(is_replacing).collect();
+    for ((package, problems), is_replacing) in found.order_mut().iter_mut().zip(all).zip(replacing) {
         package.problems = problems;
-        package.is_replacing = chosen.contains(&package.manifest.name);
+        package.is_replacing = is_replacing;
     }
     let mut warnings = conflicting_replacements(found);
     warnings.extend(unused_packages(found));
-    found.warnings.extend(warnings.iter().map(|(_, warning)| warning.clone()));
-    found.notices.extend(warnings);
+    warnings.into_iter().for_each(|(users, warning)| found.notify(users, warning));
     let everyone: Vec<&Package> = found.order().iter().collect();
     let conflicts = everyone.iter().flat_map(|package| conflicts(package, &everyone));
     let conflicts: Vec<Warning> = conflicts
         .map(|error| {
             let warning = Warning::new(WarningKind::BrokenPackage, error.message());
-            warning.help(error.remedy().unwrap_or_default()).at(error.place().cloned())
+            warning.help(error.remedy().unwrap_or_default()).at_place(error.place())
         })
         .collect();
     found.warnings.extend(conflicts);
@@ -51,11 +52,6 @@ impl Packages {
         let together: Vec<&Package> =
             self.order().iter().filter(|package| used(&package.manifest.name)).collect();
         together.iter().flat_map(|package| conflicts(package, &together)).collect()
-    }
-
-    /// Returns the warnings for scripts that use the package `name`.
-    pub fn notices(&self, name: &str) -> impl Iterator<Item = &Warning> {
-        self.notices.iter().filter(move |(of, _)| of == name).map(|(_, warning)| warning)
     }
 
     /// Fails if a package with `manifest` requires packages that are missing or have other versions.
@@ -228,15 +224,17 @@ fn unused_packages(found: &Packages) -> Vec<(String, Warning)> {
                 let message = format!("{name} changes nothing of {target}: {}", problem.message());
                 let warning = Warning::new(WarningKind::BrokenPackage, message);
                 let help = problem.remedy().unwrap_or("run burgeon mods check for details");
-                warnings.push((target.to_owned(), warning.help(help).at(problem.place().cloned())));
+                warnings.push((target.to_owned(), warning.help(help).at_place(problem.place())));
             }
         }
         for wanted in &manifest.optional {
             let Some(other) = found.get(&wanted.name) else { continue };
+            let mismatch;
             let why = if !wanted.versions.matches(&other.manifest.version) {
-                version_mismatch(found, manifest, wanted, other)
+                mismatch = version_mismatch(found, manifest, wanted, other);
+                &mismatch
             } else if let Some(problem) = other.problems.first() {
-                problem.clone()
+                problem
             } else {
                 continue;
             };
@@ -253,15 +251,15 @@ fn unused_packages(found: &Packages) -> Vec<(String, Warning)> {
 /// Returns the warnings about files and defaults that two packages replace, each with the package that owns them. There
 /// is no warning if the effective package depends on the other one, because it then replaces on purpose.
 fn conflicting_replacements(found: &Packages) -> Vec<(String, Warning)> {
-    let mut claims: BTreeMap<(String, String), Vec<(&Package, usize)>> = BTreeMap::new();
+    let mut claims: BTreeMap<(String, &str), Vec<(&Package, usize)>> = BTreeMap::new();
     for package in found.order().iter().filter(|package| package.replaces()) {
         for one in &package.manifest.replaces {
-            let key = (one.target.to_string(), one.target.package.clone());
+            let key = (one.target.to_string(), &*one.target.package);
             claims.entry(key).or_default().push((package, one.line));
         }
         for param in &package.manifest.params {
             let what = format!("the default of {} of {}", param.name, param.package);
-            claims.entry((what, param.package.clone())).or_default().push((package, param.line));
+            claims.entry((what, &*param.package)).or_default().push((package, param.line));
         }
     }
     let mut warnings = Vec::new();
@@ -277,7 +275,7 @@ fn conflicting_replacements(found: &Packages) -> Vec<(String, Warning)> {
                 );
                 let warning = Warning::new(WarningKind::ReplacedTwice, message);
                 let warning = warning.help(help).at(Some(first.manifest.place(*line)));
-                warnings.push((of.clone(), warning));
+                warnings.push((of.to_owned(), warning));
             }
         }
     }

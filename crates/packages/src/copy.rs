@@ -47,7 +47,7 @@ impl PackageCopy {
             return Ok(());
         }
         self.note(from, &parts)?;
-        let path = parts.iter().fold(self.folder.clone(), |path, part| path.join(part));
+        let path = self.folder.join(parts.iter().collect::<PathBuf>());
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder).map_err(|error| unwritable(folder, &error))?;
         }

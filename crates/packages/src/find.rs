@@ -18,14 +18,14 @@ const MOST: usize = 10_000;
 
 /// Folders to search for packages. If several packages have the same name, the one next to the script takes precedence,
 /// then one in the specified folders, then the user's.
-#[derive(Debug, Clone, Default)]
-pub struct PackageSearch {
+#[derive(Debug, Clone, Copy, Default)]
+pub struct PackageSearch<'a> {
     /// Folder of the script, as named, if there is a script.
-    pub script: Option<PathBuf>,
+    pub script: Option<&'a Path>,
     /// Specified folders, each a package or a folder of packages.
-    pub given: Vec<PathBuf>,
+    pub given: &'a [PathBuf],
     /// User's packages folder, which need not exist.
-    pub user: Option<PathBuf>,
+    pub user: Option<&'a Path>,
 }
 
 impl Packages {
@@ -40,15 +40,15 @@ impl Packages {
     /// let castle = folder.path().join("mods/castle");
     /// std::fs::create_dir_all(&castle)?;
     /// std::fs::write(castle.join("mod.toml"), "name = \"castle\"\nversion = \"1.2.0\"\napi = \"1.0\"\n")?;
-    /// let search = PackageSearch { script: Some(folder.path().into()), ..PackageSearch::default() };
-    /// let packages = Packages::find(&search, &Version::new(1, 0, 0));
+    /// let search = PackageSearch { script: Some(folder.path()), ..PackageSearch::default() };
+    /// let packages = Packages::find(search, &Version::new(1, 0, 0));
     /// assert_eq!(packages.get("castle").map(|package| package.manifest.version.clone()), Some(Version::new(1, 2, 0)));
     /// assert!(packages.get("masonry").is_none());
     /// # Ok::<(), std::io::Error>(())
     /// ```
-    pub fn find(search: &PackageSearch, api: &Version) -> Self {
+    pub fn find(search: PackageSearch<'_>, api: &Version) -> Self {
         let mut found = Self::default();
-        if let Some(script) = &search.script {
+        if let Some(script) = search.script {
             let folder = if script.as_os_str().is_empty() { Path::new(".") } else { script };
             if let Ok(script_root) = folder.canonicalize() {
                 let root = script_root.join(BESIDE);
@@ -68,7 +68,7 @@ impl Packages {
                 }
             }
         }
-        for given in &search.given {
+        for given in search.given {
             match given.canonicalize() {
                 Ok(root) if root.join(MANIFEST).is_file() => {
                     found.add(root, given.clone(), PackageOrigin::Given)
@@ -82,11 +82,11 @@ impl Packages {
                 }
             }
         }
-        if let Some(user) = &search.user {
+        if let Some(user) = search.user {
             match user.canonicalize() {
                 Ok(root) if root.is_dir() => found.search(&root, user, PackageOrigin::User),
                 Ok(_) => {}
-                Err(_) => found.roots.push(user.clone()),
+                Err(_) => found.roots.push(user.to_path_buf()),
             }
         }
         let off = std::mem::take(&mut found.packages);
@@ -98,8 +98,9 @@ impl Packages {
         }));
         let (packages, circles) = order::sort(packages);
         found.packages = packages;
-        let places = found.packages.iter().enumerate().map(|(place, it)| (it.manifest.name.clone(), place));
-        found.places = places.collect();
+        let mut places: Vec<usize> = (0..found.packages.len()).collect();
+        places.sort_by_key(|place| &*found.packages[*place].manifest.name);
+        found.places = places;
         check::check(&mut found, api, circles);
         found
     }
@@ -107,7 +108,7 @@ impl Packages {
     fn warn(&mut self, error: Error) {
         let warning = Warning::new(burgeon_base::WarningKind::BrokenPackage, error.message());
         let warning = warning.help(error.remedy().unwrap_or("run burgeon mods check for details"));
-        self.warnings.push(warning.at(error.place().cloned()));
+        self.warnings.push(warning.at_place(error.place()));
     }
 
     /// Adds the packages in the folder `root`, which is displayed to users as `shown`.
@@ -157,16 +158,27 @@ impl Packages {
             Ok(manifest) => manifest,
             Err(error) => return self.broken.push(BrokenPackage { folder, error }),
         };
-        let Some(known) = self.places.get(&manifest.name).map(|place| &mut self.packages[*place]) else {
-            let is_replacing = origin != PackageOrigin::User;
-            let problems = Vec::new();
-            self.places.insert(manifest.name.clone(), self.packages.len());
-            return self.packages.push(Package { manifest, folder, shown, origin, is_replacing, problems });
+        let known = match self.search_places(&manifest.name) {
+            Ok(found) => &mut self.packages[self.places[found]],
+            Err(missing) => {
+                let is_replacing = origin != PackageOrigin::User;
+                let problems = Vec::new();
+                self.places.insert(missing, self.packages.len());
+                return self.packages.push(Package {
+                    manifest,
+                    folder,
+                    shown,
+                    origin,
+                    is_replacing,
+                    problems,
+                });
+            }
         };
         if known.folder == folder {
             return;
         }
-        let (name, version) = (manifest.name.clone(), manifest.version.clone());
+        let begin = manifest.begin();
+        let Manifest { name, version, .. } = manifest;
         let both = format!("{} {} in {}", name, known.manifest.version, known.shown.display());
         if known.shown.parent() == shown.parent() {
             let error = Error::data(format!(
@@ -174,20 +186,18 @@ impl Packages {
                 shown.display()
             ))
             .help("remove one of them")
-            .at(Some(manifest.begin()));
+            .at(Some(begin));
             // Users of either package learn of the conflict.
             known.problems.push(error.clone());
             return self.broken.push(BrokenPackage { folder, error });
         }
         // The user's folder is shared by all scripts, and each script may have its own versions.
+        let by = known.shown.clone();
         if origin != PackageOrigin::User {
             let message = format!("ignored {name} {version} in {}: {both} takes precedence", shown.display());
             let warning = Warning::new(burgeon_base::WarningKind::HiddenPackage, message);
-            let warning = warning.at(Some(manifest.begin())).help("remove one of them");
-            self.warnings.push(warning.clone());
-            self.notices.push((name.clone(), warning));
+            self.notify(name.clone(), warning.at(Some(begin)).help("remove one of them"));
         }
-        let by = known.shown.clone();
         self.hidden.push(HiddenPackage { name, version, shown, by });
     }
 }

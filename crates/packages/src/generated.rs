@@ -110,12 +110,9 @@ fn write(packages: &[PackageSketch]) -> tempfile::TempDir {
 }
 
 fn find(folder: &Path) -> Packages {
-    let search = PackageSearch {
-        script: Some(folder.join("work")),
-        given: vec![folder.join("given")],
-        user: Some(folder.join("user")),
-    };
-    Packages::find(&search, &Version::new(1, 0, 0))
+    let [script, given, user] = ["work", "given", "user"].map(|name| folder.join(name));
+    let search = PackageSearch { script: Some(&script), given: &[given], user: Some(&user) };
+    Packages::find(search, &Version::new(1, 0, 0))
 }
 
 /// Returns true if the package `number` exists and can be read.
@@ -242,8 +239,8 @@ proptest! {
             }
             std::fs::create_dir_all(at.join(".git")).unwrap();
             std::fs::write(at.join(".git/HEAD"), root).unwrap();
-            let search = PackageSearch { given: vec![at], ..PackageSearch::default() };
-            Packages::find(&search, &Version::new(1, 0, 0)).lock(|_| true).unwrap().remove(0).hash
+            let search = PackageSearch { given: &[at], ..PackageSearch::default() };
+            Packages::find(search, &Version::new(1, 0, 0)).lock(|_| true).unwrap().remove(0).hash
         };
         prop_assert_eq!(hash(&files, "one"), hash(&files, "two"));
         let mut other = files.clone();

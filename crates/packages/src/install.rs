@@ -163,8 +163,9 @@ const CHECKOUTS: [&str; 5] = [".git", ".hg", ".svn", ".jj", ".bzr"];
 
 /// Returns the folder in `into` that contains a package `name`, regardless of the folder's name.
 fn find_other_folder(into: &Path, name: &str) -> Option<PathBuf> {
-    let search = PackageSearch { given: vec![into.to_path_buf()], ..PackageSearch::default() };
-    let found = Packages::find(&search, &Version::new(0, 0, 0));
+    let given = [into.to_path_buf()];
+    let found =
+        Packages::find(PackageSearch { given: &given, ..PackageSearch::default() }, &Version::new(0, 0, 0));
     Some(found.get(name)?.shown.clone())
 }
 

@@ -40,8 +40,8 @@ impl Packages {
     /// std::fs::create_dir_all(&castle)?;
     /// std::fs::write(castle.join("mod.toml"), "name = \"castle\"\nversion = \"1.2.0\"\napi = \"1.0\"\n")?;
     /// std::fs::write(castle.join("towers.lua"), "return {}")?;
-    /// let search = PackageSearch { script: Some(folder.path().into()), ..PackageSearch::default() };
-    /// let packages = Packages::find(&search, &Version::new(1, 0, 0));
+    /// let search = PackageSearch { script: Some(folder.path()), ..PackageSearch::default() };
+    /// let packages = Packages::find(search, &Version::new(1, 0, 0));
     /// let mut locate = |name| packages.locate("script", &FileName::script(name)?, None, &mut |_, _| {});
     /// assert!(locate("@castle/towers")?.path.ends_with("mods/castle/towers.lua"));
     /// assert!(locate("@castle/walls").is_err());
@@ -55,19 +55,19 @@ impl Packages {
         seek: &mut dyn FnMut(&Path, bool),
     ) -> Result<PackageFile<'_>> {
         let owner = self.usable_package(&name.package, asker, seek)?;
-        let (mut package, mut path) = (owner, name.path.clone());
+        let (mut package, mut path) = (owner, &*name.path);
         let mut by = None;
-        while let Some((replacing, replacement)) = self.find_replacement(package, &path, asker) {
-            (package, path) = (replacing, replacement.file.clone());
-            by = Some(replacement);
+        while let Some((replacing, replacement)) = self.find_replacement(package, path, asker) {
+            (package, path) = (replacing, &*replacement.file);
+            by = Some((replacement, name));
         }
-        let wanted = spelling(&package.folder, &path);
-        let shown = package.shown.join(&path);
+        let wanted = spelling(&package.folder, path);
+        let shown = package.shown.join(path);
         let found = wanted.canonicalize();
         seek(&wanted, found.is_ok());
         match found {
             Ok(found) if found.starts_with(&package.folder) => {
-                let name = FileName { package: package.manifest.name.clone(), path };
+                let name = FileName { package: package.manifest.name.clone(), path: path.to_owned() };
                 Ok(PackageFile { name, path: found, shown, package })
             }
             Ok(_) => Err(Error::file(
@@ -79,7 +79,7 @@ impl Packages {
                 ),
             )
             .help("a package can use only files in its own folder")),
-            Err(_) => Err(missing_file(what, name, package, &path, by)),
+            Err(_) => Err(missing_file(what, package, path, by)),
         }
     }
 
@@ -166,14 +166,14 @@ impl Packages {
     }
 
     /// Returns the files of `package` that others replace, each with the package of the effective replacement.
-    pub fn replaced_files(&self, package: &Package) -> Vec<(FileName, &str)> {
+    pub fn replaced_files(&self, package: &Package) -> Vec<(&FileName, &str)> {
         let replacing = self.order().iter().filter(|other| other.replaces());
         let targets = replacing.flat_map(|other| other.manifest.replaces.iter().map(|one| &one.target));
-        let mut files: Vec<FileName> =
-            targets.filter(|target| target.package == package.manifest.name).cloned().collect();
+        let mut files: Vec<&FileName> =
+            targets.filter(|target| target.package == package.manifest.name).collect();
         files.sort();
         files.dedup();
-        files.into_iter().filter_map(|file| Some((file.clone(), self.replacer(&file)?))).collect()
+        files.into_iter().filter_map(|file| Some((file, self.replacer(file)?))).collect()
     }
 
     /// Returns the package of the file with the displayed path `shown`.
@@ -205,14 +205,16 @@ impl Package {
             let entries = std::fs::read_dir(self.folder.join(&inner)).into_iter().flatten().flatten();
             for entry in entries.take(MOST) {
                 let Ok(name) = entry.file_name().into_string() else { continue };
-                let path = if inner.is_empty() { name.clone() } else { format!("{inner}/{name}") };
                 // Targets of links are listed at their own location.
                 let Ok(kind) = entry.file_type() else { continue };
-                if kind.is_dir() && !name.starts_with('.') && folders.len() < MOST {
-                    folders.push(path);
+                let list = if kind.is_dir() && !name.starts_with('.') && folders.len() < MOST {
+                    &mut folders
                 } else if kind.is_file() && name.ends_with(".lua") {
-                    scripts.push(path);
-                }
+                    &mut scripts
+                } else {
+                    continue;
+                };
+                list.push(if inner.is_empty() { name } else { format!("{inner}/{name}") });
             }
         }
         scripts.sort();
@@ -225,12 +227,12 @@ impl Packages {
     pub fn check_files(&self, package: &Package) -> Vec<Error> {
         let mut problems = Vec::new();
         for one in &package.manifest.replaces {
-            let own = FileName { package: package.manifest.name.clone(), path: one.file.clone() };
-            for name in [&one.target, &own] {
+            let own = (&package.manifest.name, &one.file);
+            for (owner, path) in [(&one.target.package, &one.target.path), own] {
                 // Without the replacements of other packages.
-                let Some(owner) = self.get(&name.package) else { continue };
-                if !owner.folder.join(&name.path).is_file() {
-                    let error = missing_file("file", name, owner, &name.path, None);
+                let Some(owner) = self.get(owner) else { continue };
+                if !owner.folder.join(path).is_file() {
+                    let error = missing_file("file", owner, path, None);
                     problems.push(error.rather_at(Some(package.manifest.place(one.line))));
                 }
             }
@@ -265,13 +267,12 @@ fn spelling(folder: &Path, path: &str) -> PathBuf {
     found
 }
 
-/// Returns the error for a missing file; `by` is the replacement that refers to it.
+/// Returns the error for a missing file; `by` is the replacement that refers to it, with the requested name.
 fn missing_file(
     what: &'static str,
-    name: &FileName,
     package: &Package,
     path: &str,
-    by: Option<&Replacement>,
+    by: Option<(&Replacement, &FileName)>,
 ) -> Error {
     let folder = package.folder.join(path);
     let near = folder.parent().and_then(|folder| {
@@ -279,19 +280,18 @@ fn missing_file(
         let mut names: Vec<String> =
             entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
         names.sort();
-        let wanted =
-            folder.file_name().filter(|_| path.is_empty()).map(|name| name.to_string_lossy().into_owned());
-        let wanted = wanted.unwrap_or_else(|| path.rsplit('/').next().unwrap_or_default().to_owned());
+        let wanted = folder.file_name().filter(|_| path.is_empty()).map(|name| name.to_string_lossy());
+        let wanted = wanted.unwrap_or_else(|| path.rsplit('/').next().unwrap_or_default().into());
         burgeon_base::error::nearest(&wanted, names.iter().map(String::as_str)).map(str::to_owned)
     });
     let message = match by {
         None => format!("the package {} has no {what} {path}", package.manifest.name),
-        Some(_) => {
+        Some((_, name)) => {
             format!("the package {} has no {what} {path}, its replacement for {name}", package.manifest.name)
         }
     };
     let shown = package.shown.display();
     let error = Error::not_found(what, path, near.as_deref(), message);
-    let error = error.at(by.map(|by| package.manifest.place(by.line)));
+    let error = error.at(by.map(|(by, _)| package.manifest.place(by.line)));
     error.help(format!("the expected location is {shown}"))
 }

@@ -309,16 +309,15 @@ impl ManifestFile<'_> {
         let members = self.members(table, "replaces", example)?.into_iter();
         members
             .map(|(target, at, value)| {
-                let place = Some(self.place(at));
-                let target =
-                    FileName::parse(target).map_err(|error| error.at(place.clone()).help(example))?;
+                let place = || Some(self.place(at));
+                let target = FileName::parse(target).map_err(|error| error.at(place()).help(example))?;
                 if target.path.is_empty() {
                     return Err(Error::data(format!(
                         "replaces: @{} does not contain a file name",
                         target.package
                     ))
                     .help(format!("write {example}"))
-                    .at(place));
+                    .at(place()));
                 }
                 let Some(file) = value.get_ref().as_str() else {
                     return Err(self
@@ -329,7 +328,7 @@ impl ManifestFile<'_> {
                 FileName::parse(&format!("@own/{file}")).map_err(|_| {
                     Error::file(file, format!("replaces: {file:?} is not a file of the package"))
                         .help("use a path relative to the package's folder: \"textures/stone.png\"")
-                        .at(place.clone())
+                        .at(place())
                 })?;
                 Ok(Replacement { target, file: file.to_owned(), line: self.line(at) })
             })
@@ -349,10 +348,11 @@ impl ManifestFile<'_> {
             inner.sort_by_key(|(key, _)| key.span().start);
             for (name, value) in inner {
                 let text = match value.get_ref() {
-                    DeValue::Integer(number) if number.radix() == 10 => number.as_str().to_owned(),
-                    DeValue::Float(number) => number.as_str().to_owned(),
-                    DeValue::Boolean(value) => value.to_string(),
-                    DeValue::String(text) => text.to_string(),
+                    DeValue::Integer(number) if number.radix() == 10 => number.as_str(),
+                    DeValue::Float(number) => number.as_str(),
+                    DeValue::Boolean(true) => "true",
+                    DeValue::Boolean(false) => "false",
+                    DeValue::String(text) => &**text,
                     _ => {
                         let what = format!("params: {package}: {}", name.get_ref());
                         return Err(self
@@ -360,8 +360,12 @@ impl ManifestFile<'_> {
                             .help(format!("write {example}")));
                     }
                 };
-                let (package, line) = (package.to_owned(), self.line(name.span().start));
-                params.push(ParamDefault { package, name: name.get_ref().to_string(), value: text, line });
+                params.push(ParamDefault {
+                    package: package.to_owned(),
+                    name: name.get_ref().to_string(),
+                    value: text.to_owned(),
+                    line: self.line(name.span().start),
+                });
             }
         }
         Ok(params)

@@ -40,9 +40,8 @@ impl DependencyGraph {
         };
         let needed: Vec<Vec<usize>> = packages.iter().map(|it| of(&it.manifest.depends)).collect();
         let wanted = packages.iter().zip(&needed).map(|(it, needed)| {
-            let mut all = needed.clone();
-            all.extend(of(&it.manifest.optional));
-            all
+            let optional = of(&it.manifest.optional);
+            needed.iter().copied().chain(optional).collect()
         });
         Self { wanted: wanted.collect(), needed }
     }

@@ -1,7 +1,7 @@
 //! Packages that were found, and queries of them.
 
-use std::collections::{BTreeSet, HashMap};
-use std::path::PathBuf;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 
 use burgeon_base::error::Error;
 use burgeon_base::warning::Warning;
@@ -78,8 +78,8 @@ pub struct BrokenPackage {
 #[derive(Debug, Clone, Default)]
 pub struct Packages {
     pub(super) packages: Vec<Package>,
-    /// Indices into `packages` by name.
-    pub(super) places: HashMap<String, usize>,
+    /// Indices into `packages`, sorted by name.
+    pub(super) places: Vec<usize>,
     /// Folders that were searched, and missing folders that would be searched if they existed, with links resolved.
     pub(crate) roots: Vec<PathBuf>,
     /// Paths that determine the available packages, each with a flag that is set if the path exists.
@@ -96,8 +96,8 @@ pub struct Packages {
     pub problems: Vec<Error>,
     /// Warnings about all packages, used or not.
     pub warnings: Vec<Warning>,
-    /// Warnings for scripts that use the package with that name.
-    pub(crate) notices: Vec<(String, Warning)>,
+    /// Indices of the warnings for scripts that use the package with that name.
+    notices: Vec<(String, usize)>,
 }
 
 impl Package {
@@ -124,7 +124,24 @@ impl Packages {
 
     /// Returns the index of the package called `name` in the order.
     pub(crate) fn place_in_order(&self, name: &str) -> Option<usize> {
-        self.places.get(name).copied()
+        self.search_places(name).ok().map(|found| self.places[found])
+    }
+
+    /// Returns the index in `places` of the package called `name`, or the index where it would be inserted.
+    pub(crate) fn search_places(&self, name: &str) -> Result<usize, usize> {
+        self.places.binary_search_by(|place| self.packages[*place].manifest.name.as_str().cmp(name))
+    }
+
+    /// Adds a warning for scripts that use the package called `users`.
+    pub(crate) fn notify(&mut self, users: String, warning: Warning) {
+        self.notices.push((users, self.warnings.len()));
+        self.warnings.push(warning);
+    }
+
+    /// Returns the warnings for scripts that use the package called `name`.
+    pub fn notices(&self, name: &str) -> impl Iterator<Item = &Warning> {
+        let own = self.notices.iter().filter(move |(users, _)| users == name);
+        own.filter_map(|(_, index)| self.warnings.get(*index))
     }
 
     /// Returns true if packages called `name` are disabled.
@@ -134,9 +151,9 @@ impl Packages {
 
     /// Returns every path that determines the available packages and their properties: the folders that were searched,
     /// each `mod.toml`, and the file that disables packages. The flag of each path is set if the path exists.
-    pub fn searched_paths(&self) -> Vec<(PathBuf, bool)> {
-        let roots = self.roots.iter().map(|root| (root.clone(), root.is_dir()));
-        self.sought.iter().cloned().chain(roots).collect()
+    pub fn searched_paths(&self) -> impl Iterator<Item = (&Path, bool)> {
+        let roots = self.roots.iter().map(|root| (&**root, root.is_dir()));
+        self.sought.iter().map(|(path, exists)| (&**path, *exists)).chain(roots)
     }
 
     /// Returns the package `name` and all packages that it requires, in order.

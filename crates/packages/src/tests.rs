@@ -29,12 +29,10 @@ fn write(folder: &Path, name: &str, content: &str) {
 
 fn find(folder: &tempfile::TempDir) -> Packages {
     let path = folder.path();
-    let search = PackageSearch {
-        script: Some(path.to_path_buf()),
-        given: vec![path.join("given")].into_iter().filter(|given| given.is_dir()).collect(),
-        user: Some(path.join("user")),
-    };
-    Packages::find(&search, &Version::new(1, 2, 0))
+    let (given, user) = ([path.join("given")], path.join("user"));
+    let given = if given[0].is_dir() { &given[..] } else { &[] };
+    let search = PackageSearch { script: Some(path), given, user: Some(&user) };
+    Packages::find(search, &Version::new(1, 2, 0))
 }
 
 fn order(packages: &Packages) -> Vec<&str> {

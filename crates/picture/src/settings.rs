@@ -14,7 +14,7 @@ use serde::Deserialize;
 /// assert!(serde_json::from_str::<Picture>(r#"{ "widht": 640 }"#).is_err());
 /// # Ok::<(), serde_json::Error>(())
 /// ```
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Picture {
     /// Width (pixels), 1 to 16384.

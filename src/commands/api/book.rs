@@ -138,8 +138,9 @@ fn fields(text: &mut String, owner: &str, members: &[&Member], indent: &str) {
 
 fn collect<'a>(rows: &mut Vec<(String, &'a Member)>, owner: &str, member: &'a Member) {
     let name = format!("{owner}{}", member.name);
-    rows.push((name.clone(), member));
-    member.fields.iter().for_each(|field| collect(rows, &format!("{name}."), field));
+    let within = format!("{name}.");
+    rows.push((name, member));
+    member.fields.iter().for_each(|field| collect(rows, &within, field));
 }
 
 fn method(text: &mut String, entry: &Entry, member: &Member) {

@@ -174,10 +174,10 @@ fn find<'a>(entries: &'a [Entry], name: &str) -> Result<ApiSubject<'a>> {
 fn within<'a>(owner: &str, members: &'a [Member], path: &str) -> Result<(String, &'a Member)> {
     let (separator, path) = path.split_at(1);
     let (inner, rest) = path.split_at(path.find([':', '.']).unwrap_or(path.len()));
-    let mut called = members.iter().filter(|member| member.name == inner);
     let full = format!("{owner}{separator}{inner}");
     // A field and a method may have the same name. If there is only one of them, the separator is ignored.
-    let found = called.clone().find(|member| member.full_name(owner) == full).or_else(|| called.next());
+    let is_meant = |member: &&Member| member.name == inner && member.full_name(owner) == full;
+    let found = members.iter().find(is_meant).or_else(|| members.iter().find(|member| member.name == inner));
     match found {
         Some(member) if rest.is_empty() => Ok((owner.to_owned(), member)),
         Some(member) => within(&member.full_name(owner), &member.fields, rest),
@@ -185,11 +185,11 @@ fn within<'a>(owner: &str, members: &'a [Member], path: &str) -> Result<(String,
             let mut names: Vec<&str> = members.iter().map(|member| member.name.as_str()).collect();
             names.sort_unstable();
             names.dedup();
-            let help = if names.is_empty() {
-                "it has no fields or methods".to_owned()
-            } else {
-                format!("it has {}", names.join(", "))
+            let help = match names.as_slice() {
+                [] => "no fields or methods",
+                names => &names.join(", "),
             };
+            let help = format!("it has {help}");
             let message = format!("unknown field or method `{inner}` of {owner}");
             Err(Error::not_found("name", inner, names, message).help(help))
         }

@@ -114,7 +114,10 @@ fn brief(text: &mut String, owner: &str, member: &Member) {
 /// Returns the first sentence of a doc.
 fn summary(doc: &str) -> String {
     let text = doc.lines().map(str::trim).collect::<Vec<_>>().join(" ");
-    text.split_once(". ").map_or(text.clone(), |(first, _)| format!("{first}."))
+    match text.split_once(". ") {
+        Some((first, _)) => format!("{first}."),
+        None => text,
+    }
 }
 
 /// Appends a doc, wrapped into lines that begin with `indent` spaces.

@@ -106,9 +106,9 @@ impl ModsCommand {
     }
 
     fn packages(&self) -> Result<Packages> {
-        let search =
-            PackageSearch { script: Some(self.beside()?), given: self.mods.clone(), user: user_mods() };
-        Ok(Packages::find(&search, &api_version()))
+        let (beside, user) = (self.beside()?, user_mods());
+        let search = PackageSearch { script: Some(&beside), given: &self.mods, user: user.as_deref() };
+        Ok(Packages::find(search, &api_version()))
     }
 
     fn list(&self) -> Result<()> {
@@ -148,14 +148,15 @@ impl ModsCommand {
     fn check(&self, folder: Option<&Path>) -> Result<()> {
         let mut given = self.mods.clone();
         given.extend(folder.map(Path::to_path_buf));
-        let search = PackageSearch { script: Some(self.beside()?), given, user: user_mods() };
-        let packages = Packages::find(&search, &api_version());
-        let mut problems = packages.problems.clone();
+        let (beside, user) = (self.beside()?, user_mods());
+        let search = PackageSearch { script: Some(&beside), given: &given, user: user.as_deref() };
+        let mut packages = Packages::find(search, &api_version());
+        let mut problems = std::mem::take(&mut packages.problems);
         if folder.is_none() {
-            problems.extend(packages.broken.iter().map(|broken| broken.error.clone()));
+            problems.extend(std::mem::take(&mut packages.broken).into_iter().map(|broken| broken.error));
         }
-        let mut declared: BTreeMap<String, Vec<Param>> = BTreeMap::new();
-        let mut warnings: Vec<Warning> = packages.warnings.clone();
+        let mut declared: BTreeMap<&str, Vec<Param>> = BTreeMap::new();
+        let mut warnings: Vec<Warning> = std::mem::take(&mut packages.warnings);
         let meant = match folder {
             None => packages.order().iter().collect(),
             Some(folder) => {
@@ -178,12 +179,12 @@ impl ModsCommand {
         // Packages that conflict cannot be run.
         if problems.is_empty() {
             for package in &meant {
-                let checked = self.declared(package, &search, &mut declared);
+                let checked = self.declared(package, search, &mut declared);
                 match checked {
                     Ok(more) => warnings.extend(more),
                     Err(error) => problems.extend(error.problems().map(Error::without_others)),
                 }
-                problems.extend(self.check_params(&packages, package, &search, &mut declared));
+                problems.extend(self.check_params(&packages, package, search, &mut declared));
             }
         }
         if !problems.is_empty() {
@@ -201,47 +202,48 @@ impl ModsCommand {
         for package in meant {
             let (name, version) = (&package.manifest.name, &package.manifest.version);
             let scripts = package.scripts().len();
-            let scripts = if scripts == 1 { "1 script".to_owned() } else { format!("{scripts} scripts") };
-            report::eprint(&format!("{name} {version}: no problems in {scripts}\n"));
+            let s = if scripts == 1 { "" } else { "s" };
+            report::eprint(&format!("{name} {version}: no problems in {scripts} script{s}\n"));
         }
         Ok(())
     }
 
     /// Checks the scripts of a package, and stores the parameters that they declare.
-    fn declared(
+    fn declared<'p>(
         &self,
-        package: &Package,
-        search: &PackageSearch,
-        declared: &mut BTreeMap<String, Vec<Param>>,
+        package: &'p Package,
+        search: PackageSearch<'_>,
+        declared: &mut BTreeMap<&'p str, Vec<Param>>,
     ) -> Result<Vec<Warning>> {
-        let mut mods = search.given.clone();
-        mods.extend(search.script.as_ref().map(|script| script.join("mods")).filter(|mods| mods.is_dir()));
+        let beside = search.script.map(|script| script.join("mods")).filter(|mods| mods.is_dir());
         // The displayed path of a package determines how its files are named in messages.
-        mods.insert(0, package.shown.clone());
-        let inputs = RunInputs { mods, user_mods: search.user.clone(), ..RunInputs::default() };
+        let mods = std::iter::once(&package.shown).chain(search.given).chain(&beside).cloned().collect();
+        let user_mods = search.user.map(Path::to_path_buf);
+        let inputs = RunInputs { mods, user_mods, ..RunInputs::default() };
         let options = RunOptions { inputs, ..burgeon::options() };
         let ScriptCheck { params, warnings, .. } = burgeon::check_package(&package.shown, options)?;
-        declared.insert(package.manifest.name.clone(), params);
+        declared.insert(&package.manifest.name, params);
         Ok(warnings)
     }
 
     /// Returns the errors of default values for parameters that the other package does not declare, or that do not
     /// accept them.
-    fn check_params(
+    fn check_params<'p>(
         &self,
-        packages: &Packages,
+        packages: &'p Packages,
         package: &Package,
-        search: &PackageSearch,
-        declared: &mut BTreeMap<String, Vec<Param>>,
+        search: PackageSearch<'_>,
+        declared: &mut BTreeMap<&'p str, Vec<Param>>,
     ) -> Vec<Error> {
         let mut problems = Vec::new();
         for default in &package.manifest.params {
             let Some(other) = packages.get(&default.package) else { continue };
             // Problems of the other package are reported for that package.
-            if !declared.contains_key(&default.package) && self.declared(other, search, declared).is_err() {
+            let name = default.package.as_str();
+            if !declared.contains_key(name) && self.declared(other, search, declared).is_err() {
                 continue;
             }
-            let Some(params) = declared.get(&default.package) else { continue };
+            let Some(params) = declared.get(name) else { continue };
             let of_package =
                 || params.iter().filter(|param| param.package.as_ref() == Some(&default.package));
             if !of_package().any(|param| param.short_name() == default.name) {
@@ -292,13 +294,11 @@ impl ModsCommand {
             Some(into) => into.to_path_buf(),
             None => self.beside()?.join("mods"),
         };
-        let search = PackageSearch {
-            script: Some(self.beside()?),
-            given: self.mods.iter().cloned().chain(into.is_dir().then(|| into.clone())).collect(),
-            user: user_mods(),
-        };
+        let (beside, user) = (self.beside()?, user_mods());
+        let given: Vec<PathBuf> = self.mods.iter().chain(into.is_dir().then_some(&into)).cloned().collect();
+        let search = PackageSearch { script: Some(&beside), given: &given, user: user.as_deref() };
         // Required packages may be in other folders than the one that the package is added to.
-        let available = Packages::find(&search, &api_version());
+        let available = Packages::find(search, &api_version());
         let added = packages::install(from, &into, replace, |manifest| available.check_needs(manifest))?;
         let (name, version) = (&added.manifest.name, &added.manifest.version);
         let replaced = added.replaced.as_ref();

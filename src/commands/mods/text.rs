@@ -93,10 +93,10 @@ fn replaced(packages: &Packages, package: &Package) -> String {
     for one in &package.manifest.replaces {
         let winner = packages.replacer(&one.target);
         let but = match winner {
-            _ if !package.is_replacing => " (not automatically: in the user's folder)".to_owned(),
-            _ if !package.replaces() => " (not at present: it has problems)".to_owned(),
-            Some(winner) if winner != package.manifest.name => format!(" ({winner} takes precedence)"),
-            _ => String::new(),
+            _ if !package.is_replacing => " (not automatically: in the user's folder)",
+            _ if !package.replaces() => " (not at present: it has problems)",
+            Some(winner) if winner != package.manifest.name => &format!(" ({winner} takes precedence)"),
+            _ => "",
         };
         let _ = writeln!(text, "  replaces {} with {}{but}", one.target, one.file);
     }
@@ -154,7 +154,7 @@ pub(super) fn list_json(packages: &Packages) -> Value {
 pub(super) fn package_json(packages: &Packages, package: &Package) -> Value {
     let manifest = &package.manifest;
     let list = |list: &[Dependency]| -> Value {
-        list.iter().map(|one| (one.name.clone(), Value::String(one.versions.to_string()))).collect()
+        list.iter().map(|one| (one.name.as_str(), Value::String(one.versions.to_string()))).collect()
     };
     let place = packages.order().iter().position(|other| other.manifest.name == manifest.name);
     let replaces: serde_json::Map<String, Value> = manifest

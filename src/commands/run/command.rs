@@ -220,17 +220,15 @@ impl RunCommand {
             run.warnings.push(warning);
         }
         let known = run.warnings.iter().any(|warning| warning.kind() == WarningKind::EmptyModel);
-        let places = run.systems.first().map(|system| (system.place.clone(), system.caller.clone()));
-        let (Some((place, caller)), false) = (places, known || !self.writes(Need::Scene)) else {
+        let (Some(first), false) = (run.systems.first(), known || !self.writes(Need::Scene)) else {
             return Ok(());
         };
         if run.scene.triangles() > 0 || session.options.steps.is_some() || session.options.part.is_some() {
             return Ok(());
         }
         let text = "the model is empty: no system has an object that draws";
-        let warning = Warning::new(WarningKind::EmptyModel, text)
-            .at(place)
-            .called_at(caller)
+        let warning = first.locate(Warning::new(WarningKind::EmptyModel, text));
+        let warning = warning
             .help("set one, such as lsystem({ object = turtle() }); to write chains, use --chain FILE");
         if session.options.strict {
             return Err(warning.into_error());

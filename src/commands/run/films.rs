@@ -100,7 +100,7 @@ impl RunCommand {
         }
         let (settings, picture) = self.film_settings(axis.count_within(self.film.frame_limit)?);
         let mut writer = self.film_writer(settings, options.limits.memory, &Arc::default())?;
-        let film = Film::new(&self.script.script, &options, axis, self.film.frame_limit)?;
+        let film = Film::new(&self.script.script, options, axis, self.film.frame_limit)?;
         {
             let progress = Arc::clone(&film.progress);
             let _progress = ProgressDisplay::saying(move || progress.message(), !self.script.json);

@@ -65,19 +65,18 @@ pub(super) fn again_and_again(command: &RunCommand) -> Result<()> {
     loop {
         now.stale.store(now.over.load(Ordering::Acquire), Ordering::Release);
         let (begin, since) = (Instant::now(), SystemTime::now());
-        let session = command.session();
-        let made = match &session {
+        let (made, mut sought) = match command.session() {
             Ok(session) => {
-                *now.session.lock().recover() = Some(Arc::clone(session));
+                *now.session.lock().recover() = Some(Arc::clone(&session));
                 if now.is_stale() {
                     session.stop.stop(Error::cancellation("there is something newer"));
                 }
-                command.make(session, begin, &|| now.is_stale())
+                let made = command.make(&session, begin, &|| now.is_stale());
+                now.session.lock().recover().take();
+                (made, session.sought())
             }
-            Err(error) => Err(error.clone()),
+            Err(error) => (Err(error), Vec::new()),
         };
-        now.session.lock().recover().take();
-        let mut sought = session.map(|session| session.sought()).unwrap_or_default();
         // These files are watched from the start.
         sought.extend(command.script.files().into_iter().map(|path| (path, true)));
         let stale = now.is_stale();

@@ -103,7 +103,7 @@ impl<'a> TileBuilder<'a> {
                 skipped.push((layer.to_owned(), feature.to_owned(), warning.cause().to_owned()));
             }
         }
-        let warnings = run.warnings.iter().map(|warning| portable_message(&warning.clone().into_error()));
+        let warnings = run.warnings.into_iter().map(|warning| portable_message(&warning.into_error()));
         let warnings = warnings.collect();
         let (model, errors) = (self.plan.model, Vec::new());
         Ok(TileContent { scene: run.scene, systems, metadata, model, skipped, warnings, errors })

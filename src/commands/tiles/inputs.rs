@@ -1,6 +1,7 @@
 //! Paths and files of a plan.
 
-use std::path::{Component, Path, PathBuf};
+use std::borrow::Cow;
+use std::path::{Path, PathBuf};
 
 use burgeon::tiles::earth::GeoidGrid;
 use burgeon::tiles::plan::{PlannedFile, TilePlan};
@@ -27,12 +28,9 @@ pub(super) fn portable_path(base: &Path, path: &Path) -> Result<String> {
     };
     let (base, path) = (absolute(base)?, absolute(path)?);
     let common = base.components().zip(path.components()).take_while(|(a, b)| a == b).count();
-    let ups = base.components().skip(common).map(|_| "..".to_owned());
-    let downs = path.components().skip(common).map(|part| match part {
-        Component::Normal(name) => name.to_string_lossy().into_owned(),
-        other => other.as_os_str().to_string_lossy().into_owned(),
-    });
-    let parts: Vec<String> = ups.chain(downs).collect();
+    let ups = base.components().skip(common).map(|_| Cow::Borrowed(".."));
+    let downs = path.components().skip(common).map(|part| part.as_os_str().to_string_lossy());
+    let parts: Vec<Cow<str>> = ups.chain(downs).collect();
     Ok(if parts.is_empty() { ".".to_owned() } else { parts.join("/") })
 }
 

@@ -56,11 +56,11 @@ pub(super) struct MakeCommand {
 }
 
 fn share(text: &str) -> Result<TileShare, String> {
-    text.parse().map_err(|error: Error| error.message().to_owned())
+    text.parse().map_err(Error::into_message)
 }
 
 fn tile(text: &str) -> Result<TileId, String> {
-    text.parse().map_err(|error: Error| error.message().to_owned())
+    text.parse().map_err(Error::into_message)
 }
 
 fn age(text: &str) -> Result<f64, &'static str> {

@@ -71,10 +71,10 @@ pub(super) struct PlanCommand {
     replace: bool,
 }
 
-fn height(text: &str) -> Result<f64, String> {
+fn height(text: &str) -> Result<f64, &'static str> {
     match text.parse::<f64>() {
         Ok(metres) if metres.abs() < 20_000.0 => Ok(metres),
-        _ => Err("write a number of metres, such as 44.5".to_owned()),
+        _ => Err("write a number of metres, such as 44.5"),
     }
 }
 

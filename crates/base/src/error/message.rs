@@ -220,6 +220,22 @@ impl Error {
         self
     }
 
+    /// Sets the location to a copy of `place`, unless it is already set.
+    #[must_use]
+    pub fn at_place(mut self, place: Option<&SourcePlace>) -> Self {
+        if self.0.place.is_none() {
+            self.0.place = place.cloned();
+        }
+        self
+    }
+
+    /// Sets the location to a line of `file`, unless it is already set.
+    #[must_use]
+    pub fn at_line(mut self, file: &str, line: usize) -> Self {
+        self.0.place.get_or_insert_with(|| SourcePlace { file: file.to_owned(), line });
+        self
+    }
+
     /// Replaces the location by a more precise one, if `place` is known.
     #[must_use]
     pub fn rather_at(mut self, place: Option<SourcePlace>) -> Self {
@@ -235,6 +251,15 @@ impl Error {
     pub fn called_at(mut self, caller: Option<SourcePlace>) -> Self {
         if self.0.caller.is_none() {
             self.0.caller = caller;
+        }
+        self
+    }
+
+    /// Sets the script line that led to the error to a copy of `caller`, unless it is already set.
+    #[must_use]
+    pub fn called_from(mut self, caller: Option<&SourcePlace>) -> Self {
+        if self.0.caller.is_none() {
+            self.0.caller = caller.cloned();
         }
         self
     }

@@ -124,7 +124,7 @@ impl CurvesFile {
             Ok(_) => Ok(Some(Setting::Points(curve.points.clone()))),
             Err(problem) => {
                 let place = problem.point.and_then(|point| curve.places.get(point)).or(curve.place.as_ref());
-                Err(problem.error.about(&format!("param {}", param.name)).at(place.cloned()))
+                Err(problem.error.about(&format!("param {}", param.name)).at_place(place))
             }
         }
     }
@@ -158,7 +158,8 @@ impl CurvesFile {
                     (message, help)
                 }
             };
-            let warning = Warning::new(WarningKind::NoEffect, message).at(curve.place.clone()).help(help);
+            let warning =
+                Warning::new(WarningKind::NoEffect, message).at_place(curve.place.as_ref()).help(help);
             warnings.push(warning);
         }
         warnings

@@ -31,7 +31,7 @@ impl Deprecations {
         let used = self.used.lock().recover();
         let warning = |(name, (deprecation, place)): (&String, &(Deprecation, Option<SourcePlace>))| {
             let warning = Warning::new(WarningKind::Deprecated, deprecation.message(name));
-            warning.help(format!("use {} instead", deprecation.instead)).at(place.clone())
+            warning.help(format!("use {} instead", deprecation.instead)).at_place(place.as_ref())
         };
         used.iter().map(warning).collect()
     }

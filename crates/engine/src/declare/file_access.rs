@@ -60,7 +60,8 @@ pub(super) fn find_all(
     });
     found.sort();
     if found.is_empty() || found.len() > MOST_FILES {
-        let count = if found.is_empty() { "no".to_owned() } else { found.len().to_string() };
+        let count = (!found.is_empty()).then(|| found.len().to_string());
+        let count = count.as_deref().unwrap_or("no");
         let what = format!("{name} means {count} files, each a {}", loader.what);
         return Err(Error::file(&path, what)
             .help(format!("name 1 to {MOST_FILES} files that end in .{}", loader.several.join(", ."))));

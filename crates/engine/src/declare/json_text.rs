@@ -40,9 +40,8 @@ impl<'a> JsonText<'a> {
     /// Returns the value of the file. Fails with the line if the text is not JSON.
     pub fn value(&self) -> Result<&'a RawValue> {
         serde_json::from_str(self.text.trim_start_matches('\u{feff}')).map_err(|error| {
-            let place = SourcePlace { file: self.name.clone(), line: error.line().max(1) };
             Error::data(format!("this is not JSON: {}", reason(&error)))
-                .at(Some(place))
+                .at_line(&self.name, error.line().max(1))
                 .help("fix the file, or move it away")
         })
     }
@@ -115,8 +114,9 @@ fn read_points<'a>(
 
 /// Returns the reason of a JSON error, without its position.
 fn reason(error: &serde_json::Error) -> String {
-    let said = error.to_string();
-    said.split(" at line ").next().unwrap_or_default().to_owned()
+    let mut said = error.to_string();
+    said.truncate(said.find(" at line ").unwrap_or(said.len()));
+    said
 }
 
 /// Returns the text of `raw`, shortened for messages.

@@ -1,6 +1,5 @@
 //! Access to the files of packages, for the scripts of a run.
 
-use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use super::param::Param;
@@ -39,31 +38,34 @@ impl Session {
     /// Returns the packages that the run has used, in order, with versions and content hashes. Fails if a
     /// package cannot be read.
     pub fn lock(&self) -> Result<Vec<LockedPackage>> {
-        let used = self.used.lock().recover().clone();
+        let used = self.used.lock().recover();
         self.packages().lock(|name| used.contains(name))
     }
 
     /// Returns the preset files of the packages that replace files, and of the packages that the script has
     /// used.
     pub fn package_presets(&self) -> Vec<(String, PathBuf)> {
-        let used = self.used.lock().recover().clone();
+        let used = self.used.lock().recover();
         let meant = |package: &&Package| package.replaces() || used.contains(&package.manifest.name);
         let found = self.packages().order().iter().filter(meant).filter_map(|package| {
-            let name = package.manifest.name.clone();
-            let file = FileName { package: name.clone(), path: PRESETS.to_owned() };
+            let file = FileName { package: package.manifest.name.clone(), path: PRESETS.to_owned() };
             let located = self.packages().locate("presets file", &file, None, &mut |_, _| {}).ok()?;
-            Some((name, located.path))
+            Some((file.package, located.path))
         });
         found.collect()
     }
 
     /// Returns the paths of these preset files, and whether each file exists.
     pub fn package_preset_places(&self) -> Vec<(PathBuf, bool)> {
-        let used = self.used.lock().recover().clone();
+        let used = self.used.lock().recover();
         let packages = self.packages().order().iter();
         let meant = packages.filter(|package| package.replaces() || used.contains(&package.manifest.name));
-        let places = meant.map(|package| package.folder.join(PRESETS));
-        places.map(|path| (path.clone(), path.is_file())).collect()
+        let place = |package: &Package| {
+            let path = package.folder.join(PRESETS);
+            let exists = path.is_file();
+            (path, exists)
+        };
+        meant.map(place).collect()
     }
 
     /// Returns true if there is a package `name` that `asker` can use. The script can use all packages.
@@ -83,18 +85,14 @@ impl Session {
         }
         let packages = self.packages();
         let needed = packages.with_dependencies(&package.manifest.name);
-        let new: Vec<String> = needed
-            .iter()
-            .map(|package| package.manifest.name.clone())
-            .filter(|name| !used.contains(name))
-            .collect();
-        let together: BTreeSet<String> = used.iter().chain(&new).cloned().collect();
-        let problems = packages.conflicts(|name| together.contains(name));
+        let names = needed.iter().map(|package| &*package.manifest.name);
+        let new: Vec<&str> = names.filter(|name| !used.contains(*name)).collect();
+        let problems = packages.conflicts(|name| used.contains(name) || new.contains(&name));
         if !problems.is_empty() {
             return Err(Error::several(problems));
         }
         new.iter().flat_map(|name| packages.notices(name)).for_each(|warning| self.warn(warning.clone()));
-        *used = together;
+        used.extend(new.into_iter().map(str::to_owned));
         Ok(())
     }
 
@@ -120,7 +118,7 @@ impl Session {
             let known = self.packages().get(&name.package).is_some();
             let error =
                 (known && !owner.manifest.may_use(&name.package)).then(|| owner.not_declared(&name.package));
-            Some(error?.at(Some(SourcePlace { file: file.to_owned(), line: *line })))
+            Some(error?.at_line(file, *line))
         });
         refused.collect()
     }
@@ -130,8 +128,8 @@ impl Session {
         let missing = texts.iter().filter_map(|(text, line)| {
             let name = FileName::parse(self.file_name(text)).ok().filter(|name| !name.path.is_empty())?;
             self.packages().get(&name.package)?;
-            let script = FileName { path: format!("{}.lua", name.path), ..name.clone() };
             let error = self.locate("file", &name, Some(package)).err()?;
+            let script = FileName { path: format!("{}.lua", name.path), ..name };
             // The argument of `require` has no file extension.
             let found = self.locate("file", &script, Some(package)).is_ok();
             (!found).then(|| error.rather_at(Some(SourcePlace { file: file.to_owned(), line: *line })))
@@ -166,8 +164,7 @@ impl Session {
             param.default = param.accept(&wanted.value).map_err(|error| {
                 let message =
                     format!("the default set by the package {}: {}", manifest.name, error.message());
-                let help = error.remedy().unwrap_or("change it").to_owned();
-                Error::of(error.kind().clone(), message).help(help).at(Some(wanted.place(manifest)))
+                error.saying(message).help("change it").at(Some(wanted.place(manifest)))
             })?;
             param.value = param.default.clone();
         }

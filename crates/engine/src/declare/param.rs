@@ -125,8 +125,8 @@ impl Param {
 
     /// Returns the error for a name without package prefix that several parameters have.
     pub(crate) fn ambiguous(of: &[&Self]) -> Error {
-        let owner = |param: &&&Self| param.package.clone().unwrap_or_else(|| "the script".to_owned());
-        let owners: Vec<String> = of.iter().map(|param| owner(&param)).collect();
+        let owners: Vec<&str> =
+            of.iter().map(|param| param.package.as_deref().unwrap_or("the script")).collect();
         let named: Vec<String> = of.iter().map(|param| format!("--set {}=VALUE", param.name)).collect();
         let name = of.first().map_or("", |param| param.short_name());
         Error::argument(format!("{name} is a parameter of {}", owners.join(" and of ")))
@@ -202,10 +202,9 @@ impl Param {
                     .map_err(|expected| expected.refuse(&format!("param {name}"), "choices", choices))?;
                 (Setting::Text(default.to_string()), Control::Choice(choices))
             }
-            (Some(Value::Text(default)), None) => {
+            (Some(value @ Value::Text(default)), None) => {
                 // A word without `#` is a string, because it may be the name of anything.
-                let is_color =
-                    default.starts_with('#') && Color::from_value(Value::Text(default.clone())).is_ok();
+                let is_color = default.starts_with('#') && Color::read_value(value).is_ok();
                 (Setting::Text(default.to_string()), if is_color { Control::Color } else { Control::Text })
             }
             (Some(Value::Boolean(default)), _) => (Setting::Boolean(*default), Control::Switch),
@@ -275,10 +274,14 @@ impl Param {
         if let Some((_, given)) = given.next() {
             return self.accept(given);
         }
-        let Some(preset) = preset else { return Ok(self.base_value().clone()) };
-        let mut given = names().filter_map(|name| preset.params.iter().find(|(known, _)| known == name));
-        match given.next() {
-            Some((name, given)) => self.accept(&given.plain()).map_err(|error| preset.refused(name, &error)),
+        let given = preset.and_then(|preset| {
+            let mut given = names().filter_map(|name| preset.params.iter().find(|(known, _)| known == name));
+            Some((preset, given.next()?))
+        });
+        match given {
+            Some((preset, (name, given))) => {
+                self.accept(&given.plain()).map_err(|error| preset.refused(name, &error))
+            }
             None => Ok(self.base_value().clone()),
         }
     }

@@ -51,13 +51,13 @@ impl PointControl {
         if *points == self.form.points {
             return Ok(self.like.clone());
         }
-        let refuse = |point: Option<usize>, message: String, help: String| {
+        let refuse = |point: Option<usize>, message: String, help: &str| {
             Err(PointProblem { point, error: Error::argument(message).help(help) })
         };
         let count = points.0.len();
         if count > MOST_POINTS {
             let message = format!("{count} points are too many to draw");
-            return refuse(None, message, format!("give at most {MOST_POINTS} points"));
+            return refuse(None, message, &format!("give at most {MOST_POINTS} points"));
         }
         let axes = self.form.space.axes();
         for (index, row) in points.0.iter().enumerate() {
@@ -65,11 +65,11 @@ impl PointControl {
             if row.len() != axes.len() {
                 let numbers = if row.len() == 1 { "number" } else { "numbers" };
                 let message = format!("point {number} has {} {numbers}, not {}", row.len(), axes.len());
-                return refuse(Some(index), message, format!("write [{}]", axes.join(", ")));
+                return refuse(Some(index), message, &format!("write [{}]", axes.join(", ")));
             }
             if row.iter().any(|number| !number.is_finite()) {
                 let message = format!("point {number} is not finite");
-                return refuse(Some(index), message, "give finite numbers".to_owned());
+                return refuse(Some(index), message, "give finite numbers");
             }
             let before = index.checked_sub(1).map(|before| points.0[before][0]);
             if self.form.space == PointSpace::Function
@@ -80,7 +80,7 @@ impl PointControl {
                     row[0]
                 );
                 let help = "a function has one y for each x: order the points by x, and remove repeated x";
-                return refuse(Some(index), message, help.to_owned());
+                return refuse(Some(index), message, help);
             }
         }
         let made = drawable(&self.like).map(|like| like.with_control_points(points));

@@ -46,9 +46,9 @@ impl Preset {
     }
 
     /// Returns the location of the value of the parameter `name`.
-    pub(crate) fn place_of(&self, name: &str) -> Option<SourcePlace> {
+    pub(crate) fn place_of(&self, name: &str) -> Option<&SourcePlace> {
         let index = self.params.iter().position(|(known, _)| known == name)?;
-        self.places.get(index).or(self.place.as_ref()).cloned()
+        self.places.get(index).or(self.place.as_ref())
     }
 
     /// Returns the error for a value of a parameter `name` that `script` does not have.
@@ -58,7 +58,7 @@ impl Preset {
         let message = format!("preset {preset} sets the unknown parameter `{name}` of {script}");
         Error::not_found("parameter", name, names, message)
             .help(format!("remove {name} from the preset, or declare it again: param(\"{name}\", ...)"))
-            .at(self.place_of(name))
+            .at_place(self.place_of(name))
     }
 
     /// Adds the preset and the location of the value of parameter `name` to an error.
@@ -68,6 +68,6 @@ impl Preset {
             Some(help) => said.help(format!("{help}; change the preset")),
             None => said.help("change the preset"),
         };
-        said.at(self.place_of(name))
+        said.at_place(self.place_of(name))
     }
 }

@@ -125,10 +125,10 @@ pub(super) fn own_params(script: &Path, root: &Path) -> BTreeSet<String> {
     while let Some(path) = next.pop() {
         let Ok(bytes) = burgeon_base::files::read(&path, LARGEST) else { continue };
         let text = String::from_utf8_lossy(&bytes);
-        names.extend(calls_with_text(&text, "param"));
+        names.extend(calls_with_text(&text, "param").map(str::to_owned));
         let folder = path.parent().unwrap_or(root);
         for name in calls_with_text(&text, "require").filter(|name| !FileName::is_meant(name)) {
-            let file = format!("{}.lua", name.strip_suffix(".lua").unwrap_or(&name));
+            let file = format!("{}.lua", name.strip_suffix(".lua").unwrap_or(name));
             let found = [folder, root].into_iter().find_map(|from| from.join(&file).canonicalize().ok());
             let inside = found.filter(|found| found.starts_with(root) && known.len() < MOST_LOOKED_THROUGH);
             next.extend(inside.filter(|found| known.insert(found.clone())));

@@ -115,11 +115,11 @@ impl Session {
         let curves = CurvesFile::read(script)?;
         let data_roots = options.inputs.data.iter().map(|folder| data_root(folder)).collect::<Result<_>>()?;
         let search = PackageSearch {
-            script: script.parent().map(Path::to_path_buf),
-            given: options.inputs.mods.clone(),
-            user: options.inputs.user_mods.clone(),
+            script: script.parent(),
+            given: &options.inputs.mods,
+            user: options.inputs.user_mods.as_deref(),
         };
-        let packages = Packages::find(&search, &api_version());
+        let packages = Packages::find(search, &api_version());
         let warnings = Warnings::default();
         let deprecated = Deprecations::new(&options.registry);
         let stop = Stop::under(options.stop.clone()).with_memory_limit(options.limits.memory);
@@ -205,10 +205,10 @@ impl Session {
     /// replacement of the standard library, files that were read or searched, and package folders.
     pub fn sought(&self) -> Vec<(PathBuf, bool)> {
         let mut files = self.sought.lock().recover().clone();
-        let read =
-            self.files().into_iter().chain([self.script.clone()]).chain(self.options.inputs.stdlib.clone());
-        files.extend(read.map(|path| (path, true)));
-        files.extend(self.packages.searched_paths());
+        files.extend(self.files().into_iter().map(|path| (path, true)));
+        let named = std::iter::once(&self.script).chain(&self.options.inputs.stdlib);
+        files.extend(named.map(|path| (path.clone(), true)));
+        files.extend(self.packages.searched_paths().map(|(path, exists)| (path.to_path_buf(), exists)));
         files.into_iter().collect()
     }
 
@@ -371,19 +371,19 @@ impl Session {
 
     /// Returns the errors in the calls of all files, once the script has declared its object types.
     pub(crate) fn call_problems(&self) -> Vec<Error> {
-        let required = self.required.lock().recover().clone();
+        let (required, none) = (self.required.lock().recover(), BTreeMap::new());
         let scripts = self.script_files();
         let mut files: Vec<CheckedFile> = scripts
             .read
             .values()
             .filter_map(|source| {
-                let (name, ast) = (source.name.clone(), Arc::clone(source.analysis.ast.as_ref()?));
-                let required = required.get(&name).cloned().unwrap_or_default();
-                let package = self.package_of(&name).map(|package| package.manifest.name.clone());
+                let (name, ast) = (source.name.as_str(), source.analysis.ast.as_deref()?);
+                let required = required.get(name).unwrap_or(&none);
+                let package = self.package_of(name).map(|package| package.manifest.name.as_str());
                 Some(CheckedFile { name, package, ast, required })
             })
             .collect();
-        files.sort_by(|a, b| a.name.cmp(&b.name));
+        files.sort_by(|a, b| a.name.cmp(b.name));
         call_problems(&files, &self.registry_with_types())
     }
 

@@ -62,7 +62,7 @@ impl Session {
     pub(crate) fn registry_with_types(&self) -> Registry {
         let own = self.types();
         let others = self.options.registry.kinds().filter(|kind| !own.iter().any(|it| it.name == kind.name));
-        others.cloned().chain(own.iter().cloned()).collect()
+        others.chain(&own).cloned().collect()
     }
 
     /// Returns the declared object types, in order, and the types with added methods.

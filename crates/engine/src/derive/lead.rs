@@ -7,7 +7,7 @@ use super::plan::{Derivation, DerivationPlan};
 use super::threads::{LeadingMachine, ThreadPool};
 use crate::machine::{Axiom, DerivationRequest, Machine, Objects};
 use crate::results::{DerivedSystem, RowFeatures, RuleName, SystemUses, Trace, skipped_feature};
-use burgeon_base::error::{Error, Result, SourcePlace};
+use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::Warning;
 use burgeon_kit::{Drawing, Object};
@@ -39,7 +39,7 @@ fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -
     let session = &machine.session;
     let Derivation { mut axiom, plan, declared, traced, place, caller, axiom_place, draws, .. } = derivation;
     for warning in grown.warnings {
-        session.warn(warning.at(place.clone()).called_at(caller.clone()));
+        session.warn(warning.at_place(place.as_ref()).called_from(caller.as_ref()));
     }
     let symbols = grown.chain.symbols.iter().copied();
     let systems = machine.library.systems.borrow();
@@ -57,10 +57,10 @@ fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -
     if traced.is_some()
         && let Some(objects) = objects
     {
-        let named =
-            |text: &str, place: &Option<SourcePlace>| RuleName { text: text.into(), place: place.clone() };
-        let rules = grammar.rules().iter().map(|rule| named(&rule.pattern.text, &rule.place));
-        let interpreters = interpretations.list.iter().map(|known| named(&known.name, &known.place));
+        let rules = grammar.rules().iter();
+        let rules = rules.map(|rule| RuleName::new(&rule.pattern.text, rule.place.as_ref()));
+        let interpreters = interpretations.list.iter();
+        let interpreters = interpreters.map(|known| RuleName::new(&known.name, known.place.as_ref()));
         let shared = (grammar.symbols(), &session.values);
         let regions = grammar.region_openers().regions(&grown.chain).into_iter().chain(std::iter::repeat(0));
         let places = grown.chain.symbols.iter().zip(regions);

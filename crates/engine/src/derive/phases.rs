@@ -208,16 +208,13 @@ impl Phase<DerivationState<'_>> for Sketch {
 /// Returns the work of the rules and interpretation rules, in the order of declaration.
 fn reports(plan: &DerivationPlan, rules: &[Use], interpretations: &[Use]) -> Vec<RuleReport> {
     let rules = plan.steps.grammar.rules().iter().zip(rules).map(|(rule, done)| RuleReport {
-        name: RuleName { text: rule.pattern.text.clone(), place: rule.place.clone() },
+        name: RuleName::new(&rule.pattern.text, rule.place.as_ref()),
         interprets: false,
         done: *done,
     });
     let interpretations = plan.interpretations.list.iter().zip(interpretations);
-    let interpretations =
-        interpretations.filter(|(known, _)| !known.is_choice).map(|(known, done)| RuleReport {
-            name: RuleName { text: known.name.clone(), place: known.place.clone() },
-            interprets: true,
-            done: *done,
-        });
+    let interpretations = interpretations.filter(|(known, _)| !known.is_choice).map(|(known, done)| {
+        RuleReport { name: RuleName::new(&known.name, known.place.as_ref()), interprets: true, done: *done }
+    });
     rules.chain(interpretations).collect()
 }

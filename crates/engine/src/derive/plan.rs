@@ -80,6 +80,12 @@ impl DerivationPlan {
         self.variables.read().recover().clone()
     }
 
+    /// Sets the objects and the environments that the functions of a machine use from now on.
+    pub(super) fn show_objects(&self, machine: &Machine) {
+        machine.current.objects.replace(self.objects.clone());
+        machine.current.environments.replace(self.environments.clone());
+    }
+
     /// Sets the variables that functions read from now on.
     pub(super) fn set_variables(&self, variables: VariableValues) {
         *self.variables.write().recover() = Some(Arc::new(variables));
@@ -233,7 +239,7 @@ impl Derivation {
             return Err(Error::script(
                 "hooks, variables and environments belong to all chains, but --part derives a part of them",
             )
-            .at(system.place.clone())
+            .at_place(system.place.as_ref())
             .help("run the script without --part, or keep values in parameters of modules"));
         }
         let plan = Arc::new(DerivationPlan {

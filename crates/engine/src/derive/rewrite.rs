@@ -271,7 +271,7 @@ fn warn_of_depth(
             .then(|| module_brief(grammar.symbols(), &session.values, symbol, &chain.params[begin..param]))
     });
     let warning = stops_at_depth("decomposition", rules.max_depth, "still applies")
-        .at(rule.place.clone())
+        .at_place(rule.place.as_ref())
         .rule(&rule.pattern.text);
     session.warn(match module {
         Some(module) => warning.module(module, number),

@@ -90,7 +90,7 @@ impl Rewriter for SystemRewriter<'_> {
             return Err(Error::script(format!(
                 "an object applies the rules of this system, which must not have {what}"
             ))
-            .at(system.place.clone())
+            .at_place(system.place.as_ref())
             .help(help));
         }
         let rules = Arc::new(RuleSet {

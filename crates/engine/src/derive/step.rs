@@ -78,9 +78,8 @@ pub(super) fn perform_events(
 fn enter(machine: &Machine, plan: &DerivationPlan) -> Result<()> {
     machine.enter(plan.system)?;
     machine.refresh();
-    machine.current.objects.replace(plan.objects.clone());
+    plan.show_objects(machine);
     machine.current.located.replace(plan.places());
-    machine.current.environments.replace(plan.environments.clone());
     machine.current.skips_passes.set(plan.skips_passes);
     Ok(())
 }

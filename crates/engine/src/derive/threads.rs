@@ -18,6 +18,7 @@ use crate::declare::Session;
 use crate::machine::{DerivationRequest, Driver, Machine, SystemFunctions, Watchdog};
 use crate::results::{DerivedSystem, Trace};
 use burgeon_base::error::{Error, Result};
+use burgeon_base::named_thread;
 use burgeon_kit::Prefetch;
 use burgeon_rewriting::{Scratch, StepWork};
 
@@ -252,10 +253,9 @@ impl Helper {
                 let _ = machine.run();
             }
         };
-        let thread =
-            std::thread::Builder::new().name("burgeon helper".to_owned()).spawn(follow).map_err(|error| {
-                Error::system(format!("cannot start a thread: {error}")).help("try --threads 1")
-            })?;
+        let thread = named_thread("helper").spawn(follow).map_err(|error| {
+            Error::system(format!("cannot start a thread: {error}")).help("try --threads 1")
+        })?;
         Ok(Self { outbox, thread })
     }
 }
@@ -283,9 +283,8 @@ fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<R
                 let Some(plan) = plan.upgrade() else { continue };
                 let declared = prepared(machine, &mut known, plan.system)?;
                 machine.enter(plan.system)?;
-                machine.current.objects.replace(plan.objects.clone());
+                plan.show_objects(machine);
                 machine.current.located.replace(plan.places());
-                machine.current.environments.replace(plan.environments.clone());
                 machine.current.skips_passes.set(plan.skips_passes);
                 machine.load_variables(plan.variables().as_deref())?;
                 machine.refresh();

@@ -255,8 +255,8 @@ impl WorkState {
 
     /// Returns the error for a name that objects of the type `kind` do not have.
     pub(crate) fn unknown_member(&self, kind: &str, name: &str, registry: &Registry) -> Error {
-        let of = self.kind.borrow().as_ref().filter(|known| known.name == kind).cloned();
-        match of.or_else(|| registry.get(kind).cloned()) {
+        let current = self.kind.borrow();
+        match current.as_ref().filter(|known| known.name == kind).or_else(|| registry.get(kind)) {
             Some(kind) => kind.unknown_method(name),
             None => Error::argument(format!("unknown method or field `{name}` of {kind}")),
         }
@@ -324,7 +324,7 @@ impl WorkState {
                 if !deferred.is_empty() {
                     let place = place();
                     for warning in deferred {
-                        self.session.warn(warning.at(place.clone()));
+                        self.session.warn(warning.at_place(place.as_ref()));
                     }
                 }
                 answer.map_err(Error::of_data)
@@ -346,7 +346,7 @@ impl WorkState {
                     && let Some(flusher) = self.flusher.borrow_mut().as_mut()
                 {
                     let place = place();
-                    flusher.warn(said.into_iter().map(|warning| warning.at(place.clone())).collect());
+                    flusher.warn(said.into_iter().map(|warning| warning.at_place(place.as_ref())).collect());
                 }
                 done.or_else(|error| objects.failed().forgive(chain, error.of_data()).map(|()| Value::Nil))
             }

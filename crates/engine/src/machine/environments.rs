@@ -1,5 +1,6 @@
 //! Environments of a derivation.
 
+use std::borrow::Cow;
 use std::sync::{Arc, RwLock};
 
 use mlua::Value as LuaValue;
@@ -45,7 +46,9 @@ impl Environments {
 /// Returns the environments that a script gives to a system: an object, or a list of objects.
 pub(super) fn environments_of(value: &LuaValue) -> Result<Vec<Arc<dyn Object>>> {
     let values = match to_value(value, false)? {
-        Value::Table(table) => table.entries.iter().map(|(_, value)| value.clone()).collect(),
+        Value::Table(table) => {
+            Arc::unwrap_or_clone(table).entries.into_iter().map(|(_, value)| value).collect()
+        }
         value => vec![value],
     };
     let environments = values.into_iter().map(|value| match value {
@@ -53,8 +56,8 @@ pub(super) fn environments_of(value: &LuaValue) -> Result<Vec<Arc<dyn Object>>> 
         other => Err(Error::argument(format!(
             "lsystem: an environment is an object such as shadow_voxels(), not {}",
             match &other {
-                Value::Object(object) => object.kind().with_article(),
-                other => other.describe().to_owned(),
+                Value::Object(object) => Cow::Owned(object.kind().with_article()),
+                other => Cow::Borrowed(other.describe()),
             }
         ))
         .help("write local light = shadow_voxels(), and lsystem({ object = turtle(), environment = { light } })")),

@@ -16,13 +16,13 @@ pub(super) fn expect(
     (actual, expected, tolerance): &(LuaValue, LuaValue, LuaValue),
 ) -> Result<()> {
     let usage = "write expect(derived.counts.F, 625), or with a tolerance, expect(width, 0.7071, 0.0001)";
-    let refuse = |message: String| Err(Error::argument(message).help(usage));
+    let refuse = |message: &str| Err(Error::argument(message).help(usage));
     let tolerance = match tolerance {
         LuaValue::Nil => 0.0,
         other => match to_value(other, false)? {
             Value::Number(number) if number >= 0.0 && number.is_finite() => number,
             other => {
-                return refuse(format!(
+                return refuse(&format!(
                     "expect: tolerance must be a number of at least 0, not {}",
                     other.describe()
                 ));
@@ -30,7 +30,7 @@ pub(super) fn expect(
         },
     };
     if expected.is_nil() {
-        return refuse("expect: the expected value is missing".to_owned());
+        return refuse("expect: the expected value is missing");
     }
     let (actual, expected) = (to_value(actual, false)?, to_value(expected, false)?);
     if options.check || changes_values(options) {

@@ -14,6 +14,13 @@ pub(crate) struct ReachableFunction {
     pub place: Option<SourcePlace>,
 }
 
+impl ReachableFunction {
+    /// Creates a function that belongs to a rule called `name`.
+    pub(crate) fn of_rule(function: &Function, name: &str, place: Option<&SourcePlace>) -> Self {
+        Self { function: function.clone(), name: name.to_owned(), place: place.cloned() }
+    }
+}
+
 /// Frozen tables; they become writable again when this is dropped.
 pub(crate) struct TableFreeze(Vec<Table>);
 
@@ -41,7 +48,7 @@ pub(crate) fn freeze<'a>(
         let refuse = |what: &str| {
             Err(Error::scope(format!("the rule uses {what}, which keeps state from one module to the next"))
                 .help("create it inside the rule, or keep the state in a parameter of a module")
-                .at(reached.place.clone())
+                .at_place(reached.place.as_ref())
                 .rule(&reached.name))
         };
         let mut queue = vec![Value::Function(reached.function.clone())];

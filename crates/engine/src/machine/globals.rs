@@ -156,7 +156,7 @@ impl Library {
                 made.map_err(mlua::Error::external)
             })?,
         )?;
-        let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));
+        let library = std::rc::Rc::clone(&machine.library);
         globals.raw_set(
             "require",
             lua.create_function(move |lua, name: LuaValue| {
@@ -164,8 +164,9 @@ impl Library {
                     LuaValue::String(name) => name.to_string_lossy(),
                     _ => String::new(),
                 };
-                let required =
-                    library.at_top_level("require").and_then(|()| require(&library, &session, lua, &name));
+                let required = library
+                    .at_top_level("require")
+                    .and_then(|()| require(&library, &library.machine()?.session, lua, &name));
                 required.map_err(mlua::Error::external)
             })?,
         )

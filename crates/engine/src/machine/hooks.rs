@@ -48,7 +48,7 @@ impl Machine {
             for (index, (function, place)) in hooks.iter().enumerate() {
                 self.current.keys.replace(vec![key.child(index)]);
                 self.current.used.set(0);
-                let named = |error: Error| error.at(place.clone()).rule(format!("{method} (hook)"));
+                let named = |error: Error| error.at_place(place.as_ref()).rule(format!("{method} (hook)"));
                 match self.call::<MultiValue>(&self.prelude().run_hook, (function, step)) {
                     Ok(returned) => {
                         let returned: Vec<LuaValue> = returned.into_iter().collect();

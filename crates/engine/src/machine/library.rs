@@ -82,9 +82,9 @@ pub(crate) struct Library {
 impl Library {
     /// Returns the names that scripts can use without declaring them.
     pub(crate) fn globals(&self) -> Globals {
-        let session = self.machine().map(|machine| Arc::clone(&machine.session)).ok();
+        let machine = self.machine().ok();
+        let session = machine.as_ref().map(|machine| &machine.session);
         let (shapes, deprecated) = session
-            .as_ref()
             .map(|session| (Arc::clone(&session.shapes), Arc::clone(session.deprecated_names())))
             .unwrap_or_default();
         Globals {
@@ -201,8 +201,8 @@ impl Library {
         let machine = self.machine()?;
         let mut params = self.params.borrow_mut();
         if let Some((known, first)) = params.iter().find(|(known, _)| known.name == param.name) {
-            let in_file = |place: &Option<SourcePlace>| place.as_ref().map(|place| place.file.clone());
-            let shared = *known == param && (*first == place || in_file(first) != in_file(&place));
+            let files = [first, &place].map(|place| place.as_ref().map(|place| &place.file));
+            let shared = *known == param && (*first == place || files[0] != files[1]);
             if !shared {
                 let first = first.as_ref().map_or_else(String::new, |first| format!(" in {first}"));
                 let text = format!(

@@ -1,5 +1,6 @@
 //! Prelude: the Lua side of the hot path, and globals of scripts.
 
+use std::borrow::Cow;
 use std::cell::RefCell;
 
 use std::sync::LazyLock;
@@ -262,7 +263,8 @@ fn with_words(template: &str) -> String {
         ("@CLOSE_CALL", u32::from(CLOSE_CALL)),
     ]
     .into_iter()
-    .fold(template.to_owned(), |text, (name, word)| text.replace(name, &word.to_string()))
+    .fold(Cow::Borrowed(template), |text, (name, word)| Cow::Owned(text.replace(name, &word.to_string())))
+    .into_owned()
 }
 
 /// Repeats the marked parts of the template for each number of parameters.

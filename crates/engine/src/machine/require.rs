@@ -86,17 +86,17 @@ fn load(
         machine.load_file(&source)?;
         return Err(Error::several(source.analysis.problems.clone()));
     }
-    library.loading.borrow_mut().push(path.clone());
+    library.loading.borrow_mut().push(path);
     let value = machine
         .load_file(&source)
         .and_then(|chunk| machine.call::<LuaValue>(&chunk, ()).map_err(|error| machine.translate(error)));
-    library.loading.borrow_mut().pop();
+    let path = library.loading.borrow_mut().pop();
     let value = value?;
     if let Some(package) = session.package_of(shown) {
         freeze_all(&value, &package.manifest.name)
             .map_err(|error| error.rather_at(Some(SourcePlace { file: shown.to_owned(), line: 1 })))?;
     }
-    library.loaded.borrow_mut().insert(path, value.clone());
+    library.loaded.borrow_mut().extend(path.map(|path| (path, value.clone())));
     Ok(value)
 }
 
@@ -199,7 +199,7 @@ fn find(session: &Session, from: &Path, name: &str, bare: &str) -> Result<(PathB
             let inner = path.strip_prefix(session.root()).unwrap_or(&path);
             let shown =
                 session.script().parent().map_or_else(|| inner.to_path_buf(), |parent| parent.join(inner));
-            return Ok((path.clone(), shown.display().to_string()));
+            return Ok((path, shown.display().to_string()));
         }
     }
     let message = format!("require(\"{name}\"): file not found: {}", relative.display());

@@ -101,16 +101,16 @@ pub(super) fn add_variables(
             let name = name.to_string().unwrap_or_default();
             let variables = owner.variables.borrow();
             let names = variables.get(table).map(|variables| variables.names.as_slice()).unwrap_or_default();
-            let names = names.iter().map(|name| &**name);
-            Err(mlua::Error::external(if names.clone().any(|known| known == name) {
+            let names: Vec<&str> = names.iter().map(|name| &**name).collect();
+            Err(mlua::Error::external(if names.iter().any(|known| *known == name) {
                 let message = format!("the variable {name} is known only while its system is derived");
                 Error::scope(message).help(
                     "pass the variables to the system: lsystem({ variables = ... }); after derive, read derived.variables",
                 )
             } else {
-                let list: Vec<&str> = names.clone().collect();
-                Error::not_found("variable", &name, names, format!("unknown variable {name}"))
-                    .help(format!("declare it with its first value; there are {}", list.join(", ")))
+                let known = names.iter().copied();
+                Error::not_found("variable", &name, known, format!("unknown variable {name}"))
+                    .help(format!("declare it with its first value; there are {}", names.join(", ")))
             }))
         })?,
     )

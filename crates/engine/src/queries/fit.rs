@@ -1,5 +1,7 @@
 //! Assignment of columns, or of another module's parameters, to the parameters of a module.
 
+use std::borrow::Cow;
+
 use burgeon_rewriting::Signature;
 
 /// Common names of geometry columns.
@@ -41,13 +43,13 @@ pub(crate) fn fit<'a>(
 }
 
 /// Joins names in a sentence: "a", "a and b", "a, b and c".
-pub(crate) fn listed(names: &[impl AsRef<str>]) -> String {
+pub(crate) fn listed(names: &[impl AsRef<str>]) -> Cow<'_, str> {
     match names {
-        [] => "none".to_owned(),
-        [only] => only.as_ref().to_owned(),
+        [] => Cow::Borrowed("none"),
+        [only] => Cow::Borrowed(only.as_ref()),
         [first @ .., last] => {
             let first: Vec<&str> = first.iter().map(AsRef::as_ref).collect();
-            format!("{} and {}", first.join(", "), last.as_ref())
+            Cow::Owned(format!("{} and {}", first.join(", "), last.as_ref()))
         }
     }
 }

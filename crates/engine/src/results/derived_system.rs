@@ -109,7 +109,7 @@ pub(crate) struct SystemUses {
 impl DerivedSystem {
     /// Returns `warning` with the location where the system was created, and the line that called it.
     pub fn locate(&self, warning: Warning) -> Warning {
-        warning.at(self.place.clone()).called_at(self.caller.clone())
+        warning.at_place(self.place.as_ref()).called_from(self.caller.as_ref())
     }
 
     /// Returns the number of modules in all chains, without brackets.
@@ -129,10 +129,11 @@ impl DerivedSystem {
             return;
         }
         let kept = self.chain.without_chains(chains, &self.symbols.arities());
-        self.context = Some((std::mem::replace(&mut self.chain, Arc::new(kept)), Arc::clone(&self.left_out)));
         let place = |chain: &usize| chain - chains.partition_point(|dropped| dropped < chain);
         let left_out = self.left_out.iter().filter(|chain| chains.binary_search(chain).is_err());
-        self.left_out = left_out.map(place).collect();
+        let left_out = left_out.map(place).collect();
+        let whole = std::mem::replace(&mut self.chain, Arc::new(kept));
+        self.context = Some((whole, std::mem::replace(&mut self.left_out, left_out)));
         let dropped: Vec<Option<&str>> =
             chains.iter().filter_map(|chain| Some(self.features.get(*chain)?.as_deref())).collect();
         self.feature_warnings
@@ -203,13 +204,15 @@ impl DerivedSystem {
     /// A placed system is not shown on its own.
     pub fn model(&self) -> Result<Arc<dyn Object>> {
         self.uses.placed.store(true, Ordering::Relaxed);
-        if let Some(model) = self.uses.model.get() {
-            return Ok(Arc::clone(model) as Arc<dyn Object>);
-        }
-        let mut scene = Scene::default();
-        self.add_to(&mut scene)?;
-        let model = Arc::clone(self.uses.model.get_or_init(|| Arc::new(Model::new(scene))));
-        Ok(model as Arc<dyn Object>)
+        let model = match self.uses.model.get() {
+            Some(model) => model,
+            None => {
+                let mut scene = Scene::default();
+                self.add_to(&mut scene)?;
+                self.uses.model.get_or_init(|| Arc::new(Model::new(scene)))
+            }
+        };
+        Ok(Arc::clone(model) as Arc<dyn Object>)
     }
 
     /// Returns the model that others place, if it has been requested.

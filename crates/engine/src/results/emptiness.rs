@@ -17,8 +17,9 @@ pub(crate) fn tells_of_emptiness(warning: &Warning) -> bool {
 /// Returns the warning for an empty model, if a system has drawing objects. `warnings` are the existing
 /// warnings.
 pub(crate) fn emptiness(warnings: &[Warning], systems: &[Arc<DerivedSystem>]) -> Option<Warning> {
-    let mut drawing = systems.iter().filter(|system| system.draws);
-    let drawing = drawing.clone().find(|system| !system.is_placed()).or_else(|| drawing.next())?;
+    let mut drawing = systems.iter().filter(|system| system.draws).peekable();
+    let first = drawing.peek().copied();
+    let drawing = drawing.find(|system| !system.is_placed()).or(first)?;
     let help = if warnings.iter().any(tells_of_emptiness) {
         "another warning shows the reason"
     } else if systems.iter().any(|system| system.is_placed()) {

@@ -1,5 +1,6 @@
 //! Layers with geometry for other programs: lists, layers of objects, and modules.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use burgeon_kit::{Attribute, FeatureSource, Object, Value};
@@ -22,10 +23,10 @@ pub fn layers(session: &Session, systems: &[Arc<DerivedSystem>]) -> Vec<RecordTa
     for (name, list) in session.data.lists() {
         layers.list(&name, &list);
     }
-    let lists: FxHashSet<String> = layers.by_name.keys().cloned().collect();
+    let lists = layers.tables.len();
     for system in systems {
         for object in &system.objects {
-            layers.object(&**object, &lists);
+            layers.object(&**object, lists);
         }
         layers.chains(system);
     }
@@ -57,9 +58,10 @@ impl LayerTable {
 
 impl LayerTables {
     fn named(&mut self, name: &str) -> &mut LayerTable {
-        let index = *self.by_name.entry(name.to_owned()).or_insert_with(|| {
+        let index = self.by_name.get(name).copied().unwrap_or_else(|| {
             let table = RecordTable { name: name.to_owned(), ..RecordTable::default() };
             self.tables.push(LayerTable { table, ..LayerTable::default() });
+            self.by_name.insert(name.to_owned(), self.tables.len() - 1);
             self.tables.len() - 1
         });
         &mut self.tables[index]
@@ -79,10 +81,10 @@ impl LayerTables {
         }
     }
 
-    /// Adds the layers of an object, except layers named in `lists`.
-    fn object(&mut self, object: &dyn Object, lists: &FxHashSet<String>) {
+    /// Adds the layers of an object, except layers with the name of one of the first `lists` tables.
+    fn object(&mut self, object: &dyn Object, lists: usize) {
         for (name, features) in object.layers() {
-            if lists.contains(name) {
+            if self.by_name.get(name).is_some_and(|table| *table < lists) {
                 continue;
             }
             // A layer without features becomes an empty table.
@@ -121,7 +123,7 @@ impl LayerTables {
         let Some(place) = values.iter().position(|value| geometry_of(value).is_some()) else { return };
         let signature = system.symbols.signature(symbol);
         let layer = self.named(system.symbols.display_name(symbol));
-        let feature = system.features.get(chain).cloned().flatten();
+        let feature = system.features.get(chain).and_then(Option::as_deref);
         let own = values.iter().zip(&signature.parameters).enumerate().filter(|(number, _)| *number != place);
         let mut attributes = Vec::new();
         for (_, (value, name)) in own {
@@ -130,7 +132,7 @@ impl LayerTables {
             let text = |value: &Value| geometry_of(value).map(|it| Attribute::Text(it.to_wkt().into()));
             attributes.extend(attribute(value).or_else(|| text(value)).map(|value| (column, value)));
         }
-        let id = feature.unwrap_or_else(|| (chain + 1).to_string());
+        let id = feature.map_or_else(|| (chain + 1).to_string(), str::to_owned);
         layer.add(id, geometry_of(&values[place]).cloned(), attributes);
     }
 }
@@ -143,11 +145,13 @@ fn geometry_of(value: &Value) -> Option<&Geometry> {
 
 /// Returns `id`, with a number as suffix if it is already in `taken`.
 fn apart(id: String, taken: &mut FxHashSet<String>) -> String {
-    let mut free = id.clone();
+    let mut free = Cow::Borrowed(&*id);
     let mut count = 1;
-    while !taken.insert(free.clone()) {
+    while taken.contains(&*free) {
         count += 1;
-        free = format!("{id}.{count}");
+        free = Cow::Owned(format!("{id}.{count}"));
     }
+    let free = free.into_owned();
+    taken.insert(free.clone());
     free
 }

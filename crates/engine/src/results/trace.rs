@@ -51,6 +51,13 @@ pub struct RuleName {
     pub place: Option<SourcePlace>,
 }
 
+impl RuleName {
+    /// Creates the name of a rule with this pattern.
+    pub(crate) fn new(text: &str, place: Option<&SourcePlace>) -> Self {
+        Self { text: text.to_owned(), place: place.cloned() }
+    }
+}
+
 /// Display form of a module.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Module {
@@ -82,9 +89,9 @@ pub struct Ancestor {
 
 /// Symbols made by a rule, an interpretation rule or the axiom.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct RuleProducts {
+pub struct RuleProducts<'a> {
     /// Pattern of the rule, or "axiom".
-    pub name: String,
+    pub name: &'a str,
     /// First line of the declaration.
     pub line: usize,
     /// For each symbol of the final chain: true if this rule made it or one of its ancestors.
@@ -198,8 +205,7 @@ impl Trace {
                     path.last_mut().into_iter().for_each(|rows: &mut Ancestor| rows.rule.clone_from(&rule));
                 } else if let Some(module) = self.module_of(after, here) {
                     let answer = step.answers.iter().find(|answer| answer.symbol == parent);
-                    let answer = answer
-                        .map(|answer| RuleName { text: answer.text.clone(), place: answer.place.clone() });
+                    let answer = answer.map(|answer| RuleName::new(&answer.text, answer.place.as_ref()));
                     let asked = step.asked.iter().filter(|(symbol, _)| *symbol == parent);
                     let asked = asked.map(|(_, text)| text.clone()).collect();
                     let ordinal = before.count();
@@ -244,12 +250,12 @@ impl Trace {
 
     /// Returns the symbols made by the rule, interpretation rule or axiom at a line, or by the last one above
     /// it. `None` if there is none.
-    pub fn made_by(&self, file: &str, line: usize) -> Option<RuleProducts> {
+    pub fn made_by(&self, file: &str, line: usize) -> Option<RuleProducts<'_>> {
         let (what, line) = self.line(file, line)?;
         let (name, made) = match what {
-            LineSubject::Axiom => ("axiom".to_owned(), vec![true; self.chain.symbols.len()]),
+            LineSubject::Axiom => ("axiom", vec![true; self.chain.symbols.len()]),
             LineSubject::Interpretation(wanted) => {
-                let name = self.interpretations[usize::from(wanted)].text.clone();
+                let name = self.interpretations[usize::from(wanted)].text.as_str();
                 (name, self.interpreted.iter().map(|number| *number == wanted).collect())
             }
             LineSubject::Rule(wanted) => {
@@ -264,7 +270,7 @@ impl Trace {
                         .collect();
                 }
                 made.resize(self.chain.symbols.len(), false);
-                (self.rules[usize::from(wanted)].text.clone(), made)
+                (self.rules[usize::from(wanted)].text.as_str(), made)
             }
         };
         Some(RuleProducts { name, line, made })

@@ -1,5 +1,7 @@
 //! City objects: their ids, classes and shapes.
 
+use std::borrow::Cow;
+
 use crate::layers::OutputPlacement;
 use burgeon_base::error::{Error, Result};
 use burgeon_scene::{CityClass, Instance, Origin, Scene, SurfaceMeaning};
@@ -81,14 +83,14 @@ pub(super) fn objects<'a>(checked: &SceneCheck<'a>, facts: &SceneFacts<'a>) -> V
                 Some((system.records.columns.as_slice(), system.records.records.get(record)?))
             });
             let id = match (&instance.feature, key) {
-                (Some(feature), _) => feature.clone(),
+                (Some(feature), _) => Cow::Borrowed(feature.as_str()),
                 (None, Some(Origin { system, chain, .. })) => {
-                    format!("system {} chain {}", system + 1, chain + 1)
+                    Cow::Owned(format!("system {} chain {}", system + 1, chain + 1))
                 }
-                (None, None) => "model".to_owned(),
+                (None, None) => Cow::Borrowed("model"),
             };
             objects.push(CityObject {
-                id: ids.unique_id(id),
+                id: ids.unique_id(&id),
                 class: system.and_then(|system| system.class).unwrap_or(CityClass::GENERIC),
                 record,
                 drawn: Vec::new(),
@@ -120,14 +122,16 @@ fn is_building(scene: &Scene, instance: &Instance) -> bool {
 pub(super) struct Identifiers(FxHashMap<String, usize>);
 
 impl Identifiers {
-    pub(super) fn unique_id(&mut self, id: String) -> String {
-        let id = if id.is_empty() { "_".to_owned() } else { id };
-        let mut free = id.clone();
-        while self.0.contains_key(&free) {
-            let count = self.0.get(&id).copied().unwrap_or(1) + 1;
-            self.0.insert(id.clone(), count);
-            free = format!("{id}.{count}");
+    pub(super) fn unique_id(&mut self, id: &str) -> String {
+        let id = if id.is_empty() { "_" } else { id };
+        let mut free = Cow::Borrowed(id);
+        while self.0.contains_key(&*free)
+            && let Some(count) = self.0.get_mut(id)
+        {
+            *count += 1;
+            free = Cow::Owned(format!("{id}.{count}"));
         }
+        let free = free.into_owned();
         self.0.insert(free.clone(), 1);
         free
     }

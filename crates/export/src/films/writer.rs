@@ -254,9 +254,10 @@ impl FilmTarget {
                 format!("a .{extension} file has at most {fastest} frames per second, not {}", settings.fps);
             return Err(Error::usage(message).help(format!("use --fps {fastest} or less")));
         }
+        let path = path.to_owned();
         Ok(match format.content {
-            FilmContent::Images(encoder) => Self::Images(path.to_owned(), encoder, None),
-            FilmContent::Scenes(write) => Self::Scenes(path.to_owned(), write),
+            FilmContent::Images(encoder) => Self::Images(path, encoder, None),
+            FilmContent::Scenes(write) => Self::Scenes(path, write),
         })
     }
 }

@@ -1,5 +1,7 @@
 //! Binary part of a glTF file. It is planned first, so that its description can be written, and then written in chunks.
 
+use std::borrow::Cow;
+
 use super::super::check::proper_triangles;
 use super::coordinates::{byte_normal, short_normal, tex_coord, y_up};
 use super::corners::FaceCorners;
@@ -188,7 +190,7 @@ impl<'a> Body<'a> {
         for section in &mut self.sections {
             let Some(kind) = section.shared else { continue };
             let mut bytes = Vec::new();
-            section.blocks.iter().for_each(|block| block.write(0..usize::MAX, &mut bytes));
+            section.blocks.iter().for_each(|block| block.write(&(0..usize::MAX), &mut bytes));
             let (view, packed) = match (kind, section.stride()) {
                 (ArrayKind::Short, _) => pack_triangles(&bytes, 2)?,
                 (ArrayKind::Long, _) => pack_triangles(&bytes, 4)?,
@@ -257,12 +259,12 @@ impl<'a> Body<'a> {
     /// prepared. Fails early if `stop` requests cancellation.
     pub(super) fn write(
         &self,
-        head: Vec<Vec<u8>>,
+        head: Vec<Cow<'static, [u8]>>,
         out: &mut (impl Write + Send),
         stop: &Stop,
     ) -> io::Result<()> {
         let mut ready = head;
-        let mut spare: Vec<Vec<u8>> = Vec::new();
+        let mut spare: Vec<Cow<[u8]>> = Vec::new();
         let mut released = 0;
         for next in self.stretches().chunks(AHEAD) {
             if stop.is_stopped() {
@@ -274,9 +276,10 @@ impl<'a> Body<'a> {
                 self.batches[released].iter().for_each(|corners| corners.release());
                 released += 1;
             }
-            spare.resize_with(next.len(), Vec::new);
+            spare.resize_with(next.len(), Cow::default);
             let write = || ready.iter().try_for_each(|bytes| out.write_all(bytes));
-            let put = || next.par_iter().zip(&mut spare).for_each(|(stretch, bytes)| stretch.put(bytes));
+            let put =
+                || next.par_iter().zip(&mut spare).for_each(|(stretch, bytes)| stretch.put(bytes.to_mut()));
             let (written, ()) = rayon::join(write, put);
             written?;
             // Buffers are reused after writing, because allocating fresh memory pages costs more than filling them.
@@ -322,7 +325,7 @@ impl Stretch<'_> {
     fn put(&self, bytes: &mut Vec<u8>) {
         bytes.clear();
         for block in self.blocks {
-            block.write(self.items.clone(), bytes);
+            block.write(&self.items, bytes);
         }
         bytes.resize(bytes.len() + self.padding, 0);
     }
@@ -402,7 +405,7 @@ impl BodyArray<'_> {
     }
 
     /// Writes the `items` that exist.
-    fn write(&self, items: Range<usize>, out: &mut Vec<u8>) {
+    fn write(&self, items: &Range<usize>, out: &mut Vec<u8>) {
         let range = items.start..items.end.min(self.items());
         match self {
             Self::Positions(part) => put(out, part.positions[range].iter().map(|at| y_up(*at).to_array())),

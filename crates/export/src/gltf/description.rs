@@ -3,6 +3,8 @@
 //! A city has hundreds of thousands of accessors and primitives. They are plain structs here, because gltf-json's types
 //! have fields for the whole specification, which take longer to fill, write and free than the geometry.
 
+use std::borrow::Cow;
+
 use burgeon_base::error::{Error, Result};
 use gltf_json as json;
 use json::accessor::{ComponentType, Type};
@@ -218,17 +220,17 @@ impl<'a> Description<'a> {
     }
 
     /// Returns the document as compact JSON, in consecutive pieces.
-    pub(super) fn text(&self) -> Result<Vec<Vec<u8>>> {
+    pub(super) fn text(&self) -> Result<Vec<Cow<'static, [u8]>>> {
         let WholeDocument { accessors, before, meshes, nodes, after } = self.whole();
-        let written = || -> serde_json::Result<Vec<Vec<u8>>> {
-            let mut text = vec![b"{".to_vec()];
+        let written = || -> serde_json::Result<Vec<Cow<'static, [u8]>>> {
+            let mut text: Vec<Cow<[u8]>> = vec![Cow::Borrowed(b"{")];
             text.extend(list("accessors", accessors)?);
-            text.push(fields(&before)?);
-            text.push(b",".to_vec());
+            text.push(Cow::Owned(fields(&before)?));
+            text.push(Cow::Borrowed(b","));
             text.extend(list("meshes", meshes)?);
             text.extend(list("nodes", nodes)?);
-            text.push(fields(&after)?);
-            text.push(b"}".to_vec());
+            text.push(Cow::Owned(fields(&after)?));
+            text.push(Cow::Borrowed(b"}"));
             Ok(text)
         };
         written().map_err(|error| Error::internal(format!("cannot write glTF: {error}")))
@@ -236,11 +238,11 @@ impl<'a> Description<'a> {
 }
 
 /// Serialises a named list followed by a comma, unless the list is empty. Chunks are serialised in parallel.
-fn list<T: Serialize + Sync>(name: &str, items: &[T]) -> serde_json::Result<Vec<Vec<u8>>> {
+fn list<T: Serialize + Sync>(name: &str, items: &[T]) -> serde_json::Result<Vec<Cow<'static, [u8]>>> {
     if items.is_empty() {
         return Ok(Vec::new());
     }
-    let mut text = vec![format!("\"{name}\":").into_bytes()];
+    let mut text: Vec<Cow<[u8]>> = vec![Cow::Owned(format!("\"{name}\":").into_bytes())];
     let chunks = items.par_chunks(CHUNK).enumerate().map(|(number, chunk)| {
         let mut text = serde_json::to_vec(chunk)?;
         // Between two chunks, a comma replaces the end of one list and the beginning of the next.
@@ -248,10 +250,10 @@ fn list<T: Serialize + Sync>(name: &str, items: &[T]) -> serde_json::Result<Vec<
         if number > 0 {
             text[0] = b',';
         }
-        Ok(text)
+        Ok(Cow::Owned(text))
     });
     text.append(&mut chunks.collect::<serde_json::Result<_>>()?);
-    text.push(b"],".to_vec());
+    text.push(Cow::Borrowed(b"],"));
     Ok(text)
 }
 

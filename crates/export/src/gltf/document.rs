@@ -1,5 +1,6 @@
 //! Writes a scene as a document and its arrays as the binary part.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use super::body::Body;
@@ -81,7 +82,7 @@ fn bytes(scene: &Scene, arrays: Arrays, stop: &Stop) -> Result<(Vec<u8>, Layout)
         Document::new(&checked, &SceneFacts::default(), &images, &Textures::Embedded, (arrays, None), stop)?;
     let mut bytes = Vec::new();
     let head = document.head()?;
-    let length: usize = head.iter().map(Vec::len).sum();
+    let length: usize = head.iter().map(|piece| piece.len()).sum();
     bytes.reserve_exact(length + document.body.length() as usize);
     document.body.write(head, &mut bytes, stop).map_err(Error::internal)?;
     stop.check()?;
@@ -220,22 +221,18 @@ impl<'a> Document<'a> {
     }
 
     /// Returns everything of a `.glb` file except the body, in pieces: both headers and the description between them.
-    fn head(&self) -> Result<Vec<Vec<u8>>> {
+    fn head(&self) -> Result<Vec<Cow<'static, [u8]>>> {
         let mut pieces = self.description.text()?;
-        let written: usize = pieces.iter().map(Vec::len).sum();
+        let written: usize = pieces.iter().map(|piece| piece.len()).sum();
         let length = written.next_multiple_of(4);
-        pieces.push(vec![b' '; length - written]);
+        pieces.push(Cow::Owned(vec![b' '; length - written]));
         let body = self.body.length();
         let tail = if body > 0 { 8 + body } else { 0 };
         let total = body::within_limit(20 + length as u64 + tail)?;
-        let mut head = b"glTF".to_vec();
-        for number in [2, total, length as u32] {
-            head.extend(number.to_le_bytes());
-        }
-        head.extend(b"JSON");
-        pieces.insert(0, head);
+        let numbers = [2, total, length as u32].map(u32::to_le_bytes);
+        pieces.insert(0, Cow::Owned([*b"glTF", numbers[0], numbers[1], numbers[2], *b"JSON"].concat()));
         if body > 0 {
-            pieces.push([(body as u32).to_le_bytes(), *b"BIN\0"].concat());
+            pieces.push(Cow::Owned([(body as u32).to_le_bytes(), *b"BIN\0"].concat()));
         }
         Ok(pieces)
     }
@@ -250,7 +247,7 @@ fn scene_extras(features: &[&str], scene: &Scene) -> Option<Box<RawValue>> {
     }
     if let Some(upright) = scene.upright {
         let up = y_up(&DAffine3::from_translation(upright.up())).translation;
-        extras.insert("up".into(), up.to_array().to_vec().into());
+        extras.insert("up".into(), up.to_array().as_slice().into());
     }
     let text = serde_json::Value::Object(extras).to_string();
     RawValue::from_string(text).ok().filter(|text| text.get() != "{}")

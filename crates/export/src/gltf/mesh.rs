@@ -350,13 +350,11 @@ impl<'a> PartView<'a> {
         } else {
             (ArrayKind::Long, ComponentType::U32)
         };
-        let block = match (&self.welded, &self.corners) {
-            (_, Some((corners, part))) if short => {
-                BodyArray::ShortFaces(Arc::clone(corners), *part, triangles)
-            }
-            (_, Some((corners, part))) => BodyArray::LongFaces(Arc::clone(corners), *part, triangles),
-            (Some(welded), _) if short => BodyArray::ShortCorners(Arc::clone(welded), first),
-            (Some(welded), _) => BodyArray::LongCorners(Arc::clone(welded)),
+        let block = match (self.welded.clone(), self.corners.clone()) {
+            (_, Some((corners, part))) if short => BodyArray::ShortFaces(corners, part, triangles),
+            (_, Some((corners, part))) => BodyArray::LongFaces(corners, part, triangles),
+            (Some(welded), _) if short => BodyArray::ShortCorners(welded, first),
+            (Some(welded), _) => BodyArray::LongCorners(welded),
             (None, _) if short => BodyArray::Short(self.part, triangles, first),
             (None, _) => BodyArray::Long(self.part, triangles),
         };

@@ -6,6 +6,8 @@
 //!
 //! Specification: Cesium GS, "3D Metadata Specification" and the three extensions of glTF, 2023.
 
+use std::borrow::Cow;
+
 use crate::layers::{ColumnKind, column_kinds};
 use burgeon_scene::{Instance, Scene};
 use burgeon_spatial::Attribute;
@@ -125,8 +127,7 @@ impl Metadata {
             let (mut described, mut values) = (Map::new(), Map::new());
             let mut known = FxHashSet::default();
             let id = identifier("id", &mut known);
-            let ids: Vec<Option<String>> =
-                table.records.iter().map(|record| Some(record.id.clone())).collect();
+            let ids: Vec<Option<&str>> = table.records.iter().map(|record| Some(&*record.id)).collect();
             values.insert(id.clone(), strings(&ids, "", body));
             described.insert(id, json!({ "type": "STRING", "required": true, "semantic": "ID" }));
             for (column, kind) in column_kinds(table).into_iter().enumerate() {
@@ -136,10 +137,10 @@ impl Metadata {
                 described.insert(name.clone(), description);
                 values.insert(name, value);
             }
-            classes.insert(class.clone(), json!({ "name": table.name, "properties": described }));
             tables.push(json!({
                 "name": table.name, "class": class, "count": table.records.len(), "properties": values,
             }));
+            classes.insert(class, json!({ "name": table.name, "properties": described }));
         }
         json!({ STRUCTURAL: { "schema": { "id": "burgeon", "classes": classes }, "propertyTables": tables } })
     }
@@ -176,12 +177,14 @@ fn identifier(name: &str, taken: &mut FxHashSet<String>) -> String {
     let plain: String = name.chars().map(letter).collect();
     let first = plain.starts_with(|letter: char| letter.is_ascii_alphabetic() || letter == '_');
     let plain = if first { plain } else { format!("_{plain}") };
-    let mut free = plain.clone();
+    let mut free = Cow::Borrowed(&*plain);
     let mut count = 1;
-    while !taken.insert(free.clone()) {
+    while taken.contains(&*free) {
         count += 1;
-        free = format!("{plain}_{count}");
+        free = Cow::Owned(format!("{plain}_{count}"));
     }
+    let free = free.into_owned();
+    taken.insert(free.clone());
     free
 }
 
@@ -241,11 +244,11 @@ fn property(table: &RecordTable, column: usize, kind: ColumnKind, body: &mut Bod
 }
 
 /// Writes strings one after another, and the offset of each. Returns the locations.
-fn strings(texts: &[Option<String>], missing: &str, body: &mut Body<'_>) -> Json {
+fn strings(texts: &[Option<impl AsRef<str>>], missing: &str, body: &mut Body<'_>) -> Json {
     let (mut bytes, mut offsets) = (Vec::new(), Vec::new());
     for text in texts {
         offsets.push(bytes.len() as u64);
-        bytes.extend_from_slice(text.as_deref().unwrap_or(missing).as_bytes());
+        bytes.extend_from_slice(text.as_ref().map_or(missing, AsRef::as_ref).as_bytes());
     }
     offsets.push(bytes.len() as u64);
     // A view must have at least one byte.

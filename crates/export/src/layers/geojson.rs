@@ -110,8 +110,11 @@ impl DegreeWriter<'_> {
         let lines = |lines: &[Vec<DVec3>]| lines.iter().map(|line| self.points(line, false)).collect();
         let (kind, coordinates): (_, Result<Json>) = match geometry {
             Geometry::Point(point) => {
-                let place = self.points(point.as_slice(), false)?;
-                ("Point", Ok(place.get(0).cloned().unwrap_or_else(|| json!([]))))
+                let place = match self.points(point.as_slice(), false)? {
+                    Json::Array(mut places) if !places.is_empty() => places.swap_remove(0),
+                    _ => json!([]),
+                };
+                ("Point", Ok(place))
             }
             Geometry::Line(points) => ("LineString", self.points(points, false)),
             Geometry::Polygon(rings) => ("Polygon", self.rings(rings)),

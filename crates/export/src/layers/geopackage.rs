@@ -1,5 +1,7 @@
 //! Writer of GeoPackages: SQLite databases of layers according to OGC 12-128r18, with R-trees.
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 use rusqlite::types::Value as Cell;
 use rusqlite::{Connection, params, params_from_iter};
@@ -189,7 +191,7 @@ impl PackageWriter<'_> {
         let plain: String =
             name.chars().map(|letter| if letter.is_control() { '_' } else { letter }).collect();
         let plain = if means || plain.is_empty() { format!("layer_{plain}") } else { plain };
-        let name = unique_name(&plain, &self.names);
+        let name = unique_name(&plain, &self.names).into_owned();
         self.names.push(name.clone());
         name
     }
@@ -216,12 +218,13 @@ fn cell(value: Option<&Attribute>, kind: ColumnKind) -> Cell {
 }
 
 /// Returns the names of the columns after the geometry column: the id, then the attributes.
-fn column_names(table: &RecordTable) -> Vec<String> {
-    let mut names = vec!["fid".to_owned(), GEOMETRY.to_owned(), "id".to_owned()];
+fn column_names(table: &RecordTable) -> Vec<Cow<'static, str>> {
+    let mut names = vec![Cow::Borrowed("fid"), Cow::Borrowed(GEOMETRY), Cow::Borrowed("id")];
     for column in &table.columns {
         let plain: String =
             column.chars().map(|letter| if letter.is_control() { '_' } else { letter }).collect();
-        names.push(unique_name(if plain.is_empty() { "_" } else { &plain }, &names));
+        let name = unique_name(if plain.is_empty() { "_" } else { &plain }, &names).into_owned();
+        names.push(Cow::Owned(name));
     }
     names.split_off(2)
 }
@@ -243,13 +246,14 @@ fn kind_name(table: &RecordTable) -> &'static str {
 }
 
 /// Returns `name`, with a number appended if it is in `taken`; database names are case-insensitive.
-fn unique_name(name: &str, taken: &[String]) -> String {
-    let is_taken = |name: &str| taken.iter().any(|known| known.to_lowercase() == name.to_lowercase());
-    let mut free = name.to_owned();
+fn unique_name<'a>(name: &'a str, taken: &[impl AsRef<str>]) -> Cow<'a, str> {
+    let is_taken =
+        |name: &str| taken.iter().any(|known| known.as_ref().to_lowercase() == name.to_lowercase());
+    let mut free = Cow::Borrowed(name);
     let mut count = 1;
     while is_taken(&free) {
         count += 1;
-        free = format!("{name}_{count}");
+        free = Cow::Owned(format!("{name}_{count}"));
     }
     free
 }

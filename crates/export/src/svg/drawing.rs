@@ -140,10 +140,10 @@ fn document(
         let [edge, thin] = [0.32, 0.7].map(|brightness| palette.tone(sheet.ink, brightness));
         // Shapes that are narrower than a line, such as markings on a street, are drawn as lines in their own colour.
         let drawn = [
-            (&sheet.seams, color.clone(), 2.0),
-            (&sheet.hairs, color, 0.4),
-            (&sheet.thin, thin, 0.7),
-            (&sheet.lines, edge, 0.8),
+            (sheet.seams, &color, 2.0),
+            (sheet.hairs, &color, 0.4),
+            (sheet.thin, &thin, 0.7),
+            (sheet.lines, &edge, 0.8),
         ];
         for (ends, color, pens) in drawn {
             if !ends.is_empty() {

@@ -26,8 +26,8 @@ pub(super) fn filled_outline(faces: &VisibleFaces, indices: &[u32]) -> String {
 }
 
 /// Returns lines between these end points, as path data.
-pub(super) fn lines(ends: &[[PaperPoint; 2]]) -> String {
-    path(&chain(ends.to_vec()))
+pub(super) fn lines(ends: Vec<[PaperPoint; 2]>) -> String {
+    path(&chain(ends))
 }
 
 /// Joins `sides` end to start into chains as long as possible; a ring ends where it begins.
@@ -179,6 +179,6 @@ mod tests {
 
     #[test]
     fn an_open_line_has_its_ends() {
-        assert_eq!(lines(&[[[0, 0], [1000, 0]], [[1000, 0], [1000, -2000]]]), "M0 0l1 0 0 2");
+        assert_eq!(lines(vec![[[0, 0], [1000, 0]], [[1000, 0], [1000, -2000]]]), "M0 0l1 0 0 2");
     }
 }

@@ -30,9 +30,12 @@ impl Field {
     /// API.
     #[must_use]
     pub fn renamed_from(mut self, former: impl Into<SharedText>, since: impl Into<SharedText>) -> Self {
-        let (name, since, instead) = (former.into(), since.into(), self.name.clone());
-        self.former.push(Deprecation { name, since, instead });
+        self.add_former(former.into(), since.into());
         self
+    }
+
+    fn add_former(&mut self, name: SharedText, since: SharedText) {
+        self.former.push(Deprecation { name, since, instead: self.name.clone() });
     }
 
     /// Returns true if `name` is the name of the field or one of its former names.
@@ -105,7 +108,7 @@ impl Kind {
     ) -> Self {
         let former = former.into();
         if let Some(at) = self.fields.iter().position(|field| field.name == name) {
-            self.fields[at] = self.fields[at].clone().renamed_from(former, since);
+            self.fields[at].add_former(former, since.into());
         } else if let Some(method) = self.method(name).cloned() {
             let instead = format!("{}:{name}", self.name);
             let doc = format!("Former name of `{instead}`.").into();

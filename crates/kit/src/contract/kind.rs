@@ -134,6 +134,15 @@ impl Field {
     }
 }
 
+/// Returns the Luau name of the type called `name`: `StreetLamp` for `street_lamp`.
+pub fn luau_name(name: &str) -> String {
+    let capital = |word: &str| {
+        let mut letters = word.chars();
+        letters.next().map(|first| first.to_ascii_uppercase()).into_iter().chain(letters).collect::<String>()
+    };
+    name.split(['_', '-', '.']).map(capital).collect()
+}
+
 /// Function that calls a read method.
 pub type ReadCall = Arc<dyn Fn(&dyn Object, &[Value]) -> Result<Value> + Send + Sync>;
 /// Function that calls a write method.
@@ -316,16 +325,7 @@ impl Kind {
 
     /// Returns the Luau name of the type: `Extruder` for `extruder`, `StreetLamp` for `street_lamp`.
     pub fn luau(&self) -> String {
-        let capital = |word: &str| {
-            let mut letters = word.chars();
-            letters
-                .next()
-                .map(|first| first.to_ascii_uppercase())
-                .into_iter()
-                .chain(letters)
-                .collect::<String>()
-        };
-        self.name.split(['_', '-', '.']).map(capital).collect()
+        luau_name(&self.name)
     }
 
     /// Returns true if `name` is the name of the type or of one of its base types.

@@ -31,7 +31,9 @@ pub use control_points::{ControlPoints, HasControlPoints, PointRows, PointSpace}
 pub use deprecation::Deprecation;
 pub use drawing::{Drawing, DrawingMark};
 pub use environment::Environment;
-pub use kind::{Call, Construct, Field, Kind, KindDeclaration, Make, Method, ReadCall, Write, WriteNumbers};
+pub use kind::{
+    Call, Construct, Field, Kind, KindDeclaration, Make, Method, ReadCall, Write, WriteNumbers, luau_name,
+};
 pub use loading::{LoadRequest, LoadServices, LoadedObject, Loader, Resources};
 pub use model::Model;
 pub use object::Object;

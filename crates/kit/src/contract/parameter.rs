@@ -1,6 +1,7 @@
 //! Types of fields, arguments and results of methods, and their conversion from and to script values.
 
 use std::any::Any;
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -30,7 +31,7 @@ impl Expectation {
     /// Sets `found` as the wrong part of the value, unless it is already set.
     #[must_use]
     pub fn found(self, found: &Value) -> Self {
-        Self { found: self.found.or_else(|| Some(shown(found))), ..self }
+        Self { found: self.found.or_else(|| Some(shown(found).into_owned())), ..self }
     }
 
     /// Sets the text that describes the found value.
@@ -50,29 +51,32 @@ impl Expectation {
     /// Returns the error that `name` of `owner` is not as expected. It counts as an error of the data, because the
     /// value can be valid for another feature.
     pub fn refuse(&self, owner: &str, name: &str, value: &Value) -> Error {
-        let found = self.found.clone().unwrap_or_else(|| shown(value));
+        let found = self.found.as_deref().map_or_else(|| shown(value), Cow::Borrowed);
         Error::argument(format!("{owner}: {name} must be {}, not {found}", self.what)).of_data()
     }
 }
 
 /// Formats a value for a message.
-fn shown(value: &Value) -> String {
+fn shown(value: &Value) -> Cow<'static, str> {
     /// Maximum length of a shown value (bytes).
     const LONGEST: usize = 40;
-    match value {
-        Value::Number(number) if number.is_nan() => "NaN".to_owned(),
-        Value::Number(number) if number.is_infinite() => "infinity".to_owned(),
+    Cow::Owned(match value {
+        Value::Number(number) if number.is_nan() => return Cow::Borrowed("NaN"),
+        Value::Number(number) if number.is_infinite() => return Cow::Borrowed("infinity"),
         Value::Text(text) if text.len() > 2 * LONGEST => {
             format!("{:?}...", text.chars().take(LONGEST).collect::<String>())
         }
         Value::Number(_) | Value::Text(_) | Value::Boolean(_) => value.to_string(),
         Value::Table(table) if table.entries.len() <= 4 => {
             let text = value.to_string();
-            if text.len() <= LONGEST { text } else { value.describe().to_owned() }
+            if text.len() > LONGEST {
+                return Cow::Borrowed(value.describe());
+            }
+            text
         }
         Value::Object(object) => object.kind().with_article(),
-        other => other.describe().to_owned(),
-    }
+        other => return Cow::Borrowed(other.describe()),
+    })
 }
 
 /// A type of fields and arguments.

@@ -125,9 +125,9 @@ impl ScriptType {
 
     /// Creates the kind for the engine: the base type, extended by the script's `methods`. Fails if the base type has
     /// no constructor with fields, or if names or child objects are not allowed.
-    pub fn kind(self, name: &str, doc: &str, methods: Vec<Method>) -> Result<Arc<Kind>> {
-        let base = self.base.clone();
-        if let Some(base) = &base
+    pub fn kind(self, name: &str, doc: String, methods: Vec<Method>) -> Result<Arc<Kind>> {
+        let base = self.base.as_deref();
+        if let Some(base) = base
             && !matches!(base.construct, Construct::Fields(_))
         {
             return Err(Error::argument(format!(
@@ -136,7 +136,7 @@ impl ScriptType {
             )));
         }
         self.check_held(name)?;
-        if let (Some(base), false) = (&base, self.held.is_empty())
+        if let (Some(base), false) = (base, self.held.is_empty())
             && !base.has_capability::<dyn Draw>()
         {
             return Err(Error::argument(format!(
@@ -165,7 +165,7 @@ impl ScriptType {
                     *known = method
                 }
                 Some(known) => {
-                    let of = base.as_ref().map_or("every object", |base| &*base.name);
+                    let of = base.map_or("every object", |base| &*base.name);
                     return Err(Error::argument(format!("{of} already has a method `{}`", known.name))
                         .help(format!("rename the method of {name}")));
                 }
@@ -183,7 +183,6 @@ impl ScriptType {
             return Err(Error::argument(format!("{name} has a method and a child object named `{held}`"))
                 .help("rename one of them"));
         }
-        let doc = doc.to_owned();
         let of = Arc::new(self);
         Ok(Arc::new_cyclic(|kind: &Weak<Kind>| {
             let (kind, made) = (Weak::clone(kind), Arc::clone(&of));
@@ -192,10 +191,10 @@ impl ScriptType {
                 made.make(kind, table)
             };
             let own = Kind::new(name.to_owned(), doc).made_of(fields, make).methods(all);
-            let mut within = base.iter().chain(of.held.iter().map(|(_, object)| object.kind()));
+            let mut within = of.base.iter().chain(of.held.iter().map(|(_, object)| object.kind()));
             let warns = within.any(|kind| kind.has_capability::<dyn Warn>());
-            let own = match base {
-                None => Kind { script: Some(of), ..own.begins_empty().draws::<ScriptObject>() },
+            let own = match &of.base {
+                None => own.begins_empty().draws::<ScriptObject>(),
                 Some(base) => Kind {
                     first: base.first.clone(),
                     begins_empty: base.begins_empty,
@@ -203,10 +202,10 @@ impl ScriptType {
                     capabilities: base.capabilities.clone(),
                     gather: base.gather,
                     prefetch: base.prefetch,
-                    script: Some(of),
                     ..own
                 },
             };
+            let own = Kind { script: Some(of), ..own };
             let own =
                 own.can(capability!(ScriptObject: LevelOfDetail)).can(capability!(ScriptObject: Report));
             if warns { own.can(capability!(ScriptObject: Warn)) } else { own }

@@ -159,13 +159,13 @@ impl ScriptField {
     }
 
     /// Returns a description of the allowed values, if `value` is not allowed.
-    fn expected(&self, value: &Value) -> Option<String> {
+    fn expected(&self, value: &Value) -> Option<Cow<'static, str>> {
         let fits = match value {
             Value::Number(number) => number.is_finite(),
             _ => true,
         };
         if !fits || (self.sort != ValueSort::Any && ValueSort::of(value) != self.sort) {
-            return Some(self.sort.article().to_owned());
+            return Some(Cow::Borrowed(self.sort.article()));
         }
         match value {
             Value::Number(number) => {
@@ -173,15 +173,15 @@ impl ScriptField {
                     self.min.is_some_and(|min| *number < min) || self.max.is_some_and(|max| *number > max);
                 let (min, max) = (self.min.map(Value::Number), self.max.map(Value::Number));
                 outside.then(|| match (min, max) {
-                    (Some(min), Some(max)) => format!("from {min} to {max}"),
-                    (Some(min), None) => format!("{min} or more"),
-                    (_, Some(max)) => format!("{max} or less"),
-                    (None, None) => String::new(),
+                    (Some(min), Some(max)) => Cow::Owned(format!("from {min} to {max}")),
+                    (Some(min), None) => Cow::Owned(format!("{min} or more")),
+                    (_, Some(max)) => Cow::Owned(format!("{max} or less")),
+                    (None, None) => Cow::Borrowed(""),
                 })
             }
             Value::Text(text) if !self.choices.is_empty() && !self.choices.contains(text) => {
                 let choices: Vec<String> = self.choices.iter().map(|choice| format!("{choice:?}")).collect();
-                Some(format!("one of {}", choices.join(", ")))
+                Some(Cow::Owned(format!("one of {}", choices.join(", "))))
             }
             _ => None,
         }

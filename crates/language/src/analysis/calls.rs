@@ -20,27 +20,27 @@ use super::inference::Inference;
 use super::syntax::{is_function_option, string_of, text_of};
 use super::walk::FunctionRole;
 use crate::Literal;
-use burgeon_base::error::{Error, SourcePlace};
+use burgeon_base::error::Error;
 use burgeon_kit::{Kind, Registry};
 
 /// Walk that checks the calls of a script.
-pub(super) struct CallCheck<'a> {
+pub(super) struct CallCheck<'a, 'f> {
     file: &'a str,
     pub(super) registry: &'a Registry,
     /// Variables in scope.
-    pub(super) scope: Vec<(String, Inference)>,
+    pub(super) scope: Vec<(String, Inference<'a>)>,
     /// Names of variables that are assigned after their declaration.
     assigned: BTreeSet<String>,
     /// Package of the file; `None` for the script.
     pub(super) package: Option<&'a str>,
     /// Functions that the file adds to types: the type's name, if known, and the function's name.
-    pub(super) added: BTreeSet<(Option<String>, String)>,
+    pub(super) added: BTreeSet<(Option<&'a str>, String)>,
     /// Role of the current function.
     pub(super) role: FunctionRole,
     /// Current rule, as errors name it.
     rule: Option<String>,
     /// Function that infers the value that another file returns, from the name in `require`.
-    pub(super) required: Option<&'a dyn Fn(&str) -> Inference>,
+    pub(super) required: Option<&'f dyn Fn(&str) -> Inference<'a>>,
     pub(super) problems: Vec<Error>,
 }
 
@@ -66,7 +66,7 @@ fn collect_assigned(ast: &Ast, names: &mut BTreeSet<String>) {
     AssignmentNames(names).visit_ast(ast);
 }
 
-impl ScopeWalk for CallCheck<'_> {
+impl ScopeWalk for CallCheck<'_, '_> {
     fn in_scope(&self) -> usize {
         self.scope.len()
     }
@@ -93,12 +93,12 @@ impl ScopeWalk for CallCheck<'_> {
     }
 }
 
-impl<'a> CallCheck<'a> {
+impl<'a, 'f> CallCheck<'a, 'f> {
     pub(super) fn new(
         file: &'a str,
         ast: &Ast,
         registry: &'a Registry,
-        required: Option<&'a dyn Fn(&str) -> Inference>,
+        required: Option<&'f dyn Fn(&str) -> Inference<'a>>,
     ) -> Self {
         let mut assigned = BTreeSet::new();
         collect_assigned(ast, &mut assigned);
@@ -119,13 +119,13 @@ impl<'a> CallCheck<'a> {
     }
 
     /// Walks the whole file. Returns the inference for its return value.
-    pub(super) fn file(&mut self, ast: &Ast) -> Inference {
+    pub(super) fn file(&mut self, ast: &Ast) -> Inference<'a> {
         for statement in ast.nodes().stmts() {
             self.statement(statement);
         }
         match ast.nodes().last_stmt() {
             Some(LastStmt::Return(last)) => {
-                let found: Vec<Inference> =
+                let found: Vec<Inference<'a>> =
                     last.returns().iter().map(|value| self.expression(value)).collect();
                 found.into_iter().next().unwrap_or(Inference::Unknown)
             }
@@ -136,7 +136,7 @@ impl<'a> CallCheck<'a> {
     fn statement(&mut self, statement: &Stmt) {
         match statement {
             Stmt::Assignment(assignment) => {
-                let found: Vec<Inference> =
+                let found: Vec<Inference<'a>> =
                     assignment.expressions().iter().map(|value| self.expression(value)).collect();
                 let found = found.into_iter().chain(std::iter::repeat(Inference::Unknown));
                 for (variable, value) in assignment.variables().iter().zip(found) {
@@ -176,7 +176,7 @@ impl<'a> CallCheck<'a> {
     }
 
     fn local(&mut self, names: &Punctuated<TokenReference>, values: &Punctuated<Expression>) {
-        let found: Vec<Inference> = values.iter().map(|value| self.expression(value)).collect();
+        let found: Vec<Inference<'a>> = values.iter().map(|value| self.expression(value)).collect();
         let mut found = found.into_iter();
         for name in names {
             let known = found.next().unwrap_or(Inference::Unknown);
@@ -184,22 +184,19 @@ impl<'a> CallCheck<'a> {
         }
     }
 
-    fn declare(&mut self, name: &TokenReference, known: Inference) {
+    fn declare(&mut self, name: &TokenReference, known: Inference<'a>) {
         let name = text_of(name);
         let known = if self.assigned.contains(&name) { Inference::Unknown } else { known };
         self.scope.push((name, known));
     }
 
     /// Walks a function; `this` is the type of its first parameter, if known.
-    pub(super) fn function(&mut self, body: &FunctionBody, this: Option<&Arc<Kind>>) {
+    pub(super) fn function(&mut self, body: &FunctionBody, this: Option<&'a Kind>) {
         let outside = self.scope.len();
         for (index, parameter) in body.parameters().iter().enumerate() {
             if let Parameter::Name(name) = parameter {
                 let this = this.filter(|_| index == 0);
-                self.declare(
-                    name,
-                    this.map_or(Inference::Unknown, |kind| Inference::Object(Arc::clone(kind))),
-                );
+                self.declare(name, this.map_or(Inference::Unknown, Inference::Object));
             }
         }
         self.block(body.block());
@@ -211,8 +208,8 @@ impl<'a> CallCheck<'a> {
         &mut self,
         call: &str,
         args: &[&Expression],
-        kind: Option<&Arc<Kind>>,
-    ) -> Vec<Inference> {
+        kind: Option<&'a Kind>,
+    ) -> Vec<Inference<'a>> {
         let outer = (self.role, self.rule.take());
         if let Some(Expression::String(text)) = args.first() {
             self.rule = string_of(text).map(|pattern| match call {
@@ -258,7 +255,7 @@ impl<'a> CallCheck<'a> {
         }
     }
 
-    pub(super) fn expression(&mut self, expression: &Expression) -> Inference {
+    pub(super) fn expression(&mut self, expression: &Expression) -> Inference<'a> {
         match expression {
             Expression::BinaryOperator { lhs, rhs, .. } => {
                 self.expression(lhs);
@@ -307,7 +304,7 @@ impl<'a> CallCheck<'a> {
         }
     }
 
-    fn table(&mut self, table: &TableConstructor) -> Inference {
+    fn table(&mut self, table: &TableConstructor) -> Inference<'a> {
         let mut named = BTreeMap::new();
         for field in table.fields() {
             match field {
@@ -328,7 +325,7 @@ impl<'a> CallCheck<'a> {
         if named.is_empty() { Inference::Value(Literal::Table) } else { Inference::Table(Arc::new(named)) }
     }
 
-    fn variable(&mut self, variable: &Var) -> Inference {
+    fn variable(&mut self, variable: &Var) -> Inference<'a> {
         match variable {
             Var::Name(name) => self.infer_name(name),
             Var::Expression(inner) => {
@@ -339,12 +336,12 @@ impl<'a> CallCheck<'a> {
         }
     }
 
-    fn call(&mut self, call: &FunctionCall) -> Inference {
+    fn call(&mut self, call: &FunctionCall) -> Inference<'a> {
         let suffixes: Vec<&Suffix> = call.suffixes().collect();
         self.suffixes(call.prefix(), &suffixes)
     }
 
-    pub(super) fn suffixes(&mut self, prefix: &Prefix, suffixes: &[&Suffix]) -> Inference {
+    pub(super) fn suffixes(&mut self, prefix: &Prefix, suffixes: &[&Suffix]) -> Inference<'a> {
         let mut known = match prefix {
             Prefix::Name(name) => self.infer_name(name),
             Prefix::Expression(expression) => self.expression(expression),
@@ -376,7 +373,7 @@ impl<'a> CallCheck<'a> {
         known
     }
 
-    pub(super) fn arguments(&mut self, args: &FunctionArgs) -> Vec<Inference> {
+    pub(super) fn arguments(&mut self, args: &FunctionArgs) -> Vec<Inference<'a>> {
         match args {
             FunctionArgs::Parentheses { arguments, .. } => {
                 arguments.iter().map(|argument| self.expression(argument)).collect()
@@ -398,7 +395,7 @@ impl<'a> CallCheck<'a> {
     }
 
     pub(super) fn problem_at(&mut self, line: usize, error: Error) {
-        let error = error.at(Some(SourcePlace { file: self.file.to_owned(), line }));
+        let error = error.at_line(self.file, line);
         let error = match &self.rule {
             Some(rule) if self.role != FunctionRole::Script => error.rule(rule),
             _ => error,

@@ -8,7 +8,7 @@ use full_moon::ast::{
 use full_moon::node::Node;
 use full_moon::tokenizer::TokenReference;
 
-use super::syntax::{end_of, instead_of, string_of, text_of};
+use super::syntax::{end_of, instead_of, is_open, string_of, text_of};
 use super::walk::{FunctionRole, Walk};
 use burgeon_base::error::Error;
 use burgeon_rewriting::Signature;
@@ -80,8 +80,8 @@ impl Walk<'_> {
             _ => false,
         };
         if let (false, Some(begin), Some(end)) = (certain, first.start_position(), end_of(last.value())) {
-            self.edit(begin.bytes(), begin.bytes(), "__each(".to_owned());
-            self.edit(end.bytes(), end.bytes(), ")".to_owned());
+            self.edit(begin.bytes(), begin.bytes(), "__each(");
+            self.edit(end.bytes(), end.bytes(), ")");
         }
     }
 
@@ -168,9 +168,9 @@ impl Walk<'_> {
         self.library_field(call.prefix(), suffixes.first().copied());
         if let (Prefix::Name(name), [Suffix::Call(Call::AnonymousCall(arguments))]) =
             (call.prefix(), suffixes.as_slice())
-            && let Some(signature) = self.module(name)
+            && let Some(error) = self.module(name).and_then(|signature| arity_error(signature, arguments))
         {
-            self.check_arity(name, &signature, arguments);
+            self.problem(name, error);
         }
         self.prefix(call.prefix(), suffixes.first().copied());
         for suffix in suffixes {
@@ -192,25 +192,17 @@ impl Walk<'_> {
             }
         }
     }
+}
 
-    pub(super) fn check_arity(
-        &mut self,
-        name: &TokenReference,
-        signature: &Signature,
-        arguments: &FunctionArgs,
-    ) {
-        let FunctionArgs::Parentheses { arguments, .. } = arguments else { return };
-        let open = matches!(arguments.iter().last(), Some(Expression::FunctionCall(_)))
-            || matches!(arguments.iter().last(), Some(Expression::Symbol(symbol)) if text_of(symbol) == "...");
-        let given = arguments.len();
-        let few = given < signature.required && !open;
-        let many = given > signature.arity() + usize::from(open);
-        if few || many {
-            self.problem(
-                name,
-                Error::argument(format!("{} has {}, not {given}", signature.name, signature.count()))
-                    .help(format!("it was declared as {}", signature.usage())),
-            );
-        }
-    }
+/// Returns an error if a module is called with too few or too many arguments.
+fn arity_error(signature: &Signature, arguments: &FunctionArgs) -> Option<Error> {
+    let FunctionArgs::Parentheses { arguments, .. } = arguments else { return None };
+    let open = arguments.iter().last().is_some_and(is_open);
+    let given = arguments.len();
+    let few = given < signature.required && !open;
+    let many = given > signature.arity() + usize::from(open);
+    (few || many).then(|| {
+        Error::argument(format!("{} has {}, not {given}", signature.name, signature.count()))
+            .help(format!("it was declared as {}", signature.usage()))
+    })
 }

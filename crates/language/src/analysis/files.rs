@@ -2,7 +2,6 @@
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use full_moon::ast::Ast;
 use rustc_hash::FxHashMap;
@@ -14,23 +13,23 @@ use burgeon_base::error::Error;
 use burgeon_kit::Registry;
 
 /// A file whose calls are checked.
-pub struct CheckedFile {
+pub struct CheckedFile<'a> {
     /// File name for messages.
-    pub name: String,
+    pub name: &'a str,
     /// Package of the file; `None` for the script.
-    pub package: Option<String>,
+    pub package: Option<&'a str>,
     /// Syntax tree.
-    pub ast: Arc<Ast>,
+    pub ast: &'a Ast,
     /// Names of the required files, by the text in `require`.
-    pub required: BTreeMap<String, String>,
+    pub required: &'a BTreeMap<String, String>,
 }
 
 /// Files of a script with the state of their checks.
 struct FileChecks<'a> {
-    files: &'a [CheckedFile],
+    files: &'a [CheckedFile<'a>],
     registry: &'a Registry,
     /// Inferred return values by file name; `Inference::Unknown` while a file is being checked.
-    exports: RefCell<FxHashMap<&'a str, Inference>>,
+    exports: RefCell<FxHashMap<&'a str, Inference<'a>>>,
     problems: RefCell<Vec<Error>>,
 }
 
@@ -51,22 +50,22 @@ pub fn call_problems(files: &[CheckedFile], registry: &Registry) -> Vec<Error> {
 
 impl<'a> FileChecks<'a> {
     /// Returns the inference for the return value of `file`.
-    fn exports(&self, file: &'a CheckedFile) -> Inference {
-        if let Some(known) = self.exports.borrow().get(&*file.name) {
+    fn exports(&self, file: &'a CheckedFile) -> Inference<'a> {
+        if let Some(known) = self.exports.borrow().get(file.name) {
             return known.clone();
         }
-        self.exports.borrow_mut().insert(&file.name, Inference::Unknown);
+        self.exports.borrow_mut().insert(file.name, Inference::Unknown);
         let required = |name: &str| self.infer_required(file, name);
-        let mut check = CallCheck::new(&file.name, &file.ast, self.registry, Some(&required));
-        check.package = file.package.as_deref();
-        let found = check.file(&file.ast);
+        let mut check = CallCheck::new(file.name, file.ast, self.registry, Some(&required));
+        check.package = file.package;
+        let found = check.file(file.ast);
         self.problems.borrow_mut().append(&mut check.problems);
-        self.exports.borrow_mut().insert(&file.name, found.clone());
+        self.exports.borrow_mut().insert(file.name, found.clone());
         found
     }
 
     /// Returns the inference for `require(name)` in the file `asker`.
-    fn infer_required(&self, asker: &CheckedFile, name: &str) -> Inference {
+    fn infer_required(&self, asker: &CheckedFile, name: &str) -> Inference<'a> {
         let meant = asker.required.get(name).and_then(|meant| self.files.iter().find(|it| it.name == *meant));
         meant.map_or(Inference::Unknown, |file| self.exports(file))
     }

@@ -1,49 +1,50 @@
 //! Checks the arguments of calls against the declarations: their number, their types, and the fields of tables.
 
+use std::borrow::Cow;
+
 use full_moon::ast::{Expression, Field, FunctionArgs, TableConstructor};
 use full_moon::tokenizer::TokenReference;
 
 use super::calls::{CallCheck, expressions_of, line_of};
 use super::inference::Inference;
 use super::syntax::{is_open, text_of};
-use crate::{CallForm, Literal, LuauType, NameKind, names};
+use crate::{ArgumentList, Literal, LuauType, NameKind, names};
 use burgeon_base::error::Error;
 use burgeon_kit::{Argument, Field as KindField, Kind};
 
-impl CallCheck<'_> {
+impl CallCheck<'_, '_> {
     /// Checks a call against its signatures. `is_luau` marks functions of Luau, which accept a string of digits as a
     /// number.
     pub(super) fn hold_call(
         &mut self,
         word: &TokenReference,
         name: &str,
-        forms: &[CallForm],
+        forms: &[ArgumentList],
         args: &FunctionArgs,
         given: &[Inference],
         is_luau: bool,
     ) {
         let written = expressions_of(args);
         let open = written.last().is_some_and(|last| is_open(last));
-        let fits = |form: &&CallForm| {
+        let fits = |form: &ArgumentList| {
             let few = given.len() < form.least() && !open;
             let many = form.most().is_some_and(|most| given.len() > most + usize::from(open));
             !few && !many
         };
-        let of_count: Vec<&CallForm> = forms.iter().filter(fits).collect();
+        let of_count: Vec<ArgumentList> = forms.iter().copied().filter(fits).collect();
         let Some(form) = of_count.first() else {
             let Some(form) = forms.first() else { return };
             let message = format!("{name} takes {}, not {}", count(forms), given.len());
-            let usage = format!("write {name}{}", CallForm { returns: String::new(), ..form.clone() });
-            return self.problem(word, Error::argument(message).help(usage));
+            return self.problem(word, Error::argument(message).help(format!("write {name}{form}")));
         };
         // With several signatures, a value is only wrong if none of them accepts it.
-        let wrong = |form: &CallForm, index: usize, value: &Inference| {
-            let argument = form.argument(index)?;
-            (!self.may_be(value, argument, is_luau)).then(|| argument.clone())
+        let is_wrong = |argument: &Argument, value: &Inference| {
+            !self.may_be(value, &argument.luau, &argument.fields, is_luau)
         };
         for (index, value) in given.iter().enumerate() {
-            if of_count.iter().all(|form| wrong(form, index, value).is_some())
-                && let Some(argument) = wrong(form, index, value)
+            let of_form = |form: &ArgumentList| form.argument(index).is_some_and(|it| is_wrong(it, value));
+            if of_count.iter().all(of_form)
+                && let Some(argument) = form.argument(index)
             {
                 let message = wrong_value(name, &argument.name, &argument.luau, value);
                 let line = written.get(index).map_or_else(|| line_of(word), |written| line_of(*written));
@@ -51,18 +52,14 @@ impl CallCheck<'_> {
             }
         }
         if of_count.len() == 1 {
-            let mut owned: Vec<(Argument, &TableConstructor)> = Vec::new();
-            if let FunctionArgs::TableConstructor(table) = args {
-                owned.extend(form.argument(0).map(|argument| (argument.clone(), &**table)));
+            if let (FunctionArgs::TableConstructor(table), Some(argument)) = (args, form.argument(0)) {
+                self.hold_table(name, table, &argument.luau, &argument.fields);
             }
             for (index, written) in written.iter().enumerate() {
                 if let (Expression::TableConstructor(table), Some(argument)) = (written, form.argument(index))
                 {
-                    owned.push((argument.clone(), table));
+                    self.hold_table(name, table, &argument.luau, &argument.fields);
                 }
-            }
-            for (argument, table) in owned {
-                self.hold_table(name, table, &argument.luau, &argument.fields);
             }
         }
     }
@@ -137,12 +134,7 @@ impl CallCheck<'_> {
             self.problems = outer;
             // An omitted field can also be written as nil.
             let is_nil = matches!(&found, Inference::Value(Literal::Nil));
-            let argument = Argument {
-                luau: known.luau.clone(),
-                fields: known.fields.clone(),
-                ..Argument::new(name.clone())
-            };
-            if !is_nil && !self.may_be(&found, &argument, false) {
+            if !is_nil && !self.may_be(&found, &known.luau, &known.fields, false) {
                 self.problem(key, Error::argument(wrong_value(owner, &name, &known.luau, &found)));
             } else if let Expression::TableConstructor(inner) = &**value {
                 self.hold_table(&format!("{owner}.{name}"), inner, &known.luau, &known.fields);
@@ -150,17 +142,21 @@ impl CallCheck<'_> {
         }
     }
 
-    /// Returns true if a value can be passed for an argument or a field.
-    fn may_be(&self, known: &Inference, argument: &Argument, is_luau: bool) -> bool {
+    /// Returns true if a value can be passed for an argument or a field of type `luau`, a table if it has `fields`.
+    fn may_be(&self, known: &Inference, luau: &str, fields: &[KindField], is_luau: bool) -> bool {
+        let object;
         let literal = match known {
             Inference::Value(Literal::Text(text)) if is_luau && text.trim().parse::<f64>().is_ok() => {
                 return true;
             }
-            Inference::Value(literal) => literal.clone(),
-            Inference::Object(kind) => Literal::Object(kind.luau()),
-            Inference::Table(_) => Literal::Table,
-            Inference::Given(name) if name.luau == "Vector" => Literal::Object("Vector".to_owned()),
-            Inference::Name(name) if !name.forms.is_empty() => Literal::Function,
+            Inference::Value(literal) => literal,
+            Inference::Object(kind) => {
+                object = Literal::Object(Cow::Owned(kind.luau()));
+                &object
+            }
+            Inference::Table(_) => &Literal::Table,
+            Inference::Given(name) if name.luau == "Vector" => &Literal::Object(Cow::Borrowed("Vector")),
+            Inference::Name(name) if !name.forms.is_empty() => &Literal::Function,
             Inference::Unknown
             | Inference::Constructor(_)
             | Inference::System(_)
@@ -169,22 +165,22 @@ impl CallCheck<'_> {
                 return true;
             }
         };
-        let name = argument.luau.trim_end_matches('?');
+        let name = luau.trim_end_matches('?');
         // The type is a named table of fields.
-        if !argument.fields.is_empty() && LuauType::read(name) == LuauType::Named(name.to_owned()) {
-            return literal == Literal::Table || literal == Literal::Nil && argument.luau.ends_with('?');
+        if !fields.is_empty() && LuauType::read(name) == LuauType::Named(Cow::Borrowed(name)) {
+            return *literal == Literal::Table || *literal == Literal::Nil && luau.ends_with('?');
         }
-        LuauType::read(&argument.luau).accepts(&literal, &|name| self.stands_for(name))
+        LuauType::read(luau).accepts(literal, &|name| self.stands_for(name))
     }
 
     /// Returns the type that a name in a type refers to.
-    fn stands_for(&self, name: &str) -> Option<LuauType> {
-        let itself = || LuauType::Named(name.to_owned());
+    fn stands_for<'n>(&self, name: &'n str) -> Option<LuauType<'n>> {
+        let itself = || LuauType::Named(Cow::Borrowed(name));
         let family: Vec<LuauType> = self
             .registry
             .kinds()
             .filter(|kind| kind.family.as_deref() == Some(name))
-            .map(|kind| LuauType::Named(kind.luau()))
+            .map(|kind| LuauType::Named(Cow::Owned(kind.luau())))
             .collect();
         if !family.is_empty() {
             return Some(LuauType::Union(family));
@@ -205,16 +201,17 @@ impl CallCheck<'_> {
 }
 
 /// Formats the number of arguments that a function accepts.
-fn count(forms: &[CallForm]) -> String {
-    let least = forms.iter().map(CallForm::least).min().unwrap_or(0);
-    let most: Option<usize> = forms.iter().map(CallForm::most).try_fold(0, |most, of| Some(most.max(of?)));
+fn count(forms: &[ArgumentList]) -> Cow<'static, str> {
+    let least = forms.iter().map(ArgumentList::least).min().unwrap_or(0);
+    let most: Option<usize> =
+        forms.iter().map(ArgumentList::most).try_fold(0, |most, of| Some(most.max(of?)));
     let arguments = |count: usize| if count == 1 { "argument" } else { "arguments" };
-    match most {
-        Some(0) => "no arguments".to_owned(),
+    Cow::Owned(match most {
+        Some(0) => return Cow::Borrowed("no arguments"),
         Some(most) if most == least => format!("{most} {}", arguments(most)),
         Some(most) => format!("{least} to {most} arguments"),
         None => format!("at least {least} {}", arguments(least)),
-    }
+    })
 }
 
 /// Formats the message for a wrong value.
@@ -228,15 +225,22 @@ fn wrong_value(owner: &str, name: &str, luau: &str, found: &Inference) -> String
         luau if luau.starts_with('{') => "a table",
         luau => luau,
     };
+    let described;
     let found = match found {
-        Inference::Value(Literal::Text(text)) => format!("{text:?}"),
-        Inference::Value(Literal::Nil) => "nothing".to_owned(),
-        Inference::Value(Literal::Boolean) => "a boolean".to_owned(),
-        Inference::Value(Literal::Number) => "a number".to_owned(),
-        Inference::Value(Literal::Table) | Inference::Table(_) => "a table".to_owned(),
-        Inference::Value(Literal::Function) | Inference::Name(_) => "a function".to_owned(),
-        Inference::Object(kind) => format!("an object of type {}", kind.name),
-        _ => "a vector".to_owned(),
+        Inference::Value(Literal::Text(text)) => {
+            described = format!("{text:?}");
+            &described
+        }
+        Inference::Value(Literal::Nil) => "nothing",
+        Inference::Value(Literal::Boolean) => "a boolean",
+        Inference::Value(Literal::Number) => "a number",
+        Inference::Value(Literal::Table) | Inference::Table(_) => "a table",
+        Inference::Value(Literal::Function) | Inference::Name(_) => "a function",
+        Inference::Object(kind) => {
+            described = format!("an object of type {}", kind.name);
+            &described
+        }
+        _ => "a vector",
     };
     format!("{owner}: {name} must be {wanted}, not {found}")
 }
@@ -267,7 +271,9 @@ mod tests {
         let registry = burgeon_objects::registry();
         let ast = full_moon::parse("").expect("nothing");
         let check = CallCheck::new("s.lua", &ast, &registry, None);
-        let fits = |literal: &Literal| check.may_be(&Inference::Value(literal.clone()), argument, false);
+        let fits = |literal: &Literal| {
+            check.may_be(&Inference::Value(literal.clone()), &argument.luau, &argument.fields, false)
+        };
         let find =
             |wanted: bool| VALUES.iter().find(|(_, literal)| fits(literal) == wanted).map(|(text, _)| *text);
         (find(true), find(false))

@@ -39,7 +39,7 @@ fn contains_word(text: &str, words: &[&str]) -> bool {
 /// let script = "local a = require('walls') -- require('old')\nlocal b = require \"roofs\"\n";
 /// assert_eq!(calls_with_text(script, "require").collect::<Vec<_>>(), ["walls", "roofs"]);
 /// ```
-pub fn calls_with_text<'a>(text: &'a str, function: &'a str) -> impl Iterator<Item = String> + use<'a> {
+pub fn calls_with_text<'a>(text: &'a str, function: &'a str) -> impl Iterator<Item = &'a str> + use<'a> {
     let mut tokens = Tokens { rest: text };
     let mut called = 0;
     std::iter::from_fn(move || {
@@ -50,7 +50,7 @@ pub fn calls_with_text<'a>(text: &'a str, function: &'a str) -> impl Iterator<It
                 (1, ScriptToken::Other('(')) => 2,
                 (1 | 2, ScriptToken::Text(text)) => {
                     called = 0;
-                    return Some(text.to_owned());
+                    return Some(text);
                 }
                 _ => 0,
             };

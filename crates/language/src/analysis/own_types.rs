@@ -19,18 +19,16 @@ use burgeon_kit::{Kind, ScriptType, Value};
 
 /// Returns the names of the functions that a declaration adds to a type.
 fn added_names(table: &TableConstructor) -> Vec<String> {
-    let named = |table: &TableConstructor| -> Vec<(String, Expression)> {
-        let fields = table.fields().iter().filter_map(|field| match field {
-            Field::NameKey { key, value, .. } => Some((text_of(key), (**value).clone())),
+    let mut names = Vec::new();
+    for part in table.fields() {
+        let Field::NameKey { value, .. } = part else { continue };
+        let Expression::TableConstructor(functions) = &**value else { continue };
+        names.extend(functions.fields().iter().filter_map(|function| match function {
+            Field::NameKey { key, .. } => Some(text_of(key)),
             _ => None,
-        });
-        fields.collect()
-    };
-    let parts = named(table).into_iter().filter_map(|(_, value)| match value {
-        Expression::TableConstructor(functions) => Some(named(&functions)),
-        _ => None,
-    });
-    parts.flatten().map(|(name, _)| name).collect()
+        }));
+    }
+    names
 }
 
 impl Walk<'_> {
@@ -51,7 +49,7 @@ impl Walk<'_> {
         let (Some(begin), Some(end)) = (value.start_position(), end_of(value)) else { return };
         let direct = suffixes.len() == 1;
         self.edit(begin.bytes(), begin.bytes(), format!("__kept(self, \"{}\", {direct}, ", text_of(name)));
-        self.edit(end.bytes(), end.bytes(), ")".to_owned());
+        self.edit(end.bytes(), end.bytes(), ")");
     }
 }
 
@@ -67,10 +65,10 @@ fn is_plain(value: &Expression) -> bool {
     }
 }
 
-impl CallCheck<'_> {
+impl<'a> CallCheck<'a, '_> {
     /// Walks the functions of `object(name, { ... })` or `extend(constructor, { ... })`, whose objects have that type.
     /// Returns the constructor, if the type is known.
-    pub(super) fn declares(&mut self, word: &str, args: &FunctionArgs) -> Inference {
+    pub(super) fn declares(&mut self, word: &str, args: &FunctionArgs) -> Inference<'a> {
         let written = expressions_of(args);
         let first = written.first().map(|first| (self.expression(first), *first));
         let kind = match first {
@@ -80,18 +78,18 @@ impl CallCheck<'_> {
                     Some(package) => format!("{package}.{name}"),
                     None => name,
                 });
-                full.and_then(|name| self.registry.get(&name).cloned())
+                full.and_then(|name| self.registry.get(&name)).map(Arc::as_ref)
             }
             Some((Inference::Constructor(kind), _)) if word == "extend" => Some(kind),
             _ => None,
         };
         match written.get(1) {
             Some(Expression::TableConstructor(table)) => {
-                self.declaration(table, kind.as_ref());
+                self.declaration(table, kind);
                 if word == "extend" {
                     // If the script stops before this call, the registry does not contain these functions.
-                    let of = kind.as_ref().map(|kind| kind.name.to_string());
-                    self.added.extend(added_names(table).into_iter().map(|name| (of.clone(), name)));
+                    let of = kind.map(|kind| &*kind.name);
+                    self.added.extend(added_names(table).into_iter().map(|name| (of, name)));
                 }
             }
             Some(other) => drop(self.expression(other)),
@@ -100,7 +98,7 @@ impl CallCheck<'_> {
         kind.filter(|_| word == "object").map_or(Inference::Unknown, Inference::Constructor)
     }
 
-    fn declaration(&mut self, table: &TableConstructor, kind: Option<&Arc<Kind>>) {
+    fn declaration(&mut self, table: &TableConstructor, kind: Option<&'a Kind>) {
         for field in table.fields() {
             let Field::NameKey { key, value, .. } = field else { continue };
             let role = match text_of(key).as_str() {
@@ -127,7 +125,7 @@ impl CallCheck<'_> {
     }
 
     /// Walks a function of a type: alone, or in a table with its doc.
-    fn declared_function(&mut self, value: &Expression, kind: Option<&Arc<Kind>>) {
+    fn declared_function(&mut self, value: &Expression, kind: Option<&'a Kind>) {
         match value {
             Expression::Function(function) => self.function(function.body(), kind),
             Expression::TableConstructor(described) => {
@@ -144,11 +142,10 @@ impl CallCheck<'_> {
     }
 
     /// Infers the value of a field or state variable of an object.
-    pub(super) fn member(&mut self, kind: &Arc<Kind>, name: &TokenReference) -> Inference {
+    pub(super) fn member(&mut self, kind: &'a Kind, name: &TokenReference) -> Inference<'a> {
         let (text, Some(script)) = (text_of(name), ScriptType::of(kind)) else { return Inference::Unknown };
         if let Some((_, held)) = script.held.iter().find(|(held, _)| **held == *text) {
-            let kind = self.registry.get(&held.kind().name).unwrap_or(held.kind());
-            return Inference::Object(Arc::clone(kind));
+            return Inference::Object(self.registry.get(&held.kind().name).unwrap_or(held.kind()));
         }
         if let Some(field) = script.fields.iter().find(|field| *field.name == *text) {
             return match (&field.describe().luau[..], &field.default) {
@@ -177,8 +174,8 @@ impl CallCheck<'_> {
         let above = |other: &Kind| {
             ScriptType::of(other).is_some_and(|script| script.above.iter().any(|above| **above == *kind.name))
         };
-        let added_to = |of: &Option<String>| of.as_ref().is_none_or(|of| *of == kind.name);
-        self.added.iter().any(|(of, added)| added == name && added_to(of))
+        let added_to = |of: Option<&str>| of.is_none_or(|of| *of == kind.name);
+        self.added.iter().any(|(of, added)| added == name && added_to(*of))
             || matches!(self.role, FunctionRole::Reading | FunctionRole::Changing)
                 && self.registry.kinds().any(|other| above(other) && other.method(name).is_some())
     }
@@ -222,7 +219,7 @@ impl CallCheck<'_> {
     }
 
     /// Records a value that is stored in a table in a variable, such as `M.lantern = object(...)`.
-    pub(super) fn remember(&mut self, variable: &Var, value: Inference) {
+    pub(super) fn remember(&mut self, variable: &Var, value: Inference<'a>) {
         let Var::Expression(inner) = variable else { return };
         let suffixes: Vec<&Suffix> = inner.suffixes().collect();
         let (Prefix::Name(owner), [Suffix::Index(Index::Dot { name, .. })]) = (inner.prefix(), &suffixes[..])
@@ -242,9 +239,9 @@ impl CallCheck<'_> {
     }
 
     /// Infers the result of `self:as(lantern)`, the object as another type.
-    pub(super) fn seen_as(&self, given: &[Inference]) -> Inference {
+    pub(super) fn seen_as(&self, given: &[Inference<'a>]) -> Inference<'a> {
         match given.first() {
-            Some(Inference::Constructor(kind)) => Inference::Object(Arc::clone(kind)),
+            Some(Inference::Constructor(kind)) => Inference::Object(kind),
             _ => Inference::Unknown,
         }
     }

@@ -5,7 +5,9 @@ use full_moon::ast::punctuated::Punctuated;
 use full_moon::ast::{Call, Expression, Field, FunctionArgs, FunctionBody, Parameter, Prefix, Suffix, Var};
 use full_moon::node::Node;
 use full_moon::tokenizer::{StringLiteralQuoteType, TokenReference, TokenType};
-use std::collections::BTreeSet;
+use std::borrow::Cow;
+use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::Ordering;
 
 use super::blocks::ScopeWalk;
@@ -24,7 +26,7 @@ const SHAPE: usize = Successors::SHAPE as usize;
 /// Result of a return as far as the text shows it: symbols and brackets, and the locations of the parameters.
 #[derive(Default)]
 struct ReturnPattern {
-    items: Vec<String>,
+    items: Vec<Cow<'static, str>>,
     arguments: Vec<ReturnArgument>,
 }
 
@@ -98,7 +100,7 @@ impl Walk<'_> {
     /// Walks a function of a rule, and marks it in the text as prepared.
     fn prepare_function(&mut self, value: &Expression, body: &FunctionBody, role: FunctionRole) {
         if let (Some(begin), Some(end)) = (value.start_position(), end_of(value)) {
-            self.edit(begin.bytes(), begin.bytes(), "__prepared(".to_owned());
+            self.edit(begin.bytes(), begin.bytes(), "__prepared(");
             let shapes = self.function(body, role, false);
             let shapes: String = shapes.iter().map(|shape| format!(", {shape}")).collect();
             self.edit(end.bytes(), end.bytes(), format!("{shapes})"));
@@ -111,7 +113,7 @@ impl Walk<'_> {
         body: &FunctionBody,
         role: FunctionRole,
         is_method: bool,
-    ) -> Vec<String> {
+    ) -> Vec<Cow<'static, str>> {
         self.walk_function(body, role, is_method).shapes
     }
 
@@ -132,7 +134,7 @@ impl Walk<'_> {
             let id = self.facts.variables.len();
             self.facts.variables.push(Fact::default());
             self.variables.push(Variable {
-                name: "self".to_owned(),
+                name: Cow::Borrowed("self"),
                 id,
                 function: self.functions.len() - 1,
                 module: None,
@@ -163,7 +165,7 @@ impl Walk<'_> {
         self.block(body.block());
         self.variables.truncate(outside);
         let nothing = Function { pure: false, asks: true, asks_more: true, ..Function::new(role, None) };
-        let function = self.functions.pop().unwrap_or(nothing);
+        let mut function = self.functions.pop().unwrap_or(nothing);
         if let Some(begin) = body.parameters_parentheses().tokens().0.start_position() {
             *self.pure.entry(begin.line()).or_insert(true) &= function.pure;
             *self.blind.entry(begin.line()).or_insert(true) &= !function.asks;
@@ -181,26 +183,22 @@ impl Walk<'_> {
                 };
                 let words: Vec<String> = body.tokens().map(|token| word(token.token().to_string())).collect();
                 let text = Some(words.join(" "));
-                let known = self.guards.entry(begin.line()).or_insert_with(|| text.clone());
-                if *known != text {
-                    *known = None;
-                }
+                keep_common(&mut self.guards, begin.line(), text, |one, other| one == other);
             }
             if let Some(line) = function.filled {
                 self.filled.insert(begin.line(), line);
             }
             let form = (!is_method).then(|| signature(body));
-            let known = self.signatures.entry(begin.line()).or_insert_with(|| form.clone());
-            if known.as_ref().map(ToString::to_string) != form.as_ref().map(ToString::to_string) {
-                *known = None;
-            }
+            keep_common(&mut self.signatures, begin.line(), form, |one, other| {
+                one.to_string() == other.to_string()
+            });
             self.begins.push(begin.bytes());
             match self.functions.last_mut() {
                 Some(outer) if role == FunctionRole::Other && outer.role != FunctionRole::Script => {
-                    outer.queries.extend(function.queries.iter().cloned());
+                    outer.queries.append(&mut function.queries);
                 }
                 _ if role == FunctionRole::Other => {}
-                _ => self.queries.entry(begin.line()).or_default().extend(function.queries.iter().cloned()),
+                _ => self.queries.entry(begin.line()).or_default().append(&mut function.queries),
             }
         }
         function
@@ -227,11 +225,11 @@ impl Walk<'_> {
         } else if values.len() == 1
             && matches!(values.iter().next(), Some(Expression::Symbol(symbol)) if text_of(symbol) == "nil")
         {
-            self.edit(begin.bytes(), end.bytes(), " __erased".to_owned());
+            self.edit(begin.bytes(), end.bytes(), " __erased");
         } else {
-            self.edit(begin.bytes(), begin.bytes(), " __list(".to_owned());
-            self.edit(end.bytes(), end.bytes(), ")".to_owned());
-            let list = "__list".to_owned();
+            self.edit(begin.bytes(), begin.bytes(), " __list(");
+            self.edit(end.bytes(), end.bytes(), ")");
+            let list = Cow::Borrowed("__list");
             if let Some(function) = self.functions.last_mut().filter(|it| !it.shapes.contains(&list)) {
                 function.shapes.push(list);
             }
@@ -246,15 +244,16 @@ impl Walk<'_> {
         for argument in &shape.arguments {
             match argument {
                 ReturnArgument::At(from, to, open) => {
-                    self.edit(*from, *from, if *open { ", (" } else { ", " }.to_owned());
-                    self.edit(*to, *to, if *open { ")" } else { "" }.to_owned());
+                    self.edit(*from, *from, if *open { ", (" } else { ", " });
+                    self.edit(*to, *to, if *open { ")" } else { "" });
                 }
-                ReturnArgument::Missing(at) => self.edit(*at, *at, ", __omitted".to_owned()),
+                ReturnArgument::Missing(at) => self.edit(*at, *at, ", __omitted"),
             }
         }
-        self.edit(end, end, ")".to_owned());
+        self.edit(end, end, ")");
         if let Some(function) = self.functions.last_mut() {
-            function.shapes.push(format!("{{ {}, {} }}", SHAPE + number, shape.items.join(", ")));
+            let items = format!("{{ {}, {} }}", SHAPE + number, shape.items.join(", "));
+            function.shapes.push(Cow::Owned(items));
         }
     }
 
@@ -282,7 +281,7 @@ impl Walk<'_> {
                 if inside || given < signature.required || given > signature.arity() {
                     return false;
                 }
-                shape.items.push(text_of(name));
+                shape.items.push(Cow::Owned(text_of(name)));
                 for (index, argument) in arguments.iter().enumerate() {
                     let open = is_open(argument) && index + 1 == given;
                     if open && given < signature.arity() {
@@ -299,12 +298,12 @@ impl Walk<'_> {
                 true
             }
             Expression::TableConstructor(table) => {
-                shape.items.push("0".to_owned());
+                shape.items.push(Cow::Borrowed("0"));
                 let known = table.fields().iter().all(|field| match field {
                     Field::NoKey(value) => self.shape(value, shape),
                     _ => false,
                 });
-                shape.items.push("1".to_owned());
+                shape.items.push(Cow::Borrowed("1"));
                 known
             }
             _ => false,
@@ -316,7 +315,7 @@ impl Walk<'_> {
         for pair in values.pairs() {
             self.blank_item(pair.value());
             if let Some(comma) = pair.punctuation() {
-                self.blank(comma, "");
+                self.blank(comma);
             }
         }
     }
@@ -325,55 +324,75 @@ impl Walk<'_> {
         match value {
             Expression::FunctionCall(call) => {
                 if let Prefix::Name(name) = call.prefix() {
-                    self.blank(name, "");
+                    self.blank(name);
                 }
                 for suffix in call.suffixes() {
                     if let Suffix::Call(Call::AnonymousCall(arguments)) = suffix
                         && let FunctionArgs::Parentheses { parentheses, arguments } = &**arguments
                     {
                         let (open, close) = parentheses.tokens();
-                        self.blank(open, "");
+                        self.blank(open);
                         for comma in arguments.pairs().filter_map(|pair| pair.punctuation()) {
-                            self.blank(comma, "");
+                            self.blank(comma);
                         }
-                        self.blank(close, "");
+                        self.blank(close);
                     }
                 }
             }
             Expression::TableConstructor(table) => {
                 let (open, close) = table.braces().tokens();
-                self.blank(open, "");
+                self.blank(open);
                 for pair in table.fields().pairs() {
                     if let Field::NoKey(value) = pair.value() {
                         self.blank_item(value);
                     }
                     if let Some(separator) = pair.punctuation() {
-                        self.blank(separator, "");
+                        self.blank(separator);
                     }
                 }
-                self.blank(close, "");
+                self.blank(close);
             }
             _ => {}
         }
     }
 
-    /// Replaces a token by `text`.
-    fn blank(&mut self, token: &TokenReference, text: &str) {
+    /// Removes a token.
+    fn blank(&mut self, token: &TokenReference) {
         if let (Some(begin), Some(end)) = (token.start_position(), token.end_position()) {
-            self.edit(begin.bytes(), end.bytes(), text.to_owned());
+            self.edit(begin.bytes(), end.bytes(), "");
         }
     }
 }
+
+/// Stores the value of a line; `None` if the values of the line differ.
+fn keep_common<T>(
+    values: &mut BTreeMap<usize, Option<T>>,
+    line: usize,
+    value: Option<T>,
+    is_same: impl Fn(&T, &T) -> bool,
+) {
+    match values.entry(line) {
+        Entry::Vacant(entry) => {
+            entry.insert(value);
+        }
+        Entry::Occupied(mut entry) => {
+            if !matches!((entry.get(), &value), (Some(known), Some(value)) if is_same(known, value)) {
+                entry.insert(None);
+            }
+        }
+    }
+}
+
 /// Returns the declared signature of a function.
 fn signature(body: &FunctionBody) -> CallForm {
     let luau = |of: Option<&TypeSpecifier>| {
         let text = of.map(|of| of.type_info().to_string());
-        text.map_or_else(|| "any".to_owned(), |text| text.split_whitespace().collect::<Vec<_>>().join(" "))
+        text.as_deref().unwrap_or("any").split_whitespace().collect::<Vec<_>>().join(" ")
     };
     let arguments = body.parameters().iter().zip(body.type_specifiers()).map(|(parameter, of)| {
         let name = match parameter {
-            Parameter::Name(name) => text_of(name),
-            _ => "...".to_owned(),
+            Parameter::Name(name) => Cow::Owned(text_of(name)),
+            _ => Cow::Borrowed("..."),
         };
         Argument::typed(name, luau(of))
     });

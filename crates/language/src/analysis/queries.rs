@@ -41,7 +41,7 @@ impl Walk<'_> {
         {
             let open = names.into_iter().filter(|name| !given.iter().any(|given| given == name));
             let open = open.map(str::to_owned).collect();
-            function.queries.push(QueryCall { line: begin.line(), open, sql: sql.clone() });
+            function.queries.push(QueryCall { line: begin.line(), open, sql });
         }
     }
 }

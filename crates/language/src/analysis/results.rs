@@ -1,7 +1,5 @@
 //! Results of names, fields, calls and methods in a script.
 
-use std::sync::Arc;
-
 use full_moon::ast::{Expression, FunctionArgs};
 use full_moon::tokenizer::TokenReference;
 
@@ -9,12 +7,12 @@ use super::calls::{CallCheck, expressions_of, field_named};
 use super::inference::Inference;
 use super::syntax::text_of;
 use super::walk::FunctionRole;
-use crate::{CallForm, Literal, Name, NameKind, SYSTEM, names};
+use crate::{ArgumentList, Literal, Name, NameKind, SYSTEM, names};
 use burgeon_base::error::Error;
 use burgeon_kit::Construct;
 
-impl CallCheck<'_> {
-    pub(super) fn infer_name(&self, name: &TokenReference) -> Inference {
+impl<'a> CallCheck<'a, '_> {
+    pub(super) fn infer_name(&self, name: &TokenReference) -> Inference<'a> {
         let text = text_of(name);
         if let Some((_, known)) = self.scope.iter().rev().find(|(name, _)| *name == text) {
             return known.clone();
@@ -22,7 +20,7 @@ impl CallCheck<'_> {
         if let Some(kind) = self.registry.get(&text) {
             return match kind.construct {
                 Construct::Given => Inference::Unknown,
-                _ => Inference::Constructor(Arc::clone(kind)),
+                _ => Inference::Constructor(kind),
             };
         }
         let given = |name: &&Name| name.name == text && name.sort != NameKind::Given;
@@ -30,7 +28,7 @@ impl CallCheck<'_> {
     }
 
     /// Infers the value of a field.
-    pub(super) fn field(&mut self, of: &Inference, name: &TokenReference) -> Inference {
+    pub(super) fn field(&mut self, of: &Inference<'a>, name: &TokenReference) -> Inference<'a> {
         let text = text_of(name);
         match of {
             Inference::Name(library) if !library.functions.is_empty() => {
@@ -41,13 +39,13 @@ impl CallCheck<'_> {
                 field.map_or(Inference::Unknown, |field| self.of_type(&field.luau))
             }
             Inference::Table(entries) => entries.get(&text).cloned().unwrap_or(Inference::Unknown),
-            Inference::Object(kind) => self.member(&Arc::clone(kind), name),
+            Inference::Object(kind) => self.member(kind, name),
             _ => Inference::Unknown,
         }
     }
 
     /// Infers a value from its Luau type.
-    fn of_type(&self, luau: &str) -> Inference {
+    fn of_type(&self, luau: &str) -> Inference<'a> {
         match luau {
             "number" => Inference::Value(Literal::Number),
             "boolean" => Inference::Value(Literal::Boolean),
@@ -59,7 +57,7 @@ impl CallCheck<'_> {
                     return Inference::Given(name);
                 }
                 let kind = self.registry.kinds().find(|kind| kind.luau() == luau);
-                kind.map_or(Inference::Unknown, |kind| Inference::Object(Arc::clone(kind)))
+                kind.map_or(Inference::Unknown, |kind| Inference::Object(kind))
             }
         }
     }
@@ -67,11 +65,11 @@ impl CallCheck<'_> {
     /// Checks a function call and infers its result; `path` is the function as written in the script.
     pub(super) fn infer_call(
         &mut self,
-        what: &Inference,
+        what: &Inference<'a>,
         word: Option<&TokenReference>,
         path: &str,
         args: &FunctionArgs,
-    ) -> Inference {
+    ) -> Inference<'a> {
         let Some(word) = word else {
             self.arguments(args);
             return Inference::Unknown;
@@ -80,7 +78,7 @@ impl CallCheck<'_> {
             Inference::Constructor(kind) => {
                 let given = self.arguments(args);
                 self.hold_constructor(kind, word, args, &given);
-                Inference::Object(Arc::clone(kind))
+                Inference::Object(kind)
             }
             Inference::Name(name) if matches!(&*name.name, "object" | "extend") => {
                 self.declares(&name.name, args)
@@ -97,7 +95,7 @@ impl CallCheck<'_> {
                 let is_module = matches!(name.sort, NameKind::Module { .. });
                 if !is_module {
                     let is_luau = matches!(name.sort, NameKind::Luau | NameKind::Function);
-                    self.hold_call(word, path, &name.forms, args, &given, is_luau);
+                    self.hold_call(word, path, &ArgumentList::of_all(&name.forms), args, &given, is_luau);
                 }
                 self.result(name, args)
             }
@@ -109,7 +107,7 @@ impl CallCheck<'_> {
     }
 
     /// Infers the result of a function of the language.
-    fn result(&mut self, name: &'static Name, args: &FunctionArgs) -> Inference {
+    fn result(&mut self, name: &'static Name, args: &FunctionArgs) -> Inference<'a> {
         let [form] = &name.forms[..] else { return Inference::Unknown };
         if form.returns == "System<T>" {
             let object = expressions_of(args).first().and_then(|first| match first {
@@ -128,7 +126,12 @@ impl CallCheck<'_> {
     }
 
     /// Checks a method call and infers its result.
-    pub(super) fn method(&mut self, of: &Inference, name: &TokenReference, args: &FunctionArgs) -> Inference {
+    pub(super) fn method(
+        &mut self,
+        of: &Inference<'a>,
+        name: &TokenReference,
+        args: &FunctionArgs,
+    ) -> Inference<'a> {
         let text = text_of(name);
         match of {
             Inference::Object(kind) => {
@@ -153,13 +156,14 @@ impl CallCheck<'_> {
                 if text == "as" {
                     return self.seen_as(&given);
                 }
-                let form = CallForm { arguments: method.arguments.clone(), returns: method.returns.clone() };
-                self.hold_call(name, &full, &[form], args, &given, false);
-                if method.returns.is_empty() { of.clone() } else { self.of_type(&method.returns) }
+                self.hold_call(name, &full, &[ArgumentList(&method.arguments)], args, &given, false);
+                match &*method.returns {
+                    "" => Inference::Object(kind),
+                    returns => self.of_type(returns),
+                }
             }
             Inference::System(kind) => {
-                let kind = kind.clone();
-                let given = self.rule(&text, &expressions_of(args), kind.as_ref());
+                let given = self.rule(&text, &expressions_of(args), *kind);
                 let Some(method) = SYSTEM.find(&text) else {
                     let known = SYSTEM.part_names();
                     let message = format!("unknown method `{text}` of a system");
@@ -167,9 +171,10 @@ impl CallCheck<'_> {
                     self.problem(name, error.help(format!("it has {}", known.join(", "))));
                     return Inference::Unknown;
                 };
-                self.hold_call(name, &format!("system:{text}"), &method.forms, args, &given, false);
+                let forms = ArgumentList::of_all(&method.forms);
+                self.hold_call(name, &format!("system:{text}"), &forms, args, &given, false);
                 match method.forms.first() {
-                    Some(form) if form.returns == "System<T>" => Inference::System(kind),
+                    Some(form) if form.returns == "System<T>" => Inference::System(*kind),
                     Some(form) => self.of_type(&form.returns),
                     None => Inference::Unknown,
                 }
@@ -178,7 +183,7 @@ impl CallCheck<'_> {
                 let given = self.arguments(args);
                 let Some(method) = known.find(&text) else { return Inference::Unknown };
                 let full = format!("{}:{text}", known.name);
-                self.hold_call(name, &full, &method.forms, args, &given, false);
+                self.hold_call(name, &full, &ArgumentList::of_all(&method.forms), args, &given, false);
                 method.forms.first().map_or(Inference::Unknown, |form| self.of_type(&form.returns))
             }
             _ => {

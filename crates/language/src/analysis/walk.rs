@@ -1,5 +1,6 @@
 //! Walks a script: variables and their scopes, names, and all other static checks.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use full_moon::ast::punctuated::Punctuated;
@@ -12,7 +13,7 @@ use super::globals::Globals;
 use super::pure::stream_argument;
 use super::syntax::{declared_module, end_of, first_position, instead_of, text_of};
 use crate::CallForm;
-use burgeon_base::error::{Error, SourcePlace};
+use burgeon_base::error::Error;
 use burgeon_rewriting::Signature;
 
 /// Facts that the first walk collects about variables, in the order of declaration.
@@ -21,7 +22,7 @@ pub(super) struct Facts {
     pub(super) variables: Vec<Fact>,
 }
 
-#[derive(Default, Clone)]
+#[derive(Default, Clone, Copy)]
 pub(super) struct Fact {
     pub(super) assigned: bool,
     pub(super) assigned_inside: bool,
@@ -51,7 +52,7 @@ pub(super) struct Function {
     /// Rule of the function, as errors name it.
     pub(super) rule: Option<String>,
     /// Shapes of the prepared returns, as Lua tables.
-    pub(super) shapes: Vec<String>,
+    pub(super) shapes: Vec<Cow<'static, str>>,
     /// Set as long as no side effect was found.
     pub(super) pure: bool,
     /// Set if the function reads its first parameter.
@@ -97,7 +98,7 @@ pub struct QueryCall {
 }
 
 pub(super) struct Variable {
-    pub(super) name: String,
+    pub(super) name: Cow<'static, str>,
     pub(super) id: usize,
     pub(super) function: usize,
     pub(super) module: Option<Signature>,
@@ -116,7 +117,7 @@ pub(super) struct Variable {
 pub(super) struct TextEdit {
     pub(super) begin: usize,
     pub(super) end: usize,
-    pub(super) text: String,
+    pub(super) text: Cow<'static, str>,
     pub(super) order: usize,
 }
 
@@ -308,7 +309,7 @@ impl<'a> Walk<'a> {
             self.problem(name, error.help("names that begin with two underscores are reserved"));
         }
         self.variables.push(Variable {
-            name: text,
+            name: Cow::Owned(text),
             id,
             function,
             module: None,
@@ -328,7 +329,7 @@ impl<'a> Walk<'a> {
     }
 
     pub(super) fn fact(&self, id: usize) -> Fact {
-        self.known.variables.get(id).cloned().unwrap_or_default()
+        self.known.variables.get(id).copied().unwrap_or_default()
     }
 
     pub(super) fn find(&self, name: &str) -> Option<&Variable> {
@@ -401,7 +402,8 @@ impl<'a> Walk<'a> {
         if owner < here
             && let Some(begin) = statement.start_position()
         {
-            let epoch = if owner == 0 { "0".to_owned() } else { format!("__epoch_{id}") };
+            let epoch = (owner > 0).then(|| format!("__epoch_{id}"));
+            let epoch = epoch.as_deref().unwrap_or("0");
             self.edit(begin.bytes(), begin.bytes(), format!("__guard(\"{name}\", {epoch}); "));
         }
     }
@@ -445,7 +447,7 @@ impl<'a> Walk<'a> {
         if let Some(instead) = instead_of(&name) {
             return self.problem(token, Error::not_found("name", &name, [], message).help(instead));
         }
-        let locals = self.variables.iter().rev().map(|variable| variable.name.as_str());
+        let locals = self.variables.iter().rev().map(|variable| &*variable.name);
         let known = locals.chain(self.globals.names.iter().map(String::as_str));
         let error = Error::not_found("name", &name, known, message);
         let error = match name.starts_with(|c: char| c.is_ascii_uppercase()) {
@@ -456,23 +458,23 @@ impl<'a> Walk<'a> {
     }
 
     /// Returns the signature of the module whose constructor is called `name`.
-    pub(super) fn module(&self, name: &TokenReference) -> Option<Signature> {
+    pub(super) fn module(&self, name: &TokenReference) -> Option<&Signature> {
         let text = text_of(name);
         match self.find(&text) {
             Some(variable) if self.fact(variable.id).assigned => None,
-            Some(variable) => variable.module.clone(),
-            None => self.globals.modules.get(&text).cloned(),
+            Some(variable) => variable.module.as_ref(),
+            None => self.globals.modules.get(&text),
         }
     }
 
-    pub(super) fn edit(&mut self, begin: usize, end: usize, text: String) {
+    pub(super) fn edit(&mut self, begin: usize, end: usize, text: impl Into<Cow<'static, str>>) {
         let order = self.edits.len();
-        self.edits.push(TextEdit { begin, end, text, order });
+        self.edits.push(TextEdit { begin, end, text: text.into(), order });
     }
 
     pub(super) fn problem(&mut self, token: &TokenReference, error: Error) {
         let line = token.start_position().map_or(1, |position| position.line());
-        let error = error.at(Some(SourcePlace { file: self.file.to_owned(), line }));
+        let error = error.at_line(self.file, line);
         let rule = self.functions.iter().rev().find_map(|function| function.rule.as_ref());
         self.problems.push(match rule {
             Some(rule) => error.rule(rule),

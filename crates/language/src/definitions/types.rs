@@ -1,5 +1,6 @@
 //! Luau types of arguments, options and results.
 
+use std::borrow::Cow;
 use std::fmt::Write as _;
 
 use burgeon_kit::{Argument, Construct, Field, Kind, is_keyword};
@@ -13,11 +14,7 @@ impl Writer {
     /// Returns the arguments of a type's constructor; `None` if scripts cannot construct the type.
     pub(super) fn constructor(&mut self, kind: &Kind) -> Option<String> {
         let options = format!("{}Options", self.class_name(kind));
-        if !kind.fields.is_empty() && !matches!(kind.construct, Construct::Given) {
-            let table = self.table(&kind.fields);
-            self.aliases.insert(options.clone(), table);
-        }
-        Some(match (&kind.construct, &kind.first) {
+        let arguments = match (&kind.construct, &kind.first) {
             (Construct::Given, _) => return None,
             (Construct::File(loader), _) => {
                 let file = if loader.several.is_empty() { "string" } else { "string | { string }" };
@@ -31,7 +28,12 @@ impl Writer {
             (Construct::Fields(_), Some(first)) => format!("{first}: any, options: {options}?"),
             (Construct::Fields(_), None) if kind.fields.is_empty() => String::new(),
             (Construct::Fields(_), None) => format!("options: {options}?"),
-        })
+        };
+        if !kind.fields.is_empty() {
+            let table = self.table(&kind.fields);
+            self.aliases.insert(options, Cow::Owned(table));
+        }
+        Some(arguments)
     }
 
     /// Returns a table type whose fields are all optional.
@@ -50,72 +52,75 @@ impl Writer {
     }
 
     pub(super) fn arguments(&mut self, arguments: &[Argument], of_object: bool) -> String {
-        let mut list: Vec<String> = if of_object { vec!["self".to_owned()] } else { Vec::new() };
+        let mut list: Vec<Cow<str>> = Vec::new();
+        list.extend(of_object.then_some(Cow::Borrowed("self")));
         for argument in arguments {
             let luau = self.argument_type(&argument.luau, &argument.fields);
             let left_out = may_be_left_out(&argument.luau) && !may_be_left_out(&luau);
             // Keywords of Luau cannot be names.
             let more = if is_keyword(&argument.name) { "_" } else { "" };
             let optional = if left_out { "?" } else { "" };
-            list.push(format!("{}{more}: {luau}{optional}", argument.name));
+            list.push(Cow::Owned(format!("{}{more}: {luau}{optional}", argument.name)));
         }
         list.join(", ")
     }
 
     /// Returns the Luau type of a value that a script receives.
-    pub(super) fn got(&mut self, luau: &str) -> String {
+    pub(super) fn got<'a>(&mut self, luau: &'a str) -> Cow<'a, str> {
         let found = LuauType::read(luau);
         if found == LuauType::Any {
-            return if luau.contains('<') { luau.to_owned() } else { "any".to_owned() };
+            return Cow::Borrowed(if luau.contains('<') { luau } else { "any" });
         }
-        self.type_text(&found, false)
+        self.type_text(found, false)
     }
 
     /// Returns the Luau type of a value that a script passes. `fields` are the fields of a table of named fields.
-    fn argument_type(&mut self, luau: &str, fields: &[Field]) -> String {
+    fn argument_type<'a>(&mut self, luau: &'a str, fields: &[Field]) -> Cow<'a, str> {
         let name = luau.trim_end_matches('?');
         if !fields.is_empty() && is_name(name) {
             if !self.aliases.contains_key(name) {
                 // The placeholder stops the recursion for types that contain themselves.
-                self.aliases.insert(name.to_owned(), String::new());
+                self.aliases.insert(name.to_owned(), Cow::Borrowed(""));
                 let table = self.table(fields);
-                self.aliases.insert(name.to_owned(), table);
+                if let Some(alias) = self.aliases.get_mut(name) {
+                    *alias = Cow::Owned(table);
+                }
             }
             // Luau rejects a table in a variable that omits a field of the type.
-            return "any".to_owned();
+            return Cow::Borrowed("any");
         }
         if !fields.is_empty() && matches!(name, "{ [string]: any }" | "{ ... }") {
             let mark = if luau.ends_with('?') { "?" } else { "" };
-            let (options, table) = (self.options.clone(), self.table(fields));
-            self.aliases.insert(options.clone(), table);
-            return options + mark;
+            let (table, options) = (self.table(fields), &self.options);
+            let luau = format!("{options}{mark}");
+            self.aliases.insert(options.clone(), Cow::Owned(table));
+            return Cow::Owned(luau);
         }
-        self.type_text(&LuauType::read(luau), true)
+        self.type_text(LuauType::read(luau), true)
     }
 
-    fn type_text(&mut self, of: &LuauType, taken: bool) -> String {
-        match of {
-            LuauType::Any => "any".to_owned(),
-            LuauType::Nil => "nil".to_owned(),
+    fn type_text<'a>(&mut self, of: LuauType<'a>, taken: bool) -> Cow<'a, str> {
+        Cow::Owned(match of {
+            LuauType::Any | LuauType::Map => return Cow::Borrowed("any"),
+            LuauType::Nil => return Cow::Borrowed("nil"),
             LuauType::Text(text) => format!("\"{text}\""),
-            LuauType::Function(text) => text.clone(),
-            LuauType::Named(name)
-                if matches!(&**name, "number" | "string" | "boolean" | "never" | "buffer") =>
-            {
-                name.clone()
-            }
+            LuauType::Function(text) => return Cow::Borrowed(text),
             LuauType::Named(name) => {
                 let like = format!("{name}Like");
-                if taken && self.aliases.contains_key(&like) {
-                    return like;
+                if matches!(&*name, "number" | "string" | "boolean" | "never" | "buffer") {
+                    return name;
                 }
-                self.unknown.insert(name.clone());
-                name.clone()
+                if taken && self.aliases.contains_key(&like) {
+                    return Cow::Owned(like);
+                }
+                self.unknown.insert(name.to_string());
+                return name;
             }
-            LuauType::Union(of) => {
-                let is_optional = of.contains(&LuauType::Nil);
-                let some = of.iter().filter(|of| **of != LuauType::Nil);
-                let some: Vec<String> = some.map(|of| self.type_text(of, taken)).collect();
+            LuauType::Union(mut of) => {
+                let all = of.len();
+                of.retain(|of| *of != LuauType::Nil);
+                let is_optional = of.len() < all;
+                let some: Vec<_> = of.into_iter().map(|of| self.type_text(of, taken)).collect();
                 match (&some[..], is_optional) {
                     ([one], true) if !one.contains("->") => format!("{one}?"),
                     (_, true) => format!("({})?", some.join(" | ")),
@@ -123,17 +128,16 @@ impl Writer {
                 }
             }
             // Luau gives a list of tables its own type and accepts it as no other type.
-            LuauType::List(item) if taken && !is_plain(item) => "any".to_owned(),
-            LuauType::List(item) => format!("{{ {} }}", self.type_text(item, taken)),
-            LuauType::Map => "any".to_owned(),
+            LuauType::List(item) if taken && !is_plain(&item) => return Cow::Borrowed("any"),
+            LuauType::List(item) => format!("{{ {} }}", self.type_text(*item, taken)),
             LuauType::Table(fields) => {
                 let read = if taken { "read " } else { "" };
                 let fields: Vec<String> = fields
-                    .iter()
+                    .into_iter()
                     .map(|(name, of)| format!("{read}{name}: {}", self.type_text(of, taken)))
                     .collect();
                 format!("{{ {} }}", fields.join(", "))
             }
-        }
+        })
     }
 }

@@ -1,9 +1,10 @@
 //! Declarations of types, functions and values.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
-use burgeon_kit::{Construct, Expand, Kind, Method, Registry, Show};
+use burgeon_kit::{Construct, Expand, Kind, Method, Registry, Show, luau_name};
 
 use crate::CallForm;
 use crate::names::{Name, Operator};
@@ -12,7 +13,7 @@ use crate::script_types::{members, plain_name};
 
 /// Returns the Luau type of the values that a name describes: `Vector` for vector.
 pub(super) fn type_name(name: &Name) -> String {
-    Kind::new(name.name.clone(), "").luau()
+    luau_name(&name.name)
 }
 
 /// Writer of declarations.
@@ -23,7 +24,7 @@ pub(super) struct Writer {
     /// Names of used types.
     pub(super) unknown: BTreeSet<String>,
     /// Named tables of fields, and types that are accepted instead of another type.
-    pub(super) aliases: BTreeMap<String, String>,
+    pub(super) aliases: BTreeMap<String, Cow<'static, str>>,
     pub(super) docs: BTreeMap<String, String>,
     /// Name of the next table of named fields.
     pub(super) options: String,
@@ -44,8 +45,8 @@ impl Writer {
         if !name.instead.is_empty() {
             // A list with items of a type that Luau cannot infer is a list of `any`.
             let instead = match &*name.instead {
-                "{ number }" => format!("{own} | {{ number }} | {{ any }}"),
-                _ => "any".to_owned(),
+                "{ number }" => Cow::Owned(format!("{own} | {{ number }} | {{ any }}")),
+                _ => Cow::Borrowed("any"),
             };
             self.aliases.insert(format!("{own}Like"), instead);
         }
@@ -159,7 +160,7 @@ impl Writer {
             let arguments = self.arguments(&method.arguments, true);
             // A method without a result returns the object itself, so that calls can be chained.
             let returns = if method.returns.is_empty() {
-                own.clone()
+                Cow::Borrowed(&*own)
             } else {
                 self.got(method.returns.trim_end_matches('?'))
             };
@@ -285,10 +286,10 @@ impl Writer {
             let arguments = self.arguments(&form.arguments, false);
             // The function returns a constructor of a type that a script declares.
             let returns = match &*form.returns {
-                "(fields: { ... }?) -> any" => "(fields: any?) -> ScriptObject".to_owned(),
+                "(fields: { ... }?) -> any" => Cow::Borrowed("(fields: any?) -> ScriptObject"),
                 returns => self.got(returns),
             };
-            let returns = if returns.contains("->") { format!("({returns})") } else { returns };
+            let returns = if returns.contains("->") { Cow::Owned(format!("({returns})")) } else { returns };
             let generic = if returns == "T" { "<T>" } else { "" };
             let _ = writeln!(out, "declare function {}{generic}({arguments}): {returns}\n", name.name);
         } else if name.forms.is_empty() {

@@ -52,7 +52,8 @@ impl FrameAxis {
             return Ok(count as u32);
         }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bounded before")]
-        let many = if count < 1e15 { grouped(count as usize) } else { "so many".to_owned() };
+        let many = (count < 1e15).then(|| grouped(count as usize));
+        let many = many.as_deref().unwrap_or("so many");
         let message = format!("{many} frames exceed the maximum of {}", grouped(most as usize));
         Err(Error::limit(Limit::Size, message)
             .help("use a larger step, FIRST:LAST:STEP, or raise the limit: --frame-limit N"))

@@ -83,9 +83,8 @@ impl Film {
     ///
     /// The name `steps` stands for the number of derivation steps, unless the script has a parameter of this name.
     /// Fails if there are too many frames, and if the script has no such parameter or rejects one of the values.
-    pub fn new(script: &Path, options: &RunOptions, axis: &FrameAxis, most: u32) -> Result<Self> {
+    pub fn new(script: &Path, mut options: RunOptions, axis: &FrameAxis, most: u32) -> Result<Self> {
         let frames = axis.count_within(most)?;
-        let mut options = options.clone();
         options.reports.print = None;
         let of_steps = match find_param(script, &options, axis.name()) {
             Ok(param) => {
@@ -120,7 +119,7 @@ impl Film {
         }
         let progress = FilmProgress { frames: AtomicUsize::new(frames as usize), ..FilmProgress::default() };
         Ok(Self {
-            stop: Arc::new(Stop::under(options.stop.clone())),
+            stop: Arc::new(Stop::under(options.stop.take())),
             progress: Arc::new(progress),
             script: script.to_path_buf(),
             options,
@@ -154,8 +153,8 @@ impl Film {
         let mut warnings: Vec<Warning> =
             found.warnings.iter().filter(|warning| !is_normal(warning)).cloned().collect();
         warnings.sort_by(|a, b| {
-            let key = |it: &Warning| (it.place().is_none(), it.place().cloned(), it.message().to_owned());
-            key(a).cmp(&key(b))
+            let places = (a.place().is_none(), a.place()).cmp(&(b.place().is_none(), b.place()));
+            places.then_with(|| a.message().cmp(b.message()))
         });
         warnings
     }
@@ -189,7 +188,7 @@ impl Film {
                 Ok(())
             })?;
         }
-        let picture = Picture { quality: Quality::Film, ..picture.clone() };
+        let picture = Picture { quality: Quality::Film, ..*picture };
         let frame = |number: usize| {
             let known = waiting.get(number).and_then(|scene| scene.lock().recover().take());
             let scene = match known {
@@ -300,7 +299,7 @@ s:derive(4)
             ..RunOptions::default()
         };
         options.limits.memory = memory;
-        let film = Film::new(&script, &options, &axis.parse()?, 100)?;
+        let film = Film::new(&script, options, &axis.parse()?, 100)?;
         Ok((folder, film))
     }
 

@@ -82,11 +82,10 @@ pub(super) fn in_order<T: Send>(
     };
     std::thread::scope(|scope| {
         let (outbox, inbox) = channel();
-        for _ in 0..threads.min(count) {
-            let (worker, outbox) = (&worker, outbox.clone());
+        for outbox in std::iter::repeat_n(outbox, threads.min(count)) {
+            let worker = &worker;
             scope.spawn(move || worker(outbox));
         }
-        drop(outbox);
         let mut early = BTreeMap::new();
         let mut expected = 0;
         let mut done = Ok(());

@@ -138,8 +138,10 @@ fn rounded(number: f64) -> f64 {
 /// Fails if there are no variations, or too many.
 pub(super) fn check_count(count: f64, help: &str) -> Result<()> {
     if count > MOST as f64 {
-        let many = if count < 1e9 { format!("{count} variations") } else { "so many variations".to_owned() };
-        return Err(Error::limit(Limit::Size, format!("{many} exceed the maximum of {MOST}")).help(help));
+        let many = (count < 1e9).then(|| count.to_string());
+        let many = many.as_deref().unwrap_or("so many");
+        let message = format!("{many} variations exceed the maximum of {MOST}");
+        return Err(Error::limit(Limit::Size, message).help(help));
     }
     if count < 1.0 {
         return Err(Error::argument("nothing to vary").help("give a seed or a value"));

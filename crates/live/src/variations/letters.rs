@@ -4,6 +4,8 @@
 //! of Standards and which may be used freely with this acknowledgement ("Calligraphy for computers", 1967; in the
 //! format that James Hurt made for the Usenet Font Consortium).
 
+use std::borrow::Cow;
+
 use burgeon_scene::image::Image;
 
 /// Distance from the top of the capitals to the bottom of descenders, in units of the capitals' height.
@@ -21,16 +23,18 @@ pub(super) fn width(text: &str, height: f32) -> f32 {
 }
 
 /// Shortens `text` to fit into `room` (pixels), with an ellipsis if characters are removed.
-pub(super) fn fitted(text: &str, height: f32, room: f32) -> String {
+pub(super) fn fitted(text: &str, height: f32, room: f32) -> Cow<'_, str> {
     if width(text, height) <= room {
-        return text.to_owned();
+        return Cow::Borrowed(text);
     }
     let mut letters: Vec<char> = text.chars().collect();
     loop {
         letters.pop();
-        let shorter: String = letters.iter().collect::<String>().trim_end().to_owned() + "...";
+        let mut shorter: String = letters.iter().collect();
+        shorter.truncate(shorter.trim_end().len());
+        shorter.push_str("...");
         if letters.is_empty() || width(&shorter, height) <= room {
-            return shorter;
+            return Cow::Owned(shorter);
         }
     }
 }
@@ -40,14 +44,18 @@ pub(super) fn wrapped(text: &str, height: f32, room: f32) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {
         let line = lines.len() - 1;
-        let longer = if lines[line].is_empty() { word.to_owned() } else { format!("{} {word}", lines[line]) };
-        if lines[line].is_empty() || width(&longer, height) <= room {
+        if lines[line].is_empty() {
+            lines[line].push_str(word);
+            continue;
+        }
+        let longer = format!("{} {word}", lines[line]);
+        if width(&longer, height) <= room {
             lines[line] = longer;
         } else {
             lines.push(word.to_owned());
         }
     }
-    lines.into_iter().map(|line| fitted(&line, height, room)).collect()
+    lines.into_iter().map(|line| fitted(&line, height, room).into_owned()).collect()
 }
 
 /// Draws `text` with the upper left corner of its first capital at `place` (pixels).
@@ -78,7 +86,7 @@ fn ink(image: &mut Image, strokes: &[[[f32; 2]; 2]], reach: f32, color: [u8; 3])
     }
     let (columns, rows) = (range(0, image.width()), range(1, image.height()));
     for y in rows {
-        for x in columns.clone() {
+        for x in columns.start..columns.end {
             let center = [x as f32 + 0.5, y as f32 + 0.5];
             let distance =
                 strokes.iter().map(|stroke| distance(center, *stroke)).fold(f32::INFINITY, f32::min);

@@ -93,9 +93,8 @@ impl Variations {
     ///
     /// Fails if there are none or more than [`MOST`](super::MOST), without the feature `pictures`, and if the script
     /// has no such parameter or rejects one of the values. If the script itself fails, the cells report the error.
-    pub fn new(script: &Path, options: &RunOptions, over: &VariationAxis) -> Result<Self> {
+    pub fn new(script: &Path, mut options: RunOptions, over: &VariationAxis) -> Result<Self> {
         image::check()?;
-        let mut options = options.clone();
         options.reports.print = None;
         let plans: Vec<VariationPlan> = match over {
             VariationAxis::Seeds(seeds) => seeds
@@ -104,11 +103,15 @@ impl Variations {
                 .collect(),
             VariationAxis::Param { name, values } => {
                 let param = find_param(script, &options, name)?;
-                let all = if values.is_empty() { every_value(&param)? } else { values.clone() };
+                let all = match values.as_slice() {
+                    [] => every_value(&param)?,
+                    values => values.iter().map(String::as_str).collect(),
+                };
                 all.into_iter()
                     .map(|value| {
-                        let label = label(&param, &param.accept(&value)?);
-                        Ok(VariationPlan { label, seed: options.seed, set: Some((name.clone(), value)) })
+                        let label = label(&param, &param.accept(value)?);
+                        let set = Some((name.clone(), value.to_owned()));
+                        Ok(VariationPlan { label, seed: options.seed, set })
                     })
                     .collect::<Result<_>>()?
             }
@@ -139,8 +142,8 @@ impl Variations {
         match framing {
             Framing::Each => self.each(
                 |number| {
-                    let ran = self.run(number, None)?;
-                    let extent = ran.extent.clone();
+                    let mut ran = self.run(number, None)?;
+                    let extent = std::mem::take(&mut ran.extent);
                     self.render(number, ran, &extent, picture)
                 },
                 |number, made| take(self.cell(number, made)),
@@ -239,11 +242,10 @@ impl Variations {
         };
         std::thread::scope(|scope| {
             let (outbox, inbox) = channel();
-            for _ in 0..self.workers() {
-                let (worker, outbox) = (&worker, outbox.clone());
+            for outbox in std::iter::repeat_n(outbox, self.workers()) {
+                let worker = &worker;
                 scope.spawn(move || worker(outbox));
             }
-            drop(outbox);
             let mut early = BTreeMap::new();
             let mut expected = 0;
             for (number, result) in inbox {
@@ -266,7 +268,7 @@ fn thumbnail(scene: &Scene, extent: &Extent, picture: &Picture, stop: &Stop) -> 
     if picture.quality == Quality::Fine || width.max(height) > Picture::LARGEST / 2 {
         return render_within(scene, Some(extent), picture, stop);
     }
-    let large = Picture { width: 2 * width, height: 2 * height, ..picture.clone() };
+    let large = Picture { width: 2 * width, height: 2 * height, ..*picture };
     let large = render_within(scene, Some(extent), &large, stop)?;
     Ok(Image::from_fn(width, height, |x, y| {
         let four = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j)| large.pixel(2 * x + i, 2 * y + j));
@@ -303,10 +305,10 @@ pub(crate) fn find_param(script: &Path, options: &RunOptions, name: &str) -> Res
 }
 
 /// Returns all values of a parameter with a list of choices.
-fn every_value(param: &Param) -> Result<Vec<String>> {
+fn every_value(param: &Param) -> Result<Vec<&str>> {
     match &param.control {
-        Control::Choice(choices) => Ok(choices.clone()),
-        Control::Switch => Ok(vec!["false".to_owned(), "true".to_owned()]),
+        Control::Choice(choices) => Ok(choices.iter().map(String::as_str).collect()),
+        Control::Switch => Ok(vec!["false", "true"]),
         _ => Err(Error::argument(format!("param {} has no choices", param.name))
             .help(format!("specify the values: {}=LOW..HIGH:STEP or {}=A,B,C", param.name, param.name))),
     }
@@ -352,7 +354,7 @@ s:derive()
         };
         let picture = Picture { width: 40, height: 50, quality: Quality::Draft, ..Picture::default() };
         let mut cells = Vec::new();
-        let variations = Variations::new(&script, &options, over).unwrap();
+        let variations = Variations::new(&script, options, over).unwrap();
         variations.make(&picture, framing, |cell| cells.push(cell)).unwrap();
         assert_eq!((cells.len(), variations.ran()), (variations.len(), variations.len()));
         cells
@@ -406,7 +408,7 @@ s:derive()
         let over = VariationAxis::seeds("1..9").unwrap();
         let variations = Variations::new(
             &script,
-            &RunOptions { registry: burgeon_objects::registry(), ..RunOptions::default() },
+            RunOptions { registry: burgeon_objects::registry(), ..RunOptions::default() },
             &over,
         )
         .unwrap();

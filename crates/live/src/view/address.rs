@@ -15,13 +15,14 @@ pub(super) fn admits(host: Option<&str>, origin: Option<&str>) -> bool {
 /// Returns true if `host` is a name of this machine only. Any port is allowed, because requests may pass through a
 /// tunnel.
 fn is_this_machine(host: &str) -> bool {
-    let (name, port) = match host.strip_prefix('[').and_then(|rest| rest.split_once(']')) {
-        Some((inner, rest)) => {
-            (format!("[{inner}]"), rest.strip_prefix(':').or(rest.is_empty().then_some("0")))
+    let (name, port) = match host.find(']').filter(|_| host.starts_with('[')) {
+        Some(end) => {
+            let (name, rest) = host.split_at(end + 1);
+            (name, rest.strip_prefix(':').or(rest.is_empty().then_some("0")))
         }
         None => match host.split_once(':') {
-            Some((name, port)) => (name.to_owned(), Some(port)),
-            None => (host.to_owned(), Some("0")),
+            Some((name, port)) => (name, Some(port)),
+            None => (host, Some("0")),
         },
     };
     let number =

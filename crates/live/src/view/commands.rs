@@ -63,8 +63,9 @@ impl ServerState {
                 let idle = !waiting && !running;
                 idle.then(|| Event::rejection(None, &Error::unavailable("nothing is running")))
             }
-            Ok(PageCommand::Set { id, params }) => self
-                .change(id, Cause::Parameters, |inner| inner.request.set(&params, inner.params.as_deref())),
+            Ok(PageCommand::Set { id, params }) => {
+                self.change(id, Cause::Parameters, |inner| inner.request.set(params, inner.params.as_deref()))
+            }
             Ok(PageCommand::Reset {}) => self.change(None, Cause::Parameters, |inner| {
                 inner.request.reset();
                 Ok(())
@@ -155,11 +156,10 @@ impl ServerState {
         let whole = [&self.script].into_iter().chain(&self.options.inputs.stdlib).find(|known| is(known));
         let root = self.script.canonicalize().ok().and_then(|script| script.parent().map(Path::to_path_buf));
         let inner = root.as_deref().and_then(|root| path.strip_prefix(root).ok()).unwrap_or(path);
-        let named = match (whole, self.script.parent()) {
-            (Some(whole), _) => whole.clone(),
-            (None, Some(folder)) => folder.join(inner),
-            (None, None) => inner.to_path_buf(),
-        };
-        named.display().to_string()
+        match (whole, self.script.parent()) {
+            (Some(whole), _) => whole.display().to_string(),
+            (None, Some(folder)) => folder.join(inner).display().to_string(),
+            (None, None) => inner.display().to_string(),
+        }
     }
 }

@@ -1,6 +1,5 @@
 //! Drawn functions, curves and surfaces: their outlines while a page changes them, and their file.
 
-use std::sync::Arc;
 use std::time::Instant;
 
 use serde_json::Value;
@@ -69,8 +68,8 @@ pub(super) fn is_changed(state: &ServerState) -> bool {
 /// Returns the drawn parameter `name` and the points that a page sent.
 fn read(state: &ServerState, name: &str, points: &Value) -> Result<(Param, PointRows)> {
     let inner = state.lock();
-    let shown = inner.shown.as_ref().map(|shown| Arc::clone(&shown.run));
-    let params = inner.params.as_deref().or(shown.as_ref().map(|run| run.params.as_slice()));
+    let shown = inner.shown.as_ref().map(|shown| shown.run.params.as_slice());
+    let params = inner.params.as_deref().or(shown);
     let Some(params) = params else {
         return Err(Error::unavailable("curves are drawn when the script has run without an error"));
     };

@@ -78,7 +78,8 @@ fn nothing(run: &Run, limit: Option<usize>) -> String {
     let modules: usize = run.systems.iter().map(|system| system.modules()).sum();
     let steps = run.systems.iter().map(|system| system.steps).max().unwrap_or(0);
     let at_limit = limit.is_some_and(|limit| steps >= limit);
-    let after = if steps == 1 { "1 step".to_owned() } else { format!("{steps} steps") };
+    let after = (steps != 1).then(|| format!("{steps} steps"));
+    let after = after.as_deref().unwrap_or("1 step");
     if let Some(part) = run.part {
         part.empty_note()
     } else if run.systems.is_empty() {
@@ -93,10 +94,8 @@ fn nothing(run: &Run, limit: Option<usize>) -> String {
     } else {
         let counts = run.systems.iter().flat_map(|system| trace::symbols(system));
         let most = counts.max_by_key(|symbol| symbol.count).map_or_else(String::new, |symbol| symbol.name);
-        let who = match modules {
-            1 => "the only module is not drawn".to_owned(),
-            _ => format!("none of the {modules} modules is drawn"),
-        };
+        let who = (modules != 1).then(|| format!("none of the {modules} modules is drawn"));
+        let who = who.as_deref().unwrap_or("the only module is not drawn");
         format!("{who}: add system:interpret(\"{most}\", function(this) ... end)")
     }
 }

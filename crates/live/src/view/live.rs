@@ -15,6 +15,7 @@ use super::token::Token;
 use super::{changes, tools, work};
 use crate::watch::Watch;
 use burgeon_base::error::Result;
+use burgeon_base::named_thread;
 
 /// Live view server. It runs until it is dropped.
 pub struct Live {
@@ -38,8 +39,7 @@ impl Live {
         state.lock().post(DueRun { cause: Cause::Start, files: Vec::new(), at: Instant::now() });
         let thread = |name: &str, work: Box<dyn FnOnce(&ServerState) + Send>| {
             let state = Arc::clone(&state);
-            let builder = std::thread::Builder::new().name(format!("burgeon {name}"));
-            builder.spawn(move || work(&state)).map_err(failed)
+            named_thread(name).spawn(move || work(&state)).map_err(failed)
         };
         let threads = vec![
             thread("worker", Box::new(move |state| work::work(state, &watch)))?,

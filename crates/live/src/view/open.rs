@@ -5,6 +5,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use burgeon_base::error::{Error, Result};
+use burgeon_base::named_thread;
 
 /// Command that opens a file at a line, such as `code -g {file}:{line}`.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -85,7 +86,7 @@ impl Editor {
 fn start(command: &mut Command) -> std::io::Result<()> {
     let mut child = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn()?;
     // Wait for its exit, so that no zombie process remains. An error is ignored, because nothing else depends on it.
-    let _ = std::thread::Builder::new().name("burgeon editor".to_owned()).spawn(move || child.wait());
+    let _ = named_thread("editor").spawn(move || child.wait());
     Ok(())
 }
 

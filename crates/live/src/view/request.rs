@@ -3,6 +3,7 @@
 //! Values are kept by name across saves of the script. Each value is stored with the script's default at the time when
 //! it was set, so that a page can show both if the script changes its default.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use serde_json::{Map, Value};
@@ -42,12 +43,11 @@ pub(super) struct Inputs {
 impl Request {
     /// Creates the request of the command line.
     pub(super) fn new(options: &RunOptions) -> Self {
-        let given = |text: &String| ParamText { text: text.clone(), default: None };
         let preset = options.params.preset.as_ref().map(Preset::set).unwrap_or_default();
         let values = preset
-            .iter()
-            .chain(&options.params.set)
-            .map(|(name, text)| (name.clone(), given(text)))
+            .into_iter()
+            .chain(options.params.set.iter().cloned())
+            .map(|(name, text)| (name, ParamText { text, default: None }))
             .collect();
         Self { values, seed: options.seed, steps: options.steps, preset: None }
     }
@@ -61,12 +61,12 @@ impl Request {
     ///
     /// Fails if a value is not a string, a number, a boolean or a list. Also fails if the parameter does not accept the value,
     /// provided that `params`, the current parameters of the script, are known.
-    pub(super) fn set(&mut self, wished: &Map<String, Value>, params: Option<&[Param]>) -> Result<()> {
+    pub(super) fn set(&mut self, wished: Map<String, Value>, params: Option<&[Param]>) -> Result<()> {
         let mut read = Vec::new();
         for (name, value) in wished {
             let text = match value {
                 Value::Null => None,
-                Value::String(text) => Some(text.clone()),
+                Value::String(text) => Some(text),
                 Value::Number(_) | Value::Bool(_) | Value::Array(_) => Some(value.to_string()),
                 _ => {
                     return Err(Error::argument(format!(
@@ -74,7 +74,7 @@ impl Request {
                     )));
                 }
             };
-            let param = params.map(|params| Param::find(params, name)).transpose()?.flatten();
+            let param = params.map(|params| Param::find(params, &name)).transpose()?.flatten();
             match (&text, param, params) {
                 (Some(text), Some(param), _) => {
                     param.accept(text)?;
@@ -82,12 +82,15 @@ impl Request {
                 (Some(_), None, Some(params)) => {
                     let names = params.iter().map(|param| param.name.as_str());
                     let message = format!("unknown parameter `{name}`");
-                    return Err(Error::not_found("parameter", name, names, message));
+                    return Err(Error::not_found("parameter", &name, names, message));
                 }
                 _ => {}
             }
-            let full = param.map_or(name, |param| &param.name);
-            read.push((full.clone(), text, param.map(|param| param.default.clone())));
+            let (full, default) = match param {
+                Some(param) => (param.name.clone(), Some(param.default.clone())),
+                None => (name, None),
+            };
+            read.push((full, text, default));
         }
         if !read.is_empty() {
             self.preset = None;
@@ -149,11 +152,11 @@ impl Request {
     }
 
     /// Replaces all values by those of a preset, and the seed if the preset has one.
-    pub(super) fn load(&mut self, preset: &Preset) {
+    pub(super) fn load(&mut self, preset: Preset) {
         let given = |(name, text)| (name, ParamText { text, default: None });
         self.values = preset.set().into_iter().map(given).collect();
         self.seed = preset.seed.unwrap_or(self.seed);
-        self.preset = Some(preset.clone());
+        self.preset = Some(preset);
     }
 
     /// Returns the values that are set and that `params` accept.
@@ -166,13 +169,13 @@ impl Request {
     }
 
     /// Returns `params` of an earlier run with the currently requested values, as far as the parameters accept them.
-    pub(super) fn requested_params(&mut self, params: &[Param]) -> Vec<ParamMessage> {
-        let mut requested = params.to_vec();
-        for param in &mut requested {
-            let given = self.values.get(&param.name).map(|given| param.accept(&given.text));
-            param.value = given.and_then(Result::ok).unwrap_or_else(|| param.base_value().clone());
-        }
-        self.params(&requested)
+    pub(super) fn requested_params<'p>(&mut self, params: &'p [Param]) -> Vec<ParamMessage> {
+        let value = |param: &'p Param| {
+            let given = self.values.get(&param.name).and_then(|given| param.accept(&given.text).ok());
+            given.map_or_else(|| Cow::Borrowed(param.base_value()), Cow::Owned)
+        };
+        let values = params.iter().map(value).collect();
+        self.describe(params, values)
     }
 
     /// Replaces short names by the parameters' full names, if a short name refers to a parameter of a package.
@@ -195,14 +198,18 @@ impl Request {
     /// Describes the parameters of a run for pages, the script's own first. Stores the defaults of values whose default
     /// was unknown.
     pub(super) fn params(&mut self, params: &[Param]) -> Vec<ParamMessage> {
+        self.describe(params, params.iter().map(|param| Cow::Borrowed(&param.value)).collect())
+    }
+
+    fn describe(&mut self, params: &[Param], values: Vec<Cow<Setting>>) -> Vec<ParamMessage> {
         self.qualify(params);
         let mut messages = Vec::with_capacity(params.len());
-        for param in params {
+        for (param, value) in params.iter().zip(values) {
             let given = self.values.get_mut(&param.name);
             // A value that the script no longer accepts is not shown.
             let used = given.filter(|given| param.accept(&given.text).is_ok());
             let old = used.map(|given| given.default.get_or_insert_with(|| param.default.clone()));
-            messages.push((!param.own, ParamMessage::new(param, old.as_deref())));
+            messages.push((!param.own, ParamMessage::new(param, &value, old.as_deref())));
         }
         // The parameters of required files are declared before the script's own.
         messages.sort_by_key(|(required, _)| *required);
@@ -242,7 +249,7 @@ mod tests {
 
     fn set(request: &mut Request, value: Value, params: &[Param]) -> Result<()> {
         let Value::Object(map) = value else { panic!() };
-        request.set(&map, Some(params))
+        request.set(map, Some(params))
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! State that all pages share: the request, the current run, the present model, and its problems.
 
+use std::borrow::Cow;
 use std::collections::{BTreeSet, VecDeque};
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -40,6 +41,11 @@ const PICTURES: usize = 512;
 /// Expected duration below which a run is not cancelled for a newer value, so that a page shows models while a slider
 /// moves.
 const SHORT: Duration = Duration::from_millis(400);
+
+/// Returns the hash of a content, as URLs contain it.
+pub(super) fn content_hash(content: &[u8]) -> String {
+    blake3::hash(content).to_hex()[..32].to_owned()
+}
 
 /// State that all pages share.
 pub(super) struct ServerState {
@@ -126,6 +132,7 @@ pub(super) struct ActiveRun {
 }
 
 /// Present model.
+#[derive(Clone)]
 pub(super) struct PresentModel {
     pub run: Arc<Run>,
     /// Request that led to the model.
@@ -217,9 +224,10 @@ impl ServerState {
         let folders = scripts.into_iter().flatten().filter_map(Path::parent);
         // If the folder were the root, every absolute path would match.
         let folders = folders.filter(|folder| folder.is_absolute() && folder.parent().is_some());
-        folders.fold(text.to_owned(), |text, folder| {
-            text.replace(&format!("{}{MAIN_SEPARATOR}", folder.display()), "")
-        })
+        let relative = folders.fold(Cow::Borrowed(text), |text, folder| {
+            Cow::Owned(text.replace(&format!("{}{MAIN_SEPARATOR}", folder.display()), ""))
+        });
+        relative.into_owned()
     }
 
     /// Sends a notice to the process that started the server.
@@ -322,14 +330,15 @@ impl ServerState {
 
     /// Stores a small render. Returns its URL.
     pub(super) fn keep_picture(&self, png: Vec<u8>) -> String {
-        let hash = blake3::hash(&png).to_hex()[..32].to_owned();
+        let hash = content_hash(&png);
+        let url = picture_url(&hash);
         let mut inner = self.lock();
         inner.pictures.retain(|(known, _)| *known != hash);
-        inner.pictures.push_back((hash.clone(), png.into()));
+        inner.pictures.push_back((hash, png.into()));
         if inner.pictures.len() > PICTURES {
             inner.pictures.pop_front();
         }
-        picture_url(&hash)
+        url
     }
 
     /// Cancels the variations in progress, which are no longer needed.
@@ -380,7 +389,7 @@ impl LiveState {
     /// Restores the request of the shown model and sends its values to the pages, so that cancelled values do not
     /// return with the next change.
     pub(super) fn take_back(&mut self, state: &ServerState) {
-        let Some(shown) = self.shown.clone() else { return };
+        let Some(shown) = &self.shown else { return };
         let before = self.request.inputs(self.generation);
         self.request = shown.request.clone();
         if self.is_present() {

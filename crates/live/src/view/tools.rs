@@ -16,6 +16,7 @@ use crate::presets::Presets;
 use crate::variations::{Framing, Variation, VariationAxis, Variations};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
+use burgeon_base::named_thread;
 use burgeon_engine::script::{Param, ParamValues, Preset, RunOptions, Session};
 use burgeon_picture::{Background, Picture, Quality};
 use burgeon_scene::image;
@@ -93,7 +94,7 @@ pub(super) fn preset(state: &ServerState, action: &str, name: &str, replace: boo
         "load" => match Presets::read(&state.script).and_then(|presets| find(state, &presets, name)) {
             Ok(preset) => {
                 return state.change(None, Cause::Preset, |inner| {
-                    inner.request.load(&preset);
+                    inner.request.load(preset);
                     Ok(())
                 });
             }
@@ -188,14 +189,13 @@ pub(super) fn variations(
             let message = format!("unknown parameter `{name}`");
             return Err(Error::not_found("parameter", name, names, message));
         }
-        Variations::new(&state.script, &options, &over)
+        Variations::new(&state.script, options, &over)
     };
     let variations = match begin() {
         Ok(variations) => variations,
         Err(error) => return Some(Event::rejection(Some(id), &error)),
     };
-    let stop = Arc::clone(&variations.stop);
-    let before = state.variations.lock().recover().replace(Arc::clone(&stop));
+    let before = state.variations.lock().recover().replace(Arc::clone(&variations.stop));
     if let Some(before) = before {
         before.stop(Error::cancellation("others are made"));
     }
@@ -210,7 +210,7 @@ pub(super) fn variations(
         };
         let of = variations.len();
         let (over, ended) = channel::<()>();
-        let gone = || stop.stop(Error::cancellation("the page has gone"));
+        let gone = || variations.stop.stop(Error::cancellation("the page has gone"));
         let (running, page, state) = (&variations, &page, &*state);
         let tell = move || {
             // The loop ends when the other end of the channel is dropped.
@@ -234,13 +234,13 @@ pub(super) fn variations(
             made
         });
         if let Err(error) = made
-            && !stop.is_stopped()
+            && !variations.stop.is_stopped()
         {
             // An error means that the page has disconnected.
             let _ = page.blocking_send(state.to_text(&Event::rejection(Some(id), &error)));
         }
     };
-    match std::thread::Builder::new().name("burgeon variations".to_owned()).spawn(make) {
+    match named_thread("variations").spawn(make) {
         Ok(_) => None,
         Err(error) => {
             Some(Event::rejection(Some(id), &Error::system(format!("cannot start a thread: {error}"))))

@@ -63,10 +63,10 @@ pub(super) fn pick(state: &ServerState, pick: &PickCommand) -> Event {
         let wanted = indices.triangle(pick)?;
         let _turn = state.tracing.lock().recover();
         let found = engine::pick(&state.script, &options, scene, wanted)?;
-        let tell = |made: &engine::ModuleOrigin| tell_made(state, &shown, made);
-        let (main, placed) = match (&found.drawn, &found.placed) {
-            (Some(drawn), placed) => (Some(tell(drawn)), placed.as_ref().map(tell)),
-            (None, placed) => (placed.as_ref().map(tell), None),
+        let tell = |made: engine::ModuleOrigin| tell_made(state, &shown, made);
+        let (main, placed) = match (found.drawn, found.placed) {
+            (Some(drawn), placed) => (Some(tell(drawn)), placed.map(tell)),
+            (None, placed) => (placed.map(tell), None),
         };
         Ok(PickMessage { id: pick.id, found: main.is_some(), made: main, placed, instance: pick.instance })
     };
@@ -80,8 +80,8 @@ pub(super) fn highlight(state: &ServerState, id: u64, file: &str, line: usize) -
         let path = state.own_file(file)?;
         let lines = std::fs::read_to_string(&path).map_or(0, |text| text.lines().count());
         if !(1..=lines).contains(&line) {
-            let number = if lines == 1 { "1 line".to_owned() } else { format!("{lines} lines") };
-            let message = format!("unknown line {line}: {file} has {number}");
+            let s = if lines == 1 { "" } else { "s" };
+            let message = format!("unknown line {line}: {file} has {lines} line{s}");
             return Err(Error::not_found("line", line, [], message));
         }
         let name = state.engine_name(&path);
@@ -131,43 +131,40 @@ fn system_of(run: &Run, number: usize) -> Option<&Arc<DerivedSystem>> {
     run.systems.iter().find(|system| system.system == number)
 }
 
-fn tell_made(state: &ServerState, shown: &PresentModel, made: &engine::ModuleOrigin) -> OriginMessage {
-    let rule_at = |rule: &RuleName| {
+fn tell_made(state: &ServerState, shown: &PresentModel, made: engine::ModuleOrigin) -> OriginMessage {
+    let rule_at = |rule: RuleName| {
         let (file, line) = place(state, rule.place.as_ref());
-        RulePlace { text: rule.text.clone(), file, line }
+        RulePlace { text: rule.text, file, line }
     };
-    let path = made.path.iter().map(|ancestor| {
-        let (rule, answer) = (ancestor.rule.as_ref(), ancestor.answer.as_ref());
-        let made_by = rule.or(answer);
-        let (file, line) =
-            place(state, made_by.map_or(made.axiom.as_ref(), |made_by| made_by.place.as_ref()));
+    let axiom = made.axiom.as_ref();
+    let path = made.path.into_iter().map(|ancestor| {
+        let made_by = ancestor.rule.as_ref().or(ancestor.answer.as_ref());
+        let (file, line) = place(state, made_by.map_or(axiom, |made_by| made_by.place.as_ref()));
         StepMessage {
             step: ancestor.step,
-            module: ancestor.module.text.clone(),
-            rule: rule.map(|rule| rule.text.clone()),
+            module: ancestor.module.text,
+            rule: ancestor.rule.map(|rule| rule.text),
             file,
             line,
             ordinal: ancestor.ordinal,
-            answer: answer.map(|answer| answer.text.clone()),
-            asked: ancestor.asked.clone(),
+            answer: ancestor.answer.map(|answer| answer.text),
+            asked: ancestor.asked,
         }
     });
-    let [before, at, after] = made.around.clone();
-    let params = made.module.params.iter();
+    let [before, at, after] = made.around;
+    let params = made.module.params.into_iter();
     let features = system_of(&shown.run, made.origin.system).map(|system| &system.features);
     OriginMessage {
         system: made.origin.system,
         chain: made.origin.chain,
         feature: features.and_then(|features| features.get(made.origin.chain)?.clone()),
         module: ModuleMessage {
-            text: made.module.text.clone(),
-            symbol: made.module.symbol.clone(),
-            params: params
-                .map(|(name, value)| NamedValue { name: name.clone(), value: value.clone() })
-                .collect(),
+            text: made.module.text,
+            symbol: made.module.symbol,
+            params: params.map(|(name, value)| NamedValue { name, value }).collect(),
             index: made.index,
         },
-        interpretation: made.interpretation.as_ref().map(rule_at),
+        interpretation: made.interpretation.map(rule_at),
         path: path.collect(),
         chain_text: AroundMessage { before, at, after },
         ranges: Indices { scene: &shown.run.scene, layout: &shown.layout }.ranges(&made.runs),

@@ -12,7 +12,7 @@ use axum::body::Bytes;
 use super::job::{PROBLEMS, RunJob, options};
 use super::message::{Cause, Event, ModelMessage, ParamMessage};
 use super::request::Inputs;
-use super::state::{ActiveRun, LiveState, PresentModel, ServerState};
+use super::state::{ActiveRun, LiveState, PresentModel, ServerState, content_hash};
 use super::urls::model_url;
 use super::{LiveEvent, describe};
 use crate::presets::Presets;
@@ -102,7 +102,7 @@ pub(super) fn work(state: &ServerState, watch: &Watch) {
             true => RunOutcome::Cancelled,
             false => outcome,
         };
-        finish(state, &job, session.as_deref(), outcome);
+        finish(state, job, session.as_deref(), outcome);
         drop(session);
         if let Some(inputs) = wants_last_step(state) {
             let found = catch_unwind(AssertUnwindSafe(|| last_step(state, &inputs)));
@@ -161,7 +161,7 @@ pub(super) fn report(state: &ServerState) {
 
 /// Returns the files that affect the result even if the script cannot be read.
 pub(super) fn constant_inputs(state: &ServerState) -> Vec<PathBuf> {
-    std::iter::once(state.script.clone()).chain(state.options.inputs.stdlib.clone()).collect()
+    std::iter::once(&state.script).chain(&state.options.inputs.stdlib).cloned().collect()
 }
 
 /// Waits for the next run; `None` if the server stops.
@@ -246,8 +246,7 @@ fn encode(run: &Run) -> Result<(ModelFile, Duration)> {
     let nothing = |note: String| ModelFile { note: Some(note), ..ModelFile::default() };
     let file = match gltf::glb_for_viewer(&run.scene) {
         Ok((glb, layout)) if glb.len() <= LARGEST => {
-            let hash = blake3::hash(&glb).to_hex()[..32].to_owned();
-            ModelFile { content: Some((hash, glb.into())), layout, note: None }
+            ModelFile { content: Some((content_hash(&glb), glb.into())), layout, note: None }
         }
         Ok((glb, _)) => nothing(format!(
             "the model has {} MB, which is too large for the live view",
@@ -266,7 +265,7 @@ fn internal(panic: &(dyn std::any::Any + Send)) -> Error {
 }
 
 /// Stores the outcome of a run, and informs pages and the process that started the server.
-fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome: RunOutcome) {
+fn finish(state: &ServerState, job: RunJob, session: Option<&Session>, outcome: RunOutcome) {
     let mut inner = state.lock();
     if !matches!(outcome, RunOutcome::Cancelled) {
         inner.doubts = None;
@@ -285,7 +284,7 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
         RunOutcome::Cancelled => inner.report_cancelled(state, job.run),
         RunOutcome::Missing => {
             let text = format!("script not found: {}", state.script.display());
-            inner.end_badly(state, job, Event::Waiting { text: text.clone() });
+            inner.end_badly(state, job.inputs, Event::Waiting { text: text.clone() });
             notices.push(LiveEvent::Waiting(text));
         }
         RunOutcome::Failed(error) => {
@@ -296,15 +295,15 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
             let params = inner.requested_params();
             let seed = inner.request.seed().to_string();
             let event = Event::Error { run, cause, text, errors, number, params, seed };
-            inner.end_badly(state, job, event);
+            inner.end_badly(state, job.inputs, event);
             notices.push(LiveEvent::Failed(error));
         }
         RunOutcome::NewModel(made) => {
             let NewModel { run, file, mut message } = *made;
-            let mut request = job.request.clone();
+            let RunJob { mut request, inputs, .. } = job;
             message.params = request.params(&run.params);
             inner.request.params(&run.params);
-            message.last_step = inner.last_step_of(&job.inputs, message.steps);
+            message.last_step = inner.last_step_of(&inputs, message.steps);
             message.preset = inner.request.preset();
             let ModelFile { content, layout, note } = file;
             let old = content.map(|(hash, bytes)| inner.keep(hash, bytes));
@@ -318,7 +317,7 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
             inner.cancelled = None;
             inner.stale = None;
             inner.took = quick.unwrap_or_default();
-            inner.finished = Some(job.inputs.clone());
+            inner.finished = Some(inputs.clone());
             state.send(&Event::Model(Box::new(message.clone())));
             let left_out = session.map(Session::left_out).unwrap_or_default();
             notices.extend(inner.tell_left_out(state, &left_out));
@@ -327,7 +326,7 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
             let new: BTreeSet<String> = remark.into_iter().chain(note).collect();
             notices.extend(new.difference(&inner.notes).cloned().map(LiveEvent::Text));
             inner.notes = new;
-            let (run, inputs, layout) = (Arc::new(run), job.inputs.clone(), Arc::new(layout));
+            let (run, layout) = (Arc::new(run), Arc::new(layout));
             let model = PresentModel { run, request, inputs, layout, message };
             gone = Some((inner.shown.replace(Arc::new(model)), old));
         }
@@ -343,15 +342,15 @@ fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome:
 impl LiveState {
     /// Returns the parameters of the shown model with the requested values; empty if there is no model.
     fn requested_params(&mut self) -> Vec<ParamMessage> {
-        let shown = self.shown.clone();
+        let shown = self.shown.as_ref();
         shown.map(|shown| self.request.requested_params(&shown.run.params)).unwrap_or_default()
     }
 
-    fn end_badly(&mut self, state: &ServerState, job: &RunJob, event: Event) {
+    fn end_badly(&mut self, state: &ServerState, inputs: Inputs, event: Event) {
         self.params = None;
         self.cancelled = None;
         self.grow_stale();
-        self.finished = Some(job.inputs.clone());
+        self.finished = Some(inputs);
         state.send(&event);
         self.trouble = Some(event);
     }
@@ -437,9 +436,6 @@ fn note_last_step(state: &ServerState, inputs: Inputs, found: Option<usize>) {
     let last_step = found.max(steps);
     inner.last_step = Some((inputs, last_step));
     let Some(shown) = inner.shown.as_mut() else { return };
-    let message = ModelMessage { last_step, ..shown.message.clone() };
-    let (run, layout) = (Arc::clone(&shown.run), Arc::clone(&shown.layout));
-    let (request, inputs) = (shown.request.clone(), shown.inputs.clone());
-    *shown = Arc::new(PresentModel { run, request, inputs, layout, message });
+    Arc::make_mut(shown).message.last_step = last_step;
     inner.present().into_iter().for_each(|model| state.send(&Event::Model(Box::new(model))));
 }

@@ -58,13 +58,12 @@ impl Folders {
             Err(_) => seen(Vec::new(), Sign::Other),
         };
         let watcher = make(Box::new(handle)).map_err(|error| error.to_string());
-        let failure = watcher.as_ref().err().cloned();
-        Self { watcher, watched: BTreeMap::new(), failure }
+        Self { watcher, watched: BTreeMap::new(), failure: None }
     }
 
     /// Returns the reason that changes may be missed, if any.
     pub(super) fn failure(&self) -> Option<&str> {
-        self.failure.as_deref()
+        self.failure.as_ref().or(self.watcher.as_ref().err()).map(String::as_str)
     }
 
     /// Watches exactly the folders that `files` require.

@@ -9,6 +9,7 @@ use std::time::{Duration, Instant, SystemTime};
 use super::files::{self, WatchedFiles};
 use super::folders::{self, AnyWatcher, Folders, Handler, Sign};
 use burgeon_base::error::{Error, Result};
+use burgeon_base::named_thread;
 
 /// Quiet time after an event before files are compared, unless the event marks the end of a save. Editors save in
 /// several steps.
@@ -175,8 +176,7 @@ impl Watch {
             watcher.cover();
             watcher.work(&inbox, &changed);
         };
-        let thread = std::thread::Builder::new()
-            .name("burgeon watch".to_owned())
+        let thread = named_thread("watch")
             .spawn(watch)
             .map_err(|error| Error::system(format!("cannot start a thread to watch files: {error}")))?;
         Ok(Self { signals, thread: Some(thread) })

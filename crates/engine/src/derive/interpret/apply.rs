@@ -449,7 +449,9 @@ impl Applier {
             Some(known) if self.waits && matches!(error.kind(), ErrorKind::Limit(Limit::Time)) => {
                 error.rule(format!("{} (interpretation)", known.name))
             }
-            Some(known) => error.at(known.place.clone()).rule(format!("{} (interpretation)", known.name)),
+            Some(known) => {
+                error.at_place(known.place.as_ref()).rule(format!("{} (interpretation)", known.name))
+            }
             None => error,
         }
         .module(text, self.pass.step)
@@ -511,7 +513,7 @@ impl Flusher for Applier {
         let mut warning = stops_at_depth("interpretation", max_depth, "returns more modules")
             .module(module, self.pass.step);
         if let Some(known) = self.pass.plan.interpretations.list.get(usize::from(rule)) {
-            warning = warning.at(known.place.clone()).rule(format!("{} (interpretation)", known.name));
+            warning = warning.at_place(known.place.as_ref()).rule(format!("{} (interpretation)", known.name));
         }
         self.notices.push(ObjectNotice { warning, module: at, call: None });
     }

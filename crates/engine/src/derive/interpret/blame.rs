@@ -70,10 +70,15 @@ impl InterpretationPass {
         let interpretations = &self.plan.interpretations;
         if symbol <= END || id == Some(interpretations.begin) {
             let known = id.and_then(|id| interpretations.list.get(usize::from(id)));
-            return known.map_or(error.clone(), |known| error.at(known.place.clone()).rule(&known.name));
+            return match known {
+                Some(known) => error.at_place(known.place.as_ref()).rule(&known.name),
+                None => error,
+            };
         }
         let error = match id.and_then(|id| interpretations.list.get(usize::from(id))) {
-            Some(known) => error.at(known.place.clone()).rule(format!("{} (interpretation)", known.name)),
+            Some(known) => {
+                error.at_place(known.place.as_ref()).rule(format!("{} (interpretation)", known.name))
+            }
             None => error,
         };
         error.module(self.module_brief(machine, module, param), self.step)

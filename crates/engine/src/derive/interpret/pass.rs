@@ -158,8 +158,7 @@ impl InterpretationPass {
     pub(super) fn enter(machine: &Machine, plan: &DerivationPlan) -> Result<()> {
         machine.enter(plan.system)?;
         machine.refresh();
-        machine.current.objects.replace(plan.objects.clone());
-        machine.current.environments.replace(plan.environments.clone());
+        plan.show_objects(machine);
         Ok(())
     }
 

@@ -113,10 +113,10 @@ impl Fragmentation {
     }
 
     /// Returns the warnings, one per fragment module, each with its position.
-    pub(super) fn warnings(&self) -> impl Iterator<Item = (Mark, String)> + '_ {
+    pub(super) fn warnings(&self) -> impl Iterator<Item = (Mark, &'static str)> + '_ {
         let mut told = FxHashSet::default();
         let first = self.whole.iter().filter(move |at| told.insert(at.module));
-        first.map(|at| (*at, "a point has no parts, so it stays unchanged".to_owned()))
+        first.map(|at| (*at, "a point has no parts, so it stays unchanged"))
     }
 }
 

@@ -259,9 +259,9 @@ impl Resolver<'_> {
     }
 
     /// Creates a warning about the module at `at`, with the line that made it.
-    fn told(&self, at: Mark, text: String) -> Warning {
+    fn told(&self, at: Mark, text: &str) -> Warning {
         let placed = self.blame(at, Error::internal(""));
-        Warning::new(WarningKind::NoEffect, text).at(placed.place().cloned())
+        Warning::new(WarningKind::NoEffect, text).at_place(placed.place())
     }
 
     /// Copies the symbols from `done` up to the symbol at `at`, and skips that symbol.

@@ -81,7 +81,7 @@ impl SystemDeclaration {
     /// Makes the initial chains: one from modules, or one per feature. Errors have the location where the
     /// axiom was set.
     pub(crate) fn axiom(&self, machine: &Machine, key: ModuleKey, random: bool) -> Result<Axiom> {
-        self.first_chains(machine, key, random).map_err(|error| error.at(self.axiom_place.clone()))
+        self.first_chains(machine, key, random).map_err(|error| error.at_place(self.axiom_place.as_ref()))
     }
 
     fn first_chains(&self, machine: &Machine, key: ModuleKey, random: bool) -> Result<Axiom> {

@@ -1,5 +1,7 @@
 //! Chains of modules that are made outside of rules.
 
+use std::borrow::Cow;
+
 use mlua::{Table, Value as LuaValue};
 
 use crate::machine::Machine;
@@ -55,10 +57,10 @@ impl ChainBuilder<'_> {
             let LuaValue::Table(table) = &item else {
                 let what = match to_value(&item, false) {
                     Ok(value @ (Value::Number(_) | Value::Boolean(_) | Value::Text(_))) => {
-                        format!("{} {value}", value.describe().replacen('a', "the", 1))
+                        Cow::Owned(format!("{} {value}", value.describe().replacen('a', "the", 1)))
                     }
-                    Ok(value) => value.describe().to_owned(),
-                    Err(_) => format!("a {}", item.type_name()),
+                    Ok(value) => Cow::Borrowed(value.describe()),
+                    Err(_) => Cow::Owned(format!("a {}", item.type_name())),
                 };
                 let text = format!("{} must contain only modules, but one item is {what}", self.subject());
                 return Err(Error::argument(text).help(match self.kept {

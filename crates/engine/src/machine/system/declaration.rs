@@ -357,12 +357,16 @@ impl SystemDeclaration {
             let arity = declared.rule.arguments();
             let symbols = machine.library.symbols.borrow();
             let places = argument_places(machine.lua(), &declared.rule.pattern, &symbols)?;
-            let [successor_reads, guard_reads] = declared.reads.clone();
-            made.drivers.push(prelude.driver.call((&declared.successor, arity, &places, successor_reads))?);
-            let reach = |function: &Function| ReachableFunction {
-                function: function.clone(),
-                name: declared.rule.pattern.text.clone(),
-                place: declared.rule.place.clone(),
+            let [successor_reads, guard_reads] = &declared.reads;
+            made.drivers.push(prelude.driver.call((
+                &declared.successor,
+                arity,
+                &places,
+                successor_reads.as_deref(),
+            ))?);
+            let rule = &declared.rule;
+            let reach = |function: &Function| {
+                ReachableFunction::of_rule(function, &rule.pattern.text, rule.place.as_ref())
             };
             reached.push(reach(&declared.successor));
             reached.extend(declared.guard.iter().chain(&declared.propensity).map(reach));
@@ -370,19 +374,17 @@ impl SystemDeclaration {
             if has_dependents {
                 made.appliers.push(prelude.applier.call((&declared.successor, guard, arity, &places))?);
             }
-            let guard = guard.map(|guard| prelude.guard_driver.call((guard, arity, &places, guard_reads)));
+            let guard =
+                guard.map(|guard| prelude.guard_driver.call((guard, arity, &places, guard_reads.as_deref())));
             made.guards.push(guard.transpose()?);
             let propensity = declared.propensity.as_ref();
             let propensity = propensity.map(|it| prelude.propensity_driver.call((it, arity, &places)));
             made.propensities.push(propensity.transpose()?);
         }
         for known in self.interpretations.iter().filter(|_| self.object.is_some()) {
-            reached.extend(std::iter::once(&known.function).chain(&known.guard).map(|function| {
-                ReachableFunction {
-                    function: function.clone(),
-                    name: known.rule.pattern.text.clone(),
-                    place: known.rule.place.clone(),
-                }
+            let functions = std::iter::once(&known.function).chain(&known.guard);
+            reached.extend(functions.map(|function| {
+                ReachableFunction::of_rule(function, &known.rule.pattern.text, known.rule.place.as_ref())
             }));
         }
         reached.extend(self.reachable_hooks());
@@ -391,8 +393,8 @@ impl SystemDeclaration {
             types.iter().flat_map(|known| known.functions.iter().map(|it| (&*known.kind.name, it)));
         let extensions = machine.library.extensions.borrow();
         for (of, known) in functions.chain(extensions.iter().map(|it| ("extend", &it.function))) {
-            let (name, function) = (format!("{of}: {}", known.name), known.function.clone());
-            reached.push(ReachableFunction { function, name, place: None });
+            let name = format!("{of}: {}", known.name);
+            reached.push(ReachableFunction::of_rule(&known.function, &name, None));
         }
         Ok(made)
     }

@@ -34,7 +34,7 @@ impl SystemDeclaration {
         let is_source =
             matches!(arguments.first(), Some(LuaValue::UserData(data)) if data.is::<SourceHandle>());
         if is_source {
-            let (Some(LuaValue::Function(function)), 2) = (arguments.get(1).cloned(), arguments.len()) else {
+            let (Some(LuaValue::Function(function)), 1) = (arguments.pop(), arguments.len()) else {
                 return Err(Error::argument(
                     "axiom(source, function) needs a function that returns each feature's chain",
                 ));
@@ -66,9 +66,10 @@ impl SystemDeclaration {
     ) -> Result<()> {
         let method = phase.method();
         let usage = format!("write system:{method}(\"A(x)\", function(this, x) return ... end)");
-        let Some(LuaValue::String(text)) = arguments.first().cloned() else {
+        let Some(LuaValue::String(text)) = arguments.first() else {
             return Err(Error::argument("the first argument of a rule must be a pattern").help(usage));
         };
+        let text = text.to_string_lossy();
         if self.rules.len() == MOST_RULES {
             return Err(Error::limit(
                 Limit::Size,
@@ -77,7 +78,7 @@ impl SystemDeclaration {
             .help("join rules into one, and distinguish the cases by a parameter"));
         }
         let scope = library.scope_at(lua);
-        let pattern = parse_pattern(&text.to_string_lossy(), &library.symbols.borrow(), &scope)?;
+        let pattern = parse_pattern(&text, &library.symbols.borrow(), &scope)?;
         let name = pattern.text.clone();
         let named = |error: Error| error.rule(&name);
         let options = match (arguments.len(), arguments.get(1)) {
@@ -417,8 +418,7 @@ pub(super) fn check_open(
     let Some((line, name)) = open.find(|(_, name)| is_unknown(name)) else { return Ok(()) };
     let names = arguments.iter().map(|(_, argument)| *argument);
     let error = Error::not_found("parameter", name, names, format!("${name} of the query has no value"));
-    let place = SourcePlace { file: file.to_owned(), line };
-    Err(error.at(Some(place)).help(format!(
+    Err(error.at_line(file, line).help(format!(
         "the rule's pattern has no parameter of this name; add it there, or pass a value: query(sql, {{ {name} = ... }})"
     )))
 }

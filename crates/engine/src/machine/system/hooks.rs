@@ -97,10 +97,8 @@ impl SystemDeclaration {
 
     /// Returns the hooks as functions whose reachable tables are frozen.
     pub(super) fn reachable_hooks(&self) -> impl Iterator<Item = ReachableFunction> + '_ {
-        self.hooks.iter().map(|hook| ReachableFunction {
-            function: hook.function.clone(),
-            name: hook.moment.method().to_owned(),
-            place: hook.place.clone(),
-        })
+        self.hooks
+            .iter()
+            .map(|hook| ReachableFunction::of_rule(&hook.function, hook.moment.method(), hook.place.as_ref()))
     }
 }

@@ -14,7 +14,7 @@ use burgeon_rewriting::{CLOSE, END, Grammar, OPEN, PatternValue, Region, Rule, S
 
 use super::ignored::IgnoredModules;
 use super::subsystems::RegionOpener;
-use mlua::{Function, Lua, Table, Value as LuaValue};
+use mlua::{Function, Lua, Table};
 
 /// Interpretation rule as a script declares it.
 #[derive(Clone)]
@@ -283,7 +283,7 @@ impl SystemDeclaration {
         let candidate = machine.lua().create_table()?;
         candidate.raw_set("rule", number)?;
         candidate.raw_set("weight", rule.weight)?;
-        candidate.raw_set("guard", guard.clone().map_or(LuaValue::Nil, LuaValue::Function))?;
+        candidate.raw_set("guard", guard.as_ref())?;
         candidate.raw_set("has_contexts", rule.has_contexts())?;
         candidate.raw_set("count", rule.arguments())?;
         candidate.raw_set("left", pattern.left_bound())?;

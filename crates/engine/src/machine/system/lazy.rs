@@ -93,9 +93,10 @@ pub(crate) fn install(lua: &Lua, library: &Library) -> mlua::Result<()> {
         None => Ok(LuaValue::Nil),
     })?;
     let iterate = lua.create_function(|lua, table: Table| {
-        let mut names = ["id", "layer", "geometry"].map(str::to_owned).to_vec();
-        if let Some(held) = held(&table) {
-            names.extend(held.layer.attribute_names().iter().cloned());
+        let held = held(&table);
+        let mut names = vec!["id", "layer", "geometry"];
+        if let Some(held) = &held {
+            names.extend(held.layer.attribute_names().iter().map(String::as_str));
         }
         walk(lua, &names, |name| of_feature(lua, &table, name))
     })?;
@@ -109,12 +110,12 @@ pub(crate) fn install(lua: &Lua, library: &Library) -> mlua::Result<()> {
 /// Returns the iterator function and a table of all fields, for a loop over a feature.
 fn walk(
     lua: &Lua,
-    names: &[String],
+    names: &[&str],
     field: impl Fn(&str) -> mlua::Result<LuaValue>,
 ) -> mlua::Result<(Function, Table)> {
     let whole = lua.create_table()?;
     for name in names {
-        whole.raw_set(name.as_str(), field(name)?)?;
+        whole.raw_set(*name, field(name)?)?;
     }
     whole.set_readonly(true);
     Ok((lua.globals().get("next")?, whole))

@@ -1,5 +1,7 @@
 //! L-systems as printed in books: strings of letters such as `F[+F]F`, read as modules, and as Lua.
 
+use std::borrow::Cow;
+
 use burgeon_base::error::{Error, Result, SourcePlace, shorten};
 use burgeon_rewriting::{NameScope, Signature, Symbols};
 
@@ -54,7 +56,7 @@ enum StringItem<'a> {
     /// A module by its text, its name, and the text between its brackets.
     Module {
         text: &'a str,
-        name: String,
+        name: Cow<'a, str>,
         arguments: Option<&'a str>,
     },
     /// A character that is no module, with the text between its brackets.
@@ -110,7 +112,7 @@ pub(super) fn lua_body(
                 depth = depth.checked_sub(1).ok_or_else(|| {
                     Error::syntax(format!("read as {}: a ] closes no branch", split_text(&items)))
                         .help("remove it, or open the branch with [")
-                        .at(place.clone())
+                        .at_place(place.as_ref())
                 })?;
                 lua.push_str("}, ");
             }
@@ -140,7 +142,9 @@ fn mistake(
     formals: Option<&[String]>,
 ) -> Option<Error> {
     match item {
-        StringItem::Module { name, .. } if formals.is_some_and(|formals| formals.contains(name)) => {
+        StringItem::Module { name, .. }
+            if formals.is_some_and(|formals| formals.iter().any(|formal| formal == name)) =>
+        {
             let error = Error::argument(format!("read as {}: {name} is also a parameter", split_text(items)));
             Some(error.help("give the parameter of the pattern another name"))
         }
@@ -181,7 +185,8 @@ pub(super) fn pattern_names(text: &str, symbols: &Symbols, scope: &NameScope) ->
             StringItem::Unknown { text, .. } => return Err(unknown_item(text, &split_text(&items), "")),
         }
     }
-    Ok(names.trim_end().to_owned())
+    names.truncate(names.trim_end().len());
+    Ok(names)
 }
 
 /// Returns the names of the modules in a string such as `+-F`.
@@ -189,7 +194,7 @@ pub(super) fn string_names(text: &str, symbols: &Symbols, scope: &NameScope) -> 
     let items = StringReader::new(text, symbols, scope).items()?;
     let split = split_text(&items);
     let names = items.into_iter().map(|item| match item {
-        StringItem::Module { name, arguments: None, .. } => Ok(name),
+        StringItem::Module { name, arguments: None, .. } => Ok(name.into_owned()),
         StringItem::Unknown { text, .. } => Err(unknown_item(text, &split, "")),
         _ => Err(Error::argument(format!("read as {split}: only modules without brackets can be listed"))
             .help("write their names or symbols, such as \"+-F\"")),
@@ -244,6 +249,7 @@ pub(crate) fn undeclared_letters(
             let arguments = arguments.map(split_arguments).unwrap_or_default();
             let index = letters.iter().position(|letter| letter.name == name).unwrap_or(letters.len());
             if index == letters.len() {
+                let name = name.into_owned();
                 letters.push(Letter { name, least: None, formals: Vec::new(), most: 0 });
             }
             let letter = &mut letters[index];
@@ -283,12 +289,12 @@ fn are_names(formals: &[String]) -> bool {
 }
 
 /// Returns the name of the module that a letter or a digit stands for.
-fn letter_name(text: &str) -> Option<String> {
+fn letter_name(text: &str) -> Option<Cow<'_, str>> {
     let letter = text.chars().next().filter(|_| text.len() == 1)?;
     match letter {
-        'A'..='Z' | 'a'..='z' => Some(text.to_owned()),
+        'A'..='Z' | 'a'..='z' => Some(Cow::Borrowed(text)),
         // A name cannot begin with a digit.
-        '0'..='9' => Some(format!("_{text}")),
+        '0'..='9' => Some(Cow::Owned(format!("_{text}"))),
         _ => None,
     }
 }
@@ -334,12 +340,13 @@ fn end_of_expression(text: &str, is_end: impl Fn(char) -> bool) -> Option<usize>
 /// Formats a string as it was split.
 fn split_text(items: &[StringItem]) -> String {
     let texts = items.iter().filter_map(|item| match item {
-        StringItem::Open => Some("[".to_owned()),
-        StringItem::Close => Some("]".to_owned()),
+        StringItem::Open => Some(Cow::Borrowed("[")),
+        StringItem::Close => Some(Cow::Borrowed("]")),
         StringItem::Break => None,
-        StringItem::Separator(text) => Some((*text).to_owned()),
+        StringItem::Separator(text) => Some(Cow::Borrowed(*text)),
         StringItem::Module { text, arguments, .. } | StringItem::Unknown { text, arguments } => {
-            Some(arguments.map_or_else(|| (*text).to_owned(), |arguments| format!("{text}({arguments})")))
+            let called = arguments.map(|arguments| Cow::Owned(format!("{text}({arguments})")));
+            Some(called.unwrap_or(Cow::Borrowed(*text)))
         }
     });
     shorten(&texts.collect::<Vec<_>>().join(" "), SHOWN).into_owned()
@@ -444,7 +451,7 @@ impl<'a> StringReader<'a> {
         let declared = names
             .iter()
             .find(|name| rest.starts_with(**name))
-            .map(|name| (text_of(name), (*name).to_owned()));
+            .map(|name| (text_of(name), Cow::Borrowed(*name)));
         let (text, name) = match declared {
             Some((text, name)) => (text, Some(name)),
             None => {
@@ -452,7 +459,7 @@ impl<'a> StringReader<'a> {
                     TURTLE.iter().find(|(symbol, name)| rest.starts_with(symbol) && self.is_module(name));
                 let first = rest.chars().next().map_or(0, char::len_utf8);
                 match symbol {
-                    Some((symbol, name)) => (text_of(symbol), Some((*name).to_owned())),
+                    Some((symbol, name)) => (text_of(symbol), Some(Cow::Borrowed(*name))),
                     None => {
                         let text = &rest[..first];
                         (text, letter_name(text).filter(|name| self.is_module(name)))

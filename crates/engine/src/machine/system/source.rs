@@ -23,13 +23,16 @@ impl SourceHandle {
     pub(crate) fn new(machine: &Machine, what: &LuaValue, options: &LuaValue) -> Result<Self> {
         let options = crate::machine::convert::to_value(options, false)?;
         match (what, &options) {
-            (LuaValue::Table(features), Value::Nil) => Ok(Self::List(features.clone())),
             (LuaValue::Table(features), options) => {
                 let none = ValueTable::default();
+                let is_bare = matches!(options, Value::Nil);
                 let options = if let Value::Table(options) = options { options } else { &none };
                 let (leads, data) = (machine.driver.leads(), &machine.session.data);
-                let list = if leads { crate::machine::convert::to_value(what, false)? } else { Value::Nil };
-                data.list(&list, options, leads)?;
+                if !is_bare {
+                    let list =
+                        if leads { crate::machine::convert::to_value(what, false)? } else { Value::Nil };
+                    data.list(&list, options, leads)?;
+                }
                 Ok(Self::List(features.clone()))
             }
             (LuaValue::String(text), Value::Nil) => Self::load(machine, &text.to_string_lossy(), None),
@@ -150,7 +153,7 @@ fn field(lua: &Lua, this: &AnyUserData, name: &str) -> mlua::Result<LuaValue> {
         LuaValue::Table(kept) => kept,
         _ => lua.create_table()?,
     };
-    kept.raw_set(name, value.clone())?;
+    kept.raw_set(name, &value)?;
     this.set_user_value(kept)?;
     Ok(value)
 }

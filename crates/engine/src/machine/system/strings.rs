@@ -62,9 +62,9 @@ pub(super) fn compile_successor(
     let body = if !is_string {
         body
     } else {
-        let place = SourcePlace { file: file.to_owned(), line };
-        translated = lua_body(body, &symbols, scope, Some(&pattern.formals), Some(place.clone()))
-            .map_err(|error| error.at(Some(place)))?;
+        let place = Some(SourcePlace { file: file.to_owned(), line });
+        translated = lua_body(body, &symbols, scope, Some(&pattern.formals), place)
+            .map_err(|error| error.at_line(file, line))?;
         &translated
     };
     let mut text = "\n".repeat(line.saturating_sub(1));
@@ -81,7 +81,7 @@ pub(super) fn compile_successor(
             false => problems.collect(),
         }));
     }
-    let queries: Vec<QueryCall> = analysis.queries.values().flatten().cloned().collect();
+    let queries: Vec<QueryCall> = analysis.queries.into_values().flatten().collect();
     check_open(&queries, file, pattern, &library.symbols.borrow())?;
     let text = analysis.text.replacen("lsystem:rule(\"\", ", "return (", 1);
     let chunk = machine.load(file, &text)?;
@@ -127,8 +127,7 @@ pub(super) fn string_axiom(library: &Library, lua: &Lua, text: &str) -> Result<V
 fn without_locals(error: Error) -> Error {
     match error.kind() {
         ErrorKind::NotFound { what: "name", suggestion: None, .. } => {
-            let place = error.place().cloned();
-            Error::of(error.kind().clone(), error.message()).at(place).help(
+            Error::of(error.kind().clone(), error.message()).at_place(error.place()).help(
                 "a string knows the parameters of the pattern and the names of all scripts; write a function to use others",
             )
         }

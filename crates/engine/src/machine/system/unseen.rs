@@ -3,6 +3,7 @@
 //!
 //! Each warning is certain: a declaration that can have an effect causes none.
 
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use mlua::Value;
@@ -38,7 +39,7 @@ impl SystemDeclaration {
             let text = "the system has no object, so its interpretations never run";
             let warning = Warning::new(WarningKind::NoObject, text);
             let warning = warning.rule(format!("{} (interpretation)", first.rule.pattern.text));
-            let warning = warning.at(first.rule.place.clone());
+            let warning = warning.at_place(first.rule.place.as_ref());
             machine.warn(match object_of_system(&machine.library.registry.borrow()) {
                 Some(object) => warning.help(format!("set an object, such as lsystem({{ {object} }})")),
                 None => warning,
@@ -79,8 +80,9 @@ impl SystemDeclaration {
                 sure.add(rule, around, guard);
                 continue;
             }
-            let warn =
-                |warning: Warning| machine.warn(warning.at(rule.place.clone()).rule(&rule.pattern.text));
+            let warn = |warning: Warning| {
+                machine.warn(warning.at_place(rule.place.as_ref()).rule(&rule.pattern.text))
+            };
             let earlier = sure.forestalls(rule, &around, guard);
             if let Some(symbol) =
                 rule.contexts().iter().find_map(|item| skipped_symbol(grammar, number(index), item))
@@ -91,15 +93,15 @@ impl SystemDeclaration {
                 let (text, help) = match ignored.considered {
                     _ if own.is_some() => (
                         format!("{name} is ignored by this rule, so this context never occurs"),
-                        "change the options ignore and consider of the rule, or its context".to_owned(),
+                        Cow::Borrowed("change the options ignore and consider of the rule, or its context"),
                     ),
                     Some(_) if !ignored.ignored.contains(&symbol) => (
                         format!("{name} is not among the modules to consider, so this context never occurs"),
-                        format!("add it: system:consider(\"{name}\")"),
+                        Cow::Owned(format!("add it: system:consider(\"{name}\")")),
                     ),
                     _ => (
                         format!("{name} is ignored, so this context never occurs"),
-                        "remove it from system:ignore(...), or from the context".to_owned(),
+                        Cow::Borrowed("remove it from system:ignore(...), or from the context"),
                     ),
                 };
                 warn(Warning::new(WarningKind::ImpossibleContext, text).help(help));
@@ -181,10 +183,11 @@ impl SystemDeclaration {
         }
         let bare = signature.parameters.join(", ");
         let name = symbols.display_name(symbol);
-        let pattern = if bare.is_empty() { name.to_owned() } else { format!("{name}({bare})") };
-        let comma = if bare.is_empty() { "" } else { ", " };
-        let interpret = format!("system:interpret(\"{pattern}\", function(this{comma}{bare}) ... end)");
-        let place = library.places.borrow().get(&symbol).cloned();
+        let (formals, comma) =
+            if bare.is_empty() { (String::new(), "") } else { (format!("({bare})"), ", ") };
+        let interpret = format!("system:interpret(\"{name}{formals}\", function(this{comma}{bare}) ... end)");
+        let places = library.places.borrow();
+        let place = places.get(&symbol);
         let hidden = standard.iter().find(|known| {
             known.symbol != symbol && is_a(known) && symbols.signature(known.symbol).name == signature.name
         });
@@ -195,7 +198,7 @@ impl SystemDeclaration {
                 symbols.signature(hidden.symbol).usage()
             );
             let help = format!("interpret it, {interpret}, or rename it");
-            return Some(Warning::new(WarningKind::HiddenModule, text).help(help).at(place));
+            return Some(Warning::new(WarningKind::HiddenModule, text).help(help).at_place(place));
         }
         // Without interpretations, an object draws only modules of the standard library, if it draws any.
         let draws = !self.interpretations.is_empty() || standard.iter().any(is_a);
@@ -210,15 +213,13 @@ impl SystemDeclaration {
         if let Some(known) = standard.iter().find(|known| known.symbol == symbol) {
             let text = format!("the standard library draws {name} only with a {}", known.kind);
             return Some(
-                Warning::new(WarningKind::UndrawnModule, text).help(interpret).at(self.place.clone()),
+                Warning::new(WarningKind::UndrawnModule, text).help(interpret).at_place(self.place.as_ref()),
             );
         }
         let text = format!("{name} has neither a rule nor an interpretation, so it is never drawn");
         let help = format!("{interpret}; if it is only a mark, ignore it: system:ignore(\"{name}\")");
         Some(
-            Warning::new(WarningKind::UndrawnModule, text)
-                .help(help)
-                .at(place.or_else(|| self.place.clone())),
+            Warning::new(WarningKind::UndrawnModule, text).help(help).at_place(place.or(self.place.as_ref())),
         )
     }
 }
@@ -308,9 +309,10 @@ impl<'a> CandidateRules<'a> {
         if rule.propensity().is_some() {
             return None;
         }
-        let places = if rule.weight.is_some() { BEFORE_ALL..=BEFORE_ALL } else { BEFORE_ALL..=WEIGHTED };
+        let last = if rule.weight.is_some() { BEFORE_ALL } else { WEIGHTED };
         let of = |around: &PatternElements, guard: GuardClass| {
-            self.rules.get(&(around.clone(), guard))?[places.clone()].iter().flatten().next().copied()
+            let known = self.rules.get(&(around.clone(), guard))?;
+            known[BEFORE_ALL..=last].iter().flatten().next().copied()
         };
         let guarded = || guard.and_then(|guard| of(around, Some(guard)));
         of(&anywhere, None).or_else(|| of(around, None)).or_else(guarded)
@@ -379,7 +381,7 @@ pub(crate) fn tell_unseen(machine: &Machine, returns: bool) {
     for system in systems.iter() {
         for (what, place) in system.late.borrow().iter() {
             let text = format!("{what} has no effect after derive");
-            let warning = Warning::new(WarningKind::LateDeclaration, text).at(place.clone());
+            let warning = Warning::new(WarningKind::LateDeclaration, text).at_place(place.as_ref());
             machine.warn(warning.help("call it before system:derive()"));
         }
         if !machine.session.options.check {
@@ -397,7 +399,7 @@ pub(crate) fn tell_unseen(machine: &Machine, returns: bool) {
     let first = systems.iter().find(|system| system.axiom.is_some() && !system.given.get());
     if let (true, Some(system), false) = (done.is_empty(), first, returns) {
         let warning = Warning::new(WarningKind::NotDerived, "no system is derived, so the model is empty");
-        machine.warn(warning.at(system.place.clone()).help("end the script with system:derive()"));
+        machine.warn(warning.at_place(system.place.as_ref()).help("end the script with system:derive()"));
     }
 }
 
@@ -423,7 +425,7 @@ fn tell_derived_twice<'a>(
             let line = |place: &SourcePlace| format!(" after the time in {place}");
             let earlier = earlier.place.as_ref().map(line).unwrap_or_default();
             let text = format!("the system is derived again{earlier}, and both models are kept");
-            let warning = Warning::new(WarningKind::DerivedTwice, text).at(derivation.place.clone());
+            let warning = Warning::new(WarningKind::DerivedTwice, text).at_place(derivation.place.as_ref());
             machine.warn(
                 warning.help("derive it once; a model that another system places is not shown separately"),
             );
@@ -435,8 +437,8 @@ fn tell_derived_twice<'a>(
 /// Warns in a check about modules that rules or axioms make and no system draws.
 fn tell_undrawn(machine: &Machine, systems: &[SystemDeclaration]) {
     let (library, done) = (&machine.library, machine.driver.derived());
-    let mut made: Vec<Symbol> =
-        done.iter().flatten().flat_map(|derived| derived.chain.symbols.clone()).collect();
+    let symbols = done.iter().flatten().flat_map(|derived| derived.chain.symbols.iter().copied());
+    let mut made: Vec<Symbol> = symbols.collect();
     made.extend(machine.current.shapes.borrow().iter().flat_map(|shape| shape.symbols.iter().copied()));
     made.sort_unstable();
     made.dedup();

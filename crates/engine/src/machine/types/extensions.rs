@@ -84,8 +84,8 @@ pub(in crate::machine) fn claim(
         [one] => Ok((*one).clone()),
         _ => {
             let shown =
-                |owner: &String| if owner.is_empty() { "the script" } else { owner.as_str() }.to_owned();
-            let mut all: Vec<String> = owners.iter().map(shown).collect();
+                owners.iter().map(|owner| if owner.is_empty() { "the script" } else { owner.as_str() });
+            let mut all: Vec<&str> = shown.collect();
             all.sort();
             let named = owners.iter().filter(|owner| !owner.is_empty());
             let mut named: Vec<String> =

@@ -96,7 +96,7 @@ impl UserData for ObjectHandle {
         methods.add_meta_method(
             MetaMethod::NewIndex,
             |_, this, (name, _): (LuaValue, LuaValue)| -> mlua::Result<()> {
-                let (kind, name) = (this.0.kind().name.clone(), name.to_string().unwrap_or_default());
+                let (kind, name) = (&this.0.kind().name, name.to_string().unwrap_or_default());
                 Err(mlua::Error::external(
                     Error::script(format!("{name} of a {kind} cannot be assigned"))
                         .help(format!("set fields in the constructor: {kind} {{ {name} = ... }}")),
@@ -210,7 +210,7 @@ impl UserData for DerivedHandle {
                 LuaValue::Table(cached) => cached,
                 _ => lua.create_table()?,
             };
-            cached.raw_set(name, value.clone())?;
+            cached.raw_set(name, &value)?;
             this.set_user_value(cached)?;
             Ok(value)
         });

@@ -29,11 +29,12 @@ pub(super) fn module_list(lua: &Lua, derived: &DerivedSystem, number: usize) -> 
     let chains = starts.len() - 1;
     let (Some(begin), true) = (starts.get(number.wrapping_sub(1)), number <= chains) else {
         let text = format!("the derived system has no chain number {number}");
-        return Err(mlua::Error::external(Error::argument(text).help(match chains {
-            0 => "it has no chains".to_owned(),
-            1 => "it has one chain: derived:chain()".to_owned(),
-            _ => format!("it has {chains} chains: derived:chain(1) to derived:chain({chains})"),
-        })));
+        let help = match chains {
+            0 => "it has no chains",
+            1 => "it has one chain: derived:chain()",
+            _ => &format!("it has {chains} chains: derived:chain(1) to derived:chain({chains})"),
+        };
+        return Err(mlua::Error::external(Error::argument(text).help(help)));
     };
     ReadableChain { chain, symbols, values }.list(lua, *begin, &mut |_, _| Ok(()))
 }

@@ -1,5 +1,6 @@
 //! `object` and `extend`: object types that a script declares, and methods that it adds to other types.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use mlua::{Function, Table, Value as LuaValue};
@@ -123,7 +124,7 @@ impl ScriptTypeEntry {
         let own = entry.functions.iter().filter(|it| it.role != Role::Hook && !is_full_name(&it.name));
         let mut methods: Vec<Method> = own.map(|it| it.method(&machine.session)).collect();
         methods.extend(entry.contested.iter().map(|(name, owners)| contested_method(name, owners.keys())));
-        let kind = entry.declaration.clone().kind(name, &doc, methods)?;
+        let kind = entry.declaration.clone().kind(name, doc, methods)?;
         let table = entry.table(machine, &kind).map_err(|error| machine.translate(error))?;
         Ok(Self { kind, table, functions: entry.functions, contested: entry.contested })
     }
@@ -251,8 +252,8 @@ impl ScriptFunction {
         let form = file.zip(info.line_defined).and_then(|(file, line)| session.signature(file, line));
         let form = form.filter(|form| !form.arguments.is_empty()).unwrap_or_else(|| {
             // If several functions begin at one line, the right signature is unknown.
-            let names = (0..info.num_params).map(|index| format!("a{index}"));
-            let names = names.chain(info.is_vararg.then(|| "...".to_owned()));
+            let names = (0..info.num_params).map(|index| Cow::Owned(format!("a{index}")));
+            let names = names.chain(info.is_vararg.then_some(Cow::Borrowed("...")));
             CallForm::new(names.map(Argument::new).collect(), "any")
         });
         Method {

@@ -190,16 +190,17 @@ pub struct TimesMessage {
 }
 
 impl ParamMessage {
-    /// Describes `param` for the page; `old_default` is the script's default at the time when the value was set.
-    pub fn new(param: &Param, old_default: Option<&Setting>) -> Self {
+    /// Describes `param` with `value` for the page; `old_default` is the script's default at the time when the value
+    /// was set.
+    pub fn new(param: &Param, value: &Setting, old_default: Option<&Setting>) -> Self {
         Self {
             name: param.name.clone(),
             package: param.package.clone(),
-            value: param.value.to_json(),
+            value: value.to_json(),
             default: param.base_value().to_json(),
             script_default: (param.default != *param.base_value()).then(|| param.default.to_json()),
             old_default: old_default.filter(|old| **old != param.default).map(Setting::to_json),
-            changed: param.value != *param.base_value(),
+            changed: value != param.base_value(),
             control: match &param.control {
                 Control::Number { min, max, step } => {
                     ControlMessage::Number { min: *min, max: *max, step: *step }
@@ -213,7 +214,7 @@ impl ParamMessage {
                     kind: control.form().kind,
                     closed: control.form().closed,
                     columns: control.form().columns,
-                    pieces: match &param.value {
+                    pieces: match value {
                         Setting::Points(points) => control.pieces(points).unwrap_or_default(),
                         _ => Vec::new(),
                     },
