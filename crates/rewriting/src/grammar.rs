@@ -309,7 +309,7 @@ impl Grammar {
         let among = |of: &Vec<u16>| Choice::among(of.iter().map(|rule| &self.rules[usize::from(*rule)]), of);
         self.choices = by_symbol.iter().map(among).collect();
         self.by_symbol = by_symbol;
-        self.dependents = DependentRules::among(&self);
+        self.dependents = self.find_dependent_rules();
         self
     }
 
