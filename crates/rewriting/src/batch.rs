@@ -4,13 +4,14 @@ use std::cell::RefCell;
 use std::time::{Duration, Instant};
 
 use crate::chain::{Chain, Mark};
+use crate::dependent_batch::DependentBatch;
 use crate::links::Links;
 use crate::matching::{Bindings, ContextMatcher};
 use crate::new_chain::NewChain;
 use crate::ordinals::Ordinals;
 use crate::output::Output;
 use crate::plan::StepPlan;
-use crate::rewrite_dependents::DependentBatch;
+pub use crate::rules::NO_RULE;
 use crate::rules::{Applications, RuleFailure, Rules};
 use crate::step_number::StepNumber;
 use crate::successors::{ModuleOrder, Successors};
@@ -18,9 +19,6 @@ use crate::text::module_brief;
 use burgeon_base::ModuleKey;
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
-
-/// Rule number for a module to which no rule was applied.
-pub const NO_RULE: u16 = u16::MAX;
 
 /// Piece of a chain, from a mark to another symbol.
 #[derive(Debug, Clone, Copy)]

@@ -1,10 +1,8 @@
 //! Rules that one call can apply to modules of which each depends on others of the same step.
 
 use crate::chain::{CLOSE, END, OPEN, Symbol};
-use crate::choice::Choice;
-use crate::grammar::{Grammar, NewContexts, Rule};
 use crate::ignored::IgnoredSet;
-use crate::pattern::{Context, Item, SymbolSet};
+use crate::pattern::{Context, Item, Pattern, SymbolSet};
 use crate::symbols::FIRST_SYMBOL;
 
 /// Rules of a grammar whose contexts in the new chain are single modules, so that one call can apply them to modules of which
@@ -31,35 +29,14 @@ pub struct NewContext {
 }
 
 impl DependentRules {
-    /// Returns the rules among the candidates of `grammar`; `None` if there are none, or if one has another form.
-    pub(crate) fn among(grammar: &Grammar) -> Option<Self> {
-        let is_special = grammar.has_runs() || grammar.has_events() || !grammar.region_openers().is_empty();
-        if grammar.new_contexts() == NewContexts::None || is_special {
-            return None;
-        }
-        let symbols = grammar.arities().len();
-        let contexts = grammar.rules().iter().map(|rule| NewContext::of(rule, symbols)).collect::<Vec<_>>();
-        let mut set = None;
-        let depends = |number: &u16| {
-            grammar.choice_in(0, grammar.rules()[usize::from(*number)].pattern.symbol) == Choice::NewContexts
-        };
-        for number in grammar.candidates().filter(depends) {
-            let rule = &grammar.rules()[usize::from(number)];
-            if rule.weight.is_some() {
-                return None;
-            }
-            if !rule.has_new_contexts() {
-                continue;
-            }
-            let key = (rule.pattern.has_new_right(), grammar.ignored_set(number));
-            if contexts[usize::from(number)].is_none() || set.is_some_and(|known| known != key) {
-                return None;
-            }
-            set = Some(key);
-        }
-        let (is_backward, ignored_set) = set?;
-        let ignored = grammar.ignored_sets()[ignored_set].clone();
-        Some(Self { is_backward, ignored_set, ignored, contexts })
+    /// Creates the rules whose contexts skip the set of `ignored` symbols with the number `ignored_set`. `contexts` has an entry
+    /// for each rule of the grammar.
+    pub(crate) fn new(
+        is_backward: bool,
+        (ignored_set, ignored): (usize, IgnoredSet),
+        contexts: Vec<Option<NewContext>>,
+    ) -> Self {
+        Self { is_backward, ignored_set, ignored, contexts }
     }
 
     /// Returns true if contexts follow their modules (`A >> B`), so that modules are rewritten from right to left.
@@ -109,10 +86,9 @@ impl DependentRules {
 }
 
 impl NewContext {
-    /// Returns the context of `rule` in the new chain, in a grammar of `symbols` symbols; `None` if it is not one module
+    /// Returns the context of `pattern` in the new chain, in a grammar of `symbols` symbols; `None` if it is not one module
     /// without required values.
-    fn of(rule: &Rule, symbols: usize) -> Option<Self> {
-        let pattern = &rule.pattern;
+    pub(crate) fn of(pattern: &Pattern, symbols: usize) -> Option<Self> {
         if pattern.new_from_beginning {
             return None;
         }
@@ -126,7 +102,7 @@ impl NewContext {
             SymbolSet::OneOf(several) => several.iter().any(|one| usize::from(*one) == symbol),
             SymbolSet::Any => symbol >= usize::from(FIRST_SYMBOL),
         };
-        let first_argument = if is_first { 0 } else { rule.arguments().checked_sub(item.bound)? };
+        let first_argument = if is_first { 0 } else { pattern.formals.len().checked_sub(item.bound)? };
         item.values.is_empty().then(|| Self {
             admitted: (0..symbols).map(admits).collect(),
             first_argument,

@@ -303,7 +303,7 @@ impl Grammar {
         self.choices = by_symbol.iter().map(among).collect();
         self.by_symbol = by_symbol;
         self.ruled = ruled;
-        self.dependents = DependentRules::among(&self);
+        self.dependents = self.find_dependent_rules();
         self
     }
 

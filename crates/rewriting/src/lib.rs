@@ -53,6 +53,8 @@ mod column_value;
 mod compatible;
 mod context;
 mod cut;
+mod dependent_batch;
+mod dependent_candidates;
 mod dependent_rules;
 mod dependents;
 mod event_chain;

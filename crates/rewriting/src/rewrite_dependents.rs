@@ -7,74 +7,12 @@ use std::time::{Duration, Instant};
 
 use crate::batch::{Active, Batch, ChainPiece, NO_RULE, Scratch, narrow, narrow_rule};
 use crate::chain::{CLOSE, END, OPEN};
+use crate::dependent_batch::{DependentBatch, Neighbour};
 use crate::dependent_rules::DependentRules;
 use crate::dependents::DependentModules;
 use crate::new_chain::{NewChain, NewPlace};
 use crate::rules::RuleFailure;
-use crate::successors::Successors;
 use burgeon_base::error::Result;
-
-/// Neighbour of a module in the new chain.
-#[derive(Debug, Clone, Copy)]
-enum Neighbour {
-    None,
-    /// Final module.
-    Final(NewPlace),
-    /// Result of the module with this index in the same call.
-    Pending(u32),
-}
-
-/// Modules of a call, in columns that are used again for the next call.
-#[derive(Debug, Default)]
-pub(crate) struct DependentBatch {
-    /// Indices of the modules among the active ones.
-    members: Vec<u32>,
-    sources: Vec<Neighbour>,
-    modules: Vec<[u32; 3]>,
-    trials: Vec<[u32; 2]>,
-    arguments: Vec<f64>,
-    neighbours: Vec<[u32; 2]>,
-    values: Vec<f64>,
-    /// Last final module that has been added to `neighbours`, with its index.
-    last: Option<(NewPlace, u32)>,
-    successors: Successors,
-    chosen: Vec<u32>,
-    /// Number of applications of each rule in all calls for a piece.
-    applied: Vec<usize>,
-}
-
-impl DependentBatch {
-    fn clear(&mut self) {
-        self.members.clear();
-        self.sources.clear();
-        self.modules.clear();
-        self.trials.clear();
-        self.arguments.clear();
-        self.neighbours.clear();
-        self.neighbours.push(DependentModules::NO_NEIGHBOUR);
-        self.values.clear();
-        self.last = None;
-    }
-
-    /// Returns the final neighbour that `from` has become after the call.
-    fn settle(&mut self, from: Neighbour, nearest: impl Fn(u32) -> Option<NewPlace>) -> Neighbour {
-        let mut here = from;
-        let found = loop {
-            let Neighbour::Pending(index) = here else { break here };
-            if let Some(place) = nearest(self.members[index as usize]) {
-                break Neighbour::Final(place);
-            }
-            here = self.sources[index as usize];
-        };
-        let mut passed = from;
-        while let Neighbour::Pending(index) = passed
-            && nearest(self.members[index as usize]).is_none()
-        {
-            passed = std::mem::replace(&mut self.sources[index as usize], found);
-        }
-        found
-    }
-}
 
 /// Walk along a chain that knows the neighbour of the next module.
 struct NeighbourWalk {
