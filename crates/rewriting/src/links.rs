@@ -103,12 +103,6 @@ impl Links {
         }
     }
 
-    /// Returns the region of the symbol at `index`, if the regions have been found.
-    #[inline]
-    pub(crate) fn region(&self, index: usize) -> Region {
-        self.regions.get(index).copied().unwrap_or(0)
-    }
-
     /// Returns the neighbours for the set of ignored symbols with this number.
     #[inline]
     pub(crate) fn tree(&self, set: usize) -> &TreeLinks {
