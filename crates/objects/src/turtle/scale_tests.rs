@@ -54,7 +54,8 @@ fn act(turtle: &mut Turtle, depth: &mut usize, (kind, value): Action) -> Result<
 
 /// Returns the vertices and normals that a turtle draws at this scale.
 fn drawn(joints: &str, scale: f64, actions: &[Action]) -> Result<Vec<(Vec3, Vec3)>> {
-    let mut turtle = Turtle::new(TurtleOptions { joints: joints.to_owned(), step: 0.7, ..Default::default() })?;
+    let mut turtle =
+        Turtle::new(TurtleOptions { joints: joints.to_owned(), step: 0.7, ..Default::default() })?;
     turtle.begin();
     turtle.rescale(scale)?;
     let mut depth = 0;
@@ -67,7 +68,7 @@ fn drawn(joints: &str, scale: f64, actions: &[Action]) -> Result<Vec<(Vec3, Vec3
     turtle.end()?;
     let parts = turtle.drawing().parts().iter();
     let part = |part: &burgeon_scene::Part| -> Vec<(Vec3, Vec3)> {
-        part.positions.iter().copied().zip(part.normals.iter().map(|normal| (*normal).into())).collect()
+        part.positions.iter().copied().zip(part.normals.iter().map(|normal| normal.vector())).collect()
     };
     Ok(parts.flat_map(part).collect())
 }
