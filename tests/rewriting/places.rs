@@ -61,7 +61,9 @@ fn interpreted(run: &Run) -> usize {
 #[test]
 fn places_in_series_are_those_of_whole_passes() {
     let objects = OBJECTS.iter().map(|object| (*object, "A()"));
-    for object in objects.chain([(WITH_SUBSYSTEM, "{ B(1), In(0.5), { A() } }, In(0.8), A()")]) {
+    for object in
+        objects.chain([(WITH_SUBSYSTEM, "{ B(1), In(0.5), F(0.1), { A() } }, In(0.8), F(0.1), A()")])
+    {
         for rules in RULES {
             let of_inner = rules.replace("s:rule", "inner:rule");
             let rules = if object.0 == WITH_SUBSYSTEM { &of_inner } else { rules };

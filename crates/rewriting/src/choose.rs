@@ -1,10 +1,9 @@
 //! Choice of the rule for each module, by contexts, guards and weights.
 
 use crate::batch::{Active, Batch, ChainPiece, NO_RULE, Scratch, narrow};
-use crate::chain::{END, Symbol};
+use crate::chain::END;
 use crate::choice::{Candidates, Choice};
 use crate::grammar::Rule;
-use crate::regions::Region;
 use crate::runs::RechosenModules;
 use burgeon_base::error::{Error, Result};
 
@@ -21,8 +20,8 @@ impl Batch<'_> {
         let (mut param, mut chain) = (piece.begin.param, piece.begin.chain);
         for module in piece.begin.module..piece.end {
             let symbol = self.chain.symbols[module];
-            let region = self.links.region(module);
-            let rules = grammar.rules_in(region, symbol);
+            let place = self.place_at(module);
+            let rules = grammar.rules_at(place);
             if !rules.is_empty() && !failed.is_some_and(|failed| failed.contains(chain)) {
                 let mut active = Active {
                     module: narrow(module),
@@ -30,7 +29,8 @@ impl Batch<'_> {
                     chain: narrow(chain),
                     rule: NO_RULE,
                 };
-                match grammar.choice_in(region, symbol) {
+                let choice = grammar.choice_at(place);
+                match choice {
                     Choice::Sole(rule) => active.rule = rule,
                     Choice::Contexts => active.rule = self.choose_unguarded(rules, active),
                     Choice::Guards => guarded.push(narrow(scratch.active.len())),
@@ -42,9 +42,7 @@ impl Batch<'_> {
                         }
                     }
                 }
-                if active.rule != NO_RULE
-                    || matches!(grammar.choice_in(region, symbol), Choice::Guards | Choice::NewContexts)
-                {
+                if active.rule != NO_RULE || matches!(choice, Choice::Guards | Choice::NewContexts) {
                     scratch.active.push(active);
                 }
             }
@@ -66,6 +64,16 @@ impl Batch<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Returns the index of the rules of the module at `module`.
+    #[inline(always)]
+    pub(crate) fn place_at(&self, module: usize) -> usize {
+        let symbol = self.chain.symbols[module];
+        match self.links.regions.get(module) {
+            None => usize::from(symbol),
+            Some(region) => self.plan.grammar.place_of(*region, symbol),
+        }
     }
 
     /// Returns true if the predecessor and the contexts of rule number `rule` match.
@@ -119,21 +127,20 @@ impl Batch<'_> {
     /// Returns the error that comes first in the chain.
     pub(crate) fn choose_guarded(&self, mut open: Vec<u32>, scratch: &mut Scratch) -> Result<()> {
         let grammar = &self.plan.grammar;
-        let kind_of = |scratch: &Scratch, index: u32| -> (Region, Symbol) {
-            let module = scratch.active[index as usize].module as usize;
-            (self.links.region(module), self.chain.symbols[module])
+        let place_of = |scratch: &Scratch, index: u32| -> usize {
+            self.place_at(scratch.active[index as usize].module as usize)
         };
-        open.sort_by_key(|index| kind_of(scratch, *index));
+        open.sort_by_key(|index| place_of(scratch, *index));
         let mut first: Option<(u32, Error)> = None;
         let mut rechosen = RechosenModules::default();
         let mut rest = open.as_slice();
         while let Some(index) = rest.first() {
-            let kind = kind_of(scratch, *index);
+            let place = place_of(scratch, *index);
             let (members, others) =
-                rest.split_at(rest.partition_point(|index| kind_of(scratch, *index) == kind));
+                rest.split_at(rest.partition_point(|index| place_of(scratch, *index) == place));
             rest = others;
             let mut candidates = vec![Candidates::default(); members.len()];
-            for number in grammar.rules_in(kind.0, kind.1) {
+            for number in grammar.rules_at(place) {
                 let rule = &grammar.rules()[usize::from(*number)];
                 let end = first.as_ref().map_or(u32::MAX, |(index, _)| *index);
                 let asked = members.iter().zip(&candidates).filter(|(index, candidates)| {

@@ -8,8 +8,7 @@ impl Grammar {
     /// Returns the candidates with contexts in the new chain; `None` if there are none, or if one has another form than
     /// [`DependentRules`] requires.
     pub(crate) fn find_dependent_rules(&self) -> Option<DependentRules> {
-        let is_special = self.has_runs() || self.has_events() || !self.region_openers().is_empty();
-        if self.new_contexts() == NewContexts::None || is_special {
+        if self.new_contexts() == NewContexts::None || self.has_runs() || self.has_events() {
             return None;
         }
         let symbols = self.arities().len();
@@ -17,7 +16,8 @@ impl Grammar {
             self.rules().iter().map(|rule| NewContext::of(&rule.pattern, symbols)).collect();
         let mut found = None;
         let depends = |number: &u16| {
-            self.choice_in(0, self.rules()[usize::from(*number)].pattern.symbol) == Choice::NewContexts
+            let rule = &self.rules()[usize::from(*number)];
+            self.choice_in(rule.region(), rule.pattern.symbol) == Choice::NewContexts
         };
         for number in self.candidates().filter(depends) {
             let rule = &self.rules()[usize::from(number)];

@@ -167,8 +167,8 @@ pub struct Grammar {
     /// Number of the set of each rule.
     ignored_numbers: Vec<usize>,
     /// Symbols that all of the sets contain which candidates have, and those that any of them contains.
-    skipped_by_all: IgnoredSet,
-    skipped_by_any: IgnoredSet,
+    pub(super) skipped_by_all: IgnoredSet,
+    pub(super) skipped_by_any: IgnoredSet,
     ring: bool,
     arities: Vec<u8>,
     name_hashes: Vec<u64>,
@@ -335,9 +335,21 @@ impl Grammar {
         self.ruled[usize::from(symbol)]
     }
 
+    /// Returns the rules of the symbol of a region with this index, in the order of declaration.
+    #[inline]
+    pub(crate) fn rules_at(&self, place: usize) -> &[u16] {
+        &self.by_symbol[place]
+    }
+
+    /// Returns the method of choosing the rule for the symbol of a region with this index.
+    #[inline]
+    pub(crate) fn choice_at(&self, place: usize) -> Choice {
+        self.choices[place]
+    }
+
     /// Returns the index of a symbol of a region.
     #[inline]
-    fn place_of(&self, region: Region, symbol: Symbol) -> usize {
+    pub(crate) fn place_of(&self, region: Region, symbol: Symbol) -> usize {
         usize::from(region) * self.arities.len() + usize::from(symbol)
     }
 
@@ -489,26 +501,5 @@ impl Grammar {
     /// Returns the number of elements of the longest right context.
     pub(crate) fn longest_right(&self) -> usize {
         self.right
-    }
-
-    /// Returns true if a few modules on the path before and after a module decide which rule applies to it: if rules
-    /// rewrite single modules, their contexts name no branches, and chains are not rings.
-    pub(crate) fn has_near_contexts(&self) -> bool {
-        !self.runs
-            && !self.ring
-            && self.new_contexts == NewContexts::None
-            && self.patterns.branch_count() == 0
-    }
-
-    /// Returns true if the contexts of all rules skip `symbol`.
-    #[inline]
-    pub(crate) fn is_skipped_by_all(&self, symbol: Symbol) -> bool {
-        self.skipped_by_all.contains(symbol)
-    }
-
-    /// Returns true if the contexts of a rule skip `symbol`.
-    #[inline]
-    pub(crate) fn is_skipped_by_any(&self, symbol: Symbol) -> bool {
-        self.skipped_by_any.contains(symbol)
     }
 }

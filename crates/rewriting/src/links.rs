@@ -106,12 +106,6 @@ impl Links {
         }
     }
 
-    /// Returns the region of the symbol at `index`, if the regions have been found.
-    #[inline]
-    pub(crate) fn region(&self, index: usize) -> Region {
-        self.regions.get(index).copied().unwrap_or(0)
-    }
-
     /// Returns the neighbours in `chain` without ignored symbols and rings.
     #[inline]
     pub(crate) fn whole(&self, chain: &Chain, grammar: &Grammar) -> &TreeLinks {

@@ -71,7 +71,7 @@ impl Batch<'_> {
             let symbol = self.chain.symbols[module];
             let active =
                 |rule| Active { module: narrow(module), param: narrow(param), chain: narrow(chain), rule };
-            let rules = grammar.rules_in(self.links.region(module), symbol);
+            let rules = grammar.rules_at(self.place_at(module));
             if !rules.is_empty() && !self.is_failed(active(NO_RULE)) {
                 for rule in rules {
                     if self.matches_old(*rule, &grammar.rules()[usize::from(*rule)], active(*rule)) {

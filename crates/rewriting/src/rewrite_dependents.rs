@@ -178,7 +178,7 @@ impl Batch<'_> {
         let begin = active.param as usize;
         let params = &self.chain.params[begin..begin + usize::from(arities[usize::from(symbol)])];
         call.values.extend_from_slice(params);
-        for number in grammar.rules_in(0, symbol) {
+        for number in grammar.rules_at(self.place_at(active.module as usize)) {
             let rule = &grammar.rules()[usize::from(*number)];
             if !self.matches_old(*number, rule, active) {
                 continue;

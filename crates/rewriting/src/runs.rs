@@ -133,7 +133,7 @@ impl Batch<'_> {
                 continue;
             }
             let mut candidates = Candidates::default();
-            for number in grammar.rules_in(self.links.region(module), symbols[module]) {
+            for number in grammar.rules_at(self.place_at(module)) {
                 let rule = &grammar.rules()[usize::from(*number)];
                 if candidates.admit(rule) && self.matches_guarded(*number, rule, scratch.active[index]) {
                     let mut members = vec![narrow(index)];

@@ -3,9 +3,32 @@
 use std::ops::Range;
 
 use crate::batch::ChainPiece;
-use crate::chain::{CLOSE, Chain, END, Mark, OPEN};
-use crate::grammar::Grammar;
+use crate::chain::{CLOSE, Chain, END, Mark, OPEN, Symbol};
+use crate::grammar::{Grammar, NewContexts};
 use crate::segments::{ChainSegment, SegmentedChain};
+
+impl Grammar {
+    /// Returns true if a few modules on the path before and after a module decide which rule applies to it: if rules
+    /// rewrite single modules, their contexts name no branches, and chains are not rings.
+    pub(crate) fn has_near_contexts(&self) -> bool {
+        !self.has_runs()
+            && !self.is_ring()
+            && self.new_contexts() == NewContexts::None
+            && self.patterns().branch_count() == 0
+    }
+
+    /// Returns true if the contexts of all rules skip `symbol`.
+    #[inline]
+    pub(crate) fn is_skipped_by_all(&self, symbol: Symbol) -> bool {
+        self.skipped_by_all.contains(symbol)
+    }
+
+    /// Returns true if the contexts of a rule skip `symbol`.
+    #[inline]
+    pub(crate) fn is_skipped_by_any(&self, symbol: Symbol) -> bool {
+        self.skipped_by_any.contains(symbol)
+    }
+}
 
 /// ChainSegment of a chain with the modules that the contexts of its modules can match. Modules that no context can
 /// match are left out, so the window is short, but neighbours along the tree are the same as in the whole chain.

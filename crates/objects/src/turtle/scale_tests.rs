@@ -68,7 +68,7 @@ fn drawn(joints: &str, scale: f64, actions: &[Action]) -> Result<Vec<(Vec3, Vec3
     turtle.end()?;
     let parts = turtle.drawing().parts().iter();
     let part = |part: &burgeon_scene::Part| -> Vec<(Vec3, Vec3)> {
-        part.positions.iter().copied().zip(part.normals.iter().map(|normal| (*normal).into())).collect()
+        part.positions.iter().copied().zip(part.normals.iter().map(|normal| normal.vector())).collect()
     };
     Ok(parts.flat_map(part).collect())
 }
