@@ -179,6 +179,12 @@ fn expected(scene: &Scene) -> Vec<Face> {
             }));
         }
     }
+    // Faces that a flattening transform collapses are not written.
+    let origin = crate::check::check(scene).unwrap().origin;
+    faces.retain(|face: &Face| {
+        let [a, b, c] = face.points.map(|point| (point - origin).as_vec3());
+        a != b && b != c && c != a
+    });
     faces.sort_by_key(|face| face.material);
     faces
 }
@@ -264,7 +270,7 @@ fn repeated_models_are_instances_that_look_as_their_copies_do() {
 #[test]
 fn quantised_tiles_are_smaller_and_need_the_extension() {
     let scene = with_features(samples::town(12));
-    let of = |compression, precision| TileFile::of(&scene, &options(false, compression, precision), 145);
+    let of = |compression, precision| TileFile::of(&scene, &options(true, compression, precision), 145);
     let [plain, fine, coarse] = [
         of(TileCompression::None, 0.001),
         of(TileCompression::Quantize, 0.001),
