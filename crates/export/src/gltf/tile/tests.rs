@@ -108,6 +108,10 @@ impl TileFile {
                     vector(&node["translation"], DVec3::ZERO),
                 );
             open.extend(node["children"].as_array().into_iter().flatten().map(|child| (index(child), place)));
+            // The node of the origin has no mesh.
+            if node["mesh"].is_null() {
+                continue;
+            }
             let attributes = &node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
             let list = |key: &str| attributes.get(key).map(|accessor| self.array(accessor));
             let (translations, rotations, scales) = (list("TRANSLATION"), list("ROTATION"), list("SCALE"));
