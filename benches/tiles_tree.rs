@@ -103,6 +103,7 @@ fn write_manifests(folder: &TileFolder, plan: &TilePlan) -> Outcome<()> {
             bounds: [middle[0], middle[1], 5.0, x, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, 5.0],
             triangles: 1,
             instances: 1,
+            primitives: 1,
         };
         let manifest = TileManifest {
             version: PLAN_VERSION,

@@ -235,11 +235,13 @@ mod tests {
     #[test]
     fn values_are_held_against_types() {
         let text = |text: &str| Literal::Text(text.to_owned());
-        let known = |name: &str| match name {
-            "Color" => Some(LuauType::read("string | { number }")),
-            "Model" => Some(LuauType::Named(Cow::Borrowed("Model"))),
-            _ => None,
-        };
+        fn known(name: &str) -> Option<LuauType<'_>> {
+            match name {
+                "Color" => Some(LuauType::read("string | { number }")),
+                "Model" => Some(LuauType::Named(Cow::Borrowed("Model"))),
+                _ => None,
+            }
+        }
         let accepts = |luau: &str, literal: &Literal| LuauType::read(luau).accepts(literal, &known);
         for (luau, literal) in [
             ("number", Literal::Number),

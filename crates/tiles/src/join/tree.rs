@@ -196,6 +196,7 @@ mod tests {
             bounds,
             triangles: 1,
             instances: 1,
+            primitives: 1,
         };
         (file, vec![0.5 + (number % 7) as f64, 3.0 + (number % 5) as f64])
     }
