@@ -2,7 +2,7 @@
 
 use smallvec::SmallVec;
 
-use super::grammar::Rule;
+use super::rule::Rule;
 use burgeon_base::random::Stream;
 
 /// Method of choosing a rule among the rules of a symbol.

@@ -3,7 +3,7 @@
 use crate::batch::{Active, Batch, ChainPiece, NO_RULE, Scratch, narrow};
 use crate::chain::END;
 use crate::choice::{Candidates, Choice};
-use crate::grammar::Rule;
+use crate::rule::Rule;
 use crate::runs::RechosenModules;
 use burgeon_base::error::{Error, Result};
 

@@ -5,12 +5,13 @@ use std::sync::Arc;
 
 use crate::chain::{CLOSE, Chain, DEEPEST, END, OPEN, Symbol};
 use crate::events::EventSeries;
-use crate::grammar::{Grammar, MOST_RULES, Propensity, Rule};
+use crate::grammar::{Grammar, MOST_RULES};
 use crate::ordinals::Ordinals;
 use crate::pattern::Pattern;
 use crate::phases::{Phase, PhaseOutcome, Phases, derive};
 use crate::plan::StepPlan;
 use crate::regions::Region;
+use crate::rule::{Propensity, Rule};
 use crate::rules::{Applications, RuleFailure, Rules};
 use crate::series::StepSeries;
 use crate::step::{NoHelpers, Stepper};

@@ -1,6 +1,7 @@
 //! Rules that cannot be applied in the same step.
 
-use crate::grammar::{Grammar, Rule};
+use crate::grammar::Grammar;
+use crate::rule::Rule;
 use burgeon_base::error::{Error, Result};
 
 impl Grammar {

@@ -3,7 +3,7 @@
 use crate::amounts::{Amount, MOST_PROPENSITY};
 use crate::batch::{Active, Batch, ChainPiece, NO_RULE, Scratch, narrow, narrow_rule};
 use crate::chain::END;
-use crate::grammar::Propensity;
+use crate::rule::Propensity;
 use crate::rules::RuleFailure;
 use burgeon_base::error::{Error, Result};
 

@@ -4,7 +4,6 @@
 //! it, and a region within it takes precedence.
 
 use crate::chain::{CLOSE, Chain, END, OPEN, Symbol};
-use crate::grammar::{Grammar, Rule};
 
 /// Number of a region's system; 0 outside of all regions.
 pub type Region = u16;
@@ -152,62 +151,6 @@ impl RegionChange {
         }
         change.levels.push(present);
         change
-    }
-}
-
-impl Rule {
-    /// Returns the rule that applies only in the regions with this number, see [`Grammar::with_regions`]. A rule that
-    /// rewrites several modules applies if the first of them is in such a region.
-    #[must_use]
-    pub fn in_region(mut self, region: Region) -> Self {
-        self.region = region;
-        self
-    }
-
-    /// Returns the number of the regions in which the rule applies; 0 outside of all regions.
-    #[inline]
-    pub fn region(&self) -> Region {
-        self.region
-    }
-}
-
-impl Grammar {
-    /// Returns the grammar in which `openers` open regions: a rule applies only in the region of its system, see
-    /// [`Rule::in_region`]. Contexts see the modules of all regions.
-    ///
-    /// ```
-    /// use burgeon_rewriting::ClosureSystem;
-    ///
-    /// let mut plant = ClosureSystem::new(0);
-    /// let (apex, leaf, stem) = (plant.module("Apex", &[])?, plant.module("Leaf", &[])?, plant.module("Stem", &[])?);
-    /// plant.rule("Apex", move |_, out| {
-    ///     out.push(stem, &[]);
-    ///     out.open();
-    ///     out.push(leaf, &[]);
-    ///     out.push(apex, &[]);
-    ///     out.close();
-    ///     out.push(apex, &[]);
-    /// })?;
-    /// plant.open_region(leaf, 1);
-    /// plant.add_rules_to(1);
-    /// plant.rule("Apex", move |_, out| [stem, stem, apex].iter().for_each(|symbol| out.push(*symbol, &[])))?;
-    /// let chain = plant.chain(|out| out.push(apex, &[]))?;
-    /// let expected = "Stem [ Leaf Stem Stem Apex ] Stem [ Leaf Apex ] Apex\n";
-    /// assert_eq!(plant.text(&plant.derive(chain, 2)?), expected);
-    /// # Ok::<(), burgeon_base::Error>(())
-    /// ```
-    #[must_use]
-    pub fn with_regions(mut self, openers: &[(Symbol, Region)]) -> Self {
-        self.openers = RegionOpeners::new(openers, self.arities().len());
-        let mut candidates = vec![false; self.rules().len()];
-        self.candidates().for_each(|number| candidates[usize::from(number)] = true);
-        self.with_candidates(|number| candidates[usize::from(number)])
-    }
-
-    /// Returns the modules that open regions.
-    #[inline]
-    pub fn region_openers(&self) -> &RegionOpeners {
-        &self.openers
     }
 }
 
