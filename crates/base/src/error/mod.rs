@@ -5,8 +5,10 @@
 mod constructors;
 mod kind;
 mod message;
+mod source_place;
 mod suggest;
 
 pub use self::kind::{ErrorKind, Limit};
 pub use self::suggest::{did_you_mean, nearest};
-pub use message::{Error, Result, SourcePlace, shorten};
+pub use message::{Error, Result, shorten};
+pub use source_place::SourcePlace;

@@ -8,19 +8,16 @@ use mlua::Buffer;
 use super::InterpretationPass;
 use super::memory::{PassMark, PassMemory};
 use super::notices::ObjectNotice;
-use crate::machine::{
-    CLOSE_CALL, Flusher, Interpretations, Machine, OPEN_CALL, Objects, read_column, returns_value,
-    stops_at_depth,
-};
+use crate::machine::{CLOSE_CALL, Interpretations, Machine, OPEN_CALL, Objects, read_column};
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
 use burgeon_base::warning::Warning;
 use burgeon_kit::{Call, Capability, Kind, Locate, Object, ObjectPlace, Rewind, Value, Values, Warn};
-use burgeon_rewriting::{CLOSE, END, Mark, OPEN, Symbol, module_brief};
+use burgeon_rewriting::{CLOSE, END, Mark, OPEN, module_brief};
 
 /// Progress of applying one piece of the chains.
 pub(crate) struct Applier {
-    pass: Arc<InterpretationPass>,
+    pub(super) pass: Arc<InterpretationPass>,
     objects: Arc<Objects>,
     kind: Arc<Kind>,
     warn: Option<Capability<dyn Warn>>,
@@ -29,16 +26,16 @@ pub(crate) struct Applier {
     triangle_limit: usize,
     buffers: [Buffer; 3],
     /// Index of the next symbol to apply.
-    position: usize,
+    pub(super) position: usize,
     /// Index of that symbol's first parameter.
     param: usize,
     /// Index of that symbol's chain.
-    chain: usize,
+    pub(super) chain: usize,
     /// Set once the chain's object has begun its pass.
     begun: bool,
     /// Number of triangles of the chain's object that have been counted.
     counted: usize,
-    entries: Vec<(usize, usize)>,
+    pub(super) entries: Vec<(usize, usize)>,
     /// First entry that is not completely applied.
     next: usize,
     calls: Vec<u16>,
@@ -54,12 +51,12 @@ pub(crate) struct Applier {
     call_at: usize,
     number_at: usize,
     /// Last entry whose calls were applied before the entry was complete, and the number of these calls.
-    flushed: (usize, usize),
+    pub(super) flushed: (usize, usize),
     /// Warnings of the objects during the batch.
-    notices: Vec<ObjectNotice>,
+    pub(super) notices: Vec<ObjectNotice>,
     /// Set while a call of the script waits for the recorded calls before it. A run that then reaches its
     /// time limit reports the line of that call.
-    waits: bool,
+    pub(super) waits: bool,
     locate: Option<Capability<dyn Locate>>,
     /// Places of the object at modules whose rules read them.
     places: Vec<(u32, ObjectPlace)>,
@@ -67,9 +64,6 @@ pub(crate) struct Applier {
 
 /// Number of symbols between two checks for cancellation.
 const STRETCH: usize = 64;
-
-/// Maximum number of method calls of one application.
-const MOST_CALLS: usize = 1 << 24;
 
 /// Reason why applying stopped.
 #[derive(PartialEq)]
@@ -183,7 +177,7 @@ impl Applier {
     }
 
     #[cold]
-    fn note(&mut self, said: Vec<Warning>, call: Option<(usize, usize)>) {
+    pub(super) fn note(&mut self, said: Vec<Warning>, call: Option<(usize, usize)>) {
         let module = (self.position, self.param);
         self.notices.extend(said.into_iter().map(|warning| ObjectNotice { warning, module, call }));
     }
@@ -202,7 +196,7 @@ impl Applier {
     }
 
     /// Reads the `called` calls recorded since the last read, for the entries up to `entry`.
-    fn read(&mut self, entry: usize, called: usize) -> Result<()> {
+    pub(super) fn read(&mut self, entry: usize, called: usize) -> Result<()> {
         let [calls, numbers, counts] = self.buffers.clone();
         read_column(calls, called, &mut self.calls)?;
         read_column(numbers, self.arguments_of(0..called), &mut self.numbers)?;
@@ -213,7 +207,7 @@ impl Applier {
 
     /// Applies the calls of the entries up to `last`, and all symbols before `until` without an
     /// interpretation rule: brackets, ends and the modules of the standard library.
-    fn apply(&mut self, last: usize, until: usize) -> Result<()> {
+    pub(super) fn apply(&mut self, last: usize, until: usize) -> Result<()> {
         let objects = Arc::clone(&self.objects);
         while self.position < until || self.next < self.entries.len().min(last + 1) {
             let failed = objects.failed().contains(self.chain);
@@ -400,7 +394,7 @@ impl Applier {
         self.kind.methods.get(usize::from(call)).map_or(0, |method| method.arguments.len())
     }
 
-    fn count(&mut self) -> Result<()> {
+    pub(super) fn count(&mut self) -> Result<()> {
         if !self.begun {
             return Ok(());
         }
@@ -462,59 +456,5 @@ impl Applier {
 fn follow(object: &mut dyn Object, position: usize) {
     if let Some(drawing) = object.drawing_mut() {
         drawing.trace(u32::try_from(position).unwrap_or(u32::MAX));
-    }
-}
-
-impl Flusher for Applier {
-    fn flush(&mut self, entry: usize, called: usize) -> Result<()> {
-        let so_far = if self.flushed.0 == entry { self.flushed.1 } else { 0 };
-        // A call that runs immediately is not recorded, so it is counted here.
-        self.flushed = (entry, so_far + called + 1);
-        if self.flushed.1 > MOST_CALLS {
-            let message = format!(
-                "one application of an interpretation rule calls more than {MOST_CALLS} methods, which is the limit"
-            );
-            return Err(Error::limit(Limit::Size, message)
-                .help("look for an endless loop, or let more modules draw the parts"));
-        }
-        self.read(entry, called)?;
-        self.waits = true;
-        let applied = self.apply(entry, self.position);
-        self.waits = false;
-        applied?;
-        self.count()
-    }
-
-    fn chain(&self) -> usize {
-        self.chain
-    }
-
-    fn warn(&mut self, said: Vec<Warning>) {
-        self.note(said, None);
-    }
-
-    fn lost(&mut self, entry: usize, value: &str) {
-        if let Some(module) = self.entries.get(entry).copied() {
-            self.notices.push(ObjectNotice { warning: returns_value(value), module, call: None });
-        }
-    }
-
-    fn context(&self, entry: usize, rule: u16) -> Option<Vec<f64>> {
-        let (module, _) = *self.entries.get(entry)?;
-        self.pass.context(rule, module)
-    }
-
-    fn note_undrawn(&self, symbol: Symbol) {
-        self.pass.note_undrawn(symbol);
-    }
-
-    fn note_depth(&mut self, entry: usize, rule: u16, module: &str, max_depth: usize) {
-        let Some(at) = self.entries.get(entry).copied() else { return };
-        let mut warning = stops_at_depth("interpretation", max_depth, "returns more modules")
-            .module(module, self.pass.step);
-        if let Some(known) = self.pass.plan.interpretations.list.get(usize::from(rule)) {
-            warning = warning.at_place(known.place.as_ref()).rule(format!("{} (interpretation)", known.name));
-        }
-        self.notices.push(ObjectNotice { warning, module: at, call: None });
     }
 }

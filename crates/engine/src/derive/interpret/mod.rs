@@ -7,6 +7,7 @@
 mod apply;
 mod blame;
 mod entries;
+mod flush;
 mod memory;
 mod notices;
 mod part;

@@ -1,0 +1,46 @@
+//! Lines of files.
+
+use std::fmt;
+
+use crate::text::without_passwords;
+
+/// A line of a script or data file.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct SourcePlace {
+    /// File name as the user wrote it.
+    pub file: String,
+    /// Line number, from 1.
+    pub line: usize,
+}
+
+/// Maximum size (bytes) of a file whose lines are shown, and maximum length (characters) of a shown line.
+const LARGEST: u64 = 16_000_000;
+
+const WIDEST: usize = 160;
+
+impl SourcePlace {
+    /// Returns the lines from `before` lines before the location to `after` lines after it, with their numbers. Empty
+    /// if the file cannot be read, or if the line itself is empty or missing.
+    pub fn excerpt(&self, before: usize, after: usize) -> Vec<(usize, String)> {
+        let path = std::path::Path::new(&self.file);
+        let fits = |metadata: std::fs::Metadata| metadata.is_file() && metadata.len() <= LARGEST;
+        if !std::fs::metadata(path).is_ok_and(fits) {
+            return Vec::new();
+        }
+        let Ok(text) = std::fs::read_to_string(path) else { return Vec::new() };
+        let first = self.line.saturating_sub(before).max(1);
+        let lines = text.lines().enumerate().skip(first - 1).take(self.line + after + 1 - first);
+        let shown = |line: &str| without_passwords(line.trim_end()).chars().take(WIDEST).collect();
+        let lines = lines.map(|(index, line)| (index + 1, shown(line)));
+        let lines: Vec<(usize, String)> = lines.collect();
+        let there =
+            lines.iter().any(|(number, line): &(usize, String)| *number == self.line && !line.is_empty());
+        if there { lines } else { Vec::new() }
+    }
+}
+
+impl fmt::Display for SourcePlace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", self.file, self.line)
+    }
+}
