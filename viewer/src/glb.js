@@ -13,6 +13,9 @@ const ARRAYS = {
 const WIDTHS = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT4: 16 };
 
 export class Glb {
+  /** Views of the buffer that were compressed in the file, as ArrayBuffers by their number. */
+  unpacked = new Map();
+
   /** `file` is an ArrayBuffer. Fails with a text for people if it is no such file. */
   constructor(file) {
     const head = new DataView(file);
@@ -30,8 +33,9 @@ export class Glb {
     const size = accessor.count * this.stride(index);
     if (accessor.bufferView === undefined) return new Kind(size);
     const view = this.json.bufferViews[accessor.bufferView];
-    const start = this.body + (view.byteOffset ?? 0) + (accessor.byteOffset ?? 0);
-    return new Kind(this.file, start, size);
+    const own = this.unpacked.get(accessor.bufferView);
+    const start = own ? 0 : this.body + (view.byteOffset ?? 0);
+    return new Kind(own ?? this.file, start + (accessor.byteOffset ?? 0), size);
   }
 
   /** How many numbers there are from one item of accessor `index` to the next. */

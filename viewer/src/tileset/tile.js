@@ -5,6 +5,7 @@ import { Glb } from '../glb.js';
 import { build, geometry } from '../model.js';
 import { Attributes } from './attributes.js';
 import { facets } from './facets.js';
+import { unpack } from './unpack.js';
 
 const MESH = 'EXT_mesh_features';
 const INSTANCES = 'EXT_instance_features';
@@ -15,6 +16,7 @@ const UPRIGHT = new Matrix4().makeRotationX(Math.PI / 2);
 /** Reads the tile in `file`, an ArrayBuffer, with `materials` of the page. */
 export async function readTile(file, materials) {
   const glb = new Glb(file);
+  await unpack(glb);
   const { made, add } = await materials.of(glb);
   add();
   return new Tile(glb, build(glb, made, materials.plain, shape));

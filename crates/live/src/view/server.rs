@@ -25,6 +25,11 @@ use burgeon_export::{Format, gltf};
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; \
                       connect-src 'self' blob: data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
+/// The same for tilesets, whose compressed tiles a decoder in WebAssembly reads.
+const TILESET_POLICY: &str = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; \
+                              img-src 'self' blob: data:; connect-src 'self' blob: data:; base-uri 'none'; \
+                              form-action 'none'; frame-ancestors 'none'";
+
 const FOR_EVER: &str = "private, max-age=31536000, immutable";
 const NEVER: &str = "no-store";
 
@@ -89,8 +94,12 @@ impl ScriptSite {
 pub(super) async fn answer(site: &Arc<Site>, request: Request, known: impl FnOnce()) -> Response {
     let mut response = route(site, request, known).await;
     let headers = response.headers_mut();
-    let always: [(HeaderName, &str); 6] = [
-        (header::CONTENT_SECURITY_POLICY, POLICY),
+    let policy = match &site.content {
+        SiteContent::Script(_) => POLICY,
+        SiteContent::Tileset(_) => TILESET_POLICY,
+    };
+    let always: [(HeaderName, &'static str); 6] = [
+        (header::CONTENT_SECURITY_POLICY, policy),
         (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
         (header::X_FRAME_OPTIONS, "DENY"),
         (header::REFERRER_POLICY, "no-referrer"),
