@@ -140,8 +140,25 @@ impl TilePlan {
             let lines = lines.collect::<Result<Vec<_>>>()?.join(",\n    ");
             Ok(if lines.is_empty() { "[]".to_owned() } else { format!("[\n    {lines}\n  ]") })
         };
-        let Self { version, program, script, arguments, files, packages, frame, reach, metadata, .. } = self;
-        let Self { sources, lods, tiles, coarse, left_out, notes, .. } = self;
+        // Each field, so that none is forgotten.
+        let Self {
+            version,
+            program,
+            script,
+            arguments,
+            files,
+            packages,
+            sources,
+            frame,
+            reach,
+            metadata,
+            model,
+            lods,
+            tiles,
+            coarse,
+            left_out,
+            notes,
+        } = self;
         let parts = [
             ("version", value(serde_json::to_string(version))?),
             ("program", value(serde_json::to_string(program))?),
@@ -152,6 +169,7 @@ impl TilePlan {
             ("frame", value(serde_json::to_string(frame))?),
             ("reach", value(serde_json::to_string(reach))?),
             ("metadata", value(serde_json::to_string(metadata))?),
+            ("model", value(serde_json::to_string(model))?),
             ("sources", value(serde_json::to_string(sources))?),
             ("lods", value(serde_json::to_string(lods))?),
             ("tiles", list(tiles)?),
