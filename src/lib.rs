@@ -31,7 +31,7 @@
 //! engine     uses ──► base, kit, language, packages, rewriting, scene, spatial
 //! picture    uses ──► base, scene
 //! export     uses ──► base, picture, scene, spatial
-//! tiles      uses ──► base, data, export, picture, scene, spatial
+//! tiles      uses ──► base, data, export, scene, spatial
 //! live       uses ──► base, engine, export, picture, scene
 //! burgeon    uses ──► base, engine, export, kit, language, live, objects, packages, picture, scene, sources, terrain, tiles
 //! ```

@@ -83,6 +83,10 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
           Sets modules that context matching ignores.
       consider(...string) -> System<T>
           Sets the only modules that context matching considers.
+      subsystem(module: string, system: System<T>) -> System<T>
+          Makes a module begin a sub-system: what follows it in its branch is rewritten by the rules of
+          `system` in the same steps, and drawn by its interpretations. A parameter `scale` of the
+          module scales lengths and widths.
       derive(steps: number?, group: string?) -> Derived
       derive(options: { ... }) -> Derived
           Applies the rules step by step; without a number of steps, until no rule applies. With a

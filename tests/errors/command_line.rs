@@ -332,7 +332,7 @@ fn help_reads_well() {
 
     Commands:
       run          Runs a script and writes what it makes
-      live         Shows what a script makes in the browser, and shows it anew on every save
+      live         Shows what a script makes in the browser, and shows it anew on every save; also shows a folder of tiles
       check        Checks a script and its required files as far as a run goes, and reports all problems
       api          Tells what scripts can use: types of objects with their fields and methods, functions and modules
       variations   Runs a script many times, with other seeds or other values of a parameter, and shows them side by side

@@ -24,7 +24,7 @@ struct ImplicitTiling<'a> {
 }
 
 /// Place of a tile: level, column and row.
-type Place = [u32; 3];
+type TileNumbers = [u32; 3];
 
 impl TilesetCheck<'_> {
     /// Checks the tiles of a tile with implicit tiling. `own` is the tile itself.
@@ -36,8 +36,8 @@ impl TilesetCheck<'_> {
                 return Ok(());
             }
         };
-        let mut tiles: BTreeMap<Place, SubtreeTile> = BTreeMap::new();
-        let mut open: Vec<Place> = vec![[0; 3]];
+        let mut tiles: BTreeMap<TileNumbers, SubtreeTile> = BTreeMap::new();
+        let mut open: Vec<TileNumbers> = vec![[0; 3]];
         while let Some([level, x, y]) = open.pop() {
             let name = filled(tiling.subtrees, [level, x, y]);
             let path = self.folder.path().join(&name);
@@ -78,7 +78,7 @@ impl TilesetCheck<'_> {
         &mut self,
         tiling: &ImplicitTiling<'_>,
         own: &ParentTile,
-        tiles: &BTreeMap<Place, SubtreeTile>,
+        tiles: &BTreeMap<TileNumbers, SubtreeTile>,
     ) -> Result<()> {
         for (place, tile) in tiles {
             let [level, x, y] = *place;
@@ -140,7 +140,7 @@ fn read(described: &Value) -> std::result::Result<ImplicitTiling<'_>, String> {
 }
 
 /// Returns a template with the place of a tile.
-fn filled(template: &str, [level, x, y]: Place) -> String {
+fn filled(template: &str, [level, x, y]: TileNumbers) -> String {
     let text = template.replace("{level}", &level.to_string());
     text.replace("{x}", &x.to_string()).replace("{y}", &y.to_string())
 }

@@ -35,7 +35,7 @@ pub(super) struct TilesetWriter<'a> {
 }
 
 /// Tile of a file to be written, inside a tile.
-struct TileAbove<'a> {
+struct OuterTile<'a> {
     transform: &'a DAffine3,
     /// Geometric error (m).
     error: f64,
@@ -64,12 +64,12 @@ impl TilesetWriter<'_> {
         }
         let mut external: Vec<Pending<'_>> = Vec::new();
         let divides = self.tiles(root) > LARGE;
-        let above = TileAbove { transform: &DAffine3::IDENTITY, error: root.absent_error() };
+        let above = OuterTile { transform: &DAffine3::IDENTITY, error: root.absent_error() };
         let body = self.tile(root, &above, divides.then_some(&mut external))?;
         let count = external.len() + 1;
         for (name, tile, error) in external {
             // The tile that refers to the file has the transform.
-            let above = TileAbove { transform: &tile.transform, error };
+            let above = OuterTile { transform: &tile.transform, error };
             let body = self.tile(tile, &above, None)?;
             self.file(&name, &body, tile.error)?;
         }
@@ -110,7 +110,7 @@ impl TilesetWriter<'_> {
     fn tile<'t>(
         &mut self,
         tile: &'t TilesetTile,
-        above: &TileAbove<'_>,
+        above: &OuterTile<'_>,
         mut external: Option<&mut Vec<Pending<'t>>>,
     ) -> Result<Value> {
         if self.is_implicit && tile.id.level >= TileId::ANCHOR {
@@ -132,7 +132,7 @@ impl TilesetWriter<'_> {
             body["content"] = json!({ "uri": content_name(tile.id) });
         }
         if !tile.children.is_empty() {
-            let inner = TileAbove { transform: &tile.transform, error: tile.error };
+            let inner = OuterTile { transform: &tile.transform, error: tile.error };
             let mut children = Vec::new();
             for child in &tile.children {
                 children.push(self.tile(child, &inner, external.as_deref_mut())?);
@@ -145,7 +145,7 @@ impl TilesetWriter<'_> {
     }
 
     /// Returns the root of implicit tiling as JSON, and writes its subtrees.
-    fn implicit(&mut self, tile: &TilesetTile, above: &TileAbove<'_>) -> Result<Value> {
+    fn implicit(&mut self, tile: &TilesetTile, above: &OuterTile<'_>) -> Result<Value> {
         let root = ImplicitRoot::new(tile, above.error, self.map)?;
         let levels = root.levels.min(SUBTREE_LEVELS);
         for (place, bytes) in subtrees(&root.tiles, levels) {

@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 use glam::DVec3;
 
-use super::tree::{Corners, TriangleTree, distance_squared};
+use super::tree::{TriangleCorners, TriangleTree, distance_squared};
 
 /// Tolerance of distances, as a part of them.
 pub(super) const PART: f64 = 0.1;
@@ -26,7 +26,7 @@ enum PartShape {
     /// Triangles in a box of the tree.
     Box(usize),
     /// Part of a triangle.
-    Triangle(Corners),
+    Triangle(TriangleCorners),
 }
 
 impl PartialEq for MeshPart {
@@ -129,7 +129,7 @@ impl DistanceSearch<'_> {
         }
     }
 
-    fn add_triangle(&mut self, corners: Corners) {
+    fn add_triangle(&mut self, corners: TriangleCorners) {
         let (bound, distance) = self.bound(corners.iter().sum::<DVec3>() / 3.0, &corners);
         self.largest = self.largest.max(distance);
         if bound > self.limit() {
@@ -158,7 +158,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn triangles() -> impl Strategy<Value = Vec<Corners>> {
+    fn triangles() -> impl Strategy<Value = Vec<TriangleCorners>> {
         let point =
             (-10.0..10.0_f64, -10.0..10.0_f64, -10.0..10.0_f64).prop_map(|(x, y, z)| DVec3::new(x, y, z));
         prop::collection::vec(prop::array::uniform3(point), 1..12)

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 /// Corners (m) of a triangle.
-pub(super) type Corners = [DVec3; 3];
+pub(super) type TriangleCorners = [DVec3; 3];
 
 /// Largest number of triangles in a box that is not divided.
 const FEW: usize = 6;
@@ -19,7 +19,7 @@ const FEW: usize = 6;
 /// ```
 #[derive(Debug, Clone, Default)]
 pub struct TriangleTree {
-    triangles: Vec<Corners>,
+    triangles: Vec<TriangleCorners>,
     boxes: Vec<TriangleBox>,
 }
 
@@ -44,7 +44,7 @@ impl TriangleBox {
 
 impl TriangleTree {
     /// Builds the tree.
-    pub fn new(mut triangles: Vec<Corners>) -> Self {
+    pub fn new(mut triangles: Vec<TriangleCorners>) -> Self {
         let mut boxes = Vec::with_capacity(triangles.len());
         if !triangles.is_empty() {
             let all = triangles.len();
@@ -54,7 +54,7 @@ impl TriangleTree {
     }
 
     /// Returns the triangles.
-    pub fn triangles(&self) -> &[Corners] {
+    pub fn triangles(&self) -> &[TriangleCorners] {
         &self.triangles
     }
 
@@ -98,7 +98,7 @@ impl TriangleTree {
     }
 
     /// Returns the triangles in a box.
-    pub(super) fn in_box(&self, index: usize) -> &[Corners] {
+    pub(super) fn in_box(&self, index: usize) -> &[TriangleCorners] {
         let TriangleBox { first, count, .. } = self.boxes[index];
         &self.triangles[first..first + count]
     }
@@ -119,7 +119,7 @@ impl TriangleTree {
 }
 
 /// Adds the boxes of `count` triangles from `first` on.
-fn divide(triangles: &mut [Corners], first: usize, count: usize, boxes: &mut Vec<TriangleBox>) {
+fn divide(triangles: &mut [TriangleCorners], first: usize, count: usize, boxes: &mut Vec<TriangleBox>) {
     let own = &mut triangles[first..first + count];
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let (mut least, mut most) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -136,7 +136,7 @@ fn divide(triangles: &mut [Corners], first: usize, count: usize, boxes: &mut Vec
     let size = most - least;
     let axis = if size.x >= size.y && size.x >= size.z { 0 } else { 1 + usize::from(size.z > size.y) };
     let middle = count / 2;
-    let key = |corners: &Corners| corners[0][axis] + corners[1][axis] + corners[2][axis];
+    let key = |corners: &TriangleCorners| corners[0][axis] + corners[1][axis] + corners[2][axis];
     own.select_nth_unstable_by(middle, |a, b| key(a).total_cmp(&key(b)));
     divide(triangles, first, middle, boxes);
     boxes[index].second = boxes.len();
@@ -147,7 +147,7 @@ fn divide(triangles: &mut [Corners], first: usize, count: usize, boxes: &mut Vec
 ///
 /// Method: the region of the triangle's plane that contains the point's projection (Ericson, "Real-Time Collision Detection",
 /// 2005, section 5.1.5).
-pub(super) fn distance_squared(&[a, b, c]: &Corners, point: DVec3) -> f64 {
+pub(super) fn distance_squared(&[a, b, c]: &TriangleCorners, point: DVec3) -> f64 {
     let (ab, ac, ap) = (b - a, c - a, point - a);
     let (d1, d2) = (ab.dot(ap), ac.dot(ap));
     if d1 <= 0.0 && d2 <= 0.0 {

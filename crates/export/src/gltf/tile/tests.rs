@@ -14,7 +14,7 @@ use crate::{Files, SceneFacts, SystemFacts, samples};
 
 /// Triangle of a file or of a scene: material, feature, points (m) and normals, z up.
 #[derive(Debug, Clone)]
-struct Face {
+struct ReadFace {
     material: usize,
     feature: Option<usize>,
     points: [DVec3; 3],
@@ -22,7 +22,7 @@ struct Face {
 }
 
 /// Description and body of a file.
-struct TileFile {
+struct ReadTile {
     json: Value,
     body: Vec<u8>,
     counts: TileModelCounts,
@@ -36,7 +36,7 @@ fn z_up(point: DVec3) -> DVec3 {
     DVec3::new(point.x, -point.z, point.y)
 }
 
-impl TileFile {
+impl ReadTile {
     fn of(scene: &Scene, options: &TileModelOptions, rows: usize) -> Self {
         let record = |row| Record { id: format!("way/{row}"), geometry: None, values: Vec::new() };
         let records = (0..rows).map(record).collect();
@@ -90,7 +90,7 @@ impl TileFile {
     }
 
     /// Returns the faces of all instances.
-    fn faces(&self) -> Vec<Face> {
+    fn faces(&self) -> Vec<ReadFace> {
         let mut faces = Vec::new();
         let vector = |value: &Value, other: DVec3| match value.as_array() {
             Some(list) => DVec3::from_slice(&list.iter().map(|it| it.as_f64().unwrap()).collect::<Vec<_>>()),
@@ -135,7 +135,7 @@ impl TileFile {
         faces
     }
 
-    fn add(&self, mesh: &Value, place: &DAffine3, of_instance: Option<usize>, faces: &mut Vec<Face>) {
+    fn add(&self, mesh: &Value, place: &DAffine3, of_instance: Option<usize>, faces: &mut Vec<ReadFace>) {
         for primitive in mesh["primitives"].as_array().unwrap() {
             let attributes = &primitive["attributes"];
             let positions = self.array(&attributes["POSITION"]);
@@ -152,7 +152,7 @@ impl TileFile {
                 let feature = numbers.as_ref().map(|numbers| ends.map(|end| numbers[end][0] as usize));
                 assert!(feature.is_none_or(|[a, b, c]| a == b && b == c), "a triangle has one feature");
                 let feature = feature.map(|[feature, ..]| feature);
-                faces.push(Face {
+                faces.push(ReadFace {
                     material: index(&primitive["material"]),
                     feature: feature
                         .or(of_instance)
@@ -166,7 +166,7 @@ impl TileFile {
 }
 
 /// Returns the faces of a scene, by material and in the order of instances.
-fn expected(scene: &Scene) -> Vec<Face> {
+fn expected(scene: &Scene) -> Vec<ReadFace> {
     let mut faces = Vec::new();
     for instance in &scene.instances {
         let place = &instance.transform;
@@ -179,13 +179,13 @@ fn expected(scene: &Scene) -> Vec<Face> {
                 let at = |end: u32| place.transform_point3(part.positions[end as usize].as_dvec3());
                 let normal = |end: u32| (turn * part.normals[end as usize].vector().as_dvec3()).normalize();
                 let feature = instance.origin.and_then(|origin| origin.record);
-                Face { material: part.material, feature, points: ends.map(at), normals: ends.map(normal) }
+                ReadFace { material: part.material, feature, points: ends.map(at), normals: ends.map(normal) }
             }));
         }
     }
     // Faces that a flattening transform collapses are not written.
     let origin = crate::check::check(scene).unwrap().origin;
-    faces.retain(|face: &Face| {
+    faces.retain(|face: &ReadFace| {
         let [a, b, c] = face.points.map(|point| (point - origin).as_vec3());
         a != b && b != c && c != a
     });
@@ -216,7 +216,7 @@ fn every_face_of_a_sample_is_in_the_mesh_with_its_normals_and_its_feature() {
         let wanted = expected(&scene);
         let origin = crate::check::check(&scene).unwrap().origin;
         for (compression, precision) in [(none, 0.001), (quantize, 0.001), (quantize, 0.1)] {
-            let file = TileFile::of(&scene, &options(true, compression, precision), scene.instances.len());
+            let file = ReadTile::of(&scene, &options(true, compression, precision), scene.instances.len());
             let faces = file.faces();
             assert_eq!((faces.len(), file.counts.instances), (file.counts.triangles, 0), "{name}");
             let near =
@@ -252,13 +252,13 @@ fn repeated_models_are_instances_that_look_as_their_copies_do() {
     let scene = with_features(scene);
     for compression in [TileCompression::None, TileCompression::Quantize] {
         let count = scene.instances.len();
-        let expanded = TileFile::of(&scene, &options(true, compression, 0.001), count);
-        let file = TileFile::of(&scene, &options(false, compression, 0.001), count);
+        let expanded = ReadTile::of(&scene, &options(true, compression, 0.001), count);
+        let file = ReadTile::of(&scene, &options(false, compression, 0.001), count);
         assert_eq!(file.counts.triangles, expanded.counts.triangles);
         // The ground, the sheared house and the mirrored one are in the mesh, like the few houses without a feature.
         assert!(file.counts.instances > 200 && file.counts.instances < count - 2, "{:?}", file.counts);
-        let sorted = |file: &TileFile| {
-            let centre = |face: &Face| face.points.iter().sum::<DVec3>() / 3.0;
+        let sorted = |file: &ReadTile| {
+            let centre = |face: &ReadFace| face.points.iter().sum::<DVec3>() / 3.0;
             let mut faces: Vec<_> =
                 file.faces().iter().map(|face| (face.feature, face.material, centre(face))).collect();
             faces.sort_by_key(|face| (face.0, face.1));
@@ -274,7 +274,7 @@ fn repeated_models_are_instances_that_look_as_their_copies_do() {
 #[test]
 fn quantised_tiles_are_smaller_and_need_the_extension() {
     let scene = with_features(samples::town(12));
-    let of = |compression, precision| TileFile::of(&scene, &options(true, compression, precision), 145);
+    let of = |compression, precision| ReadTile::of(&scene, &options(true, compression, precision), 145);
     let [plain, fine, coarse] = [
         of(TileCompression::None, 0.001),
         of(TileCompression::Quantize, 0.001),
@@ -290,7 +290,7 @@ fn quantised_tiles_are_smaller_and_need_the_extension() {
     assert!(packed.json["extensionsRequired"].to_string().contains("EXT_meshopt_compression"));
     assert_eq!(packed.json["buffers"][1]["extensions"]["EXT_meshopt_compression"]["fallback"], true);
     // The ground is 178 m wide, so that 16 bits have a step of 3.9 mm.
-    let kind = |file: &TileFile| {
+    let kind = |file: &ReadTile| {
         let position = &file.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"];
         file.json["accessors"][index(position)]["componentType"].as_u64()
     };
