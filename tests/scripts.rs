@@ -77,7 +77,7 @@ fn the_gallery_shows_every_script_and_no_other() {
         assert!(guide().contains(&format!("| `{name}.lua` |")), "{name}");
         assert!(in_book.remove(&format!("geospatial/{name}")), "{name} has no picture");
     }
-    let rest = "castle drawn environments events facade features films joints lantern leaf live neighbours network phases pipes ported roofs terrain tower tree variations village";
+    let rest = "castle drawn environments events facade features films joints lantern leaf live neighbours network phases pipes ported roofs subsystems terrain tileset tower tree variations village";
     assert_eq!(in_book, rest.split(' ').map(str::to_owned).collect::<BTreeSet<_>>());
     let types: Vec<PathBuf> = lua_files("examples/types");
     assert!(
@@ -276,7 +276,7 @@ fn every_lua_block_of_the_guide_runs() {
         assert!(modules + run.scene.triangles() > 0, "{block}");
         count += 1;
     }
-    assert_eq!(count, 77);
+    assert_eq!(count, 78);
     assert_eq!(count, guide.matches("```lua").count(), "a fragment would go untested");
 }
 
