@@ -4,7 +4,7 @@
 
 import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
-import { cpSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { cpSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
@@ -29,6 +29,8 @@ houses:derive(1)
 
 let browser, made, open, place;
 
+const name = ({ level, x, y }) => `${level}/${x}/${y}`;
+
 /** Runs `burgeon tiles`, where a failed tile is no failure of the test. */
 function tiles(...flags) {
   const { status, stderr } = spawnSync(binary, ["tiles", ...flags], { cwd: place, encoding: "utf8" });
@@ -43,12 +45,18 @@ before(async () => {
     "--geoid-height", "49.5", "--target-features", "12");
   tiles("make", "out");
   const { tiles: planned } = JSON.parse(readFileSync(join(place, "out/plan.json"), "utf8"));
-  const name = ({ level, x, y }) => `${level}/${x}/${y}`;
-  const good = planned.filter((tile) => !JSON.parse(readFileSync(join(place, `out/tiles/${name(tile)}.json`))).error);
+  // The manifests, by level, column and row.
+  const manifests = new Map(
+    readdirSync(join(place, "out/tiles"), { recursive: true })
+      .filter((path) => path.endsWith(".json"))
+      .map((path) => [JSON.parse(readFileSync(join(place, "out/tiles", path), "utf8")), path])
+      .map(([manifest, path]) => [name(manifest.tile), { manifest, path: path.slice(0, -5) }]),
+  );
+  const good = planned.filter((tile) => !manifests.get(name(tile)).manifest.error);
   made = good.map(({ features }) => features);
   // The largest good tile is made again later.
   open = good.reduce((a, b) => (b.features > a.features ? b : a));
-  for (const extension of ["glb", "json"]) rmSync(join(place, `out/tiles/${name(open)}.${extension}`));
+  for (const extension of ["glb", "json"]) rmSync(join(place, `out/tiles/${manifests.get(name(open)).path}.${extension}`));
   tiles("join", "out");
 });
 after(() => browser.close());
