@@ -55,21 +55,23 @@ sedge:interpret("Stem(width)", function(this, width)
 end)
 
 -- A rule of a spike grows an organ by a rate up to a size.
-local function grow(spike: System<any>, organ: string, symbol: string, rate: number, most: number)
-  spike:rule(`{organ}(x)`, {
+local function grow(spike: System<Turtle>, organ: string, symbol: string, rate: number, most: number)
+  local options: any = {
     when = function(this, x: number)
       return x < most
     end,
-  }, `{symbol}(x * {rate})`)
+  }
+  spike:rule(`{organ}(x)`, options, `{symbol}(x * {rate})` :: any)
 end
 
 -- The tip of a spike makes this number of buds.
-local function bud(spike: System<any>, count: number)
-  spike:rule("Tip(age)", {
+local function bud(spike: System<Turtle>, count: number)
+  local options: any = {
     when = function(this, age: number)
       return age >= 0 and age < count
     end,
-  }, "F(0.2) [Bud] /(137.5) Tip(age + 1)")
+  }
+  spike:rule("Tip(age)", options, "F(0.2) [Bud] /(137.5) Tip(age + 1)" :: any)
 end
 
 -- A female spike: bracts and chaff in spiral order, which bend down as they grow.
