@@ -129,6 +129,10 @@ const STORES: &[Store] = &[
         "local hills = { A = { \"A\", \"A\", \"A\", \"A\", change = { 0.2, -0.1, 0.1, -0.2 }, decay = 0.5 } }\nlocal land = lsystem({ object = terrain({ size = 4096, levels = 13, rules = hills, covers = { { color = \"#5b7a3a\" } } }) })\nland:derive()",
     ),
     store(
+        "rules of sub-systems",
+        "for i = 1, 3000 do module(\"O\" .. i) end\nfor i = 1, 3000 do s:subsystem(\"O\" .. i, lsystem({ object = turtle() })) end\ns:derive(1)",
+    ),
+    store(
         "terrain edits",
         "local hills = { A = { \"A\", \"A\", \"A\", \"A\", change = { 0.12, -0.06, 0.06, -0.12 }, decay = 0.55 } }\nlocal l = lsystem({ object = terrain({ size = 512, levels = 5, rules = hills, covers = { { color = \"#7d8f5a\" } } }) }) l:axiom(A(1))\nl:interpret(\"A(x)\", function(this, x) for i = 1, 1e7 do local p = {} for k = 1, 200 do p[k] = { k, i % 100 } end this:dig(p, 2, 1) end end)\nl:derive(1)",
     ),

@@ -110,7 +110,7 @@ mod tests {
     use super::*;
 
     /// Returns a curved surface of 7 rows of 4 points.
-    fn curved(kind: SurfaceKind) -> SplineSurface {
+    fn curved_surface(kind: SurfaceKind) -> SplineSurface {
         let point = |i: usize, j: usize| {
             let (x, y) = (i as f64, j as f64);
             DVec3::new(x + 0.2 * (y * 1.7).sin(), y, (x * 1.3 + y * y * 0.4).sin())
@@ -134,7 +134,7 @@ mod tests {
         for (kind, pieces, tolerance) in
             [(SurfaceKind::Bezier, 1, 1e-12), (SurfaceKind::BSpline, 1, 1e-12), (SurfaceKind::Nurbs, 4, 1e-3)]
         {
-            let surface = curved(kind);
+            let surface = curved_surface(kind);
             assert_eq!(surface.kind(), kind);
             let lines = surface.isolines();
             let [us, vs] = [0, 1].map(|direction| surface.bases[direction].breaks());
@@ -156,7 +156,7 @@ mod tests {
 
     #[test]
     fn other_points_keep_the_kind_and_must_be_as_many() {
-        let surface = curved(SurfaceKind::Nurbs);
+        let surface = curved_surface(SurfaceKind::Nurbs);
         let moved: Vec<DVec3> = surface.points().iter().map(|point| *point + DVec3::Z).collect();
         let other = surface.with_points(moved.clone()).unwrap();
         assert!((other.point(0.3, 0.6) - surface.point(0.3, 0.6) - DVec3::Z).length() < 1e-12);

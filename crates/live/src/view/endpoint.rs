@@ -37,8 +37,8 @@ impl Endpoint {
     /// Fails if the port, or every port that was tried, is occupied.
     pub(super) fn open(port: Option<u16>, token: Option<Token>) -> Result<Self> {
         let listener = listen(port)?;
-        listener.set_nonblocking(true).map_err(failed)?;
-        let actual = listener.local_addr().map_err(failed)?.port();
+        listener.set_nonblocking(true).map_err(start_error)?;
+        let actual = listener.local_addr().map_err(start_error)?.port();
         let lasting = token.is_none() && port != Some(0);
         let keep = if lasting { Keep::of(actual) } else { None };
         let token = match (token, &keep) {
@@ -57,10 +57,10 @@ impl Endpoint {
             .thread_name("burgeon server")
             .enable_all()
             .build()
-            .map_err(failed)?;
+            .map_err(start_error)?;
         let listener = {
             let _inside = runtime.enter();
-            tokio::net::TcpListener::from_std(self.listener).map_err(failed)?
+            tokio::net::TcpListener::from_std(self.listener).map_err(start_error)?
         };
         runtime.spawn(connections::serve(listener, Arc::new(site(self.token.clone()))));
         Ok(RunningServer { port: self.port, token: self.token, keep: self.keep, runtime: Some(runtime) })
@@ -83,7 +83,7 @@ impl RunningServer {
 }
 
 /// Returns the error of a server that cannot start.
-pub(super) fn failed(error: std::io::Error) -> Error {
+pub(super) fn start_error(error: std::io::Error) -> Error {
     Error::system(format!("cannot start the server: {error}"))
 }
 

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use tokio::sync::Semaphore;
 
-use super::endpoint::{Endpoint, RunningServer, failed};
+use super::endpoint::{Endpoint, RunningServer, start_error};
 use super::message::Cause;
 use super::server::{ScriptSite, Site, SiteContent};
 use super::settings::{LiveEvent, Settings};
@@ -39,7 +39,7 @@ impl Live {
         state.lock().post(DueRun { cause: Cause::Start, files: Vec::new(), at: Instant::now() });
         let thread = |name: &str, work: Box<dyn FnOnce(&ServerState) + Send>| {
             let state = Arc::clone(&state);
-            named_thread(name).spawn(move || work(&state)).map_err(failed)
+            named_thread(name).spawn(move || work(&state)).map_err(start_error)
         };
         let threads = vec![
             thread("worker", Box::new(move |state| work::work(state, &watch)))?,

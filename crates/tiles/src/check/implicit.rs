@@ -39,7 +39,7 @@ impl TilesetCheck<'_> {
         let mut tiles: BTreeMap<TileNumbers, SubtreeTile> = BTreeMap::new();
         let mut open: Vec<TileNumbers> = vec![[0; 3]];
         while let Some([level, x, y]) = open.pop() {
-            let name = filled(tiling.subtrees, [level, x, y]);
+            let name = fill_template(tiling.subtrees, [level, x, y]);
             let path = self.folder.path().join(&name);
             let bytes = fs::read(&path).map_err(|error| {
                 Error::file(&path, format!("cannot read {name}: {error}"))
@@ -82,7 +82,7 @@ impl TilesetCheck<'_> {
     ) -> Result<()> {
         for (place, tile) in tiles {
             let [level, x, y] = *place;
-            let uri = filled(tiling.content, *place);
+            let uri = fill_template(tiling.content, *place);
             let parent = level.checked_sub(1).map(|level| tiles.get(&[level, x / 2, y / 2]));
             let above = match parent {
                 None => own.clone(),
@@ -140,7 +140,7 @@ fn read(described: &Value) -> std::result::Result<ImplicitTiling<'_>, String> {
 }
 
 /// Returns a template with the place of a tile.
-fn filled(template: &str, [level, x, y]: TileNumbers) -> String {
+fn fill_template(template: &str, [level, x, y]: TileNumbers) -> String {
     let text = template.replace("{level}", &level.to_string());
     text.replace("{x}", &x.to_string()).replace("{y}", &y.to_string())
 }

@@ -39,7 +39,7 @@ impl GeoidGrid {
         let row = (first[1] - latitude) / step[1];
         // A grid may count longitudes from 0 to 360.
         let columns = [0.0, 360.0, -360.0].map(|turn| (longitude + turn - first[0]) / step[0]);
-        let found = columns.into_iter().find_map(|column| self.between(column, row));
+        let found = columns.into_iter().find_map(|column| self.interpolate(column, row));
         found.ok_or_else(|| {
             let name = &self.0.name;
             Error::data(format!("the geoid grid {name} does not cover {longitude:.4}, {latitude:.4}")).help(
@@ -49,7 +49,7 @@ impl GeoidGrid {
     }
 
     /// Returns the height (m) at a column and a row; `None` outside.
-    fn between(&self, column: f64, row: f64) -> Option<f64> {
+    fn interpolate(&self, column: f64, row: f64) -> Option<f64> {
         let (x, left) = cell(column, self.0.columns)?;
         let (y, top) = cell(row, self.0.rows)?;
         let at =

@@ -11,6 +11,7 @@ use super::SystemDeclaration;
 use super::handle::in_axiom;
 use super::ignored::IgnoredModules;
 use crate::machine::library::Library;
+use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::text::grouped;
 use burgeon_kit::{Object, Rescale};
@@ -18,6 +19,9 @@ use burgeon_rewriting::{MOST_RULES, NameScope, Region, Rule, Symbol};
 
 /// Name of the parameter of a module that scales the region which the module opens.
 const SCALE: &str = "scale";
+
+/// Approximate memory (bytes) of a symbol in a region: its candidates, and its interpretations.
+const PAIR: usize = 64;
 
 /// Module that opens a region, as a script declares it.
 #[derive(Debug, Clone)]
@@ -226,6 +230,8 @@ impl Library {
                 .at(outer.place.clone())
                 .help("join rules into one, and distinguish the cases by a parameter"));
         }
+        let pairs = members.len().saturating_mul(self.symbols.borrow().arities().len());
+        MemoryOwner::ensure_room(pairs.saturating_mul(PAIR))?;
         let outer = &mut systems[index];
         outer.rules.extend(rules);
         outer.interpretations.extend(interpretations);

@@ -7,7 +7,7 @@ use std::thread::JoinHandle;
 use super::folder::ServedFolder;
 use super::state::{ProgressReader, TilesetState};
 use crate::view::LiveEvent;
-use crate::view::endpoint::{Endpoint, RunningServer, failed};
+use crate::view::endpoint::{Endpoint, RunningServer, start_error};
 use crate::view::server::{Site, SiteContent};
 use crate::view::settings::EventReceiver;
 use crate::view::token::Token;
@@ -73,7 +73,7 @@ impl LiveTileset {
         let thread = std::thread::Builder::new()
             .name("burgeon tileset".to_owned())
             .spawn(move || observer.work())
-            .map_err(failed)?;
+            .map_err(start_error)?;
         Ok(Self { state, server, watch: Some(watch), thread: Some(thread) })
     }
 
