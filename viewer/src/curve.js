@@ -40,7 +40,7 @@ export class CurveEditor {
   constructor(row, param) {
     this.row = row;
     this.control = param.control;
-    this.#axes = this.control.columns ? widest(param.value) : VIEWS.Top;
+    this.#axes = this.control.columns ? widest(param.value, this.control.columns) : VIEWS.Top;
     const name = param.name;
     this.grid = svg('g', { class: 'plot-grid' });
     this.drawing = svg('g', { class: 'plot-drawing' });
@@ -584,12 +584,19 @@ const copy = (points) => points.map((point) => [...point]);
 
 const distance = (a, b) => Math.hypot(...a.map((value, axis) => value - b[axis]));
 
-/** The view in which points cover the largest area. */
-function widest(points) {
-  const sizes = NAMES.map((_, axis) => {
-    const values = points.map((point) => point[axis]);
-    return Math.max(...values) - Math.min(...values);
-  });
-  const area = ([across, up]) => sizes[across] * sizes[up];
+/** The view in which the cells of a net cover the largest area. */
+function widest(points, columns) {
+  const area = ([across, up]) => {
+    let sum = 0;
+    for (let i = 0; i + columns + 1 < points.length; i += 1) {
+      if ((i + 1) % columns === 0) continue;
+      const [from, to] = [points[i], points[i + columns + 1]];
+      const [right, above] = [points[i + 1], points[i + columns]];
+      // Half of the cross product of the diagonals.
+      const cross = (to[across] - from[across]) * (above[up] - right[up]) - (to[up] - from[up]) * (above[across] - right[across]);
+      sum += Math.abs(cross) / 2;
+    }
+    return sum;
+  };
   return Object.values(VIEWS).reduce((best, axes) => (area(axes) > area(best) ? axes : best));
 }
