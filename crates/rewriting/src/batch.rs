@@ -153,26 +153,25 @@ impl Batch<'_> {
         if declared.contexts().is_empty() {
             for index in members {
                 let at = scratch.active[*index as usize].param as usize;
-                scratch.arguments.extend_from_slice(&self.chain.params[at..at + own]);
+                extend_few(&mut scratch.arguments, &self.chain.params[at..at + own]);
             }
             return;
         }
-        let left = declared.pattern.left.len();
+        let (lefts, rights) = declared.contexts().split_at(declared.pattern.left.len());
+        let contexts = self.contexts().of_rule(rule);
+        let params = &self.chain.params;
+        let Scratch { active, arguments, bindings, .. } = scratch;
         for index in members {
-            let active = scratch.active[*index as usize];
-            self.contexts().bind(rule, active.module as usize, &mut scratch.bindings);
-            let at = active.param as usize;
-            for (place, item) in declared.contexts().iter().enumerate() {
-                if place == left {
-                    scratch.arguments.extend_from_slice(&self.chain.params[at..at + own]);
-                }
-                if item.bound > 0 {
-                    let at = self.links.param[scratch.bindings[place] as usize] as usize;
-                    scratch.arguments.extend_from_slice(&self.chain.params[at..at + item.bound]);
-                }
+            let active = active[*index as usize];
+            contexts.bind(active.module as usize, bindings);
+            let mut bound = bindings.iter().map(|index| self.links.param[*index as usize] as usize);
+            for (item, at) in lefts.iter().zip(&mut bound) {
+                extend_few(arguments, &params[at..at + item.bound]);
             }
-            if left == declared.contexts().len() {
-                scratch.arguments.extend_from_slice(&self.chain.params[at..at + own]);
+            let at = active.param as usize;
+            extend_few(arguments, &params[at..at + own]);
+            for (item, at) in rights.iter().zip(bound) {
+                extend_few(arguments, &params[at..at + item.bound]);
             }
         }
     }
@@ -183,10 +182,11 @@ impl Batch<'_> {
         let declared = &self.plan.grammar.rules()[usize::from(rule)];
         let arities = self.plan.grammar.arities();
         let left = declared.pattern.left.len();
+        let contexts = self.contexts().of_rule(rule);
         for index in members {
             let active = scratch.active[*index as usize];
             if declared.has_contexts() {
-                self.contexts().bind(rule, active.module as usize, &mut scratch.bindings);
+                contexts.bind(active.module as usize, &mut scratch.bindings);
             }
             let begin = |place: usize| self.links.param[scratch.bindings[place] as usize] as usize;
             for (place, item) in declared.contexts().iter().enumerate().take(left) {
@@ -283,6 +283,19 @@ impl Batch<'_> {
         let module = modules.collect::<Vec<_>>().join(" ");
         let error = failure.error.at(declared.place.clone()).rule(&declared.pattern.text);
         (index, error.module(module, self.step.number()))
+    }
+}
+
+/// Appends `items`. For a few numbers this is faster than a call that copies memory.
+#[inline(always)]
+pub(crate) fn extend_few<T: Copy>(out: &mut Vec<T>, items: &[T]) {
+    const FEW: usize = 6;
+    if items.len() > FEW {
+        out.extend_from_slice(items);
+        return;
+    }
+    for item in items {
+        out.push(*item);
     }
 }
 

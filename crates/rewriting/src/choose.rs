@@ -139,8 +139,15 @@ impl Batch<'_> {
             let (members, others) =
                 rest.split_at(rest.partition_point(|index| place_of(scratch, *index) == place));
             rest = others;
+            let rules = grammar.rules_at(place);
+            if !grammar.has_runs()
+                && rules.iter().all(|rule| grammar.rules()[usize::from(*rule)].weight.is_none())
+            {
+                first = self.choose_first(rules, members, scratch, first);
+                continue;
+            }
             let mut candidates = vec![Candidates::default(); members.len()];
-            for number in grammar.rules_at(place) {
+            for number in rules {
                 let rule = &grammar.rules()[usize::from(*number)];
                 let end = first.as_ref().map_or(u32::MAX, |(index, _)| *index);
                 let asked = members.iter().zip(&candidates).filter(|(index, candidates)| {
@@ -173,6 +180,40 @@ impl Batch<'_> {
             }
         }
         first.map_or(Ok(()), |(_, error)| Err(error))
+    }
+
+    /// Sets the rule of each application in `members` to the first of `rules`, which have no weights, that matches and whose guard
+    /// holds. Returns the error that comes first in the chain, `first` included.
+    fn choose_first(
+        &self,
+        rules: &[u16],
+        members: &[u32],
+        scratch: &mut Scratch,
+        mut first: Option<(u32, Error)>,
+    ) -> Option<(u32, Error)> {
+        let (mut open, mut holds) = (members.to_vec(), Vec::with_capacity(members.len()));
+        for number in rules {
+            let rule = &self.plan.grammar.rules()[usize::from(*number)];
+            if let Some((end, _)) = &first {
+                open.retain(|index| index < end);
+            }
+            let matches =
+                |index: &&u32| self.matches_guarded(*number, rule, scratch.active[**index as usize]);
+            holds.clear();
+            holds.extend(open.iter().filter(matches));
+            if rule.guarded {
+                let failed = self.guard(*number, &mut holds, scratch);
+                first = [failed, first].into_iter().flatten().min_by_key(|(index, _)| *index);
+            }
+            if holds.is_empty() {
+                continue;
+            }
+            for index in &holds {
+                scratch.active[*index as usize].rule = *number;
+            }
+            open.retain(|index| scratch.active[*index as usize].rule == NO_RULE);
+        }
+        first
     }
 
     /// Retains the applications in `members` for which the guard of `rule` holds. If the guard fails, retains only

@@ -107,7 +107,7 @@ pub use events::{EventSeries, EventsOutcome};
 pub use failed_chains::FailedChains;
 pub use grammar::{Grammar, MOST_RULES, NewContexts};
 pub use links::Links;
-pub use matching::{Bindings, ContextMatcher};
+pub use matching::{Bindings, ContextMatcher, RuleContexts};
 pub use ordinals::Ordinals;
 pub use pattern::{Context, Item, Pattern, PatternValue, SymbolSet};
 pub use phases::{DerivedChain, Phase, PhaseOutcome, Phases, derive};

@@ -126,20 +126,57 @@ impl<'a> ContextMatcher<'a> {
         })
     }
 
-    /// Fills `bindings` for a rule that matches at a module.
-    pub fn bind(self, rule: u16, index: usize, bindings: &mut Bindings) {
-        bindings.clear();
+    /// Returns the contexts of rule number `rule`, to bind them at many modules.
+    pub fn of_rule(self, rule: u16) -> RuleContexts<'a> {
         let declared = &self.grammar.rules()[usize::from(rule)];
-        let matcher = self.tree_matcher(rule);
+        let right = self.grammar.right_of(rule);
+        RuleContexts {
+            matcher: self.tree_matcher(rule),
+            left: declared.pattern.left.len(),
+            right,
+            is_straight: right.iter().all(|element| matches!(element, ContextElement::Module(_))),
+            run_length: declared.run_length(),
+        }
+    }
+}
+
+/// Contexts of one rule, from [`ContextMatcher::of_rule`].
+#[derive(Clone, Copy)]
+pub struct RuleContexts<'a> {
+    matcher: TreeMatcher<'a>,
+    /// Number of modules to the left.
+    left: usize,
+    right: &'a [ContextElement],
+    /// Set if the right context has no branches, values or ends.
+    is_straight: bool,
+    run_length: usize,
+}
+
+impl RuleContexts<'_> {
+    /// Fills `bindings` with the context modules of the module at `index`, at which the rule matches.
+    #[inline]
+    pub fn bind(&self, index: usize, bindings: &mut Bindings) {
+        let tree = self.matcher.tree;
+        bindings.clear();
         let mut here = index;
-        for _ in &declared.pattern.left {
-            let nearest = matcher.tree.left[here];
+        for _ in 0..self.left {
+            let nearest = tree.left[here];
             bindings.push(nearest);
             here = nearest as usize;
         }
-        bindings.reverse();
-        let last = index + declared.run_length() - 1;
-        matcher.match_right(self.grammar.right_of(rule), ContextPosition::Module(last), Some(bindings));
+        if self.left > 1 {
+            bindings.reverse();
+        }
+        let mut last = index + self.run_length - 1;
+        if !self.is_straight {
+            self.matcher.match_right(self.right, ContextPosition::Module(last), Some(bindings));
+            return;
+        }
+        for _ in self.right {
+            let next = tree.right[last];
+            bindings.push(next);
+            last = next as usize;
+        }
     }
 }
 

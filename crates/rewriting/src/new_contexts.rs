@@ -184,9 +184,10 @@ impl Batch<'_> {
         let contexts = grammar.rules()[usize::from(rule)].contexts();
         let (news, lefts) = (pattern.new_left.len(), pattern.left.len());
         let mut new_bindings = NewBindings::new();
+        let old_contexts = self.contexts().of_rule(rule);
         for index in members {
             let active = scratch.active[*index as usize];
-            self.contexts().bind(rule, active.module as usize, &mut scratch.bindings);
+            old_contexts.bind(active.module as usize, &mut scratch.bindings);
             let new = &mut self.new_chain.borrow_mut();
             let mut matcher = NewMatcher { new, chain, links, grammar, rule };
             matcher.bind(active.module, &mut new_bindings);

@@ -200,7 +200,7 @@ impl Batch<'_> {
         let pattern = &declared.pattern;
         let end = arguments.len() + declared.arguments();
         if declared.has_contexts() {
-            self.contexts().bind(rule, active.module as usize, &mut scratch.bindings);
+            self.contexts().of_rule(rule).bind(active.module as usize, &mut scratch.bindings);
         }
         let (news, lefts) = (pattern.new_left.len(), pattern.left.len());
         let own = &pattern.predecessors[0];

@@ -1,6 +1,6 @@
 //! Splicing of the successors of a piece's modules into the next chain.
 
-use crate::batch::{Active, Batch, ChainPiece, NO_RULE, Scratch, narrow, narrow_rule};
+use crate::batch::{Active, Batch, ChainPiece, NO_RULE, Scratch, extend_few, narrow, narrow_rule};
 use crate::chain::{Chain, END, Symbol};
 use crate::output::Output;
 use crate::successors::Successor;
@@ -32,6 +32,9 @@ impl Batch<'_> {
         out.params.reserve(2 * (piece.end - piece.begin.module));
         let (mut module, mut param) = (piece.begin.module, piece.begin.param);
         let keep = |out: &mut Chain, modules: std::ops::Range<usize>, params: std::ops::Range<usize>| {
+            if modules.is_empty() {
+                return;
+            }
             out.symbols.extend_from_slice(&self.chain.symbols[modules.clone()]);
             out.params.extend_from_slice(&self.chain.params[params]);
             if random {
@@ -88,8 +91,8 @@ impl Batch<'_> {
                 }
             };
             group.made += symbols.len();
-            out.symbols.extend_from_slice(symbols);
-            out.params.extend_from_slice(params);
+            extend_few(&mut out.symbols, symbols);
+            extend_few(&mut out.params, params);
             group.param_at += params.len();
             if random {
                 let (parent, names) = (self.chain.keys[here], grammar.name_hashes());

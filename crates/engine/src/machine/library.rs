@@ -3,7 +3,7 @@
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use mlua::{Function, Lua, Table, Value as LuaValue, Variadic};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -12,7 +12,7 @@ use super::system::{EagerMark, SystemDeclaration, install_lazy, undeclared_lette
 use super::table_classes::declare_class;
 use super::types::{Extension, ScriptTypeEntry, install_functions, install_kind};
 use super::variables::VariableTable;
-use super::{Machine, compile, native};
+use super::{Machine, native};
 use crate::declare::{Param, Session, Setting};
 use crate::placeholders::{self, FRAGMENT, QUERY};
 use burgeon_base::error::{Error, Result, SourcePlace};
@@ -23,9 +23,8 @@ use burgeon_language::analysis::Globals;
 use burgeon_packages::Package;
 use burgeon_rewriting::{NameScope, Signature, Symbol, Symbols};
 
-/// Bytecode of the standard library, compiled once for all machines.
-static STANDARD_COMPILED: LazyLock<Vec<u8>> =
-    LazyLock::new(|| compile(include_str!("../../../../stdlib.lua")));
+/// Bytecode of the standard library.
+static STANDARD_COMPILED: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/stdlib.bytecode"));
 
 /// Interpretation by the standard library, in all systems with an object of type `kind`.
 pub(crate) struct StandardInterpretation {
@@ -238,7 +237,7 @@ impl Library {
         self.install_pending(machine).map_err(|error| machine.translate(error))?;
         self.note_names(machine.lua());
         let (name, chunk) = match machine.session.stdlib() {
-            None => ("stdlib.lua", machine.load_compiled(&STANDARD_COMPILED)?),
+            None => ("stdlib.lua", machine.load_compiled(STANDARD_COMPILED)?),
             Some((name, text)) => (name, machine.load(name, text)?),
         };
         let mark = |begins: bool| machine.prelude().begin_standard.call::<()>(begins);

@@ -1,44 +1,46 @@
 //! Prelude: the Lua side of the hot path, and globals of scripts.
 
-use std::borrow::Cow;
-use std::cell::RefCell;
+mod words;
 
-use std::sync::LazyLock;
+use std::cell::RefCell;
 
 use mlua::chunk::ChunkMode;
 use mlua::{Buffer, Function, Lua, Table};
 
+use self::words::WORDS;
 use super::native::as_bytecode;
 use crate::machine::system::UNREAD;
 use crate::machine::types::{POINTS, READ_MODULE};
 use burgeon_rewriting::{CLOSE, DependentModules, END, NO_RULE, OPEN, Successors};
 
-/// Parts of the prelude: one chunk of Luau, in which each part uses the locals of the parts before it.
-const PARTS: [&str; 16] = [
-    include_str!("prelude/batch.luau"),
-    include_str!("prelude/constructors.luau"),
-    include_str!("prelude/successors.luau"),
-    include_str!("prelude/drivers.luau"),
-    include_str!("prelude/dependents.luau"),
-    include_str!("prelude/calls.luau"),
-    include_str!("prelude/script_types.luau"),
-    include_str!("prelude/held_objects.luau"),
-    include_str!("prelude/declarations.luau"),
-    include_str!("prelude/interpretation.luau"),
-    include_str!("prelude/queries.luau"),
-    include_str!("prelude/randoms.luau"),
-    include_str!("prelude/distributions.luau"),
-    include_str!("prelude/hooks.luau"),
-    include_str!("prelude/globals.luau"),
-    include_str!("prelude/exports.luau"),
-];
-
 /// Recorded calls that stand for the brackets of a branch that an interpretation returned, instead of methods.
 pub(crate) const OPEN_CALL: u16 = u16::MAX - 1;
 pub(crate) const CLOSE_CALL: u16 = u16::MAX - 2;
 
-/// Bytecode of the expanded parts, compiled once for all machines.
-static COMPILED: LazyLock<Vec<u8>> = LazyLock::new(|| super::compile(&expand(&with_words(&PARTS.concat()))));
+/// Bytecode of the prelude.
+static COMPILED: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/prelude.bytecode"));
+
+const _: () = {
+    let numbers = [
+        Successors::KEEP,
+        Successors::SHAPE,
+        NO_RULE as u32,
+        DependentModules::SKIPPED,
+        OPEN as u32,
+        CLOSE as u32,
+        END as u32,
+        Successors::ORDERED,
+        Successors::OPEN_ITEM,
+        Successors::CLOSE_ITEM,
+        OPEN_CALL as u32,
+        CLOSE_CALL as u32,
+    ];
+    let mut index = 0;
+    while index < numbers.len() {
+        assert!(numbers[index] == WORDS[index].1, "prelude/words.rs has the numbers of Rust, in this order");
+        index += 1;
+    }
+};
 
 /// Functions of the prelude that Rust calls.
 pub(crate) struct Prelude {
@@ -154,7 +156,7 @@ impl Prelude {
     /// Loads the prelude as bytecode. The function takes the Rust functions for the prelude, and returns the
     /// argument of [`Prelude::new`].
     pub(super) fn chunk(lua: &Lua) -> mlua::Result<Function> {
-        let chunk = lua.load(COMPILED.as_slice()).set_name("=burgeon").set_mode(ChunkMode::Binary);
+        let chunk = lua.load(COMPILED).set_name("=burgeon").set_mode(ChunkMode::Binary);
         as_bytecode(lua, || chunk.into_function())
     }
 
@@ -244,66 +246,4 @@ impl Prelude {
     pub(crate) fn recorded(&self) -> mlua::Result<(Buffer, Buffer, Buffer)> {
         self.recorded.call(())
     }
-}
-
-/// Replaces names such as `@KEEP` by the constants with which Rust reads successors.
-fn with_words(template: &str) -> String {
-    [
-        ("@KEEP", Successors::KEEP),
-        ("@SHAPE", Successors::SHAPE),
-        ("@NO_RULE", u32::from(NO_RULE)),
-        ("@SKIPPED", DependentModules::SKIPPED),
-        ("@OPEN_SYMBOL", u32::from(OPEN)),
-        ("@CLOSE_SYMBOL", u32::from(CLOSE)),
-        ("@END_SYMBOL", u32::from(END)),
-        ("@ORDERED", Successors::ORDERED),
-        ("@OPEN_ITEM", Successors::OPEN_ITEM),
-        ("@CLOSE_ITEM", Successors::CLOSE_ITEM),
-        ("@OPEN_CALL", u32::from(OPEN_CALL)),
-        ("@CLOSE_CALL", u32::from(CLOSE_CALL)),
-    ]
-    .into_iter()
-    .fold(Cow::Borrowed(template), |text, (name, word)| Cow::Owned(text.replace(name, &word.to_string())))
-    .into_owned()
-}
-
-/// Repeats the marked parts of the template for each number of parameters.
-fn expand(template: &str) -> String {
-    let mut out = String::with_capacity(template.len() * 3);
-    let mut lines = template.lines();
-    while let Some(line) = lines.next() {
-        let Some(range) = line.strip_prefix("--@each K=") else {
-            out.push_str(line);
-            out.push('\n');
-            continue;
-        };
-        let part: Vec<&str> = lines.by_ref().take_while(|line| *line != "--@end").collect();
-        let (first, last) = range.split_once("..").unwrap_or((range, range));
-        let bounds = first.parse().unwrap_or(0)..=last.parse().unwrap_or(0);
-        for count in bounds {
-            for line in &part {
-                out.push_str(&instance(line, count));
-                out.push('\n');
-            }
-        }
-    }
-    out
-}
-
-/// Returns one line of the template for `count` parameters.
-fn instance(line: &str, count: usize) -> String {
-    let names: Vec<String> = (1..=count).map(|index| format!("a{index}")).collect();
-    if let Some(each) = line.trim().strip_prefix("@{").and_then(|line| line.strip_suffix('}')) {
-        return (1..=count)
-            .map(|index| {
-                each.replace("aI", &names[index - 1])
-                    .replace("OFFSET", &((index - 1) * 8).to_string())
-                    .replace(", I)", &format!(", {index})"))
-            })
-            .collect::<Vec<_>>()
-            .join(" ");
-    }
-    let arguments = names.join(", ");
-    let with_comma = if count > 0 { format!(", {arguments}") } else { String::new() };
-    line.replace(" @COMMA_ARGS", &with_comma).replace("@ARGS", &arguments).replace('K', &count.to_string())
 }

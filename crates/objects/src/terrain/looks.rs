@@ -5,8 +5,8 @@ use std::sync::Arc;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use burgeon_base::MemoryOwner;
 use burgeon_base::error::Result;
+use burgeon_base::{MemoryOwner, srgb_byte};
 use burgeon_kit::{Color, Expectation, Field, Parameter, Table, Value, fields};
 use burgeon_scene::{Material, Texture};
 use burgeon_terrain::{Ground, Tile};
@@ -81,7 +81,7 @@ pub(crate) fn texels(tile: &Tile, fine: usize) -> usize {
 /// Creates an image with `across` texels per side. `color` returns the colour of each texel, by its column and its row
 /// from the north.
 pub(crate) fn image(across: usize, color: impl Fn(usize, usize) -> [f32; 3] + Sync) -> Vec<u8> {
-    let row = |row: usize| (0..across).flat_map(|column| color(column, row).map(to_srgb)).collect();
+    let row = |row: usize| (0..across).flat_map(|column| color(column, row).map(srgb_byte)).collect();
     let owner = MemoryOwner::current();
     let rows: Vec<Vec<u8>> = (0..across).into_par_iter().map(|number| owner.charge(|| row(number))).collect();
     rows.concat()
@@ -98,18 +98,6 @@ pub(crate) fn blend(spot: &GroundPoint<'_>, covers: &[GroundCover]) -> [f32; 3] 
         }
     }
     color
-}
-
-/// Converts a linear channel to a byte of an sRGB image.
-#[allow(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a float to integer cast saturates"
-)]
-pub(super) fn to_srgb(channel: f32) -> u8 {
-    let value =
-        if channel <= 0.003_130_8 { channel * 12.92 } else { 1.055 * channel.powf(1.0 / 2.4) - 0.055 };
-    (value * 255.0).round() as u8
 }
 
 /// Returns half the size (m) of a texel of an image with `across` texels per side, on a tile of `size` (m): the

@@ -82,7 +82,7 @@ impl Water {
                 let place = (corner + DVec2::new(column as f64, row as f64) * step).min(corner + size);
                 let depth = self.level - ground.height(place).unwrap_or(self.level);
                 wet |= depth > 0.0;
-                bytes.extend(self.tint(depth).map(super::looks::to_srgb));
+                bytes.extend(self.tint(depth).map(burgeon_base::srgb_byte));
             }
         }
         if !wet {

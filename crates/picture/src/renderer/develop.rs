@@ -8,6 +8,7 @@ use super::sky::smooth;
 use super::surface::SurfacePoint;
 use super::tone;
 use super::visible::Visible;
+use burgeon_base::srgb_byte;
 use burgeon_scene::image::Image;
 use glam::{Vec3, Vec3A, Vec4};
 use rayon::prelude::*;
@@ -179,6 +180,6 @@ fn fade(light: &Light, position: Vec3A) -> f32 {
 fn encode(color: Vec4) -> [u8; 4] {
     let opacity = color.w.clamp(0.0, 1.0);
     let straight = color.truncate() / opacity.max(1e-6);
-    let [red, green, blue] = straight.to_array().map(tone::encode);
+    let [red, green, blue] = straight.to_array().map(srgb_byte);
     [red, green, blue, (opacity * 255.0 + 0.5) as u8]
 }

@@ -2,6 +2,7 @@
 
 use super::tone;
 use burgeon_base::error::{Error, Result};
+use burgeon_base::srgb_byte;
 use burgeon_scene::Material;
 use burgeon_scene::image::{self, Image};
 use glam::{Vec2, Vec3, Vec4};
@@ -167,7 +168,7 @@ impl TextureLevel {
                 + self.linear(right, bottom);
             // Transparent pixels do not contribute to the colour.
             let [red, green, blue] =
-                (sum.truncate() / sum.w.max(f32::MIN_POSITIVE)).to_array().map(tone::encode);
+                (sum.truncate() / sum.w.max(f32::MIN_POSITIVE)).to_array().map(srgb_byte);
             [red, green, blue, (sum.w / 4.0 * 255.0 + 0.5) as u8]
         };
         Some(Self { width, height, pixels: (0..width * height).map(pixel).collect() })

@@ -23,13 +23,6 @@ pub(super) fn compress(light: Vec3) -> Vec3 {
     (light * (compressed / peak)).lerp(Vec3::splat(compressed), faded)
 }
 
-/// Converts a linear value from 0 to 1 to an sRGB byte.
-pub(super) fn encode(linear: f32) -> u8 {
-    let x = linear.clamp(0.0, 1.0);
-    let curved = if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
-    (curved * 255.0 + 0.5) as u8
-}
-
 /// Converts an sRGB value from 0 to 1 to a linear value.
 pub(super) fn decode(curved: f32) -> f32 {
     if curved <= 0.040_45 { curved / 12.92 } else { ((curved + 0.055) / 1.055).powf(2.4) }
@@ -37,11 +30,13 @@ pub(super) fn decode(curved: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
+    use burgeon_base::srgb_byte;
+
     use super::*;
 
     #[test]
     fn every_byte_survives_decoding_and_encoding() {
-        let bytes = (0..=255_u8).filter(|byte| encode(decode(f32::from(*byte) / 255.0)) == *byte).count();
+        let bytes = (0..=255_u8).filter(|byte| srgb_byte(decode(f32::from(*byte) / 255.0)) == *byte).count();
         assert_eq!(bytes, 256);
     }
 

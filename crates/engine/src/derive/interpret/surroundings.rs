@@ -16,7 +16,7 @@ impl InterpretationPass {
             return None;
         }
         let mut bindings = Bindings::default();
-        contexts.bind(rule, module, &mut bindings);
+        contexts.of_rule(rule).bind(module, &mut bindings);
         let mut params = Vec::new();
         for (item, bound) in grammar.rules()[usize::from(rule)].contexts().iter().zip(bindings) {
             item.push_arguments(&self.chain.params, self.links.param[bound as usize] as usize, &mut params);
