@@ -171,6 +171,9 @@ fn a_system_that_rules_only_place_is_not_drawn_at_the_origin() {
     };
     let drawn = ["0", "1", "3"].map(|count| counts(script(count)));
     assert_eq!(drawn, [1, 2, 4]);
+    // The top level may read the model too.
+    let read = |count: &str| script(count).replace("local s =", "print(models.stone.modules)\nlocal s =");
+    assert_eq!(["0", "1"].map(|count| counts(read(count))), [1, 2]);
     // A model that no rule captures for placing is drawn, and so is a model that rules only read.
     let read = "local A = module(\"A\") local stone = lsystem({ object = extruder() }) stone:axiom(A())\n\
         stone:interpret(\"A\", function(this) this:extrude(1) end)\nlocal model = stone:derive()\n\

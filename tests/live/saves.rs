@@ -366,7 +366,11 @@ fn a_type_of_object_in_a_file_of_its_own_is_changed_while_the_page_looks_on() {
     let mut page = server.page();
     let first = page.next("model");
     server.write("post.lua", post(3, ""));
-    let second = page.next("model");
+    let mut second = page.next("model");
+    // A file that was written just before the first run is read again, and gives the same model.
+    if second["url"] == first["url"] {
+        second = page.next("model");
+    }
     assert!(second["triangles"].as_u64() > first["triangles"].as_u64(), "{first} {second}");
     server.write("post.lua", post(3, "self.m = 3"));
     let error = page.next("error");

@@ -25,7 +25,7 @@ pub(super) fn script_warning(text: &LuaValue, help: &LuaValue) -> Result<Warning
 
 /// Passes the values that a script prints to `hook`, unless the machine is silent.
 pub(super) fn print(lua: &Lua, values: &MultiValue, hook: &Print) -> mlua::Result<()> {
-    if lua.app_data_ref::<PrintSwitch>().is_some_and(|quiet| quiet.0.call::<u8>(()).unwrap_or(0) == 0) {
+    if lua.app_data_ref::<SilentMark>().is_some() && is_at_top_level(lua) {
         return Ok(());
     }
     let tostring: Function = lua.globals().get("tostring")?;
@@ -50,6 +50,13 @@ fn any_bytes(bytes: &[u8]) -> String {
     text
 }
 
-/// Marks a machine that runs the same script as another machine, so its top level must not print. Contains
-/// the function that returns the current phase.
-pub(crate) struct PrintSwitch(pub Function);
+/// Marks a machine that runs the same script as another machine, so its top level must not print.
+pub(crate) struct SilentMark;
+
+/// Function that returns the current phase.
+pub(crate) struct PhaseFunction(pub Function);
+
+/// Returns true if the top level of the script runs, and no rule, guard, interpretation or hook.
+pub(crate) fn is_at_top_level(lua: &Lua) -> bool {
+    lua.app_data_ref::<PhaseFunction>().is_none_or(|phase| phase.0.call::<u8>(()).unwrap_or(0) == 0)
+}

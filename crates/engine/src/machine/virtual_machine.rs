@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::blank::BlankMachine;
 use super::library::Library;
-use super::messages::PrintSwitch;
+use super::messages::{PhaseFunction, SilentMark};
 use super::native::as_bytecode;
 use super::prelude::Prelude;
 use super::system::tell_unseen;
@@ -66,6 +66,7 @@ impl Machine {
             let library = Rc::new(Library::new());
             let host = host::functions(&lua, &current, &library)?;
             let prelude = Prelude::new(&prelude.call(host)?)?;
+            lua.set_app_data(PhaseFunction(prelude.phase.clone()));
             let (session, work) = (Arc::clone(session), session.stop.at_work());
             let protected = protected::function(&lua)?;
             Ok(Rc::new(Self {
@@ -129,7 +130,7 @@ impl Machine {
 
     /// Suppresses the output of the script, because another machine also runs it.
     pub(crate) fn silence(&self) {
-        self.lua.set_app_data(PrintSwitch(self.prelude.phase.clone()));
+        self.lua.set_app_data(SilentMark);
     }
 
     /// Clears the caches of parameters if parameter values have been dropped.

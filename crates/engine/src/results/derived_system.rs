@@ -102,8 +102,8 @@ pub(crate) struct SystemUses {
     placed: AtomicBool,
     /// Set if functions of rules capture the system.
     captured: AtomicBool,
-    /// Set once the script has read a field of the system.
-    inspected: AtomicBool,
+    /// Set once a function of a rule has read a field of the system.
+    read_by_rule: AtomicBool,
 }
 
 impl DerivedSystem {
@@ -220,13 +220,12 @@ impl DerivedSystem {
         self.uses.model.get().map(Arc::as_ref)
     }
 
-    /// Returns true if another system places this one, or if a function of a rule captures it and the script
-    /// reads none of its fields.
+    /// Returns true if another system places this one, or if a function of a rule captures it and reads none of its fields.
     ///
     /// A captured system counts as placed even if the function never places it.
     pub fn is_placed(&self) -> bool {
         let is = |use_of_it: &AtomicBool| use_of_it.load(Ordering::Relaxed);
-        is(&self.uses.placed) || is(&self.uses.captured) && !is(&self.uses.inspected)
+        is(&self.uses.placed) || is(&self.uses.captured) && !is(&self.uses.read_by_rule)
     }
 
     /// Records that another system continues the derivation, so that this one is not shown on its own.
@@ -244,9 +243,11 @@ impl DerivedSystem {
         self.uses.captured.store(true, Ordering::Relaxed);
     }
 
-    /// Records that the script reads a field of the system.
-    pub(crate) fn note_inspected(&self) {
-        self.uses.inspected.store(true, Ordering::Relaxed);
+    /// Records that a field of the system is read, if a rule reads it.
+    pub(crate) fn note_read_by_rule(&self, is_rule: impl FnOnce() -> bool) {
+        if !self.uses.read_by_rule.load(Ordering::Relaxed) && is_rule() {
+            self.uses.read_by_rule.store(true, Ordering::Relaxed);
+        }
     }
 
     /// Adds the drawings to `scene` as [`DerivedSystem::add_to`] does, but moves the drawings of objects

@@ -12,6 +12,7 @@ use rustc_hash::FxHashMap;
 use super::geometries::geometry_field;
 use super::module_lists::{chain_number, module_list};
 use crate::machine::convert::to_lua;
+use crate::machine::messages::is_at_top_level;
 use crate::machine::native::native;
 use crate::machine::table_of;
 use crate::results::DerivedSystem;
@@ -199,6 +200,7 @@ impl DerivedHandle {
 impl UserData for DerivedHandle {
     fn add_methods<M: UserDataMethods<Self>>(methods: &mut M) {
         methods.add_meta_function(MetaMethod::Index, |lua, (this, name): (AnyUserData, String)| {
+            this.borrow::<Self>()?.0.note_read_by_rule(|| !is_at_top_level(lua));
             if let LuaValue::Table(cached) = this.user_value::<LuaValue>()?
                 && let value @ (LuaValue::Table(_) | LuaValue::Number(_) | LuaValue::Integer(_)) =
                     cached.raw_get::<LuaValue>(name.as_str())?
@@ -223,7 +225,6 @@ impl UserData for DerivedHandle {
 impl DerivedHandle {
     fn field(&self, lua: &Lua, name: &str) -> mlua::Result<LuaValue> {
         let derived = &self.0;
-        derived.note_inspected();
         #[allow(clippy::cast_precision_loss, reason = "counts below 2^53")]
         let number = |count: usize| Ok(LuaValue::Number(count as f64));
         match name {
