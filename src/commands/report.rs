@@ -66,8 +66,8 @@ pub(crate) fn summary(run: &Run, writing: Duration, total: Duration, listed: Opt
     let mut text = String::new();
     let _ = writeln!(
         text,
-        "{} modules in {}, {}",
-        grouped(modules),
+        "{} in {}, {}",
+        plural(modules, "module"),
         plural(chains, "chain"),
         plural(steps, "step")
     );

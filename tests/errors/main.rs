@@ -44,6 +44,7 @@ mod sandbox;
 mod scope;
 mod setup;
 mod shared_values;
+mod slips;
 mod stores;
 mod streams;
 mod streets_on_ground;

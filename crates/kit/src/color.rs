@@ -34,6 +34,16 @@ impl Parameter for Color {
             },
             value => Vec::<f64>::from_value(value).map_err(|_| what())?,
         };
+        if matches!(channels.len(), 3 | 4)
+            && channels.iter().any(|channel| *channel > 1.0)
+            && are_bytes(&channels)
+        {
+            let hex: String =
+                channels.iter().map(|channel| format!("{:02x}", clamp_byte(*channel))).collect();
+            return Err(Expectation::new(format!(
+                "a colour with numbers from 0 to 1, or \"#{hex}\" for these"
+            )));
+        }
         if !matches!(channels.len(), 3 | 4) || channels.iter().any(|channel| !(0.0..=1.0).contains(channel)) {
             return Err(what());
         }
@@ -58,6 +68,11 @@ impl Color {
         let channel = |byte: u8| narrow(linear(f64::from(byte) / 255.0));
         Self([channel(red), channel(green), channel(blue), f32::from(opacity) / 255.0])
     }
+}
+
+/// Returns true if all channels are integers from 0 to 255.
+fn are_bytes(channels: &[f64]) -> bool {
+    channels.iter().all(|channel| channel.fract() == 0.0 && (0.0..=255.0).contains(channel))
 }
 
 #[allow(
@@ -93,6 +108,8 @@ mod tests {
         assert_eq!(hex.into_value().to_string(), "\"#336699\"");
         let list = Color::from_value(vec![0.2, 0.4, 0.6].into_value()).unwrap();
         assert_eq!(list.into_value().to_string(), "\"#336699\"");
+        let bytes = Color::from_value(vec![255.0, 128.0, 0.0].into_value()).unwrap_err().item(1);
+        assert!(bytes.ends_with("from 0 to 1, or \"#ff8000\" for these"), "{bytes}");
         for wrong in ["#33669", "#gggggg", "", "#", "no colour", "é", "#é00000"] {
             assert!(Color::from_value(Value::Text(wrong.into())).is_err(), "{wrong}");
         }

@@ -15,6 +15,7 @@ mod luau_type;
 mod names;
 mod notation;
 mod script_types;
+pub mod slips;
 
 pub use definitions::{Definitions, definitions};
 pub use editor::{EditorFile, LUAURC, SETTINGS, editor_files, merged_luaurc, merged_settings};

@@ -16,6 +16,7 @@ use crate::declare::{Session, SourceFile, bytecode};
 use burgeon_base::error::{Error, ErrorKind, Limit, Result, SourcePlace};
 use burgeon_base::stop::StopAtWork;
 use burgeon_base::warning::Warning;
+use burgeon_language::slips::{explain_syntax, remedy_of_value};
 use burgeon_packages::Package;
 use burgeon_rewriting::{Symbol, Symbols};
 use mlua::chunk::ChunkMode;
@@ -180,7 +181,11 @@ impl Machine {
             Some(code) => self.lua.load(code).set_mode(ChunkMode::Binary),
             None => self.lua.load(text).set_mode(ChunkMode::Text),
         };
-        chunk.set_name(format!("@{name}")).into_function().map_err(|error| self.translate(error))
+        let function = chunk.set_name(format!("@{name}")).into_function();
+        function.map_err(|error| match error {
+            mlua::Error::SyntaxError { .. } => explain_syntax(self.translate(error), text),
+            _ => self.translate(error),
+        })
     }
 
     /// Loads bytecode from [`compile`], without native code until [`native`] is called. Errors in it refer to
@@ -363,8 +368,13 @@ fn parse(text: &str) -> Error {
             "the library is read-only, and while rules run, so are tables from outside the rule; create a new table, or use table.clone",
         ),
         None if message.contains("stack overflow") => error.help("look for an endless recursion"),
-        None if is_of_values(message) => error.of_data(),
-        None => error,
+        None => {
+            let error = if is_of_values(message) { error.of_data() } else { error };
+            match remedy_of_value(message) {
+                Some(help) => error.help(help),
+                None => error,
+            }
+        }
     }
 }
 

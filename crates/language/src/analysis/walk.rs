@@ -13,6 +13,7 @@ use super::globals::Globals;
 use super::pure::stream_argument;
 use super::syntax::{declared_module, end_of, first_position, instead_of, text_of};
 use crate::CallForm;
+use crate::slips::remedy_of_name;
 use burgeon_base::error::Error;
 use burgeon_rewriting::Signature;
 
@@ -444,7 +445,7 @@ impl<'a> Walk<'a> {
             return;
         }
         let message = format!("unknown name {name}");
-        if let Some(instead) = instead_of(&name) {
+        if let Some(instead) = instead_of(&name).or_else(|| remedy_of_name(&name)) {
             return self.problem(token, Error::not_found("name", &name, [], message).help(instead));
         }
         let locals = self.variables.iter().rev().map(|variable| &*variable.name);

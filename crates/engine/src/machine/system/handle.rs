@@ -124,8 +124,14 @@ impl SystemHandle {
                 (other, _) => {
                     let known = LSYSTEM.part_names();
                     let message = format!("unknown field `{other}` in lsystem");
-                    return Err(Error::not_found("field", other, known.iter().copied(), message)
-                        .help(format!("it has {}", known.join(", "))));
+                    let help = match other {
+                        "axiom" => "write system:axiom(F(1))".to_owned(),
+                        "rule" | "rules" | "productions" => {
+                            "write system:rule(\"A(n)\", function(this, n) return ... end)".to_owned()
+                        }
+                        _ => format!("it has {}", known.join(", ")),
+                    };
+                    return Err(Error::not_found("field", other, known.iter().copied(), message).help(help));
                 }
             }
         }
