@@ -303,11 +303,11 @@ impl Applier {
                 symbol => {
                     let place = pass.plan.interpretations.place_of(pass.region(self.position), symbol);
                     let method = methods[place];
-                    let values = &pass.chain.params[self.param..end];
+                    let params = self.param..end;
                     if method == Interpretations::RESCALE {
-                        pass.rescale(object, self.position, values, &self.values)?;
+                        pass.rescale(object, self.position, &pass.chain.params[params], &self.values)?;
                     } else if method != u16::MAX {
-                        self.call(object, method, values)?;
+                        self.call(object, method, &pass.chain.params[params])?;
                         self.listen(object, None);
                     }
                 }
