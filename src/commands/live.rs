@@ -48,7 +48,7 @@ impl LiveCommand {
         self.script.json
     }
 
-    pub(crate) fn run(self) -> Result<()> {
+    pub(crate) fn run(mut self) -> Result<()> {
         let (interrupt, interrupted) = channel();
         on_interrupt(move || {
             // The receiver waits for only one interrupt.
@@ -62,11 +62,11 @@ impl LiveCommand {
             drop(live);
         } else {
             let live = Live::start(Settings {
-                script: self.script.script.clone(),
                 options: self.script.options()?,
+                script: std::mem::take(&mut self.script.script),
                 port: self.port,
-                token: self.token.clone(),
-                editor: self.editor.clone(),
+                token: self.token.take(),
+                editor: self.editor.take(),
                 tell: Box::new(tell),
             })?;
             self.announce(live.port(), &live.address(), live.token(), "it allows setting parameters")?;
@@ -77,18 +77,18 @@ impl LiveCommand {
     }
 
     /// Starts the server of a tileset. Fails if a flag of scripts was given.
-    fn start_tileset(&self) -> Result<LiveTileset> {
+    fn start_tileset(&mut self) -> Result<LiveTileset> {
         let mut flags = self.script.given_flags();
         flags.extend(self.editor.is_some().then_some("--editor"));
         if !flags.is_empty() {
             return Err(Error::usage(format!("{} is for scripts, but this is a folder", flags.join(", ")))
                 .help("leave it out to show the tileset, or name a script"));
         }
-        let folder = TileFolder(self.script.script.clone());
+        let folder = TileFolder(std::mem::take(&mut self.script.script));
         LiveTileset::start(TilesetSettings {
             folder: folder.path().to_owned(),
             port: self.port,
-            token: self.token.clone(),
+            token: self.token.take(),
             progress: Box::new(move || progress(&folder)),
             tell: Box::new(tell),
         })

@@ -88,15 +88,17 @@ impl Cache {
         let Ok(contents) = contents.collect::<std::io::Result<Vec<_>>>() else { return read() };
         let key = format!("{contents:?} {wanted:?}");
         let mut kept = self.rasters.lock().recover();
-        if let Some((_, raster)) = kept.iter().find(|(known, _)| *known == key) {
-            return Ok(Arc::clone(raster));
-        }
-        if kept.len() >= MOST_RASTERS {
-            kept.remove(0);
-        }
-        let raster = read()?;
-        kept.push((key, Arc::clone(&raster)));
-        Ok(raster)
+        let index = match kept.iter().position(|(known, _)| *known == key) {
+            Some(index) => index,
+            None => {
+                if kept.len() >= MOST_RASTERS {
+                    kept.remove(0);
+                }
+                kept.push((key, read()?));
+                kept.len() - 1
+            }
+        };
+        Ok(Arc::clone(&kept[index].1))
     }
 }
 

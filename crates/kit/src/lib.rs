@@ -29,7 +29,7 @@ pub use contract::{
     LoadedObject, Loader, Locate, Make, Method, Model, Object, ObjectContent, ObjectParameter, ObjectPlace,
     Parameter, PointRows, PointSpace, Prefetch, ReadCall, Report, Rescale, Resources, Rewind, RewriteOutcome,
     Rewriter, RuleSet, Show, System, Table, TableKey, Value, Values, Vector, Warn, Write, WriteNumbers,
-    is_keyword, luau_name, object,
+    are_equal, is_keyword, luau_name, object,
 };
 pub use example::ScriptExample;
 pub use fields::{Fields, TableOf};

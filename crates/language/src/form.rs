@@ -93,7 +93,7 @@ impl CallForm {
             };
             Argument::typed(name.to_owned(), luau)
         });
-        Some(Self { arguments: arguments.collect(), returns: returns.to_owned() })
+        Some(Self::new(arguments.collect(), returns))
     }
 
     /// Returns the argument at a position, counted from 0.

@@ -130,22 +130,29 @@ impl Presets {
 
     /// Returns the preset called `name`. Fails if it does not exist; the error lists the names.
     pub fn get(&self, name: &str) -> Result<&Preset> {
-        self.presets.iter().find(|preset| is_same(&preset.name, name)).ok_or_else(|| {
-            let file = self.path.display();
-            if self.presets.is_empty() {
-                return Error::not_found(
-                    "preset",
-                    name,
-                    [],
-                    format!("unknown preset `{name}`: the script has no presets"),
-                )
+        let found = self.presets.iter().find(|preset| is_same(&preset.name, name));
+        found.ok_or_else(|| self.unknown_preset(name))
+    }
+
+    /// Returns the preset called `name` without the others. Fails as [`get`](Self::get) does.
+    pub fn into_preset(mut self, name: &str) -> Result<Preset> {
+        match self.presets.iter().position(|preset| is_same(&preset.name, name)) {
+            Some(index) => Ok(self.presets.swap_remove(index)),
+            None => Err(self.unknown_preset(name)),
+        }
+    }
+
+    fn unknown_preset(&self, name: &str) -> Error {
+        let file = self.path.display();
+        if self.presets.is_empty() {
+            let message = format!("unknown preset `{name}`: the script has no presets");
+            return Error::not_found("preset", name, [], message)
                 .help(format!("write presets into {file}, or save one: burgeon run --save-preset NAME"));
-            }
-            let names: Vec<&str> = self.names().collect();
-            let message = format!("unknown preset `{name}` in {file}");
-            Error::not_found("preset", name, names.iter().copied(), message)
-                .help(format!("it has {}", names.join(", ")))
-        })
+        }
+        let names: Vec<&str> = self.names().collect();
+        let message = format!("unknown preset `{name}` in {file}");
+        Error::not_found("preset", name, names.iter().copied(), message)
+            .help(format!("it has {}", names.join(", ")))
     }
 
     /// Returns the names of the presets, in the order of the file.

@@ -190,7 +190,7 @@ impl Parameter for Elevation {
 
     fn from_value(value: Value) -> Result<Self, Expectation> {
         let what = "an elevation, created once before: elevation(\"N43E007.hgt\")";
-        object(value, what).map(|elevation: Arc<Self>| (*elevation).clone())
+        object(value, what).map(Arc::unwrap_or_clone)
     }
 
     fn into_value(self) -> Value {

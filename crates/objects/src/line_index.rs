@@ -118,8 +118,7 @@ impl Parameter for LineIndex {
     }
 
     fn from_value(value: Value) -> Result<Self, Expectation> {
-        object(value, "streets, created once before: streets(source)")
-            .map(|streets: Arc<Self>| (*streets).clone())
+        object(value, "streets, created once before: streets(source)").map(Arc::unwrap_or_clone)
     }
 
     fn into_value(self) -> Value {

@@ -67,7 +67,7 @@ impl Packages {
         seek(&wanted, found.is_ok());
         match found {
             Ok(found) if found.starts_with(&package.folder) => {
-                let name = FileName { package: package.manifest.name.clone(), path: path.to_owned() };
+                let name = FileName::new(&package.manifest.name, path);
                 Ok(PackageFile { name, path: found, shown, package })
             }
             Ok(_) => Err(Error::file(

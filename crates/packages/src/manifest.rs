@@ -181,7 +181,7 @@ impl Manifest {
 
     /// Returns the location of a line of the file.
     pub(crate) fn place(&self, line: usize) -> SourcePlace {
-        SourcePlace { file: self.file.clone(), line }
+        SourcePlace::new(self.file.as_str(), line)
     }
 
     /// Returns the location of the beginning of the file.
@@ -222,7 +222,7 @@ impl ManifestFile<'_> {
     }
 
     fn place(&self, at: usize) -> SourcePlace {
-        SourcePlace { file: self.name.to_owned(), line: self.line(at) }
+        SourcePlace::new(self.name, self.line(at))
     }
 
     fn lacks(&self, field: &str, example: &str) -> Error {

@@ -46,6 +46,11 @@ impl FileName {
         name.starts_with('@')
     }
 
+    /// Creates the name of the file at `path` in the folder of `package`.
+    pub fn new(package: &str, path: impl Into<String>) -> Self {
+        Self { package: package.to_owned(), path: path.into() }
+    }
+
     /// Parses `@castle/towers.lua`. Fails if the path leaves the package, and for an invalid package name.
     pub fn parse(name: &str) -> Result<Self> {
         let inner = name.strip_prefix('@').unwrap_or(name);
@@ -67,7 +72,7 @@ impl FileName {
             .help("rename the file: such names are shown in another order than stored"));
         }
         let parts: Vec<&str> = path.split('/').filter(|part| !part.is_empty() && *part != ".").collect();
-        Ok(Self { package: package.to_owned(), path: normal_form(&parts.join("/")).into_owned() })
+        Ok(Self::new(package, normal_form(&parts.join("/"))))
     }
 
     /// Parses `@castle/towers`, without an extension, as the name of a script: `towers.lua` of that package, or

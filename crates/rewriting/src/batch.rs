@@ -281,7 +281,7 @@ impl Batch<'_> {
             module_brief(grammar.symbols(), self.rules.parameters(), *symbol, params)
         });
         let module = modules.collect::<Vec<_>>().join(" ");
-        let error = failure.error.at(declared.place.clone()).rule(&declared.pattern.text);
+        let error = failure.error.at_place(declared.place.as_ref()).rule(&declared.pattern.text);
         (index, error.module(module, self.step.number()))
     }
 }

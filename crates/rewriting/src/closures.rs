@@ -374,7 +374,7 @@ impl ClosureSystem {
             traced: false,
             notes_places: false,
         });
-        let mut stepper = Stepper::new(plan);
+        let mut stepper = Stepper::new(&plan);
         let phases = Phases {
             first: Vec::new(),
             each: vec![Box::new(RewritePhase { system: self, last: steps, until })],

@@ -45,7 +45,7 @@ impl Grammar {
             (.., Some(event), Some(plain)) => (event, plain, events, "has no propensity"),
             (.., Some(event), None) if !self.region_openers().is_empty() => {
                 let text = format!("the rule \"{}\" {events}, but modules open regions", event.pattern.text);
-                let error = Error::argument(text).at(event.place.clone()).rule(&event.pattern.text);
+                let error = Error::argument(text).at_place(event.place.as_ref()).rule(&event.pattern.text);
                 return Err(error.help("use rules without propensities, or rules of one system"));
             }
             _ => return Ok(self),
@@ -63,7 +63,7 @@ fn conflict_error((first, second, what, other): (&Rule, &Rule, &str, &str)) -> E
             first.pattern.text, second.pattern.text
         ),
     };
-    let error = Error::argument(text).at(second.place.clone()).rule(&second.pattern.text);
+    let error = Error::argument(text).at_place(second.place.as_ref()).rule(&second.pattern.text);
     error.help(match first.propensity() {
         None => "put the rules in groups that are derived in turn: s:rule(pattern, { group = \"up\" }, f)",
         Some(_) if second.propensity().is_some() => "write < and > instead of << and >>",

@@ -140,7 +140,7 @@ impl Batch<'_> {
         let mut open: Vec<u32> = Vec::new();
         let mut round = 0;
         let places = piece.begin.module..piece.end;
-        let symbols = &self.chain.symbols[places.clone()];
+        let symbols = &self.chain.symbols[piece.begin.module..piece.end];
         let module = |index: &u32| scratch.active[*index as usize].module;
         if self.plan.grammar.new_contexts() == NewContexts::Left {
             let mut delayed = delayed.iter().peekable();

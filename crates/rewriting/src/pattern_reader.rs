@@ -438,7 +438,6 @@ impl<'a> PatternReader<'a> {
             && package.starts_with(|c: char| c.is_ascii_lowercase())
             && package.chars().all(is_of_package)
         {
-            let package = package.to_owned();
             self.at += package.len() + 1;
             if self.text[self.at..].starts_with(char::is_whitespace) {
                 return Err(self.error_here("expected the name of a module of the package"));

@@ -149,10 +149,10 @@ pub struct Stepper {
 
 impl Stepper {
     /// Creates a stepper for the rules of `plan`.
-    pub fn new(plan: Arc<StepPlan>) -> Self {
+    pub fn new(plan: &Arc<StepPlan>) -> Self {
         Self {
             uses: vec![Use::default(); plan.grammar.rules().len()],
-            plan,
+            plan: Arc::clone(plan),
             spare: Chain::default(),
             links: Links::default(),
             scratch: Scratch::default(),
@@ -294,7 +294,7 @@ impl Stepper {
         match growth.iter().enumerate().max_by_key(|(index, count)| (**count, usize::MAX - index)) {
             Some((rule, _)) => {
                 let rule = &self.plan.grammar.rules()[rule];
-                error.at(rule.place.clone()).rule(format!("{} (which grew most)", rule.pattern.text))
+                error.at_place(rule.place.as_ref()).rule(format!("{} (which grew most)", rule.pattern.text))
             }
             None => error,
         }

@@ -1,5 +1,6 @@
 //! Chains and modules as text.
 
+use std::borrow::Cow;
 use std::io::{self, Write};
 
 use super::chain::{CLOSE, Chain, END, OPEN, Symbol};
@@ -42,7 +43,12 @@ const SHOWN: usize = 200;
 
 /// Formats a module as `Name(p1,p2)`, or `Name` without parameters. Omitted optional parameters at the end are not
 /// shown.
-pub fn module_text(symbols: &Symbols, values: &dyn ShowParameters, symbol: Symbol, params: &[f64]) -> String {
+pub fn module_text<'s>(
+    symbols: &'s Symbols,
+    values: &dyn ShowParameters,
+    symbol: Symbol,
+    params: &[f64],
+) -> Cow<'s, str> {
     write_module(symbols, values, symbol, params, |text| text)
 }
 
@@ -53,20 +59,20 @@ pub fn module_brief(
     symbol: Symbol,
     params: &[f64],
 ) -> String {
-    write_module(symbols, values, symbol, params, |text| shorten(&text, SHOWN).into_owned())
+    write_module(symbols, values, symbol, params, |text| shorten(&text, SHOWN).into_owned()).into_owned()
 }
 
-fn write_module(
-    symbols: &Symbols,
+fn write_module<'s>(
+    symbols: &'s Symbols,
     values: &dyn ShowParameters,
     symbol: Symbol,
     params: &[f64],
     write: impl Fn(String) -> String,
-) -> String {
+) -> Cow<'s, str> {
     match symbol {
-        OPEN => return "[".to_owned(),
-        CLOSE => return "]".to_owned(),
-        END => return String::new(),
+        OPEN => return Cow::Borrowed("["),
+        CLOSE => return Cow::Borrowed("]"),
+        END => return Cow::Borrowed(""),
         _ => {}
     }
     let signature = symbols.signature(symbol);
@@ -75,7 +81,10 @@ fn write_module(
         shown.pop();
     }
     let name = symbols.display_name(symbol);
-    if shown.is_empty() { name.to_owned() } else { format!("{name}({})", shown.join(",")) }
+    match shown.is_empty() {
+        true => Cow::Borrowed(name),
+        false => Cow::Owned(format!("{name}({})", shown.join(","))),
+    }
 }
 
 /// Writes one line per chain: modules separated by one space, branches as `[ ... ]`.

@@ -121,9 +121,9 @@ impl ContextWindow {
                 }
             }
         }
-        for (symbol, params) in self.before.iter().rev() {
-            self.chain.symbols.push(*symbol);
-            self.chain.params.extend_from_slice(&self.params[params.clone()]);
+        for (symbol, params) in self.before.drain(..).rev() {
+            self.chain.symbols.push(symbol);
+            self.chain.params.extend_from_slice(&self.params[params]);
         }
         if grammar.draws_random() {
             self.chain.keys.resize(self.chain.symbols.len(), Default::default());

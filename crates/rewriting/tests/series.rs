@@ -249,7 +249,7 @@ fn compare(others: usize) -> Compared {
         let arities = rules.grammar.arities();
         let texts: Vec<_> = rules.grammar.rules().iter().map(|rule| rule.pattern.text.clone()).collect();
 
-        let mut whole = Stepper::new(plan(&rules, chains, 4096));
+        let mut whole = Stepper::new(&plan(&rules, chains, 4096));
         let mut expected = Vec::new();
         let mut chain = axiom.clone();
         let mut error = None;
@@ -267,7 +267,7 @@ fn compare(others: usize) -> Compared {
         }
 
         let total = expected.len();
-        let mut stepper = Stepper::new(plan(&rules, chains, batch));
+        let mut stepper = Stepper::new(&plan(&rules, chains, batch));
         let mut chain = axiom.clone();
         let mut done = 0;
         while done < STEPS {

@@ -78,12 +78,14 @@ impl Geometry {
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     pub fn segments(&self) -> Vec<Self> {
+        let segment = |ends: &[DVec3]| (ends[0] != ends[1]).then(|| Self::Line(ends.to_vec()));
         let mut found = Vec::new();
-        collect_lines(self, &mut |line| found.extend(line.windows(2).map(|pair| pair.to_vec())));
+        collect_lines(self, &mut |line| found.extend(line.windows(2).filter_map(segment)));
         collect_polygons(self, &mut |rings| {
-            found.extend(rings.iter().flat_map(|ring| planar::edges(ring)).map(|edge| edge.to_vec()));
+            let edges = rings.iter().flat_map(|ring| planar::edges(ring));
+            found.extend(edges.filter_map(|edge| segment(&edge)));
         });
-        found.into_iter().filter(|pair| pair[0] != pair[1]).map(Self::Line).collect()
+        found
     }
 
     /// Returns the combinatorial boundary: the rings of areas, and the points where an odd number of lines

@@ -37,7 +37,7 @@ impl Geometry {
     /// Returns the reason why the geometry is invalid, if the check does not exceed the budget.
     pub fn validity_reason_within(&self, budget: &Budget) -> Result<Option<String>> {
         if let Err(error) = self.check() {
-            return Ok(Some(error.message().to_owned()));
+            return Ok(Some(error.into_message()));
         }
         let mut short = None;
         super::plane::collect_lines(self, &mut |line: &[DVec3]| {

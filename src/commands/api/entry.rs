@@ -219,7 +219,7 @@ impl Member {
     }
 
     fn of_method(method: &Method) -> Self {
-        let form = CallForm { arguments: method.arguments.clone(), returns: method.returns.clone() };
+        let form = CallForm::new(method.arguments.clone(), &method.returns);
         Self {
             name: method.name.to_string(),
             what: if method.call.changes() { MemberKind::Changes } else { MemberKind::Reads },

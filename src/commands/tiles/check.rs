@@ -1,19 +1,19 @@
 //! `burgeon tiles check`: checks a tileset against its plan.
 
-use std::path::PathBuf;
-
 use burgeon::tiles::{TileFolder, TilePlan, check_tileset};
 use burgeon::{Error, Result};
-use clap::Args;
+use clap::{Args, ValueHint};
 use serde_json::json;
 
 use super::super::report;
+use super::inputs::tile_folder;
 
 /// Checks that a tileset contains what its plan says, and that volumes contain their content
 #[derive(Args)]
 pub(super) struct CheckTilesCommand {
     /// Folder of the tileset
-    folder: PathBuf,
+    #[arg(value_parser = tile_folder(), value_hint = ValueHint::AnyPath)]
+    folder: TileFolder,
 
     /// Prints machine-readable JSON instead of text
     #[arg(long)]
@@ -22,9 +22,9 @@ pub(super) struct CheckTilesCommand {
 
 impl CheckTilesCommand {
     pub(super) fn run(&self) -> Result<()> {
-        let folder = TileFolder(self.folder.clone());
+        let folder = &self.folder;
         let plan = TilePlan::read(&folder.plan())?;
-        let checked = check_tileset(&folder, &plan)?;
+        let checked = check_tileset(folder, &plan)?;
         if !checked.problems.is_empty() {
             let problems = checked.problems.iter().map(|problem| {
                 Error::data(problem)

@@ -3,10 +3,12 @@
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
+use burgeon::tiles::TileFolder;
 use burgeon::tiles::earth::GeoidGrid;
 use burgeon::tiles::plan::{PlannedFile, TilePlan};
 use burgeon::{Error, Result};
 use clap::Parser;
+use clap::builder::{PathBufValueParser, TypedValueParser};
 
 use super::super::shared::ScriptFlags;
 
@@ -16,6 +18,11 @@ use super::super::shared::ScriptFlags;
 struct PlannedArguments {
     #[command(flatten)]
     script: ScriptFlags,
+}
+
+/// Returns the parser of the folder of a plan.
+pub(super) fn tile_folder() -> impl TypedValueParser<Value = TileFolder> {
+    PathBufValueParser::new().map(TileFolder)
 }
 
 /// Returns the path of an existing file or folder relative to the folder `base`, with `/` between the parts, so that it stays

@@ -1,13 +1,12 @@
 //! `burgeon tiles join`: writes the tileset and the missing features.
 
-use std::path::PathBuf;
-
 use burgeon::Result;
 use burgeon::tiles::{TileFolder, TilePlan, Tiling, join_tiles};
-use clap::{Args, ValueEnum};
+use clap::{Args, ValueEnum, ValueHint};
 use serde_json::json;
 
 use super::super::report;
+use super::inputs::tile_folder;
 
 /// Way in which a tileset lists its tiles.
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -34,7 +33,8 @@ impl From<TilingFlag> for Tiling {
 #[derive(Args)]
 pub(super) struct JoinCommand {
     /// Folder of the plan
-    folder: PathBuf,
+    #[arg(value_parser = tile_folder(), value_hint = ValueHint::AnyPath)]
+    folder: TileFolder,
 
     /// Tiling of the tileset
     #[arg(long, value_enum, default_value_t = TilingFlag::Explicit)]
@@ -47,9 +47,9 @@ pub(super) struct JoinCommand {
 
 impl JoinCommand {
     pub(super) fn run(&self) -> Result<()> {
-        let folder = TileFolder(self.folder.clone());
+        let folder = &self.folder;
         let plan = TilePlan::read(&folder.plan())?;
-        let joined = join_tiles(&folder, &plan, self.tiling.into())?;
+        let joined = join_tiles(folder, &plan, self.tiling.into())?;
         if self.json {
             let document = json!({
                 "ok": true, "tiles": joined.tiles, "coarse": joined.coarse, "empty": joined.empty, "failed": joined.failed, "open": joined.open,

@@ -2,7 +2,6 @@
 
 use std::fs;
 use std::io::Write as _;
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
@@ -11,20 +10,21 @@ use burgeon::tiles::make::{make_tile, sweep_temporary};
 use burgeon::tiles::plan::{TileShare, share_of};
 use burgeon::tiles::{EarthMap, PlannedTile, TileFolder, TileId, TileManifest, TileOutcome, TilePlan};
 use burgeon::{Error, Result, Stop};
-use clap::Args;
+use clap::{Args, ValueHint};
 use serde_json::json;
 
 use super::super::progress::ProgressDisplay;
 use super::super::report;
 use super::super::shared::{end_on_interrupt, seconds, threads};
 use super::build::TileBuilder;
-use super::inputs::{geoid, planned_flags, verify_files};
+use super::inputs::{geoid, planned_flags, tile_folder, verify_files};
 
 /// Makes the tiles of a plan that have not been made, or a share of them
 #[derive(Args)]
 pub(super) struct MakeCommand {
     /// Folder of the plan
-    folder: PathBuf,
+    #[arg(value_parser = tile_folder(), value_hint = ValueHint::AnyPath)]
+    folder: TileFolder,
 
     /// Makes one of N shares of about the same cost, such as 3/64
     #[arg(long, value_name = "K/N", value_parser = share, group = "choice")]
@@ -83,13 +83,13 @@ struct MakeCounts {
 impl MakeCommand {
     pub(super) fn run(&self) -> Result<()> {
         let begin = Instant::now();
-        let folder = TileFolder(self.folder.clone());
+        let folder = &self.folder;
         let plan = TilePlan::read(&folder.plan())?;
         let planned = plan.all_tiles();
         let (name, tiles) = self.tiles(&planned)?;
         verify_files(folder.path(), &plan)?;
         end_on_interrupt()?;
-        sweep_temporary(&folder, Duration::from_secs_f64(self.stale_after));
+        sweep_temporary(folder, Duration::from_secs_f64(self.stale_after));
         let flags = planned_flags(folder.path(), &plan, self.threads)?;
         let builder = TileBuilder::new(&plan, &flags.script, flags.options()?)?;
         let frame = plan.frame.reference()?;
@@ -104,16 +104,16 @@ impl MakeCommand {
         let mut in_a_row = 0;
         for index in tiles {
             let tile = planned[index];
-            self.forget_failed(&folder, tile.id)?;
+            self.forget_failed(folder, tile.id)?;
             let started = Instant::now();
             // Each tile has its own signal, so that limits apply to a tile.
             let stop = Arc::new(Stop::default());
-            match make_tile(&folder, tile, &map, &stop, |tile| builder.build(tile)) {
+            match make_tile(folder, tile, &map, &stop, |tile| builder.build(tile)) {
                 Ok(outcome) => {
                     in_a_row = 0;
                     counts.add(&outcome);
                     if matches!(outcome, TileOutcome::Made(_)) {
-                        note_time(&folder, &name, tile.id, started.elapsed());
+                        note_time(folder, &name, tile.id, started.elapsed());
                     }
                 }
                 Err(error) => {

@@ -1,5 +1,6 @@
 //! `burgeon tiles plan`: divides the features of a script among tiles.
 
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,13 +17,13 @@ use burgeon::tiles::plan::{
 };
 use burgeon::tiles::{EarthMap, TileFolder};
 use burgeon::{Error, Result};
-use clap::Args;
+use clap::{Args, ValueHint};
 use serde_json::json;
 
 use super::super::report;
 use super::super::shared::ScriptFlags;
 use super::build::TileBuilder;
-use super::inputs::{hash_file, portable_path};
+use super::inputs::{hash_file, portable_path, tile_folder};
 
 /// Divides the features of a script among tiles, and writes the plan
 #[derive(Args)]
@@ -31,8 +32,9 @@ pub(super) struct PlanCommand {
     script: ScriptFlags,
 
     /// Folder of the plan and the tiles
-    #[arg(short, long, value_name = "FOLDER", group = "division")]
-    output: PathBuf,
+    #[arg(short, long, value_name = "FOLDER", value_parser = tile_folder(), group = "division")]
+    #[arg(value_hint = ValueHint::AnyPath)]
+    output: TileFolder,
 
     /// Number of features of a tile, if they have the average cost
     #[arg(long, value_name = "N", default_value_t = 500, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
@@ -78,19 +80,19 @@ fn height(text: &str) -> Result<f64, &'static str> {
     }
 }
 
-fn compression(text: &str) -> Result<TileCompression, String> {
+fn compression(text: &str) -> Result<TileCompression, &'static str> {
     match text {
         "none" => Ok(TileCompression::None),
         "quantize" => Ok(TileCompression::Quantize),
         "meshopt" => Ok(TileCompression::Meshopt),
-        _ => Err("write none, quantize or meshopt".to_owned()),
+        _ => Err("write none, quantize or meshopt"),
     }
 }
 
-fn precision(text: &str) -> Result<f64, String> {
+fn precision(text: &str) -> Result<f64, &'static str> {
     match text.parse::<f64>() {
         Ok(metres) if (0.0001..=1.0).contains(&metres) => Ok(metres),
-        _ => Err("write a number of metres from 0.0001 to 1, such as 0.01".to_owned()),
+        _ => Err("write a number of metres from 0.0001 to 1, such as 0.01"),
     }
 }
 
@@ -106,7 +108,7 @@ impl PlanCommand {
         }
         let survey = self.survey()?;
         let (session, survey) = survey;
-        let folder = TileFolder(self.output.clone());
+        let folder = &self.output;
         fs::create_dir_all(folder.path()).map_err(|error| {
             Error::file(
                 folder.path(),
@@ -115,7 +117,7 @@ impl PlanCommand {
             .help("write to a folder with write permission")
         })?;
         let plan = self.plan(&session, &survey, folder.path())?;
-        let earlier = self.check_earlier(&folder, &plan)?;
+        let earlier = self.check_earlier(folder, &plan)?;
         let text = plan.text()?;
         burgeon::export::write_file(&folder.plan(), |out| std::io::Write::write_all(out, text.as_bytes()))?;
         self.report(&plan, earlier.as_ref())
@@ -151,12 +153,13 @@ impl PlanCommand {
         let reference = frame.reference()?;
         let mut division = TileDivision::default();
         let (mut planned, mut left_out, mut notes) = (Vec::new(), Vec::new(), Vec::new());
-        for source in &sources {
+        let own: BTreeSet<PathBuf> =
+            sources.iter().filter_map(|source| source.path.canonicalize().ok()).collect();
+        for source in sources {
             let scan = scan_source((&source.path, &source.name, &source.options), &reference, &mut division)?;
-            let (key, label) = (source.key.clone(), scan.label);
             planned.push(PlannedSource {
-                key,
-                label,
+                key: source.key,
+                label: scan.label,
                 features: scan.features,
                 bounds: scan.bounds,
                 in_parts: scan.in_parts,
@@ -165,8 +168,6 @@ impl PlanCommand {
             notes.extend(scan.notes);
         }
         let portable = |path: &Path| portable_path(folder, path);
-        let own: BTreeSet<PathBuf> =
-            sources.iter().filter_map(|source| source.path.canonicalize().ok()).collect();
         let read = session.sought().into_iter().filter(|(path, there)| *there && path.is_file());
         let mut files = Vec::new();
         for (path, _) in read {
@@ -274,17 +275,17 @@ impl PlanCommand {
             earlier.iter().flat_map(|plan| plan.all_tiles()).map(|tile| tile.hash.as_str()).collect();
         let all = plan.all_tiles();
         let kept = all.iter().filter(|tile| known.contains(tile.hash.as_str())).count();
-        let mut warnings = plan.notes.clone();
+        let mut warnings: Vec<Cow<'_, str>> = plan.notes.iter().map(Cow::from).collect();
         if self.geoid_height.is_none() && self.geoid.is_none() {
             warnings.push(
                 "heights are taken as heights above the WGS 84 ellipsoid; national heights are above a geoid: --geoid FILE or --geoid-height METRES"
-                    .to_owned(),
+                    .into(),
             );
         }
         if !plan.left_out.is_empty() {
             let (count, first) = (plan.left_out.len(), &plan.left_out[0]);
-            warnings
-                .push(format!("{count} features are in no tile, such as {}: {}", first.feature, first.cause));
+            let text = format!("{count} features are in no tile, such as {}: {}", first.feature, first.cause);
+            warnings.push(text.into());
         }
         if self.script.json {
             let document = json!({

@@ -1,19 +1,19 @@
 //! `burgeon tiles status`: reports the progress of all processes.
 
-use std::path::PathBuf;
-
 use burgeon::Result;
 use burgeon::tiles::{TileFolder, TilePlan, TileStatus};
-use clap::Args;
+use clap::{Args, ValueHint};
 use serde_json::json;
 
 use super::super::report;
+use super::inputs::tile_folder;
 
 /// Reports the progress of all processes that make the tiles of a plan
 #[derive(Args)]
 pub(super) struct StatusCommand {
     /// Folder of the plan
-    folder: PathBuf,
+    #[arg(value_parser = tile_folder(), value_hint = ValueHint::AnyPath)]
+    folder: TileFolder,
 
     /// Prints machine-readable JSON instead of text
     #[arg(long)]
@@ -22,9 +22,9 @@ pub(super) struct StatusCommand {
 
 impl StatusCommand {
     pub(super) fn run(&self) -> Result<()> {
-        let folder = TileFolder(self.folder.clone());
+        let folder = &self.folder;
         let plan = TilePlan::read(&folder.plan())?;
-        let status = TileStatus::read(&folder, &plan)?;
+        let status = TileStatus::read(folder, &plan)?;
         if self.json {
             let slowest =
                 status.slowest.iter().map(|(tile, seconds)| json!({ "tile": tile, "seconds": seconds }));

@@ -171,6 +171,13 @@ impl Error {
         self
     }
 
+    /// Replaces the remedy.
+    #[must_use]
+    pub fn rather_help(mut self, help: impl fmt::Display) -> Self {
+        self.0.help = Some(prepare_text(&help.to_string(), LONGEST));
+        self
+    }
+
     /// Sets the location, unless it is already set.
     #[must_use]
     pub fn at(mut self, place: Option<SourcePlace>) -> Self {
@@ -192,7 +199,7 @@ impl Error {
     /// Sets the location to a line of `file`, unless it is already set.
     #[must_use]
     pub fn at_line(mut self, file: &str, line: usize) -> Self {
-        self.0.place.get_or_insert_with(|| SourcePlace { file: file.to_owned(), line });
+        self.0.place.get_or_insert_with(|| SourcePlace::new(file, line));
         self
     }
 
@@ -267,6 +274,11 @@ impl Error {
     /// Returns the location, if known.
     pub fn place(&self) -> Option<&SourcePlace> {
         self.0.place.as_ref()
+    }
+
+    /// Returns the location alone, if known.
+    pub fn into_place(self) -> Option<SourcePlace> {
+        self.0.place
     }
 
     /// Returns the line that led to the location, if it should be shown.

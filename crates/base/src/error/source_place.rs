@@ -19,6 +19,11 @@ const LARGEST: u64 = 16_000_000;
 const WIDEST: usize = 160;
 
 impl SourcePlace {
+    /// Creates the location of line `line` of `file`.
+    pub fn new(file: impl Into<String>, line: usize) -> Self {
+        Self { file: file.into(), line }
+    }
+
     /// Returns the lines from `before` lines before the location to `after` lines after it, with their numbers. Empty
     /// if the file cannot be read, or if the line itself is empty or missing.
     pub fn excerpt(&self, before: usize, after: usize) -> Vec<(usize, String)> {

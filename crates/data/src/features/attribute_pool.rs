@@ -29,13 +29,11 @@ impl AttributePool {
         if self.0.is_empty() {
             self.0.resize(PLACES, None);
         }
-        let known = &mut self.0[place];
-        if let Some(known) = known.as_ref().filter(|known| same(known, &attributes)) {
-            return (Arc::clone(known), false);
-        }
-        let attributes: FeatureAttributes = attributes.into();
-        *known = Some(Arc::clone(&attributes));
-        (attributes, true)
+        let (stored, is_new) = match &mut self.0[place] {
+            Some(known) if same(known, &attributes) => (known, false),
+            known => (known.insert(attributes.into()), true),
+        };
+        (Arc::clone(stored), is_new)
     }
 }
 

@@ -1,8 +1,6 @@
 //! SQL conditions on features of files that are not databases: their attributes become rows of a table in memory.
 //! GeoPackages evaluate conditions themselves.
 
-use std::sync::Arc;
-
 use rusqlite::types::Value;
 use rusqlite::{Connection, params_from_iter};
 
@@ -44,10 +42,10 @@ pub(crate) fn find_matches(
     connection.execute_batch("COMMIT").map_err(fail)?;
     // The line break ends a comment in the condition.
     let sql = format!("SELECT {0} FROM features WHERE (\n{condition}\n) ORDER BY {0}", quote(key));
-    let (shown, asked, budget) = (table.shown.clone(), wanted.clone(), Arc::clone(&wanted.budget));
+    let (shown, asked) = (table.shown.clone(), wanted.clone());
     run_watched(connection, &wanted.budget, move |mut connection| {
         let fail = |error: rusqlite::Error| query_error(&shown, &asked, &error);
-        guard(&mut connection, &budget).map_err(fail)?;
+        guard(&mut connection, &asked.budget).map_err(fail)?;
         let mut statement = connection.prepare(&sql).map_err(fail)?;
         let numbers = statement.query_map([], |row| row.get::<_, i64>(0)).map_err(fail)?;
         let numbers: rusqlite::Result<Vec<i64>> = numbers.collect();

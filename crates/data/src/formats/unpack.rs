@@ -59,7 +59,7 @@ pub(crate) fn gunzip(file: DataFile, wanted: &SourceOptions) -> Result<DataFile>
     let path = match file.extension().as_str() {
         "gz" | "gzip" => file.path.with_extension(""),
         "tgz" => file.path.with_extension("tar"),
-        _ => file.path.clone(),
+        _ => file.path,
     };
     Ok(DataFile { content: Content::Memory(bytes), path, name: file.name })
 }

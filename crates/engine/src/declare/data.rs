@@ -2,6 +2,7 @@
 
 use std::any::Any;
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock};
 
@@ -123,9 +124,10 @@ impl Data {
         let (own, path) = &files[0];
         let mut objects = self.objects.lock().recover();
         let key = format!("{kind} {files:?} {:?} {fields:?}", asker.map(|asker| &asker.manifest.name));
-        if let Some(loaded) = objects.get(&key) {
-            return loaded.clone();
-        }
+        let unknown = match objects.entry(key) {
+            Entry::Occupied(known) => return known.get().clone(),
+            Entry::Vacant(unknown) => unknown,
+        };
         let mut loaded = None;
         self.with_services(&mut |services| {
             let budget = self.budget(session);
@@ -146,8 +148,7 @@ impl Data {
         session.stop.check()?;
         let loaded =
             loaded.unwrap_or_else(|| Err(Error::internal("a store of sources provides no services")));
-        objects.insert(key, loaded.clone());
-        loaded
+        unknown.insert(loaded).clone()
     }
 
     /// Calls `act` with the values that loaders share with sources.

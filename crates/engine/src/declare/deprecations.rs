@@ -50,25 +50,25 @@ impl Session {
         owner: &str,
         fields: &[Field],
         table: &'a Table,
-        place: Option<SourcePlace>,
+        place: Option<&SourcePlace>,
     ) -> Result<Cow<'a, Table>> {
         for former in Field::former_names(fields, table) {
-            self.use_deprecated(&format!("{owner}.{}", former.name), former, place.clone());
+            self.use_deprecated(&format!("{owner}.{}", former.name), former, place);
         }
         Field::replace_former_names(owner, fields, table)
     }
 
     /// Records that a script uses the deprecated `name` at `place`.
-    pub(crate) fn use_deprecated(&self, name: &str, deprecation: &Deprecation, place: Option<SourcePlace>) {
+    pub(crate) fn use_deprecated(&self, name: &str, deprecation: &Deprecation, place: Option<&SourcePlace>) {
         let mut used = self.deprecated.used.lock().recover();
         match used.get_mut(name) {
             Some((_, first)) => {
-                if place.is_some() && (first.is_none() || place < *first) {
-                    *first = place;
+                if place.is_some() && (first.is_none() || place < first.as_ref()) {
+                    *first = place.cloned();
                 }
             }
             None => {
-                used.insert(name.to_owned(), (deprecation.clone(), place));
+                used.insert(name.to_owned(), (deprecation.clone(), place.cloned()));
             }
         }
     }

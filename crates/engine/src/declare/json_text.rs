@@ -76,7 +76,7 @@ impl<'a> JsonText<'a> {
         let from = (raw.get().as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize);
         let before = self.text.as_bytes().get(..from).unwrap_or_default();
         let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
-        SourcePlace { file: self.name.clone(), line }
+        SourcePlace::new(self.name.as_str(), line)
     }
 }
 

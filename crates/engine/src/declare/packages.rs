@@ -48,7 +48,7 @@ impl Session {
         let used = self.used.lock().recover();
         let meant = |package: &&Package| package.replaces() || used.contains(&package.manifest.name);
         let found = self.packages().order().iter().filter(meant).filter_map(|package| {
-            let file = FileName { package: package.manifest.name.clone(), path: PRESETS.to_owned() };
+            let file = FileName::new(&package.manifest.name, PRESETS);
             let located = self.packages().locate("presets file", &file, None, &mut |_, _| {}).ok()?;
             Some((file.package, located.path))
         });
@@ -132,7 +132,7 @@ impl Session {
             let script = FileName { path: format!("{}.lua", name.path), ..name };
             // The argument of `require` has no file extension.
             let found = self.locate("file", &script, Some(package)).is_ok();
-            (!found).then(|| error.rather_at(Some(SourcePlace { file: file.to_owned(), line: *line })))
+            (!found).then(|| error.rather_at(Some(SourcePlace::new(file, *line))))
         });
         missing.collect()
     }

@@ -88,8 +88,8 @@ impl Session {
         self.note(&analysis);
         for (used, line) in &analysis.deprecated {
             if let Some(deprecation) = globals.deprecated.get(used) {
-                let place = SourcePlace { file: name.to_owned(), line: *line };
-                self.use_deprecated(used, deprecation, Some(place));
+                let place = SourcePlace::new(name, *line);
+                self.use_deprecated(used, deprecation, Some(&place));
             }
         }
         let undeclared = self.undeclared(name, &analysis.packages);

@@ -348,7 +348,7 @@ impl Session {
 
     /// Returns the source text of the guard that begins at a line of a file, if it is the only guard there.
     pub(crate) fn guard_text(&self, file: &str, line: usize) -> Option<String> {
-        self.source_called(file)?.analysis.guards.get(&line).cloned()
+        self.read_source(file, |source| source.analysis.guards.get(&line))
     }
 
     /// Returns the line at which the rule function that begins at `line` returns only a table that it has filled, if static
@@ -357,10 +357,9 @@ impl Session {
         self.source_called(file)?.analysis.filled.get(&line).copied()
     }
 
-    /// Returns the signature of the function that begins at a line of a file, if it is the only function
-    /// there.
+    /// Returns the signature of the function that begins at a line of a file, if it is the only function there.
     pub(crate) fn signature(&self, file: &str, line: usize) -> Option<CallForm> {
-        self.source_called(file)?.analysis.signatures.get(&line).cloned()
+        self.read_source(file, |source| source.analysis.signatures.get(&line))
     }
 
     /// Records that `require(name)` in the file `asker` refers to the file `meant`.
@@ -387,11 +386,9 @@ impl Session {
         call_problems(&files, &self.registry_with_types())
     }
 
-    /// Returns the SQL queries of the rule functions that begin at a line of a file, as far as static
-    /// analysis finds them.
+    /// Returns the SQL queries of the rule functions that begin at a line of a file, as far as static analysis finds them.
     pub(crate) fn queries(&self, file: &str, line: usize) -> Vec<QueryCall> {
-        let queries = self.source_called(file).and_then(|source| source.analysis.queries.get(&line).cloned());
-        queries.unwrap_or_default()
+        self.read_source(file, |source| source.analysis.queries.get(&line)).unwrap_or_default()
     }
 
     /// Returns the display name of a file.
@@ -400,6 +397,12 @@ impl Session {
         let known = scripts.read.get(path).filter(|_| !path.starts_with(&self.root));
         let inner = path.strip_prefix(&self.root).unwrap_or(path);
         known.map_or_else(|| inner.display().to_string(), |source| source.name.clone())
+    }
+
+    /// Returns a part of the source of a file, if the file has been read.
+    fn read_source<T: Clone>(&self, file: &str, find: impl FnOnce(&SourceFile) -> Option<&T>) -> Option<T> {
+        let scripts = self.script_files();
+        scripts.read.values().find(|source| source.name == file).and_then(|source| find(source)).cloned()
     }
 
     fn source_called(&self, file: &str) -> Option<Arc<SourceFile>> {

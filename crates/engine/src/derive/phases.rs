@@ -45,7 +45,7 @@ pub(super) fn derive(
 ) -> Result<DerivationResults> {
     let (plan, session) = (&derivation.plan, &leader.machine.session);
     let grammar = &plan.steps.grammar;
-    let mut stepper = Stepper::new(Arc::clone(&plan.steps));
+    let mut stepper = Stepper::new(&plan.steps);
     let mut interpretations = vec![Use::default(); plan.interpretations.list.len()];
     let derived: Vec<_> = leader.threads.derived().into_iter().flatten().collect();
     let mut checkpoints = CheckpointWriter::new(session, derivation, &derived);
@@ -65,7 +65,7 @@ pub(super) fn derive(
         derivation,
         rewriter: SystemRewriter::new(leader),
         stepper,
-        decomposer: plan.decomposition.as_ref().map(|rules| Stepper::new(Arc::clone(&rules.steps))),
+        decomposer: plan.decomposition.as_ref().map(|rules| Stepper::new(&rules.steps)),
         previous: None,
         times: Times::default(),
         interpretations,

@@ -255,7 +255,7 @@ fn warn_of_depth(
     number: usize,
 ) -> Result<()> {
     let Derivation { plan, declared, .. } = state.derivation;
-    let mut trial = Stepper::new(Arc::clone(&rules.steps));
+    let mut trial = Stepper::new(&rules.steps);
     if !step(state.leader, plan, &mut trial, declared, chain, number)?.changed {
         return Ok(());
     }

@@ -1,6 +1,7 @@
 //! Applies the rules of a script's systems for self-expanding objects.
 
 use std::cell::{RefCell, RefMut};
+use std::collections::hash_map::Entry;
 use std::sync::{Arc, RwLock};
 
 use rustc_hash::FxHashMap;
@@ -64,7 +65,33 @@ impl<'a> SystemRewriter<'a> {
             places: RwLock::default(),
         });
         let declared = self.leader.machine.library.systems.borrow()[index].prepare(self.leader.machine)?;
-        Ok(Ready { declared, stepper: Stepper::new(Arc::clone(&plan.steps)), plan })
+        Ok(Ready { declared, stepper: Stepper::new(&plan.steps), plan })
+    }
+
+    /// Reads the rules of system `index`. Fails if an object cannot apply them.
+    fn read_rules(&self, index: usize) -> Result<RuleSet> {
+        let session = &self.leader.machine.session;
+        let systems = self.leader.machine.library.systems.borrow();
+        let system = &systems[index];
+        if let Some((what, help)) = system.unfit_for_objects() {
+            return Err(Error::script(format!(
+                "an object applies the rules of this system, which must not have {what}"
+            ))
+            .at_place(system.place.as_ref())
+            .help(help));
+        }
+        Ok(RuleSet {
+            grammar: system.grammar(
+                &self.leader.machine.library,
+                session.draws_random(),
+                RulePhase::Rewriting,
+                None,
+            )?,
+            values: Arc::clone(&session.values),
+            place: system.place.clone(),
+            has_object: system.object.is_some(),
+            batch: session.options.batch.max(1),
+        })
     }
 
     /// Returns system `index`, prepared for steps.
@@ -80,33 +107,12 @@ impl<'a> SystemRewriter<'a> {
 
 impl Rewriter for SystemRewriter<'_> {
     fn rules(&self, index: usize) -> Result<Arc<RuleSet>> {
-        if let Some(known) = self.known.borrow().get(&index) {
-            return Ok(Arc::clone(known));
-        }
-        let session = &self.leader.machine.session;
-        let systems = self.leader.machine.library.systems.borrow();
-        let system = &systems[index];
-        if let Some((what, help)) = system.unfit_for_objects() {
-            return Err(Error::script(format!(
-                "an object applies the rules of this system, which must not have {what}"
-            ))
-            .at_place(system.place.as_ref())
-            .help(help));
-        }
-        let rules = Arc::new(RuleSet {
-            grammar: system.grammar(
-                &self.leader.machine.library,
-                session.draws_random(),
-                RulePhase::Rewriting,
-                None,
-            )?,
-            values: Arc::clone(&session.values),
-            place: system.place.clone(),
-            has_object: system.object.is_some(),
-            batch: session.options.batch.max(1),
-        });
-        self.known.borrow_mut().insert(index, Arc::clone(&rules));
-        Ok(rules)
+        let mut known = self.known.borrow_mut();
+        let rules = match known.entry(index) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(unknown) => unknown.insert(Arc::new(self.read_rules(index)?)),
+        };
+        Ok(Arc::clone(rules))
     }
 
     fn axiom(&self, index: usize) -> Result<Chain> {

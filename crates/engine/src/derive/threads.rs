@@ -303,7 +303,7 @@ fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<R
                 let Some(interpreting) = interpreting.upgrade() else { continue };
                 prepared(machine, &mut known, index)?;
                 machine.enter(index)?;
-                machine.current.objects.replace(interpreting.plan.objects.clone());
+                interpreting.plan.show_objects(machine);
                 machine.load_variables(interpreting.plan.variables().as_deref())?;
                 machine.refresh();
                 while interpreting.work(machine) {}

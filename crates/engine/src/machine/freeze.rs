@@ -1,5 +1,7 @@
 //! Freezes the tables that rules can reach from outside, while the rules run.
 
+use std::borrow::Cow;
+
 use mlua::{Function, Lua, Table, Value, ffi};
 use rustc_hash::FxHashSet;
 
@@ -7,17 +9,20 @@ use super::types::DerivedHandle;
 use burgeon_base::error::{Error, Result, SourcePlace};
 
 /// Function that rules run, with its name and location.
-#[derive(Clone)]
-pub(crate) struct ReachableFunction {
-    pub function: Function,
-    pub name: String,
-    pub place: Option<SourcePlace>,
+pub(crate) struct ReachableFunction<'a> {
+    function: Function,
+    name: Cow<'a, str>,
+    place: Option<&'a SourcePlace>,
 }
 
-impl ReachableFunction {
+impl<'a> ReachableFunction<'a> {
     /// Creates a function that belongs to a rule called `name`.
-    pub(crate) fn of_rule(function: &Function, name: &str, place: Option<&SourcePlace>) -> Self {
-        Self { function: function.clone(), name: name.to_owned(), place: place.cloned() }
+    pub(crate) fn of_rule(
+        function: &Function,
+        name: impl Into<Cow<'a, str>>,
+        place: Option<&'a SourcePlace>,
+    ) -> Self {
+        Self { function: function.clone(), name: name.into(), place }
     }
 }
 
@@ -39,19 +44,19 @@ impl Drop for TableFreeze {
 pub(crate) fn freeze<'a>(
     lua: &Lua,
     stateless: &FxHashSet<usize>,
-    functions: impl IntoIterator<Item = &'a ReachableFunction>,
+    functions: impl IntoIterator<Item = ReachableFunction<'a>>,
 ) -> Result<TableFreeze> {
     let unexpected = |error: mlua::Error| Error::internal(error.to_string());
     let mut frozen = TableFreeze(Vec::new());
     let mut seen = FxHashSet::default();
-    for reached in functions {
+    for ReachableFunction { function, name, place } in functions {
         let refuse = |what: &str| {
             Err(Error::scope(format!("the rule uses {what}, which keeps state from one module to the next"))
                 .help("create it inside the rule, or keep the state in a parameter of a module")
-                .at_place(reached.place.as_ref())
-                .rule(&reached.name))
+                .at_place(place)
+                .rule(&name))
         };
-        let mut queue = vec![Value::Function(reached.function.clone())];
+        let mut queue = vec![Value::Function(function)];
         while let Some(value) = queue.pop() {
             match value {
                 Value::Function(function) => {

@@ -75,7 +75,7 @@ impl Library {
                 let place = Machine::place(lua);
                 let fields: Vec<Field> = PARAM.options().cloned().collect();
                 let options = session
-                    .replace_former_names("param", &fields, &options, place.clone())
+                    .replace_former_names("param", &fields, &options, place.as_ref())
                     .map_err(mlua::Error::external)?;
                 let mut param = Param::declare(&name, &options).map_err(mlua::Error::external)?;
                 if let Some(owner) = place.as_ref().and_then(|place| session.package_of(&place.file)) {

@@ -158,21 +158,22 @@ pub(super) fn add_hooks(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlu
 fn read_chain(lua: &Lua, state: &WorkState) -> Result<Table> {
     let mut hook = state.hook.borrow_mut();
     let view = hook.as_mut().ok_or_else(|| Error::internal("no hook runs"))?;
-    if let Some(read) = &view.read {
-        return Ok(read.list.clone());
-    }
-    if view.chain.symbols.iter().filter(|symbol| **symbol == END).count() != 1 {
-        return Err(Error::script(
-            "now.chain is the chain of a system with one chain, but this system has several",
-        )
-        .help("read their modules with query, such as query(\"select n from A\")"));
-    }
-    let readable =
-        ReadableChain { chain: &view.chain, symbols: &view.symbols, values: &state.session.values };
-    let read = ReadChain::read(lua, &readable).map_err(|error| Error::other(error.to_string()))?;
-    let list = read.list.clone();
-    view.read = Some(read);
-    Ok(list)
+    let read = match &mut view.read {
+        Some(read) => read,
+        unread => {
+            if view.chain.symbols.iter().filter(|symbol| **symbol == END).count() != 1 {
+                return Err(Error::script(
+                    "now.chain is the chain of a system with one chain, but this system has several",
+                )
+                .help("read their modules with query, such as query(\"select n from A\")"));
+            }
+            let readable =
+                ReadableChain { chain: &view.chain, symbols: &view.symbols, values: &state.session.values };
+            let read = ReadChain::read(lua, &readable).map_err(|error| Error::other(error.to_string()))?;
+            unread.insert(read)
+        }
+    };
+    Ok(read.list.clone())
 }
 
 /// Returns the number of the group of rules called `name`.

@@ -80,7 +80,7 @@ fn add_values(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Lib
                     .map_err(mlua::Error::external)?;
                 params.push(state.session.values.pack(value));
             }
-            Ok(module_text(&owner.symbols.borrow(), &state.session.values, symbol, &params))
+            Ok(module_text(&owner.symbols.borrow(), &state.session.values, symbol, &params).into_owned())
         })?,
     )?;
     Ok(())
@@ -272,7 +272,7 @@ fn add_script_objects(
     host.set(
         "claim",
         lua.create_function(move |lua, (kind, name, owners): (String, String, Vec<String>)| {
-            claim(&owner, lua, &kind, &name, &owners).map_err(mlua::Error::external)
+            claim(&owner, lua, &kind, &name, owners).map_err(mlua::Error::external)
         })?,
     )?;
     let state = Rc::clone(current);

@@ -1,7 +1,6 @@
 //! Methods of objects that are not the drawn one, such as environments and features.
 
 use std::rc::Rc;
-use std::sync::Arc;
 
 use mlua::{Lua, MultiValue, Table, Value as LuaValue};
 
@@ -113,7 +112,7 @@ impl ObjectMethod {
                 let place = guard.and_then(|guard| self.state.noted_place(guard));
                 if let Some(place) = place.filter(|_| kind.has_capability::<dyn ObjectContent>()) {
                     let given: Vec<String> = given.iter().map(Value::to_string).collect();
-                    let this = Value::Object(Arc::clone(&handle.0));
+                    let this = &handle.0;
                     let text = format!("{this}:{}({}): {answer}", method.name, given.join(", "));
                     self.state.session.rows.note_answer(place, text);
                 }

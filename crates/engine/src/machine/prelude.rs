@@ -141,14 +141,15 @@ impl GrowingColumn {
     /// Returns the column, at least `size` bytes long.
     fn of_size(&self, size: usize) -> mlua::Result<Buffer> {
         let mut last = self.last.borrow_mut();
-        if let Some((buffer, length)) = &*last
-            && *length >= size
-        {
-            return Ok(buffer.clone());
-        }
-        let buffer: Buffer = self.grow.call(size)?;
-        *last = Some((buffer.clone(), buffer.len()));
-        Ok(buffer)
+        let (buffer, _) = match &mut *last {
+            Some(known) if known.1 >= size => known,
+            other => {
+                let buffer: Buffer = self.grow.call(size)?;
+                let length = buffer.len();
+                other.insert((buffer, length))
+            }
+        };
+        Ok(buffer.clone())
     }
 }
 

@@ -126,7 +126,7 @@ unsafe fn place(state: *mut ffi::lua_State) -> Option<SourcePlace> {
             }
             let source = CStr::from_ptr(debug.source).to_string_lossy();
             if let (Some(file), Ok(line)) = (source.strip_prefix('@'), usize::try_from(debug.currentline)) {
-                return Some(SourcePlace { file: file.to_owned(), line });
+                return Some(SourcePlace::new(file, line));
             }
         }
         None

@@ -94,7 +94,7 @@ fn load(
     let value = value?;
     if let Some(package) = session.package_of(shown) {
         freeze_all(&value, &package.manifest.name)
-            .map_err(|error| error.rather_at(Some(SourcePlace { file: shown.to_owned(), line: 1 })))?;
+            .map_err(|error| error.rather_at(Some(SourcePlace::new(shown, 1))))?;
     }
     library.loaded.borrow_mut().extend(path.map(|path| (path, value.clone())));
     Ok(value)
@@ -164,7 +164,7 @@ fn find_in_package(
         let path = lead(&package.folder.join(folder), &relative);
         let path = path.strip_prefix(&package.folder).map_err(|_| outside())?;
         let parts: Vec<_> = path.iter().map(|part| part.to_string_lossy()).collect();
-        let file = FileName { package: name.clone(), path: parts.join("/") };
+        let file = FileName::new(name, parts.join("/"));
         match located(session, &file, Some(package)) {
             Err(error) if matches!(error.kind(), ErrorKind::NotFound { .. }) => {
                 missing.get_or_insert(error);

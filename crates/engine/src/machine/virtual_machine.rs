@@ -415,7 +415,7 @@ fn split_place(text: &str) -> Option<(Option<SourcePlace>, &str)> {
             let line = text[colon + 1..behind].parse().ok()?;
             let file = &text[..colon];
             let own = file == OWN || file.is_empty() || file.starts_with("__mlua");
-            let place = (!own).then(|| SourcePlace { file: file.to_owned(), line });
+            let place = (!own).then(|| SourcePlace::new(file, line));
             return Some((place, text[behind + 1..].trim_start()));
         }
         from = colon + 1;

@@ -73,10 +73,10 @@ impl Watchdog {
     /// Starts watching `session`.
     pub fn new(session: &Arc<Session>) -> Self {
         let shared = Arc::new(WatchdogLock::default());
-        let (theirs, stop) = (Arc::clone(&shared), Arc::clone(&session.stop));
+        let (theirs, watched) = (Arc::clone(&shared), Arc::clone(session));
         let deadline = Instant::now() + session.options.limits.time;
-        let watched = Arc::clone(session);
         let watch = move || {
+            let stop = &watched.stop;
             let mut inner = theirs.inner.lock().recover();
             while !inner.over && !stop.is_stopped() {
                 if Instant::now() >= deadline {

@@ -73,7 +73,7 @@ impl LayerTables {
         let numbers: Vec<usize> =
             list.attribute_names().iter().map(|name| layer.columns.number(name)).collect();
         for feature in 0..list.count() {
-            let geometry = Arc::clone(list).geometry(feature, None);
+            let geometry = list.feature_geometry(feature, None);
             let geometry = geometry.and_then(|object| GeometryObject::of(&*object).cloned());
             let values = list.attributes(feature).iter();
             let values = values.map(|(column, value)| (numbers[*column], value.clone()));

@@ -69,14 +69,20 @@ impl Skin {
             }
             self.columns.push(SkinColumn { point: first + to, tangent: tangents.tangent_before(to) });
             if step + 1 == edges || is_sharp(&ring[to]) {
+                let own = &self.columns[begin..];
+                let first = own[0].tangent[0].0;
+                let mut tangents = own.iter().flat_map(|column| column.tangent);
+                let straight = tangents.all(|(edge, weight)| weight == 0.0 || edge.dot(first) > 1.0 - 1e-9);
                 let columns = begin..self.columns.len();
-                let tangents = || self.columns[columns.clone()].iter().flat_map(|column| column.tangent);
-                let first = self.columns[begin].tangent[0].0;
-                let straight = tangents().all(|(edge, weight)| weight == 0.0 || edge.dot(first) > 1.0 - 1e-9);
                 begin = columns.end;
                 self.strips.push(Strip { columns, ring: index, straight });
             }
         }
+    }
+
+    /// Returns the columns of a strip.
+    pub(crate) fn columns_of(&self, strip: &Strip) -> &[SkinColumn] {
+        &self.columns[strip.columns.clone()]
     }
 
     /// Returns the texture coordinates (m) of all columns along a ring of points, relative to the strips'
@@ -103,7 +109,7 @@ impl Skin {
             if strip.ring != ring {
                 (ring, sum) = (strip.ring, 0.0);
             }
-            let columns = self.columns[strip.columns.clone()].windows(2);
+            let columns = self.columns_of(strip).windows(2);
             let length: f64 = columns.map(|pair| points[pair[0].point].distance(points[pair[1].point])).sum();
             sum += length;
             sum - length / 2.0

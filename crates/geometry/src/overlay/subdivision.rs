@@ -69,7 +69,7 @@ impl Subdivision {
             spokes: Vec::new(),
         };
         let points = (0..).zip(ways).filter(|(_, way)| way.kind == WayKind::Points);
-        let points: Vec<u32> = points.flat_map(|(number, _)| made.points(number).to_vec()).collect();
+        let points: Vec<u32> = points.flat_map(|(number, _)| made.points(number)).copied().collect();
         let edges = edges.iter().map(|edge| (edge.ends, edge.load.net, edge.load.line, edge.load.source));
         made.sweep(edges, points);
         Ok(made)

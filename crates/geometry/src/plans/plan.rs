@@ -96,7 +96,7 @@ impl Plan {
             Ok(clean) => clean,
             Err(error) => {
                 let Some(repair) = repair(rings, &PLAN) else { return Err(error) };
-                return Ok(Self::from_repair(repair, sizes, error.message().to_owned()));
+                return Ok(Self::from_repair(repair, sizes, error.into_message()));
             }
         };
         let corners: usize = clean.iter().map(Vec::len).sum();

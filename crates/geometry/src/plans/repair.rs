@@ -111,12 +111,7 @@ fn settle(
             if let Some(first) = slits.first() {
                 slit.get_or_insert(Slit { ends: first.ends.map(|end| end + middle), ..*first });
                 let filled = slits.iter().map(|slit| counter_clockwise(slit.corners.to_vec()));
-                area = unite(
-                    filled
-                        .chain([clean.iter().map(|ring| ring.to_vec()).collect::<Rings<DVec2>>()])
-                        .collect(),
-                )
-                .ok()?;
+                area = unite(filled.chain([Rings::from(&clean)]).collect()).ok()?;
                 note(&mut notes, SLITS);
                 continue;
             }

@@ -140,7 +140,7 @@ impl<'a> SweepSurface<'a> {
         }
         let (mut weights, mut sum) = (0.0, 0.0);
         for strip in &self.skin.strips {
-            for pair in self.skin.columns[strip.columns.clone()].windows(2) {
+            for pair in self.skin.columns_of(strip).windows(2) {
                 let [left, right] = [pair[0].point, pair[1].point];
                 let weight = a.exact[left].distance(a.exact[right]) + b.exact[left].distance(b.exact[right]);
                 let middles = [a, b].map(|ring| (ring.exact[left] + ring.exact[right]) / 2.0);

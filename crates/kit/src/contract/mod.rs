@@ -41,6 +41,6 @@ pub use parameter::{Answer, Expectation, ObjectParameter, Parameter, object};
 pub use place::{Locate, ObjectPlace, Rescale, Rewind};
 pub use prefetch::{BeginPrefetch, Prefetch};
 pub use rewriter::{RewriteOutcome, Rewriter, RuleSet, System};
-pub use value::{Table, TableKey, Value, is_keyword};
+pub use value::{Table, TableKey, Value, are_equal, is_keyword};
 pub use values::Values;
 pub use vector::{AxisScale, Vector};

@@ -62,16 +62,18 @@ impl PartialEq for Value {
             (Self::Number(a), Self::Number(b)) => a.to_bits() == b.to_bits(),
             (Self::Text(a), Self::Text(b)) => a == b,
             (Self::Table(a), Self::Table(b)) => a == b,
-            (Self::Object(a), Self::Object(b)) => {
-                Arc::ptr_eq(a, b)
-                    || a.capability::<dyn ObjectContent>().is_some_and(|content| content.equals(&**b))
-            }
+            (Self::Object(a), Self::Object(b)) => are_equal(a, b),
             _ => false,
         }
     }
 }
 
 impl Eq for Value {}
+
+/// Returns true if two objects are the same, or have equal contents.
+pub fn are_equal(a: &Arc<dyn Object>, b: &Arc<dyn Object>) -> bool {
+    Arc::ptr_eq(a, b) || a.capability::<dyn ObjectContent>().is_some_and(|content| content.equals(&**b))
+}
 
 impl Hash for Value {
     fn hash<H: Hasher>(&self, state: &mut H) {
@@ -131,6 +133,15 @@ impl fmt::Debug for Value {
     }
 }
 
+impl fmt::Display for dyn Object {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.capability::<dyn ObjectContent>() {
+            Some(content) => f.write_str(&content.text()),
+            None => f.write_str(&self.kind().name),
+        }
+    }
+}
+
 impl fmt::Display for Value {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -138,10 +149,7 @@ impl fmt::Display for Value {
             Self::Boolean(value) => write!(f, "{value}"),
             Self::Number(value) => write_number(*value, f),
             Self::Text(value) => write!(f, "{value:?}"),
-            Self::Object(value) => match value.capability::<dyn ObjectContent>() {
-                Some(content) => f.write_str(&content.text()),
-                None => f.write_str(&value.kind().name),
-            },
+            Self::Object(value) => write!(f, "{value}"),
             Self::Table(table) => {
                 f.write_str(table.class.as_deref().unwrap_or_default())?;
                 f.write_str("{")?;

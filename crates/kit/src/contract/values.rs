@@ -154,13 +154,14 @@ impl Values {
         if let Some(handle) = slots.handles.get(&value) {
             return *handle;
         }
+        let stored = Some(value.value.clone());
         let handle = match slots.free.pop() {
             Some(handle) => {
-                slots.list[handle as usize] = Some(value.value.clone());
+                slots.list[handle as usize] = stored;
                 handle
             }
             None => {
-                slots.list.push(Some(value.value.clone()));
+                slots.list.push(stored);
                 u32::try_from(slots.list.len() - 1).unwrap_or(u32::MAX)
             }
         };

@@ -57,3 +57,14 @@ pub trait FeatureSource: Send + Sync {
     /// Returns a report entry about the layer that is not a warning.
     fn note(&self) -> Option<String>;
 }
+
+impl dyn FeatureSource {
+    /// Returns the geometry of a feature as [`geometry`](FeatureSource::geometry) does, for a source that others use too.
+    pub fn feature_geometry(
+        self: &Arc<Self>,
+        feature: usize,
+        prefetch: Option<&Arc<dyn Prefetch>>,
+    ) -> Option<Arc<dyn Object>> {
+        Arc::clone(self).geometry(feature, prefetch)
+    }
+}

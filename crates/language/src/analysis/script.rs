@@ -102,8 +102,8 @@ pub fn analyse(file: &str, text: &str, compile: Compile, globals: &Globals) -> A
 
 /// A script that is analysed in another thread, which waits for the names that the script can use.
 pub struct ScriptReader {
-    file: String,
-    text: String,
+    /// File and content, which the thread reads too.
+    source: Arc<(String, String)>,
     globals: Sender<Globals>,
     /// Channel for the result, which stays empty if the thread could not start.
     analysis: Receiver<Analysis>,
@@ -114,18 +114,19 @@ impl ScriptReader {
     pub fn begin(file: &str, text: &str, compile: Compile) -> Self {
         let (sender, analysis) = channel();
         let (globals, known) = channel();
-        let (file, text) = (file.to_owned(), text.to_owned());
-        let (name, source) = (file.clone(), text.clone());
+        let source = Arc::new((file.to_owned(), text.to_owned()));
+        let shared = Arc::clone(&source);
         // Sending fails if the receiver has timed out.
         let owner = MemoryOwner::current();
         let read = move || {
             let _charged = owner.enter();
-            drop(sender.send(read(&name, &source, compile, &known)));
+            let (file, text) = &*shared;
+            drop(sender.send(read(file, text, compile, &known)));
         };
         if std::thread::Builder::new().stack_size(STACK).spawn(read).is_err() {
-            return Self { file, text, globals, analysis: channel().1 };
+            return Self { source, globals, analysis: channel().1 };
         }
-        Self { file, text, globals, analysis }
+        Self { source, globals, analysis }
     }
 
     /// Returns the analysis, given the names that the script can use.
@@ -133,9 +134,10 @@ impl ScriptReader {
         // A thread that has already ended needs no globals.
         let _ = self.globals.send(globals.clone());
         self.analysis.recv_timeout(PATIENCE).unwrap_or_else(|_| {
-            let error = Error::limit(Limit::Time, format!("analysing {} takes too long", self.file))
+            let (file, text) = &*self.source;
+            let error = Error::limit(Limit::Time, format!("analysing {file} takes too long"))
                 .help("nest strings such as `a {`b`}` less deeply, or split the file");
-            unread(&self.text, vec![error])
+            unread(text, vec![error])
         })
     }
 }
@@ -156,7 +158,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
     // Luau limits the nesting depth, but the parser does not, so Luau compiles the text first.
     let Some(code) = compile(text) else { return unread(text, Vec::new()) };
     let refuse = |line: usize| {
-        let place = SourcePlace { file: file.to_owned(), line };
+        let place = SourcePlace::new(file, line);
         let error = Error::syntax("Burgeon does not support this Luau syntax")
             .help("write it differently; attributes in brackets, such as @[native], are not needed");
         unread(text, vec![error.at(Some(place))])

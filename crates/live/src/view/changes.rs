@@ -14,17 +14,20 @@ use burgeon_engine::script::CurvesFile;
 
 /// Handles changed files.
 pub(super) fn handle_changes(state: &ServerState, change: &Change) {
-    let mut presets = vec![Presets::path_of(&state.script)];
+    let own = Presets::path_of(&state.script);
     let of_packages = state.package_presets.lock().recover();
-    presets.extend(of_packages.iter().map(|(_, path)| path.clone()));
+    let (presets, others): (Vec<&PathBuf>, Vec<&PathBuf>) = change
+        .files
+        .iter()
+        .partition(|path| **path == own || of_packages.iter().any(|(_, presets)| presets == *path));
     drop(of_packages);
-    if change.files.iter().any(|path| presets.contains(path)) {
+    if !presets.is_empty() {
         tools::presets_changed(state);
     }
     let drawn = CurvesFile::path_of(&state.script);
     let saved = change.files.contains(&drawn) && !curves::is_changed(state);
-    let is_input = |path: &&PathBuf| !(presets.contains(path) || saved && **path == drawn);
-    let files: Vec<String> = change.files.iter().filter(is_input).map(|path| state.name(path)).collect();
+    let is_input = |path: &&PathBuf| !(saved && **path == drawn);
+    let files: Vec<String> = others.into_iter().filter(is_input).map(|path| state.name(path)).collect();
     if files.is_empty() {
         return;
     }

@@ -90,9 +90,10 @@ async fn handle(stream: TcpStream, site: Arc<Site>, unproven: Arc<UnprovenConnec
     // Messages are small and must not wait for the next one. If setting the option fails, the connection is only
     // slower.
     let _ = stream.set_nodelay(true);
+    let site = &site;
     let service = service_fn(|request: hyper::Request<hyper::body::Incoming>| {
-        let (site, known) = (Arc::clone(&site), || unproven.remove(&away));
-        async move { Ok::<_, Infallible>(answer(&site, request.map(Body::new), known).await) }
+        let known = || unproven.remove(&away);
+        async move { Ok::<_, Infallible>(answer(site, request.map(Body::new), known).await) }
     });
     let connection = http1::Builder::new()
         .timer(TokioTimer::new())

@@ -26,15 +26,15 @@ pub struct Live {
 
 impl Live {
     /// Starts a server. Fails if the port, or every port that was tried, is occupied.
-    pub fn start(settings: Settings) -> Result<Self> {
-        let endpoint = Endpoint::open(settings.port, settings.token.clone())?;
+    pub fn start(mut settings: Settings) -> Result<Self> {
+        let endpoint = Endpoint::open(settings.port, settings.token.take())?;
         let presets = tools::presets(&settings.script);
         let state = Arc::new(ServerState::new(settings, presets));
         let (seen, complained) = (Arc::clone(&state), Arc::clone(&state));
         let watch = Watch::new(
             work::constant_inputs(&state),
             move |change| changes::handle_changes(&seen, &change),
-            move |why| complained.tell(&LiveEvent::Text(why.to_owned())),
+            move |why| complained.tell(&LiveEvent::Text(why)),
         )?;
         state.lock().post(DueRun { cause: Cause::Start, files: Vec::new(), at: Instant::now() });
         let thread = |name: &str, work: Box<dyn FnOnce(&ServerState) + Send>| {

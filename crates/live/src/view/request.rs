@@ -40,6 +40,13 @@ pub(super) struct Inputs {
     pub generation: u64,
 }
 
+impl Inputs {
+    /// Returns the inputs of the run without a limit of its steps.
+    pub(super) fn unlimited(&self) -> Self {
+        Self { steps: None, ..self.clone() }
+    }
+}
+
 impl Request {
     /// Creates the request of the command line.
     pub(super) fn new(options: &RunOptions) -> Self {

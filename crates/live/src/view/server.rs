@@ -231,7 +231,7 @@ fn content_response(format: &Format, bytes: impl Into<Body>) -> Response {
 
 /// Encodes the present model as [`gltf::glb_with_texture_coordinates`] does. Few pages request it.
 async fn measured_model(site: &ScriptSite, hash: &str) -> Response {
-    let shown = site.state.lock().shown.clone();
+    let shown = site.state.shown();
     let url = Some(model_url(hash));
     let Some(shown) = shown.filter(|shown| shown.message.url == url) else { return missing() };
     match site.export(move |stop| gltf::glb_with_texture_coordinates(&shown.run.scene, stop)).await {
@@ -251,7 +251,7 @@ async fn save(site: &ScriptSite, name: &str, query: &str) -> Response {
         Ok(picture) => picture,
         Err(error) => return refuse(error.to_string()),
     };
-    let Some(shown) = site.state.lock().shown.clone() else {
+    let Some(shown) = site.state.shown() else {
         return plain(StatusCode::CONFLICT, "no model yet");
     };
     match site.export(move |stop| export::download(&shown.run.scene, &name, &picture, stop)).await {

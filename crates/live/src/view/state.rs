@@ -47,6 +47,11 @@ pub(super) fn content_hash(content: &[u8]) -> String {
     blake3::hash(content).to_hex()[..32].to_owned()
 }
 
+/// Returns the content with a hash, if it is stored.
+fn find_content(stored: &VecDeque<(String, Bytes)>, hash: &str) -> Option<Bytes> {
+    stored.iter().find(|(known, _)| known == hash).map(|(_, bytes)| bytes.clone())
+}
+
 /// State that all pages share.
 pub(super) struct ServerState {
     pub script: PathBuf,
@@ -318,14 +323,19 @@ impl ServerState {
         inner.map_or_else(|| self.name(file), |inner| inner.display().to_string())
     }
 
+    /// Returns the present model, if there is one.
+    pub(super) fn shown(&self) -> Option<Arc<PresentModel>> {
+        self.lock().shown.clone()
+    }
+
     /// Returns the model with that hash, if it is stored.
     pub(super) fn model(&self, hash: &str) -> Option<Bytes> {
-        self.lock().models.iter().find(|(known, _)| known == hash).map(|(_, bytes)| bytes.clone())
+        find_content(&self.lock().models, hash)
     }
 
     /// Returns the small render with that hash, if it is stored.
     pub(super) fn picture(&self, hash: &str) -> Option<Bytes> {
-        self.lock().pictures.iter().find(|(known, _)| known == hash).map(|(_, bytes)| bytes.clone())
+        find_content(&self.lock().pictures, hash)
     }
 
     /// Stores a small render. Returns its URL.

@@ -57,7 +57,7 @@ fn find(state: &ServerState, own: &Presets, name: &str) -> Result<Preset> {
         let message = format!("no package named `{package}` has presets");
         return Err(Error::not_found("package", package, known, message));
     };
-    let preset = Presets::read_file(path)?.get(inner)?.clone().of_package(package);
+    let preset = Presets::read_file(path)?.into_preset(inner)?.of_package(package);
     Ok(Preset { name: name.to_owned(), ..preset })
 }
 
@@ -171,9 +171,17 @@ pub(super) fn variations(
     page: Sender<Utf8Bytes>,
 ) -> Option<Event> {
     let begin = || -> Result<Variations> {
-        let (inputs, params) = {
+        let over = over?;
+        let inputs = {
             let inner = state.lock();
-            (inner.request.inputs(inner.generation), inner.params.clone())
+            if let (VariationAxis::Param { name, .. }, Some(params)) = (&over, &inner.params)
+                && Param::find(params, name)?.is_none()
+            {
+                let names = params.iter().map(|param| param.name.as_str());
+                let message = format!("unknown parameter `{name}`");
+                return Err(Error::not_found("parameter", name, names, message));
+            }
+            inner.request.inputs(inner.generation)
         };
         let options = RunOptions {
             params: ParamValues { set: inputs.set, preset: None, forgiving: true },
@@ -181,14 +189,6 @@ pub(super) fn variations(
             steps: inputs.steps,
             ..state.options.clone()
         };
-        let over = over?;
-        if let (VariationAxis::Param { name, .. }, Some(params)) = (&over, &params)
-            && Param::find(params, name)?.is_none()
-        {
-            let names = params.iter().map(|param| param.name.as_str());
-            let message = format!("unknown parameter `{name}`");
-            return Err(Error::not_found("parameter", name, names, message));
-        }
         Variations::new(&state.script, options, &over)
     };
     let variations = match begin() {

@@ -100,7 +100,7 @@ pub(super) fn highlight(state: &ServerState, id: u64, file: &str, line: usize) -
 
 /// Returns a part of a chain.
 pub(super) fn chain(state: &ServerState, id: u64, system: usize, chain: usize, module: usize) -> Event {
-    let shown = state.lock().shown.clone();
+    let shown = state.shown();
     let derived = shown.as_ref().and_then(|shown| system_of(&shown.run, system));
     match derived.filter(|derived| chain < derived.features.len()) {
         Some(derived) => {

@@ -382,7 +382,7 @@ impl LiveState {
     /// Returns the total number of steps for a run with these inputs that took `steps`; an estimate if the run was
     /// limited and the number is unknown.
     fn last_step_of(&mut self, inputs: &Inputs, steps: usize) -> usize {
-        let whole = Inputs { steps: None, ..inputs.clone() };
+        let whole = inputs.unlimited();
         if inputs.steps.is_none_or(|limit| steps < limit) {
             self.last_step = Some((whole, steps));
             return steps;
@@ -401,7 +401,7 @@ fn wants_last_step(state: &ServerState) -> Option<Inputs> {
     if inner.due.is_some() || inner.over || inner.trouble.is_some() || inputs.steps.is_none() {
         return None;
     }
-    let whole = Inputs { steps: None, ..inputs.clone() };
+    let whole = inputs.unlimited();
     (inner.last_step.as_ref().is_none_or(|(known, _)| *known != whole)).then_some(whole)
 }
 

@@ -127,7 +127,7 @@ enum Signal {
 }
 
 /// Handler that receives the reason for the fallback to polling.
-type ComplaintHandler = dyn FnOnce(&str) + Send;
+type ComplaintHandler = dyn FnOnce(String) + Send;
 
 struct Watcher {
     files: WatchedFiles,
@@ -146,7 +146,7 @@ impl Watch {
     pub fn new(
         files: Vec<PathBuf>,
         changed: impl Fn(Change) + Send + 'static,
-        complain: impl FnOnce(&str) + Send + 'static,
+        complain: impl FnOnce(String) + Send + 'static,
     ) -> Result<Self> {
         Self::by(folders::recommended, files, changed, complain)
     }
@@ -156,7 +156,7 @@ impl Watch {
         make: impl FnOnce(Handler) -> notify::Result<AnyWatcher>,
         files: Vec<PathBuf>,
         changed: impl Fn(Change) + Send + 'static,
-        complain: impl FnOnce(&str) + Send + 'static,
+        complain: impl FnOnce(String) + Send + 'static,
     ) -> Result<Self> {
         let (signals, inbox) = channel();
         let events = signals.clone();
@@ -232,7 +232,7 @@ impl Watcher {
         if let Some(why) = self.folders.failure()
             && let Some(complain) = self.complain.take()
         {
-            complain(&format!("cannot watch folders; polling files ten times a second: {why}"));
+            complain(format!("cannot watch folders; polling files ten times a second: {why}"));
         }
     }
 

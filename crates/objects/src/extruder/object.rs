@@ -303,9 +303,8 @@ impl Extruder {
 
     /// Sets the cross-section to `shape`.
     fn set(&mut self, shape: SectionShape) -> Result<()> {
-        let known = self.known.iter().find(|(known, _)| *known == shape);
-        self.state.section = match known {
-            Some((_, section)) => Arc::clone(section),
+        let index = match self.known.iter().position(|(known, _)| *known == shape) {
+            Some(index) => index,
             None => {
                 let section = Arc::new(match shape {
                     SectionShape::Regular(sides) => Section::regular(sides as usize)?,
@@ -315,10 +314,11 @@ impl Extruder {
                 if self.known.len() == KNOWN {
                     self.known.remove(0);
                 }
-                self.known.push((shape, Arc::clone(&section)));
-                section
+                self.known.push((shape, section));
+                self.known.len() - 1
             }
         };
+        self.state.section = Arc::clone(&self.known[index].1);
         Ok(())
     }
 

@@ -16,7 +16,7 @@ impl Footprint {
     /// Builds the groundwork: "z_min" at the lowest point, "z_max" at the highest, "extruded" with faces down to the
     /// ground.
     pub fn groundwork(&mut self, kind: String, material: Option<MaterialOptions>) -> Result<()> {
-        self.lay(&kind, material)
+        self.lay(&kind, material.as_ref())
     }
 
     /// Raises walls: { height, templates, photo, bay, color, material, expand }.

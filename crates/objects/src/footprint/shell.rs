@@ -14,7 +14,7 @@ use burgeon_scene::SurfaceMeaning;
 const GROUNDWORK: [&str; 3] = ["z_min", "z_max", "extruded"];
 
 impl Footprint {
-    pub(super) fn lay(&mut self, kind: &str, material: Option<MaterialOptions>) -> Result<()> {
+    pub(super) fn lay(&mut self, kind: &str, material: Option<&MaterialOptions>) -> Result<()> {
         self.check_open("groundwork")?;
         if self.shell.begun {
             return Err(Error::script("footprint:groundwork: the building already has parts")
@@ -26,7 +26,7 @@ impl Footprint {
             "z_max" | "extruded" => high,
             _ => return Err(unknown_kind("footprint:groundwork", kind, &GROUNDWORK)),
         };
-        let part = self.part(None, material.as_ref())?;
+        let part = self.part(None, material)?;
         if self.detail == 0 {
             let plan = self.plan.flat().at_height(base);
             self.shell = Shell { top: base, bottom: base, begun: true, closed: false };

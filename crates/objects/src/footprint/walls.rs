@@ -92,7 +92,7 @@ impl Footprint {
         };
         check_height("footprint:walls: height", height)?;
         if !self.shell.begun {
-            self.lay("z_min", options.material.clone())?;
+            self.lay("z_min", options.material.as_ref())?;
         }
         let (from, to) = (self.shell.top, self.shell.top + height);
         self.shell.top = to;

@@ -41,18 +41,18 @@ impl AnswerCache {
         let key = key();
         let slot = {
             let mut known = self.0.lock().recover();
-            match known.iter().find(|(other, _)| *other == key) {
-                Some((_, slot)) => Arc::clone(slot),
+            let index = match known.iter().position(|(other, _)| *other == key) {
+                Some(index) => index,
                 None => {
                     // Results of an earlier version of the network are no longer needed.
                     known.retain(|(other, _)| other.first() == key.first());
                     let surplus = (known.len() + 1).saturating_sub(MOST);
                     known.drain(..surplus);
-                    let slot = AnswerSlot::default();
-                    known.push((key, Arc::clone(&slot)));
-                    slot
+                    known.push((key, AnswerSlot::default()));
+                    known.len() - 1
                 }
-            }
+            };
+            Arc::clone(&known[index].1)
         };
         let mut slot = slot.lock().recover();
         let found = match slot.take() {

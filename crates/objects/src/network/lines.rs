@@ -68,18 +68,18 @@ enum LineFacts {
 }
 
 /// The value of an attribute.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum LineFact {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum LineFact<'a> {
     Boolean(bool),
     Number(f64),
-    Text(Arc<str>),
+    Text(&'a str),
 }
 
-impl LineFact {
+impl LineFact<'_> {
     /// Returns the string, if the value is a string that is not blank.
     pub(super) fn text(&self) -> Option<String> {
         match self {
-            Self::Text(text) if !text.trim().is_empty() => Some(text.to_string()),
+            Self::Text(text) if !text.trim().is_empty() => Some((*text).to_string()),
             _ => None,
         }
     }
@@ -93,7 +93,7 @@ impl LineFact {
     }
 }
 
-impl fmt::Display for LineFact {
+impl fmt::Display for LineFact<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Boolean(value) => value.fmt(f),
@@ -104,7 +104,7 @@ impl fmt::Display for LineFact {
 }
 
 /// Returns the number that an attribute is or begins with, such as 7.5 of "7.5 m", or `None`.
-pub(super) fn number_of(fact: &LineFact) -> Option<f64> {
+pub(super) fn number_of(fact: &LineFact<'_>) -> Option<f64> {
     match fact {
         LineFact::Number(number) => Some(*number).filter(|number| number.is_finite()),
         LineFact::Boolean(_) => None,
@@ -118,7 +118,7 @@ pub(super) fn number_of(fact: &LineFact) -> Option<f64> {
 }
 
 /// Returns true if an attribute is set: any value except no, false, none, 0 or a blank string.
-pub(super) fn is_set(fact: &LineFact) -> bool {
+pub(super) fn is_set(fact: &LineFact<'_>) -> bool {
     match fact {
         LineFact::Boolean(value) => *value,
         LineFact::Number(value) => *value != 0.0,
@@ -130,13 +130,13 @@ pub(super) fn is_set(fact: &LineFact) -> bool {
 
 impl ExistingLine {
     /// Returns an attribute of the line, or `None` if there is no attribute of that name.
-    pub(super) fn fact(&self, name: &str) -> Option<LineFact> {
+    pub(super) fn fact<'a>(&'a self, name: &str) -> Option<LineFact<'a>> {
         match &self.facts {
             LineFacts::None => None,
             LineFacts::Table(table) => match table.get(name)? {
                 Value::Boolean(value) => Some(LineFact::Boolean(*value)),
                 Value::Number(value) => Some(LineFact::Number(*value)),
-                Value::Text(value) => Some(LineFact::Text(Arc::clone(value))),
+                Value::Text(value) => Some(LineFact::Text(value)),
                 _ => None,
             },
             LineFacts::Layer(layer, feature) => {
@@ -145,7 +145,7 @@ impl ExistingLine {
                 match &attributes.iter().find(|(known, _)| *known == column)?.1 {
                     Attribute::Boolean(value) => Some(LineFact::Boolean(*value)),
                     Attribute::Number(value) => Some(LineFact::Number(*value)),
-                    Attribute::Text(value) => Some(LineFact::Text(Arc::clone(value))),
+                    Attribute::Text(value) => Some(LineFact::Text(value)),
                     Attribute::Nested(_) => None,
                 }
             }

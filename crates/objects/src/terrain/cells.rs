@@ -3,6 +3,7 @@
 
 use std::borrow::Cow;
 use std::cell::RefCell;
+use std::collections::hash_map::Entry;
 use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
@@ -46,12 +47,12 @@ impl<'a> Cells<'a> {
 
     /// Returns system `index`, and prepares it the first time. Fails if its rules cannot divide cells.
     fn system(&self, index: usize) -> Result<Arc<CellSystem>> {
-        if let Some(system) = self.systems.borrow().get(&index) {
-            return Ok(Arc::clone(system));
-        }
-        let system = Arc::new(CellSystem::new(self.rewriter, index)?);
-        self.systems.borrow_mut().insert(index, Arc::clone(&system));
-        Ok(system)
+        let mut systems = self.systems.borrow_mut();
+        let system = match systems.entry(index) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(unknown) => unknown.insert(Arc::new(CellSystem::new(self.rewriter, index)?)),
+        };
+        Ok(Arc::clone(system))
     }
 }
 
@@ -86,7 +87,7 @@ impl CellSystem {
             let error =
                 Error::script("a rule for the cells of a terrain rewrites one cell, not several modules")
                     .help("write a rule for one module, such as \"Cell(height)\"");
-            return Err(error.at(rule.place.clone()).rule(&rule.pattern.text));
+            return Err(error.at_place(rule.place.as_ref()).rule(&rule.pattern.text));
         }
         let axiom = rewriter.axiom(index)?;
         let signatures = grammar.symbols();
@@ -249,7 +250,7 @@ impl CellSystem {
 
     fn blame(&self, error: Error, rule: u16) -> Error {
         match self.rules.grammar.rules().get(usize::from(rule)) {
-            Some(rule) => error.at(rule.place.clone()).rule(&rule.pattern.text),
+            Some(rule) => error.at_place(rule.place.as_ref()).rule(&rule.pattern.text),
             None => error,
         }
     }

@@ -42,7 +42,7 @@ impl Parameter for EditFile {
     }
 
     fn from_value(value: Value) -> Result<Self, Expectation> {
-        object(value, "stored edits: edits(\"ground.json\")").map(|file: Arc<Self>| (*file).clone())
+        object(value, "stored edits: edits(\"ground.json\")").map(Arc::unwrap_or_clone)
     }
 
     fn into_value(self) -> Value {

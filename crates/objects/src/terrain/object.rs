@@ -306,7 +306,8 @@ impl Terrain {
                 .map_err(|error| error.about("terrain: under"))?;
         }
         self.warnings.extend(streets.steep_warning()?);
-        (self.edits, self.has_room) = (Arc::clone(&self.kept), true);
+        self.restore_edits();
+        self.has_room = true;
         Ok(())
     }
 
@@ -315,7 +316,7 @@ impl Terrain {
         if let (Some(file), false) = (&self.options.edits, self.kept_read) {
             self.kept = Arc::new(Edits::from_json(&file.text, &file.name, self.ground.world())?);
             // Before the first pass, there are no other edits.
-            self.edits = Arc::clone(&self.kept);
+            self.restore_edits();
             self.kept_read = true;
         }
         Ok(())
@@ -388,17 +389,32 @@ impl Terrain {
         self.key = ModuleKey(seed);
         let world = self.ground.world();
         let world = World { key: world.key.map(|_| ModuleKey(seed)), ..world.clone() };
-        self.plain = Ground::new(Arc::new(world));
-        self.ground = self.plain.clone();
+        self.set_world(world);
     }
 
     fn restart(&mut self) {
-        self.ground = self.plain.clone();
+        self.restore_ground();
         self.begun = true;
         self.wanted = None;
         self.drainage = OnceLock::new();
         self.rivers.clear();
+        self.restore_edits();
+    }
+
+    /// Replaces the edits by those of all passes.
+    fn restore_edits(&mut self) {
         self.edits = Arc::clone(&self.kept);
+    }
+
+    /// Replaces the ground of all passes, and the present one.
+    fn set_world(&mut self, world: World) {
+        self.plain = Ground::new(Arc::new(world));
+        self.restore_ground();
+    }
+
+    /// Replaces the ground by that of all passes.
+    fn restore_ground(&mut self) {
+        self.ground = self.plain.clone();
     }
 }
 
@@ -419,14 +435,13 @@ impl Expand for Terrain {
             (None, None) => return Ok(()),
         };
         if let Some(world) = self.ground.world().begin_systems(divide)? {
-            self.plain = Ground::new(Arc::new(world));
-            self.ground = self.plain.clone();
+            self.set_world(world);
         }
         self.read_edits()?;
         self.make_room(&view)?;
         self.plain.edit(&self.kept);
         self.plain.focus(eye, &view, divide)?;
-        self.ground = self.plain.clone();
+        self.restore_ground();
         if self.edits != self.kept {
             self.ground.edit(&self.edits);
             self.ground.focus(eye, &view, divide)?;

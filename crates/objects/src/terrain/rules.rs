@@ -123,17 +123,19 @@ fn rule_table(table: &Table) -> Result<RuleTable, Expectation> {
         };
         // A list of tables is a choice of rules.
         let choice = rule.list();
-        let alternatives: Vec<Arc<Table>> = match choice.first() {
+        let alternatives: Vec<&Table> = match choice.first() {
             Some(Value::Table(_)) => choice
                 .iter()
                 .filter_map(|item| match item {
-                    Value::Table(table) => Some(Arc::clone(table)),
+                    Value::Table(table) => Some(&**table),
                     _ => None,
                 })
                 .collect(),
-            _ => vec![Arc::clone(rule)],
+            _ => vec![&**rule],
         };
-        rules.push(alternatives.iter().map(|rule| quadrants(rule, name, &names)).collect::<Result<_, _>>()?);
+        rules.push(
+            alternatives.into_iter().map(|rule| quadrants(rule, name, &names)).collect::<Result<_, _>>()?,
+        );
     }
     Ok(RuleTable { names, rules })
 }

@@ -5,6 +5,7 @@ use glam::{DAffine3, DVec3};
 use super::beds::RiverBeds;
 use super::object::Terrain;
 use super::streets::StreetsOnGround;
+use super::water::Water;
 use super::{looks, sides};
 use burgeon_base::ModuleKey;
 use burgeon_base::Stop;
@@ -86,9 +87,10 @@ impl Terrain {
             let part = drawing.material(&material);
             sides::draw_water(&mesh.rim(), water.level, drawing.part(part));
         }
+        let water = self.options.water.as_ref();
+        let shallow = water.map_or_else(|| Water::default().shallow, |water| water.shallow);
         for river in &self.rivers {
-            let water = self.options.water.clone().unwrap_or_default();
-            let material = Material { base_color: water.shallow.0, roughness: 0.12, ..Material::default() };
+            let material = Material { base_color: shallow.0, roughness: 0.12, ..Material::default() };
             let part = drawing.material(&material);
             river.draw(drawing.part(part));
         }

@@ -23,7 +23,7 @@ fn crate_events(
         rule.clone().with_propensity(if number.is_multiple_of(2) { constant } else { Propensity::Computed })
     });
     let rules: Vec<Rule> = rules.collect();
-    let mut stepper = Stepper::new(prepared.plan(rules, batch, traced));
+    let mut stepper = Stepper::new(&prepared.plan(rules, batch, traced));
     let mut chain = prepared.chain.clone();
     chain.mark(batch, &prepared.functions.arities());
     let mut chain = Arc::new(chain);

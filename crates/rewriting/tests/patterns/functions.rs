@@ -262,7 +262,7 @@ pub(crate) fn derive(
     let Prepared { functions, chain, .. } = &prepared;
     let mut chain = chain.clone();
     let arities = functions.symbols.arities();
-    let mut stepper = Stepper::new(prepared.plan(prepared.rules.clone(), batch, true));
+    let mut stepper = Stepper::new(&prepared.plan(prepared.rules.clone(), batch, true));
     let cut_symbol = functions.symbols.find("Cut").expect("a declared module");
     let mut chains = Vec::new();
     for number in 1..=steps {

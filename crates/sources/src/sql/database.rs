@@ -58,8 +58,8 @@ pub struct Database {
     /// Lock for building an index, so that it is built only once.
     building: Mutex<()>,
     idle: Mutex<Vec<DatabaseLink>>,
-    /// Prepared statements by their SQL, each with the generation of the tables for which it was prepared.
-    statements: Mutex<FxHashMap<String, (usize, Arc<PreparedStatement>)>>,
+    /// Prepared statements by their SQL.
+    statements: Mutex<FxHashMap<Arc<str>, Arc<PreparedStatement>>>,
     /// Connection that keeps the memory alive, and writes to it.
     writer: Mutex<Connection>,
 }
@@ -227,8 +227,12 @@ impl Database {
         budget: &Arc<Budget>,
     ) -> Result<QueryRows<Cell>> {
         self.run_statement(sql, budget, |link, _| {
-            let prepared =
-                PreparedStatement { original: sql.to_owned(), rewritten: None, shape: OnceLock::new() };
+            let prepared = PreparedStatement {
+                original: sql.into(),
+                generation: link.generation,
+                rewritten: None,
+                shape: OnceLock::new(),
+            };
             ask::rows(link, &prepared, parameters, self.frame.as_ref(), budget)
         })
     }
@@ -306,23 +310,27 @@ impl Database {
         budget: &Arc<Budget>,
     ) -> Result<Arc<PreparedStatement>> {
         let generation = link.generation;
-        let known = self.statements.lock().recover().get(sql).cloned();
-        if let Some((_, known)) = known.filter(|(seen, _)| *seen == generation) {
-            return Ok(known);
+        let statements = self.statements.lock().recover();
+        if let Some(known) = statements.get(sql).filter(|known| known.generation == generation) {
+            return Ok(Arc::clone(known));
         }
+        drop(statements);
         errors::check_length(sql)?;
-        let catalogue = self.tables.read().recover().catalogue.clone();
-        let rewritten = rewrite::rewrite(sql, &catalogue, &rewrite::ChosenRows::new(), Dialect::Sqlite)?;
+        let tables = self.tables.read().recover();
+        let catalogue = &tables.catalogue;
+        let rewritten = rewrite::rewrite(sql, catalogue, &rewrite::ChosenRows::new(), Dialect::Sqlite)?;
         for (name, nearest) in rewritten.iter().flat_map(|rewritten| &rewritten.indexes) {
-            self.index(name, *nearest, link, &catalogue, budget)?;
+            self.index(name, *nearest, link, catalogue, budget)?;
         }
-        let prepared =
-            Arc::new(PreparedStatement { original: sql.to_owned(), rewritten, shape: OnceLock::new() });
+        drop(tables);
+        let (original, shape): (Arc<str>, _) = (sql.into(), OnceLock::new());
+        let prepared = PreparedStatement { original: Arc::clone(&original), generation, rewritten, shape };
+        let prepared = Arc::new(prepared);
         let mut statements = self.statements.lock().recover();
         if statements.len() >= STATEMENTS {
             statements.clear();
         }
-        statements.insert(sql.to_owned(), (generation, Arc::clone(&prepared)));
+        statements.insert(original, Arc::clone(&prepared));
         Ok(prepared)
     }
 

@@ -7,7 +7,9 @@ use crate::sql::rewrite::RewrittenQuery;
 /// A statement that is prepared for running.
 pub(crate) struct PreparedStatement {
     /// Statement as written.
-    pub original: String,
+    pub original: Arc<str>,
+    /// Generation of the tables for which it was prepared.
+    pub generation: usize,
     /// Rewritten statement, if the original could be parsed.
     pub rewritten: Option<RewrittenQuery>,
     /// Columns and parameters, computed when the statement first runs.

@@ -67,12 +67,12 @@ impl SourceTables {
     /// Returns the server at an address, with the time limit `most` for each query.
     #[cfg(feature = "postgis")]
     pub(super) fn server(&mut self, address: &ServerAddress, most: Duration) -> Arc<Server> {
-        if let Some(known) = self.servers.iter().find(|known| known.address() == address) {
-            return Arc::clone(known);
-        }
-        let server = Arc::new(Server::new(address, Some(most)));
-        self.servers.push(Arc::clone(&server));
-        server
+        let known = self.servers.iter().position(|known| known.address() == address);
+        let index = known.unwrap_or_else(|| {
+            self.servers.push(Arc::new(Server::new(address, Some(most))));
+            self.servers.len() - 1
+        });
+        Arc::clone(&self.servers[index])
     }
 
     /// Returns the server of a table that a statement names.

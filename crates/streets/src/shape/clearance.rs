@@ -16,14 +16,11 @@ impl StreetNetwork {
     /// Returns the distance (m) from both ends within which each segment overlaps other streets.
     pub(crate) fn clear_lengths(&self) -> ClearLengths {
         let mut known = self.merge_cache.clear.lock().recover();
-        if let Some((version, lengths)) = known.as_ref()
-            && *version == self.version()
-        {
-            return Arc::clone(lengths);
-        }
-        let lengths: ClearLengths = clear_lengths(self).into();
-        *known = Some((self.version(), Arc::clone(&lengths)));
-        lengths
+        let (_, lengths) = match &mut *known {
+            Some(present) if present.0 == self.version() => present,
+            other => other.insert((self.version(), clear_lengths(self).into())),
+        };
+        Arc::clone(lengths)
     }
 }
 

@@ -15,12 +15,24 @@ pub(super) struct SymbolRule {
 }
 
 /// Rules without names and random choices. The root cell has symbol 0 and a decay of 1.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub(super) struct Code {
     /// Successor of each symbol.
     pub rules: Vec<SymbolRule>,
     /// Height of the root cell, on a scale where the target ranges from 0 to 1.
     pub height: f64,
+}
+
+impl Clone for Code {
+    fn clone(&self) -> Self {
+        Self { rules: self.rules.clone(), height: self.height }
+    }
+
+    // Searches copy codes often, so the memory of the rules is used again.
+    fn clone_from(&mut self, other: &Self) {
+        self.rules.clone_from(&other.rules);
+        self.height = other.height;
+    }
 }
 
 /// Cells of one level.

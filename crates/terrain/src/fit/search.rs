@@ -102,7 +102,7 @@ impl Search {
             tried: 0,
         };
         let mut chains: Vec<SearchState> = (0..CHAINS).map(chain).collect();
-        let mut best = FitResult::new(begin.clone(), target);
+        let mut best = FitResult::new(begin, target);
         let (mut least, mut since) = (f64::INFINITY, 0);
         for round in 0..self.rounds {
             let boldness = 0.04 * (1.0 - number(round % CYCLE) / number(CYCLE)).powi(2);
@@ -132,9 +132,10 @@ impl Search {
                 // Each cycle continues with the better half.
                 let (good, bad) = chains.split_at_mut(usize::try_from(CHAINS / 2).unwrap_or(1));
                 for (good, bad) in good.iter_mut().zip(bad) {
-                    (good.code, good.error) = (good.best.clone(), good.least);
-                    (bad.code, bad.error) = (good.best.clone(), good.least);
-                    (bad.best, bad.least) = (good.best.clone(), good.least);
+                    good.code.clone_from(&good.best);
+                    bad.code.clone_from(&good.best);
+                    bad.best.clone_from(&good.best);
+                    (good.error, bad.error, bad.least) = (good.least, good.least, good.least);
                 }
             }
         }
@@ -169,7 +170,8 @@ impl SearchState {
             if error < self.error * (1.0 + boldness) || spare.is_some() {
                 (self.code, self.error) = (code, error);
                 if self.error < self.least {
-                    (self.best, self.least) = (self.code.clone(), self.error);
+                    self.best.clone_from(&self.code);
+                    self.least = self.error;
                 }
             }
         }

@@ -1,5 +1,6 @@
 //! Reader of the points and the features of a `.glb` file. It shares no code with the writer.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use glam::{DAffine3, DMat4, DQuat, DVec3};
@@ -59,14 +60,14 @@ fn number(value: &Value) -> Option<usize> {
 
 impl<'a> GlbFile<'a> {
     /// Reads the two parts of a file. Fails with the reason.
-    fn new(bytes: &'a [u8]) -> Result<Self, String> {
+    fn new(bytes: &'a [u8]) -> Result<Self, Cow<'static, str>> {
         let word =
             |at: usize| -> Option<u32> { Some(u32::from_le_bytes(bytes.get(at..at + 4)?.try_into().ok()?)) };
         if word(0) != Some(0x4654_6c67) || word(4) != Some(2) {
-            return Err("it is not a .glb file".to_owned());
+            return Err("it is not a .glb file".into());
         }
         if word(8).map(|length| length as usize) != Some(bytes.len()) {
-            return Err("its length is not that in its header".to_owned());
+            return Err("its length is not that in its header".into());
         }
         let length = word(12).unwrap_or(0) as usize;
         let text = bytes.get(20..20 + length).filter(|_| word(16) == Some(0x4e4f_534a));
@@ -81,7 +82,7 @@ impl<'a> GlbFile<'a> {
     }
 
     /// Returns the content of the compressed views.
-    fn unpack(&self) -> Result<BTreeMap<usize, Vec<u8>>, String> {
+    fn unpack(&self) -> Result<BTreeMap<usize, Vec<u8>>, Cow<'static, str>> {
         let mut unpacked = BTreeMap::new();
         for (index, view) in self.json["bufferViews"].as_array().into_iter().flatten().enumerate() {
             let packed = &view["extensions"]["EXT_meshopt_compression"];
@@ -127,7 +128,7 @@ impl<'a> GlbFile<'a> {
     }
 
     /// Returns the array of an accessor. Fails with the reason.
-    pub(super) fn array(&self, accessor: &Value) -> Result<NumberArray<'_>, String> {
+    pub(super) fn array(&self, accessor: &Value) -> Result<NumberArray<'_>, Cow<'static, str>> {
         let index = number(accessor).ok_or("an accessor has no index")?;
         let described = &self.json["accessors"][index];
         let read = || {
@@ -155,7 +156,7 @@ impl<'a> GlbFile<'a> {
                 count,
             })
         };
-        read().ok_or_else(|| format!("accessor {index} is invalid"))
+        read().ok_or_else(|| format!("accessor {index} is invalid").into())
     }
 
     /// Returns the strings of a property.
@@ -173,7 +174,7 @@ impl<'a> GlbFile<'a> {
         (0..count).map(|row| String::from_utf8(values.get(at(row)?..at(row + 1)?)?.to_vec()).ok()).collect()
     }
 
-    fn tables(&self) -> Result<Vec<GlbTable>, String> {
+    fn tables(&self) -> Result<Vec<GlbTable>, Cow<'static, str>> {
         let metadata = &self.json["extensions"]["EXT_structural_metadata"];
         let tables = metadata["propertyTables"].as_array().map_or(&[][..], Vec::as_slice);
         let table = |(index, table): (usize, &Value)| {
@@ -187,7 +188,7 @@ impl<'a> GlbFile<'a> {
         let read = tables
             .iter()
             .enumerate()
-            .map(|it| table(it).ok_or(format!("property table {} is invalid", it.0)));
+            .map(|it| table(it).ok_or_else(|| format!("property table {} is invalid", it.0).into()));
         read.collect()
     }
 
@@ -197,7 +198,7 @@ impl<'a> GlbFile<'a> {
         described: &Value,
         attributes: &Value,
         tables: &[GlbTable],
-    ) -> Result<(), String> {
+    ) -> Result<(), Cow<'static, str>> {
         for set in described["featureIds"].as_array().into_iter().flatten() {
             let Some(table) = number(&set["propertyTable"]) else { continue };
             let rows =
@@ -210,7 +211,7 @@ impl<'a> GlbFile<'a> {
                 #[allow(clippy::cast_precision_loss, reason = "a table has fewer rows than f64 has integers")]
                 let is_row = row.fract() == 0.0 && (0.0..rows as f64).contains(&row);
                 if !is_row && Some(row) != none {
-                    return Err(format!("feature number {row} is not a row of its table of {rows}"));
+                    return Err(format!("feature number {row} is not a row of its table of {rows}").into());
                 }
             }
         }
@@ -219,14 +220,14 @@ impl<'a> GlbFile<'a> {
 }
 
 /// Checks that there is a normal for each of `points` points, and that normals have length 1.
-fn check_normals(normals: &NumberArray<'_>, points: usize) -> Result<(), String> {
+fn check_normals(normals: &NumberArray<'_>, points: usize) -> Result<(), Cow<'static, str>> {
     if normals.count != points {
-        return Err(format!("there are {} normals for {points} points", normals.count));
+        return Err(format!("there are {} normals for {points} points", normals.count).into());
     }
     for index in 0..normals.count {
         let length = normals.point(index).length();
         if !(0.98..1.02).contains(&length) {
-            return Err(format!("a normal has the length {length}"));
+            return Err(format!("a normal has the length {length}").into());
         }
     }
     Ok(())
@@ -290,15 +291,15 @@ fn transform(described: &Value) -> DAffine3 {
 
 impl GlbModel {
     /// Reads a file. Fails with the reason if it is invalid.
-    pub fn read(bytes: &[u8]) -> Result<Self, String> {
+    pub fn read(bytes: &[u8]) -> Result<Self, Cow<'static, str>> {
         let file = GlbFile::new(bytes)?;
         let mut model = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, ..Self::default() };
         model.tables = file.tables()?;
         let scene = number(&file.json["scene"]).unwrap_or(0);
-        let roots = file.json["scenes"][scene]["nodes"].as_array().cloned().unwrap_or_default();
+        let roots = file.json["scenes"][scene]["nodes"].as_array();
         // y up to z up: a quarter turn about x.
         let upright = DAffine3::from_rotation_x(std::f64::consts::FRAC_PI_2);
-        for root in &roots {
+        for root in roots.into_iter().flatten() {
             model.add(&file, root, &upright, 0)?;
         }
         Ok(model)
@@ -311,9 +312,9 @@ impl GlbModel {
         index: &Value,
         parent: &DAffine3,
         depth: usize,
-    ) -> Result<(), String> {
+    ) -> Result<(), Cow<'static, str>> {
         if depth > DEPTH {
-            return Err("its objects are nested too deeply".to_owned());
+            return Err("its objects are nested too deeply".into());
         }
         let described = &file.json["nodes"][number(index).ok_or("an object has no index")?];
         let place = *parent * transform(described);
@@ -339,7 +340,7 @@ impl GlbModel {
                     for number in 0..positions.count {
                         let point = whole.transform_point3(positions.point(number));
                         if !point.is_finite() {
-                            return Err("a point is not finite".to_owned());
+                            return Err("a point is not finite".into());
                         }
                         (self.low, self.high) = (self.low.min(point), self.high.max(point));
                     }

@@ -1,5 +1,6 @@
 //! Tiles of a tile with implicit tiling.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fs;
 
@@ -85,14 +86,12 @@ impl TilesetCheck<'_> {
             let uri = fill_template(tiling.content, *place);
             let parent = level.checked_sub(1).map(|level| tiles.get(&[level, x / 2, y / 2]));
             let above = match parent {
-                None => own.clone(),
+                None => *own,
                 Some(None) => {
                     self.problem(format!("{uri} has no parent"));
                     continue;
                 }
-                Some(Some(parent)) => {
-                    ParentTile { bounds: Some(parent.bounds), error: parent.error, ..own.clone() }
-                }
+                Some(Some(parent)) => ParentTile { bounds: Some(parent.bounds), error: parent.error, ..*own },
             };
             let transform = own.transform;
             let inner = ParentTile { transform, bounds: Some(tile.bounds), error: tile.error };
@@ -108,11 +107,13 @@ impl TilesetCheck<'_> {
 }
 
 /// Reads the description. Fails with the reason.
-fn read(described: &Value) -> std::result::Result<ImplicitTiling<'_>, String> {
+fn read(described: &Value) -> std::result::Result<ImplicitTiling<'_>, Cow<'static, str>> {
     let implicit = &described["implicitTiling"];
     let levels = |key: &str, most: u64| {
         let levels = implicit[key].as_u64().filter(|levels| (1..=most).contains(levels));
-        levels.and_then(|levels| u32::try_from(levels).ok()).ok_or_else(|| format!("{key} is invalid"))
+        levels
+            .and_then(|levels| u32::try_from(levels).ok())
+            .ok_or_else(|| Cow::from(format!("{key} is invalid")))
     };
     let uri = |value: &'_ Value| -> Option<()> {
         let text = value["uri"].as_str()?;
@@ -120,14 +121,14 @@ fn read(described: &Value) -> std::result::Result<ImplicitTiling<'_>, String> {
     };
     for key in ["children", "metadata"] {
         if !described[key].is_null() {
-            return Err(format!("it has {key}"));
+            return Err(format!("it has {key}").into());
         }
     }
     if !described["content"]["boundingVolume"].is_null() {
-        return Err("its content has a volume".to_owned());
+        return Err("its content has a volume".into());
     }
     if implicit["subdivisionScheme"] != "QUADTREE" {
-        return Err("it is no quadtree".to_owned());
+        return Err("it is no quadtree".into());
     }
     uri(&described["content"]).zip(uri(&implicit["subtrees"])).ok_or("a template has no place")?;
     Ok(ImplicitTiling {

@@ -1,5 +1,7 @@
 //! Instances of a mesh in a `.glb` file (`EXT_mesh_gpu_instancing`).
 
+use std::borrow::Cow;
+
 use glam::{DAffine3, DQuat, DVec3};
 use serde_json::Value;
 
@@ -7,7 +9,10 @@ use super::glb::GlbFile;
 
 /// Returns the transforms of the instances that `attributes` describe; one that changes nothing without attributes. Fails with
 /// the reason if they are invalid.
-pub(super) fn instance_transforms(file: &GlbFile<'_>, attributes: &Value) -> Result<Vec<DAffine3>, String> {
+pub(super) fn instance_transforms(
+    file: &GlbFile<'_>,
+    attributes: &Value,
+) -> Result<Vec<DAffine3>, Cow<'static, str>> {
     if attributes.is_null() {
         return Ok(vec![DAffine3::IDENTITY]);
     }

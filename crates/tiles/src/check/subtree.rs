@@ -1,5 +1,7 @@
 //! Reader of subtree files of implicit tiling. It shares no code with the writer.
 
+use std::borrow::Cow;
+
 use serde_json::Value;
 
 /// Subtree file.
@@ -29,7 +31,7 @@ fn number(value: &Value) -> Option<usize> {
 }
 
 impl<'a> Views<'a> {
-    fn new(document: &Value, binary: &'a [u8]) -> Result<Self, String> {
+    fn new(document: &Value, binary: &'a [u8]) -> Result<Self, Cow<'static, str>> {
         let mut views = Vec::new();
         for view in document["bufferViews"].as_array().into_iter().flatten() {
             let (begin, length) = (number(&view["byteOffset"]), number(&view["byteLength"]));
@@ -42,14 +44,14 @@ impl<'a> Views<'a> {
         Ok(Self { views })
     }
 
-    fn get(&self, index: &Value) -> Result<&'a [u8], String> {
+    fn get(&self, index: &Value) -> Result<&'a [u8], Cow<'static, str>> {
         number(index)
             .and_then(|index| self.views.get(index).copied())
-            .ok_or_else(|| "a view is missing".to_owned())
+            .ok_or(Cow::Borrowed("a view is missing"))
     }
 
     /// Returns the bits of an availability.
-    fn bits(&self, availability: &Value, length: usize) -> Result<Vec<bool>, String> {
+    fn bits(&self, availability: &Value, length: usize) -> Result<Vec<bool>, Cow<'static, str>> {
         let constant = match &availability["constant"] {
             Value::Null => None,
             value => Some(value.as_u64().filter(|bit| *bit < 2).ok_or("a constant is not 0 or 1")?),
@@ -59,25 +61,27 @@ impl<'a> Views<'a> {
         }
         let bytes = self.get(&availability["bitstream"])?;
         if bytes.len() != length.div_ceil(8) {
-            return Err(format!("a bit stream has {} bytes instead of {}", bytes.len(), length.div_ceil(8)));
+            return Err(
+                format!("a bit stream has {} bytes instead of {}", bytes.len(), length.div_ceil(8)).into()
+            );
         }
         let mut bits: Vec<bool> =
             bytes.iter().flat_map(|byte| (0..8).map(move |bit| byte >> bit & 1 == 1)).collect();
         if bits.drain(length..).any(|bit| bit) {
-            return Err("an unused bit is set".to_owned());
+            return Err("an unused bit is set".into());
         }
         let count = bits.iter().filter(|bit| **bit).count();
         if number(&availability["availableCount"]).is_some_and(|told| told != count) {
-            return Err(format!("availableCount is not the {count} of the bit stream"));
+            return Err(format!("availableCount is not the {count} of the bit stream").into());
         }
         Ok(bits)
     }
 
     /// Returns the numbers of a property of `count` rows with `width` numbers.
-    fn numbers(&self, property: &Value, count: usize, width: usize) -> Result<Vec<f64>, String> {
+    fn numbers(&self, property: &Value, count: usize, width: usize) -> Result<Vec<f64>, Cow<'static, str>> {
         let bytes = self.get(&property["values"])?;
         if bytes.len() != count * width * 8 {
-            return Err("a property has the wrong number of values".to_owned());
+            return Err("a property has the wrong number of values".into());
         }
         Ok(bytes
             .chunks_exact(8)
@@ -100,18 +104,18 @@ fn place(mut number: usize) -> [u32; 2] {
 
 impl SubtreeFile {
     /// Reads a file with subtrees of `levels` levels. `schema` describes the metadata of tiles. Fails with the reason.
-    pub(super) fn read(bytes: &[u8], levels: u32, schema: &Value) -> Result<Self, String> {
+    pub(super) fn read(bytes: &[u8], levels: u32, schema: &Value) -> Result<Self, Cow<'static, str>> {
         let long = |at: usize| -> Option<usize> {
             usize::try_from(u64::from_le_bytes(bytes.get(at..at + 8)?.try_into().ok()?)).ok()
         };
         if bytes.get(..8) != Some(&b"subt\x01\0\0\0"[..]) {
-            return Err("it is not a subtree file of version 1".to_owned());
+            return Err("it is not a subtree file of version 1".into());
         }
         let (text, size) = long(8).zip(long(16)).ok_or("its header is incomplete")?;
         let parts = text.checked_add(24).filter(|end| *end <= bytes.len()).map(|end| bytes.split_at(end));
         let (head, binary) = parts.ok_or("its JSON ends too early")?;
         if text % 8 != 0 || size % 8 != 0 || binary.len() != size {
-            return Err("its parts do not have the lengths of the header, or no multiples of 8".to_owned());
+            return Err("its parts do not have the lengths of the header, or no multiples of 8".into());
         }
         let document: Value = serde_json::from_slice(&head[24..])
             .map_err(|error| format!("its JSON cannot be read: {error}"))?;
@@ -125,10 +129,10 @@ impl SubtreeFile {
         let table =
             &document["propertyTables"][number(&document["tileMetadata"]).ok_or("it has no metadata")?];
         if number(&table["count"]) != Some(count) {
-            return Err(format!("its metadata are not those of {count} tiles"));
+            return Err(format!("its metadata are not those of {count} tiles").into());
         }
         let class = &schema["classes"][table["class"].as_str().unwrap_or_default()]["properties"];
-        let named = |semantic: &str| -> Result<&Value, String> {
+        let named = |semantic: &str| -> Result<&Value, Cow<'static, str>> {
             let mut properties = class.as_object().into_iter().flatten();
             let name =
                 properties.find(|(_, property)| property["semantic"] == semantic).map(|(name, _)| name);
@@ -144,25 +148,25 @@ impl SubtreeFile {
             let in_level = number - starts[level];
             let [x, y] = place(in_level);
             if level > 0 && !present[starts[level - 1] + in_level / 4] {
-                return Err("a tile has no parent".to_owned());
+                return Err("a tile has no parent".into());
             }
             let level = u32::try_from(level).unwrap_or(u32::MAX);
             let bounds = bounds.try_into().unwrap_or_default();
             tiles.push(SubtreeTile { place: [level, x, y], has_content: content[number], bounds, error });
         }
         if content.iter().zip(&present).any(|(content, tile)| *content && !tile) {
-            return Err("a content has no tile".to_owned());
+            return Err("a content has no tile".into());
         }
         let parents = all - (1 << (2 * (levels - 1)));
         let mut children = Vec::new();
         for (number, _) in below.iter().enumerate().filter(|(_, bit)| **bit) {
             if !present[parents + number / 4] {
-                return Err("a subtree below has no parent".to_owned());
+                return Err("a subtree below has no parent".into());
             }
             children.push(place(number));
         }
         if tiles.first().is_none_or(|tile| tile.place != [0; 3]) {
-            return Err("it has no tile".to_owned());
+            return Err("it has no tile".into());
         }
         Ok(Self { tiles, children })
     }

@@ -1,5 +1,6 @@
 //! Check of a tileset against its plan.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
@@ -56,7 +57,7 @@ pub(super) struct TilesetCheck<'a> {
 }
 
 /// Volume and error of a tile, or of the tile around it.
-#[derive(Clone)]
+#[derive(Clone, Copy)]
 pub(super) struct ParentTile {
     /// Transform from the tile's axes to geocentric coordinates (m).
     pub(super) transform: DAffine3,
@@ -316,7 +317,7 @@ impl TilesetCheck<'_> {
             Some(_) => self.report.coarse += 1,
             None => {
                 self.report.tiles += 1;
-                self.errors.insert(planned.id.curve().0, manifest.errors.clone());
+                self.errors.insert(planned.id.curve().0, manifest.errors);
             }
         }
         self.report.points += model.points;
@@ -383,7 +384,7 @@ impl TilesetCheck<'_> {
 }
 
 /// Returns the transform of a tile; fails with the reason if it is no rotation with a translation.
-fn transform(value: &Value) -> std::result::Result<DAffine3, String> {
+fn transform(value: &Value) -> std::result::Result<DAffine3, Cow<'static, str>> {
     if value.is_null() {
         return Ok(DAffine3::IDENTITY);
     }
@@ -394,7 +395,7 @@ fn transform(value: &Value) -> std::result::Result<DAffine3, String> {
     let transform = DAffine3::from_mat4(matrix);
     let product = transform.matrix3.transpose() * transform.matrix3;
     let is_rigid = product.abs_diff_eq(glam::DMat3::IDENTITY, 1e-9) && transform.matrix3.determinant() > 0.0;
-    if is_rigid { Ok(transform) } else { Err("the transform changes lengths".to_owned()) }
+    if is_rigid { Ok(transform) } else { Err("the transform changes lengths".into()) }
 }
 
 /// Returns true if a point is in a box, with a tolerance (m).

@@ -1,5 +1,7 @@
 //! Lists of missing features, with their causes.
 
+use std::borrow::Cow;
+
 use burgeon_base::error::Result;
 use serde_json::{Value, json};
 
@@ -9,35 +11,35 @@ use crate::make::{MissingFeature, write_text};
 use crate::plan::{PlannedTile, TileId, TilePlan};
 
 /// Missing features, in the order of the tiles.
-pub(super) struct MissingList {
-    rows: Vec<MissingRow>,
+pub(super) struct MissingList<'p> {
+    rows: Vec<MissingRow<'p>>,
     /// Number of features.
     pub(super) count: u64,
 }
 
 /// Missing feature, or all features of a tile.
-struct MissingRow {
+struct MissingRow<'p> {
     tile: Option<TileId>,
-    layer: String,
+    layer: Cow<'p, str>,
     /// Id; empty for all features of the tile.
-    feature: String,
+    feature: Cow<'p, str>,
     features: u64,
-    cause: String,
+    cause: Cow<'p, str>,
     geometry: Value,
 }
 
-impl MissingList {
+impl<'p> MissingList<'p> {
     /// Begins with the features that the plan leaves out.
-    pub(super) fn new(plan: &TilePlan) -> Self {
+    pub(super) fn new(plan: &'p TilePlan) -> Self {
         let rows = plan.left_out.iter().map(|left_out| MissingRow {
             tile: None,
-            layer: left_out.layer.clone(),
-            feature: left_out.feature.clone(),
+            layer: Cow::Borrowed(&left_out.layer),
+            feature: Cow::Borrowed(&left_out.feature),
             features: 1,
-            cause: left_out.cause.clone(),
+            cause: Cow::Borrowed(&left_out.cause),
             geometry: Value::Null,
         });
-        let rows: Vec<MissingRow> = rows.collect();
+        let rows: Vec<MissingRow<'p>> = rows.collect();
         Self { count: rows.len() as u64, rows }
     }
 
@@ -46,10 +48,10 @@ impl MissingList {
         self.count += missing.len() as u64;
         self.rows.extend(missing.into_iter().map(|feature| MissingRow {
             tile: Some(tile),
-            layer: feature.layer,
-            feature: feature.feature,
+            layer: feature.layer.into(),
+            feature: feature.feature.into(),
             features: 1,
-            cause: feature.cause,
+            cause: feature.cause.into(),
             geometry:
                 feature.place.map_or(Value::Null, |place| json!({ "type": "Point", "coordinates": place })),
         }));
@@ -67,17 +69,17 @@ impl MissingList {
         self.count += tile.features;
         self.rows.push(MissingRow {
             tile: Some(tile.id),
-            layer: String::new(),
-            feature: String::new(),
+            layer: Cow::Borrowed(""),
+            feature: Cow::Borrowed(""),
             features: tile.features,
-            cause: cause.to_owned(),
+            cause: Cow::Owned(cause.to_owned()),
             geometry,
         });
     }
 }
 
 /// Writes `missing.geojson` and `missing.csv`.
-pub(super) fn write_missing(folder: &TileFolder, list: &MissingList) -> Result<()> {
+pub(super) fn write_missing(folder: &TileFolder, list: &MissingList<'_>) -> Result<()> {
     let name = |tile: Option<TileId>| tile.map(|tile| tile.to_string()).unwrap_or_default();
     let features = list.rows.iter().map(|row| {
         let feature = json!({
@@ -96,7 +98,8 @@ pub(super) fn write_missing(folder: &TileFolder, list: &MissingList) -> Result<(
     let mut csv = "layer,feature,features,tile,cause\n".to_owned();
     for row in &list.rows {
         let MissingRow { tile, layer, feature, features, cause, .. } = row;
-        let cells = [quoted(layer), quoted(feature), features.to_string(), name(*tile), quoted(cause)];
+        let (features, tile) = (Cow::Owned(features.to_string()), Cow::Owned(name(*tile)));
+        let cells = [quoted(layer), quoted(feature), features, tile, quoted(cause)];
         csv += &cells.join(",");
         csv.push('\n');
     }
@@ -104,10 +107,10 @@ pub(super) fn write_missing(folder: &TileFolder, list: &MissingList) -> Result<(
 }
 
 /// Returns a cell of a CSV file (RFC 4180).
-fn quoted(text: &str) -> String {
+fn quoted(text: &str) -> Cow<'_, str> {
     if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
+        Cow::Owned(format!("\"{}\"", text.replace('"', "\"\"")))
     } else {
-        text.to_owned()
+        Cow::Borrowed(text)
     }
 }

@@ -106,7 +106,7 @@ fn count(
     manifest: Option<&mut TileManifest>,
     map: &EarthMap<'_>,
     report: &mut JoinReport,
-    missing: &mut MissingList,
+    missing: &mut MissingList<'_>,
 ) {
     let is_coarse = tile.lod.is_some();
     let Some(manifest) = manifest else {

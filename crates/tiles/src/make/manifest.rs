@@ -133,7 +133,12 @@ pub(crate) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<()> {
 pub fn hash_file(path: &Path) -> std::io::Result<String> {
     let mut hasher = blake3::Hasher::new();
     hasher.update_reader(fs::File::open(path)?)?;
-    Ok(hasher.finalize().to_hex()[..32].to_owned())
+    Ok(hash_text(hasher.finalize()))
+}
+
+/// Returns the first half of a hash as hexadecimal digits.
+pub(crate) fn hash_text(hash: blake3::Hash) -> String {
+    hash.to_hex()[..32].to_owned()
 }
 
 /// Creates a folder and those that contain it.

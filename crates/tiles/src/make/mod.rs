@@ -5,7 +5,7 @@ mod sweep;
 mod tile;
 
 pub use manifest::{ManifestError, MissingFeature, TileFile, TileManifest, hash_file};
-pub(crate) use manifest::{write_bytes, write_text};
+pub(crate) use manifest::{hash_text, write_bytes, write_text};
 pub use sweep::sweep_temporary;
 pub(crate) use tile::bounding_box;
 pub use tile::{

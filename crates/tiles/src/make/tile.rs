@@ -106,7 +106,7 @@ pub fn verify_features(tile: &PlannedTile, layers: &[Arc<Layer>]) -> Result<()> 
         data.add(own_data);
         count += own_count;
     }
-    if (ids.text(), data.text(), count) == (tile.ids.clone(), tile.data.clone(), tile.features) {
+    if count == tile.features && ids.text() == tile.ids && data.text() == tile.data {
         return Ok(());
     }
     let planned = tile.features;
@@ -133,7 +133,7 @@ pub fn make_tile(
     if let Some(manifest) = TileManifest::fitting(folder, tile)? {
         return Ok(TileOutcome::Kept(manifest));
     }
-    let BuiltTile { features, content } = build(tile);
+    let BuiltTile { features, mut content } = build(tile);
     let mut manifest = TileManifest {
         version: PLAN_VERSION,
         tile: tile.id,
@@ -142,7 +142,7 @@ pub fn make_tile(
         features: tile.features,
         missing: Vec::new(),
         error: None,
-        errors: content.as_ref().map(|content| content.errors.clone()).unwrap_or_default(),
+        errors: content.as_mut().map(|content| std::mem::take(&mut content.errors)).unwrap_or_default(),
         warnings: Vec::new(),
     };
     let place_of = |feature: &TileFeature| map.degrees(feature.place).ok().map(round_degrees);
@@ -156,10 +156,10 @@ pub fn make_tile(
         Err(error) if is_retriable(&error) => return Err(error),
         Err(error) => {
             let message = portable_message(&error);
-            manifest.missing.extend(features.iter().map(|feature| MissingFeature {
-                layer: feature.layer.clone(),
-                feature: feature.id.clone(),
-                place: place_of(feature),
+            manifest.missing.extend(features.into_iter().map(|feature| MissingFeature {
+                place: place_of(&feature),
+                layer: feature.layer,
+                feature: feature.id,
                 cause: error.message().to_owned(),
             }));
             manifest.error = Some(ManifestError { code: error.kind().code().to_owned(), message });

@@ -1,5 +1,6 @@
 //! Plan as a file.
 
+use std::fmt;
 use std::path::Path;
 
 use burgeon_base::error::{Error, Result};
@@ -9,6 +10,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::{OmittedFeature, PlannedTile, TileGrid, TileId};
+use crate::make::hash_text;
 
 /// Version of the format of plans and manifests.
 pub const PLAN_VERSION: u32 = 2;
@@ -110,13 +112,13 @@ impl TilePlan {
             _ => Error::file(path, format!("cannot read {}: {error}", path.display()))
                 .help("check its permissions"),
         })?;
-        let refuse = |why: String| {
+        let refuse = |why: &dyn fmt::Display| {
             Error::data(format!("{} is not a plan of tiles: {why}", path.display()))
                 .help("make it again: burgeon tiles plan SCRIPT -o FOLDER")
         };
-        let plan: Self = serde_json::from_str(&text).map_err(|error| refuse(error.to_string()))?;
+        let plan: Self = serde_json::from_str(&text).map_err(|error| refuse(&error))?;
         if plan.version != PLAN_VERSION {
-            return Err(refuse(format!(
+            return Err(refuse(&format_args!(
                 "its version is {}, and this program reads {PLAN_VERSION}",
                 plan.version
             )));
@@ -127,7 +129,7 @@ impl TilePlan {
             tiles.iter().any(is_odd) || tiles.windows(2).any(|pair| pair[0].id.curve() >= pair[1].id.curve())
         };
         if are_odd(&plan.tiles) || are_odd(&plan.coarse) {
-            return Err(refuse("its tiles are not in order".to_owned()));
+            return Err(refuse(&"its tiles are not in order"));
         }
         Ok(plan)
     }
@@ -241,7 +243,7 @@ impl TilePlan {
                     hasher.update(data.as_bytes());
                 });
             }
-            hasher.finalize().to_hex()[..32].to_owned()
+            hash_text(hasher.finalize())
         };
         let hashes: Vec<String> = self.all_tiles().into_par_iter().map(hash).collect();
         let tiles = self.tiles.iter_mut().chain(&mut self.coarse);

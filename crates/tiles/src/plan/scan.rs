@@ -110,7 +110,7 @@ impl<'a> SourceScan<'a> {
         self.label.clone_from(&table.shown);
         let bare = table.empty - table.empty_ids.len().min(table.empty);
         for id in std::mem::take(&mut table.empty_ids) {
-            self.leave_out(id, "the feature has no geometry".to_owned());
+            self.leave_out(id, "the feature has no geometry");
         }
         if bare > 0 {
             self.notes
@@ -153,12 +153,13 @@ impl<'a> SourceScan<'a> {
 
     fn refuse(&mut self, refused: Vec<(String, Error)>) {
         for (id, error) in refused {
-            self.leave_out(id, error.message().to_owned());
+            self.leave_out(id, error.into_message());
         }
     }
 
-    fn leave_out(&mut self, feature: String, cause: String) {
+    fn leave_out(&mut self, feature: String, cause: impl Into<String>) {
         if self.left_out.len() < LISTED {
+            let cause = cause.into();
             self.left_out.push(OmittedFeature { layer: self.label.clone(), feature, cause });
         }
     }

@@ -8,6 +8,7 @@
 //! Sources: SQLite's documents "File Locking and Concurrency", "Write-Ahead Logging" and "Database File Format".
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -75,12 +76,14 @@ impl PackageState {
         let states: Arc<States> = budget.share();
         let mut known = states.0.lock().recover();
         let path = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
-        if let Some(state) = known.get(&path) {
-            return Ok(Arc::clone(state));
-        }
-        let state = Arc::new(Self::wait(&path, shown, budget)?);
-        known.insert(path, Arc::clone(&state));
-        Ok(state)
+        let state = match known.entry(path) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(unknown) => {
+                let state = Self::wait(unknown.key(), shown, budget)?;
+                unknown.insert(Arc::new(state))
+            }
+        };
+        Ok(Arc::clone(state))
     }
 
     /// Returns the state that the readers of `budget` have opened, if any.

@@ -281,7 +281,7 @@ impl Applier {
         let methods = &pass.plan.interpretations.methods;
         while self.position < until {
             let symbol = pass.chain.symbols[self.position];
-            let params = self.param..self.param + usize::from(arities[usize::from(symbol)]);
+            let end = self.param + usize::from(arities[usize::from(symbol)]);
             if pass.plan.steps.traced {
                 follow(object, self.position);
             }
@@ -303,21 +303,17 @@ impl Applier {
                 symbol => {
                     let place = pass.plan.interpretations.place_of(pass.region(self.position), symbol);
                     let method = methods[place];
+                    let params = self.param..end;
                     if method == Interpretations::RESCALE {
-                        pass.rescale(
-                            object,
-                            self.position,
-                            &pass.chain.params[params.clone()],
-                            &self.values,
-                        )?;
+                        pass.rescale(object, self.position, &pass.chain.params[params], &self.values)?;
                     } else if method != u16::MAX {
-                        self.call(object, method, &pass.chain.params[params.clone()])?;
+                        self.call(object, method, &pass.chain.params[params])?;
                         self.listen(object, None);
                     }
                 }
             }
             self.position += 1;
-            self.param = params.end;
+            self.param = end;
             if symbol == END {
                 return Ok(ApplyEnd::End);
             }

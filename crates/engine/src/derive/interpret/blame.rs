@@ -30,7 +30,7 @@ impl InterpretationPass {
             let warning = warning.module(self.module_brief(machine, module, param), self.step);
             match self.interpretation_at(module) {
                 Some(known) => {
-                    warning.at(known.place.clone()).rule(format!("{} (interpretation)", known.name))
+                    warning.at_place(known.place.as_ref()).rule(format!("{} (interpretation)", known.name))
                 }
                 None => warning,
             }
@@ -49,7 +49,7 @@ impl InterpretationPass {
     fn line_of(machine: &Machine, call: (usize, usize)) -> Option<SourcePlace> {
         let prelude = machine.prelude();
         let place = match prelude.relive.call::<()>(call) {
-            Err(raised) => machine.translate(raised).place().cloned(),
+            Err(raised) => machine.translate(raised).into_place(),
             Ok(()) => None,
         };
         // If ending the batch fails too, the machine is dropped with the run.

@@ -61,6 +61,6 @@ impl InterpretationPass {
                 Err(error.help("use 0.5 for half of the size"))
             }
         };
-        scaled.map_err(|error| error.at(opener.place.clone()))
+        scaled.map_err(|error| error.at_place(opener.place.as_ref()))
     }
 }

@@ -41,9 +41,12 @@ impl QuestionSet {
             questions: self.questions,
             next: AtomicUsize::new(0),
         });
-        let job: Weak<QuestionBatch> = Arc::downgrade(&batch);
         let count = batch.questions.len();
-        threads.hand_out(machine, count, MANY, || ThreadJob::Prefetch(job.clone()))?;
+        let job = || {
+            let job: Weak<QuestionBatch> = Arc::downgrade(&batch);
+            ThreadJob::Prefetch(job)
+        };
+        threads.hand_out(machine, count, MANY, job)?;
         batch.work();
         // Waits for queries that a helper is still running.
         Ok(batch.questions.iter().map(|question| session.ask(question)).collect())

@@ -123,7 +123,7 @@ impl Resolver<'_> {
         let arity = usize::from(self.plan.steps.grammar.arities()[usize::from(symbol)]);
         let Value::Text(line) = self.value(at, arity - 1) else { return None };
         let (file, line) = line.rsplit_once(':')?;
-        Some(SourcePlace { file: file.to_owned(), line: line.parse().ok()? })
+        Some(SourcePlace::new(file, line.parse().ok()?))
     }
 
     /// Returns the module at `at` as a script writes it, with the values of its parameters.
@@ -355,7 +355,6 @@ impl Resolver<'_> {
             text.push_str(&format!(": {}", count(report.modules, "part")));
         }
         let at = *site.fragments.last().unwrap_or(&site.at);
-        let place = self.blame(at, Error::internal("")).place().cloned();
-        PendingAnswer { symbol: site.at.module, text, place }
+        PendingAnswer { symbol: site.at.module, text, place: self.place(at) }
     }
 }

@@ -139,15 +139,14 @@ impl SystemDeclaration {
         let arities = machine.library.symbols.borrow().arities();
         axiom.chain = derived.chain.without_chains(&derived.left_out, &arities);
         let stays = |index: &usize| derived.left_out.binary_search(index).is_err();
-        let kind = |object: &Arc<dyn Object>| object.kind().name.clone();
+        let is_alike = |known: &&Arc<dyn Object>| {
+            self.object.as_ref().is_some_and(|object| object.kind().name == known.kind().name)
+        };
         let mut keys = Vec::new();
         for index in (0..derived.features.len()).filter(stays) {
             let feature = derived.features[index].clone();
             let key = feature.as_deref().map_or(key, |id| key.feature(id));
-            let known = derived
-                .objects
-                .get(index)
-                .filter(|known| self.object.as_ref().map(kind) == Some(kind(known)));
+            let known = derived.objects.get(index).filter(is_alike);
             axiom
                 .objects
                 .extend(known.or(self.object.as_ref()).map(|object| prepared(machine, &**object, key)));
@@ -227,13 +226,13 @@ impl SystemDeclaration {
                 Ok(made) => made,
                 Err(error) => {
                     let error = machine.translate(error);
-                    let told = if from_file { error.clone().feature(&id) } else { error.clone() };
+                    let named = |error: Error| if from_file { error.feature(&id) } else { error };
                     if !error.is_of_data() || machine.session.options.strict {
-                        return Err(told);
+                        return Err(named(error));
                     }
                     if role == FeatureRole::Shown {
                         axiom.feature_warnings.push(skipped_feature(&axiom.source, Some(&id), &error));
-                        refused.get_or_insert(told);
+                        refused.get_or_insert_with(|| named(error));
                     }
                     return Ok(());
                 }
@@ -244,17 +243,12 @@ impl SystemDeclaration {
                 FeatureRole::Absent => return Ok(()),
             }
             let mut made: Vec<LuaValue> = made.into_iter().collect();
-            let own = match made.first() {
-                Some(LuaValue::UserData(data)) => {
-                    data.borrow::<ObjectHandle>().ok().map(|handle| Arc::clone(&handle.0))
-                }
-                _ => None,
-            };
+            let own = made.first().and_then(ObjectHandle::object_of);
             if own.is_some() {
                 made.remove(0);
             }
-            let object = own.or_else(|| self.object.clone());
-            if let (Some(object), Some(expected)) = (&object, &self.object)
+            let object = own.as_ref().or(self.object.as_ref());
+            if let (Some(object), Some(expected)) = (object, &self.object)
                 && object.kind().name != expected.kind().name
             {
                 return Err(Error::argument(format!(
@@ -263,7 +257,7 @@ impl SystemDeclaration {
                     expected.kind().name
                 )));
             }
-            axiom.objects.extend(object.map(|object| prepared(machine, &*object, key)));
+            axiom.objects.extend(object.map(|object| prepared(machine, &**object, key)));
             axiom.features.push(Some(id));
             axiom.known.push(layer.as_ref(), index - 1, value);
             let mut builder = ChainBuilder { machine, chain: &mut axiom.chain, random, kept: None };

@@ -140,7 +140,8 @@ pub(crate) struct DeclaredRule {
 impl DeclaredRule {
     /// Returns the rule for a region of its system.
     pub(super) fn in_region(&self, region: Region) -> Self {
-        Self { rule: self.rule.clone().in_region(region), ..self.clone() }
+        let own = self.clone();
+        Self { rule: own.rule.in_region(region), ..own }
     }
 
     /// Returns true if the successor or the guard may use `this`.
@@ -291,17 +292,18 @@ impl SystemDeclaration {
         let ignored = self.ignored.among(&symbols);
         // Weights of interpretation rules draw from the keys of modules, too.
         let random = random || self.interpretations.iter().any(|known| known.rule.weight.is_some());
-        let with_ignored = |declared: &DeclaredRule| match self.ignored_by(&declared.rule, &declared.ignored)
-        {
-            Some(ignored) => declared.rule.clone().ignoring(ignored.among(&symbols)),
-            None => declared.rule.clone(),
+        let with_ignored = |declared: &DeclaredRule| {
+            let rule = declared.rule.clone();
+            match self.ignored_by(&declared.rule, &declared.ignored) {
+                Some(ignored) => rule.ignoring(ignored.among(&symbols)),
+                None => rule,
+            }
         };
         let rules = self.rules.iter().map(with_ignored).collect();
         let openers: Vec<(Symbol, Region)> =
             self.openers().iter().map(|opener| (opener.symbol, opener.region)).collect();
-        let grammar = Grammar::new(Arc::clone(&symbols), rules, &ignored, random)
-            .with_ring(self.ring)
-            .with_regions(&openers);
+        let grammar =
+            Grammar::new(symbols, rules, &ignored, random).with_ring(self.ring).with_regions(&openers);
         let grammar = grammar.with_candidates(|number| {
             let declared = &self.rules[usize::from(number)];
             declared.phase == phase && (declared.group.is_none() || declared.group.as_deref() == group)
@@ -314,7 +316,7 @@ impl SystemDeclaration {
         let mut reached = Vec::new();
         let BatchFunctions { drivers, guards, propensities, appliers } =
             self.prepare_functions(machine, &mut reached).map_err(|error| machine.translate(error))?;
-        let frozen = freeze(machine.lua(), &machine.library.stateless.borrow(), &reached)?;
+        let frozen = freeze(machine.lua(), &machine.library.stateless.borrow(), reached)?;
         let dependents = DependentFunctions::new(appliers);
         Ok(SystemFunctions { drivers, guards, propensities, dependents, _frozen: frozen })
     }
@@ -345,10 +347,10 @@ impl SystemDeclaration {
         self.enter_interpretations(machine, of)
     }
 
-    fn prepare_functions(
-        &self,
+    fn prepare_functions<'a>(
+        &'a self,
         machine: &Machine,
-        reached: &mut Vec<ReachableFunction>,
+        reached: &mut Vec<ReachableFunction<'a>>,
     ) -> mlua::Result<BatchFunctions> {
         let prelude = machine.prelude();
         let mut made = BatchFunctions::default();
@@ -366,7 +368,7 @@ impl SystemDeclaration {
             ))?);
             let rule = &declared.rule;
             let reach = |function: &Function| {
-                ReachableFunction::of_rule(function, &rule.pattern.text, rule.place.as_ref())
+                ReachableFunction::of_rule(function, &*rule.pattern.text, rule.place.as_ref())
             };
             reached.push(reach(&declared.successor));
             reached.extend(declared.guard.iter().chain(&declared.propensity).map(reach));
@@ -384,7 +386,7 @@ impl SystemDeclaration {
         for known in self.interpretations.iter().filter(|_| self.object.is_some()) {
             let functions = std::iter::once(&known.function).chain(&known.guard);
             reached.extend(functions.map(|function| {
-                ReachableFunction::of_rule(function, &known.rule.pattern.text, known.rule.place.as_ref())
+                ReachableFunction::of_rule(function, &*known.rule.pattern.text, known.rule.place.as_ref())
             }));
         }
         reached.extend(self.reachable_hooks());
@@ -394,7 +396,7 @@ impl SystemDeclaration {
         let extensions = machine.library.extensions.borrow();
         for (of, known) in functions.chain(extensions.iter().map(|it| ("extend", &it.function))) {
             let name = format!("{of}: {}", known.name);
-            reached.push(ReachableFunction::of_rule(&known.function, &name, None));
+            reached.push(ReachableFunction::of_rule(&known.function, name, None));
         }
         Ok(made)
     }

@@ -116,20 +116,19 @@ impl SystemDeclaration {
             ));
         }
         let place = Machine::place(lua);
-        let session = std::sync::Arc::clone(&library.machine()?.session);
+        let machine = library.machine()?;
+        let session = &machine.session;
         let (successor, mut receiver_use, successor_reads) = match arguments.pop() {
             Some(LuaValue::Function(function)) => {
                 check_parameters(&function, &pattern, "the successor").map_err(named)?;
                 check_queries(library, &function, &pattern).map_err(named)?;
-                let receiver_use = receiver_use_of(&session, &function);
+                let receiver_use = receiver_use_of(session, &function);
                 if let Some((file, line)) = begin_of(&function)
                     && let Some(line) = session.returns_filled(&file, line)
                 {
-                    library
-                        .machine()?
-                        .warn(returns_branch().at(Some(SourcePlace { file, line })).rule(&name));
+                    machine.warn(returns_branch().at(Some(SourcePlace { file, line })).rule(&name));
                 }
-                let reads = parameters_read(&session, &function);
+                let reads = parameters_read(session, &function);
                 (function, receiver_use, reads)
             }
             Some(LuaValue::String(body)) => {
@@ -147,19 +146,19 @@ impl SystemDeclaration {
         if let Some(guard) = &guard {
             check_parameters(guard, &pattern, "the guard").map_err(named)?;
             check_queries(library, guard, &pattern).map_err(named)?;
-            receiver_use = receiver_use.max(receiver_use_of(&session, guard));
+            receiver_use = receiver_use.max(receiver_use_of(session, guard));
         }
         let (propensity, rate_function) = match propensity {
             Some(DeclaredPropensity::Function(function)) => {
                 check_parameters(&function, &pattern, "the propensity").map_err(named)?;
                 check_queries(library, &function, &pattern).map_err(named)?;
-                receiver_use = receiver_use.max(receiver_use_of(&session, &function));
+                receiver_use = receiver_use.max(receiver_use_of(session, &function));
                 (Some(Propensity::Computed), Some(function))
             }
             Some(DeclaredPropensity::Number(number)) => (Some(Propensity::Constant(number)), None),
             None => (None, None),
         };
-        let guard_reads = guard.as_ref().and_then(|guard| parameters_read(&session, guard));
+        let guard_reads = guard.as_ref().and_then(|guard| parameters_read(session, guard));
         let reads = [successor_reads, guard_reads];
         let begin = guard.as_ref().and_then(begin_of);
         let guard_text = begin.and_then(|(file, line)| session.guard_text(&file, line));

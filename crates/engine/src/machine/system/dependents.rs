@@ -27,12 +27,15 @@ impl DependentFunctions {
     /// Returns the driver for `modules`.
     pub(crate) fn driver(&self, machine: &Machine, modules: &DependentModules<'_>) -> mlua::Result<Function> {
         let key = (modules.rules.is_backward(), modules.rules.ignored_set());
-        if let Some((_, driver)) = self.drivers.borrow().iter().find(|(known, _)| *known == key) {
-            return Ok(driver.clone());
-        }
-        let driver = self.create_driver(machine, modules)?;
-        self.drivers.borrow_mut().push((key, driver.clone()));
-        Ok(driver)
+        let mut drivers = self.drivers.borrow_mut();
+        let index = match drivers.iter().position(|(known, _)| *known == key) {
+            Some(index) => index,
+            None => {
+                drivers.push((key, self.create_driver(machine, modules)?));
+                drivers.len() - 1
+            }
+        };
+        Ok(drivers[index].1.clone())
     }
 
     fn create_driver(&self, machine: &Machine, modules: &DependentModules<'_>) -> mlua::Result<Function> {

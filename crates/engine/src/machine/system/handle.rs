@@ -189,10 +189,8 @@ fn prototype(library: &Library, value: LuaValue) -> Result<Arc<dyn Object>> {
         }
         value => value,
     };
-    if let LuaValue::UserData(data) = &value
-        && let Ok(handle) = data.borrow::<ObjectHandle>()
-    {
-        return Ok(Arc::clone(&handle.0));
+    if let Some(object) = ObjectHandle::object_of(&value) {
+        return Ok(object);
     }
     let error = Error::argument("lsystem: object must be an object");
     Err(match object_of_system(&library.registry.borrow()) {

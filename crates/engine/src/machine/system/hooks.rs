@@ -41,8 +41,7 @@ pub(crate) type HookFunction = (Function, Option<SourcePlace>);
 /// Hook of a system.
 pub(crate) struct DeclaredHook {
     pub(crate) moment: HookMoment,
-    pub(crate) function: Function,
-    pub(crate) place: Option<SourcePlace>,
+    pub(crate) run: HookFunction,
 }
 
 impl SystemDeclaration {
@@ -63,7 +62,7 @@ impl SystemDeclaration {
             return Err(Error::argument(format!("the hook has {taken} parameters, but it gets one"))
                 .help(format!("write system:{method}(function(now) ... end)")));
         }
-        self.hooks.push(DeclaredHook { moment, function, place });
+        self.hooks.push(DeclaredHook { moment, run: (function, place) });
         Ok(())
     }
 
@@ -71,7 +70,7 @@ impl SystemDeclaration {
     pub(crate) fn hooks_by_moment(&self) -> Vec<(HookMoment, Vec<HookFunction>)> {
         let hooks_at = |moment| {
             let hooks = self.hooks.iter().filter(move |hook| hook.moment == moment);
-            hooks.map(|hook| (hook.function.clone(), hook.place.clone())).collect::<Vec<HookFunction>>()
+            hooks.map(|hook| hook.run.clone()).collect::<Vec<HookFunction>>()
         };
         let all = HookMoment::ALL.into_iter().map(|moment| (moment, hooks_at(moment)));
         all.filter(|(_, hooks)| !hooks.is_empty()).collect()
@@ -96,9 +95,9 @@ impl SystemDeclaration {
     }
 
     /// Returns the hooks as functions whose reachable tables are frozen.
-    pub(super) fn reachable_hooks(&self) -> impl Iterator<Item = ReachableFunction> + '_ {
-        self.hooks
-            .iter()
-            .map(|hook| ReachableFunction::of_rule(&hook.function, hook.moment.method(), hook.place.as_ref()))
+    pub(super) fn reachable_hooks(&self) -> impl Iterator<Item = ReachableFunction<'_>> {
+        self.hooks.iter().map(|DeclaredHook { moment, run: (function, place) }| {
+            ReachableFunction::of_rule(function, moment.method(), place.as_ref())
+        })
     }
 }

@@ -29,7 +29,8 @@ pub(crate) struct DeclaredInterpretation {
 impl DeclaredInterpretation {
     /// Returns the interpretation for a region of its system.
     pub(super) fn in_region(&self, region: Region) -> Self {
-        Self { rule: self.rule.clone().in_region(region), ..self.clone() }
+        let own = self.clone();
+        Self { rule: own.rule.in_region(region), ..own }
     }
 }
 
@@ -140,14 +141,16 @@ impl SystemDeclaration {
         let rules = || self.interpretations.iter().map(|known| &known.rule);
         if rules().any(Rule::has_contexts) {
             let symbols = Arc::new(library.symbols.borrow().clone());
-            let with_ignored =
-                |known: &DeclaredInterpretation| match self.ignored_by(&known.rule, &known.ignored) {
-                    Some(ignored) => known.rule.clone().ignoring(ignored.among(&symbols)),
-                    None => known.rule.clone(),
-                };
+            let with_ignored = |known: &DeclaredInterpretation| {
+                let rule = known.rule.clone();
+                match self.ignored_by(&known.rule, &known.ignored) {
+                    Some(ignored) => rule.ignoring(ignored.among(&symbols)),
+                    None => rule,
+                }
+            };
             let rules = self.interpretations.iter().map(with_ignored).collect();
             let ignored = self.ignored.among(&symbols);
-            let grammar = Grammar::new(Arc::clone(&symbols), rules, &ignored, false).with_ring(self.ring);
+            let grammar = Grammar::new(symbols, rules, &ignored, false).with_ring(self.ring);
             found.grammar = Some(Arc::new(grammar));
         }
         found

@@ -145,7 +145,7 @@ pub(crate) fn feature_of(table: &Table, metatable: &Table) -> Option<(Arc<dyn Ob
     let held: UserDataRef<LayerHandle> = metatable.raw_get(key(LAYER)).ok()?;
     let index: usize = table.raw_get(key(NUMBER)).ok()?;
     let names = held.layer.attribute_names();
-    let geometry = Arc::clone(&held.layer).geometry(index, held.prefetch.as_ref())?;
+    let geometry = held.layer.feature_geometry(index, held.prefetch.as_ref())?;
     let name = |name: &str| TableKey::Name(name.into());
     let own = held.layer.attributes(index).iter().map(|(index, value)| (&names[*index], value));
     let own = own.filter(|(name, _)| !matches!(name.as_str(), "id" | "layer" | "geometry"));
@@ -238,6 +238,6 @@ pub(super) fn geometry(
     index: usize,
     prefetch: Option<&Arc<dyn Prefetch>>,
 ) -> mlua::Result<LuaValue> {
-    let Some(geometry) = Arc::clone(layer).geometry(index, prefetch) else { return Ok(LuaValue::Nil) };
+    let Some(geometry) = layer.feature_geometry(index, prefetch) else { return Ok(LuaValue::Nil) };
     lua.create_userdata(ObjectHandle(geometry)).map(LuaValue::UserData)
 }

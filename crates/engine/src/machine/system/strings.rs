@@ -62,7 +62,7 @@ pub(super) fn compile_successor(
     let body = if !is_string {
         body
     } else {
-        let place = Some(SourcePlace { file: file.to_owned(), line });
+        let place = Some(SourcePlace::new(file, line));
         translated = lua_body(body, &symbols, scope, Some(&pattern.formals), place)
             .map_err(|error| error.at_line(file, line))?;
         &translated
@@ -127,7 +127,7 @@ pub(super) fn string_axiom(library: &Library, lua: &Lua, text: &str) -> Result<V
 fn without_locals(error: Error) -> Error {
     match error.kind() {
         ErrorKind::NotFound { what: "name", suggestion: None, .. } => {
-            Error::of(error.kind().clone(), error.message()).at_place(error.place()).help(
+            error.rather_help(
                 "a string knows the parameters of the pattern and the names of all scripts; write a function to use others",
             )
         }
@@ -142,7 +142,7 @@ fn declarations(body: &str, symbols: &Symbols, scope: &NameScope) -> Result<Stri
     for name in names {
         let symbol = symbols.find_in(name, scope).map_err(|error| {
             let help = "return it from a function, with a constructor of the package: function(this) return stone(1) end";
-            Error::of(error.kind().clone(), error.message()).help(help)
+            error.rather_help(help)
         })?;
         if symbols.is_reserved(symbol) {
             // A declaration would make another module; the name is a global.

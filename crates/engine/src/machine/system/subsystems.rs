@@ -3,6 +3,7 @@
 //! A derivation of a system begins by adding the rules and interpretations of its sub-systems, and of theirs, to its own, with
 //! the number of their region. The system itself is region 0.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use mlua::Value as LuaValue;
@@ -129,36 +130,41 @@ impl SystemDeclaration {
         1 + self.linked.as_ref().map_or(0, |linked| linked.ignored.len())
     }
 
+    /// Returns the name of the type of the system's object.
+    fn kind_name(&self) -> Option<&str> {
+        self.object.as_ref().map(|object| &*object.kind().name)
+    }
+
     /// Returns the reason why the system cannot be a sub-system of `outer`, and the remedy.
-    fn unfit_within(&self, outer: &Self) -> Option<(String, &'static str)> {
-        let kind = |system: &Self| system.object.as_ref().map(|object| object.kind().name.clone());
-        let named = |system: &Self| {
-            kind(system).map_or_else(|| "no object".to_owned(), |name| format!("the object {name}"))
+    fn unfit_within(&self, outer: &Self) -> Option<(Cow<'static, str>, &'static str)> {
+        let named = |system: &Self| match system.kind_name() {
+            Some(name) => Cow::Owned(format!("the object {name}")),
+            None => Cow::Borrowed("no object"),
         };
         let is_shared = |environment: &Arc<dyn Object>| {
             outer.environments.iter().any(|known| Arc::ptr_eq(known, environment))
         };
-        if kind(self) != kind(outer) {
+        if self.kind_name() != outer.kind_name() {
             let text = format!("the sub-system has {}, but this system has {}", named(self), named(outer));
-            return Some((text, "give both systems the same type of object"));
+            return Some((text.into(), "give both systems the same type of object"));
         }
         if let Some(hook) = self.hooks.first() {
-            let line = hook.place.as_ref().map_or_else(String::new, |place| format!(" in {place}"));
+            let line = hook.run.1.as_ref().map_or_else(String::new, |place| format!(" in {place}"));
             let text =
                 format!("the sub-system has a hook, {}{line}, which would not run", hook.moment.method());
-            return Some((text, "declare the hook in the system that is derived"));
+            return Some((text.into(), "declare the hook in the system that is derived"));
         }
         if self.ring {
-            let text = "the sub-system has rings, but its modules are parts of other chains".to_owned();
-            return Some((text, "set ring = true only in the system that is derived"));
+            let text = "the sub-system has rings, but its modules are parts of other chains";
+            return Some((text.into(), "set ring = true only in the system that is derived"));
         }
         if self.variables.is_some() && self.variables != outer.variables {
-            let text = "the sub-system has other variables than this system".to_owned();
-            return Some((text, "give both systems the same variables"));
+            let text = "the sub-system has other variables than this system";
+            return Some((text.into(), "give both systems the same variables"));
         }
         if !self.environments.iter().all(is_shared) {
-            let text = "the sub-system has other environments than this system".to_owned();
-            return Some((text, "give both systems the same environments"));
+            let text = "the sub-system has other environments than this system";
+            return Some((text.into(), "give both systems the same environments"));
         }
         None
     }
@@ -195,7 +201,7 @@ impl Library {
         for (region, (member, place)) in (0u16..).zip(&members).skip(1) {
             let system = &systems[*member];
             if let Some((text, help)) = system.unfit_within(outer) {
-                return Err(Error::argument(text).at(place.clone()).help(help));
+                return Err(Error::argument(text).at_place(place.as_ref()).help(help));
             }
             let own = system
                 .linked
@@ -210,16 +216,17 @@ impl Library {
         if let Some(object) = outer.object.as_ref().filter(|object| !scales(object))
             && let Some(opener) = linked.openers.iter().find(|opener| opener.scale.is_some())
         {
-            let name = self.symbols.borrow().display_name(opener.symbol).to_owned();
+            let symbols = self.symbols.borrow();
+            let name = symbols.display_name(opener.symbol);
             let error = Error::argument(format!("an object of the type {} has no scale", object.kind().name));
             return Err(error
-                .at(opener.place.clone())
+                .at_place(opener.place.as_ref())
                 .help(format!("declare {name} without a parameter {SCALE}")));
         }
         let event = outer.rules.iter().chain(&rules).find(|declared| declared.rule.propensity().is_some());
         if let Some(event) = event {
             let error = Error::argument("it has a propensity, but rules of sub-systems apply in every step");
-            let error = error.at(event.rule.place.clone()).rule(&event.rule.pattern.text);
+            let error = error.at_place(event.rule.place.as_ref()).rule(&event.rule.pattern.text);
             return Err(error.help("use guards or weights, or place a derived system: Place(model)"));
         }
         if outer.rules.len() + rules.len() > MOST_RULES
@@ -227,7 +234,7 @@ impl Library {
         {
             let text = format!("a system and its sub-systems have more than {} rules", grouped(MOST_RULES));
             return Err(Error::limit(Limit::Size, text)
-                .at(outer.place.clone())
+                .at_place(outer.place.as_ref())
                 .help("join rules into one, and distinguish the cases by a parameter"));
         }
         let pairs = members.len().saturating_mul(self.symbols.borrow().arities().len());
@@ -253,14 +260,15 @@ impl Library {
                     members.len() - 1
                 });
                 let region = Region::try_from(number).unwrap_or(Region::MAX);
-                let name = || self.symbols.borrow().display_name(*opener).to_owned();
                 match openers.iter().find(|known| known.symbol == *opener) {
                     Some(known) if known.region != region => {
                         let line =
                             known.place.as_ref().map_or_else(String::new, |place| format!(" in {place}"));
-                        let error = Error::argument(format!("{} begins another sub-system{line}", name()));
+                        let symbols = self.symbols.borrow();
+                        let name = symbols.display_name(*opener);
+                        let error = Error::argument(format!("{name} begins another sub-system{line}"));
                         return Err(error
-                            .at(place.clone())
+                            .at_place(place.as_ref())
                             .help("use a module of its own for each sub-system"));
                     }
                     Some(_) => {}

@@ -160,7 +160,7 @@ impl SystemDeclaration {
             let name = symbols.display_name(*symbol);
             let text =
                 format!("{name}, which an interpretation returned, begins a sub-system only in chains");
-            let warning = Warning::new(WarningKind::UndrawnModule, text).at(self.place.clone());
+            let warning = Warning::new(WarningKind::UndrawnModule, text).at_place(self.place.as_ref());
             (*symbol, warning.help(format!("return {name} from a rule")))
         }));
         found.sort_by_key(|(symbol, _)| *symbol);

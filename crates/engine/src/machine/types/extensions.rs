@@ -73,28 +73,28 @@ pub(in crate::machine) fn claim(
     lua: &Lua,
     kind: &str,
     name: &str,
-    owners: &[String],
+    mut owners: Vec<String>,
 ) -> Result<String> {
     let scope = library.scope_at(lua);
     let own = scope.package.as_deref().unwrap_or("");
-    let required: Vec<&String> =
-        owners.iter().filter(|owner| scope.required.contains(owner.as_str())).collect();
-    match required.as_slice() {
-        _ if owners.iter().any(|owner| owner == own) => Ok(own.to_owned()),
-        [one] => Ok((*one).clone()),
-        _ => {
-            let shown =
-                owners.iter().map(|owner| if owner.is_empty() { "the script" } else { owner.as_str() });
-            let mut all: Vec<&str> = shown.collect();
-            all.sort();
-            let named = owners.iter().filter(|owner| !owner.is_empty());
-            let mut named: Vec<String> =
-                named.map(|owner| format!("this:{}(...)", qualified_name(owner, name))).collect();
-            named.sort();
-            Err(Error::argument(format!("{name} is a method of {kind} added by {}", all.join(" and ")))
-                .help(format!("specify one: {}", named.join(" or "))))
-        }
+    let is_required = |index: &usize| scope.required.contains(owners[*index].as_str());
+    let required: Vec<usize> = (0..owners.len()).filter(is_required).collect();
+    let meant = match (owners.iter().position(|owner| owner == own), required.as_slice()) {
+        (Some(index), _) | (None, &[index]) => Some(index),
+        _ => None,
+    };
+    if let Some(index) = meant {
+        return Ok(owners.swap_remove(index));
     }
+    let shown = owners.iter().map(|owner| if owner.is_empty() { "the script" } else { owner.as_str() });
+    let mut all: Vec<&str> = shown.collect();
+    all.sort();
+    let named = owners.iter().filter(|owner| !owner.is_empty());
+    let mut named: Vec<String> =
+        named.map(|owner| format!("this:{}(...)", qualified_name(owner, name))).collect();
+    named.sort();
+    Err(Error::argument(format!("{name} is a method of {kind} added by {}", all.join(" and ")))
+        .help(format!("specify one: {}", named.join(" or "))))
 }
 
 /// Implements `extend(constructor, declared)`, which adds functions to a type.

@@ -1,7 +1,6 @@
 //! Geometries in scripts: constructors and fields.
 
 use std::cell::RefCell;
-use std::sync::Arc;
 
 use mlua::{AnyUserData, Function, Lua, MultiValue, Table, Value as LuaValue};
 
@@ -72,8 +71,8 @@ impl PointColumn {
 
 /// Returns the field `name` of an object that is a geometry. Tables are cached in the object.
 pub(super) fn geometry_field(lua: &Lua, this: &AnyUserData, name: &str) -> mlua::Result<Option<LuaValue>> {
-    let object = Arc::clone(&this.borrow::<ObjectHandle>()?.0);
-    let Some(geometry) = GeometryObject::of(&*object) else { return Ok(None) };
+    let handle = this.borrow::<ObjectHandle>()?;
+    let Some(geometry) = GeometryObject::of(&*handle.0) else { return Ok(None) };
     match (name, geometry) {
         ("kind", _) => {
             return Ok(Some(LuaValue::String(lua.create_string(geometry.kind().name())?)));

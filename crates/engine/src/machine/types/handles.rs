@@ -20,7 +20,7 @@ use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::panic_message;
 use burgeon_kit::declare::as_ref;
-use burgeon_kit::{Kind, Object, ScriptObject, Value};
+use burgeon_kit::{Kind, Object, ScriptObject, are_equal};
 use burgeon_language::DERIVED;
 use burgeon_rewriting::FailedChains;
 
@@ -84,6 +84,14 @@ fn no_object() -> Error {
 /// Read-only script value for an object.
 pub(crate) struct ObjectHandle(pub Arc<dyn Object>);
 
+impl ObjectHandle {
+    /// Returns the object that a script value is, if it is one.
+    pub(crate) fn object_of(value: &LuaValue) -> Option<Arc<dyn Object>> {
+        let LuaValue::UserData(data) = value else { return None };
+        data.borrow::<Self>().ok().map(|handle| Arc::clone(&handle.0))
+    }
+}
+
 impl UserData for ObjectHandle {
     fn add_fields<F: UserDataFields<Self>>(fields: &mut F) {
         fields.add_meta_field_with(MetaMethod::Index, index_function);
@@ -92,7 +100,7 @@ impl UserData for ObjectHandle {
     fn add_methods<M: UserDataMethods<Self>>(methods: &mut M) {
         methods.add_meta_function(MetaMethod::Eq, |_, (one, two): (AnyUserData, AnyUserData)| {
             let (Ok(one), Ok(two)) = (one.borrow::<Self>(), two.borrow::<Self>()) else { return Ok(false) };
-            Ok(Value::Object(Arc::clone(&one.0)) == Value::Object(Arc::clone(&two.0)))
+            Ok(are_equal(&one.0, &two.0))
         });
         methods.add_meta_method(
             MetaMethod::NewIndex,
@@ -104,9 +112,7 @@ impl UserData for ObjectHandle {
                 ))
             },
         );
-        methods.add_meta_method(MetaMethod::ToString, |_, this, ()| {
-            Ok(Value::Object(Arc::clone(&this.0)).to_string())
-        });
+        methods.add_meta_method(MetaMethod::ToString, |_, this, ()| Ok(this.0.to_string()));
     }
 }
 
@@ -146,7 +152,8 @@ pub(in crate::machine) fn read_often(lua: &Lua, object: &LuaValue) -> mlua::Resu
 
 /// Returns a method or a field of an object.
 fn member(lua: &Lua, (this, name): (AnyUserData, LuaString)) -> mlua::Result<LuaValue> {
-    let object = Arc::clone(&this.borrow::<ObjectHandle>()?.0);
+    let handle = this.borrow::<ObjectHandle>()?;
+    let object = &*handle.0;
     match method_table(lua, object.kind())?.raw_get::<LuaValue>(&name)? {
         LuaValue::Nil => {}
         method => return Ok(method),
@@ -155,7 +162,7 @@ fn member(lua: &Lua, (this, name): (AnyUserData, LuaString)) -> mlua::Result<Lua
     if let Some(field) = geometry_field(lua, &this, &name)? {
         return Ok(field);
     }
-    match as_ref::<ScriptObject>(&*object).and_then(|object| object.member(&name)) {
+    match as_ref::<ScriptObject>(object).and_then(|object| object.member(&name)) {
         Some(value) => to_lua(lua, &value, true),
         None => Err(mlua::Error::external(object.kind().unknown_method(&name))),
     }

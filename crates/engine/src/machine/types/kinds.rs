@@ -70,19 +70,19 @@ pub(in crate::machine) fn install_methods(machine: &Machine, kind: &Arc<Kind>) -
 pub(in crate::machine) fn constructor(machine: &Machine, kind: &Arc<Kind>) -> mlua::Result<Option<Function>> {
     let lua = machine.lua();
     let library = std::rc::Rc::clone(&machine.library);
+    let (of, session) = (Arc::clone(kind), Arc::clone(&machine.session));
     let constructor = match &kind.construct {
         Construct::Given => return Ok(None),
         Construct::Fields(_) => {
-            let kind = Arc::clone(kind);
-            let session = Arc::clone(&machine.session);
+            let kind = of;
             lua.create_function(move |lua, given: MultiValue| {
                 let table = constructor_fields(&kind, given).map_err(mlua::Error::external)?;
                 for deprecation in kind.deprecated.iter().filter(|known| table.get(&known.name).is_some()) {
                     let name = format!("{}.{}", kind.name, deprecation.name);
-                    session.use_deprecated(&name, deprecation, Machine::place(lua));
+                    session.use_deprecated(&name, deprecation, Machine::place(lua).as_ref());
                 }
                 let table = session
-                    .replace_former_names(&kind.name, &kind.fields, &table, Machine::place(lua))
+                    .replace_former_names(&kind.name, &kind.fields, &table, Machine::place(lua).as_ref())
                     .map_err(mlua::Error::external)?;
                 // A faulty value of one feature may be correct in another.
                 let mut object = kind.make(&table).map_err(|error| mlua::Error::external(error.of_data()))?;
@@ -93,8 +93,7 @@ pub(in crate::machine) fn constructor(machine: &Machine, kind: &Arc<Kind>) -> ml
             })?
         }
         Construct::File(loader) => {
-            let (kind, loader) = (Arc::clone(kind), loader.clone());
-            let session = Arc::clone(&machine.session);
+            let (kind, loader) = (of, loader.clone());
             lua.create_function(move |lua, (files, fields): (LuaValue, LuaValue)| {
                 let load = || {
                     library.at_top_level(&kind.name)?;
@@ -155,7 +154,7 @@ fn telling(
 ) -> mlua::Result<Function> {
     let (session, name, deprecation) = (Arc::clone(&machine.session), name.to_owned(), deprecation.clone());
     let tell = machine.lua().create_function(move |lua, ()| {
-        session.use_deprecated(&name, &deprecation, Machine::place(lua));
+        session.use_deprecated(&name, &deprecation, Machine::place(lua).as_ref());
         Ok(())
     })?;
     static COMPILED: LazyLock<Vec<u8>> = LazyLock::new(|| {

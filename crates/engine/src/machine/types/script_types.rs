@@ -68,10 +68,8 @@ impl ScriptTypeEntry {
         for (key, value) in named(declared, "state", &what("state"))? {
             state.entries.retain(|(known, _)| !matches!(known, TableKey::Name(known) if **known == *key));
             entry.declaration.held.retain(|(known, _)| **known != *key);
-            if let LuaValue::UserData(data) = &value
-                && let Ok(object) = data.borrow::<ObjectHandle>()
-            {
-                entry.declaration.held.push((key.as_str().into(), Arc::clone(&object.0)));
+            if let Some(object) = ObjectHandle::object_of(&value) {
+                entry.declaration.held.push((key.as_str().into(), object));
                 continue;
             }
             let value = to_value(&value, true).map_err(|error| named_part(error, name, &key))?;
@@ -124,7 +122,7 @@ impl ScriptTypeEntry {
         let own = entry.functions.iter().filter(|it| it.role != Role::Hook && !is_full_name(&it.name));
         let mut methods: Vec<Method> = own.map(|it| it.method(&machine.session)).collect();
         methods.extend(entry.contested.iter().map(|(name, owners)| contested_method(name, owners.keys())));
-        let kind = entry.declaration.clone().kind(name, doc, methods)?;
+        let kind = std::mem::take(&mut entry.declaration).kind(name, doc, methods)?;
         let table = entry.table(machine, &kind).map_err(|error| machine.translate(error))?;
         Ok(Self { kind, table, functions: entry.functions, contested: entry.contested })
     }
@@ -187,21 +185,23 @@ impl ScriptTypeParts {
         Ok(())
     }
 
-    /// Returns the type in the form of the prelude.
+    /// Returns the type `kind`, which the parts have made, in the form of the prelude.
     fn table(&self, machine: &Machine, kind: &Arc<Kind>) -> mlua::Result<Table> {
         let lua = machine.lua();
+        let declaration = ScriptType::of(kind)
+            .ok_or_else(|| mlua::Error::external(Error::internal("the type has no declaration")))?;
         let of = lua.create_table()?;
         of.raw_set("name", &*kind.name)?;
         let fields = lua.create_table()?;
-        self.declaration.fields.iter().try_for_each(|field| fields.raw_set(&*field.name, true))?;
+        declaration.fields.iter().try_for_each(|field| fields.raw_set(&*field.name, true))?;
         of.raw_set("fields", fields)?;
-        of.raw_set("start", to_lua(lua, &Value::Table(Arc::clone(&self.declaration.state)), false)?)?;
+        of.raw_set("start", to_lua(lua, &Value::Table(Arc::clone(&declaration.state)), false)?)?;
         let holds = lua.create_table()?;
         let above = lua.create_table()?;
-        self.declaration.above.iter().try_for_each(|name| above.push(&**name))?;
+        declaration.above.iter().try_for_each(|name| above.push(&**name))?;
         of.raw_set("above", above)?;
         let types = machine.library.script_types.borrow();
-        for (name, object) in &self.declaration.held {
+        for (name, object) in &declaration.held {
             let held = lua.create_table()?;
             if let Some(known) = types.iter().find(|known| known.kind.name == object.kind().name) {
                 held.raw_set("of", &known.table)?;

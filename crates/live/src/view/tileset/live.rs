@@ -13,6 +13,7 @@ use crate::view::settings::EventReceiver;
 use crate::view::token::Token;
 use crate::watch::Watch;
 use burgeon_base::error::Result;
+use burgeon_base::named_thread;
 
 /// Settings of a server of a tileset.
 pub struct TilesetSettings {
@@ -63,17 +64,11 @@ impl LiveTileset {
         let watched = folder.watched();
         let state = Arc::new(TilesetState::new(folder, settings.progress, settings.tell));
         let (seen, complained, observer) = (Arc::clone(&state), Arc::clone(&state), Arc::clone(&state));
-        let watch = Watch::new(
-            watched,
-            move |_| seen.hurry(),
-            move |why| complained.tell(&LiveEvent::Text(why.to_owned())),
-        )?;
+        let watch =
+            Watch::new(watched, move |_| seen.hurry(), move |why| complained.tell(&LiveEvent::Text(why)))?;
         let content = SiteContent::Tileset(Arc::clone(&state));
         let server = endpoint.serve(|token| Site { token, content })?;
-        let thread = std::thread::Builder::new()
-            .name("burgeon tileset".to_owned())
-            .spawn(move || observer.work())
-            .map_err(start_error)?;
+        let thread = named_thread("tileset").spawn(move || observer.work()).map_err(start_error)?;
         Ok(Self { state, server, watch: Some(watch), thread: Some(thread) })
     }
 

@@ -6,8 +6,7 @@ use std::pin::Pin;
 use std::task::{Context, Poll};
 
 use axum::body::{Body, Bytes};
-use axum::http::StatusCode;
-use axum::http::header;
+use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use futures_core::Stream;
 use tokio::sync::mpsc::{Receiver, Sender, channel};
@@ -44,8 +43,8 @@ pub(in crate::view) async fn send_file(file: ServedFile) -> Response {
     };
     let (sender, pieces) = channel(AHEAD);
     tokio::task::spawn_blocking(move || read_pieces(opened, length, &sender));
-    let headers =
-        [(header::CONTENT_TYPE, file.media_type.to_owned()), (header::CONTENT_LENGTH, length.to_string())];
+    let media_type = HeaderValue::from_static(file.media_type);
+    let headers = [(header::CONTENT_TYPE, media_type), (header::CONTENT_LENGTH, HeaderValue::from(length))];
     (headers, Body::from_stream(FilePieces(pieces))).into_response()
 }
 

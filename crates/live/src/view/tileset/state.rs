@@ -157,7 +157,8 @@ impl Observation {
 impl PageState for TilesetState {
     fn greet(&self) -> (Vec<Utf8Bytes>, broadcast::Receiver<Utf8Bytes>) {
         let path = &self.folder.0.path;
-        let real = path.canonicalize().unwrap_or_else(|_| path.clone());
+        let real = path.canonicalize();
+        let real = real.as_ref().unwrap_or(path);
         let name = real.file_name().unwrap_or(real.as_os_str());
         let hello = TilesetEvent::Hello {
             version: env!("CARGO_PKG_VERSION"),

@@ -38,7 +38,7 @@ impl Trial {
 
     fn by(
         make: impl FnOnce(Handler) -> notify::Result<AnyWatcher>,
-        complain: impl FnOnce(&str) + Send + 'static,
+        complain: impl FnOnce(String) + Send + 'static,
     ) -> Self {
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join("sub")).unwrap();
@@ -135,7 +135,7 @@ fn a_file_that_is_not_there_yet_is_told_when_it_comes() {
 #[track_caller]
 fn polls(make: impl FnOnce(Handler) -> notify::Result<AnyWatcher>, why: &str) {
     let (complainer, complaints) = channel();
-    let trial = Trial::by(make, move |why| complainer.send(why.to_owned()).unwrap());
+    let trial = Trial::by(make, move |why| complainer.send(why).unwrap());
     for text in ["two", "six", "ten"] {
         trial.write("sub/a.lua", text);
         assert!(trial.tells("sub/a.lua") < Duration::from_millis(900));

@@ -20,7 +20,7 @@ impl Footprint {
             detail.check()?;
         }
         if !self.shell.begun {
-            self.lay("z_min", options.material.clone())?;
+            self.lay("z_min", options.material.as_ref())?;
         }
         self.finish_walls()?;
         self.shell.closed = true;

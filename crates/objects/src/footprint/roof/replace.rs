@@ -29,7 +29,7 @@ pub(super) fn cover(
 ) -> RoofReplacement {
     let why = match make(shape, support) {
         Ok(cover) => return RoofReplacement { cover, replaced: None },
-        Err(error) => error.message().to_owned(),
+        Err(error) => error.into_message(),
     };
     let &Support { walls, base, .. } = support;
     let level = |walls: &Polygon, upwards: bool| Patch {

@@ -152,6 +152,15 @@ impl FunctionCall<'_> {
         }
     }
 
+    /// Returns an argument as a geometry that the function may change.
+    pub(super) fn copy_geometry(&self, index: usize) -> Result<Geometry, String> {
+        // Geometries that were read from a blob are kept for later calls.
+        Ok(match Arc::try_unwrap(self.geometry(index)?) {
+            Ok(own) => own.geometry,
+            Err(kept) => kept.geometry.clone(),
+        })
+    }
+
     /// Returns the bounds of a geometry argument, if it is not empty.
     pub(super) fn bounds(&self, index: usize) -> Result<Option<[f64; 4]>, String> {
         if let ValueRef::Blob(bytes) = self.context.get_raw(index)

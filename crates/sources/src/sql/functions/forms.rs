@@ -78,7 +78,7 @@ pub(super) const FORMS: &[SpatialFunction] = &[
         "(geometry, srid)",
         "geometry",
         "The same coordinates in another reference system.",
-        |call| place_in_system(call, 1, call.geometry(0)?.geometry.clone()),
+        |call| place_in_system(call, 1, call.copy_geometry(0)?),
     ),
     function(
         "ST_SRID",

@@ -98,12 +98,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         PAIR,
         "geometry",
         "A collection of both geometries; with one argument, of a group.",
-        |call| {
-            Ok(FunctionResult::Geometry(collect(vec![
-                call.geometry(0)?.geometry.clone(),
-                call.geometry(1)?.geometry.clone(),
-            ])))
-        },
+        |call| Ok(FunctionResult::Geometry(collect(vec![call.copy_geometry(0)?, call.copy_geometry(1)?]))),
     ),
     function("ST_Centroid", (1, 1), ONE, "geometry", "The centre of mass.", made!(centroid)),
     function(
@@ -172,8 +167,8 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         "A geometry of a collection; numbers count from 1.",
         |call| {
             let number = nth(call, 1)?.and_then(|number| number.checked_sub(1));
-            let found = number
-                .and_then(|number| members(call.geometry(0).ok()?.geometry.clone()).into_iter().nth(number));
+            let found =
+                number.and_then(|number| members(call.copy_geometry(0).ok()?).into_iter().nth(number));
             Ok(found.map_or(FunctionResult::Nothing, FunctionResult::Geometry))
         },
     ),
@@ -287,7 +282,7 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         "geometry",
         "The geometry with its points in reverse order.",
         |call| {
-            let mut geometry = call.geometry(0)?.geometry.clone();
+            let mut geometry = call.copy_geometry(0)?;
             reverse(&mut geometry);
             Ok(FunctionResult::Geometry(geometry))
         },
@@ -300,18 +295,18 @@ pub(super) const MAKERS: &[SpatialFunction] = &[
         "The translated geometry.",
         |call| {
             let by = DVec3::new(call.number(1)?, call.number(2)?, call.number_or(3, 0.0)?);
-            let mut geometry = call.geometry(0)?.geometry.clone();
+            let mut geometry = call.copy_geometry(0)?;
             geometry.points_mut().for_each(|point| *point += by);
             check_geometry(geometry)
         },
     ),
     function("ST_Force2D", (1, 1), ONE, "geometry", "The geometry without heights.", |call| {
-        let mut geometry = call.geometry(0)?.geometry.clone();
+        let mut geometry = call.copy_geometry(0)?;
         geometry.points_mut().for_each(|point| point.z = 0.0);
         Ok(FunctionResult::Geometry(geometry))
     }),
     function("ST_Multi", (1, 1), ONE, "geometry", "The geometry as a multi-geometry.", |call| {
-        Ok(FunctionResult::Geometry(match call.geometry(0)?.geometry.clone() {
+        Ok(FunctionResult::Geometry(match call.copy_geometry(0)? {
             Geometry::Point(point) => Geometry::MultiPoint(point.into_iter().collect()),
             Geometry::Line(line) => {
                 Geometry::MultiLine(Some(line).into_iter().filter(|line| !line.is_empty()).collect())

@@ -106,14 +106,15 @@ impl ConnectionState {
     /// Returns the geometry in a blob. Fails with the reason.
     pub(crate) fn geometry(&self, bytes: &[u8]) -> Result<Arc<GeometryArgument>, String> {
         let mut recent = self.recent.lock().recover();
-        let place = recent.place(bytes);
-        if let Some((_, parsed)) = place.as_ref().filter(|(known, _)| known == bytes) {
-            return Ok(Arc::clone(parsed));
-        }
-        let read = GeometryArgument::read(bytes, &self.budget());
-        let parsed = Arc::new(read.inspect_err(|_| self.keep_unreadable(bytes))?);
-        *place = Some((bytes.to_vec(), Arc::clone(&parsed)));
-        Ok(parsed)
+        let (_, parsed) = match recent.place(bytes) {
+            Some(known) if known.0 == bytes => known,
+            place => {
+                let read = GeometryArgument::read(bytes, &self.budget());
+                let parsed = read.inspect_err(|_| self.keep_unreadable(bytes))?;
+                place.insert((bytes.to_vec(), Arc::new(parsed)))
+            }
+        };
+        Ok(Arc::clone(parsed))
     }
 
     /// Stores a blob that is not a geometry, so that an error can name its row, if there is memory for it.

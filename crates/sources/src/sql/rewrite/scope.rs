@@ -69,16 +69,23 @@ pub(super) fn relations<'a>(select: &Select, tables: &'a Catalogue) -> Vec<FromI
 
 fn relation<'a>(factor: &TableFactor, tables: &'a Catalogue, place: (usize, usize)) -> FromItem<'a> {
     let (alias, table) = match factor {
-        TableFactor::Table { name, alias, args: None, .. } => {
-            let own = || name.0.last().and_then(|part| part.as_ident()).cloned();
-            (alias.as_ref().map(|alias| alias.name.clone()).or_else(own), table(name, tables))
+        TableFactor::Table { name, args: None, .. } => {
+            let own = || name.0.last().and_then(|part| part.as_ident());
+            (alias_of(factor).or_else(own), table(name, tables))
         }
-        TableFactor::Table { alias, .. } | TableFactor::Derived { alias, .. } => {
-            (alias.as_ref().map(|alias| alias.name.clone()), None)
-        }
-        _ => (None, None),
+        _ => (alias_of(factor), None),
     };
-    FromItem { alias, table, place, optional: false }
+    FromItem { alias: alias.cloned(), table, place, optional: false }
+}
+
+/// Returns the alias of a table or a subquery.
+pub(super) fn alias_of(factor: &TableFactor) -> Option<&Ident> {
+    match factor {
+        TableFactor::Table { alias, .. } | TableFactor::Derived { alias, .. } => {
+            alias.as_ref().map(|alias| &alias.name)
+        }
+        _ => None,
+    }
 }
 
 /// Returns the condition of a join.

@@ -14,18 +14,19 @@ impl StreetNetwork {
             return None;
         }
         let mut known = self.merge_cache.surfaces.lock().recover();
-        if let Some((version, of, merged)) = known.as_ref()
-            && (*version, *of) == (self.version(), options)
-        {
-            return Some(Arc::clone(merged));
-        }
+        let (_, _, merged) = match &mut *known {
+            Some(present) if (present.0, present.1) == (self.version(), options) => present,
+            other => other.insert((self.version(), options, Arc::new(self.merged_streets(options)))),
+        };
+        Some(Arc::clone(merged))
+    }
+
+    fn merged_streets(&self, options: MergeOptions) -> MergedStreets {
         let mut levels: Vec<i32> = self.pieces().map(|(_, piece)| piece.attributes.level).collect();
         levels.sort_unstable();
         levels.dedup();
         levels.retain(|level| *level >= 0);
         let levels = levels.into_iter().map(|level| mesh::level(self, level, options)).collect();
-        let merged = Arc::new(MergedStreets { levels });
-        *known = Some((self.version(), options, Arc::clone(&merged)));
-        Some(merged)
+        MergedStreets { levels }
     }
 }

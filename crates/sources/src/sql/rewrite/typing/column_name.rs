@@ -23,14 +23,14 @@ pub(in crate::sql::rewrite) fn column_name(expression: &Expr) -> String {
             .unwrap_or_else(|| "?column?".into()),
         Expr::Nested(inner) | Expr::Collate { expr: inner, .. } => column_name(inner),
         Expr::Function(function) => last(&function.name),
-        Expr::Cast { expr, data_type, .. } => match column_name(expr).as_str() {
-            "?column?" => match SqlType::from_name(&data_type.to_string()) {
+        Expr::Cast { expr, data_type, .. } => match column_name(expr) {
+            name if name != "?column?" => name,
+            _ => match SqlType::from_name(&data_type.to_string()) {
                 Some(SqlType::Integer) => "int4".into(),
                 Some(SqlType::Double) => "float8".into(),
                 Some(SqlType::Boolean) => "bool".into(),
                 _ => data_type.to_string().to_ascii_lowercase(),
             },
-            name => name.to_owned(),
         },
         Expr::Case { else_result, .. } => match else_result.as_deref().map(column_name) {
             Some(name) if name != "?column?" => name,

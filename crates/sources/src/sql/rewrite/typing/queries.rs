@@ -8,7 +8,7 @@ use sqlparser::ast::{
 use super::column_name::column_name;
 use super::scope::{TypeScope, TypedRelation, Typing};
 use crate::sql::rewrite::Catalogue;
-use crate::sql::rewrite::scope::condition_mut;
+use crate::sql::rewrite::scope::{alias_of, condition_mut};
 use crate::sql::rewrite::types::{ColumnTypes, SqlType};
 use burgeon_base::error::Result;
 
@@ -172,28 +172,26 @@ impl Typing<'_> {
     }
 
     fn relation(&mut self, factor: &mut TableFactor, scope: &TypeScope<'_>) -> Result<Vec<TypedRelation>> {
+        let known = alias_of(factor).map(|alias| alias.value.clone());
         Ok(match factor {
             TableFactor::Table { name, alias, args: None, .. } => {
-                let own = name.0.last().and_then(|part| part.as_ident()).map(|name| name.value.clone());
+                let own = || name.0.last().and_then(|part| part.as_ident()).map(|name| name.value.clone());
                 let columns = self.columns_of(name);
                 let columns = rename(columns, alias.iter().flat_map(|alias| &alias.columns));
-                let alias = alias.as_ref().map(|alias| alias.name.value.clone()).or(own);
-                vec![TypedRelation { alias, columns }]
+                vec![TypedRelation { alias: known.or_else(own), columns }]
             }
-            TableFactor::Table { alias, args: Some(args), .. } => {
+            TableFactor::Table { args: Some(args), .. } => {
                 for argument in &mut args.args {
                     self.argument(argument, scope)?;
                 }
-                let alias = alias.as_ref().map(|alias| alias.name.value.clone());
-                vec![TypedRelation { alias, columns: None }]
+                vec![TypedRelation { alias: known, columns: None }]
             }
             TableFactor::Derived { subquery, alias, .. } => {
                 let nothing = TypeScope { relations: Vec::new(), outer: None };
                 let outer = scope.outer.unwrap_or(&nothing);
                 let columns = self.query(subquery, outer)?;
                 let columns = rename(columns, alias.iter().flat_map(|alias| &alias.columns));
-                let alias = alias.as_ref().map(|alias| alias.name.value.clone());
-                vec![TypedRelation { alias, columns }]
+                vec![TypedRelation { alias: known, columns }]
             }
             TableFactor::NestedJoin { table_with_joins, .. } => {
                 let mut relations = self.relation(&mut table_with_joins.relation, scope)?;
