@@ -11,3 +11,5 @@ mod heights;
 mod implicit;
 mod killed;
 mod levels;
+mod tables;
+mod tall;

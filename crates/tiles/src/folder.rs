@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::plan::TileId;
+use crate::plan::{TableFormat, TileId};
 
 /// Folder of a plan, its tiles and its tileset.
 #[derive(Debug, Clone)]
@@ -17,6 +17,11 @@ impl TileFolder {
     /// Returns the path of the content of a tile.
     pub fn content(&self, tile: TileId) -> PathBuf {
         self.0.join(content_name(tile))
+    }
+
+    /// Returns the path of a table of the features of a tile.
+    pub fn table(&self, tile: TileId, format: TableFormat) -> PathBuf {
+        self.0.join(format!("tiles/{}.{}", path_of(tile), format.extension()))
     }
 
     /// Returns the path of the manifest of a tile.

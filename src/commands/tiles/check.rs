@@ -35,7 +35,7 @@ impl CheckTilesCommand {
         if self.json {
             let document = json!({
                 "ok": true, "tiles": checked.tiles, "coarse": checked.coarse, "points": checked.points, "triangles": checked.triangles,
-                "features": checked.features, "missing": checked.missing,
+                "features": checked.features, "missing": checked.missing, "tables": checked.tables,
             });
             return report::print(&format!("{document}\n"));
         }

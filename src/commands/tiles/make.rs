@@ -108,7 +108,7 @@ impl MakeCommand {
             let started = Instant::now();
             // Each tile has its own signal, so that limits apply to a tile.
             let stop = Arc::new(Stop::default());
-            match make_tile(&folder, tile, &map, &stop, |tile| builder.build(tile)) {
+            match make_tile(&folder, tile, &map, &stop, |tile| builder.build(tile, &stop)) {
                 Ok(outcome) => {
                     in_a_row = 0;
                     counts.add(&outcome);

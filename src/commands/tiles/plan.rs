@@ -12,7 +12,8 @@ use burgeon::sources::{DataSources, SourceSurvey, SurveyedSource};
 use burgeon::tiles::earth::GeoidGrid;
 use burgeon::tiles::measure::draws_the_same;
 use burgeon::tiles::plan::{
-    PLAN_VERSION, PlanFrame, PlannedFile, PlannedSource, TileDivision, TilePlan, coarse_tiles, scan_source,
+    PLAN_VERSION, PlanFrame, PlannedFile, PlannedSource, TableFormat, TallRule, TileDivision, TilePlan,
+    coarse_tiles, scan_source,
 };
 use burgeon::tiles::{EarthMap, TileFolder};
 use burgeon::{Error, Result};
@@ -66,6 +67,14 @@ pub(super) struct PlanCommand {
     #[arg(long, value_name = "METRES", default_value_t = 0.001, value_parser = precision)]
     precision: f64,
 
+    /// Puts features whose attribute is at least a number into inner tiles, so that they are seen from afar, such as height:50
+    #[arg(long, value_name = "ATTRIBUTE:NUMBER", value_parser = tall, conflicts_with = "levels")]
+    tall: Option<TallRule>,
+
+    /// Tables of the features of each tile, beside its content: cityjson (a CityJSON sequence) or geoparquet, or both
+    #[arg(long, value_name = "FORMATS", value_delimiter = ',', value_parser = table)]
+    tables: Vec<TableFormat>,
+
     /// Replaces the plan of another script or of other arguments
     #[arg(long)]
     replace: bool,
@@ -85,6 +94,15 @@ fn compression(text: &str) -> Result<TileCompression, String> {
         "meshopt" => Ok(TileCompression::Meshopt),
         _ => Err("write none, quantize or meshopt".to_owned()),
     }
+}
+
+fn tall(text: &str) -> Result<TallRule, String> {
+    text.parse().map_err(Error::into_message)
+}
+
+fn table(text: &str) -> Result<TableFormat, String> {
+    let known = TableFormat::ALL.into_iter().find(|format| format.to_string() == text);
+    known.ok_or_else(|| format!("write {}", TableFormat::ALL.map(|format| format.to_string()).join(" or ")))
 }
 
 fn precision(text: &str) -> Result<f64, String> {
@@ -152,7 +170,12 @@ impl PlanCommand {
         let mut division = TileDivision::default();
         let (mut planned, mut left_out, mut notes) = (Vec::new(), Vec::new(), Vec::new());
         for source in &sources {
-            let scan = scan_source((&source.path, &source.name, &source.options), &reference, &mut division)?;
+            let scan = scan_source(
+                (&source.path, &source.name, &source.options),
+                &reference,
+                self.tall.as_ref(),
+                &mut division,
+            )?;
             let (key, label) = (source.key.clone(), scan.label);
             planned.push(PlannedSource {
                 key,
@@ -160,10 +183,12 @@ impl PlanCommand {
                 features: scan.features,
                 bounds: scan.bounds,
                 in_parts: scan.in_parts,
+                columns: scan.columns,
             });
             left_out.extend(scan.left_out);
             notes.extend(scan.notes);
         }
+        self.check_tall(&planned)?;
         let portable = |path: &Path| portable_path(folder, path);
         let own: BTreeSet<PathBuf> =
             sources.iter().filter_map(|source| source.path.canonicalize().ok()).collect();
@@ -189,7 +214,9 @@ impl PlanCommand {
             reach: self.script.reach(),
             metadata: self.metadata.clone(),
             model: self.model(),
+            tables: TableFormat::ALL.into_iter().filter(|format| self.tables.contains(format)).collect(),
             sources: planned,
+            tall: self.tall.clone(),
             lods: Vec::new(),
             tiles: division.tiles(self.target_features),
             coarse: Vec::new(),
@@ -200,6 +227,18 @@ impl PlanCommand {
         self.add_levels(&mut plan)?;
         plan.set_hashes()?;
         Ok(plan)
+    }
+
+    /// Fails if no feature has the attribute of tall features.
+    fn check_tall(&self, sources: &[PlannedSource]) -> Result<()> {
+        let Some(TallRule { attribute, .. }) = &self.tall else { return Ok(()) };
+        let names = || sources.iter().flat_map(|source| &source.columns).map(|column| column.name.as_str());
+        if names().any(|name| name == attribute) {
+            return Ok(());
+        }
+        let message = format!("--tall: no feature has an attribute named `{attribute}`");
+        Err(Error::not_found("attribute", attribute, names().collect::<Vec<_>>(), message)
+            .help("run burgeon sources FILE to list the attributes of a file"))
     }
 
     /// Returns the choices for the models of tiles.
@@ -259,7 +298,8 @@ impl PlanCommand {
         }
         let earlier = TilePlan::read(&path)?;
         let same = (&earlier.script, &earlier.arguments) == (&plan.script, &plan.arguments)
-            && (earlier.reach, &earlier.metadata, earlier.model) == (plan.reach, &plan.metadata, plan.model);
+            && (earlier.reach, &earlier.metadata, earlier.model) == (plan.reach, &plan.metadata, plan.model)
+            && (&earlier.tables, &earlier.tall) == (&plan.tables, &plan.tall);
         if same {
             return Ok(Some(earlier));
         }
@@ -275,6 +315,7 @@ impl PlanCommand {
         let all = plan.all_tiles();
         let kept = all.iter().filter(|tile| known.contains(tile.hash.as_str())).count();
         let mut warnings = plan.notes.clone();
+        let tall: u64 = plan.tiles.iter().filter(|tile| tile.is_tall()).map(|tile| tile.features).sum();
         if self.geoid_height.is_none() && self.geoid.is_none() {
             warnings.push(
                 "heights are taken as heights above the WGS 84 ellipsoid; national heights are above a geoid: --geoid FILE or --geoid-height METRES"
@@ -288,7 +329,7 @@ impl PlanCommand {
         }
         if self.script.json {
             let document = json!({
-                "ok": true, "tiles": plan.tiles.len(), "coarse": plan.coarse.len(), "lods": plan.lods,
+                "ok": true, "tiles": plan.tiles.len(), "tall": tall, "coarse": plan.coarse.len(), "lods": plan.lods,
                 "geoid": plan.frame.geoid, "geoid_height": plan.frame.geoid_height, "unchanged": kept, "features": features,
                 "left_out": plan.left_out.len(), "warnings": warnings, "peak_memory_mb": report::peak_memory(),
             });

@@ -3,7 +3,10 @@
 mod glb;
 mod implicit;
 mod instances;
+#[cfg_attr(not(feature = "parquet"), path = "absent_rows.rs")]
+mod rows;
 mod subtree;
+mod table;
 mod tileset;
 mod unpack;
 

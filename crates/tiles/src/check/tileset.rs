@@ -11,7 +11,7 @@ use super::glb::GlbModel;
 use crate::earth::east_north_up;
 use crate::folder::{IMPLICIT_NAME, TileFolder, content_name};
 use crate::make::TileManifest;
-use crate::plan::{FeatureDigest, PlannedTile, TileId, TilePlan, id_digest};
+use crate::plan::{FeatureDigest, PlannedTile, TableFormat, TileId, TilePlan, id_digest};
 
 /// Result of a check.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -28,6 +28,8 @@ pub struct TilesetReport {
     pub features: u64,
     /// Number of features of the plan that no content has.
     pub missing: u64,
+    /// Number of tables.
+    pub tables: usize,
     /// Contradictions, at most 100.
     pub problems: Vec<String>,
 }
@@ -44,15 +46,19 @@ const DEPTH: usize = 64;
 /// Check in progress.
 pub(super) struct TilesetCheck<'a> {
     pub(super) folder: &'a TileFolder,
+    /// Formats of the tables of tiles.
+    pub(super) formats: &'a [TableFormat],
     plan: BTreeMap<String, &'a PlannedTile>,
     /// Tiles with content in this tileset.
     seen: BTreeMap<TileId, SeenTile>,
     /// Errors (m) of coarser levels of detail, of the manifests of tiles, by the positions of the tiles on the curve.
     errors: BTreeMap<u64, Vec<f64>>,
+    /// Parts of the digests of the features in contents, without coarser tiles.
+    finest: Vec<u64>,
     geoid: f64,
     /// Set to read contents.
     reads: bool,
-    report: TilesetReport,
+    pub(super) report: TilesetReport,
 }
 
 /// Volume and error of a tile, or of the tile around it.
@@ -89,9 +95,11 @@ struct SeenTile {
 pub fn check_tileset(folder: &TileFolder, plan: &TilePlan) -> Result<TilesetReport> {
     let mut check = TilesetCheck {
         folder,
+        formats: &plan.tables,
         plan: plan.all_tiles().into_iter().map(|tile| (content_name(tile.id), tile)).collect(),
         seen: BTreeMap::new(),
         errors: BTreeMap::new(),
+        finest: Vec::new(),
         geoid: plan.frame.geoid_height,
         reads: true,
         report: TilesetReport::default(),
@@ -99,6 +107,11 @@ pub fn check_tileset(folder: &TileFolder, plan: &TilePlan) -> Result<TilesetRepo
     check.whole("tileset.json")?;
     check.rest(plan)?;
     check.coarse(plan);
+    check.finest.sort_unstable();
+    let repeated = check.finest.windows(2).filter(|pair| pair[0] == pair[1]).count();
+    if repeated > 0 {
+        check.problem(format!("{repeated} features are in several tiles"));
+    }
     if folder.implicit_tileset().exists() {
         let explicit = std::mem::take(&mut check.seen);
         check.reads = false;
@@ -260,10 +273,13 @@ impl TilesetCheck<'_> {
             self.problem(format!("{uri} is in the tileset twice"));
             return Ok(());
         }
-        if content.has_children && !content.replaces {
+        if content.has_children && content.replaces && planned.is_tall() {
+            self.problem(format!("{uri} is replaced by tiles inside that have other features"));
+        }
+        if content.has_children && !content.replaces && !planned.is_tall() {
             self.problem(format!("{uri} is shown together with the same features in the tiles inside"));
         }
-        if content.has_children && planned.lod.is_none() {
+        if content.has_children && planned.lod.is_none() && !planned.is_tall() {
             self.problem(format!("{uri} has tiles inside, but no coarser level of detail"));
         }
         if !self.reads {
@@ -273,6 +289,7 @@ impl TilesetCheck<'_> {
             self.problem(format!("{uri} has no manifest that fits the plan"));
             return Ok(());
         };
+        self.tables(planned, &manifest)?;
         let Some(file) = manifest.content else {
             self.problem(format!("{uri}: the manifest has no content"));
             return Ok(());
@@ -335,6 +352,7 @@ impl TilesetCheck<'_> {
         }
         self.features(uri, planned, &ids);
         if planned.lod.is_none() {
+            self.finest.extend(ids.iter().map(|(layer, id)| id_digest(layer, id).short()));
             self.report.features += shown;
             self.report.missing += manifest.missing.len() as u64;
         }
@@ -363,6 +381,10 @@ impl TilesetCheck<'_> {
                 Some(manifest) if manifest.content.is_some() => {
                     self.problem(format!("{name} was made, but is not in the tileset: join again"));
                 }
+                Some(manifest) if manifest.error.is_none() && tile.lod.is_none() => {
+                    self.tables(tile, &manifest)?;
+                    self.report.missing += manifest.missing.len() as u64;
+                }
                 Some(manifest) if manifest.error.is_some() => {
                     self.report.missing += features;
                     if !manifest.missing.is_empty() {
@@ -371,9 +393,6 @@ impl TilesetCheck<'_> {
                             ids.map(|feature| (feature.layer.as_str(), feature.feature.as_str())).collect();
                         self.features(&name, tile, &ids);
                     }
-                }
-                Some(manifest) if tile.lod.is_none() => {
-                    self.report.missing += manifest.missing.len() as u64;
                 }
                 Some(_) => {}
             }

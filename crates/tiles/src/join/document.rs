@@ -140,7 +140,7 @@ impl TilesetWriter<'_> {
             body["children"] = Value::Array(children);
         }
         // The children have all features of a coarser tile, and tiles without content show nothing.
-        body["refine"] = if tile.has_content && !tile.children.is_empty() { "REPLACE" } else { "ADD" }.into();
+        body["refine"] = if tile.is_replaced() { "REPLACE" } else { "ADD" }.into();
         Ok(body)
     }
 
@@ -188,9 +188,9 @@ impl TilesetWriter<'_> {
     }
 }
 
-/// Returns true if the tile, or one inside, has content and children.
+/// Returns true if the tiles inside replace the content of the tile, or of one inside.
 fn has_coarse(tile: &TilesetTile) -> bool {
-    tile.has_content && !tile.children.is_empty() || tile.children.iter().any(has_coarse)
+    tile.is_replaced() || tile.children.iter().any(has_coarse)
 }
 
 /// Sets the transform of a tile inside a tile with the transform `parent`, unless they are the same.

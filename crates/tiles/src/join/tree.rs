@@ -32,6 +32,8 @@ pub struct TilesetTile {
     pub error: f64,
     /// True if the tile has content.
     pub has_content: bool,
+    /// True if the content is shown together with the tiles inside, which have other features.
+    pub is_added: bool,
     /// Tiles inside, in the order of the curve.
     pub children: Vec<TilesetTile>,
 }
@@ -46,6 +48,11 @@ impl TilesetTile {
     /// Returns the number of tiles with content.
     pub fn contents(&self) -> usize {
         usize::from(self.has_content) + self.children.iter().map(Self::contents).sum::<usize>()
+    }
+
+    /// Returns true if the tiles inside replace the content.
+    pub(super) fn is_replaced(&self) -> bool {
+        self.has_content && !self.is_added && !self.children.is_empty()
     }
 
     /// Returns the geometric error (m) while nothing of the tile is shown.
@@ -108,11 +115,16 @@ impl TreeJoin<'_> {
             bounds,
             error: children.iter().map(|child| child.error).fold(0.0, f64::max),
             has_content: content.is_some(),
+            is_added: content.is_some_and(|tile| tile.planned.is_tall()),
             children,
         };
         match content {
             Some(JoinedTile { planned: PlannedTile { lod: None, .. }, errors: own, .. }) => {
-                raise(&mut errors, own)
+                raise(&mut errors, own);
+                if tile.is_added && !tile.children.is_empty() {
+                    // The other features are not shown.
+                    tile.error = tile.absent_error();
+                }
             }
             Some(JoinedTile { planned, .. }) if !tile.children.is_empty() => {
                 let level = self.lods.iter().position(|lod| Some(*lod) == planned.lod);

@@ -4,14 +4,15 @@ use std::path::Path;
 
 use burgeon_base::error::{Error, Result};
 use burgeon_export::gltf::TileModelOptions;
+use burgeon_export::layers::{ColumnKind, TableColumn};
 use burgeon_spatial::{Crs, ReferenceFrame};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::{OmittedFeature, PlannedTile, TileGrid, TileId};
+use super::{OmittedFeature, PlannedTile, TableFormat, TallRule, TileGrid, TileId};
 
 /// Version of the format of plans and manifests.
-pub const PLAN_VERSION: u32 = 2;
+pub const PLAN_VERSION: u32 = 3;
 
 /// Frame of the coordinates of a plan.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -49,6 +50,8 @@ pub struct PlannedSource {
     pub bounds: [[f64; 3]; 2],
     /// Set if a tile can be read from a part of the file.
     pub in_parts: bool,
+    /// Attributes, and the types of their values in all features.
+    pub columns: Vec<TableColumn>,
 }
 
 /// TileDivision of the features of a script among tiles.
@@ -75,8 +78,13 @@ pub struct TilePlan {
     pub metadata: Vec<String>,
     /// Choices for the models of tiles.
     pub model: TileModelOptions,
+    /// Tables to be written beside the contents of tiles.
+    pub tables: Vec<TableFormat>,
     /// Sources of features.
     pub sources: Vec<PlannedSource>,
+    /// Rule for tall features, which inner tiles contain.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tall: Option<TallRule>,
     /// Levels of detail of coarser tiles, from fine to coarse.
     pub lods: Vec<u8>,
     /// Tiles, in an order that keeps neighbours together.
@@ -153,6 +161,8 @@ impl TilePlan {
             reach,
             metadata,
             model,
+            tables,
+            tall,
             lods,
             tiles,
             coarse,
@@ -170,7 +180,9 @@ impl TilePlan {
             ("reach", value(serde_json::to_string(reach))?),
             ("metadata", value(serde_json::to_string(metadata))?),
             ("model", value(serde_json::to_string(model))?),
+            ("tables", value(serde_json::to_string(tables))?),
             ("sources", value(serde_json::to_string(sources))?),
+            ("tall", value(serde_json::to_string(tall))?),
             ("lods", value(serde_json::to_string(lods))?),
             ("tiles", list(tiles)?),
             ("coarse", list(coarse)?),
@@ -184,6 +196,21 @@ impl TilePlan {
     /// Returns all tiles: those of the features, and the coarser ones.
     pub fn all_tiles(&self) -> Vec<&PlannedTile> {
         self.tiles.iter().chain(&self.coarse).collect()
+    }
+
+    /// Returns the attributes of all sources. Attributes with the same name are one column.
+    pub fn columns(&self) -> Vec<TableColumn> {
+        let mut columns: Vec<TableColumn> = Vec::new();
+        for column in self.sources.iter().flat_map(|source| &source.columns) {
+            match columns.iter_mut().find(|known| known.name == column.name) {
+                Some(known) => {
+                    let joined = ColumnKind::joined(Some(known.kind), Some(column.kind));
+                    known.kind = joined.unwrap_or(known.kind);
+                }
+                None => columns.push(column.clone()),
+            }
+        }
+        columns
     }
 
     /// Returns west, south, east and north (m) of the features that a tile needs: its own, and those within the reach.
@@ -205,10 +232,23 @@ impl TilePlan {
     /// changes its tile, the coarser tiles above it, and those within the reach.
     pub fn set_hashes(&mut self) -> Result<()> {
         let Self {
-            version, program, arguments, files, packages, frame, reach, metadata, model, lods, ..
+            version,
+            program,
+            arguments,
+            files,
+            packages,
+            frame,
+            reach,
+            metadata,
+            model,
+            tables,
+            tall,
+            lods,
+            ..
         } = &*self;
         let common = (version, program, arguments, files, packages, frame, reach, metadata, model, lods);
-        let common = serde_json::to_string(&common).map_err(Error::internal)?;
+        let columns = (!tables.is_empty()).then(|| self.columns());
+        let common = serde_json::to_string(&(common, tables, columns, tall)).map_err(Error::internal)?;
         let mut by_west: Vec<usize> = (0..self.tiles.len()).collect();
         by_west.sort_by(|a, b| self.tiles[*a].region[0].total_cmp(&self.tiles[*b].region[0]));
         let widest = self.tiles.iter().map(|tile| tile.region[2] - tile.region[0]).fold(0.0, f64::max);
@@ -217,7 +257,7 @@ impl TilePlan {
             hasher.update(common.as_bytes());
             hasher.update(tile.id.to_string().as_bytes());
             hasher.update(tile.data.as_bytes());
-            hasher.update(&[tile.lod.unwrap_or(u8::MAX)]);
+            hasher.update(&[tile.lod.unwrap_or(u8::MAX), tile.tall.map_or(u8::MAX, u8::from)]);
             if *reach > 0.0 {
                 let [west, south, east, north] = tile.region;
                 let first =
@@ -228,7 +268,11 @@ impl TilePlan {
                     .take_while(|other| other.region[0] <= east + reach)
                     .filter(|other| {
                         let [low_x, low_y, high_x, high_y] = other.region;
-                        (other.id.level < tile.id.level || other.id.ancestor(tile.id.level) != tile.id)
+                        // A coarser tile has the features of the tiles inside.
+                        let is_apart =
+                            other.id.level < tile.id.level || other.id.ancestor(tile.id.level) != tile.id;
+                        other.id != tile.id
+                            && (tile.lod.is_none() || is_apart)
                             && low_x <= east + reach
                             && high_x >= west - reach
                             && low_y <= north + reach
@@ -266,6 +310,7 @@ mod tests {
             data: data.to_owned(),
             hash: String::new(),
             lod: None,
+            tall: None,
         }
     }
 
@@ -281,7 +326,9 @@ mod tests {
             reach,
             metadata: Vec::new(),
             model: TileModelOptions::default(),
+            tables: Vec::new(),
             sources: Vec::new(),
+            tall: None,
             lods: vec![2],
             coarse: super::super::coarse_tiles(&tiles, &[2]),
             tiles,

@@ -7,6 +7,8 @@ mod file;
 mod grid;
 mod scan;
 mod shares;
+mod table;
+mod tall;
 mod tile;
 mod tile_id;
 
@@ -17,5 +19,7 @@ pub use file::{PLAN_VERSION, PlanFrame, PlannedFile, PlannedSource, TilePlan};
 pub use grid::TileGrid;
 pub use scan::{OmittedFeature, ScanResult, cell_digest, scan_source};
 pub use shares::{TileShare, share_of};
+pub use table::TableFormat;
+pub use tall::TallRule;
 pub use tile::PlannedTile;
 pub use tile_id::TileId;
