@@ -13,3 +13,4 @@ mod killed;
 mod levels;
 mod tables;
 mod tall;
+mod terrain;

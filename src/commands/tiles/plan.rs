@@ -10,10 +10,11 @@ use burgeon::scene::Scene;
 use burgeon::script::{RunOptions, Session};
 use burgeon::sources::{DataSources, SourceSurvey, SurveyedSource};
 use burgeon::tiles::earth::GeoidGrid;
+use burgeon::tiles::make::TerrainHeights;
 use burgeon::tiles::measure::draws_the_same;
 use burgeon::tiles::plan::{
-    PLAN_VERSION, PlanFrame, PlannedFile, PlannedSource, TableFormat, TallRule, TileDivision, TilePlan,
-    coarse_tiles, scan_source,
+    PLAN_VERSION, PlanFrame, PlannedFile, PlannedSource, PlannedTerrain, TableFormat, TallRule, TileDivision,
+    TilePlan, coarse_tiles, scan_source,
 };
 use burgeon::tiles::{EarthMap, TileFolder};
 use burgeon::{Error, Result};
@@ -70,6 +71,10 @@ pub(super) struct PlanCommand {
     /// Puts features whose attribute is at least a number into inner tiles, so that they are seen from afar, such as height:50
     #[arg(long, value_name = "ATTRIBUTE:NUMBER", value_parser = tall, conflicts_with = "levels")]
     tall: Option<TallRule>,
+
+    /// Adds terrain tiles of a grid of heights, such as a GeoTIFF
+    #[arg(long, value_name = "FILE")]
+    terrain: Option<PathBuf>,
 
     /// Tables of the features of each tile, beside its content: cityjson (a CityJSON sequence) or geoparquet, or both
     #[arg(long, value_name = "FORMATS", value_delimiter = ',', value_parser = table)]
@@ -217,6 +222,7 @@ impl PlanCommand {
             tables: TableFormat::ALL.into_iter().filter(|format| self.tables.contains(format)).collect(),
             sources: planned,
             tall: self.tall.clone(),
+            terrain: None,
             lods: Vec::new(),
             tiles: division.tiles(self.target_features),
             coarse: Vec::new(),
@@ -224,6 +230,7 @@ impl PlanCommand {
             notes,
         };
         self.add_geoid(&mut plan, folder)?;
+        self.add_terrain(&mut plan, folder)?;
         self.add_levels(&mut plan)?;
         plan.set_hashes()?;
         Ok(plan)
@@ -277,6 +284,22 @@ impl PlanCommand {
         Ok(())
     }
 
+    /// Adds the terrain to a plan.
+    fn add_terrain(&self, plan: &mut TilePlan, folder: &Path) -> Result<()> {
+        let Some(path) = &self.terrain else { return Ok(()) };
+        if !path.is_file() {
+            let name = path.display().to_string();
+            let message = format!("there is no file of heights {name}");
+            return Err(Error::not_found("file", name, [], message)
+                .help("specify a grid of heights, such as a GeoTIFF"));
+        }
+        let frame = plan.frame.reference()?;
+        let heights = TerrainHeights::open(path, &path.display().to_string(), &frame)?;
+        let file = PlannedFile { path: portable_path(folder, path)?, hash: hash_file(path)? };
+        plan.terrain = Some(PlannedTerrain::new(file, heights.area(), heights.step()));
+        Ok(())
+    }
+
     /// Adds coarser tiles to a plan, for the levels of detail that the script draws differently in samples.
     fn add_levels(&self, plan: &mut TilePlan) -> Result<()> {
         let options = self.script.options()?;
@@ -297,9 +320,11 @@ impl PlanCommand {
             return Ok(None);
         }
         let earlier = TilePlan::read(&path)?;
+        let terrain = |plan: &TilePlan| plan.terrain.as_ref().map(|terrain| terrain.file.path.clone());
         let same = (&earlier.script, &earlier.arguments) == (&plan.script, &plan.arguments)
             && (earlier.reach, &earlier.metadata, earlier.model) == (plan.reach, &plan.metadata, plan.model)
-            && (&earlier.tables, &earlier.tall) == (&plan.tables, &plan.tall);
+            && (&earlier.tables, &earlier.tall) == (&plan.tables, &plan.tall)
+            && terrain(&earlier) == terrain(plan);
         if same {
             return Ok(Some(earlier));
         }
@@ -329,11 +354,15 @@ impl PlanCommand {
         }
         if self.script.json {
             let document = json!({
-                "ok": true, "tiles": plan.tiles.len(), "tall": tall, "coarse": plan.coarse.len(), "lods": plan.lods,
+                "ok": true, "tiles": plan.tiles.len(), "tall": tall, "terrain": plan.terrain.as_ref().map_or(0, |terrain| terrain.tile_ids().len()), "coarse": plan.coarse.len(), "lods": plan.lods,
                 "geoid": plan.frame.geoid, "geoid_height": plan.frame.geoid_height, "unchanged": kept, "features": features,
                 "left_out": plan.left_out.len(), "warnings": warnings, "peak_memory_mb": report::peak_memory(),
             });
             return report::print(&format!("{document}\n"));
+        }
+        let terrain = plan.terrain.as_ref().map_or(0, |terrain| terrain.tile_ids().len());
+        if terrain > 0 {
+            report::eprint(&format!("{terrain} terrain tiles\n"));
         }
         let largest = plan.tiles.iter().map(|tile| tile.features).max().unwrap_or(0);
         let height = plan.frame.geoid_height;

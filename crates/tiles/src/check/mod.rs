@@ -7,6 +7,7 @@ mod instances;
 mod rows;
 mod subtree;
 mod table;
+mod terrain;
 mod tileset;
 mod unpack;
 

@@ -2,15 +2,17 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+use std::path::Path;
 
 use burgeon_base::error::{Error, Result};
 use glam::{DAffine3, DMat4, DVec3};
 use serde_json::Value;
 
 use super::glb::GlbModel;
+use super::terrain::TerrainCheck;
 use crate::earth::east_north_up;
 use crate::folder::{IMPLICIT_NAME, TileFolder, content_name};
-use crate::make::TileManifest;
+use crate::make::{TileFile, TileManifest};
 use crate::plan::{FeatureDigest, PlannedTile, TableFormat, TileId, TilePlan, id_digest};
 
 /// Result of a check.
@@ -28,6 +30,8 @@ pub struct TilesetReport {
     pub features: u64,
     /// Number of features of the plan that no content has.
     pub missing: u64,
+    /// Number of terrain tiles.
+    pub terrain: usize,
     /// Number of tables.
     pub tables: usize,
     /// Contradictions, at most 100.
@@ -57,7 +61,8 @@ pub(super) struct TilesetCheck<'a> {
     finest: Vec<u64>,
     geoid: f64,
     /// Set to read contents.
-    reads: bool,
+    pub(super) reads: bool,
+    pub(super) terrain: TerrainCheck,
     pub(super) report: TilesetReport,
 }
 
@@ -96,15 +101,17 @@ pub fn check_tileset(folder: &TileFolder, plan: &TilePlan) -> Result<TilesetRepo
     let mut check = TilesetCheck {
         folder,
         formats: &plan.tables,
-        plan: plan.all_tiles().into_iter().map(|tile| (content_name(tile.id), tile)).collect(),
+        plan: plan.all_tiles().into_iter().map(|tile| (content_name("", tile.id), tile)).collect(),
         seen: BTreeMap::new(),
         errors: BTreeMap::new(),
         finest: Vec::new(),
         geoid: plan.frame.geoid_height,
         reads: true,
+        terrain: TerrainCheck::new(plan)?,
         report: TilesetReport::default(),
     };
     check.whole("tileset.json")?;
+    check.terrain_rest()?;
     check.rest(plan)?;
     check.coarse(plan);
     check.finest.sort_unstable();
@@ -117,6 +124,7 @@ pub fn check_tileset(folder: &TileFolder, plan: &TilePlan) -> Result<TilesetRepo
         check.reads = false;
         check.whole(IMPLICIT_NAME)?;
         check.compare(&explicit);
+        check.terrain_rest()?;
     }
     Ok(check.report)
 }
@@ -260,6 +268,9 @@ impl TilesetCheck<'_> {
     /// Checks the content of a tile.
     pub(super) fn content(&mut self, content: &ShownContent<'_>, tile: &ParentTile) -> Result<()> {
         let uri = content.uri;
+        if self.terrain(content, tile)? {
+            return Ok(());
+        }
         let Some(planned) = self.plan.get(uri).copied() else {
             self.problem(format!("{uri} is not in the plan"));
             return Ok(());
@@ -294,41 +305,9 @@ impl TilesetCheck<'_> {
             self.problem(format!("{uri}: the manifest has no content"));
             return Ok(());
         };
-        let expected = east_north_up(file.degrees, self.geoid);
-        let far = tile.transform.to_cols_array().iter().zip(expected.to_cols_array()).any(|(is, wanted)| {
-            // Translations are about 6,400 km long.
-            (is - wanted).abs() > 1e-5
-        });
-        if far {
-            self.problem(format!("{uri}: its transforms do not lead to its place on the ellipsoid"));
-        }
-        let path = self.folder.content(planned.id);
-        let bytes = fs::read(&path).map_err(|error| {
-            Error::file(&path, format!("cannot read {}: {error}", path.display()))
-                .help("check its permissions")
-        })?;
-        if blake3::hash(&bytes).to_hex()[..32] != *file.hash {
-            self.problem(format!("{uri}: the content is not that of the manifest"));
-        }
-        let model = match GlbModel::read(&bytes) {
-            Ok(model) => model,
-            Err(why) => {
-                self.problem(format!("{uri}: {why}"));
-                return Ok(());
-            }
+        let Some(model) = self.model(uri, &self.folder.content(planned.id), &file, tile)? else {
+            return Ok(());
         };
-        let bounds = tile.bounds.unwrap_or_default();
-        // The box is along the axes of the content, so the extreme points decide for all.
-        if !(is_inside(&bounds, model.low, NEAR) && is_inside(&bounds, model.high, NEAR)) {
-            self.problem(format!(
-                "{uri}: points from {} to {} are outside the volume",
-                model.low, model.high
-            ));
-        }
-        if model.triangles != file.triangles {
-            let (is, said) = (model.triangles, file.triangles);
-            self.problem(format!("{uri} has {is} triangles, but the manifest says {said}"));
-        }
         match planned.lod {
             Some(_) => self.report.coarse += 1,
             None => {
@@ -357,6 +336,52 @@ impl TilesetCheck<'_> {
             self.report.missing += manifest.missing.len() as u64;
         }
         Ok(())
+    }
+
+    /// Reads the content at `path` of a tile, and checks its place, its hash, its volume and its number of triangles; `None` if it
+    /// cannot be read as a model.
+    pub(super) fn model(
+        &mut self,
+        uri: &str,
+        path: &Path,
+        file: &TileFile,
+        tile: &ParentTile,
+    ) -> Result<Option<GlbModel>> {
+        let expected = east_north_up(file.degrees, self.geoid);
+        let far = tile.transform.to_cols_array().iter().zip(expected.to_cols_array()).any(|(is, wanted)| {
+            // Translations are about 6,400 km long.
+            (is - wanted).abs() > 1e-5
+        });
+        if far {
+            self.problem(format!("{uri}: its transforms do not lead to its place on the ellipsoid"));
+        }
+        let bytes = fs::read(path).map_err(|error| {
+            Error::file(path, format!("cannot read {}: {error}", path.display()))
+                .help("check its permissions")
+        })?;
+        if blake3::hash(&bytes).to_hex()[..32] != *file.hash {
+            self.problem(format!("{uri}: the content is not that of the manifest"));
+        }
+        let model = match GlbModel::read(&bytes) {
+            Ok(model) => model,
+            Err(why) => {
+                self.problem(format!("{uri}: {why}"));
+                return Ok(None);
+            }
+        };
+        let bounds = tile.bounds.unwrap_or_default();
+        // The box is along the axes of the content, so the extreme points decide for all.
+        if !(is_inside(&bounds, model.low, NEAR) && is_inside(&bounds, model.high, NEAR)) {
+            self.problem(format!(
+                "{uri}: points from {} to {} are outside the volume",
+                model.low, model.high
+            ));
+        }
+        if model.triangles != file.triangles {
+            let (is, said) = (model.triangles, file.triangles);
+            self.problem(format!("{uri} has {is} triangles, but the manifest says {said}"));
+        }
+        Ok(Some(model))
     }
 
     /// Checks that these features are those of the plan.

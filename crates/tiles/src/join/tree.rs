@@ -77,13 +77,20 @@ pub(crate) fn corners(bounds: &[f64; 12]) -> [DVec3; 8] {
 /// `lods` are the levels of detail of coarser tiles, from fine to coarse. The error of a coarser tile is the largest error of its
 /// level of detail in the tiles inside, and at least that of its children.
 pub fn join_tree(tiles: &[JoinedTile<'_>], map: &EarthMap<'_>, lods: &[u8]) -> Result<Option<TilesetTile>> {
-    Ok(TreeJoin { map, lods }.join(tiles)?.map(|(tile, _)| tile))
+    Ok(TreeJoin { map, lods, is_terrain: false }.join(tiles)?.map(|(tile, _)| tile))
+}
+
+/// Returns the tree of terrain tiles with content, as [`join_tree`]. The error of a tile is its distance from the tiles inside, and the
+/// largest of their errors.
+pub(super) fn join_terrain(tiles: &[JoinedTile<'_>], map: &EarthMap<'_>) -> Result<Option<TilesetTile>> {
+    Ok(TreeJoin { map, lods: &[], is_terrain: true }.join(tiles)?.map(|(tile, _)| tile))
 }
 
 /// Parameters of a join.
 struct TreeJoin<'a> {
     map: &'a EarthMap<'a>,
     lods: &'a [u8],
+    is_terrain: bool,
 }
 
 impl TreeJoin<'_> {
@@ -119,6 +126,11 @@ impl TreeJoin<'_> {
             children,
         };
         match content {
+            Some(content) if self.is_terrain => {
+                if !tile.children.is_empty() {
+                    tile.error += content.errors.first().copied().unwrap_or(0.0);
+                }
+            }
             Some(JoinedTile { planned: PlannedTile { lod: None, .. }, errors: own, .. }) => {
                 raise(&mut errors, own);
                 if tile.is_added && !tile.children.is_empty() {

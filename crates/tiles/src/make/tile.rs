@@ -58,6 +58,13 @@ pub struct BuiltTile {
     pub content: Result<TileContent>,
 }
 
+impl BuiltTile {
+    /// Returns a tile that could not be built, without features.
+    pub fn failed(error: Error) -> Self {
+        Self { features: Vec::new(), content: Err(error) }
+    }
+}
+
 /// Result of a request for a tile.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TileOutcome {

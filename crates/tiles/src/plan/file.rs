@@ -9,7 +9,7 @@ use burgeon_spatial::{Crs, ReferenceFrame};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::{OmittedFeature, PlannedTile, TableFormat, TallRule, TileGrid, TileId};
+use super::{OmittedFeature, PlannedTerrain, PlannedTile, TableFormat, TallRule, TileGrid, TileId};
 
 /// Version of the format of plans and manifests.
 pub const PLAN_VERSION: u32 = 3;
@@ -85,6 +85,9 @@ pub struct TilePlan {
     /// Rule for tall features, which inner tiles contain.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tall: Option<TallRule>,
+    /// Terrain, whose tiles are beside those of the features.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub terrain: Option<PlannedTerrain>,
     /// Levels of detail of coarser tiles, from fine to coarse.
     pub lods: Vec<u8>,
     /// Tiles, in an order that keeps neighbours together.
@@ -163,6 +166,7 @@ impl TilePlan {
             model,
             tables,
             tall,
+            terrain,
             lods,
             tiles,
             coarse,
@@ -183,6 +187,7 @@ impl TilePlan {
             ("tables", value(serde_json::to_string(tables))?),
             ("sources", value(serde_json::to_string(sources))?),
             ("tall", value(serde_json::to_string(tall))?),
+            ("terrain", value(serde_json::to_string(terrain))?),
             ("lods", value(serde_json::to_string(lods))?),
             ("tiles", list(tiles)?),
             ("coarse", list(coarse)?),
@@ -196,6 +201,24 @@ impl TilePlan {
     /// Returns all tiles: those of the features, and the coarser ones.
     pub fn all_tiles(&self) -> Vec<&PlannedTile> {
         self.tiles.iter().chain(&self.coarse).collect()
+    }
+
+    /// Returns the terrain tiles, in the order of the curve. Their hashes depend on the program, the file of the heights, the frame and
+    /// the choices for models.
+    pub fn terrain_tiles(&self) -> Result<Vec<PlannedTile>> {
+        let Some(terrain) = &self.terrain else { return Ok(Vec::new()) };
+        let common = (self.version, &self.program, &self.frame, terrain, &self.model);
+        let geoid = self.files.iter().find(|file| Some(&file.path) == self.frame.geoid.as_ref());
+        let common = serde_json::to_string(&(common, geoid)).map_err(Error::internal)?;
+        let cost = f64::from(PlannedTerrain::SQUARES);
+        let tile = |id: TileId| {
+            let mut hasher = blake3::Hasher::new();
+            hasher.update(common.as_bytes()).update(id.to_string().as_bytes());
+            let hash = hasher.finalize().to_hex()[..32].to_owned();
+            let (ids, data, region) = (String::new(), String::new(), terrain.part(id));
+            PlannedTile { id, features: 0, cost, region, ids, data, hash, lod: None, tall: None }
+        };
+        Ok(terrain.tile_ids().into_iter().map(tile).collect())
     }
 
     /// Returns the attributes of all sources. Attributes with the same name are one column.
@@ -329,6 +352,7 @@ mod tests {
             tables: Vec::new(),
             sources: Vec::new(),
             tall: None,
+            terrain: None,
             lods: vec![2],
             coarse: super::super::coarse_tiles(&tiles, &[2]),
             tiles,

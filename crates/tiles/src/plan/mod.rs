@@ -9,6 +9,7 @@ mod scan;
 mod shares;
 mod table;
 mod tall;
+mod terrain;
 mod tile;
 mod tile_id;
 
@@ -21,5 +22,6 @@ pub use scan::{OmittedFeature, ScanResult, cell_digest, scan_source};
 pub use shares::{TileShare, share_of};
 pub use table::TableFormat;
 pub use tall::TallRule;
+pub use terrain::PlannedTerrain;
 pub use tile::PlannedTile;
 pub use tile_id::TileId;
