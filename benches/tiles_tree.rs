@@ -110,6 +110,7 @@ fn write_manifests(folder: &TileFolder, plan: &TilePlan) -> Outcome<()> {
             tile: tile.id,
             hash: tile.hash.clone(),
             content: Some(file),
+            tables: Vec::new(),
             features: tile.features,
             missing: Vec::new(),
             error: None,

@@ -1,4 +1,4 @@
-"""Makes tiles with Dask: dask_tiles.py SCRIPT DATA FOLDER [WORKERS or SCHEDULER]
+"""Makes tiles with Dask: dask_tiles.py SCRIPT DATA FOLDER WORKERS or SCHEDULER [OPTIONS OF PLAN]
 
 Workers share the folder. A share is repeated if a file could not be written (status 75). Needs: pip install distributed
 """
@@ -23,11 +23,10 @@ def make(folder, share, shares):
 
 
 if __name__ == "__main__":
-    script, data, folder, *workers = sys.argv[1:]
-    at = workers[0] if workers else "2"
+    script, data, folder, at, *options = sys.argv[1:]
     client = Client(n_workers=int(at), threads_per_worker=1) if at.isdigit() else Client(at)
     shares = 4 * len(client.scheduler_info()["workers"])
-    if burgeon("plan", script, "--data", data, "-o", folder) != 0:
+    if burgeon("plan", script, "--data", data, "-o", folder, *options) != 0:
         sys.exit(1)
     made = [client.submit(make, folder, share, shares, retries=2, pure=False) for share in range(1, shares + 1)]
     failed = sum(bool(future.exception() or future.result()) for future in made)

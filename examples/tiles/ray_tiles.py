@@ -1,4 +1,4 @@
-"""Makes tiles with Ray: ray_tiles.py SCRIPT DATA FOLDER [WORKERS]
+"""Makes tiles with Ray: ray_tiles.py SCRIPT DATA FOLDER WORKERS or CLUSTER [OPTIONS OF PLAN]
 
 Workers share the folder. A share is repeated if a worker dies or a file could not be written (status 75). Needs: pip install ray
 """
@@ -24,11 +24,10 @@ def make(folder, share, shares):
 
 
 if __name__ == "__main__":
-    script, data, folder, *workers = sys.argv[1:]
-    # Without a number of workers, the cluster of RAY_ADDRESS is used, or all cores.
-    ray.init(num_cpus=int(workers[0]) if workers else None)
+    script, data, folder, at, *options = sys.argv[1:]
+    ray.init(num_cpus=int(at)) if at.isdigit() else ray.init(address=at)
     shares = 4 * int(ray.cluster_resources()["CPU"])
-    if burgeon("plan", script, "--data", data, "-o", folder) != 0:
+    if burgeon("plan", script, "--data", data, "-o", folder, *options) != 0:
         sys.exit(1)
     made = [make.remote(folder, share, shares) for share in range(1, shares + 1)]
     statuses = ray.get(made)

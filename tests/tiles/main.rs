@@ -11,3 +11,6 @@ mod heights;
 mod implicit;
 mod killed;
 mod levels;
+mod tables;
+mod tall;
+mod terrain;

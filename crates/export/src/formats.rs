@@ -36,7 +36,7 @@ pub const PNG: Format = Format {
 };
 
 /// All formats of a model, in the order in which messages list them.
-pub static FORMATS: [Format; 9] = [
+pub static FORMATS: [Format; 10] = [
     GLB,
     Format {
         file: FileFormat {
@@ -105,6 +105,19 @@ pub static FORMATS: [Format; 9] = [
         has_metadata: false,
         has_textures: false,
         write: city::write,
+    },
+    Format {
+        file: FileFormat {
+            extensions: &["city.jsonl"],
+            title: "CityJSONSeq 2.0, a city object per line",
+            companion: None,
+            check: always,
+        },
+        media_type: "application/city+json-seq",
+        needs: &[Scene, Attributes],
+        has_metadata: false,
+        has_textures: false,
+        write: city::write_sequence,
     },
     Format {
         file: FileFormat {

@@ -41,6 +41,7 @@ mod x3d;
 #[cfg(test)]
 mod samples;
 
+pub use city::write_city_sequence;
 pub use facts::{Export, SceneFacts, SystemFacts};
 pub use files::{Files, OpenFile, Out, Stoppable};
 pub use format::{FileFormat, Format, Need, extension_list};

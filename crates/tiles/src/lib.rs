@@ -5,7 +5,8 @@
 //! a host name or an absolute path.
 //!
 //! - [`plan`]: a [`TileDivision`] divides the features by a quadtree into the [`PlannedTile`]s of a [`TilePlan`].
-//! - [`make`]: [`make_tile`] writes a tile and its [`TileManifest`], unless they fit the plan already.
+//! - [`make`]: [`make_tile`] writes a tile, its [tables](make::TileTables) and its [`TileManifest`], unless they fit the plan already.
+//!   [`TerrainHeights`](make::TerrainHeights) builds the tiles of a [terrain](plan::PlannedTerrain).
 //! - [`join`]: [`join_tiles`] writes the tileset and the missing features.
 //! - [`check`]: [`check_tileset`] proves that the tileset is what the plan says.
 //! - [`measure`]: distances between levels of detail.

@@ -35,7 +35,9 @@ impl TileStatus {
         let mut status = Self::default();
         let (mut done, mut all) = (0.0, 0.0);
         let mut times: Vec<SystemTime> = Vec::new();
-        for tile in plan.all_tiles() {
+        let (terrain_folder, terrain) = (folder.terrain(), plan.terrain_tiles()?);
+        let of_terrain = terrain.iter().map(|tile| (&terrain_folder, tile));
+        for (folder, tile) in plan.all_tiles().into_iter().map(|tile| (folder, tile)).chain(of_terrain) {
             all += tile.cost;
             let Some(manifest) = TileManifest::fitting(folder, tile)? else {
                 status.open += 1;

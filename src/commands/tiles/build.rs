@@ -2,16 +2,20 @@
 
 use std::path::Path;
 use std::sync::Arc;
+use std::time::Instant;
 
+use burgeon::error::Limit;
 use burgeon::scene::Scene;
-use burgeon::script::{FeaturePart, RunOptions, Session};
+use burgeon::script::{FeatureChoice, FeaturePart, RunOptions, Session};
 use burgeon::sources::{DataSources, Layer, ReferenceFrame, SourceWindow, WindowBox};
-use burgeon::tiles::make::{BuiltTile, TileContent, portable_message, tile_features, verify_features};
+use burgeon::tiles::make::{
+    BuiltTile, TileContent, TileTables, is_retriable, portable_message, tile_features, verify_features,
+};
 use burgeon::tiles::measure::FeatureDrawings;
 use burgeon::tiles::plan::TileGrid;
 use burgeon::tiles::{PlannedTile, TilePlan};
 use burgeon::warning::WarningKind;
-use burgeon::{Result, Run};
+use burgeon::{Error, Result, Run, Stop};
 
 use super::super::run::{attributes, systems};
 
@@ -31,8 +35,9 @@ impl<'a> TileBuilder<'a> {
         Ok(Self { plan, frame: plan.frame.reference()?, options, sources: DataSources::cached(), script })
     }
 
-    /// Builds a tile. One of the features also has the errors of the coarser levels of detail.
-    pub(super) fn build(&self, tile: &PlannedTile) -> BuiltTile {
+    /// Builds a tile. One of the features also has the errors of the coarser levels of detail, unless `stop` is requested or measuring
+    /// them exceeds the time limit of a run.
+    pub(super) fn build(&self, tile: &PlannedTile, stop: &Stop) -> BuiltTile {
         let window = self.window(tile);
         let run = self.run(tile, &window, tile.lod.unwrap_or(self.options.lod));
         let served = window.served().into_iter();
@@ -40,13 +45,21 @@ impl<'a> TileBuilder<'a> {
         let layers: Vec<Arc<Layer>> =
             served.filter(|(key, _)| is_planned(key)).map(|(_, layer)| layer).collect();
         let all = layers.len() == self.plan.sources.len();
-        let features = tile_features(tile, &layers);
+        let features = tile_features(self.plan, tile, &layers);
         // Changed data explain an error of the script better than the error.
-        let verified = if all { verify_features(tile, &layers) } else { Ok(()) };
+        let verified = if all { verify_features(self.plan, tile, &layers) } else { Ok(()) };
         let content = verified.and(run).and_then(|(session, run)| self.content(&session, run));
-        let content = content.map(|content| match tile.lod {
-            None => TileContent { errors: self.errors(tile, &content.scene), ..content },
-            Some(_) => content,
+        let content = content.map(|content| {
+            let detail = self.options.lod;
+            let tables = TileTables::new(self.plan, tile, &content, &layers, (&self.frame, detail));
+            TileContent { tables, ..content }
+        });
+        let content = content.and_then(|content| match tile.lod {
+            None => {
+                let errors = self.errors(tile, &content.scene, stop)?;
+                Ok(TileContent { errors, ..content })
+            }
+            Some(_) => Ok(content),
         });
         BuiltTile { features, content }
     }
@@ -57,12 +70,29 @@ impl<'a> TileBuilder<'a> {
     }
 
     /// Returns the errors (m) of the coarser levels of detail of a tile, whose features are `fine`.
-    fn errors(&self, tile: &PlannedTile, fine: &Scene) -> Vec<f64> {
-        // Where a coarser level fails, its tile reports the failure, and nothing is drawn.
-        let scenes = self.plan.lods.iter().map(|lod| self.scene(tile, *lod).unwrap_or_default());
-        let scenes: Vec<Scene> = scenes.collect();
+    fn errors(&self, tile: &PlannedTile, fine: &Scene, stop: &Stop) -> Result<Vec<f64>> {
+        if self.plan.lods.is_empty() {
+            return Ok(Vec::new());
+        }
+        let scene = |lod: &u8| match self.scene(tile, *lod) {
+            Err(error) if is_retriable(&error) => Err(error),
+            // Where a coarser level fails, its tile reports the failure, and nothing is drawn.
+            scene => Ok(scene.unwrap_or_default()),
+        };
+        let scenes: Vec<Scene> = self.plan.lods.iter().map(scene).collect::<Result<_>>()?;
         let coarse: Vec<FeatureDrawings<'_>> = scenes.iter().map(FeatureDrawings::new).collect();
-        FeatureDrawings::new(fine).errors(&coarse)
+        let (begin, limit) = (Instant::now(), self.options.limits.time);
+        let proceed = || {
+            stop.check()?;
+            if begin.elapsed() < limit {
+                return Ok(());
+            }
+            let seconds = limit.as_secs_f64();
+            let message = format!("measuring the levels of detail exceeded the time limit of {seconds} s");
+            Err(Error::limit(Limit::Time, message)
+                .help("plan smaller tiles, --target-features, or raise the limit: --time-limit SECONDS"))
+        };
+        FeatureDrawings::new(fine).errors(&coarse, &proceed)
     }
 
     /// Returns the boxes of the features that a tile needs.
@@ -81,6 +111,11 @@ impl<'a> TileBuilder<'a> {
         options.registry.set_sources(Arc::new(self.sources.windowed(window)));
         let cell = Some(TileGrid::bounds(tile.id));
         options.part = Some(FeaturePart { number: 1, count: 1, reach: self.plan.reach, cell });
+        options.choice = tile.tall.zip(self.plan.tall.as_ref()).map(|(is_reached, rule)| FeatureChoice {
+            attribute: rule.attribute.clone(),
+            least: rule.least,
+            is_reached,
+        });
         let session = Session::new(self.script, options)?;
         let mut run = burgeon::run_session(&session)?;
         run.note_packages(&session)?;
@@ -106,6 +141,15 @@ impl<'a> TileBuilder<'a> {
         let warnings = run.warnings.into_iter().map(|warning| portable_message(&warning.into_error()));
         let warnings = warnings.collect();
         let (model, errors) = (self.plan.model, Vec::new());
-        Ok(TileContent { scene: run.scene, systems, metadata, model, skipped, warnings, errors })
+        Ok(TileContent {
+            scene: run.scene,
+            systems,
+            metadata,
+            model,
+            skipped,
+            warnings,
+            errors,
+            tables: None,
+        })
     }
 }

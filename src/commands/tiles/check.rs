@@ -34,8 +34,8 @@ impl CheckTilesCommand {
         }
         if self.json {
             let document = json!({
-                "ok": true, "tiles": checked.tiles, "coarse": checked.coarse, "points": checked.points, "triangles": checked.triangles,
-                "features": checked.features, "missing": checked.missing,
+                "ok": true, "tiles": checked.tiles, "coarse": checked.coarse, "terrain": checked.terrain, "points": checked.points, "triangles": checked.triangles,
+                "features": checked.features, "missing": checked.missing, "tables": checked.tables,
             });
             return report::print(&format!("{document}\n"));
         }

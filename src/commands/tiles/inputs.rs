@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use burgeon::tiles::TileFolder;
 use burgeon::tiles::earth::GeoidGrid;
+use burgeon::tiles::make::TerrainHeights;
 use burgeon::tiles::plan::{PlannedFile, TilePlan};
 use burgeon::{Error, Result};
 use clap::Parser;
@@ -71,6 +72,13 @@ pub(super) fn geoid(folder: &Path, plan: &TilePlan) -> Result<Option<GeoidGrid>>
     grid.map(|path| GeoidGrid::open(&local_path(folder, Path::new(path)), path)).transpose()
 }
 
+/// Returns the heights of the terrain of a plan in `folder`, if it has one.
+pub(super) fn terrain_heights(folder: &Path, plan: &TilePlan) -> Result<Option<TerrainHeights>> {
+    let frame = plan.frame.reference()?;
+    let file = plan.terrain.as_ref().map(|terrain| &terrain.file.path);
+    file.map(|path| TerrainHeights::open(&local_path(folder, Path::new(path)), path, &frame)).transpose()
+}
+
 /// Fails if the program or a file is not that of the plan.
 pub(super) fn verify_files(folder: &Path, plan: &TilePlan) -> Result<()> {
     let version = env!("CARGO_PKG_VERSION");
@@ -81,7 +89,8 @@ pub(super) fn verify_files(folder: &Path, plan: &TilePlan) -> Result<()> {
         ))
         .help("plan again with this version"));
     }
-    for PlannedFile { path, hash } in &plan.files {
+    let terrain = plan.terrain.iter().map(|terrain| &terrain.file);
+    for PlannedFile { path, hash } in plan.files.iter().chain(terrain) {
         if hash_file(&local_path(folder, Path::new(path)))? != *hash {
             return Err(Error::data(format!("{path} has changed since the plan was made"))
                 .help("plan again: burgeon tiles plan SCRIPT -o FOLDER; tiles that do not change are kept"));

@@ -52,7 +52,7 @@ impl JoinCommand {
         let joined = join_tiles(folder, &plan, self.tiling.into())?;
         if self.json {
             let document = json!({
-                "ok": true, "tiles": joined.tiles, "coarse": joined.coarse, "empty": joined.empty, "failed": joined.failed, "open": joined.open,
+                "ok": true, "tiles": joined.tiles, "coarse": joined.coarse, "terrain": joined.terrain, "empty": joined.empty, "failed": joined.failed, "open": joined.open,
                 "features": joined.features, "missing": joined.missing, "tilesets": joined.tilesets,
                 "subtrees": joined.subtrees,
             });

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use burgeon::tiles::make::{make_tile, sweep_temporary};
+use burgeon::tiles::make::{BuiltTile, make_tile, sweep_temporary};
 use burgeon::tiles::plan::{TileShare, share_of};
 use burgeon::tiles::{EarthMap, PlannedTile, TileFolder, TileId, TileManifest, TileOutcome, TilePlan};
 use burgeon::{Error, Result, Stop};
@@ -17,7 +17,7 @@ use super::super::progress::ProgressDisplay;
 use super::super::report;
 use super::super::shared::{end_on_interrupt, seconds, threads};
 use super::build::TileBuilder;
-use super::inputs::{geoid, planned_flags, tile_folder, verify_files};
+use super::inputs::{geoid, planned_flags, terrain_heights, tile_folder, verify_files};
 
 /// Makes the tiles of a plan that have not been made, or a share of them
 #[derive(Args)]
@@ -85,11 +85,17 @@ impl MakeCommand {
         let begin = Instant::now();
         let folder = &self.folder;
         let plan = TilePlan::read(&folder.plan())?;
-        let planned = plan.all_tiles();
+        let terrain = plan.terrain_tiles()?;
+        let planned: Vec<&PlannedTile> = plan.all_tiles().into_iter().chain(&terrain).collect();
+        let features = planned.len() - terrain.len();
         let (name, tiles) = self.tiles(&planned)?;
         verify_files(folder.path(), &plan)?;
         end_on_interrupt()?;
-        sweep_temporary(folder, Duration::from_secs_f64(self.stale_after));
+        let terrain_folder = folder.terrain();
+        for folder in [folder, &terrain_folder] {
+            sweep_temporary(folder, Duration::from_secs_f64(self.stale_after));
+        }
+        let mut heights = None;
         let flags = planned_flags(folder.path(), &plan, self.threads)?;
         let builder = TileBuilder::new(&plan, &flags.script, flags.options()?)?;
         let frame = plan.frame.reference()?;
@@ -104,16 +110,32 @@ impl MakeCommand {
         let mut in_a_row = 0;
         for index in tiles {
             let tile = planned[index];
+            let is_terrain = index >= features;
+            let folder = if is_terrain { &terrain_folder } else { folder };
             self.forget_failed(folder, tile.id)?;
             let started = Instant::now();
             // Each tile has its own signal, so that limits apply to a tile.
             let stop = Arc::new(Stop::default());
-            match make_tile(folder, tile, &map, &stop, |tile| builder.build(tile)) {
+            let build = |tile: &PlannedTile| match (&plan.terrain, is_terrain) {
+                (Some(terrain), true) => {
+                    // A share without terrain tiles to be made does not read the heights.
+                    let heights = heights.get_or_insert_with(|| {
+                        terrain_heights(self.folder.path(), &plan).map(|it| it.map(Arc::new))
+                    });
+                    match heights {
+                        Ok(Some(heights)) => heights.build(terrain, tile, plan.model),
+                        Ok(None) => BuiltTile::failed(Error::internal("the plan has no terrain")),
+                        Err(error) => BuiltTile::failed(error.clone()),
+                    }
+                }
+                _ => builder.build(tile, &stop),
+            };
+            match make_tile(folder, tile, &map, &stop, build) {
                 Ok(outcome) => {
                     in_a_row = 0;
                     counts.add(&outcome);
                     if matches!(outcome, TileOutcome::Made(_)) {
-                        note_time(folder, &name, tile.id, started.elapsed());
+                        note_time(&self.folder, &name, tile.id, started.elapsed());
                     }
                 }
                 Err(error) => {

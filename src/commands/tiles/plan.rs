@@ -11,9 +11,11 @@ use burgeon::scene::Scene;
 use burgeon::script::{RunOptions, Session};
 use burgeon::sources::{DataSources, SourceSurvey, SurveyedSource};
 use burgeon::tiles::earth::GeoidGrid;
+use burgeon::tiles::make::TerrainHeights;
 use burgeon::tiles::measure::draws_the_same;
 use burgeon::tiles::plan::{
-    PLAN_VERSION, PlanFrame, PlannedFile, PlannedSource, TileDivision, TilePlan, coarse_tiles, scan_source,
+    PLAN_VERSION, PlanFrame, PlannedFile, PlannedSource, PlannedTerrain, TableFormat, TallRule, TileDivision,
+    TilePlan, coarse_tiles, scan_source,
 };
 use burgeon::tiles::{EarthMap, TileFolder};
 use burgeon::{Error, Result};
@@ -68,6 +70,18 @@ pub(super) struct PlanCommand {
     #[arg(long, value_name = "METRES", default_value_t = 0.001, value_parser = precision)]
     precision: f64,
 
+    /// Puts features whose attribute is at least a number into inner tiles, so that they are seen from afar, such as height:50
+    #[arg(long, value_name = "ATTRIBUTE:NUMBER", value_parser = tall, conflicts_with = "levels")]
+    tall: Option<TallRule>,
+
+    /// Adds terrain tiles of a grid of heights, such as a GeoTIFF
+    #[arg(long, value_name = "FILE")]
+    terrain: Option<PathBuf>,
+
+    /// Tables of the features of each tile, beside its content: cityjson (a CityJSON sequence) or geoparquet, or both
+    #[arg(long, value_name = "FORMATS", value_delimiter = ',', value_parser = table)]
+    tables: Vec<TableFormat>,
+
     /// Replaces the plan of another script or of other arguments
     #[arg(long)]
     replace: bool,
@@ -87,6 +101,15 @@ fn compression(text: &str) -> Result<TileCompression, &'static str> {
         "meshopt" => Ok(TileCompression::Meshopt),
         _ => Err("write none, quantize or meshopt"),
     }
+}
+
+fn tall(text: &str) -> Result<TallRule, String> {
+    text.parse().map_err(Error::into_message)
+}
+
+fn table(text: &str) -> Result<TableFormat, String> {
+    let known = TableFormat::ALL.into_iter().find(|format| format.to_string() == text);
+    known.ok_or_else(|| format!("write {}", TableFormat::ALL.map(|format| format.to_string()).join(" or ")))
 }
 
 fn precision(text: &str) -> Result<f64, &'static str> {
@@ -156,17 +179,24 @@ impl PlanCommand {
         let own: BTreeSet<PathBuf> =
             sources.iter().filter_map(|source| source.path.canonicalize().ok()).collect();
         for source in sources {
-            let scan = scan_source((&source.path, &source.name, &source.options), &reference, &mut division)?;
+            let scan = scan_source(
+                (&source.path, &source.name, &source.options),
+                &reference,
+                self.tall.as_ref(),
+                &mut division,
+            )?;
             planned.push(PlannedSource {
                 key: source.key,
                 label: scan.label,
                 features: scan.features,
                 bounds: scan.bounds,
                 in_parts: scan.in_parts,
+                columns: scan.columns,
             });
             left_out.extend(scan.left_out);
             notes.extend(scan.notes);
         }
+        self.check_tall(&planned)?;
         let portable = |path: &Path| portable_path(folder, path);
         let read = session.sought().into_iter().filter(|(path, there)| *there && path.is_file());
         let mut files = Vec::new();
@@ -190,7 +220,10 @@ impl PlanCommand {
             reach: self.script.reach(),
             metadata: self.metadata.clone(),
             model: self.model(),
+            tables: TableFormat::ALL.into_iter().filter(|format| self.tables.contains(format)).collect(),
             sources: planned,
+            tall: self.tall.clone(),
+            terrain: None,
             lods: Vec::new(),
             tiles: division.tiles(self.target_features),
             coarse: Vec::new(),
@@ -198,9 +231,22 @@ impl PlanCommand {
             notes,
         };
         self.add_geoid(&mut plan, folder)?;
+        self.add_terrain(&mut plan, folder)?;
         self.add_levels(&mut plan)?;
         plan.set_hashes()?;
         Ok(plan)
+    }
+
+    /// Fails if no feature has the attribute of tall features.
+    fn check_tall(&self, sources: &[PlannedSource]) -> Result<()> {
+        let Some(TallRule { attribute, .. }) = &self.tall else { return Ok(()) };
+        let names = || sources.iter().flat_map(|source| &source.columns).map(|column| column.name.as_str());
+        if names().any(|name| name == attribute) {
+            return Ok(());
+        }
+        let message = format!("--tall: no feature has an attribute named `{attribute}`");
+        Err(Error::not_found("attribute", attribute, names().collect::<Vec<_>>(), message)
+            .help("run burgeon sources FILE to list the attributes of a file"))
     }
 
     /// Returns the choices for the models of tiles.
@@ -239,6 +285,22 @@ impl PlanCommand {
         Ok(())
     }
 
+    /// Adds the terrain to a plan.
+    fn add_terrain(&self, plan: &mut TilePlan, folder: &Path) -> Result<()> {
+        let Some(path) = &self.terrain else { return Ok(()) };
+        if !path.is_file() {
+            let name = path.display().to_string();
+            let message = format!("there is no file of heights {name}");
+            return Err(Error::not_found("file", name, [], message)
+                .help("specify a grid of heights, such as a GeoTIFF"));
+        }
+        let frame = plan.frame.reference()?;
+        let heights = TerrainHeights::open(path, &path.display().to_string(), &frame)?;
+        let file = PlannedFile { path: portable_path(folder, path)?, hash: hash_file(path)? };
+        plan.terrain = Some(PlannedTerrain::new(file, heights.area(), heights.step()));
+        Ok(())
+    }
+
     /// Adds coarser tiles to a plan, for the levels of detail that the script draws differently in samples.
     fn add_levels(&self, plan: &mut TilePlan) -> Result<()> {
         let options = self.script.options()?;
@@ -259,8 +321,11 @@ impl PlanCommand {
             return Ok(None);
         }
         let earlier = TilePlan::read(&path)?;
+        let terrain = |plan: &TilePlan| plan.terrain.as_ref().map(|terrain| terrain.file.path.clone());
         let same = (&earlier.script, &earlier.arguments) == (&plan.script, &plan.arguments)
-            && (earlier.reach, &earlier.metadata, earlier.model) == (plan.reach, &plan.metadata, plan.model);
+            && (earlier.reach, &earlier.metadata, earlier.model) == (plan.reach, &plan.metadata, plan.model)
+            && (&earlier.tables, &earlier.tall) == (&plan.tables, &plan.tall)
+            && terrain(&earlier) == terrain(plan);
         if same {
             return Ok(Some(earlier));
         }
@@ -276,6 +341,7 @@ impl PlanCommand {
         let all = plan.all_tiles();
         let kept = all.iter().filter(|tile| known.contains(tile.hash.as_str())).count();
         let mut warnings: Vec<Cow<'_, str>> = plan.notes.iter().map(Cow::from).collect();
+        let tall: u64 = plan.tiles.iter().filter(|tile| tile.is_tall()).map(|tile| tile.features).sum();
         if self.geoid_height.is_none() && self.geoid.is_none() {
             warnings.push(
                 "heights are taken as heights above the WGS 84 ellipsoid; national heights are above a geoid: --geoid FILE or --geoid-height METRES"
@@ -289,11 +355,15 @@ impl PlanCommand {
         }
         if self.script.json {
             let document = json!({
-                "ok": true, "tiles": plan.tiles.len(), "coarse": plan.coarse.len(), "lods": plan.lods,
+                "ok": true, "tiles": plan.tiles.len(), "tall": tall, "terrain": plan.terrain.as_ref().map_or(0, |terrain| terrain.tile_ids().len()), "coarse": plan.coarse.len(), "lods": plan.lods,
                 "geoid": plan.frame.geoid, "geoid_height": plan.frame.geoid_height, "unchanged": kept, "features": features,
                 "left_out": plan.left_out.len(), "warnings": warnings, "peak_memory_mb": report::peak_memory(),
             });
             return report::print(&format!("{document}\n"));
+        }
+        let terrain = plan.terrain.as_ref().map_or(0, |terrain| terrain.tile_ids().len());
+        if terrain > 0 {
+            report::eprint(&format!("{terrain} terrain tiles\n"));
         }
         let largest = plan.tiles.iter().map(|tile| tile.features).max().unwrap_or(0);
         let height = plan.frame.geoid_height;

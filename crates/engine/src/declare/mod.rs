@@ -31,7 +31,7 @@ pub use curves_file::CurvesFile;
 pub use json_text::{JsonMembers, JsonText, PlacedPoints, json_excerpt};
 pub use options::{Limits, ParamValues, Print, RunInputs, RunOptions, RunReports, TraceRequest};
 pub use param::{Control, Param, Setting};
-pub use part::FeaturePart;
+pub use part::{FeatureChoice, FeaturePart};
 pub use point_control::PointControl;
 pub use preset::Preset;
 pub use progress::RunProgress;

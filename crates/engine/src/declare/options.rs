@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, LazyLock};
 use std::time::Duration;
 
-use super::{FeaturePart, Preset};
+use super::{FeatureChoice, FeaturePart, Preset};
 use crate::checkpoints::DerivationStore;
 use crate::queries::RowSource;
 use burgeon_base::stop::Stop;
@@ -134,6 +134,8 @@ pub struct RunOptions {
     pub steps: Option<usize>,
     /// Part of the features to build; all features if `None`.
     pub part: Option<FeaturePart>,
+    /// Features of the part that are shown; `None` for all.
+    pub choice: Option<FeatureChoice>,
     /// Level of detail: 0 footprints, 1 blocks, 2 roofs, 3 full detail. Scripts read it as `lod`.
     pub lod: u8,
     /// Object types and sources that scripts can use.
@@ -178,6 +180,7 @@ impl Default for RunOptions {
             seed: 0,
             steps: None,
             part: None,
+            choice: None,
             lod: 3,
             registry: Registry::default(),
             inputs: RunInputs::default(),

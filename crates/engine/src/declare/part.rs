@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::str::FromStr;
 
 use burgeon_base::error::{Error, Result};
+use burgeon_kit::Attribute;
 use burgeon_spatial::{BoundingBox, representative_point};
 
 /// Part of the features of each system: one of `count` ranges of about the same size, in the order of the source, or the
@@ -58,6 +59,26 @@ impl FeaturePart {
             "part {} of {} is empty: it has no features, or its features draw nothing; systems without features, such as a terrain, are in part 1",
             self.number, self.count
         )
+    }
+}
+
+/// Choice among the features of a part by the number of an attribute. Features without the number count as less.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FeatureChoice {
+    /// Name of the attribute.
+    pub attribute: String,
+    /// Number that chosen features reach, or do not reach.
+    pub least: f64,
+    /// Set to choose the features that reach the number.
+    pub is_reached: bool,
+}
+
+impl FeatureChoice {
+    /// Returns true if the choice contains a feature with these attributes, which are called `names`.
+    pub fn contains(&self, names: &[String], attributes: &[(usize, Attribute)]) -> bool {
+        let value = attributes.iter().find(|(number, _)| names.get(*number) == Some(&self.attribute));
+        let number = value.and_then(|(_, value)| value.number());
+        number.is_some_and(|number| number >= self.least) == self.is_reached
     }
 }
 

@@ -113,7 +113,7 @@ fn inputs(session: &Session, derivation: &Derivation, derived: &[Arc<DerivedSyst
     let mut text = format!("system {} {:?}\n", derivation.plan.system, derivation.group);
     let options = &session.options;
     let _ = writeln!(text, "{:?} {:?}", session.script(), options.registry);
-    let _ = writeln!(text, "{} {} {:?}", options.seed, options.lod, options.part);
+    let _ = writeln!(text, "{} {} {:?} {:?}", options.seed, options.lod, options.part, options.choice);
     // A function that reads the number of the step fails in a derivation without a given number of steps.
     if session.reads_step() {
         let _ = writeln!(text, "{}", derivation.plan.bounded);

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use crate::layers::OutputPlacement;
 use burgeon_base::error::Result;
+use burgeon_scene::Scene;
 use burgeon_spatial::Attribute;
-use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use serde_json::{Map, Value as Json, json};
@@ -17,7 +17,7 @@ use super::super::stem;
 use super::boundaries::{boundaries, semantics};
 use super::object::{CityObject, ObjectShape, Quantiser, STEPS, objects, placed_transform};
 use super::templates::ShapeTemplates;
-use crate::Export;
+use crate::{Export, SceneFacts};
 
 /// Number of objects whose shapes are computed at a time.
 const CHUNK: usize = 512;
@@ -26,17 +26,9 @@ const CHUNK: usize = 512;
 pub(crate) fn write(export: &Export<'_>, path: &Path, files: &mut Files) -> Result<()> {
     let checked = check(export.scene)?;
     let outward = OutputPlacement::metric(export.facts.frame)?;
-    let low = checked.scene.bounds().map_or(DVec3::ZERO, |(low, _)| low);
-    let origin = outward.place(low).unwrap_or_default().floor() + 0.0;
-    let quantiser = Quantiser { outward: &outward, origin };
+    let quantiser = Quantiser::new(checked.scene, &outward);
     let objects = objects(&checked, &export.facts);
-    let mut document = CityWriter {
-        export,
-        quantiser: &quantiser,
-        vertices: Vec::new(),
-        numbers: FxHashMap::default(),
-        templates: ShapeTemplates::default(),
-    };
+    let mut document = CityWriter::new(export.scene, &export.facts, &quantiser);
     let mut failed = Ok(());
     files.write(path, |out| {
         write!(out, "{{\"type\":\"CityJSON\",\"version\":\"2.0\",\"CityObjects\":{{")?;
@@ -55,9 +47,56 @@ pub(crate) fn write(export: &Export<'_>, path: &Path, files: &mut Files) -> Resu
             }
         }
         write!(out, "\n}}")?;
-        document.write_rest(stem(path).trim_end_matches(".city"), origin, out)
+        document.write_rest(stem(path).trim_end_matches(".city"), out)
     })?;
     failed
+}
+
+/// Writes a `.city.jsonl` file to `path`.
+pub(crate) fn write_sequence(export: &Export<'_>, path: &Path, files: &mut Files) -> Result<()> {
+    write_city_sequence(export.scene, &export.facts, path, files).map(|_| ())
+}
+
+/// Writes a CityJSON sequence of a scene to the future file `path`, and returns the number of its features: the first line has what
+/// all objects share, and each other line an object with those that belong to it, which a reader can handle one by one.
+///
+/// Fails if a point is outside the domain of the projection, and as [`Files::write`] does.
+pub fn write_city_sequence(
+    scene: &Scene,
+    facts: &SceneFacts<'_>,
+    path: &Path,
+    files: &mut Files,
+) -> Result<usize> {
+    let checked = check(scene)?;
+    let outward = OutputPlacement::metric(facts.frame)?;
+    let quantiser = Quantiser::new(checked.scene, &outward);
+    let mut document = CityWriter::new(scene, facts, &quantiser);
+    let (mut lines, mut count) = (String::new(), 0);
+    for chunk in objects(&checked, facts).chunks(CHUNK) {
+        files.stop().check()?;
+        let shapes: Vec<Result<ObjectShape>> =
+            chunk.par_iter().map(|object| object.shape(scene, &quantiser)).collect();
+        for (object, shape) in chunk.iter().zip(shapes) {
+            let entries = document.object(object, &shape?)?;
+            let objects: Map<String, Json> = entries.into_iter().collect();
+            let vertices = document.take_vertices();
+            let feature = json!({
+                "type": "CityJSONFeature", "id": object.id, "CityObjects": objects, "vertices": vertices,
+            });
+            lines.push_str(&feature.to_string());
+            lines.push('\n');
+            count += 1;
+        }
+    }
+    let mut first = json!({
+        "type": "CityJSON", "version": "2.0", "transform": document.transform(),
+        "metadata": document.metadata(stem(path).trim_end_matches(".city")), "CityObjects": {}, "vertices": [],
+    });
+    if let Some(templates) = document.templates.finish() {
+        first["geometry-templates"] = templates;
+    }
+    files.write(path, |out| write!(out, "{first}\n{lines}"))?;
+    Ok(count)
 }
 
 /// Described object and the objects that belong to it, each with its id.
@@ -76,24 +115,42 @@ fn write_object(described: CityEntries, first: &mut bool, out: &mut Out) -> io::
 
 /// State of a document during writing.
 struct CityWriter<'a> {
-    export: &'a Export<'a>,
+    scene: &'a Scene,
+    facts: &'a SceneFacts<'a>,
     quantiser: &'a Quantiser<'a>,
     vertices: Vec<[i64; 3]>,
     numbers: FxHashMap<[i64; 3], u32>,
+    /// Minimum and maximum of all vertices so far; `None` without vertices.
+    extent: Option<[[i64; 3]; 2]>,
     templates: ShapeTemplates,
 }
 
-impl CityWriter<'_> {
+impl<'a> CityWriter<'a> {
+    fn new(scene: &'a Scene, facts: &'a SceneFacts<'a>, quantiser: &'a Quantiser<'a>) -> Self {
+        let (vertices, numbers, templates) = (Vec::new(), FxHashMap::default(), ShapeTemplates::default());
+        Self { scene, facts, quantiser, vertices, numbers, extent: None, templates }
+    }
+
+    /// Takes the vertices, so that the next object has its own.
+    fn take_vertices(&mut self) -> Vec<[i64; 3]> {
+        self.numbers.clear();
+        std::mem::take(&mut self.vertices)
+    }
+
     fn vertex(&mut self, at: [i64; 3]) -> u32 {
         *self.numbers.entry(at).or_insert_with(|| {
             self.vertices.push(at);
+            let [low, high] = self.extent.unwrap_or([at; 2]);
+            let axes = [0, 1, 2];
+            self.extent =
+                Some([axes.map(|axis| low[axis].min(at[axis])), axes.map(|axis| high[axis].max(at[axis]))]);
             (self.vertices.len() - 1) as u32
         })
     }
 
     /// Returns the entries of an object and of the objects that are fixed to it.
     fn object(&mut self, object: &CityObject<'_>, shape: &ObjectShape) -> Result<CityEntries> {
-        let detail = self.export.facts.detail;
+        let detail = self.facts.detail;
         let numbers: Vec<u32> = shape.points.iter().map(|at| self.vertex(*at)).collect();
         let mut geometry = Vec::new();
         if !shape.faces.is_empty() {
@@ -114,7 +171,7 @@ impl CityWriter<'_> {
         let mut instances = Vec::new();
         for instance in &object.placed {
             let surfaces = object.class.has_surfaces();
-            let template = self.templates.number(self.export.scene, instance, surfaces, detail);
+            let template = self.templates.number(self.scene, instance, surfaces, detail);
             let (matrix, at) = placed_transform(instance, self.quantiser)?;
             let rows = [0, 1, 2].map(|row| [matrix.col(0)[row], matrix.col(1)[row], matrix.col(2)[row], 0.0]);
             let rows: Vec<f64> =
@@ -143,34 +200,32 @@ impl CityWriter<'_> {
         Ok(std::iter::once((object.id.clone(), described.into())).chain(fixed).collect())
     }
 
-    /// Writes the rest of the document after the objects.
-    fn write_rest(self, title: &str, origin: DVec3, out: &mut Out) -> io::Result<()> {
+    /// Returns the metadata of the file.
+    fn metadata(&self, title: &str) -> Map<String, Json> {
         let mut metadata = Map::new();
         metadata.insert("title".into(), title.into());
         if let Some(code) = self.quantiser.outward.code {
             let name = format!("https://www.opengis.net/def/crs/EPSG/0/{code}");
             metadata.insert("referenceSystem".into(), name.into());
         }
-        let axis = |axis: usize| self.vertices.iter().map(move |at| at[axis]);
-        let ends = [0, 1, 2].map(|number| axis(number).min().zip(axis(number).max()));
-        if let [Some(x), Some(y), Some(z)] = ends {
-            let place = |step: i64, axis: usize| step as f64 / STEPS + origin[axis];
-            metadata.insert(
-                "geographicalExtent".into(),
-                json!([
-                    place(x.0, 0),
-                    place(y.0, 1),
-                    place(z.0, 2),
-                    place(x.1, 0),
-                    place(y.1, 1),
-                    place(z.1, 2)
-                ]),
-            );
+        if let Some([low, high]) = self.extent {
+            let place =
+                |at: [i64; 3]| [0, 1, 2].map(|axis| at[axis] as f64 / STEPS + self.quantiser.origin[axis]);
+            metadata.insert("geographicalExtent".into(), json!([place(low), place(high)].concat()));
         }
-        write!(out, ",\n\"metadata\":{}", Json::from(metadata))?;
+        metadata
+    }
+
+    /// Returns the transform of the vertices.
+    fn transform(&self) -> Json {
         let scale = 1.0 / STEPS;
-        let transform = json!({ "scale": [scale, scale, scale], "translate": origin.to_array() });
-        write!(out, ",\n\"transform\":{transform}")?;
+        json!({ "scale": [scale, scale, scale], "translate": self.quantiser.origin.to_array() })
+    }
+
+    /// Writes the rest of the document after the objects.
+    fn write_rest(self, title: &str, out: &mut Out) -> io::Result<()> {
+        write!(out, ",\n\"metadata\":{}", Json::from(self.metadata(title)))?;
+        write!(out, ",\n\"transform\":{}", self.transform())?;
         if let Some(templates) = self.templates.finish() {
             write!(out, ",\n\"geometry-templates\":{templates}")?;
         }

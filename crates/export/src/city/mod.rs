@@ -1,4 +1,4 @@
-//! CityJSON 2.0 (OGC 20-072r5), the exchange format of city models.
+//! CityJSON 2.0 (OGC 20-072r5), the exchange format of city models, as one document or as a sequence of features.
 //!
 //! Each chain becomes a city object: a building if its object distinguishes walls from roofs, otherwise the class that
 //! its system specifies, otherwise a `GenericCityObject`. Closed drawings of a chain become one solid with semantic
@@ -13,4 +13,5 @@ mod templates;
 #[cfg(test)]
 mod tests;
 
-pub(super) use document::write;
+pub use document::write_city_sequence;
+pub(super) use document::{write, write_sequence};

@@ -44,7 +44,13 @@ pub(super) const STEPS: f64 = 1000.0;
 /// Maximum distance (m) of a point from a plane that contains it: twice the rounding error.
 const NEAR: f64 = 2e-3;
 
-impl Quantiser<'_> {
+impl<'a> Quantiser<'a> {
+    /// Returns the conversion whose origin is the lowest corner of a scene, in whole metres.
+    pub(super) fn new(scene: &Scene, outward: &'a OutputPlacement<'a>) -> Self {
+        let low = scene.bounds().map_or(DVec3::ZERO, |(low, _)| low);
+        Self { outward, origin: outward.place(low).unwrap_or_default().floor() + 0.0 }
+    }
+
     /// Returns the quantised coordinates of a point (m). Fails if the point is outside the projection's domain.
     pub(super) fn place(&self, at: DVec3) -> Result<[i64; 3]> {
         let place = self.outward.place(at).ok_or_else(|| place_error(at))?;

@@ -11,13 +11,36 @@ use super::super::samples;
 use crate::{Export, Files, SceneFacts, SystemFacts};
 use burgeon_picture::Picture;
 
-fn write_and_read(scene: &Scene, facts: SceneFacts<'_>) -> Json {
+fn write_text(scene: &Scene, facts: SceneFacts<'_>, name: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("a town.city.json");
+    let path = folder.path().join(name);
     let mut files = Files::new(&std::sync::Arc::new(Stop::default()));
     files.export(&Export { scene, picture: &Picture::default(), facts }, &path).unwrap();
     files.publish().unwrap();
-    serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap()
+    std::fs::read_to_string(path).unwrap()
+}
+
+fn write_and_read(scene: &Scene, facts: SceneFacts<'_>) -> Json {
+    serde_json::from_str(&write_text(scene, facts, "a town.city.json")).unwrap()
+}
+
+/// Returns boundaries with the vertices in the place of their numbers.
+fn resolved(boundaries: &Json, vertices: &Json) -> Json {
+    match boundaries.as_array() {
+        Some(list) => list.iter().map(|inner| resolved(inner, vertices)).collect(),
+        None => vertices[boundaries.as_u64().unwrap() as usize].clone(),
+    }
+}
+
+/// Returns objects whose boundaries do not depend on the numbers of vertices.
+fn resolved_objects(file: &Json) -> serde_json::Map<String, Json> {
+    let mut objects = file["CityObjects"].as_object().unwrap().clone();
+    for object in objects.values_mut() {
+        for geometry in object["geometry"].as_array_mut().unwrap() {
+            geometry["boundaries"] = resolved(&geometry["boundaries"], &file["vertices"]);
+        }
+    }
+    objects
 }
 
 /// Returns the boxes of a row as buildings: each has a separate chain, and its sides are walls, a roof and a ground
@@ -202,4 +225,32 @@ fn every_sample_is_written_and_nothing_is_lost_in_rounding() {
         }
     }
     assert!(solids >= 4, "{solids}");
+}
+
+#[test]
+fn a_sequence_has_the_objects_of_the_document_each_in_a_line_with_its_own_vertices() {
+    let mut scene = buildings(700);
+    // The last box is a placed model, whose template is in the first line.
+    let placed = scene.instances.last_mut().unwrap();
+    placed.placement = Some(0);
+    let systems = [records(700)];
+    let facts = || SceneFacts { systems: &systems, ..SceneFacts::default() };
+    let document = write_and_read(&scene, facts());
+    let text = write_text(&scene, facts(), "a town.city.jsonl");
+    let mut lines = text.lines().map(|line| serde_json::from_str::<Json>(line).unwrap());
+    let first = lines.next().unwrap();
+    assert_eq!((&first["type"], &first["CityObjects"]), (&json!("CityJSON"), &json!({})));
+    for shared in ["transform", "metadata", "geometry-templates"] {
+        assert_eq!(first[shared], document[shared], "{shared}");
+    }
+    let mut objects = serde_json::Map::new();
+    let mut count = 0;
+    for line in lines {
+        assert_eq!(line["type"], "CityJSONFeature");
+        assert!(line["CityObjects"].get(line["id"].as_str().unwrap()).is_some(), "{line}");
+        assert!(line["vertices"].as_array().unwrap().len() <= 8);
+        objects.extend(resolved_objects(&line));
+        count += 1;
+    }
+    assert_eq!((objects, count), (resolved_objects(&document), 700));
 }

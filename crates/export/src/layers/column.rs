@@ -1,9 +1,11 @@
 //! Types of columns, determined from their values.
 
 use burgeon_spatial::{Attribute, RecordTable};
+use serde::{Deserialize, Serialize};
 
 /// Type of the values in a column.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum ColumnKind {
     /// All values are `true` or `false`.
     Boolean,
@@ -13,6 +15,40 @@ pub enum ColumnKind {
     Number,
     /// Some values are texts, or the types differ; other values are written as text.
     Text,
+}
+
+/// Name and type of a column.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TableColumn {
+    /// Name.
+    pub name: String,
+    /// Type of all values.
+    pub kind: ColumnKind,
+}
+
+impl ColumnKind {
+    /// Returns the type of a value; `None` for a number that is not finite, which is written as no value.
+    pub fn of(value: &Attribute) -> Option<Self> {
+        match value {
+            Attribute::Boolean(_) => Some(Self::Boolean),
+            Attribute::Number(number) if !number.is_finite() => None,
+            Attribute::Number(number) if number.fract() == 0.0 && number.abs() <= LARGEST => {
+                Some(Self::Integer)
+            }
+            Attribute::Number(_) => Some(Self::Number),
+            Attribute::Text(_) | Attribute::Nested(_) => Some(Self::Text),
+        }
+    }
+
+    /// Returns the type of a column that has values of two types; `None` for a part without values.
+    pub fn joined(a: Option<Self>, b: Option<Self>) -> Option<Self> {
+        match (a, b) {
+            (None, kind) | (kind, None) => kind,
+            (Some(a), Some(b)) if a == b => Some(a),
+            (Some(Self::Integer | Self::Number), Some(Self::Integer | Self::Number)) => Some(Self::Number),
+            _ => Some(Self::Text),
+        }
+    }
 }
 
 /// Largest integer (2^53) up to which a script's numbers represent all integers.
@@ -38,24 +74,7 @@ pub fn column_kinds(table: &RecordTable) -> Vec<ColumnKind> {
     for record in &table.records {
         for (column, value) in &record.values {
             let Some(known) = kinds.get_mut(*column) else { continue };
-            let kind = match value {
-                Attribute::Boolean(_) => ColumnKind::Boolean,
-                Attribute::Number(number) if !number.is_finite() => continue,
-                Attribute::Number(number) if number.fract() == 0.0 && number.abs() <= LARGEST => {
-                    ColumnKind::Integer
-                }
-                Attribute::Number(_) => ColumnKind::Number,
-                Attribute::Text(_) | Attribute::Nested(_) => ColumnKind::Text,
-            };
-            *known = Some(match (*known, kind) {
-                (None, kind) => kind,
-                (Some(known), kind) if known == kind => kind,
-                (
-                    Some(ColumnKind::Integer | ColumnKind::Number),
-                    ColumnKind::Integer | ColumnKind::Number,
-                ) => ColumnKind::Number,
-                _ => ColumnKind::Text,
-            });
+            *known = ColumnKind::joined(*known, ColumnKind::of(value));
         }
     }
     kinds.into_iter().map(|kind| kind.unwrap_or(ColumnKind::Text)).collect()

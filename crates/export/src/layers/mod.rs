@@ -1,4 +1,4 @@
-//! Tables of records as layers: GeoJSON and GeoPackages.
+//! Tables of records as layers: GeoJSON, GeoPackages and GeoParquet.
 //!
 //! Input: a [`RecordTable`](burgeon_spatial::RecordTable) for each layer, in metres of a run's frame. Output: the same
 //! records georeferenced in a coordinate system that other programs support. The same tables yield the same bytes.
@@ -7,13 +7,16 @@ mod column;
 mod geojson;
 #[cfg_attr(not(feature = "data"), path = "absent_geopackage.rs")]
 mod geopackage;
+#[cfg_attr(not(feature = "parquet"), path = "absent_geoparquet.rs")]
+mod geoparquet;
 mod place;
 #[cfg(test)]
 mod tests;
 mod write;
 
-pub use column::{ColumnKind, column_kinds};
+pub use column::{ColumnKind, TableColumn, column_kinds};
 pub use geojson::write_geojson;
 pub use geopackage::{check_geopackage, write_geopackage};
+pub use geoparquet::write_geoparquet;
 pub use place::OutputPlacement;
 pub(crate) use write::{write_geojson_file, write_geopackage_file};

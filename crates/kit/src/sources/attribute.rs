@@ -46,6 +46,15 @@ impl Attribute {
         }
     }
 
+    /// Returns the value as a number, also if it is a text that is one; `None` for other values.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Self::Number(value) => Some(*value),
+            Self::Text(text) => text.trim().parse().ok(),
+            Self::Boolean(_) | Self::Nested(_) => None,
+        }
+    }
+
     /// Returns the value as text; lists and tables as JSON.
     pub fn text(&self) -> String {
         match self {

@@ -3,7 +3,11 @@
 mod glb;
 mod implicit;
 mod instances;
+#[cfg_attr(not(feature = "parquet"), path = "absent_rows.rs")]
+mod rows;
 mod subtree;
+mod table;
+mod terrain;
 mod tileset;
 mod unpack;
 

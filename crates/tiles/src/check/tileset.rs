@@ -3,16 +3,18 @@
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+use std::path::Path;
 
 use burgeon_base::error::{Error, Result};
 use glam::{DAffine3, DMat4, DVec3};
 use serde_json::Value;
 
 use super::glb::GlbModel;
+use super::terrain::TerrainCheck;
 use crate::earth::east_north_up;
 use crate::folder::{IMPLICIT_NAME, TileFolder, content_name};
-use crate::make::TileManifest;
-use crate::plan::{FeatureDigest, PlannedTile, TileId, TilePlan, id_digest};
+use crate::make::{TileFile, TileManifest};
+use crate::plan::{FeatureDigest, PlannedTile, TableFormat, TileId, TilePlan, id_digest};
 
 /// Result of a check.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -29,6 +31,10 @@ pub struct TilesetReport {
     pub features: u64,
     /// Number of features of the plan that no content has.
     pub missing: u64,
+    /// Number of terrain tiles.
+    pub terrain: usize,
+    /// Number of tables.
+    pub tables: usize,
     /// Contradictions, at most 100.
     pub problems: Vec<String>,
 }
@@ -45,15 +51,20 @@ const DEPTH: usize = 64;
 /// Check in progress.
 pub(super) struct TilesetCheck<'a> {
     pub(super) folder: &'a TileFolder,
+    /// Formats of the tables of tiles.
+    pub(super) formats: &'a [TableFormat],
     plan: BTreeMap<String, &'a PlannedTile>,
     /// Tiles with content in this tileset.
     seen: BTreeMap<TileId, SeenTile>,
     /// Errors (m) of coarser levels of detail, of the manifests of tiles, by the positions of the tiles on the curve.
     errors: BTreeMap<u64, Vec<f64>>,
+    /// Parts of the digests of the features in contents, without coarser tiles.
+    finest: Vec<u64>,
     geoid: f64,
     /// Set to read contents.
-    reads: bool,
-    report: TilesetReport,
+    pub(super) reads: bool,
+    pub(super) terrain: TerrainCheck,
+    pub(super) report: TilesetReport,
 }
 
 /// Volume and error of a tile, or of the tile around it.
@@ -90,21 +101,31 @@ struct SeenTile {
 pub fn check_tileset(folder: &TileFolder, plan: &TilePlan) -> Result<TilesetReport> {
     let mut check = TilesetCheck {
         folder,
-        plan: plan.all_tiles().into_iter().map(|tile| (content_name(tile.id), tile)).collect(),
+        formats: &plan.tables,
+        plan: plan.all_tiles().into_iter().map(|tile| (content_name("", tile.id), tile)).collect(),
         seen: BTreeMap::new(),
         errors: BTreeMap::new(),
+        finest: Vec::new(),
         geoid: plan.frame.geoid_height,
         reads: true,
+        terrain: TerrainCheck::new(plan)?,
         report: TilesetReport::default(),
     };
     check.whole("tileset.json")?;
+    check.terrain_rest()?;
     check.rest(plan)?;
     check.coarse(plan);
+    check.finest.sort_unstable();
+    let repeated = check.finest.windows(2).filter(|pair| pair[0] == pair[1]).count();
+    if repeated > 0 {
+        check.problem(format!("{repeated} features are in several tiles"));
+    }
     if folder.implicit_tileset().exists() {
         let explicit = std::mem::take(&mut check.seen);
         check.reads = false;
         check.whole(IMPLICIT_NAME)?;
         check.compare(&explicit);
+        check.terrain_rest()?;
     }
     Ok(check.report)
 }
@@ -248,6 +269,9 @@ impl TilesetCheck<'_> {
     /// Checks the content of a tile.
     pub(super) fn content(&mut self, content: &ShownContent<'_>, tile: &ParentTile) -> Result<()> {
         let uri = content.uri;
+        if self.terrain(content, tile)? {
+            return Ok(());
+        }
         let Some(planned) = self.plan.get(uri).copied() else {
             self.problem(format!("{uri} is not in the plan"));
             return Ok(());
@@ -261,10 +285,13 @@ impl TilesetCheck<'_> {
             self.problem(format!("{uri} is in the tileset twice"));
             return Ok(());
         }
-        if content.has_children && !content.replaces {
+        if content.has_children && content.replaces && planned.is_tall() {
+            self.problem(format!("{uri} is replaced by tiles inside that have other features"));
+        }
+        if content.has_children && !content.replaces && !planned.is_tall() {
             self.problem(format!("{uri} is shown together with the same features in the tiles inside"));
         }
-        if content.has_children && planned.lod.is_none() {
+        if content.has_children && planned.lod.is_none() && !planned.is_tall() {
             self.problem(format!("{uri} has tiles inside, but no coarser level of detail"));
         }
         if !self.reads {
@@ -274,45 +301,14 @@ impl TilesetCheck<'_> {
             self.problem(format!("{uri} has no manifest that fits the plan"));
             return Ok(());
         };
+        self.tables(planned, &manifest)?;
         let Some(file) = manifest.content else {
             self.problem(format!("{uri}: the manifest has no content"));
             return Ok(());
         };
-        let expected = east_north_up(file.degrees, self.geoid);
-        let far = tile.transform.to_cols_array().iter().zip(expected.to_cols_array()).any(|(is, wanted)| {
-            // Translations are about 6,400 km long.
-            (is - wanted).abs() > 1e-5
-        });
-        if far {
-            self.problem(format!("{uri}: its transforms do not lead to its place on the ellipsoid"));
-        }
-        let path = self.folder.content(planned.id);
-        let bytes = fs::read(&path).map_err(|error| {
-            Error::file(&path, format!("cannot read {}: {error}", path.display()))
-                .help("check its permissions")
-        })?;
-        if blake3::hash(&bytes).to_hex()[..32] != *file.hash {
-            self.problem(format!("{uri}: the content is not that of the manifest"));
-        }
-        let model = match GlbModel::read(&bytes) {
-            Ok(model) => model,
-            Err(why) => {
-                self.problem(format!("{uri}: {why}"));
-                return Ok(());
-            }
+        let Some(model) = self.model(uri, &self.folder.content(planned.id), &file, tile)? else {
+            return Ok(());
         };
-        let bounds = tile.bounds.unwrap_or_default();
-        // The box is along the axes of the content, so the extreme points decide for all.
-        if !(is_inside(&bounds, model.low, NEAR) && is_inside(&bounds, model.high, NEAR)) {
-            self.problem(format!(
-                "{uri}: points from {} to {} are outside the volume",
-                model.low, model.high
-            ));
-        }
-        if model.triangles != file.triangles {
-            let (is, said) = (model.triangles, file.triangles);
-            self.problem(format!("{uri} has {is} triangles, but the manifest says {said}"));
-        }
         match planned.lod {
             Some(_) => self.report.coarse += 1,
             None => {
@@ -336,10 +332,57 @@ impl TilesetCheck<'_> {
         }
         self.features(uri, planned, &ids);
         if planned.lod.is_none() {
+            self.finest.extend(ids.iter().map(|(layer, id)| id_digest(layer, id).short()));
             self.report.features += shown;
             self.report.missing += manifest.missing.len() as u64;
         }
         Ok(())
+    }
+
+    /// Reads the content at `path` of a tile, and checks its place, its hash, its volume and its number of triangles; `None` if it
+    /// cannot be read as a model.
+    pub(super) fn model(
+        &mut self,
+        uri: &str,
+        path: &Path,
+        file: &TileFile,
+        tile: &ParentTile,
+    ) -> Result<Option<GlbModel>> {
+        let expected = east_north_up(file.degrees, self.geoid);
+        let far = tile.transform.to_cols_array().iter().zip(expected.to_cols_array()).any(|(is, wanted)| {
+            // Translations are about 6,400 km long.
+            (is - wanted).abs() > 1e-5
+        });
+        if far {
+            self.problem(format!("{uri}: its transforms do not lead to its place on the ellipsoid"));
+        }
+        let bytes = fs::read(path).map_err(|error| {
+            Error::file(path, format!("cannot read {}: {error}", path.display()))
+                .help("check its permissions")
+        })?;
+        if blake3::hash(&bytes).to_hex()[..32] != *file.hash {
+            self.problem(format!("{uri}: the content is not that of the manifest"));
+        }
+        let model = match GlbModel::read(&bytes) {
+            Ok(model) => model,
+            Err(why) => {
+                self.problem(format!("{uri}: {why}"));
+                return Ok(None);
+            }
+        };
+        let bounds = tile.bounds.unwrap_or_default();
+        // The box is along the axes of the content, so the extreme points decide for all.
+        if !(is_inside(&bounds, model.low, NEAR) && is_inside(&bounds, model.high, NEAR)) {
+            self.problem(format!(
+                "{uri}: points from {} to {} are outside the volume",
+                model.low, model.high
+            ));
+        }
+        if model.triangles != file.triangles {
+            let (is, said) = (model.triangles, file.triangles);
+            self.problem(format!("{uri} has {is} triangles, but the manifest says {said}"));
+        }
+        Ok(Some(model))
     }
 
     /// Checks that these features are those of the plan.
@@ -364,6 +407,10 @@ impl TilesetCheck<'_> {
                 Some(manifest) if manifest.content.is_some() => {
                     self.problem(format!("{name} was made, but is not in the tileset: join again"));
                 }
+                Some(manifest) if manifest.error.is_none() && tile.lod.is_none() => {
+                    self.tables(tile, &manifest)?;
+                    self.report.missing += manifest.missing.len() as u64;
+                }
                 Some(manifest) if manifest.error.is_some() => {
                     self.report.missing += features;
                     if !manifest.missing.is_empty() {
@@ -372,9 +419,6 @@ impl TilesetCheck<'_> {
                             ids.map(|feature| (feature.layer.as_str(), feature.feature.as_str())).collect();
                         self.features(&name, tile, &ids);
                     }
-                }
-                Some(manifest) if tile.lod.is_none() => {
-                    self.report.missing += manifest.missing.len() as u64;
                 }
                 Some(_) => {}
             }

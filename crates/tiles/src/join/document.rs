@@ -11,7 +11,7 @@ use super::implicit::{ImplicitRoot, SUBTREE_LEVELS, root_box};
 use super::subtree::{schema, subtrees};
 use super::tree::{TilesetTile, box_around};
 use crate::earth::EarthMap;
-use crate::folder::{TileFolder, content_name, template};
+use crate::folder::{TERRAIN, TileFolder, content_name, template};
 use crate::make::{bounding_box, write_bytes, write_text};
 use crate::plan::TileId;
 
@@ -27,6 +27,8 @@ pub(super) struct TilesetWriter<'a> {
     pub(super) map: &'a EarthMap<'a>,
     /// Name of the first file without its extension.
     pub(super) stem: &'static str,
+    /// Folder that contains the folder of the contents; empty for the folder of the tileset.
+    pub(super) within: &'static str,
     pub(super) is_implicit: bool,
     /// Files that have been written.
     pub(super) written: BTreeSet<PathBuf>,
@@ -45,9 +47,20 @@ struct OuterTile<'a> {
 type Pending<'a> = (String, &'a TilesetTile, f64);
 
 impl TilesetWriter<'_> {
-    /// Writes the tileset, and returns the number of its tileset files.
-    pub(super) fn write(&mut self, root: Option<&TilesetTile>) -> Result<usize> {
+    /// Writes the tileset, and returns the number of its tileset files. The tileset of `terrain`, which is written before, becomes a
+    /// part of it.
+    pub(super) fn write(
+        &mut self,
+        root: Option<&TilesetTile>,
+        terrain: Option<&TilesetTile>,
+    ) -> Result<usize> {
         let main = format!("{}.json", self.stem);
+        if let (None, Some(terrain)) = (root, terrain) {
+            let error = terrain.absent_error();
+            let body = terrain_body(terrain);
+            self.file(&main, &body, error)?;
+            return Ok(1);
+        }
         let Some(root) = root else {
             // A tileset must have a root; this one is a point without content at the centre of the data.
             let axes = self.map.axes([0.0; 2])?;
@@ -59,8 +72,9 @@ impl TilesetWriter<'_> {
             self.file(&main, &body, 0.0)?;
             return Ok(1);
         };
+        let (mut transform, mut bounds) = (root.transform, root.bounds);
         if self.is_implicit {
-            self.grow(root)?;
+            (transform, bounds) = self.grow(root)?;
         }
         let mut external: Vec<Pending<'_>> = Vec::new();
         let divides = self.tiles(root) > LARGE;
@@ -73,8 +87,17 @@ impl TilesetWriter<'_> {
             let body = self.tile(tile, &above, None)?;
             self.file(&name, &body, tile.error)?;
         }
+        let (mut body, mut error) = (body, root.absent_error());
+        if let Some(terrain) = terrain {
+            error = error.max(terrain.absent_error());
+            let inside = [(&transform, bounds), (&terrain.transform, terrain.bounds)];
+            body = json!({
+                "boundingVolume": { "box": box_around(&DAffine3::IDENTITY, None, &inside) },
+                "geometricError": error, "refine": "ADD", "children": [body, terrain_body(terrain)],
+            });
+        }
         // The first file is written last, so that a reader does not find a file that is not there.
-        self.file(&main, &body, root.absent_error())?;
+        self.file(&main, &body, error)?;
         Ok(count)
     }
 
@@ -129,7 +152,7 @@ impl TilesetWriter<'_> {
             return Ok(body);
         }
         if tile.has_content {
-            body["content"] = json!({ "uri": content_name(tile.id) });
+            body["content"] = json!({ "uri": content_name(self.within, tile.id) });
         }
         if !tile.children.is_empty() {
             let inner = OuterTile { transform: &tile.transform, error: tile.error };
@@ -140,7 +163,7 @@ impl TilesetWriter<'_> {
             body["children"] = Value::Array(children);
         }
         // The children have all features of a coarser tile, and tiles without content show nothing.
-        body["refine"] = if tile.has_content && !tile.children.is_empty() { "REPLACE" } else { "ADD" }.into();
+        body["refine"] = if tile.is_replaced() { "REPLACE" } else { "ADD" }.into();
         Ok(body)
     }
 
@@ -188,9 +211,18 @@ impl TilesetWriter<'_> {
     }
 }
 
-/// Returns true if the tile, or one inside, has content and children.
+/// Returns the tile that refers to the tileset of the terrain, in geocentric axes.
+fn terrain_body(terrain: &TilesetTile) -> Value {
+    let bounds = box_around(&DAffine3::IDENTITY, None, &[(&terrain.transform, terrain.bounds)]);
+    json!({
+        "boundingVolume": { "box": bounds }, "geometricError": terrain.absent_error(), "refine": "ADD",
+        "content": { "uri": format!("{TERRAIN}.json") },
+    })
+}
+
+/// Returns true if the tiles inside replace the content of the tile, or of one inside.
 fn has_coarse(tile: &TilesetTile) -> bool {
-    tile.has_content && !tile.children.is_empty() || tile.children.iter().any(has_coarse)
+    tile.is_replaced() || tile.children.iter().any(has_coarse)
 }
 
 /// Sets the transform of a tile inside a tile with the transform `parent`, unless they are the same.

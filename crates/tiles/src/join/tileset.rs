@@ -9,9 +9,9 @@ use rayon::prelude::*;
 
 use super::document::TilesetWriter;
 use super::missing::{MissingList, write_missing};
-use super::tree::{JoinedTile, join_tree};
+use super::tree::{JoinedTile, TilesetTile, join_terrain, join_tree};
 use crate::earth::EarthMap;
-use crate::folder::{IMPLICIT_NAME, TileFolder};
+use crate::folder::{IMPLICIT_NAME, TERRAIN, TileFolder};
 use crate::make::TileManifest;
 use crate::plan::{PlannedTile, TilePlan};
 
@@ -34,6 +34,8 @@ pub struct JoinReport {
     pub tiles: usize,
     /// Number of coarser tiles with content.
     pub coarse: usize,
+    /// Number of terrain tiles.
+    pub terrain: usize,
     /// Number of tiles that draw nothing.
     pub empty: usize,
     /// Number of tiles that failed.
@@ -74,6 +76,7 @@ pub fn join_tiles(folder: &TileFolder, plan: &TilePlan, tiling: Tiling) -> Resul
     let mut contents: Vec<JoinedTile<'_>> = contents.collect();
     contents.sort_by_key(|tile| tile.planned.id.curve());
     let root = join_tree(&contents, &map, &plan.lods)?;
+    let terrain = terrain_tree(folder, plan, &map, &mut report)?;
     write_missing(folder, &missing)?;
     let mut written = BTreeSet::new();
     let stem = IMPLICIT_NAME.split('.').next().unwrap_or_default();
@@ -82,22 +85,62 @@ pub fn join_tiles(folder: &TileFolder, plan: &TilePlan, tiling: Tiling) -> Resul
         Tiling::Implicit => &[("tileset", true)],
         Tiling::Both => &[(stem, true), ("tileset", false)],
     };
+    if let Some(terrain) = &terrain {
+        let (map, written_here, grown) = (&map, BTreeSet::new(), BTreeMap::new());
+        let mut writer = TilesetWriter {
+            folder,
+            map,
+            stem: TERRAIN,
+            within: TERRAIN,
+            is_implicit: false,
+            written: written_here,
+            grown,
+        };
+        report.tilesets += writer.write(Some(terrain), None)?;
+        written.append(&mut writer.written);
+    }
     for (stem, is_implicit) in ways {
         let (is_implicit, map) = (*is_implicit, &map);
         let mut writer = TilesetWriter {
             folder,
             map,
             stem,
+            within: "",
             is_implicit,
             written: BTreeSet::new(),
             grown: BTreeMap::new(),
         };
-        report.tilesets += writer.write(root.as_ref())?;
+        report.tilesets += writer.write(root.as_ref(), terrain.as_ref())?;
         written.append(&mut writer.written);
     }
     report.subtrees = written.len() - report.tilesets;
     remove_others(folder, &written)?;
     Ok(report)
+}
+
+/// Returns the tree of the terrain tiles with content, and counts them.
+fn terrain_tree(
+    folder: &TileFolder,
+    plan: &TilePlan,
+    map: &EarthMap<'_>,
+    report: &mut JoinReport,
+) -> Result<Option<TilesetTile>> {
+    let (folder, planned) = (folder.terrain(), plan.terrain_tiles()?);
+    let read = planned.par_iter().map(|tile| TileManifest::fitting(&folder, tile));
+    let manifests: Vec<Option<TileManifest>> = read.collect::<Result<_>>()?;
+    let mut contents = Vec::new();
+    for (planned, manifest) in planned.iter().zip(&manifests) {
+        match manifest {
+            None => report.open += 1,
+            Some(TileManifest { error: Some(_), .. }) => report.failed += 1,
+            Some(TileManifest { content: None, .. }) => report.empty += 1,
+            Some(TileManifest { content: Some(file), errors, .. }) => {
+                report.terrain += 1;
+                contents.push(JoinedTile { planned, file, errors });
+            }
+        }
+    }
+    join_terrain(&contents, map)
 }
 
 /// Counts a tile and its missing features.
@@ -138,7 +181,9 @@ fn count(
 fn remove_others(folder: &TileFolder, written: &BTreeSet<PathBuf>) -> Result<()> {
     let is_tileset = |name: &str| {
         name == IMPLICIT_NAME
-            || name.ends_with(".json") && (name.starts_with("tileset-") || name.starts_with("implicit-"))
+            || name == format!("{TERRAIN}.json")
+            || name.ends_with(".json")
+                && ["tileset-", "implicit-", "terrain-"].into_iter().any(|start| name.starts_with(start))
     };
     for entry in fs::read_dir(folder.path()).into_iter().flatten().flatten() {
         if is_tileset(&entry.file_name().to_string_lossy()) && !written.contains(&entry.path()) {

@@ -32,6 +32,8 @@ pub struct TilesetTile {
     pub error: f64,
     /// True if the tile has content.
     pub has_content: bool,
+    /// True if the content is shown together with the tiles inside, which have other features.
+    pub is_added: bool,
     /// Tiles inside, in the order of the curve.
     pub children: Vec<TilesetTile>,
 }
@@ -46,6 +48,11 @@ impl TilesetTile {
     /// Returns the number of tiles with content.
     pub fn contents(&self) -> usize {
         usize::from(self.has_content) + self.children.iter().map(Self::contents).sum::<usize>()
+    }
+
+    /// Returns true if the tiles inside replace the content.
+    pub(super) fn is_replaced(&self) -> bool {
+        self.has_content && !self.is_added && !self.children.is_empty()
     }
 
     /// Returns the geometric error (m) while nothing of the tile is shown.
@@ -70,13 +77,20 @@ pub(crate) fn corners(bounds: &[f64; 12]) -> [DVec3; 8] {
 /// `lods` are the levels of detail of coarser tiles, from fine to coarse. The error of a coarser tile is the largest error of its
 /// level of detail in the tiles inside, and at least that of its children.
 pub fn join_tree(tiles: &[JoinedTile<'_>], map: &EarthMap<'_>, lods: &[u8]) -> Result<Option<TilesetTile>> {
-    Ok(TreeJoin { map, lods }.join(tiles)?.map(|(tile, _)| tile))
+    Ok(TreeJoin { map, lods, is_terrain: false }.join(tiles)?.map(|(tile, _)| tile))
+}
+
+/// Returns the tree of terrain tiles with content, as [`join_tree`]. The error of a tile is its distance from the tiles inside, and the
+/// largest of their errors.
+pub(super) fn join_terrain(tiles: &[JoinedTile<'_>], map: &EarthMap<'_>) -> Result<Option<TilesetTile>> {
+    Ok(TreeJoin { map, lods: &[], is_terrain: true }.join(tiles)?.map(|(tile, _)| tile))
 }
 
 /// Parameters of a join.
 struct TreeJoin<'a> {
     map: &'a EarthMap<'a>,
     lods: &'a [u8],
+    is_terrain: bool,
 }
 
 impl TreeJoin<'_> {
@@ -108,11 +122,21 @@ impl TreeJoin<'_> {
             bounds,
             error: children.iter().map(|child| child.error).fold(0.0, f64::max),
             has_content: content.is_some(),
+            is_added: content.is_some_and(|tile| tile.planned.is_tall()),
             children,
         };
         match content {
+            Some(content) if self.is_terrain => {
+                if !tile.children.is_empty() {
+                    tile.error += content.errors.first().copied().unwrap_or(0.0);
+                }
+            }
             Some(JoinedTile { planned: PlannedTile { lod: None, .. }, errors: own, .. }) => {
-                raise(&mut errors, own)
+                raise(&mut errors, own);
+                if tile.is_added && !tile.children.is_empty() {
+                    // The other features are not shown.
+                    tile.error = tile.absent_error();
+                }
             }
             Some(JoinedTile { planned, .. }) if !tile.children.is_empty() => {
                 let level = self.lods.iter().position(|lod| Some(*lod) == planned.lod);

@@ -6,6 +6,7 @@ use std::path::Path;
 use burgeon_base::error::{Error, Result};
 use serde::{Deserialize, Serialize};
 
+use super::table::TableFile;
 use crate::folder::TileFolder;
 use crate::plan::{PLAN_VERSION, PlannedTile, TileId};
 
@@ -21,6 +22,9 @@ pub struct TileManifest {
     pub hash: String,
     /// Content; `None` if the tile draws nothing or failed.
     pub content: Option<TileFile>,
+    /// Tables of the features.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tables: Vec<TableFile>,
     /// Number of features of the plan.
     pub features: u64,
     /// Features that the content lacks.
@@ -97,14 +101,19 @@ impl TileManifest {
         Ok(manifest.filter(|manifest| manifest.version == PLAN_VERSION && manifest.tile == tile))
     }
 
-    /// Reads the manifest that fits the plan of a tile, with content of the recorded size; `None` if the tile is still to be
+    /// Reads the manifest that fits the plan of a tile, with content and tables of the recorded sizes; `None` if the tile is still to be
     /// made.
     pub fn fitting(folder: &TileFolder, tile: &PlannedTile) -> Result<Option<Self>> {
         let Some(manifest) = Self::read(folder, tile.id)?.filter(|known| known.hash == tile.hash) else {
             return Ok(None);
         };
-        let size = fs::metadata(folder.content(tile.id)).map(|file| file.len()).ok();
-        let fits = manifest.content.as_ref().is_none_or(|content| size == Some(content.bytes));
+        let has_size = |path: &Path, bytes: u64| fs::metadata(path).is_ok_and(|file| file.len() == bytes);
+        let content = manifest.content.as_ref();
+        let fits = content.is_none_or(|content| has_size(&folder.content(tile.id), content.bytes))
+            && manifest
+                .tables
+                .iter()
+                .all(|table| has_size(&folder.table(tile.id, table.format), table.bytes));
         Ok(fits.then_some(manifest))
     }
 

@@ -2,11 +2,15 @@
 
 mod manifest;
 mod sweep;
+mod table;
+mod terrain;
 mod tile;
 
 pub use manifest::{ManifestError, MissingFeature, TileFile, TileManifest, hash_file};
 pub(crate) use manifest::{hash_text, write_bytes, write_text};
 pub use sweep::sweep_temporary;
+pub use table::{TableFile, TileTables};
+pub use terrain::TerrainHeights;
 pub(crate) use tile::bounding_box;
 pub use tile::{
     BuiltTile, TileContent, TileFeature, TileOutcome, is_retriable, make_tile, portable_message,

@@ -1,7 +1,6 @@
 //! One tile.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::sync::Arc;
 
 use burgeon_base::error::{Error, ErrorKind, Result};
@@ -14,9 +13,10 @@ use burgeon_spatial::representative_point;
 use glam::DVec3;
 
 use super::manifest::{ManifestError, MissingFeature, TileFile, TileManifest, make_folder};
+use super::table::{TableFile, TileTables, remove_file, sync_file};
 use crate::earth::{EarthMap, place_scene};
 use crate::folder::TileFolder;
-use crate::plan::{FeatureDigest, PLAN_VERSION, PlannedTile, TileGrid, cell_digest};
+use crate::plan::{FeatureDigest, PLAN_VERSION, PlannedTile, TableFormat, TilePlan, cell_digest};
 
 /// Feature of a tile.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,6 +46,8 @@ pub struct TileContent {
     pub warnings: Vec<String>,
     /// Geometric errors (m) of the coarser levels of detail of the plan, from fine to coarse.
     pub errors: Vec<f64>,
+    /// Tables to be written beside the content.
+    pub tables: Option<TileTables>,
 }
 
 /// Result of building a tile.
@@ -54,6 +56,13 @@ pub struct BuiltTile {
     pub features: Vec<TileFeature>,
     /// Model, or the reason why there is none.
     pub content: Result<TileContent>,
+}
+
+impl BuiltTile {
+    /// Returns a tile that could not be built, without features.
+    pub fn failed(error: Error) -> Self {
+        Self { features: Vec::new(), content: Err(error) }
+    }
 }
 
 /// Result of a request for a tile.
@@ -82,15 +91,12 @@ pub fn is_retriable(error: &Error) -> bool {
     )
 }
 
-/// Returns the features whose representative points are in a tile.
-pub fn tile_features(tile: &PlannedTile, layers: &[Arc<Layer>]) -> Vec<TileFeature> {
-    let [west, south, east, north] = TileGrid::bounds(tile.id);
+/// Returns the features of layers in a tile of a plan.
+pub fn tile_features(plan: &TilePlan, tile: &PlannedTile, layers: &[Arc<Layer>]) -> Vec<TileFeature> {
     let of_layer = |layer: &Arc<Layer>| {
-        let own = layer.features.iter().filter_map(|feature| {
-            let [x, y] = representative_point(feature.geometry.bounds()?);
-            let is_inside = (west..east).contains(&x) && (south..north).contains(&y);
-            let (layer, id) = (layer.name.clone(), feature.id.to_string());
-            is_inside.then_some(TileFeature { layer, id, place: [x, y] })
+        let own = tile.own_features(layer, plan.tall.as_ref()).filter_map(|feature| {
+            let place = representative_point(feature.geometry.bounds()?);
+            Some(TileFeature { layer: layer.name.clone(), id: feature.id.to_string(), place })
         });
         own.collect::<Vec<_>>()
     };
@@ -98,10 +104,10 @@ pub fn tile_features(tile: &PlannedTile, layers: &[Arc<Layer>]) -> Vec<TileFeatu
 }
 
 /// Fails unless the features of `layers` in a tile are those of the plan.
-pub fn verify_features(tile: &PlannedTile, layers: &[Arc<Layer>]) -> Result<()> {
+pub fn verify_features(plan: &TilePlan, tile: &PlannedTile, layers: &[Arc<Layer>]) -> Result<()> {
     let (mut ids, mut data, mut count) = (FeatureDigest::default(), FeatureDigest::default(), 0);
     for layer in layers {
-        let (own_ids, own_data, own_count) = cell_digest(layer, TileGrid::bounds(tile.id));
+        let (own_ids, own_data, own_count) = cell_digest(layer, tile, plan.tall.as_ref());
         ids.add(own_ids);
         data.add(own_data);
         count += own_count;
@@ -139,6 +145,7 @@ pub fn make_tile(
         tile: tile.id,
         hash: tile.hash.clone(),
         content: None,
+        tables: Vec::new(),
         features: tile.features,
         missing: Vec::new(),
         error: None,
@@ -148,10 +155,11 @@ pub fn make_tile(
     let place_of = |feature: &TileFeature| map.degrees(feature.place).ok().map(round_degrees);
     let written = content.and_then(|content| write_content(folder, tile, map, stop, content));
     match written {
-        Ok((file, skipped, warnings)) => {
-            manifest.missing = missing_features(skipped, &features, place_of);
-            manifest.content = file;
-            manifest.warnings = warnings;
+        Ok(written) => {
+            manifest.missing = missing_features(written.skipped, &features, place_of);
+            manifest.content = written.file;
+            manifest.tables = written.tables;
+            manifest.warnings = written.warnings;
         }
         Err(error) if is_retriable(&error) => return Err(error),
         Err(error) => {
@@ -166,13 +174,11 @@ pub fn make_tile(
         }
     }
     if manifest.content.is_none() {
-        let path = folder.content(tile.id);
-        match fs::remove_file(&path) {
-            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-                return Err(Error::file(&path, format!("cannot remove {}: {error}", path.display()))
-                    .help("remove it, and make the tile again"));
-            }
-            _ => {}
+        remove_file(&folder.content(tile.id))?;
+    }
+    for format in TableFormat::ALL {
+        if manifest.tables.iter().all(|table| table.format != format) {
+            remove_file(&folder.table(tile.id, format))?;
         }
     }
     manifest.write(folder)?;
@@ -213,13 +219,18 @@ fn round_degrees(degrees: [f64; 2]) -> [f64; 2] {
     degrees.map(|angle| (angle * 1e7).round() / 1e7)
 }
 
-/// Content that was written, the skipped features and the warnings.
-type WrittenContent = (Option<TileFile>, Vec<(String, String, String)>, Vec<String>);
+/// Files of a tile that were written.
+struct WrittenContent {
+    file: Option<TileFile>,
+    tables: Vec<TableFile>,
+    skipped: Vec<(String, String, String)>,
+    warnings: Vec<String>,
+}
 
 /// Margin (m) of a bounding box around the points, for their rounding.
 const MARGIN: f64 = 0.01;
 
-/// Writes the content of a tile, if it draws something.
+/// Writes the tables of a tile, and its content, if it draws something.
 fn write_content(
     folder: &TileFolder,
     tile: &PlannedTile,
@@ -227,36 +238,33 @@ fn write_content(
     stop: &Arc<Stop>,
     content: TileContent,
 ) -> Result<WrittenContent> {
-    let TileContent { mut scene, systems, metadata, model, skipped, warnings, .. } = content;
+    let TileContent { mut scene, systems, metadata, model, skipped, warnings, tables, .. } = content;
+    let tables = tables.map(|tables| tables.write((folder, tile.id), &scene, &systems, stop));
+    let tables = tables.transpose()?.unwrap_or_default();
+    let nothing = WrittenContent { file: None, tables, skipped, warnings };
     if scene.triangles() == 0 {
-        return Ok((None, skipped, warnings));
+        return Ok(nothing);
     }
     let axes = map.axes(tile.origin())?;
     place_scene(&mut scene, map, &axes)?;
-    let Some((low, high)) = scene.bounds() else { return Ok((None, skipped, warnings)) };
+    let Some((low, high)) = scene.bounds() else { return Ok(nothing) };
     let path = folder.content(tile.id);
     path.parent().map_or(Ok(()), make_folder)?;
     let facts = SceneFacts { systems: &systems, metadata: Some(&metadata), ..SceneFacts::default() };
     let mut files = Files::new(stop);
     let counts = write_tile_model(&scene, &facts, &model, &path, &mut files)?;
     files.publish()?;
-    let unreadable = |error: std::io::Error| {
-        Error::file(&path, format!("cannot read {} after writing it: {error}", path.display()))
-            .help("check the disk, and make the tile again")
-    };
-    let file = fs::File::open(&path).map_err(unreadable)?;
-    file.sync_all().map_err(unreadable)?;
-    let bytes = fs::read(&path).map_err(unreadable)?;
+    let (bytes, hash) = sync_file(&path)?;
     let file = TileFile {
-        bytes: bytes.len() as u64,
-        hash: blake3::hash(&bytes).to_hex()[..32].to_owned(),
+        bytes,
+        hash,
         degrees: axes.degrees,
         bounds: bounding_box(low - MARGIN, high + MARGIN),
         triangles: counts.triangles,
         instances: counts.instances,
         primitives: counts.primitives,
     };
-    Ok((Some(file), skipped, warnings))
+    Ok(WrittenContent { file: Some(file), ..nothing })
 }
 
 /// Returns a box along the axes as 3D Tiles have it.

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use burgeon_base::error::Result;
 use burgeon_scene::{Instance, Scene};
 use rayon::prelude::*;
 
@@ -35,23 +36,24 @@ impl<'a> FeatureDrawings<'a> {
     /// Returns the largest Hausdorff distances (m) between the drawings of a feature in this scene and in each of others.
     ///
     /// If only one of the scenes draws a feature, its distance is the diagonal of its drawing. A result is at least the distance,
-    /// and exceeds it by at most a tenth and 20 cm.
-    pub fn errors(&self, others: &[Self]) -> Vec<f64> {
+    /// and exceeds it by at most a tenth and 20 cm. Fails as soon as `proceed` fails, which is called before each feature.
+    pub fn errors(&self, others: &[Self], proceed: &(impl Fn() -> Result<()> + Sync)) -> Result<Vec<f64>> {
         let all = others.iter().chain([self]).flat_map(|drawings| drawings.instances.keys());
         let keys: Vec<&FeatureKey<'_>> = all.collect::<BTreeSet<_>>().into_iter().collect();
         let mut largest = vec![0.0; others.len()];
         // A group has the same known distances for any number of threads.
         for group in keys.chunks(GROUP) {
             let measured = group.par_iter().map(|key| {
+                proceed()?;
                 let own = self.tree(key);
                 let of = |(other, known): (&Self, &f64)| hausdorff(&own, &other.tree(key), *known);
-                others.iter().zip(&largest).map(of).collect::<Vec<f64>>()
+                Ok(others.iter().zip(&largest).map(of).collect::<Vec<f64>>())
             });
-            for errors in measured.collect::<Vec<_>>() {
+            for errors in measured.collect::<Result<Vec<_>>>()? {
                 largest.iter_mut().zip(errors).for_each(|(largest, error)| *largest = error.max(*largest));
             }
         }
-        largest.into_iter().map(|error| error * (1.0 + PART) + NEAR).collect()
+        Ok(largest.into_iter().map(|error| error * (1.0 + PART) + NEAR).collect())
     }
 
     /// Returns the triangles of a feature.
@@ -122,7 +124,7 @@ mod tests {
         let error = |other: &[(&str, f64)]| {
             let coarse = scene(other);
             let drawings = |scene| FeatureDrawings::new(scene);
-            let errors = drawings(&fine).errors(&[drawings(&coarse), drawings(&fine)]);
+            let errors = drawings(&fine).errors(&[drawings(&coarse), drawings(&fine)], &|| Ok(())).unwrap();
             assert!((errors[1] - NEAR).abs() < 1e-9);
             errors[0]
         };
@@ -132,6 +134,10 @@ mod tests {
         assert!(is_nearly(error(&[("a", 3.0), ("b", 9.0), ("c", 4.0)]), 0.0));
         // A feature that is not drawn has its diagonal as error.
         assert!(is_nearly(error(&[("a", 3.0), ("b", 9.0)]), 200.0_f64.sqrt()));
+        // Nothing is measured after a limit.
+        let stopped = || Err(burgeon_base::error::Error::cancellation("stopped"));
+        let stopped = FeatureDrawings::new(&fine).errors(&[FeatureDrawings::new(&fine)], &stopped);
+        assert_eq!(stopped.unwrap_err().message(), "stopped");
         assert!(draws_the_same(&fine, &fine.clone()));
         assert!(!draws_the_same(&fine, &scene(&[("a", 3.0), ("b", 9.0), ("c", 4.5)])));
     }

@@ -64,7 +64,7 @@ fn sum(id: TileId, tiles: &[PlannedTile], lod: u8) -> PlannedTile {
         }
     }
     let (ids, data, hash) = (ids.text(), data.text(), String::new());
-    PlannedTile { id, features, cost, region, ids, data, hash, lod: Some(lod) }
+    PlannedTile { id, features, cost, region, ids, data, hash, lod: Some(lod), tall: None }
 }
 
 #[cfg(test)]

@@ -23,7 +23,7 @@ impl FeatureDigest {
 
     /// Returns a part of the digest that rarely is the same for different features.
     #[allow(clippy::cast_possible_truncation, reason = "a part of the digest is wanted")]
-    pub(super) fn short(self) -> u64 {
+    pub(crate) fn short(self) -> u64 {
         self.0 as u64
     }
 

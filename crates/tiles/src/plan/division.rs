@@ -60,8 +60,13 @@ impl CellSums {
 #[derive(Debug, Default)]
 pub struct TileDivision {
     /// Sums of the tiles of the deepest level, in the order of the curve.
-    cells: BTreeMap<u64, (TileId, CellSums)>,
+    cells: CellMap,
+    /// The same of tall features.
+    tall: CellMap,
 }
+
+/// Sums of tiles of the deepest level by their positions on the curve.
+type CellMap = BTreeMap<u64, (TileId, CellSums)>;
 
 impl TileDivision {
     /// Adds a feature with these bounds (m), its number of points, and the digests of its id and its content.
@@ -74,70 +79,127 @@ impl TileDivision {
         ids: FeatureDigest,
         data: FeatureDigest,
     ) -> Result<()> {
-        let place = representative_point(bounds);
-        let tile = TileGrid::finest(place).ok_or_else(|| {
-            Error::data(format!("the feature at {}, {} is outside the grid of tiles", place[0], place[1]))
-                .help("features lie at most 2,000 km from the centre of their layer")
-        })?;
-        let [low, high] = bounds;
-        let region = [low.x, low.y, high.x, high.y];
-        let feature = CellSums { features: 1, cost: 10 + points as u64, region, ids, data };
-        self.cells.entry(tile.curve().0).or_insert((tile, CellSums::NOTHING)).1.add(&feature);
-        Ok(())
+        add(&mut self.cells, bounds, points, ids, data)
+    }
+
+    /// Adds a tall feature; see [`add`](Self::add).
+    pub fn add_tall(
+        &mut self,
+        bounds: BoundingBox,
+        points: usize,
+        ids: FeatureDigest,
+        data: FeatureDigest,
+    ) -> Result<()> {
+        add(&mut self.tall, bounds, points, ids, data)
     }
 
     /// Adds the features of another division.
     pub fn merge(&mut self, other: Self) {
-        if self.cells.is_empty() {
-            // Two copies of the cells of a country are large.
-            *self = other;
-            return;
-        }
-        for (place, (tile, sums)) in other.cells {
-            self.cells.entry(place).or_insert((tile, CellSums::NOTHING)).1.add(&sums);
+        for (own, other) in [(&mut self.cells, other.cells), (&mut self.tall, other.tall)] {
+            if own.is_empty() {
+                // Two copies of the cells of a country are large.
+                *own = other;
+                continue;
+            }
+            for (place, (tile, sums)) in other {
+                own.entry(place).or_insert((tile, CellSums::NOTHING)).1.add(&sums);
+            }
         }
     }
 
     /// Returns the number of features.
     pub fn features(&self) -> u64 {
-        self.cells.values().map(|(_, sums)| sums.features).sum()
+        self.cells.values().chain(self.tall.values()).map(|(_, sums)| sums.features).sum()
     }
 
     /// Returns the tiles in the order of the curve, without hashes. A tile has about `target` features of average cost at
     /// most, unless it is as small as tiles can be.
+    ///
+    /// Tall features are in the largest tiles that they do not exceed. The other features of these tiles are in tiles inside.
     pub fn tiles(&self, target: u64) -> Vec<PlannedTile> {
-        let cells: Vec<(TileId, CellSums)> = self.cells.values().copied().collect();
+        let list = |cells: &CellMap| cells.values().copied().collect::<Vec<(TileId, CellSums)>>();
+        let (cells, tall) = (list(&self.cells), list(&self.tall));
         let mut all = CellSums::NOTHING;
-        cells.iter().for_each(|(_, sums)| all.add(sums));
+        cells.iter().chain(&tall).for_each(|(_, sums)| all.add(sums));
         let most = u128::from(all.cost) * u128::from(target.max(1)) / u128::from(all.features.max(1));
         let mut tiles = Vec::new();
-        divide(TileId::ROOT, &cells, most, &mut tiles);
+        divide(TileId::ROOT, &cells, Some(&tall), most, &mut tiles);
         tiles
     }
 }
 
-/// Adds the tiles of `id`, whose `cells` are those of the deepest level.
-fn divide(id: TileId, cells: &[(TileId, CellSums)], most: u128, tiles: &mut Vec<PlannedTile>) {
-    let mut sums = CellSums::NOTHING;
-    cells.iter().for_each(|(_, cell)| sums.add(cell));
-    if sums.features == 0 {
+fn add(
+    cells: &mut CellMap,
+    bounds: BoundingBox,
+    points: usize,
+    ids: FeatureDigest,
+    data: FeatureDigest,
+) -> Result<()> {
+    let place = representative_point(bounds);
+    let tile = TileGrid::finest(place).ok_or_else(|| {
+        Error::data(format!("the feature at {}, {} is outside the grid of tiles", place[0], place[1]))
+            .help("features lie at most 2,000 km from the centre of their layer")
+    })?;
+    let [low, high] = bounds;
+    let region = [low.x, low.y, high.x, high.y];
+    let feature = CellSums { features: 1, cost: 10 + points as u64, region, ids, data };
+    cells.entry(tile.curve().0).or_insert((tile, CellSums::NOTHING)).1.add(&feature);
+    Ok(())
+}
+
+/// Sums of tiles of the deepest level, in the order of the curve.
+type CellList<'a> = &'a [(TileId, CellSums)];
+
+/// Adds the tiles of `id`, whose `cells` and `tall` cells are those of the deepest level. `tall` is `None` inside a tile with the tall
+/// features.
+fn divide<'a>(
+    id: TileId,
+    cells: CellList<'a>,
+    tall: Option<CellList<'a>>,
+    most: u128,
+    tiles: &mut Vec<PlannedTile>,
+) {
+    let sum = |cells: CellList<'_>| {
+        let mut sums = CellSums::NOTHING;
+        cells.iter().for_each(|(_, cell)| sums.add(cell));
+        sums
+    };
+    let high = tall.map_or(CellSums::NOTHING, sum);
+    let mut all = sum(cells);
+    all.add(&high);
+    if all.features == 0 {
         return;
     }
-    if id.level == DEEPEST || u128::from(sums.cost) <= most && id.level >= TileId::ANCHOR {
-        #[allow(clippy::cast_precision_loss, reason = "the cost is a weight")]
-        let cost = sums.cost as f64 / 10.0;
-        let CellSums { features, region, ids, data, .. } = sums;
-        let (ids, data, hash) = (ids.text(), data.text(), String::new());
-        tiles.push(PlannedTile { id, features, cost, region, ids, data, hash, lod: None });
+    let is_few = |sums: &CellSums| u128::from(sums.cost) <= most && id.level >= TileId::ANCHOR;
+    if id.level == DEEPEST || is_few(&all) {
+        tiles.push(planned(id, &all, if tall.is_some() { None } else { Some(false) }));
         return;
     }
-    let mut rest = cells;
+    let (mut rest, mut tall_rest) = (cells, tall);
+    if high.features > 0 && is_few(&high) {
+        tiles.push(planned(id, &high, Some(true)));
+        tall_rest = None;
+    }
     for child in id.children() {
-        let end = rest.partition_point(|(tile, _)| tile.ancestor(child.level).curve() <= child.curve());
-        let (own, later) = rest.split_at(end);
-        divide(child, own, most, tiles);
-        rest = later;
+        let split = |cells: &mut CellList<'a>| -> CellList<'a> {
+            let end = cells.partition_point(|(tile, _)| tile.ancestor(child.level).curve() <= child.curve());
+            let (own, later) = cells.split_at(end);
+            *cells = later;
+            own
+        };
+        let own = split(&mut rest);
+        let own_tall = tall_rest.as_mut().map(split);
+        divide(child, own, own_tall, most, tiles);
     }
+}
+
+/// Returns the tile with these sums, without a hash.
+fn planned(id: TileId, sums: &CellSums, tall: Option<bool>) -> PlannedTile {
+    #[allow(clippy::cast_precision_loss, reason = "the cost is a weight")]
+    let cost = sums.cost as f64 / 10.0;
+    let CellSums { features, region, ids, data, .. } = *sums;
+    let (ids, data, hash) = (ids.text(), data.text(), String::new());
+    PlannedTile { id, features, cost, region, ids, data, hash, lod: None, tall }
 }
 
 #[cfg(test)]
@@ -178,6 +240,46 @@ mod tests {
             }
             let ordered = tiles.windows(2).all(|pair| pair[0].id.curve() < pair[1].id.curve());
             prop_assert!(ordered);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn tall_features_are_in_the_largest_tiles_and_each_feature_is_in_one(
+            points in prop::collection::vec((-9000.0..9000.0_f64, 0.0..9000.0_f64, 0..10_u32), 1..200),
+            target in 1..20_u64,
+        ) {
+            let mut division = TileDivision::default();
+            let mut whole = FeatureDigest::default();
+            for (number, (x, y, kind)) in points.iter().enumerate() {
+                let (bounds, digest) = ([[*x, *y].into(); 2], id_digest("a", &number.to_string()));
+                match kind {
+                    0 => division.add_tall(bounds, 1, digest, digest).unwrap(),
+                    _ => division.add(bounds, 1, digest, digest).unwrap(),
+                }
+                whole.add(digest);
+            }
+            let tiles = division.tiles(target);
+            let mut sum = FeatureDigest::default();
+            for tile in &tiles {
+                let [west, south, east, north] = TileGrid::bounds(tile.id);
+                let (mut ids, mut count) = (FeatureDigest::default(), 0);
+                for (number, (x, y, kind)) in points.iter().enumerate() {
+                    let is_chosen = tile.tall.is_none_or(|tall| tall == (*kind == 0));
+                    if (west..east).contains(x) && (south..north).contains(y) && is_chosen {
+                        ids.add(id_digest("a", &number.to_string()));
+                        count += 1;
+                    }
+                }
+                prop_assert_eq!((&tile.ids, tile.features), (&ids.text(), count));
+                sum.add(ids);
+                let is_inside = |other: &PlannedTile| tile.id.level > other.id.level && tile.id.ancestor(other.id.level) == other.id;
+                let above = tiles.iter().filter(|other| is_inside(other)).map(|other| other.tall);
+                let wanted: Vec<Option<bool>> = if tile.tall == Some(false) { vec![Some(true)] } else { Vec::new() };
+                prop_assert_eq!(above.collect::<Vec<_>>(), wanted);
+            }
+            prop_assert_eq!(sum, whole);
+            prop_assert!(tiles.windows(2).all(|pair| pair[0].id.curve() < pair[1].id.curve()));
         }
     }
 

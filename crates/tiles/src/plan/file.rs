@@ -5,15 +5,16 @@ use std::path::Path;
 
 use burgeon_base::error::{Error, Result};
 use burgeon_export::gltf::TileModelOptions;
+use burgeon_export::layers::{ColumnKind, TableColumn};
 use burgeon_spatial::{Crs, ReferenceFrame};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::{OmittedFeature, PlannedTile, TileGrid, TileId};
+use super::{OmittedFeature, PlannedTerrain, PlannedTile, TableFormat, TallRule, TileGrid, TileId};
 use crate::make::hash_text;
 
 /// Version of the format of plans and manifests.
-pub const PLAN_VERSION: u32 = 2;
+pub const PLAN_VERSION: u32 = 3;
 
 /// Frame of the coordinates of a plan.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -51,6 +52,8 @@ pub struct PlannedSource {
     pub bounds: [[f64; 3]; 2],
     /// Set if a tile can be read from a part of the file.
     pub in_parts: bool,
+    /// Attributes, and the types of their values in all features.
+    pub columns: Vec<TableColumn>,
 }
 
 /// TileDivision of the features of a script among tiles.
@@ -77,8 +80,16 @@ pub struct TilePlan {
     pub metadata: Vec<String>,
     /// Choices for the models of tiles.
     pub model: TileModelOptions,
+    /// Tables to be written beside the contents of tiles.
+    pub tables: Vec<TableFormat>,
     /// Sources of features.
     pub sources: Vec<PlannedSource>,
+    /// Rule for tall features, which inner tiles contain.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tall: Option<TallRule>,
+    /// Terrain, whose tiles are beside those of the features.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub terrain: Option<PlannedTerrain>,
     /// Levels of detail of coarser tiles, from fine to coarse.
     pub lods: Vec<u8>,
     /// Tiles, in an order that keeps neighbours together.
@@ -155,6 +166,9 @@ impl TilePlan {
             reach,
             metadata,
             model,
+            tables,
+            tall,
+            terrain,
             lods,
             tiles,
             coarse,
@@ -172,7 +186,10 @@ impl TilePlan {
             ("reach", value(serde_json::to_string(reach))?),
             ("metadata", value(serde_json::to_string(metadata))?),
             ("model", value(serde_json::to_string(model))?),
+            ("tables", value(serde_json::to_string(tables))?),
             ("sources", value(serde_json::to_string(sources))?),
+            ("tall", value(serde_json::to_string(tall))?),
+            ("terrain", value(serde_json::to_string(terrain))?),
             ("lods", value(serde_json::to_string(lods))?),
             ("tiles", list(tiles)?),
             ("coarse", list(coarse)?),
@@ -186,6 +203,39 @@ impl TilePlan {
     /// Returns all tiles: those of the features, and the coarser ones.
     pub fn all_tiles(&self) -> Vec<&PlannedTile> {
         self.tiles.iter().chain(&self.coarse).collect()
+    }
+
+    /// Returns the terrain tiles, in the order of the curve. Their hashes depend on the program, the file of the heights, the frame and
+    /// the choices for models.
+    pub fn terrain_tiles(&self) -> Result<Vec<PlannedTile>> {
+        let Some(terrain) = &self.terrain else { return Ok(Vec::new()) };
+        let common = (self.version, &self.program, &self.frame, terrain, &self.model);
+        let geoid = self.files.iter().find(|file| Some(&file.path) == self.frame.geoid.as_ref());
+        let common = serde_json::to_string(&(common, geoid)).map_err(Error::internal)?;
+        let cost = f64::from(PlannedTerrain::SQUARES);
+        let tile = |id: TileId| {
+            let mut hasher = blake3::Hasher::new();
+            hasher.update(common.as_bytes()).update(id.to_string().as_bytes());
+            let hash = hasher.finalize().to_hex()[..32].to_owned();
+            let (ids, data, region) = (String::new(), String::new(), terrain.part(id));
+            PlannedTile { id, features: 0, cost, region, ids, data, hash, lod: None, tall: None }
+        };
+        Ok(terrain.tile_ids().into_iter().map(tile).collect())
+    }
+
+    /// Returns the attributes of all sources. Attributes with the same name are one column.
+    pub fn columns(&self) -> Vec<TableColumn> {
+        let mut columns: Vec<TableColumn> = Vec::new();
+        for column in self.sources.iter().flat_map(|source| &source.columns) {
+            match columns.iter_mut().find(|known| known.name == column.name) {
+                Some(known) => {
+                    let joined = ColumnKind::joined(Some(known.kind), Some(column.kind));
+                    known.kind = joined.unwrap_or(known.kind);
+                }
+                None => columns.push(column.clone()),
+            }
+        }
+        columns
     }
 
     /// Returns west, south, east and north (m) of the features that a tile needs: its own, and those within the reach.
@@ -207,10 +257,23 @@ impl TilePlan {
     /// changes its tile, the coarser tiles above it, and those within the reach.
     pub fn set_hashes(&mut self) -> Result<()> {
         let Self {
-            version, program, arguments, files, packages, frame, reach, metadata, model, lods, ..
+            version,
+            program,
+            arguments,
+            files,
+            packages,
+            frame,
+            reach,
+            metadata,
+            model,
+            tables,
+            tall,
+            lods,
+            ..
         } = &*self;
         let common = (version, program, arguments, files, packages, frame, reach, metadata, model, lods);
-        let common = serde_json::to_string(&common).map_err(Error::internal)?;
+        let columns = (!tables.is_empty()).then(|| self.columns());
+        let common = serde_json::to_string(&(common, tables, columns, tall)).map_err(Error::internal)?;
         let mut by_west: Vec<usize> = (0..self.tiles.len()).collect();
         by_west.sort_by(|a, b| self.tiles[*a].region[0].total_cmp(&self.tiles[*b].region[0]));
         let widest = self.tiles.iter().map(|tile| tile.region[2] - tile.region[0]).fold(0.0, f64::max);
@@ -219,7 +282,7 @@ impl TilePlan {
             hasher.update(common.as_bytes());
             hasher.update(tile.id.to_string().as_bytes());
             hasher.update(tile.data.as_bytes());
-            hasher.update(&[tile.lod.unwrap_or(u8::MAX)]);
+            hasher.update(&[tile.lod.unwrap_or(u8::MAX), tile.tall.map_or(u8::MAX, u8::from)]);
             if *reach > 0.0 {
                 let [west, south, east, north] = tile.region;
                 let first =
@@ -230,7 +293,11 @@ impl TilePlan {
                     .take_while(|other| other.region[0] <= east + reach)
                     .filter(|other| {
                         let [low_x, low_y, high_x, high_y] = other.region;
-                        (other.id.level < tile.id.level || other.id.ancestor(tile.id.level) != tile.id)
+                        // A coarser tile has the features of the tiles inside.
+                        let is_apart =
+                            other.id.level < tile.id.level || other.id.ancestor(tile.id.level) != tile.id;
+                        other.id != tile.id
+                            && (tile.lod.is_none() || is_apart)
                             && low_x <= east + reach
                             && high_x >= west - reach
                             && low_y <= north + reach
@@ -268,6 +335,7 @@ mod tests {
             data: data.to_owned(),
             hash: String::new(),
             lod: None,
+            tall: None,
         }
     }
 
@@ -283,7 +351,10 @@ mod tests {
             reach,
             metadata: Vec::new(),
             model: TileModelOptions::default(),
+            tables: Vec::new(),
             sources: Vec::new(),
+            tall: None,
+            terrain: None,
             lods: vec![2],
             coarse: super::super::coarse_tiles(&tiles, &[2]),
             tiles,

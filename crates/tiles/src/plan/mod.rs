@@ -7,6 +7,9 @@ mod file;
 mod grid;
 mod scan;
 mod shares;
+mod table;
+mod tall;
+mod terrain;
 mod tile;
 mod tile_id;
 
@@ -17,5 +20,8 @@ pub use file::{PLAN_VERSION, PlanFrame, PlannedFile, PlannedSource, TilePlan};
 pub use grid::TileGrid;
 pub use scan::{OmittedFeature, ScanResult, cell_digest, scan_source};
 pub use shares::{TileShare, share_of};
+pub use table::TableFormat;
+pub use tall::TallRule;
+pub use terrain::PlannedTerrain;
 pub use tile::PlannedTile;
 pub use tile_id::TileId;

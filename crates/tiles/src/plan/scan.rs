@@ -4,13 +4,14 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use burgeon_base::error::{Error, Result};
-use burgeon_data::{FeatureTable, Layer, Source, SourceOptions, each_piece};
-use burgeon_spatial::{ReferenceFrame, representative_point};
+use burgeon_data::{Feature, FeatureTable, Layer, Source, SourceOptions, each_piece};
+use burgeon_export::layers::{ColumnKind, TableColumn};
+use burgeon_spatial::ReferenceFrame;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::digest::FeatureDigest;
-use super::{TileDivision, feature_digest, id_digest};
+use super::{PlannedTile, TallRule, TileDivision, feature_digest, id_digest};
 
 /// Feature that no tile contains.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -34,22 +35,25 @@ pub struct ScanResult {
     pub bounds: [[f64; 3]; 2],
     /// Set if a part of the file has the same ids as the whole file.
     pub in_parts: bool,
+    /// Attributes, and the types of their values.
+    pub columns: Vec<TableColumn>,
     /// Features that cannot be in a tile.
     pub left_out: Vec<OmittedFeature>,
     /// Remarks on features that are in tiles, or that are too many to be listed.
     pub notes: Vec<String>,
 }
 
-/// Adds the features of a source to `division`, in the coordinates of `frame`.
+/// Adds the features of a source to `division`, in the coordinates of `frame`. `tall` tells the tall ones.
 ///
 /// A GeoPackage is read in pieces, so memory does not grow with it, unless records have the same id: then ids depend on all
 /// records, and the file is read again as a whole, like files of other formats. Fails if the file cannot be read.
 pub fn scan_source(
     (path, name, options): (&Path, &str, &SourceOptions),
     frame: &ReferenceFrame,
+    tall: Option<&TallRule>,
     division: &mut TileDivision,
 ) -> Result<ScanResult> {
-    let mut scan = SourceScan::new(frame);
+    let mut scan = SourceScan::new(frame, tall);
     let in_pieces = each_piece(path, name, options, |table| {
         scan.add(table)?;
         Ok(if scan.is_repeated { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
@@ -58,14 +62,19 @@ pub fn scan_source(
     let in_parts = in_pieces && !scan.is_repeated && options.within.is_none();
     if in_pieces && scan.is_repeated {
         let whole = Source::open_within(path, name, options)?.read(name, options)?;
-        scan = SourceScan::new(frame);
+        scan = SourceScan::new(frame, tall);
         scan.add(whole)?;
     }
-    let SourceScan { label, bounds, left_out, notes, division: own, .. } = scan;
+    let SourceScan { label, bounds, left_out, notes, division: own, columns, .. } = scan;
+    let column = |(name, kind): (String, Option<ColumnKind>)| TableColumn {
+        name,
+        kind: kind.unwrap_or(ColumnKind::Text),
+    };
+    let columns = columns.into_iter().map(column).collect();
     let features = own.features();
     let bounds = if features == 0 { [[0.0; 3]; 2] } else { bounds };
     division.merge(own);
-    Ok(ScanResult { label, features, bounds, in_parts, left_out, notes })
+    Ok(ScanResult { label, features, bounds, in_parts, columns, left_out, notes })
 }
 
 /// Returns true if a number is repeated, and sorts the numbers.
@@ -80,9 +89,12 @@ const LISTED: usize = 100_000;
 /// State of a scan.
 struct SourceScan<'a> {
     frame: &'a ReferenceFrame,
+    tall: Option<&'a TallRule>,
     label: String,
     bounds: [[f64; 3]; 2],
     division: TileDivision,
+    /// Attributes, and the types of their values so far.
+    columns: Vec<(String, Option<ColumnKind>)>,
     /// Hashes of the ids so far.
     known: Vec<u64>,
     /// Set if pieces have the same id.
@@ -92,12 +104,14 @@ struct SourceScan<'a> {
 }
 
 impl<'a> SourceScan<'a> {
-    fn new(frame: &'a ReferenceFrame) -> Self {
+    fn new(frame: &'a ReferenceFrame, tall: Option<&'a TallRule>) -> Self {
         Self {
             frame,
+            tall,
             label: String::new(),
             bounds: [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]],
             division: TileDivision::default(),
+            columns: Vec::new(),
             known: Vec::new(),
             is_repeated: false,
             left_out: Vec::new(),
@@ -140,15 +154,43 @@ impl<'a> SourceScan<'a> {
             .filter_map(|feature| {
                 let (id, points) = (feature.id.as_str(), feature.geometry.points().count());
                 let ids = id_digest(name, id);
-                Some((feature.geometry.bounds()?, points, ids, feature_digest(name, names, feature)))
+                let is_tall = self.tall.is_some_and(|rule| rule.holds(names, feature));
+                Some((feature.geometry.bounds()?, points, ids, feature_digest(name, names, feature), is_tall))
             })
             .collect();
-        for (bounds, points, ids, data) in measured {
+        self.add_columns(&layer);
+        for (bounds, points, ids, data, is_tall) in measured {
             self.known.push(ids.short());
-            self.division.add(bounds, points, ids, data)?;
+            match is_tall {
+                true => self.division.add_tall(bounds, points, ids, data)?,
+                false => self.division.add(bounds, points, ids, data)?,
+            }
         }
         self.refuse(layer.refused);
         Ok(())
+    }
+
+    /// Adds the types of the attributes of a layer.
+    fn add_columns(&mut self, layer: &Layer) {
+        let none = || vec![None; layer.names.len()];
+        let add = |mut kinds: Vec<Option<ColumnKind>>, feature: &Feature| {
+            for (number, value) in &*feature.attributes {
+                if let Some(kind) = kinds.get_mut(*number) {
+                    *kind = ColumnKind::joined(*kind, ColumnKind::of(value));
+                }
+            }
+            kinds
+        };
+        let join = |a: Vec<Option<ColumnKind>>, b: Vec<Option<ColumnKind>>| {
+            a.into_iter().zip(b).map(|(a, b)| ColumnKind::joined(a, b)).collect()
+        };
+        let kinds = layer.features.par_iter().fold(none, add).reduce(none, join);
+        for (name, kind) in layer.names.iter().zip(kinds) {
+            match self.columns.iter_mut().find(|(known, _)| known == name) {
+                Some((_, known)) => *known = ColumnKind::joined(*known, kind),
+                None => self.columns.push((name.clone(), kind)),
+            }
+        }
     }
 
     fn refuse(&mut self, refused: Vec<(String, Error)>) {
@@ -165,20 +207,18 @@ impl<'a> SourceScan<'a> {
     }
 }
 
-/// Returns the digests of the ids and of the content of the features of `layer` whose representative points are in a cell
-/// (west, south, east and north, m), and their number.
+/// Returns the digests of the ids and of the content of the features of `layer` in a tile, and their number. `tall` is the rule of
+/// the plan.
 pub fn cell_digest(
     layer: &Layer,
-    [west, south, east, north]: [f64; 4],
+    tile: &PlannedTile,
+    tall: Option<&TallRule>,
 ) -> (FeatureDigest, FeatureDigest, u64) {
     let (mut ids, mut data, mut count) = (FeatureDigest::default(), FeatureDigest::default(), 0);
-    for feature in &layer.features {
-        let Some([x, y]) = feature.geometry.bounds().map(representative_point) else { continue };
-        if (west..east).contains(&x) && (south..north).contains(&y) {
-            ids.add(id_digest(&layer.name, feature.id.as_str()));
-            data.add(feature_digest(&layer.name, &layer.names, feature));
-            count += 1;
-        }
+    for feature in tile.own_features(layer, tall) {
+        ids.add(id_digest(&layer.name, feature.id.as_str()));
+        data.add(feature_digest(&layer.name, &layer.names, feature));
+        count += 1;
     }
     (ids, data, count)
 }

@@ -82,6 +82,7 @@ mod tests {
             data: String::new(),
             hash: String::new(),
             lod: None,
+            tall: None,
         };
         let tiles: Vec<PlannedTile> = (0..500).map(tile).collect();
         let tiles: Vec<&PlannedTile> = tiles.iter().collect();

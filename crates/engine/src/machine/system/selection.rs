@@ -33,8 +33,18 @@ impl PartSelection {
     pub(super) fn new(machine: &Machine, source: &AnyUserData) -> Result<Self> {
         let Some(part) = machine.session.options.part else { return Ok(Self { roles: Vec::new() }) };
         let bounds = bounds(machine, source)?;
-        let shown: Vec<bool> =
-            bounds.iter().enumerate().map(|(index, it)| part.contains(index, bounds.len(), *it)).collect();
+        let layer = layer_of(source);
+        let choice = machine.session.options.choice.as_ref();
+        let is_chosen = |index: usize| {
+            choice.is_none_or(|choice| match &layer {
+                Some(layer) => choice.contains(layer.attribute_names(), layer.attributes(index)),
+                None => choice.contains(&[], &[]),
+            })
+        };
+        let shown = |(index, it): (usize, &Option<BoundingBox>)| {
+            part.contains(index, bounds.len(), *it) && is_chosen(index)
+        };
+        let shown: Vec<bool> = bounds.iter().enumerate().map(shown).collect();
         let near = if part.reach > 0.0 {
             near_selection(&bounds, |index| shown[index], part.reach)?
         } else {

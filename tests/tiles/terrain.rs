@@ -1,0 +1,111 @@
+//! Terrain tiles beside the tiles of features.
+
+use serde_json::Value;
+
+use crate::city::City;
+
+/// Writes hills of 3 km around the city, with a height each 10 m.
+fn write_heights(city: &City, lift: f64) {
+    let mut text = "ncols 300\nnrows 300\nxllcorner 650600\nyllcorner 6860600\ncellsize 10\n".to_owned();
+    for row in 0..300 {
+        let height = |column: i32| {
+            let (x, y) = (f64::from(column) / 17.0, f64::from(row) / 23.0);
+            format!("{:.2}", 60.0 + lift + 25.0 * x.sin() * y.cos() + f64::from((column * row) % 7) * 0.3)
+        };
+        text += &(0..300).map(height).collect::<Vec<_>>().join(" ");
+        text.push('\n');
+    }
+    std::fs::write(city.path("hills.asc"), text).unwrap();
+}
+
+fn plan(city: &City, folder: &str) -> Value {
+    let arguments = ["plan", "city.lua", "-o", folder, "--target-features", "100", "--geoid-height", "44"];
+    city.json(&[&arguments[..], &["--terrain", "hills.asc"]].concat())
+}
+
+/// Returns the geometric errors of the contents of a tile and of those inside, by level below it.
+fn errors(tile: &Value, depth: usize, found: &mut Vec<(usize, f64, bool)>) {
+    let children = tile["children"].as_array().cloned().unwrap_or_default();
+    if tile["content"]["uri"].is_string() {
+        let error = tile["geometricError"].as_f64().unwrap();
+        found.push((depth, error, !children.is_empty()));
+        assert!(children.is_empty() || tile["refine"] == "REPLACE");
+    }
+    children.iter().for_each(|child| errors(child, depth + 1, found));
+}
+
+#[test]
+fn terrain_has_its_own_levels_with_measured_errors_beside_the_features() {
+    let city = City::new(200);
+    write_heights(&city, 0.0);
+    let planned = plan(&city, "out");
+    let tiles = planned["terrain"].as_u64().unwrap();
+    assert!(tiles > 20, "{planned}");
+    for share in ["2/2", "1/2"] {
+        city.json(&["make", "out", "--share", share]);
+    }
+    let joined = city.json(&["join", "out", "--tiling", "both"]);
+    assert_eq!(
+        (&joined["terrain"], &joined["open"], &joined["missing"]),
+        (&tiles.into(), &0.into(), &0.into())
+    );
+    let checked = city.json(&["check", "out"]);
+    assert_eq!((&checked["terrain"], &checked["features"]), (&tiles.into(), &200.into()));
+    let read = |name: &str| -> Value {
+        serde_json::from_slice(&std::fs::read(city.path("out").join(name)).unwrap()).unwrap()
+    };
+    for name in ["tileset.json", "implicit.json"] {
+        let children = read(name)["root"]["children"].as_array().cloned().unwrap();
+        assert_eq!((children.len(), &children[1]["content"]["uri"]), (2, &"terrain.json".into()), "{name}");
+    }
+    let mut found = Vec::new();
+    errors(&read("terrain.json")["root"], 0, &mut found);
+    assert_eq!(found.len() as u64, tiles);
+    for (_, error, has_children) in &found {
+        // Noise of up to 1.8 m is in no coarser grid, and hills of 25 m in none with steps of hundreds of metres.
+        assert!(if *has_children { (1.0..60.0).contains(error) } else { *error == 0.0 }, "{found:?}");
+    }
+    // The same bytes by one process.
+    plan(&city, "other");
+    city.json(&["make", "other", "--threads", "1"]);
+    city.json(&["join", "other", "--tiling", "both"]);
+    city.assert_same("out", "other");
+    let status = city.json(&["status", "out"]);
+    assert_eq!((&status["open"], &status["part"]), (&0.into(), &1.0.into()));
+}
+
+#[test]
+fn other_heights_remake_the_terrain_and_no_features() {
+    let city = City::new(60);
+    write_heights(&city, 0.0);
+    let planned = plan(&city, "out");
+    let (terrain, tiles) = (planned["terrain"].as_u64().unwrap(), planned["tiles"].as_u64().unwrap());
+    assert_eq!(city.json(&["make", "out"])["made"], terrain + tiles);
+    write_heights(&city, 3.0);
+    assert!(city.fails(&["make", "out"], 1).contains("hills.asc has changed"));
+    plan(&city, "out");
+    let made = city.json(&["make", "out"]);
+    assert_eq!((&made["made"], &made["kept"]), (&terrain.into(), &tiles.into()));
+    city.json(&["join", "out"]);
+    city.json(&["check", "out"]);
+    let path = city.path("out/terrain.json");
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(&path, text.replace("REPLACE", "ADD")).unwrap();
+    assert!(city.fails(&["check", "out"], 1).contains("is shown together with finer terrain"));
+    // Without a terrain, its tileset is removed.
+    city.json(&[
+        "plan",
+        "city.lua",
+        "-o",
+        "out",
+        "--target-features",
+        "100",
+        "--geoid-height",
+        "44",
+        "--replace",
+    ]);
+    city.json(&["join", "out"]);
+    assert!(!path.exists());
+    let text = city.fails(&["plan", "city.lua", "-o", "no", "--terrain", "none.tif"], 1);
+    assert!(text.contains("there is no file of heights none.tif"), "{text}");
+}
