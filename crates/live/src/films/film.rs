@@ -384,12 +384,7 @@ s:derive(0)
         film_of(SCRIPT, axis, threads, memory)
     }
 
-    fn film_of(
-        text: &str,
-        axis: &str,
-        threads: usize,
-        memory: usize,
-    ) -> Result<(tempfile::TempDir, Film)> {
+    fn film_of(text: &str, axis: &str, threads: usize, memory: usize) -> Result<(tempfile::TempDir, Film)> {
         let folder = tempfile::tempdir().unwrap();
         let script = folder.path().join("s.lua");
         std::fs::write(&script, text).unwrap();

@@ -191,7 +191,9 @@ impl Light<'_> {
     pub(super) fn ground(&self, fragment: &Fragment, gathered: &GatheredLight) -> Vec3 {
         let sky = self.sky.open(Vec3A::Z);
         let sun = SUN * self.sun.direction.z;
-        let seen = self.sun_seen(fragment, Vec3A::Z);
+        // The edges of shadows on the ground are visible, so pixels that share the sky's light do not share the sun's.
+        let turn = fragment.noise * TAU;
+        let seen = self.sun.visibility(fragment.surface.rounded, Vec3A::Z, turn, (0, 1));
         let part = (sky * bounce_light(gathered.openness(), Vec3::splat(0.5)) + sun * seen) / (sky + sun);
         // Halve the blue tint, because the eye perceives the sky's light as white.
         part.lerp(Vec3::splat(part.element_sum() / 3.0), 0.5)

@@ -112,7 +112,7 @@ impl Sun {
         let turn = Vec2::from_angle(turn);
         if self.pools_light && share > 2 {
             // The mean of the pixel's points is as smooth as a wide penumbra, and the width is not visible among them.
-            let taps = (self.disc.len() / share).max(3);
+            let taps = (self.disc.len() / share).max(4);
             let offsets = self.disc.iter().cycle().skip(taps * place).take(taps);
             let lit = offsets.filter(|offset| compare(turn.rotate(**offset) * CROWDED).is_none()).count();
             return lit as f32 / taps as f32;
