@@ -24,6 +24,11 @@ impl Extent {
     pub fn join_outline(&mut self, _other: &Self) {}
 
     /// Returns true, because nothing can be shown.
+    pub fn contains(&self, _other: &Self) -> bool {
+        true
+    }
+
+    /// Returns true, because nothing can be shown.
     pub fn is_empty(&self) -> bool {
         true
     }

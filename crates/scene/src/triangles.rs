@@ -120,11 +120,33 @@ impl Triangles {
 
     /// Iterates over the triangles at these indices, as far as they exist.
     pub fn range(&self, places: Range<usize>) -> Iter<'_> {
-        let after = self.runs.partition_point(|run| run.first as usize <= places.start);
+        let after = self.runs_until(places.start);
         let end = places.end.min(self.count);
         let next = places.start.min(end);
         let nothing = FacePattern::Listed(0);
         Iter { of: self, next, end, run: after.saturating_sub(1), first: 0, until: next, faces: nothing }
+    }
+
+    /// Returns the number of runs that begin at or before the triangle `place`.
+    ///
+    /// Most runs of a mesh are about equally long, so the search begins where the run would be if all were, and doubles its
+    /// steps.
+    fn runs_until(&self, place: usize) -> usize {
+        let begins_before =
+            |index: usize| self.runs.get(index).is_some_and(|run| run.first as usize <= place);
+        let guess = (place as u128 * self.runs.len() as u128 / self.count.max(1) as u128) as usize;
+        let (mut low, mut high) = (guess.min(self.runs.len()), guess.min(self.runs.len()));
+        let mut step = 1;
+        while low > 0 && !begins_before(low - 1) {
+            low = low.saturating_sub(step);
+            step *= 2;
+        }
+        step = 1;
+        while begins_before(high) {
+            high = (high + step).min(self.runs.len());
+            step *= 2;
+        }
+        low + self.runs[low..high].partition_point(|run| run.first as usize <= place)
     }
 
     /// Returns the smallest and the largest corner of the triangles at these indices; `None` if there are none.

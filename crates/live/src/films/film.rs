@@ -14,7 +14,7 @@ use burgeon_picture::{Extent, Picture, Quality, render_within};
 use burgeon_scene::Scene;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 
 /// Name that stands for the number of derivation steps, unless the script has a parameter of this name.
@@ -70,12 +70,19 @@ struct FilmFindings {
     triangles: usize,
 }
 
-/// Result of the run of a frame.
-struct FrameRun {
-    /// Scene, unless it was dropped to save memory.
-    scene: Option<Scene>,
+/// Frame that was measured, with as much of it as there is memory for.
+#[derive(Default)]
+struct MeasuredFrame {
+    /// Set if the model is inside the expected extent.
+    is_expected: bool,
     extent: Extent,
+    scene: Option<Scene>,
+    /// Complete frame, whose render shows the expected extent.
+    frame: Option<FilmFrame>,
 }
+
+/// Maximum number of frames from which the extent of the others is expected.
+const SAMPLES: usize = 5;
 
 impl Film {
     /// Prepares a film of `script` with the values of `axis`, at most `most` frames. The limits of `options` apply to
@@ -163,7 +170,7 @@ impl Film {
     /// settings of the renders, which share a camera that shows the model of every frame completely, unless the picture
     /// has its own view.
     ///
-    /// If there are renders, all scripts run before the first frame is passed on. Scenes that would take more than a
+    /// If there are renders, all scripts run before the first frame is passed on. Renders that would take more than a
     /// quarter of the memory limit are made again. Fails if a frame fails, with its error, or if `picture` is invalid.
     pub fn make(
         &self,
@@ -173,37 +180,102 @@ impl Film {
     ) -> Result<()> {
         picture.check()?;
         let count = self.frames as usize;
-        let mut extent = Extent::default();
-        let mut waiting: Vec<Mutex<Option<Scene>>> = Vec::new();
-        if needs.images {
-            let held = AtomicUsize::new(0);
-            let measure = |number: usize| {
-                let run = self.run(number, needs, Some(&held))?;
-                self.progress.measured.fetch_add(1, Ordering::Relaxed);
-                Ok(run)
-            };
-            in_order(count, self.threads(), &self.stop, measure, |_, run| {
-                extent.join_outline(&run.extent);
-                waiting.push(Mutex::new(run.scene));
-                Ok(())
-            })?;
-        }
         let picture = Picture { quality: Quality::Film, ..*picture };
+        let (extent, waiting) = match needs.images {
+            true => self.measure_all(needs, &picture)?,
+            false => Default::default(),
+        };
         let frame = |number: usize| {
-            let known = waiting.get(number).and_then(|scene| scene.lock().recover().take());
-            let scene = match known {
-                Some(scene) => scene,
-                None => self.run(number, needs, None)?.scene.unwrap_or_default(),
-            };
-            let frame = if needs.images {
-                FilmFrame::of_image(needs, render_within(&scene, Some(&extent), &picture, &self.stop)?)?
-            } else {
-                FilmFrame::default()
+            let measured = waiting.get(number).map(|frame| std::mem::take(&mut *frame.lock().recover()));
+            let measured = measured.unwrap_or_default();
+            let frame = match (measured.frame, measured.scene) {
+                (Some(frame), _) => frame,
+                (None, Some(scene)) => self.frame(scene, needs, &extent, &picture)?,
+                (None, None) => self.frame(self.run(number, needs)?, needs, &extent, &picture)?,
             };
             self.progress.made.fetch_add(1, Ordering::Relaxed);
-            Ok(FilmFrame { scene: needs.scenes.then_some(scene), ..frame })
+            Ok(frame)
         };
         in_order(count, self.threads(), &self.stop, frame, |_, frame| take(frame))
+    }
+
+    /// Runs the script for all frames. Returns the extent that the renders show, and the frames.
+    ///
+    /// The extent of a few frames often contains all others, as with a plant that grows. As long as it does, a frame is
+    /// rendered at once, so that its scene is made once and need not be kept. The result depends on the extents alone,
+    /// not on the memory or the order of the threads.
+    fn measure_all(
+        &self,
+        needs: FilmNeeds,
+        picture: &Picture,
+    ) -> Result<(Extent, Vec<Mutex<MeasuredFrame>>)> {
+        let count = self.frames as usize;
+        let most = self.options.limits.memory / 4;
+        let held = AtomicUsize::new(0);
+        let has_room = |size: usize, most: usize| {
+            let fits = held.fetch_add(size, Ordering::Relaxed).saturating_add(size) < most;
+            if !fits {
+                held.fetch_sub(size, Ordering::Relaxed);
+            }
+            fits
+        };
+        let mut samples: Vec<usize> = (0..SAMPLES).map(|i| i * (count - 1) / (SAMPLES - 1)).collect();
+        samples.dedup();
+        let mut expected = Extent::default();
+        let mut known: Vec<Mutex<Option<MeasuredFrame>>> = Vec::new();
+        known.resize_with(count, Mutex::default);
+        let sample = |i: usize| {
+            let (scene, extent) = self.measure(samples[i], needs)?;
+            let scene = has_room(scene_bytes(&scene), most / 2).then_some(scene);
+            Ok(MeasuredFrame { extent, scene, ..MeasuredFrame::default() })
+        };
+        in_order(samples.len(), self.threads(), &self.stop, sample, |i, frame| {
+            expected.join_outline(&frame.extent);
+            *known[samples[i]].lock().recover() = Some(frame);
+            Ok(())
+        })?;
+        let is_exceeded = AtomicBool::new(false);
+        let measure = |number: usize| {
+            let (scene, extent) = match known[number].lock().recover().take() {
+                Some(MeasuredFrame { scene: Some(scene), extent, .. }) => {
+                    held.fetch_sub(scene_bytes(&scene), Ordering::Relaxed);
+                    (scene, extent)
+                }
+                Some(_) | None => self.measure(number, needs)?,
+            };
+            let is_expected = expected.contains(&extent);
+            is_exceeded.fetch_or(!is_expected, Ordering::Relaxed);
+            let mut measured = MeasuredFrame { is_expected, extent, ..MeasuredFrame::default() };
+            if is_exceeded.load(Ordering::Relaxed) {
+                measured.scene = has_room(scene_bytes(&scene), most).then_some(scene);
+            } else if has_room(frame_bytes(picture, needs, &scene), most) {
+                measured.frame = Some(self.frame(scene, needs, &expected, picture)?);
+            }
+            self.progress.measured.fetch_add(1, Ordering::Relaxed);
+            Ok(measured)
+        };
+        let (mut extent, mut waiting) = (Extent::default(), Vec::new());
+        in_order(count, self.threads(), &self.stop, measure, |_, frame| {
+            extent.join_outline(&frame.extent);
+            waiting.push(frame);
+            Ok(())
+        })?;
+        if waiting.iter().all(|frame| frame.is_expected) {
+            extent = expected;
+        } else {
+            waiting.iter_mut().for_each(|frame| frame.frame = None);
+        }
+        Ok((extent, waiting.into_iter().map(Mutex::new).collect()))
+    }
+
+    /// Returns the frame of `scene`, whose render shows `extent`.
+    fn frame(&self, scene: Scene, needs: FilmNeeds, extent: &Extent, picture: &Picture) -> Result<FilmFrame> {
+        let frame = if needs.images {
+            FilmFrame::of_image(needs, render_within(&scene, Some(extent), picture, &self.stop)?)?
+        } else {
+            FilmFrame::default()
+        };
+        Ok(FilmFrame { scene: needs.scenes.then_some(scene), ..frame })
     }
 
     /// Returns the number of frames that are made at the same time.
@@ -211,17 +283,29 @@ impl Film {
         self.options.worker_threads().min(self.frames as usize).max(1)
     }
 
-    /// Runs the script for a frame. With `held`, which counts the memory of kept scenes, measures the scene and drops it if
-    /// memory is scarce.
-    fn run(&self, number: usize, needs: FilmNeeds, held: Option<&AtomicUsize>) -> Result<FrameRun> {
-        let number = u32::try_from(number).unwrap_or(u32::MAX);
-        self.run_frame(number, needs, held).map_err(|error| match self.stop.is_stopped() {
-            true => error,
-            false => error.noting(&self.axis.label(number)),
-        })
+    /// Runs the script for a frame, and measures its scene.
+    fn measure(&self, number: usize, needs: FilmNeeds) -> Result<(Scene, Extent)> {
+        let scene = self.run(number, needs)?;
+        let extent = Extent::of(&scene).map_err(|error| self.noting(number, error))?;
+        Ok((scene, extent))
     }
 
-    fn run_frame(&self, number: u32, needs: FilmNeeds, held: Option<&AtomicUsize>) -> Result<FrameRun> {
+    /// Runs the script for a frame.
+    fn run(&self, number: usize, needs: FilmNeeds) -> Result<Scene> {
+        let frame = u32::try_from(number).unwrap_or(u32::MAX);
+        self.run_frame(frame, needs).map_err(|error| self.noting(number, error))
+    }
+
+    /// Returns the error of a frame, with its number and value unless the film was cancelled.
+    fn noting(&self, number: usize, error: Error) -> Error {
+        let number = u32::try_from(number).unwrap_or(u32::MAX);
+        match self.stop.is_stopped() {
+            true => error,
+            false => error.noting(&self.axis.label(number)),
+        }
+    }
+
+    fn run_frame(&self, number: u32, needs: FilmNeeds) -> Result<Scene> {
         let mut options = self.options.clone();
         options.stop = Some(Arc::clone(&self.stop));
         if self.of_steps {
@@ -244,14 +328,7 @@ impl Film {
         }
         let triangles = run.scene.triangles();
         self.note(&session, run.systems.iter().map(|system| system.modules()).sum(), triangles, run.warnings);
-        let Some(held) = held else {
-            return Ok(FrameRun { scene: Some(run.scene), extent: Extent::default() });
-        };
-        let extent = Extent::of(&run.scene)?;
-        let size = scene_bytes(&run.scene);
-        let has_room =
-            held.fetch_add(size, Ordering::Relaxed).saturating_add(size) < self.options.limits.memory / 4;
-        Ok(FrameRun { scene: has_room.then_some(run.scene), extent })
+        Ok(run.scene)
     }
 
     fn note(&self, session: &Session, modules: usize, triangles: usize, warnings: Vec<Warning>) {
@@ -266,6 +343,13 @@ impl Film {
             }
         }
     }
+}
+
+/// Returns the memory of a frame that waits (bytes).
+fn frame_bytes(picture: &Picture, needs: FilmNeeds, scene: &Scene) -> usize {
+    let image = picture.width as usize * picture.height as usize * 4;
+    // A render as a PNG file is rarely larger than the render.
+    image * (1 + usize::from(needs.files)) + if needs.scenes { scene_bytes(scene) } else { 0 }
 }
 
 /// Returns true if `value` is a number of derivation steps.
@@ -289,10 +373,21 @@ end)
 s:derive(4)
 "#;
 
+    /// Script whose model is much taller at a time between those from which the extent is expected.
+    const JUMP: &str = r#"local time = param("time", { default = 1, min = 0, max = 9 })
+local s = lsystem({ object = turtle({ width = 0.2 }) })
+s:axiom(F(if time == 3 then 9 else 1))
+s:derive(0)
+"#;
+
     fn film(axis: &str, threads: usize, memory: usize) -> Result<(tempfile::TempDir, Film)> {
+        film_of(SCRIPT, axis, threads, memory)
+    }
+
+    fn film_of(text: &str, axis: &str, threads: usize, memory: usize) -> Result<(tempfile::TempDir, Film)> {
         let folder = tempfile::tempdir().unwrap();
         let script = folder.path().join("s.lua");
-        std::fs::write(&script, SCRIPT).unwrap();
+        std::fs::write(&script, text).unwrap();
         let mut options = RunOptions {
             threads: Some(threads),
             registry: burgeon_objects::registry(),
@@ -304,7 +399,11 @@ s:derive(4)
     }
 
     fn images(axis: &str, threads: usize, memory: usize) -> Result<Vec<FilmFrame>> {
-        let (_folder, film) = film(axis, threads, memory)?;
+        images_of(SCRIPT, axis, threads, memory)
+    }
+
+    fn images_of(text: &str, axis: &str, threads: usize, memory: usize) -> Result<Vec<FilmFrame>> {
+        let (_folder, film) = film_of(text, axis, threads, memory)?;
         let picture = Picture { width: 40, height: 30, ..Picture::default() };
         let needs = FilmNeeds { images: true, files: false, scenes: true };
         let mut frames = Vec::new();
@@ -327,6 +426,16 @@ s:derive(4)
         let mut back = images("2:0:-0.5", 2, 1 << 30).unwrap();
         back.reverse();
         assert_eq!(back, one);
+    }
+
+    #[test]
+    fn a_model_that_is_largest_between_the_samples_is_shown_completely() {
+        let frames = images_of(JUMP, "0:8", 2, 1 << 30).unwrap();
+        let top = |frame: &FilmFrame| frame.image.as_ref().unwrap().row(0).to_vec();
+        assert!(frames[2].image != frames[3].image && frames[2].image == frames[4].image);
+        assert_eq!(top(&frames[3]), top(&frames[2]));
+        assert_eq!(images_of(JUMP, "0:8", 1, 1 << 30).unwrap(), frames);
+        assert_eq!(images_of(JUMP, "0:8", 2, 1000).unwrap(), frames);
     }
 
     #[test]

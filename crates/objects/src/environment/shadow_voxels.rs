@@ -7,7 +7,6 @@ use burgeon_base::error::{Error, Result};
 use burgeon_base::{MemoryOwner, Stop};
 use burgeon_kit::{Environment, Vector, fields, methods, object};
 use glam::DVec3;
-use rustc_hash::FxHashMap;
 
 /// Largest absolute coordinate of a voxel.
 const FARTHEST: f64 = 1e6;
@@ -44,21 +43,36 @@ pub struct ShadowVoxelOptions {
 )]
 pub struct ShadowVoxels {
     options: ShadowVoxelOptions,
-    /// Amounts of the places in each voxel, by the numbers of the voxel along x, y and z.
-    amounts: FxHashMap<[i32; 3], f64>,
-    /// Sums of the amounts, built by the first question after the last change.
-    layers: OnceLock<BTreeMap<i32, LayerSums>>,
+    /// Shadow of a place of amount 1 in its own layer and in each layer below.
+    strengths: Vec<f64>,
+    /// Amounts in the order of the calls, with the numbers of their voxels along x, y and z. Amounts of one voxel are
+    /// added up if there is no room for more.
+    amounts: Vec<VoxelAmount>,
+    /// Sums of the amounts in ascending layers, built by the first question after the last change.
+    layers: OnceLock<Vec<LayerSums>>,
 }
 
-/// Sums of the amounts in a layer.
+/// Numbers of a voxel along x, y and z, and an amount in it.
+type VoxelAmount = ([i32; 3], f64);
+
+/// Sums of the amounts in a layer. Rows and columns without amounts take no room in the table.
 #[derive(Debug, Clone)]
 struct LayerSums {
-    /// Numbers of the first voxel along x and y.
-    first: [i32; 2],
-    /// Numbers of voxels along x and y.
-    counts: [usize; 2],
+    /// Number of the layer along z.
+    layer: i32,
+    /// Rows and columns along x and y.
+    lines: [VoxelLines; 2],
     /// Sum of the amounts of all voxels before x and y, row by row, with a row and a column of zeros.
     sums: Vec<f64>,
+}
+
+/// Lines of voxels along an axis of a layer, from the first to the last line that has amounts.
+#[derive(Debug, Clone)]
+struct VoxelLines {
+    /// Number of the first line.
+    first: i32,
+    /// Number of lines with amounts before each line, and before the end.
+    before: Vec<u32>,
 }
 
 #[methods("shadow_voxels")]
@@ -72,10 +86,10 @@ impl ShadowVoxels {
                 .help("give a finite number"));
         }
         if self.amounts.len() == self.amounts.capacity() {
-            MemoryOwner::ensure_room(2 * self.amounts.len() * size_of::<([i32; 3], f64)>())?;
+            self.make_room()?;
         }
         self.layers.take();
-        *self.amounts.entry(voxel).or_default() += amount;
+        self.amounts.push((voxel, amount));
         Ok(())
     }
 
@@ -133,7 +147,33 @@ impl ShadowVoxels {
         if options.depth > 1000 {
             return refuse("depth", "at most 1000 layers", f64::from(options.depth));
         }
-        Ok(Self { options, amounts: FxHashMap::default(), layers: OnceLock::new() })
+        let layers = 0..=options.depth;
+        let strengths = layers.scan(options.strength, |strength, _| {
+            let own = *strength;
+            *strength *= options.decay;
+            Some(own)
+        });
+        let strengths = strengths.collect();
+        Ok(Self { options, strengths, amounts: Vec::new(), layers: OnceLock::new() })
+    }
+
+    /// Adds up the amounts of each voxel, in the order of the calls, and enlarges the list if many voxels remain.
+    fn make_room(&mut self) -> Result<()> {
+        let full = self.amounts.len();
+        self.amounts.sort_by_key(|(voxel, _)| *voxel);
+        self.amounts.dedup_by(|(voxel, amount), (kept, sum)| {
+            let is_same = voxel == kept;
+            if is_same {
+                *sum += *amount;
+            }
+            is_same
+        });
+        if self.amounts.len() * 2 >= full {
+            let more = full.max(64);
+            MemoryOwner::ensure_room((full + more) * size_of::<VoxelAmount>())?;
+            self.amounts.reserve(more);
+        }
+        Ok(())
     }
 
     fn restart(&mut self) {
@@ -164,12 +204,11 @@ impl ShadowVoxels {
                 self.layers.get_or_init(|| layers)
             }
         };
-        let (mut shadow, mut strength) = (0.0, self.options.strength);
-        for above in 0..=self.options.depth.cast_signed() {
-            if let Some(layer) = layers.get(&(z + above)) {
-                shadow += strength * layer.sum([x - above, y - above], [x + above, y + above]);
-            }
-            strength *= self.options.decay;
+        let mut shadow = 0.0;
+        for layer in &layers[layers.partition_point(|layer| layer.layer < z)..] {
+            let above = layer.layer - z;
+            let Some(strength) = self.strengths.get(above.unsigned_abs() as usize) else { break };
+            shadow += strength * layer.sum([x - above, y - above], [x + above, y + above]);
         }
         Ok(shadow)
     }
@@ -183,62 +222,115 @@ impl Environment for ShadowVoxels {
 }
 
 /// Returns the sums of the amounts in each layer that has some.
-fn layers(amounts: &FxHashMap<[i32; 3], f64>) -> Result<BTreeMap<i32, LayerSums>> {
+///
+/// Amounts are added in the order of the calls, so that rounding is the same in every run.
+fn layers(amounts: &[VoxelAmount]) -> Result<Vec<LayerSums>> {
     let mut spans: BTreeMap<i32, [[i32; 2]; 2]> = BTreeMap::new();
-    // Sorted, so that rounding does not depend on the order of a hash table.
-    let mut voxels: Vec<([i32; 3], f64)> = amounts.iter().map(|(voxel, amount)| (*voxel, *amount)).collect();
-    voxels.sort_unstable_by_key(|(voxel, _)| *voxel);
-    for ([x, y, z], _) in &voxels {
+    for ([x, y, z], _) in amounts {
         let span = spans.entry(*z).or_insert([[*x, *y], [*x, *y]]);
         *span = [[span[0][0].min(*x), span[0][1].min(*y)], [span[1][0].max(*x), span[1][1].max(*y)]];
     }
-    let mut layers: BTreeMap<i32, LayerSums> = BTreeMap::new();
-    for (z, [first, last]) in spans {
+    let mut layers: Vec<LayerSums> = Vec::with_capacity(spans.len());
+    for (layer, [first, last]) in spans {
         Stop::check_current()?;
         let counts = [0, 1].map(|axis| last[axis].abs_diff(first[axis]) as usize + 1);
-        let size = (counts[0] + 1).saturating_mul(counts[1] + 1);
-        if size > LARGEST_LAYER {
+        if (counts[0] + 1).saturating_mul(counts[1] + 1) > LARGEST_LAYER {
             return Err(Error::argument(format!(
                 "shadow_voxels: a layer of {} by {} voxels is too large",
                 counts[0], counts[1]
             ))
             .help("use larger voxels"));
         }
-        MemoryOwner::ensure_room(size * size_of::<f64>())?;
-        layers.insert(z, LayerSums { first, counts, sums: vec![0.0; size] });
+        MemoryOwner::ensure_room((counts[0] + counts[1] + 2) * size_of::<u32>())?;
+        let lines = [0, 1].map(|axis| VoxelLines { first: first[axis], before: vec![0; counts[axis] + 1] });
+        layers.push(LayerSums { layer, lines, sums: Vec::new() });
     }
-    for ([x, y, z], amount) in voxels {
-        if let Some(layer) = layers.get_mut(&z) {
-            let at = layer
-                .index([x.abs_diff(layer.first[0]) as usize + 1, y.abs_diff(layer.first[1]) as usize + 1]);
+    for ([x, y, z], _) in amounts {
+        if let Some(layer) = find(&mut layers, *z) {
+            layer.lines[0].mark(*x);
+            layer.lines[1].mark(*y);
+        }
+    }
+    for layer in &mut layers {
+        layer.lines.iter_mut().for_each(VoxelLines::count);
+        let [columns, rows] = [0, 1].map(|axis| layer.lines[axis].kept() + 1);
+        MemoryOwner::ensure_room(columns * rows * size_of::<f64>())?;
+        layer.sums = vec![0.0; columns * rows];
+    }
+    for ([x, y, z], amount) in amounts {
+        if let Some(layer) = find(&mut layers, *z) {
+            let at = layer.index([layer.lines[0].before_end(*x), layer.lines[1].before_end(*y)]);
             layer.sums[at] += amount;
         }
     }
-    for layer in layers.values_mut() {
-        for y in 1..=layer.counts[1] {
-            let mut row = 0.0;
-            for x in 1..=layer.counts[0] {
-                let at = layer.index([x, y]);
-                row += layer.sums[at];
-                layer.sums[at] = row + layer.sums[layer.index([x, y - 1])];
-            }
-        }
+    for layer in &mut layers {
+        Stop::check_current()?;
+        layer.add_up();
     }
     Ok(layers)
 }
 
+/// Returns the layer with a number.
+fn find(layers: &mut [LayerSums], number: i32) -> Option<&mut LayerSums> {
+    let at = layers.partition_point(|layer| layer.layer < number);
+    layers.get_mut(at)
+}
+
+impl VoxelLines {
+    /// Marks a line that has an amount.
+    fn mark(&mut self, number: i32) {
+        self.before[number.abs_diff(self.first) as usize + 1] = 1;
+    }
+
+    /// Replaces the marks by the numbers of marked lines before each line.
+    fn count(&mut self) {
+        let mut count = 0;
+        for before in &mut self.before {
+            count += *before;
+            *before = count;
+        }
+    }
+
+    /// Returns the number of lines with amounts.
+    fn kept(&self) -> usize {
+        self.before.last().map_or(0, |count| *count as usize)
+    }
+
+    /// Returns the number of lines with amounts before the line `number`, which can be outside of the layer.
+    fn before(&self, number: i32) -> usize {
+        let at = usize::try_from(number - self.first).unwrap_or(0);
+        self.before[at.min(self.before.len() - 1)] as usize
+    }
+
+    /// Returns the number of lines with amounts up to and including the line `number`.
+    fn before_end(&self, number: i32) -> usize {
+        self.before(number + 1)
+    }
+}
+
 impl LayerSums {
     fn index(&self, [x, y]: [usize; 2]) -> usize {
-        y * (self.counts[0] + 1) + x
+        y * (self.lines[0].kept() + 1) + x
+    }
+
+    /// Replaces the amount of each voxel by the sum of the amounts up to it.
+    fn add_up(&mut self) {
+        let width = self.lines[0].kept() + 1;
+        let mut above = vec![0.0; width];
+        for row in self.sums.chunks_exact_mut(width).skip(1) {
+            let mut sum = 0.0;
+            for (value, above) in row.iter_mut().zip(&mut above) {
+                sum += *value;
+                *above += sum;
+                *value = *above;
+            }
+        }
     }
 
     /// Returns the sum of the amounts from voxel `from` to voxel `to`.
     fn sum(&self, from: [i32; 2], to: [i32; 2]) -> f64 {
-        let clamped = |axis: usize, number: i32| -> usize {
-            usize::try_from(number - self.first[axis]).unwrap_or(0).min(self.counts[axis])
-        };
-        let [x0, y0] = [0, 1].map(|axis| clamped(axis, from[axis]));
-        let [x1, y1] = [0, 1].map(|axis| clamped(axis, to[axis] + 1));
+        let [x0, y0] = [0, 1].map(|axis| self.lines[axis].before(from[axis]));
+        let [x1, y1] = [0, 1].map(|axis| self.lines[axis].before_end(to[axis]));
         let at = |x, y| self.sums[self.index([x, y])];
         at(x1, y1) - at(x0, y1) - at(x1, y0) + at(x0, y0)
     }

@@ -17,6 +17,22 @@ fn places(seed: u64, count: usize, side: f64) -> Vec<DVec3> {
 }
 
 #[test]
+fn many_shadows_in_few_voxels_add_up() {
+    let options = ShadowVoxelOptions { size: 1.0, depth: 2, strength: 0.5, decay: 0.5 };
+    let mut light = ShadowVoxels::new(options).unwrap();
+    // All sums are exact.
+    let amount = 1.0 / 65536.0;
+    for number in 0..65536 {
+        light.shade(Vector(DVec3::new(f64::from(number % 2) * 9.0, 0.5, 0.5)), Some(amount)).unwrap();
+    }
+    let at = |x: f64, z: f64| light.light(Vector(DVec3::new(x, 0.5, z))).unwrap();
+    assert_eq!((at(0.5, 0.5), at(9.5, 0.5), at(4.5, 0.5)), (1.0, 1.0, 1.0));
+    light.shade(Vector(DVec3::new(0.5, 0.5, 0.5)), Some(1.5)).unwrap();
+    let at = |x: f64, z: f64| light.light(Vector(DVec3::new(x, 0.5, z))).unwrap();
+    assert_eq!((at(0.5, 0.5), at(9.5, 0.5), at(1.5, -0.5), at(0.5, -0.5)), (0.5, 1.0, 1.0, 1.0));
+}
+
+#[test]
 fn shadows_are_those_of_all_voxels_above_in_the_pyramid() {
     for seed in 0..20 {
         let options = || ShadowVoxelOptions {

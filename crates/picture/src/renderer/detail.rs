@@ -19,6 +19,9 @@ pub(super) struct RenderDetail {
     pub sun_side: f32,
     /// Number of lookups in the sun's map for one pixel.
     pub sun_taps: usize,
+    /// Set if the surfaces of a crowded pixel share the sky's light that they gather, as do neighbouring pixels of the
+    /// ground.
+    pub pools_light: bool,
 }
 
 impl RenderDetail {
@@ -36,6 +39,7 @@ impl RenderDetail {
                 sky_points: false,
                 sun_side: 768.0,
                 sun_taps: 12,
+                pools_light: false,
             },
             Quality::Film => Self {
                 columns: 2,
@@ -45,6 +49,7 @@ impl RenderDetail {
                 sky_points: true,
                 sun_side: 1280.0,
                 sun_taps: 16,
+                pools_light: true,
             },
             Quality::Fine => Self {
                 columns: 2,
@@ -54,6 +59,7 @@ impl RenderDetail {
                 sky_points: false,
                 sun_side: 4096.0,
                 sun_taps: 40,
+                pools_light: false,
             },
         }
     }

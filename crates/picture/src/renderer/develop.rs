@@ -48,7 +48,7 @@ pub(super) fn develop(light: &Light, picture: &Picture, detail: &RenderDetail) -
                     return;
                 }
                 let size = [TILE[0].min(width - left), rows.len() / width];
-                let tile = tile(light, picture, &visible, [left, top], size);
+                let tile = tile(light, picture, detail, &visible, [left, top], size);
                 for (y, line) in tile.chunks(size[0]).enumerate() {
                     rows[y * width + left..][..line.len()].copy_from_slice(line);
                 }
@@ -62,6 +62,7 @@ pub(super) fn develop(light: &Light, picture: &Picture, detail: &RenderDetail) -
 fn tile(
     light: &Light,
     picture: &Picture,
+    detail: &RenderDetail,
     visible: &Visible,
     corner: [usize; 2],
     size: [usize; 2],
@@ -82,6 +83,10 @@ fn tile(
                 None => seen.push((number, 1.0, [px, py])),
             }
         });
+        if detail.pools_light {
+            // The ground comes last, so that all others can share their light.
+            seen.sort_by_key(|(number, ..)| number.is_none());
+        }
         let part = 1.0 / seen.iter().map(|(_, count, _)| count).sum::<f32>();
         let noise = noise(x as u32, y as u32, 1);
         let first = fragments.len();
@@ -106,23 +111,30 @@ fn tile(
             match alike {
                 Some(i) => shares[i].weight += weight,
                 None => {
-                    fragments.push(Fragment::new(surface, noise));
+                    fragments.push(Fragment::new(surface, noise, fragments.len()));
                     shares.push(FragmentShare { pixel, weight, ground });
                 }
             }
         }
-        take_turns(&mut fragments[first..], light.sky.maps.len());
+        match detail.pools_light {
+            true => pool_light(&mut fragments[first..], first),
+            false => take_turns(&mut fragments[first..], light.sky.maps.len()),
+        }
     }
-    light.gather(&mut fragments);
+    if detail.pools_light {
+        pool_ground(&mut fragments, &shares, size[0]);
+    }
+    let gathered = light.gather(&fragments, fragments.len());
     for (fragment, share) in fragments.iter().zip(&shares) {
+        let gathered = &gathered[fragment.pool];
         let color = if share.ground {
             let pixel = share.pixel;
             let place =
                 [(corner[0] + pixel % size[0]) as f32 + 0.5, (corner[1] + pixel / size[0]) as f32 + 0.5];
             let fade = fade(light, fragment.surface.position);
-            shade_backdrop(backdrop(picture, place), Vec3::ONE.lerp(light.ground(fragment), fade))
+            shade_backdrop(backdrop(picture, place), Vec3::ONE.lerp(light.ground(fragment, gathered), fade))
         } else {
-            tone::compress(light.color(fragment)).extend(1.0)
+            tone::compress(light.color(fragment, gathered)).extend(1.0)
         };
         colors[share.pixel] += color * share.weight;
     }
@@ -135,6 +147,46 @@ fn take_turns(fragments: &mut [Fragment], maps: usize) {
     let turns = fragments.len().div_ceil(2).min(maps / 12).max(1);
     for (i, fragment) in fragments.iter_mut().enumerate() {
         fragment.share = (i % turns, turns);
+    }
+}
+
+/// Lets the surfaces of a crowded pixel share one light, the first of which has the index `pool`: each gathers it from a
+/// part of the sky, because their colours are mixed anyway. The ground, which is the last fragment, gathers its own.
+fn pool_light(fragments: &mut [Fragment], pool: usize) {
+    let count = fragments.iter().filter(|fragment| fragment.surface.material.is_some()).count();
+    if count > 2 {
+        for (i, fragment) in fragments[..count].iter_mut().enumerate() {
+            (fragment.share, fragment.pool) = ((i, count), pool);
+        }
+    }
+}
+
+/// Lets the ground in each two by two pixels, if all of them show only the ground, share one light. A row of the tile has
+/// `width` pixels.
+fn pool_ground(fragments: &mut [Fragment], shares: &[FragmentShare], width: usize) {
+    let is_ground = |share: &FragmentShare| share.ground && share.weight > 0.999;
+    // Fragments are in the order of their pixels, so those of the rows of a square are found in turn.
+    let (mut upper, mut lower) = (0, 0);
+    while let Some(share) = shares.get(upper) {
+        let (x, y) = (share.pixel % width, share.pixel / width);
+        if x % 2 == 0 && y % 2 == 0 && is_ground(share) {
+            let below = share.pixel + width;
+            while shares.get(lower).is_some_and(|share| share.pixel < below) {
+                lower += 1;
+            }
+            let square = [upper, upper + 1, lower, lower + 1];
+            let pixels = [share.pixel, share.pixel + 1, below, below + 1];
+            let is_whole = x + 1 < width
+                && square.iter().zip(pixels).all(|(index, pixel)| {
+                    shares.get(*index).is_some_and(|share| share.pixel == pixel && is_ground(share))
+                });
+            if is_whole {
+                for (turn, index) in square.into_iter().enumerate() {
+                    (fragments[index].share, fragments[index].pool) = ((turn, square.len()), upper);
+                }
+            }
+        }
+        upper += 1;
     }
 }
 

@@ -64,8 +64,8 @@ pub(super) fn sphere(low: DVec3, high: DVec3) -> (DVec3, f64) {
     ((low + high) / 2.0, if half > 1e-9 { half } else { 1.0 })
 }
 
-/// Returns a few thousand points whose convex hull contains `points`: the corners of the bounding boxes of the points
-/// in each cell of a coarse grid over `bounds`.
+/// Returns a few thousand points whose convex hull contains `points`: the eight corners of the bounding boxes of the
+/// points in each cell of a coarse grid over `bounds`. The bits of a corner's number tell on which axes it is high.
 pub(super) fn hull(points: impl Iterator<Item = Vec3A>, bounds: (Vec3A, Vec3A)) -> Vec<Vec3A> {
     let mut cells: Vec<Option<(Vec3A, Vec3A)>> = vec![None; CELLS * CELLS * CELLS];
     let last = CELLS as f32 - 1.0;

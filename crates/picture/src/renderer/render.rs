@@ -65,11 +65,8 @@ pub fn render_within(
 ) -> Result<Image> {
     picture.check()?;
     let textures = texture::load(&scene.materials)?;
-    let mut stage = stage::Stage::within(scene, &textures, extent, stop)?;
     let is_film = picture.quality == Quality::Film;
-    if let Some(extent) = extent.filter(|_| is_film) {
-        stage.surround(&extent.points(&stage.shrink));
-    }
+    let stage = stage::Stage::within(scene, &textures, extent, is_film, stop)?;
     let detail = detail::RenderDetail::of(picture.quality, stage.triangles());
     let size = [picture.width, picture.height];
     let points = extent.map(|extent| extent.points(&stage.shrink));

@@ -2,7 +2,7 @@
 
 use super::camera::Camera;
 use super::floor::Floor;
-use super::sky::{SUN, Sky};
+use super::sky::{SUN, Sky, SkySample};
 use super::stage::Stage;
 use super::sun::Sun;
 use super::surface::SurfacePoint;
@@ -38,6 +38,13 @@ pub(super) struct Fragment {
     pub share: (usize, usize),
     /// Number from 0 to 1 that varies from pixel to pixel.
     pub noise: f32,
+    /// Index of the light that the fragment gathers, alone or with others.
+    pub pool: usize,
+}
+
+/// Light that fragments have gathered.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct GatheredLight {
     /// Irradiance by the sky, and the same without occluders.
     sky: [Vec3A; 2],
     /// Visible part of the reflected surroundings, and the same without occluders.
@@ -45,9 +52,9 @@ pub(super) struct Fragment {
 }
 
 impl Fragment {
-    /// Creates a fragment without light.
-    pub(super) fn new(surface: SurfacePoint, noise: f32) -> Self {
-        Self { surface, share: (0, 1), noise, sky: [Vec3A::ZERO; 2], mirrored: [0.0; 2] }
+    /// Creates a fragment that gathers the light `pool`.
+    pub(super) fn new(surface: SurfacePoint, noise: f32, pool: usize) -> Self {
+        Self { surface, share: (0, 1), noise, pool }
     }
 
     /// Returns true if another `surface` in the same pixel would look the same.
@@ -58,7 +65,9 @@ impl Fragment {
             && own.plane.dot(surface.plane) > 0.85
             && (own.position - surface.position).length_squared() < 1e-5
     }
+}
 
+impl GatheredLight {
     /// Returns the fraction of the sky's light that arrives, for each colour.
     fn openness(&self) -> Vec3 {
         let [seen, all] = self.sky;
@@ -74,8 +83,7 @@ struct Probe {
     mirror: Vec3A,
     spin: Vec2,
     share: (usize, usize),
-    sky: [Vec3A; 2],
-    mirrored: [f32; 2],
+    pool: usize,
 }
 
 impl Probe {
@@ -88,43 +96,51 @@ impl Probe {
             mirror: surface.mirror(),
             spin: Vec2::from_angle(fragment.noise * TAU),
             share: fragment.share,
-            sky: [Vec3A::ZERO; 2],
-            mirrored: [0.0; 2],
+            pool: fragment.pool,
         }
     }
 }
 
 impl Light<'_> {
-    /// Accumulates the light of all directions of the sky for `fragments`, which are close together.
-    pub(super) fn gather(&self, fragments: &mut [Fragment]) {
+    /// Returns the light of all directions of the sky for `fragments`, which are close together and gather into this
+    /// number of `pools`.
+    pub(super) fn gather(&self, fragments: &[Fragment], pools: usize) -> Vec<GatheredLight> {
+        let mut gathered = vec![GatheredLight::default(); pools];
         let count = self.sky.maps.len();
-        let mut probes: Vec<Probe> =
-            fragments.iter().map(|fragment| Probe::new(fragment, self.sky.lift)).collect();
-        for (index, map) in self.sky.maps.iter().enumerate() {
-            for probe in &mut probes {
-                let (turn, of) = probe.share;
-                if of > 1 && index * of / count != turn {
-                    continue;
-                }
-                let facing = probe.normal.dot(map.direction).max(0.0);
-                // A lobe of this width contains enough directions to be smooth, for any roughness.
-                let lobe = probe.mirror.dot(map.direction).max(0.0).powi(4);
-                if facing <= 0.0 && lobe < 0.01 {
-                    continue;
-                }
-                let light = map.light * facing;
-                probe.sky[1] += light;
-                probe.mirrored[1] += lobe;
-                let seen = probe.plane.dot(map.direction) > 0.0 && map.reaches(probe.point, probe.spin);
-                if seen {
-                    let strength = self.strength(probe.point, map.direction);
-                    probe.sky[0] += light * strength;
-                    probe.mirrored[0] += lobe * strength;
-                }
+        let probes = fragments.iter().map(|fragment| Probe::new(fragment, self.sky.lift));
+        let (whole, shared): (Vec<Probe>, Vec<Probe>) = probes.partition(|probe| probe.share.1 == 1);
+        for map in &self.sky.maps {
+            for probe in &whole {
+                self.add_light(probe, map, &mut gathered[probe.pool]);
             }
         }
-        for (fragment, probe) in fragments.iter_mut().zip(probes) {
-            (fragment.sky, fragment.mirrored) = (probe.sky, probe.mirrored);
+        for probe in &shared {
+            let (turn, of) = probe.share;
+            // The maps whose number times `of`, divided by `count`, is `turn`.
+            let maps = (turn * count).div_ceil(of)..((turn + 1) * count).div_ceil(of);
+            for map in &self.sky.maps[maps] {
+                self.add_light(probe, map, &mut gathered[probe.pool]);
+            }
+        }
+        gathered
+    }
+
+    /// Adds the light of one direction of the sky at `probe`.
+    #[inline]
+    fn add_light(&self, probe: &Probe, map: &SkySample, gathered: &mut GatheredLight) {
+        let facing = probe.normal.dot(map.direction).max(0.0);
+        // A lobe of this width contains enough directions to be smooth, for any roughness.
+        let lobe = probe.mirror.dot(map.direction).max(0.0).powi(4);
+        if facing <= 0.0 && lobe < 0.01 {
+            return;
+        }
+        let light = map.light * facing;
+        gathered.sky[1] += light;
+        gathered.mirrored[1] += lobe;
+        if probe.plane.dot(map.direction) > 0.0 && map.reaches(probe.point, probe.spin) {
+            let strength = self.strength(probe.point, map.direction);
+            gathered.sky[0] += light * strength;
+            gathered.mirrored[0] += lobe * strength;
         }
     }
 
@@ -137,14 +153,14 @@ impl Light<'_> {
         }
     }
 
-    /// Returns the light that `fragment` sends to the camera, after [`Light::gather`].
-    pub(super) fn color(&self, fragment: &Fragment) -> Vec3 {
+    /// Returns the light that `fragment` sends to the camera, if it has `gathered` this light.
+    pub(super) fn color(&self, fragment: &Fragment, gathered: &GatheredLight) -> Vec3 {
         let surface = &fragment.surface;
         let diffuse = surface.base * (1.0 - surface.metallic);
         let glossy = Vec3::splat(0.04).lerp(surface.base, surface.metallic);
         let facing = surface.normal.dot(surface.view).max(0.03);
 
-        let open = fragment.openness();
+        let open = gathered.openness();
         let mut sky = self.sky.open(surface.normal) * bounce_light(open, diffuse);
         let mut color = surface.emissive;
         let toward = surface.normal.dot(self.sun.direction);
@@ -163,7 +179,7 @@ impl Light<'_> {
         }
         color += diffuse * sky / PI;
 
-        let [seen, all] = fragment.mirrored;
+        let [seen, all] = gathered.mirrored;
         let unblocked = if all > 1e-3 { seen / all } else { open.element_sum() / 3.0 };
         // The occluder of a reflection is the model itself, usually in the shade.
         let blocker = self.sky.open(surface.normal) * open * (0.25 / PI) * surface.base.lerp(Vec3::ONE, 0.3);
@@ -172,11 +188,13 @@ impl Light<'_> {
     }
 
     /// Returns the ground's brightness at `fragment`, relative to its brightness without the model.
-    pub(super) fn ground(&self, fragment: &Fragment) -> Vec3 {
+    pub(super) fn ground(&self, fragment: &Fragment, gathered: &GatheredLight) -> Vec3 {
         let sky = self.sky.open(Vec3A::Z);
         let sun = SUN * self.sun.direction.z;
-        let seen = self.sun_seen(fragment, Vec3A::Z);
-        let part = (sky * bounce_light(fragment.openness(), Vec3::splat(0.5)) + sun * seen) / (sky + sun);
+        // The edges of shadows on the ground are visible, so pixels that share the sky's light do not share the sun's.
+        let turn = fragment.noise * TAU;
+        let seen = self.sun.visibility(fragment.surface.rounded, Vec3A::Z, turn, (0, 1));
+        let part = (sky * bounce_light(gathered.openness(), Vec3::splat(0.5)) + sun * seen) / (sky + sun);
         // Halve the blue tint, because the eye perceives the sky's light as white.
         part.lerp(Vec3::splat(part.element_sum() / 3.0), 0.5)
     }

@@ -38,6 +38,8 @@ pub(super) struct DrawCall<'a> {
     pub part: &'a Part,
     /// Transform from the mesh's coordinates to the stage's.
     pub place: Affine3A,
+    /// Transform of normals, whose lengths it changes.
+    pub turn: Mat3A,
     /// Transform at double precision: corners shared by meshes coincide, regardless of the meshes' origins.
     exact: DAffine3,
     /// Number of its first triangle.
@@ -66,20 +68,26 @@ impl<'a> Stage<'a> {
     /// Checks `scene` and measures it. Fails if an index is out of range or if the triangles are too many to number.
     pub(super) fn new(scene: &'a Scene) -> Result<Self> {
         static NEVER: Stop = Stop::new();
-        Self::within(scene, &[], None, &NEVER)
+        Self::within(scene, &[], None, false, &NEVER)
     }
 
     /// Prepares `scene` as [`new`](Self::new) does, with the `textures` of the materials, relative to the centre and
-    /// the radius of `extent`.
+    /// the radius of `extent`. If the stage `is_shared`, the bounding box and the hull are those of the extent, and
+    /// the scene is not measured.
     pub(super) fn within(
         scene: &'a Scene,
         textures: &'a [Option<SampledTexture>],
         extent: Option<&Extent>,
+        is_shared: bool,
         stop: &'a Stop,
     ) -> Result<Self> {
         check(scene)?;
         stop.check()?;
-        let outlines = points::outlines(scene);
+        let shared = extent.filter(|extent| is_shared && !extent.is_empty());
+        let outlines = match shared {
+            Some(_) => vec![Vec::new(); scene.meshes.len()],
+            None => points::outlines(scene),
+        };
         let turn = scene.upright.map_or(DMat3::IDENTITY, |upright| upright.rotation());
         let corners = |instance: &'a burgeon_scene::Instance| {
             let transform = DAffine3::from_mat3(turn) * instance.transform;
@@ -100,6 +108,7 @@ impl<'a> Stage<'a> {
             let place = to_single(&exact);
             places.push((instance.mesh, place));
             let mirrored = place.matrix3.determinant() < 0.0;
+            let turn = place.matrix3.inverse().transpose();
             for part in &scene.meshes[instance.mesh].parts {
                 let material = &scene.materials[part.material];
                 let (opacity, double_sided) = (material.base_color[3], material.double_sided);
@@ -108,6 +117,7 @@ impl<'a> Stage<'a> {
                 draws.push(DrawCall {
                     part,
                     place,
+                    turn,
                     exact,
                     first: count,
                     mirrored,
@@ -130,12 +140,15 @@ impl<'a> Stage<'a> {
         let materials = &scene.materials;
         let mut stage =
             Self { draws, materials, bounds, hull: Vec::new(), shrink, count, outlines, places, stop };
-        stage.hull = points::hull(stage.points(), bounds);
+        match shared {
+            Some(extent) => stage.surround(&extent.points(&stage.shrink)),
+            None => stage.hull = points::hull(stage.points(), bounds),
+        }
         Ok(stage)
     }
 
     /// Replaces the bounding box and the hull by those of `points`, unless there are none.
-    pub(super) fn surround(&mut self, points: &[Vec3A]) {
+    fn surround(&mut self, points: &[Vec3A]) {
         let bounds = points.iter().fold(None, |bounds: Option<(Vec3A, Vec3A)>, point| {
             Some(bounds.map_or((*point, *point), |(low, high)| (low.min(*point), high.max(*point))))
         });

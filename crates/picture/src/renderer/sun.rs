@@ -20,6 +20,9 @@ const SOFTNESS: f32 = 0.018;
 /// Maximum radius of the penumbra, in the stage's units.
 const WIDEST: f32 = 0.02;
 
+/// Radius of the penumbra (texels) at surfaces that share a pixel with many others.
+const CROWDED: f32 = 2.0;
+
 /// Sun with its depth map.
 pub(super) struct Sun {
     /// Unit vector towards the sun.
@@ -29,6 +32,8 @@ pub(super) struct Sun {
     /// Offsets of the lookups for a full pixel, within the unit disc. Any consecutive part of them is distributed over
     /// the disc.
     disc: Vec<Vec2>,
+    /// Set if points that share a pixel with two others need no search for the radius of the penumbra.
+    pools_light: bool,
 }
 
 impl Sun {
@@ -63,7 +68,8 @@ impl Sun {
             );
         });
         let depths = texels.into_iter().map(|texel| f32::from_bits(texel.into_inner())).collect();
-        Self { direction, frame, depths, disc: disc(detail.sun_taps) }
+        let pools_light = detail.pools_light;
+        Self { direction, frame, depths, disc: disc(detail.sun_taps), pools_light }
     }
 
     /// Returns the depth of the lit surface at texel `x`, `y`; infinite if there is none.
@@ -104,6 +110,13 @@ impl Sun {
         };
 
         let turn = Vec2::from_angle(turn);
+        if self.pools_light && share > 2 {
+            // The mean of the pixel's points is as smooth as a wide penumbra, and the width is not visible among them.
+            let taps = (self.disc.len() / share).max(4);
+            let offsets = self.disc.iter().cycle().skip(taps * place).take(taps);
+            let lit = offsets.filter(|offset| compare(turn.rotate(**offset) * CROWDED).is_none()).count();
+            return lit as f32 / taps as f32;
+        }
         let searches = (self.disc.len() / 2 / share).max(4);
         let (mut blocked, mut distance) = (0.0_f32, 0.0_f32);
         for offset in self.disc.iter().cycle().skip(7 * place).take(searches) {

@@ -79,10 +79,9 @@ impl SurfacePoint {
         let plane = outward.normalize_or(view);
         let side = if plane.dot(view) < 0.0 { -1.0 } else { 1.0 };
         let weights = [1.0 - inside.x - inside.y, inside.x, inside.y];
-        let turn = draw.place.matrix3.inverse().transpose();
         let normals = triangle.map(|i| {
             let local = part.normals.get(i).map_or(Vec3::ZERO, |normal| normal.vector());
-            (turn * Vec3A::from(local)).normalize_or(plane) * side
+            (draw.turn * Vec3A::from(local)).normalize_or(plane) * side
         });
         let blended = normals[0] * weights[0] + normals[1] * weights[1] + normals[2] * weights[2];
         let normal = blended.normalize_or(plane * side);
