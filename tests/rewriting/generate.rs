@@ -255,7 +255,7 @@ impl Engine {
         let mut bindings = Bindings::default();
         let mut found = Vec::new();
         for index in self.matching(rule) {
-            self.around().bind(number, index, &mut bindings);
+            self.around().of_rule(number).bind(index, &mut bindings);
             found.push((numbers[index], bindings.iter().map(|at| numbers[*at as usize]).collect()));
         }
         found
