@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::format::Need::{Attributes, Layers, Picture, Scene};
 use super::format::{FileFormat, Format, always, find};
-use super::{city, gltf, layers, obj, render, svg, x3d};
+use super::{city, gltf, layers, obj, render, solids, svg, x3d};
 use burgeon_base::error::Result;
 use burgeon_scene::image;
 
@@ -36,7 +36,7 @@ pub const PNG: Format = Format {
 };
 
 /// All formats of a model, in the order in which messages list them.
-pub static FORMATS: [Format; 9] = [
+pub static FORMATS: [Format; 12] = [
     GLB,
     Format {
         file: FileFormat {
@@ -64,6 +64,46 @@ pub static FORMATS: [Format; 9] = [
         has_metadata: false,
         has_textures: true,
         write: obj::write,
+    },
+    // Triangles in millimetres.
+    Format {
+        file: FileFormat {
+            extensions: &["stl"],
+            title: "STL, triangles in millimetres",
+            companion: None,
+            check: always,
+        },
+        media_type: "model/stl",
+        needs: &[Scene],
+        has_metadata: false,
+        has_textures: false,
+        write: solids::write_stl,
+    },
+    Format {
+        file: FileFormat {
+            extensions: &["3mf"],
+            title: "3MF, for printers, in millimetres",
+            companion: None,
+            check: solids::check_three_mf,
+        },
+        media_type: "model/3mf",
+        needs: &[Scene],
+        has_metadata: false,
+        has_textures: false,
+        write: solids::write_three_mf,
+    },
+    Format {
+        file: FileFormat {
+            extensions: &["ply"],
+            title: "PLY, with normals and colours",
+            companion: None,
+            check: always,
+        },
+        media_type: "application/ply",
+        needs: &[Scene],
+        has_metadata: false,
+        has_textures: false,
+        write: solids::write_ply,
     },
     PNG,
     // A plan, or an elevation of a thin upright model.
@@ -205,7 +245,7 @@ mod tests {
             assert_eq!(written.len() > own.len(), format.has_textures, "{own:?}: {written:?}");
             count += 1;
         }
-        assert_eq!(count, 5);
+        assert_eq!(count, 8);
     }
 
     #[test]

@@ -32,11 +32,13 @@ pub mod heights;
 pub mod layers;
 pub mod obj;
 mod render;
+mod solids;
 pub mod svg;
 mod target;
 mod temporary;
 mod texture;
 mod x3d;
+mod xml;
 
 #[cfg(test)]
 mod samples;

@@ -8,6 +8,7 @@ use std::borrow::Cow;
 
 use super::check::{SceneCheck, check, shown_parts, triangles};
 use super::color::{fraction, srgb};
+use super::decompose::normal_matrix;
 use super::facts::Export;
 use super::files::Files;
 use super::stem;
@@ -15,7 +16,7 @@ use super::texture::Images;
 use burgeon_base::error::Result;
 use burgeon_scene::{Instance, Material, Part};
 use burgeon_spatial::ReferenceFrame;
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -154,14 +155,6 @@ fn write_vector(key: &str, vector: DVec3, out: &mut impl Write) -> io::Result<()
 
 fn y_up(vector: DVec3) -> DVec3 {
     DVec3::new(vector.x, vector.z, -vector.y)
-}
-
-/// Returns the matrix that transforms normals if `matrix` transforms points: its inverse transpose up to a positive
-/// factor, which exists for a flattening matrix too.
-fn normal_matrix(matrix: &DMat3) -> DMat3 {
-    let (x, y, z) = (matrix.x_axis, matrix.y_axis, matrix.z_axis);
-    let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
-    if matrix.determinant() < 0.0 { -cofactors } else { cofactors }
 }
 
 fn write_material(

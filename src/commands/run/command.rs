@@ -182,7 +182,7 @@ impl RunCommand {
             run.note_packages(session)?;
             self.warn_of_nothing(session, &mut run)?;
             let writing = Instant::now();
-            self.write(&run, session)?;
+            self.write(&mut run, session)?;
             if let Some(name) = &self.save_preset {
                 self.save(name, session, &run.params)?;
             }
