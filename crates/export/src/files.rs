@@ -96,9 +96,9 @@ impl Files {
         self.warnings.extend(warning.into());
     }
 
-    /// Adds a note about the content of a file.
-    pub(super) fn note(&mut self, note: String) {
-        self.notes.push(note);
+    /// Adds notes about the content of a file.
+    pub(super) fn note_all(&mut self, notes: impl IntoIterator<Item = String>) {
+        self.notes.extend(notes);
     }
 
     /// Takes the warnings about the contents of the files.

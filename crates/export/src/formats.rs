@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::format::Need::{Attributes, Layers, Picture, Scene};
 use super::format::{FileFormat, Format, always, find};
-use super::{city, gltf, layers, obj, render, solids, svg, x3d};
+use super::{city, gltf, layers, obj, render, solids, svg, usd, x3d};
 use burgeon_base::error::Result;
 use burgeon_scene::image;
 
@@ -36,7 +36,7 @@ pub const PNG: Format = Format {
 };
 
 /// All formats of a model, in the order in which messages list them.
-pub static FORMATS: [Format; 12] = [
+pub static FORMATS: [Format; 14] = [
     GLB,
     Format {
         file: FileFormat {
@@ -64,6 +64,15 @@ pub static FORMATS: [Format; 12] = [
         has_metadata: false,
         has_textures: true,
         write: obj::write,
+    },
+    // Instances become references and point instancers.
+    Format {
+        file: FileFormat { extensions: &["usda"], title: "USD, as text", companion: None, check: always },
+        media_type: "model/vnd.usda",
+        needs: &[Scene],
+        has_metadata: false,
+        has_textures: true,
+        write: usd::write,
     },
     // Triangles in millimetres.
     Format {
@@ -161,6 +170,19 @@ pub static FORMATS: [Format; 12] = [
     },
     Format {
         file: FileFormat {
+            extensions: &["dxf"],
+            title: "DXF R12, layers of modules as polylines",
+            companion: None,
+            check: always,
+        },
+        media_type: "image/vnd.dxf",
+        needs: &[Layers],
+        has_metadata: false,
+        has_textures: false,
+        write: layers::write_dxf_file,
+    },
+    Format {
+        file: FileFormat {
             extensions: &["gpkg"],
             title: "GeoPackage, layers of modules",
             companion: None,
@@ -245,7 +267,7 @@ mod tests {
             assert_eq!(written.len() > own.len(), format.has_textures, "{own:?}: {written:?}");
             count += 1;
         }
-        assert_eq!(count, 8);
+        assert_eq!(count, 9);
     }
 
     #[test]

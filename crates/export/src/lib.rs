@@ -37,13 +37,14 @@ pub mod svg;
 mod target;
 mod temporary;
 mod texture;
+mod usd;
 mod x3d;
 mod xml;
 
 #[cfg(test)]
 mod samples;
 
-pub use facts::{Export, SceneFacts, SystemFacts};
+pub use facts::{Export, InstanceStorage, SceneFacts, SystemFacts};
 pub use files::{Files, OpenFile, Out, Stoppable};
 pub use format::{FileFormat, Format, Need, extension_list};
 pub use formats::{FORMATS, GLB, PNG};

@@ -126,6 +126,7 @@ impl RunCommand {
             systems: &systems,
             layers: &layers,
             metadata: metadata.as_deref(),
+            instances: self.instances.map(Into::into).unwrap_or_default(),
         };
         // Copies of textures are written last, so that their names differ from all other names.
         let has_copies =
