@@ -56,7 +56,7 @@ pub(crate) struct RunCommand {
     pub(super) metadata: Option<Vec<String>>,
 
     /// Storage of repeated models
-    #[arg(long, value_name = "STORAGE", help = instances_help())]
+    #[arg(long, value_name = "KIND", help = instances_help())]
     pub(super) instances: Option<InstancesFlag>,
 
     /// Writes the final chains as text, one per line; - is standard output, or the JSON document with --json

@@ -177,7 +177,7 @@ fn a_flattened_instance_is_stored_flat() {
 fn colours_of_materials_are_in_ply_and_3mf() {
     let mut scene = samples::boxes(1);
     scene.materials[0].base_color = [1.0, 0.0, 0.5, 0.25];
-    scene.materials[0].name = "Rot <\"&\u{1}".into();
+    scene.materials[0].name = "Rot <\"&\n".into();
     let (ply, _) = written(&scene, "ply");
     let end = ply.windows(11).position(|it| it == b"end_header\n").unwrap() + 11;
     assert_eq!(ply[end + 24..end + 28], [255, 0, 188, 64]);
@@ -186,7 +186,7 @@ fn colours_of_materials_are_in_ply_and_3mf() {
     let mut archive = zip::ZipArchive::new(std::io::Cursor::new(&bytes[..])).unwrap();
     archive.by_name("3D/3dmodel.model").unwrap().read_to_string(&mut text).unwrap();
     assert!(
-        text.contains("displaycolor=\"#FF00BC40\"") && text.contains("name=\"Rot &lt;&quot;&amp;"),
+        text.contains("displaycolor=\"#FF00BC40\"") && text.contains("name=\"Rot &lt;&quot;&amp; \""),
         "{text}"
     );
 }

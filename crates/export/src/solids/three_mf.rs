@@ -174,7 +174,7 @@ impl ModelWriter<'_, '_> {
         let materials = self.checked.scene.materials.iter().zip(colors).zip(shown);
         for ((material, [r, g, b, a]), _) in materials.filter(|(_, shown)| **shown) {
             let name = if material.name.is_empty() { "material" } else { &material.name };
-            let name = escape_attribute(name);
+            let name = attribute_text(name);
             writeln!(self.text, "<base name=\"{name}\" displaycolor=\"#{r:02X}{g:02X}{b:02X}{a:02X}\"/>")?;
         }
         self.text.extend_from_slice(b"</basematerials>\n");
@@ -198,7 +198,7 @@ impl ModelWriter<'_, '_> {
         let main = shown.map_or(0, |part| materials[part.material]);
         write!(self.text, "<object id=\"{id}\" type=\"model\" pid=\"1\" pindex=\"{main}\"")?;
         if !mesh.name.is_empty() {
-            write!(self.text, " name=\"{}\"", escape_attribute(&mesh.name))?;
+            write!(self.text, " name=\"{}\"", attribute_text(&mesh.name))?;
         }
         self.text.extend_from_slice(b"><mesh>\n<vertices>\n");
         for point in points.iter().map(|point: &Vec3| transform.transform_point3(point.as_dvec3()) * 1000.0) {
@@ -245,7 +245,7 @@ impl ModelWriter<'_, '_> {
         self.next += 1;
         for (key, value) in [("name", Some(name)), ("partnumber", feature.as_ref())] {
             if let Some(value) = value.filter(|value| !value.is_empty()) {
-                write!(self.text, " {key}=\"{}\"", escape_attribute(value))?;
+                write!(self.text, " {key}=\"{}\"", attribute_text(value))?;
             }
         }
         self.text.extend_from_slice(b"><components>\n");
@@ -280,6 +280,11 @@ impl ModelWriter<'_, '_> {
         }
         Ok(())
     }
+}
+
+/// Escapes `text` for an attribute. Line breaks become spaces, because lib3mf reads no numeric character references.
+fn attribute_text(text: &str) -> String {
+    escape_attribute(&text.replace(['\t', '\n', '\r'], " "))
 }
 
 /// Returns true if `transform` has no inverse.
