@@ -379,6 +379,7 @@ fn help_reads_well() {
           --json                Prints machine-readable JSON instead of text
       -o, --output <FILE>       Writes the model to this file; the extension selects the format: FORMATS. May be repeated
           --metadata[=<NAMES>]  Includes ids and attributes of features in .glb and .gltf files: the attributes that the script names, or =NAMES, or all with ='*'
+          --instances <KIND>    Storage of repeated models in .glb and .gltf files [default: nodes up to 1000 instances, else extension] [possible values: nodes, extension, expanded]
           --chain <FILE>        Writes the final chains as text, one per line; - is standard output, or the JSON document with --json
           --heights <FILE>      Writes the heights of the terrain as a height map: HEIGHT FORMATS
           --edits <FILE>        Writes the terrain edits, for edits(FILE) in a script

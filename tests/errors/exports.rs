@@ -308,3 +308,74 @@ fn modules_become_instances_of_prototypes_and_stay_such() {
     assert_eq!(city["geometry-templates"]["templates"].as_array().unwrap().len(), 2);
     assert_eq!(city["CityObjects"]["system 3 chain 1"]["geometry"].as_array().unwrap().len(), 5);
 }
+
+/// Forty closed posts, of a model with caps, or without.
+fn posts(caps: &str) -> Folder {
+    let script = r#"local Post, Row = module("Post"), module("Row")
+local posts = lsystem({ object = extruder({ sides = 4 }) })
+posts:axiom(Post())
+posts:interpret("Post", function(this) this:caps(CAPS, CAPS):extrude(2) end)
+local post = posts:derive()
+local rows = lsystem({ object = turtle() })
+rows:axiom(Row())
+rows:interpret("Row", function(this)
+  for number = 1, 40 do this:jump({ number * 3, 0, 0 }):place(post) end
+end)
+rows:derive()
+"#;
+    Folder::new().with("s.lua", script.replace("CAPS", caps))
+}
+
+#[test]
+fn open_edges_are_a_warning_of_the_run_and_prevent_a_strict_one() {
+    for file in ["a.stl", "a.3mf", "a.ply"] {
+        let closed = posts("true").burgeon(&["run", "s.lua", "--strict", "-o", file, "--json"]).done().json();
+        assert_eq!(closed["warnings"], json!([]), "{file}");
+        let folder = posts("false");
+        let open = folder.burgeon(&["run", "s.lua", "-o", file, "--json"]).done().json();
+        let message = open["warnings"][0]["message"].as_str().unwrap();
+        // Each post has four open edges at each end.
+        let begin = format!("{file}: 40 shapes are not closed, with 320 open edges (");
+        assert!(message.starts_with(&begin), "{message}");
+        let folder = posts("false");
+        let refused = folder.burgeon(&["run", "s.lua", "--strict", "-o", file, "--json"]);
+        assert_eq!(
+            (refused.status, refused.json()["errors"][0]["code"].as_str()),
+            (1, Some("warning.open-edges"))
+        );
+        assert!(!folder.path().join(file).exists(), "{file}");
+    }
+}
+
+#[test]
+fn the_run_states_the_storage_of_instances() {
+    let note = |flags: &[&str]| {
+        let run = posts("true")
+            .burgeon(&[&["run", "s.lua", "-o", "a.glb", "--json"], flags].concat())
+            .done()
+            .json();
+        run["notes"].as_array().unwrap().iter().map(|it| it.as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    let plain = ["a.glb: 40 repeated instances are plain nodes"];
+    assert_eq!(note(&[]), plain);
+    assert_eq!(note(&["--instances", "nodes"]), plain);
+    assert_eq!(
+        note(&["--instances", "extension"]),
+        [
+            "a.glb: 40 instances need EXT_mesh_gpu_instancing; for programs without it, use --instances nodes or expanded"
+        ]
+    );
+    assert_eq!(note(&["--instances", "expanded"]), [""; 0]);
+}
+
+#[test]
+fn drawings_for_cad_programs_have_a_layer_for_each_symbol() {
+    let folder = folder();
+    folder.burgeon(&["run", "s.lua", "-o", "a.dxf"]).done();
+    let text = folder.read("a.dxf");
+    assert!(text.contains("\n999\nMetres of EPSG:32632\n"), "{}", &text[..200]);
+    assert_eq!(
+        (text.matches("\nPOLYLINE\n8\nLOT\n").count(), text.matches("\nPOINT\n8\nMAST\n").count()),
+        (2, 4)
+    );
+}

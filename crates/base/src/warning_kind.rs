@@ -50,6 +50,10 @@ pub enum WarningKind {
     UnreadFeature,
     /// A feature or an object whose result differs from the request.
     SimplifiedFeature,
+    /// A file with shapes whose surface has open edges.
+    OpenEdges,
+    /// A file that is much larger than in another format.
+    LargeFile,
     /// A warning that a script gives with `warn`.
     Script,
 }
@@ -86,6 +90,8 @@ impl WarningKind {
             Self::SkippedFeature => "warning.skipped-feature",
             Self::UnreadFeature => "warning.unread-feature",
             Self::SimplifiedFeature => "warning.simplified-feature",
+            Self::OpenEdges => "warning.open-edges",
+            Self::LargeFile => "warning.large-file",
             Self::Script => "warning.script",
         }
     }

@@ -35,6 +35,14 @@ pub(super) fn y_up(transform: &DAffine3) -> DAffine3 {
     }
 }
 
+/// Returns the matrix that transforms normals if `matrix` transforms points: its inverse transpose up to a positive
+/// factor, which exists for a flattening matrix too.
+pub(super) fn normal_matrix(matrix: &DMat3) -> DMat3 {
+    let (x, y, z) = (matrix.x_axis, matrix.y_axis, matrix.z_axis);
+    let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
+    if matrix.determinant() < 0.0 { -cofactors } else { cofactors }
+}
+
 /// Decomposes `transform`.
 ///
 /// A sheared transform has no decomposition into one translation, rotation and scale, and glTF does not allow a matrix

@@ -30,6 +30,30 @@ pub struct SceneFacts<'a> {
     /// Feature attributes to include in glTF models, in addition to ids (`EXT_structural_metadata`). `None` omits ids
     /// too.
     pub metadata: Option<&'a [String]>,
+    /// Storage of instances in glTF models.
+    pub instances: InstanceStorage,
+}
+
+/// Storage of repeated instances in glTF models.
+///
+/// With [`metadata`](SceneFacts::metadata), models that several features share always have the extension, because only
+/// its instances can store features.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum InstanceStorage {
+    /// [`Nodes`](Self::Nodes) for up to [`MOST_NODES`](Self::MOST_NODES) repeated instances, and the extension for more.
+    #[default]
+    Automatic,
+    /// A node for each instance, which every program reads.
+    Nodes,
+    /// A node for all similar instances, with `EXT_mesh_gpu_instancing`. Few programs outside the web read it.
+    Extension,
+    /// Merged meshes, one for each system and feature.
+    Expanded,
+}
+
+impl InstanceStorage {
+    /// Maximum number of repeated instances that have nodes of their own, unless the user chooses the storage.
+    pub const MOST_NODES: usize = 1000;
 }
 
 /// Facts about the chains of a system.
@@ -46,6 +70,13 @@ pub struct SystemFacts {
 impl Default for SceneFacts<'_> {
     /// Returns facts of a scene in full detail, without a frame, systems, layers or metadata.
     fn default() -> Self {
-        Self { frame: None, detail: 3, systems: &[], layers: &[], metadata: None }
+        Self {
+            frame: None,
+            detail: 3,
+            systems: &[],
+            layers: &[],
+            metadata: None,
+            instances: InstanceStorage::default(),
+        }
     }
 }

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use super::target::{FileTarget, ReplaceMethod};
 use super::temporary::{Temporary, TemporaryNames, remove};
+use burgeon_base::Warning;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::stop::Stop;
 
@@ -37,6 +38,8 @@ pub struct Files {
     written: Vec<OutputFile>,
     /// Folders that were created for the files, each after its parent.
     folders: Vec<Temporary>,
+    warnings: Vec<Warning>,
+    notes: Vec<String>,
 }
 
 /// File under its temporary name.
@@ -78,12 +81,34 @@ pub struct Stoppable {
 impl Files {
     /// Creates an empty group. If `stop` requests cancellation, writing fails with its reason.
     pub fn new(stop: &Arc<Stop>) -> Self {
-        Self { stop: Arc::clone(stop), written: Vec::new(), folders: Vec::new() }
+        let mut files = Self::default();
+        files.stop = Arc::clone(stop);
+        files
     }
 
     /// Returns the cancellation signal.
     pub fn stop(&self) -> Arc<Stop> {
         Arc::clone(&self.stop)
+    }
+
+    /// Adds a warning about the content of a file, if there is one.
+    pub(super) fn warn(&mut self, warning: impl Into<Option<Warning>>) {
+        self.warnings.extend(warning.into());
+    }
+
+    /// Adds notes about the content of a file.
+    pub(super) fn note_all(&mut self, notes: impl IntoIterator<Item = String>) {
+        self.notes.extend(notes);
+    }
+
+    /// Takes the warnings about the contents of the files.
+    pub fn take_warnings(&mut self) -> Vec<Warning> {
+        std::mem::take(&mut self.warnings)
+    }
+
+    /// Takes the notes about the contents of the files.
+    pub fn take_notes(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.notes)
     }
 
     /// Writes the content of the future file `path`.

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::format::Need::{Attributes, Layers, Picture, Scene};
 use super::format::{FileFormat, Format, always, find};
-use super::{city, gltf, layers, obj, render, svg, x3d};
+use super::{city, gltf, layers, obj, render, solids, svg, usd, x3d};
 use burgeon_base::error::Result;
 use burgeon_scene::image;
 
@@ -36,7 +36,7 @@ pub const PNG: Format = Format {
 };
 
 /// All formats of a model, in the order in which messages list them.
-pub static FORMATS: [Format; 10] = [
+pub static FORMATS: [Format; 15] = [
     GLB,
     Format {
         file: FileFormat {
@@ -64,6 +64,55 @@ pub static FORMATS: [Format; 10] = [
         has_metadata: false,
         has_textures: true,
         write: obj::write,
+    },
+    // Instances become references and point instancers.
+    Format {
+        file: FileFormat { extensions: &["usda"], title: "USD, as text", companion: None, check: always },
+        media_type: "model/vnd.usda",
+        needs: &[Scene],
+        has_metadata: false,
+        has_textures: true,
+        write: usd::write,
+    },
+    // Triangles in millimetres.
+    Format {
+        file: FileFormat {
+            extensions: &["stl"],
+            title: "STL, triangles in millimetres",
+            companion: None,
+            check: always,
+        },
+        media_type: "model/stl",
+        needs: &[Scene],
+        has_metadata: false,
+        has_textures: false,
+        write: solids::write_stl,
+    },
+    Format {
+        file: FileFormat {
+            extensions: &["3mf"],
+            title: "3MF, for printers, in millimetres",
+            companion: None,
+            check: solids::check_three_mf,
+        },
+        media_type: "model/3mf",
+        needs: &[Scene],
+        has_metadata: false,
+        has_textures: false,
+        write: solids::write_three_mf,
+    },
+    Format {
+        file: FileFormat {
+            extensions: &["ply"],
+            title: "PLY, with normals and colours",
+            companion: None,
+            check: always,
+        },
+        media_type: "application/ply",
+        needs: &[Scene],
+        has_metadata: false,
+        has_textures: false,
+        write: solids::write_ply,
     },
     PNG,
     // A plan, or an elevation of a thin upright model.
@@ -131,6 +180,19 @@ pub static FORMATS: [Format; 10] = [
         has_metadata: false,
         has_textures: false,
         write: layers::write_geojson_file,
+    },
+    Format {
+        file: FileFormat {
+            extensions: &["dxf"],
+            title: "DXF R12, layers of modules as polylines",
+            companion: None,
+            check: always,
+        },
+        media_type: "image/vnd.dxf",
+        needs: &[Layers],
+        has_metadata: false,
+        has_textures: false,
+        write: layers::write_dxf_file,
     },
     Format {
         file: FileFormat {
@@ -218,7 +280,7 @@ mod tests {
             assert_eq!(written.len() > own.len(), format.has_textures, "{own:?}: {written:?}");
             count += 1;
         }
-        assert_eq!(count, 5);
+        assert_eq!(count, 9);
     }
 
     #[test]

@@ -32,17 +32,20 @@ pub mod heights;
 pub mod layers;
 pub mod obj;
 mod render;
+mod solids;
 pub mod svg;
 mod target;
 mod temporary;
 mod texture;
+mod usd;
 mod x3d;
+mod xml;
 
 #[cfg(test)]
 mod samples;
 
 pub use city::write_city_sequence;
-pub use facts::{Export, SceneFacts, SystemFacts};
+pub use facts::{Export, InstanceStorage, SceneFacts, SystemFacts};
 pub use files::{Files, OpenFile, Out, Stoppable};
 pub use format::{FileFormat, Format, Need, extension_list};
 pub use formats::{FORMATS, GLB, PNG};

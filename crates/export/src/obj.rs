@@ -8,14 +8,17 @@ use std::borrow::Cow;
 
 use super::check::{SceneCheck, check, shown_parts, triangles};
 use super::color::{fraction, srgb};
+use super::decompose::normal_matrix;
 use super::facts::Export;
 use super::files::Files;
 use super::stem;
 use super::texture::Images;
 use burgeon_base::error::Result;
+use burgeon_base::text::grouped;
+use burgeon_base::{Warning, WarningKind};
 use burgeon_scene::{Instance, Material, Part};
 use burgeon_spatial::ReferenceFrame;
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -23,6 +26,7 @@ use std::path::{Path, PathBuf};
 pub(super) fn write(export: &Export<'_>, path: &Path, files: &mut Files) -> Result<()> {
     let Export { scene, facts, .. } = export;
     let checked = check(scene)?;
+    files.warn(size_warning(&checked, path));
     let images = Images::load(&checked)?;
     let copies: Vec<String> =
         images.copy_names(path, files).iter().map(|name| word(name, "texture")).collect();
@@ -40,6 +44,45 @@ pub(super) fn write(export: &Export<'_>, path: &Path, files: &mut Files) -> Resu
         Ok(())
     })?;
     files.write(path, |out| write_objects(&checked, facts.frame, &names, &library, out))
+}
+
+/// Smallest file (bytes) that causes a warning about its size.
+const NOTABLE: usize = 50_000_000;
+
+/// Ratio of the sizes of an `.obj` and a `.glb` file from which on there is a warning.
+const RATIO: usize = 10;
+
+/// Returns a warning if the file at `path` will be much larger than a `.glb` file, because it repeats its instances.
+fn size_warning(checked: &SceneCheck<'_>, path: &Path) -> Option<Warning> {
+    // Bytes of the points and triangles of each mesh: as text, and in arrays.
+    let sizes: Vec<[usize; 2]> = checked
+        .scene
+        .meshes
+        .iter()
+        .zip(&checked.parts)
+        .map(|(mesh, measured)| {
+            let points: usize = mesh.parts.iter().map(|part| part.positions.len()).sum();
+            let triangles: usize = measured.iter().map(|part| part.triangles).sum();
+            if triangles == 0 { [0, 0] } else { [points * 55 + triangles * 40, points * 16 + triangles * 8] }
+        })
+        .collect();
+    let instances = &checked.scene.instances;
+    let text = instances.iter().fold(0_usize, |sum, it| sum.saturating_add(sizes[it.mesh][0]));
+    let arrays = sizes.iter().map(|[_, arrays]| arrays).sum::<usize>() + instances.len() * 40;
+    if text < NOTABLE || text / RATIO < arrays {
+        return None;
+    }
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let message = format!(
+        "{name} has about {} MB, {} times as much as a .glb, because it repeats {} instances",
+        grouped(text / 1_000_000),
+        grouped(text / arrays.max(1)),
+        grouped(instances.len())
+    );
+    Some(
+        Warning::new(WarningKind::LargeFile, message)
+            .help("write a .glb or a .usda, which store repeated models once"),
+    )
 }
 
 /// Returns the path of the materials of the `.obj` file at `path`.
@@ -154,14 +197,6 @@ fn write_vector(key: &str, vector: DVec3, out: &mut impl Write) -> io::Result<()
 
 fn y_up(vector: DVec3) -> DVec3 {
     DVec3::new(vector.x, vector.z, -vector.y)
-}
-
-/// Returns the matrix that transforms normals if `matrix` transforms points: its inverse transpose up to a positive
-/// factor, which exists for a flattening matrix too.
-fn normal_matrix(matrix: &DMat3) -> DMat3 {
-    let (x, y, z) = (matrix.x_axis, matrix.y_axis, matrix.z_axis);
-    let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
-    if matrix.determinant() < 0.0 { -cofactors } else { cofactors }
 }
 
 fn write_material(
@@ -283,6 +318,27 @@ mod tests {
         let read = write_and_read(&samples::far_box());
         assert!(read.text.contains("# Counted from (531000, 0, -4556000): add this"), "{}", read.text);
         assert!(read.points.iter().all(|point| point.length() < 200.0));
+    }
+
+    #[test]
+    fn a_file_that_grows_to_ten_times_a_glb_causes_a_warning_that_estimates_its_size() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.obj");
+        let warnings = |scene: &Scene| {
+            let mut files = Files::default();
+            files.scene(scene, &path, &burgeon_picture::Picture::default()).unwrap();
+            let warnings: Vec<String> = files.take_warnings().iter().map(|it| it.to_string()).collect();
+            files.publish().unwrap();
+            warnings
+        };
+        let scene = samples::many(40_000);
+        let told = warnings(&scene);
+        assert_eq!(told.len(), 1);
+        let size = path.metadata().unwrap().len() as f64;
+        let estimate = told[0].strip_prefix("a.obj has about ").and_then(|it| it.split(' ').next());
+        let estimate: f64 = estimate.unwrap().parse::<f64>().unwrap() * 1e6;
+        assert!((0.7..1.4).contains(&(size / estimate)), "{size} is not {estimate}");
+        assert!(warnings(&samples::hill(200)).is_empty() && warnings(&samples::many(500)).is_empty());
     }
 
     #[test]

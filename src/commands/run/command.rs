@@ -11,13 +11,34 @@ use crate::commands::report;
 use crate::commands::shared::{PictureFlags, ScriptFlags, end_on_interrupt, size};
 use burgeon::export::films::FilmFormat;
 use burgeon::export::heights::{HEIGHT_FORMATS, HeightFormat};
-use burgeon::export::{FORMATS, FileFormat, Format, GLB, Need, extension_list};
+use burgeon::export::{FORMATS, FileFormat, Format, GLB, InstanceStorage, Need, extension_list};
 use burgeon::presets::Presets;
 use burgeon::results::layers;
 use burgeon::script::{Param, Preset, RunOptions, Session};
 use burgeon::{Result, Warning, WarningKind};
-use clap::Args;
 use clap::builder::ArgPredicate;
+use clap::{Args, ValueEnum};
+
+/// Storage of repeated models
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(super) enum InstancesFlag {
+    /// A node for each instance, which every program reads
+    Nodes,
+    /// Smallest files, with EXT_mesh_gpu_instancing
+    Extension,
+    /// A mesh for each system and feature
+    Expanded,
+}
+
+impl From<InstancesFlag> for InstanceStorage {
+    fn from(flag: InstancesFlag) -> Self {
+        match flag {
+            InstancesFlag::Nodes => Self::Nodes,
+            InstancesFlag::Extension => Self::Extension,
+            InstancesFlag::Expanded => Self::Expanded,
+        }
+    }
+}
 
 /// Runs a script and writes what it makes
 #[derive(Args, Clone)]
@@ -33,6 +54,10 @@ pub(crate) struct RunCommand {
     #[arg(long, value_name = "NAMES", num_args = 0..=1, require_equals = true, value_delimiter = ',')]
     #[arg(default_missing_value = "", help = metadata_help())]
     pub(super) metadata: Option<Vec<String>>,
+
+    /// Storage of repeated models
+    #[arg(long, value_name = "KIND", help = instances_help())]
+    pub(super) instances: Option<InstancesFlag>,
 
     /// Writes the final chains as text, one per line; - is standard output, or the JSON document with --json
     #[arg(long, value_name = "FILE")]
@@ -94,6 +119,14 @@ fn metadata_help() -> String {
     format!(
         "Includes ids and attributes of features in {formats} files: the attributes that the script names, or =NAMES, or \
          all with ='*'"
+    )
+}
+
+fn instances_help() -> String {
+    let formats = extension_list(FORMATS.iter().filter(|format| format.has_metadata), "and");
+    let most = InstanceStorage::MOST_NODES;
+    format!(
+        "Storage of repeated models in {formats} files [default: nodes up to {most} instances, else extension]"
     )
 }
 
@@ -182,7 +215,7 @@ impl RunCommand {
             run.note_packages(session)?;
             self.warn_of_nothing(session, &mut run)?;
             let writing = Instant::now();
-            self.write(&run, session)?;
+            self.write(&mut run, session)?;
             if let Some(name) = &self.save_preset {
                 self.save(name, session, &run.params)?;
             }

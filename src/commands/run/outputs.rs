@@ -82,8 +82,21 @@ impl RunCommand {
         }
     }
 
-    /// Writes all outputs of a run of `session`. Either all files are published, or none.
-    pub(super) fn write(&self, run: &burgeon::Run, session: &Session) -> Result<()> {
+    /// Writes all outputs of a run of `session`, and adds their notes and warnings to it. Either all files are published,
+    /// or none. In strict mode a warning prevents that.
+    pub(super) fn write(&self, run: &mut burgeon::Run, session: &Session) -> Result<()> {
+        let mut files = self.written(run, session)?;
+        let warnings = files.take_warnings();
+        if let (true, Some(first)) = (session.options.strict, warnings.first()) {
+            return Err(first.clone().into_error());
+        }
+        run.warnings.extend(warnings);
+        run.notes.extend(files.take_notes());
+        files.publish()
+    }
+
+    /// Writes all outputs of a run of `session` to future files.
+    fn written(&self, run: &burgeon::Run, session: &Session) -> Result<Files> {
         if run.systems.is_empty() && !self.output.is_empty() {
             let script = self.script.script.display();
             return Err(Error::script(format!("{script} derives no system, so there is nothing to write"))
@@ -113,6 +126,7 @@ impl RunCommand {
             systems: &systems,
             layers: &layers,
             metadata: metadata.as_deref(),
+            instances: self.instances.map(Into::into).unwrap_or_default(),
         };
         // Copies of textures are written last, so that their names differ from all other names.
         let has_copies =
@@ -130,7 +144,7 @@ impl RunCommand {
         if let Some(path) = self.chain.as_ref().filter(|_| !self.chain_in_json()) {
             write_chains(path, &run.systems, &mut files)?;
         }
-        files.publish()
+        Ok(files)
     }
 
     /// Returns true if the chains are part of the JSON document on standard output.

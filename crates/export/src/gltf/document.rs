@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::body::Body;
 use super::description::{Description, use_extension};
+use super::expand::expand;
 use super::material::Textures;
 use super::mesh::Arrays;
 use super::metadata::Metadata;
@@ -15,9 +16,10 @@ use crate::files::Files;
 use crate::film_model::FilmModel;
 use crate::film_settings::FilmSettings;
 use crate::texture::Images;
-use crate::{Export, SceneFacts, stem, uri};
+use crate::{Export, InstanceStorage, SceneFacts, stem, uri};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::stop::Stop;
+use burgeon_base::text::grouped;
 use burgeon_scene::{Scene, ScenePackage};
 use glam::DAffine3;
 use gltf_json as json;
@@ -31,6 +33,8 @@ pub(super) struct Document<'a> {
     description: Description<'a>,
     body: Body<'a>,
     layout: Layout,
+    /// Number of repeated instances that have nodes of their own.
+    separate: usize,
 }
 
 /// Mapping from the items of a scene to the nodes and meshes of a document.
@@ -91,12 +95,21 @@ fn bytes(scene: &Scene, arrays: Arrays, stop: &Stop) -> Result<(Vec<u8>, Layout)
 
 /// Writes one `.glb` file to `path`.
 pub(crate) fn write_glb(export: &Export<'_>, path: &Path, files: &mut Files) -> Result<()> {
-    let checked = check(export.scene)?;
+    let expanded = expanded(export)?;
+    let checked = check(expanded.as_ref().unwrap_or(export.scene))?;
     let images = Images::load(&checked)?;
     let stop = files.stop();
     let content = (Arrays::default(), None);
     let document = Document::new(&checked, &export.facts, &images, &Textures::Embedded, content, &stop)?;
-    document.write(path, files, &stop)
+    document.write(path, files, &stop)?;
+    files.note_all(document.note(path));
+    Ok(())
+}
+
+/// Returns the scene with merged instances, if they are requested.
+fn expanded(export: &Export<'_>) -> Result<Option<Scene>> {
+    let is_expanded = export.facts.instances == InstanceStorage::Expanded;
+    is_expanded.then(|| expand(export.scene)).transpose()
 }
 
 /// Writes one `.glb` file to `path`, with an animation that shows the model of one frame after another.
@@ -117,7 +130,8 @@ pub(crate) fn write_film(
 
 /// Writes a `.gltf` file to `path`, with a `.bin` file and copies of the textures next to it.
 pub(crate) fn write_gltf(export: &Export<'_>, path: &Path, files: &mut Files) -> Result<()> {
-    let checked = check(export.scene)?;
+    let expanded = expanded(export)?;
+    let checked = check(expanded.as_ref().unwrap_or(export.scene))?;
     let images = Images::load(&checked)?;
     let names = images.copy_names(path, files);
     for (name, file) in names.iter().zip(&images.files) {
@@ -131,7 +145,9 @@ pub(crate) fn write_gltf(export: &Export<'_>, path: &Path, files: &mut Files) ->
         buffer.uri = Some(uri(&buffer_name(path)));
         files.write(&buffer_path(path), |out| document.body.write(Vec::new(), out, &stop))?;
     }
-    files.write(path, |out| document.description.write_pretty(out))
+    files.write(path, |out| document.description.write_pretty(out))?;
+    files.note_all(document.note(path));
+    Ok(())
 }
 
 /// Returns the path of the arrays of the `.gltf` file at `path`.
@@ -182,7 +198,10 @@ impl<'a> Document<'a> {
         let materials = material::write(checked, images, textures, &mut description.root, &mut body);
         let meshes = mesh::write(checked, metadata, arrays, &materials, &mut description, &mut body, stop);
         stop.check()?;
-        let kinds = (arrays, film.map(|(model, _)| model));
+        // The viewer reads the extension, and so does what plays films.
+        let is_own = arrays.small || film.is_some();
+        let storage = if is_own { InstanceStorage::Extension } else { facts.instances };
+        let kinds = (arrays, film.map(|(model, _)| model), storage);
         let placed = place::write(checked, metadata, &meshes, kinds, &mut description, &mut body);
         if let Some((_, settings)) = film {
             film::write(&placed.frames, settings, &mut description, &mut body);
@@ -195,7 +214,8 @@ impl<'a> Document<'a> {
         let nodes = placed.nodes.iter().map(|node| json::Index::new(*node as u32)).collect();
         description.root.scenes.push(json::Scene { extensions: None, extras, name: None, nodes });
         body.describe(&mut description.root)?;
-        Ok(Self { description, body, layout: Layout { places: placed.places, meshes } })
+        let layout = Layout { places: placed.places, meshes };
+        Ok(Self { description, body, layout, separate: placed.separate })
     }
 
     /// Returns the origin of a document, with the packages of its scene.
@@ -211,7 +231,22 @@ impl<'a> Document<'a> {
     /// Creates a document from its complete description, except its buffer, and the data. Fails if the file exceeds 4 GiB.
     pub(super) fn of_parts(mut description: Description<'a>, body: Body<'a>) -> Result<Self> {
         body.describe(&mut description.root)?;
-        Ok(Self { description, body, layout: Layout::default() })
+        Ok(Self { description, body, layout: Layout::default(), separate: 0 })
+    }
+
+    /// Returns a note on the storage of the repeated instances in the file at `path`, if there are any.
+    fn note(&self, path: &Path) -> Option<String> {
+        let places = self.layout.places.iter().flatten();
+        let shared = places.filter(|place| place.shared.is_some()).count();
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if shared > 0 {
+            let shared = grouped(shared);
+            return Some(format!(
+                "{name}: {shared} instances need EXT_mesh_gpu_instancing; for programs without it, use --instances nodes or expanded"
+            ));
+        }
+        let separate = grouped(self.separate);
+        (self.separate > 0).then(|| format!("{name}: {separate} repeated instances are plain nodes"))
     }
 
     /// Writes the document as a `.glb` file to `path`.

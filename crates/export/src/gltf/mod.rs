@@ -11,6 +11,7 @@ mod coordinates;
 mod corners;
 mod description;
 mod document;
+mod expand;
 mod film;
 mod material;
 mod mesh;

@@ -7,6 +7,7 @@ use super::coordinates::short;
 use super::description::{Accessor, Description, FeatureExtras, Node, use_extension};
 use super::mesh::{Arrays, accessor};
 use super::metadata::{FeaturePlace, INSTANCE_FEATURES, Metadata, instance_features};
+use crate::InstanceStorage;
 use crate::film_model::FilmModel;
 use burgeon_scene::Instance;
 use glam::{DAffine3, DQuat, DVec3};
@@ -86,6 +87,8 @@ pub(super) struct InstanceNodes<'a> {
     pub(super) features: Vec<&'a str>,
     /// Frames of a film that show something, and the node of each.
     pub(super) frames: Vec<(u32, usize)>,
+    /// Number of repeated instances that have nodes of their own.
+    pub(super) separate: usize,
 }
 
 /// Adds the instances.
@@ -93,7 +96,7 @@ pub(super) fn write<'a>(
     checked: &SceneCheck<'a>,
     metadata: Option<&Metadata>,
     meshes: &[Option<usize>],
-    (arrays, film): (Arrays, Option<&'a FilmModel>),
+    (arrays, film, storage): (Arrays, Option<&'a FilmModel>, InstanceStorage),
     description: &mut Description<'a>,
     body: &mut Body<'a>,
 ) -> InstanceNodes<'a> {
@@ -112,6 +115,17 @@ pub(super) fn write<'a>(
             group
         }));
     }
+    let is_repeated = |(kind, group): &(InstanceKind<'_>, InstanceGroup)| {
+        group.count >= ENOUGH && !kind.has_features(metadata)
+    };
+    let repeated: usize =
+        groups.iter().filter(|group| is_repeated(group)).map(|(_, group)| group.count).sum();
+    let is_sharing = match storage {
+        InstanceStorage::Automatic => repeated > InstanceStorage::MOST_NODES,
+        InstanceStorage::Extension => true,
+        InstanceStorage::Nodes | InstanceStorage::Expanded => false,
+    };
+    let separate = if is_sharing { 0 } else { repeated };
     let mut features = FeatureNumbers::default();
     let mut nodes = Vec::new();
     let mut places = vec![None; scene.instances.len()];
@@ -124,7 +138,7 @@ pub(super) fn write<'a>(
         let at = group;
         let shared = group
             .map(|group| &mut groups[group])
-            .filter(|(kind, group)| group.count >= ENOUGH || kind.has_features(metadata));
+            .filter(|(kind, group)| is_sharing && group.count >= ENOUGH || kind.has_features(metadata));
         if let Some((kind, group)) = shared
             && group.take(&kind.mirror(transform))
         {
@@ -160,7 +174,7 @@ pub(super) fn write<'a>(
         None => nodes.into_iter().map(|(_, node)| node).collect(),
     };
     if checked.origin == DVec3::ZERO || nodes.is_empty() {
-        return InstanceNodes { nodes, places, features, frames };
+        return InstanceNodes { nodes, places, features, frames, separate };
     }
     let origin = Node {
         name: "origin",
@@ -168,7 +182,7 @@ pub(super) fn write<'a>(
         children: Some(nodes),
         ..Node::default()
     };
-    InstanceNodes { nodes: vec![description.node(origin)], places, features, frames }
+    InstanceNodes { nodes: vec![description.node(origin)], places, features, frames, separate }
 }
 
 impl<'a> InstanceKind<'a> {

@@ -2,7 +2,9 @@
 
 use super::super::samples;
 use super::*;
+use crate::{Export, Files, InstanceStorage, SceneFacts};
 use burgeon_base::stop::Stop;
+use burgeon_picture::Picture;
 use burgeon_scene::Scene;
 use glam::{DMat4, DQuat, DVec3};
 use gltf::Gltf;
@@ -171,10 +173,49 @@ fn a_feature_id_stays_with_its_node() {
     }
 }
 
+/// Returns the bytes of a `.glb` file with instances in `instances`, and the notes.
+fn written(scene: &Scene, instances: InstanceStorage) -> (Vec<u8>, Vec<String>) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.glb");
+    let facts = SceneFacts { instances, ..SceneFacts::default() };
+    let mut files = Files::default();
+    files.export(&Export { scene, picture: &Picture::default(), facts }, &path).unwrap();
+    let notes = files.take_notes();
+    files.publish().unwrap();
+    (std::fs::read(path).unwrap(), notes)
+}
+
+#[test]
+fn up_to_a_thousand_instances_are_nodes_and_more_need_the_extension_unless_the_user_decides() {
+    use InstanceStorage::{Automatic, Expanded, Extension, Nodes};
+    let all = [
+        (60, Automatic, 60, "a.glb: 60 repeated instances are plain nodes"),
+        (1000, Automatic, 1000, "a.glb: 1,000 repeated instances are plain nodes"),
+        (1002, Automatic, 2, "a.glb: 1,002 instances need EXT_mesh_gpu_instancing"),
+        (60, Extension, 2, "a.glb: 60 instances need EXT_mesh_gpu_instancing"),
+        (1002, Nodes, 1002, "a.glb: 1,002 repeated instances are plain nodes"),
+        (1002, Expanded, 1, ""),
+    ];
+    for (count, storage, nodes, note) in all {
+        let scene = samples::many(count);
+        let (bytes, notes) = written(&scene, storage);
+        let file = Gltf::from_slice_without_validation(&bytes).unwrap();
+        assert_eq!(file.nodes().count(), nodes, "{count} {storage:?}");
+        assert_eq!(file.extensions_required().count() > 0, nodes == 2, "{count} {storage:?}");
+        assert!(notes.concat().starts_with(note) && notes.len() == usize::from(note != ""), "{notes:?}");
+        let drawn = drawn_triangles(&bytes);
+        let volume: f64 = drawn.iter().map(|[a, b, c]| a.dot(b.cross(*c)) / 6.0).sum();
+        let real = samples::volume(&scene);
+        assert_eq!(drawn.len(), scene.triangles());
+        assert!((volume - real).abs() < 1e-3 * real, "{count} {storage:?}: {volume} is not {real}");
+    }
+}
+
 #[test]
 fn many_like_instances_share_a_node_and_mirrored_ones_another() {
+    let glb = |scene: &Scene| written(scene, InstanceStorage::Extension);
     let node_count = |scene: &Scene| {
-        let file = Gltf::from_slice_without_validation(&glb(scene).unwrap()).unwrap();
+        let file = Gltf::from_slice_without_validation(&glb(scene).0).unwrap();
         (file.nodes().count(), file.extensions_required().map(str::to_owned).collect::<Vec<_>>())
     };
     assert_eq!(node_count(&samples::many(500)), (2, vec![place_extension().into()]));
@@ -184,7 +225,7 @@ fn many_like_instances_share_a_node_and_mirrored_ones_another() {
         instance.feature = Some(i.to_string());
     }
     assert_eq!(node_count(&named), (500, vec![]));
-    let [some, more] = [200, 1200].map(|count| glb(&samples::many(count)).unwrap().len());
+    let [some, more] = [200, 1200].map(|count| glb(&samples::many(count)).0.len());
     assert!((more - some) / 1000 <= 40, "{} bytes for 1000 more", more - some);
 }
 
@@ -195,7 +236,7 @@ fn models_that_features_have_placed_share_a_node_which_tells_whose_each_is() {
         instance.feature = (i > 0).then(|| format!("way/{}", i % 3));
         instance.placement = Some(i);
     }
-    let bytes = glb(&scene).unwrap();
+    let bytes = written(&scene, InstanceStorage::Extension).0;
     let file = Gltf::from_slice_without_validation(&bytes).unwrap();
     let blob = file.blob.clone().unwrap_or_default();
     let extras = file.default_scene().unwrap().extras().clone().unwrap();
@@ -398,7 +439,8 @@ fn a_viewer_is_sent_the_same_triangles_in_fewer_bytes() {
     let folder = tempfile::tempdir().unwrap();
     let mut rounded = 0;
     for (name, scene) in samples::all(folder.path()).into_iter().filter(|(_, scene)| scene.triangles() > 0) {
-        let (file, (viewer, _)) = (glb(&scene).unwrap(), glb_for_viewer(&scene).unwrap());
+        let file = written(&scene, InstanceStorage::Extension).0;
+        let viewer = glb_for_viewer(&scene).unwrap().0;
         // Only files have rounded rotations.
         let is_rounded = file.windows(10).any(|bytes| bytes == b"\"ROTATION\"");
         let most = if is_rounded { 1e-3 } else { 0.0 };

@@ -1,9 +1,10 @@
-//! Tables of records as layers: GeoJSON, GeoPackages and GeoParquet.
+//! Tables of records as layers: GeoJSON, GeoPackages, GeoParquet and DXF.
 //!
 //! Input: a [`RecordTable`](burgeon_spatial::RecordTable) for each layer, in metres of a run's frame. Output: the same
 //! records georeferenced in a coordinate system that other programs support. The same tables yield the same bytes.
 
 mod column;
+mod dxf;
 mod geojson;
 #[cfg_attr(not(feature = "data"), path = "absent_geopackage.rs")]
 mod geopackage;
@@ -15,8 +16,9 @@ mod tests;
 mod write;
 
 pub use column::{ColumnKind, TableColumn, column_kinds};
+pub use dxf::write_dxf;
 pub use geojson::write_geojson;
 pub use geopackage::{check_geopackage, write_geopackage};
 pub use geoparquet::write_geoparquet;
 pub use place::OutputPlacement;
-pub(crate) use write::{write_geojson_file, write_geopackage_file};
+pub(crate) use write::{write_dxf_file, write_geojson_file, write_geopackage_file};

@@ -13,15 +13,16 @@ use crate::files::Files;
 use crate::texture::Images;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::stop::Stop;
+use burgeon_base::text::grouped;
 use burgeon_scene::Scene;
 use glam::DVec3;
 
 /// Maximum number of triangles in a drawing. A render shows larger models.
-const LIMIT: usize = 4_000_000;
+const LIMIT: usize = 1_000_000;
 
 /// Draws `scene` as an SVG document.
 ///
-/// Fails if the scene is invalid, if a texture cannot be read, if it has more than 4 million triangles, or if `stop`
+/// Fails if the scene is invalid, if a texture cannot be read, if it has more than a million triangles, or if `stop`
 /// requests cancellation.
 ///
 /// ```
@@ -41,9 +42,11 @@ pub fn svg(scene: &Scene, stop: &Stop) -> Result<String> {
     if count > LIMIT {
         let error = Error::limit(
             Limit::Size,
-            format!("a drawing cannot show {count} triangles; the limit is {LIMIT}"),
+            format!("a drawing cannot show {} triangles; the limit is {}", grouped(count), grouped(LIMIT)),
         );
-        return Err(error.help("write an image (.png) instead, or draw a part of the model"));
+        return Err(error.help(
+            "write a render (.png), reduce the model with --lod, or draw a part of it with --part K/N",
+        ));
     }
     let images = Images::load(&checked)?;
     let view = DrawingSide::of(&checked);
@@ -292,6 +295,16 @@ mod tests {
                 glam::DAffine3::from_rotation_z(std::f64::consts::FRAC_PI_2) * instance.transform;
         }
         assert!(svg(&turned).unwrap().contains("<title>Elevation, seen from the east</title>"));
+    }
+
+    #[test]
+    fn a_drawing_of_more_than_a_million_triangles_is_refused_before_it_is_drawn() {
+        let mut scene = samples::boxes(1);
+        scene.instances = vec![scene.instances[0].clone(); 100_000];
+        insta::assert_snapshot!(svg(&scene).unwrap_err(), @r"
+        a drawing cannot show 1,200,000 triangles; the limit is 1,000,000
+          help: write a render (.png), reduce the model with --lod, or draw a part of it with --part K/N
+        ");
     }
 
     #[test]

@@ -10,7 +10,7 @@ use super::super::files::Files;
 use super::super::texture::Images;
 use super::super::{Export, stem, uri};
 use super::shape::{self, LookReference, Looks, numbers, title, write_feature};
-use super::xml::{escape_list_item, identifier};
+use crate::xml::{escape_list_item, identifier};
 use burgeon_base::error::Result;
 use burgeon_scene::{Instance, ScenePackage};
 use burgeon_spatial::ReferenceFrame;

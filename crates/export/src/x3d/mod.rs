@@ -10,6 +10,5 @@ mod document;
 mod shape;
 #[cfg(test)]
 mod tests;
-mod xml;
 
 pub(super) use document::write;

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::super::check::{shown_parts, triangles};
 use super::super::color::{fraction, srgb};
-use super::xml::{escape_attribute, escape_list_item, identifier};
+use crate::xml::{escape_attribute, escape_list_item, identifier};
 use burgeon_scene::{Material, Mesh, Part, Texture};
 use glam::Vec3;
 
