@@ -109,3 +109,22 @@ fn other_heights_remake_the_terrain_and_no_features() {
     let text = city.fails(&["plan", "city.lua", "-o", "no", "--terrain", "none.tif"], 1);
     assert!(text.contains("there is no file of heights none.tif"), "{text}");
 }
+
+#[test]
+fn a_script_whose_houses_stand_on_a_terrain_of_its_own_is_planned_and_made() {
+    let script = "local Walls = module(\"Walls\")\nlocal buildings = source(\"city.gpkg:buildings\")\n\
+        local land = lsystem({ object = terrain({ size = 2000, position = { 0, 0 }, levels = 5,\n\
+        \x20 elevation = elevation(\"hills.asc\", { crs = 2154 }) }) })\n\
+        local ground = land:derive().objects[1]\n\
+        local houses = lsystem({ object = footprint })\n\
+        houses:axiom(buildings, function(feature) return footprint(feature.geometry, { ground = ground }), Walls() end)\n\
+        houses:interpret(\"Walls\", function(this) this:walls({ height = 5 }) end)\nhouses:derive(0)\n";
+    let city = City::new(60);
+    write_heights(&city, 0.0);
+    std::fs::write(city.path("city.lua"), script).unwrap();
+    plan(&city, "out");
+    city.json(&["make", "out"]);
+    city.json(&["join", "out"]);
+    let checked = city.json(&["check", "out"]);
+    assert_eq!(checked["features"], 60);
+}

@@ -119,6 +119,10 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     let mut idle = Vec::new();
     for (number, system) in systems.iter_mut().enumerate() {
         session.stop.check()?;
+        if session.options.check {
+            // Objects are not expanded.
+            continue;
+        }
         if system.is_placed() {
             let is_empty = system.placed_model().is_some_and(|model| model.size() == 0);
             idle.extend(is_empty.then_some(number));

@@ -81,7 +81,7 @@ async function load(revision) {
   find('#track').classList.add('unknown');
   try {
     await shown.load(url('tileset.json'));
-    find('#nothing').hidden = shown.counts.of > 0;
+    find('#nothing').hidden = shown.counts.of !== 0;
     if (shown.counts.of === 0)
       say(find('#nothing'), 'The tileset has no tiles with content. The list of missing features names the causes.');
   } catch (error) {

@@ -11,9 +11,11 @@ export function facts({ box, counts, triangles, place }) {
   const size = { x: box.max.x - box.min.x, y: box.max.z - box.min.z };
   say(find('#size'), box.isEmpty() ? 'nothing drawn' : lengths([size.x, size.y]));
   say(find('#triangles'), many(triangles, 'triangle'));
-  say(find('#tiles'), `${count(counts.shown)} of ${many(counts.of, 'tile')}`);
+  say(find('#tiles'), counts.of === null ? many(counts.shown, 'tile') : `${count(counts.shown)} of ${many(counts.of, 'tile')}`);
   say(find('#fact-size'), box.isEmpty() ? '–' : lengths([size.x, size.y]));
-  say(find('#fact-tiles'), count(counts.of));
+  const tiles = find('#fact-tiles');
+  tiles.hidden = tiles.previousElementSibling.hidden = counts.of === null;
+  say(tiles, count(counts.of ?? 0));
   say(find('#fact-shown'), count(counts.shown));
   say(find('#fact-place'), place ? degrees(place) : '–');
   find('#fact-failed').hidden = counts.failed === 0;

@@ -96,10 +96,13 @@ export class Shown {
     return this.#next !== null || (this.#tiles !== null && !this.#tiles.settled);
   }
 
-  /** `{shown, of, failed}` tiles. */
+  /** `{shown, of, failed}` tiles; `of` is null if other files name more of them. */
   get counts() {
-    const { shown, leaves = [], failed = 0 } = this.#tiles ?? {};
-    return { shown: shown?.size ?? 0, of: leaves.filter(({ uri }) => uri).length, failed };
+    const { shown = new Map(), leaves = [], failed = 0 } = this.#tiles ?? {};
+    const named = new Set(leaves.map(({ uri }) => uri).filter((uri) => uri));
+    const external = [...named].some((uri) => uri.endsWith('.json'));
+    const seen = [...shown.keys()].filter((tile) => external || named.has(tile.content.uri));
+    return { shown: seen.length, of: external ? null : named.size, failed };
   }
 
   get triangles() {

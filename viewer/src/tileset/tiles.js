@@ -97,13 +97,15 @@ export class Tiles extends TilesRenderer {
   }
 }
 
-/** The tiles with content under `root`. */
+const TERRAIN = 'terrain.json';
+
+/** The tiles with content under `root`, without the terrain, which reaches far beyond the features. */
 function leaves(root) {
   const found = [];
   const visit = (tile, parent) => {
     const own = tile.transform ? parent.clone().multiply(new Matrix4().fromArray(tile.transform)) : parent;
     const { box } = tile.boundingVolume;
-    if (tile.content && box) found.push({ uri: tile.content.uri, transform: own, box, ...measures(own, box) });
+    if (tile.content && box && tile.content.uri !== TERRAIN) found.push({ uri: tile.content.uri, transform: own, box, ...measures(own, box) });
     for (const child of tile.children ?? []) visit(child, own);
   };
   visit(root, new Matrix4());

@@ -127,8 +127,13 @@ fn convert(value: &LuaValue, manner: CopyMode, depth: usize) -> Result<Value> {
             Value::Object(Arc::new(BufferBytes(buffer.to_vec().into())))
         }
         other => {
-            return Err(Error::argument(format!("a {} cannot be passed on", other.type_name()))
-                .help("pass numbers, booleans, strings, tables of these, or objects"));
+            let help = match other {
+                LuaValue::Function(_) => {
+                    "call it with parentheses: f(x); values are numbers, booleans, strings, tables of these, and objects"
+                }
+                _ => "pass numbers, booleans, strings, tables of these, or objects",
+            };
+            return Err(Error::argument(format!("a {} cannot be passed on", other.type_name())).help(help));
         }
     })
 }
