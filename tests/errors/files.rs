@@ -95,6 +95,7 @@ fn an_error_in_a_required_file_names_that_file() {
     error: in/late.lua:2: attempt to index nil with 'y'
       | return t.x.y
       called at in/s.lua:2
+      help: check that the value exists before one of its fields is read: nothing was assigned to it, or a list is shorter
     ");
     assert_snapshot!(required("require(\"binary\")"), @r#"
     error: in/s.lua:2: in/binary.lua is not a text file

@@ -20,13 +20,13 @@ fn a_successor_that_is_no_module_names_the_rule_the_module_and_the_step() {
     error: s.lua:4: rule A(x): a successor must be modules, but one item is the string "B"
       | return "B"
       module: A(1), step 1
-      help: return modules, such as A(1), and branches of them, such as { A(1) }
+      help: give the string in place of the function: system:rule("A", "F[+F]F")
     "#);
     assert_snapshot!(successor("return B"), @r"
     error: s.lua:4: rule A(x): a successor must be modules, but one item is a function
       | return B
       module: A(1), step 1
-      help: return modules, such as A(1), and branches of them, such as { A(1) }
+      help: call the constructor of the module: F(1)
     ");
     assert_snapshot!(successor("return x > 0"), @r"
     error: s.lua:4: rule A(x): a successor must be modules, but one item is the boolean true

@@ -17,6 +17,7 @@ fn a_syntax_error_names_its_line() {
     assert_snapshot!(refused("local text = \"never ends\n"), @r#"
     error: s.lua:1: Malformed string; did you forget to finish it?
       | local text = "never ends
+      help: close the string in its line, or write it with [[ and ]] or as several joined by ..
     "#);
 }
 

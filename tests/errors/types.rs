@@ -259,6 +259,7 @@ fn what_a_function_of_a_type_does_wrong_is_told_in_its_line() {
     assert_snapshot!(refused("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  state = { a = 1 },\n  finish = function(self)\n    self.a = nil + 1\n  end,\n  changes = { go = function(self, n) end },\n}))\n"), @r"
     error: s.lua:11: rule lamp: finish: attempt to perform arithmetic (add) on nil and number
       | self.a = nil + 1
+      help: give the value a number before: one side is nil
     ");
 }
 

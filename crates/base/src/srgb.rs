@@ -6,14 +6,14 @@ use std::sync::LazyLock;
 const PARTS: u16 = 4096;
 
 /// Bytes, and the numbers at which they begin.
-struct Bytes {
+struct SrgbBytes {
     /// Smallest number whose byte is the index, and infinity after the last.
     starts: [f32; 257],
     /// Byte of the number at the start of each part.
     parts: Vec<u8>,
 }
 
-static BYTES: LazyLock<Bytes> = LazyLock::new(|| {
+static BYTES: LazyLock<SrgbBytes> = LazyLock::new(|| {
     let mut starts = [f32::INFINITY; 257];
     for (byte, start) in (0..=255).zip(&mut starts) {
         // Numbers of one sign are in the order of their bits.
@@ -29,7 +29,7 @@ static BYTES: LazyLock<Bytes> = LazyLock::new(|| {
         *start = f32::from_bits(low);
     }
     let parts = (0..=PARTS).map(|part| converted(f32::from(part) / f32::from(PARTS))).collect();
-    Bytes { starts, parts }
+    SrgbBytes { starts, parts }
 });
 
 /// Converts a linear component, 0 to 1, to a byte of an sRGB image (IEC 61966-2-1).

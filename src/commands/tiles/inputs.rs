@@ -47,7 +47,7 @@ pub(super) fn hash_file(path: &Path) -> Result<String> {
     let unreadable = |error: std::io::Error| {
         Error::file(path, format!("cannot read {}: {error}", path.display())).help("check its permissions")
     };
-    burgeon::tiles::make::hash_file(path).map_err(unreadable)
+    burgeon::tiles::plan::hash_file(path).map_err(unreadable)
 }
 
 /// Returns the script flags of a plan in `folder`.

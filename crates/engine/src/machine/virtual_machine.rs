@@ -172,7 +172,12 @@ impl Machine {
 
     /// Returns the function of a script file.
     pub(crate) fn load_file(&self, file: &SourceFile) -> Result<Function> {
-        self.load_text(&file.name, &file.analysis.text, file.analysis.code.as_deref())
+        let text = &file.analysis.text;
+        let function = self.load_text(&file.name, text, file.analysis.code.as_deref());
+        function.map_err(|error| match error.kind() {
+            ErrorKind::Syntax => explain_syntax(error, text),
+            _ => error,
+        })
     }
 
     fn load_text(&self, name: &str, text: &str, code: Option<&[u8]>) -> Result<Function> {
@@ -181,11 +186,7 @@ impl Machine {
             Some(code) => self.lua.load(code).set_mode(ChunkMode::Binary),
             None => self.lua.load(text).set_mode(ChunkMode::Text),
         };
-        let function = chunk.set_name(format!("@{name}")).into_function();
-        function.map_err(|error| match error {
-            mlua::Error::SyntaxError { .. } => explain_syntax(self.translate(error), text),
-            _ => self.translate(error),
-        })
+        chunk.set_name(format!("@{name}")).into_function().map_err(|error| self.translate(error))
     }
 
     /// Loads bytecode from [`compile`], without native code until [`native`] is called. Errors in it refer to

@@ -183,9 +183,11 @@ fn of_message(message: &str, here: &str, before: &str) -> Option<&'static str> {
 
 /// Returns the remedy for a block without `end`.
 fn of_block(message: &str, lines: &[String], line: usize) -> Option<String> {
-    let is_end =
-        message.contains("got <eof>") || message.contains("got ')'") || message.contains("got 'end'");
-    if !is_end || message.contains("to close '{'") || message.contains("to close '['") {
+    let is_missing = message.starts_with("Expected 'end'") || message.starts_with("Expected 'until'");
+    // An `end` that closed an inner block is followed by the rest of the outer call.
+    let here = lines.get(line.wrapping_sub(1)).map_or("", |code| code.trim_start());
+    let is_early = message.starts_with("Expected identifier") && here.starts_with("end");
+    if !is_missing && !is_early {
         return None;
     }
     let opener = unclosed(lines.get(..line).unwrap_or(lines))?;

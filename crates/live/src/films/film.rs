@@ -225,13 +225,16 @@ impl Film {
         let mut known: Vec<Mutex<Option<MeasuredFrame>>> = Vec::new();
         known.resize_with(count, Mutex::default);
         let sample = |i: usize| {
-            let (scene, extent) = self.measure(samples[i], needs)?;
+            // A frame that fails is run again below, so that the error is that of the first such frame.
+            let Ok((scene, extent)) = self.measure(samples[i], needs) else { return Ok(None) };
             let scene = has_room(scene_bytes(&scene), most / 2).then_some(scene);
-            Ok(MeasuredFrame { extent, scene, ..MeasuredFrame::default() })
+            Ok(Some(MeasuredFrame { extent, scene, ..MeasuredFrame::default() }))
         };
         in_order(samples.len(), self.threads(), &self.stop, sample, |i, frame| {
-            expected.join_outline(&frame.extent);
-            *known[samples[i]].lock().recover() = Some(frame);
+            if let Some(frame) = &frame {
+                expected.join_outline(&frame.extent);
+            }
+            *known[samples[i]].lock().recover() = frame;
             Ok(())
         })?;
         let is_exceeded = AtomicBool::new(false);

@@ -138,18 +138,6 @@ pub(crate) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<()> {
     burgeon_export::write_file(path, |out| std::io::Write::write_all(out, bytes))
 }
 
-/// Returns the hash of the content of a file.
-pub fn hash_file(path: &Path) -> std::io::Result<String> {
-    let mut hasher = blake3::Hasher::new();
-    hasher.update_reader(fs::File::open(path)?)?;
-    Ok(hash_text(hasher.finalize()))
-}
-
-/// Returns the first half of a hash as hexadecimal digits.
-pub(crate) fn hash_text(hash: blake3::Hash) -> String {
-    hash.to_hex()[..32].to_owned()
-}
-
 /// Creates a folder and those that contain it.
 pub(super) fn make_folder(path: &Path) -> Result<()> {
     fs::create_dir_all(path).map_err(|error| {

@@ -6,8 +6,8 @@ mod table;
 mod terrain;
 mod tile;
 
-pub use manifest::{ManifestError, MissingFeature, TileFile, TileManifest, hash_file};
-pub(crate) use manifest::{hash_text, write_bytes, write_text};
+pub use manifest::{ManifestError, MissingFeature, TileFile, TileManifest};
+pub(crate) use manifest::{write_bytes, write_text};
 pub use sweep::sweep_temporary;
 pub use table::{TableFile, TileTables};
 pub use terrain::TerrainHeights;

@@ -1,4 +1,7 @@
-//! Digests of features, whose sum does not depend on their order.
+//! Digests of features, whose sum does not depend on their order, and hashes of files.
+
+use std::fs;
+use std::path::Path;
 
 use burgeon_data::{Attribute, Feature};
 
@@ -78,6 +81,18 @@ pub fn feature_digest(layer: &str, names: &[String], feature: &Feature) -> Featu
         }
     }
     FeatureDigest::of(&hasher)
+}
+
+/// Returns the hash of the content of a file.
+pub fn hash_file(path: &Path) -> std::io::Result<String> {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update_reader(fs::File::open(path)?)?;
+    Ok(hash_text(hasher.finalize()))
+}
+
+/// Returns the first half of a hash as hexadecimal digits.
+pub(crate) fn hash_text(hash: blake3::Hash) -> String {
+    hash.to_hex()[..32].to_owned()
 }
 
 #[cfg(test)]

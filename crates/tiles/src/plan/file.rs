@@ -10,8 +10,9 @@ use burgeon_spatial::{Crs, ReferenceFrame};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::{OmittedFeature, PlannedTerrain, PlannedTile, TableFormat, TallRule, TileGrid, TileId};
-use crate::make::hash_text;
+use super::{
+    OmittedFeature, PlannedTerrain, PlannedTile, TableFormat, TallRule, TileGrid, TileId, hash_text,
+};
 
 /// Version of the format of plans and manifests.
 pub const PLAN_VERSION: u32 = 3;

@@ -14,7 +14,8 @@ mod tile;
 mod tile_id;
 
 pub use coarse::coarse_tiles;
-pub use digest::{FeatureDigest, feature_digest, id_digest};
+pub(crate) use digest::hash_text;
+pub use digest::{FeatureDigest, feature_digest, hash_file, id_digest};
 pub use division::TileDivision;
 pub use file::{PLAN_VERSION, PlanFrame, PlannedFile, PlannedSource, TilePlan};
 pub use grid::TileGrid;
