@@ -8,6 +8,7 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::Error;
 use burgeon_base::error::Result;
 use burgeon_base::random::Stream;
+use burgeon_export::{Export, Files, InstanceStorage, SceneFacts};
 use burgeon_picture::Picture;
 use burgeon_scene::{Instance, Mesh, Scene};
 use burgeon_scene::{Material, Part, Texture, image};
@@ -241,7 +242,10 @@ fn instances_that_share_a_node_are_read_where_they_were_written() {
             })
             .collect();
         let path = folder.path().join("many.glb");
-        burgeon_export::write(&known, &path, &Picture::default()).unwrap();
+        let facts = SceneFacts { instances: InstanceStorage::Extension, ..SceneFacts::default() };
+        let mut files = Files::default();
+        files.export(&Export { scene: &known, picture: &Picture::default(), facts }, &path).unwrap();
+        files.publish().unwrap();
         let content = std::fs::read(&path).unwrap();
         assert!(content.windows(23).any(|it| it == b"EXT_mesh_gpu_instancing"));
         let read = read_in(folder.path(), &content, 10_000).unwrap();
