@@ -127,7 +127,7 @@ impl ModelWriter<'_, '_> {
                 id
             } else {
                 let mirror = DAffine3::from_scale(DVec3::new(if mirrored { -1.0 } else { 1.0 }, 1.0, 1.0));
-                transform = transform * mirror;
+                transform *= mirror;
                 let key = (instance.mesh, mirrored);
                 match ids.get(&key) {
                     Some(id) => *id,
