@@ -17,7 +17,9 @@ houses:interpret("Walls(height)", function(this, height)
 end)
 
 houses:interpret("Roof(height)", function(this, height)
-  if lod > 2 then this:roof({ kind = "hip", height = height }) end
+  if lod > 2 then
+    this:roof({ kind = "hip", height = height })
+  end
 end)
 
 houses:derive(1)
