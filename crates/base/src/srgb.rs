@@ -20,7 +20,7 @@ static BYTES: LazyLock<SrgbBytes> = LazyLock::new(|| {
         let (mut low, mut high) = (0, 1.0f32.to_bits());
         while low < high {
             let middle = low.midpoint(high);
-            if converted(f32::from_bits(middle)) < byte {
+            if byte_by_formula(f32::from_bits(middle)) < byte {
                 low = middle + 1;
             } else {
                 high = middle;
@@ -28,7 +28,7 @@ static BYTES: LazyLock<SrgbBytes> = LazyLock::new(|| {
         }
         *start = f32::from_bits(low);
     }
-    let parts = (0..=PARTS).map(|part| converted(f32::from(part) / f32::from(PARTS))).collect();
+    let parts = (0..=PARTS).map(|part| byte_by_formula(f32::from(part) / f32::from(PARTS))).collect();
     SrgbBytes { starts, parts }
 });
 
@@ -57,7 +57,7 @@ pub fn srgb_byte(linear: f32) -> u8 {
     clippy::cast_sign_loss,
     reason = "a float to integer cast saturates"
 )]
-fn converted(linear: f32) -> u8 {
+fn byte_by_formula(linear: f32) -> u8 {
     let curved = if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
     (curved * 255.0).round() as u8
 }
@@ -70,10 +70,10 @@ mod tests {
     fn the_table_and_the_function_give_the_same_byte() {
         let step = f32::MIN_POSITIVE.to_bits() / 64;
         for number in (0..1.0f32.to_bits() / step).map(|at| f32::from_bits(at * step)) {
-            assert_eq!(srgb_byte(number), converted(number), "{number}");
+            assert_eq!(srgb_byte(number), byte_by_formula(number), "{number}");
         }
         for number in (0..=65_535_u16).map(|at| f32::from(at) / 65_535.0) {
-            assert_eq!(srgb_byte(number), converted(number), "{number}");
+            assert_eq!(srgb_byte(number), byte_by_formula(number), "{number}");
         }
     }
 

@@ -47,6 +47,19 @@ impl GeometryKind {
         }
     }
 
+    /// Returns the name in GeoJSON.
+    pub fn geojson(self) -> &'static str {
+        match self {
+            Self::Point => "Point",
+            Self::Line => "LineString",
+            Self::Polygon => "Polygon",
+            Self::MultiPoint => "MultiPoint",
+            Self::MultiLine => "MultiLineString",
+            Self::MultiPolygon => "MultiPolygon",
+            Self::Collection => "GeometryCollection",
+        }
+    }
+
     /// Returns the name in well-known text.
     pub fn wkt(self) -> &'static str {
         match self {

@@ -103,6 +103,16 @@ fn compression(text: &str) -> Result<TileCompression, &'static str> {
     }
 }
 
+/// Fails if there is no file at `path`; `what` is its content, and `help` the remedy.
+fn check_file(path: &Path, what: &'static str, help: &str) -> Result<()> {
+    if path.is_file() {
+        return Ok(());
+    }
+    let name = path.display().to_string();
+    let message = format!("there is no {what} {name}");
+    Err(Error::not_found(what, name, [], message).help(help))
+}
+
 fn tall(text: &str) -> Result<TallRule, String> {
     text.parse().map_err(Error::into_message)
 }
@@ -129,8 +139,10 @@ impl PlanCommand {
             return Err(Error::usage("tiles are made from files, and not from databases")
                 .help("export the features to a GeoPackage, for example with ogr2ogr"));
         }
-        let survey = self.survey()?;
-        let (session, survey) = survey;
+        if cfg!(not(feature = "parquet")) && self.tables.contains(&TableFormat::Geoparquet) {
+            return Err(Error::left_out("GeoParquet", "parquet"));
+        }
+        let (session, survey) = self.survey()?;
         let folder = &self.output;
         fs::create_dir_all(folder.path()).map_err(|error| {
             Error::file(
@@ -261,12 +273,11 @@ impl PlanCommand {
     /// Adds the grid of the geoid to a plan. Fails if it does not cover all tiles.
     fn add_geoid(&self, plan: &mut TilePlan, folder: &Path) -> Result<()> {
         let Some(path) = &self.geoid else { return Ok(()) };
-        if !path.is_file() {
-            let name = path.display().to_string();
-            let message = format!("there is no geoid grid {name}");
-            return Err(Error::not_found("geoid grid", name, [], message)
-                .help("download one of your heights, such as a GeoTIFF of cdn.proj.org; or specify a constant: --geoid-height METRES"));
-        }
+        check_file(
+            path,
+            "geoid grid",
+            "download one of your heights, such as a GeoTIFF of cdn.proj.org; or specify a constant: --geoid-height METRES",
+        )?;
         let grid = GeoidGrid::open(path, &path.display().to_string())?;
         let frame = plan.frame.reference()?;
         let map = EarthMap::new(&frame, 0.0)?;
@@ -288,12 +299,7 @@ impl PlanCommand {
     /// Adds the terrain to a plan.
     fn add_terrain(&self, plan: &mut TilePlan, folder: &Path) -> Result<()> {
         let Some(path) = &self.terrain else { return Ok(()) };
-        if !path.is_file() {
-            let name = path.display().to_string();
-            let message = format!("there is no file of heights {name}");
-            return Err(Error::not_found("file", name, [], message)
-                .help("specify a grid of heights, such as a GeoTIFF"));
-        }
+        check_file(path, "file of heights", "specify a grid of heights, such as a GeoTIFF")?;
         let frame = plan.frame.reference()?;
         let heights = TerrainHeights::open(path, &path.display().to_string(), &frame)?;
         let file = PlannedFile { path: portable_path(folder, path)?, hash: hash_file(path)? };

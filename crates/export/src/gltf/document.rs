@@ -95,7 +95,7 @@ fn bytes(scene: &Scene, arrays: Arrays, stop: &Stop) -> Result<(Vec<u8>, Layout)
 
 /// Writes one `.glb` file to `path`.
 pub(crate) fn write_glb(export: &Export<'_>, path: &Path, files: &mut Files) -> Result<()> {
-    let expanded = expanded(export)?;
+    let expanded = expand_if_chosen(export)?;
     let checked = check(expanded.as_ref().unwrap_or(export.scene))?;
     let images = Images::load(&checked)?;
     let stop = files.stop();
@@ -107,7 +107,7 @@ pub(crate) fn write_glb(export: &Export<'_>, path: &Path, files: &mut Files) -> 
 }
 
 /// Returns the scene with merged instances, if they are requested.
-fn expanded(export: &Export<'_>) -> Result<Option<Scene>> {
+fn expand_if_chosen(export: &Export<'_>) -> Result<Option<Scene>> {
     let is_expanded = export.facts.instances == InstanceStorage::Expanded;
     is_expanded.then(|| expand(export.scene)).transpose()
 }
@@ -130,7 +130,7 @@ pub(crate) fn write_film(
 
 /// Writes a `.gltf` file to `path`, with a `.bin` file and copies of the textures next to it.
 pub(crate) fn write_gltf(export: &Export<'_>, path: &Path, files: &mut Files) -> Result<()> {
-    let expanded = expanded(export)?;
+    let expanded = expand_if_chosen(export)?;
     let checked = check(expanded.as_ref().unwrap_or(export.scene))?;
     let images = Images::load(&checked)?;
     let names = images.copy_names(path, files);

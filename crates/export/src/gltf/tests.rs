@@ -202,7 +202,10 @@ fn up_to_a_thousand_instances_are_nodes_and_more_need_the_extension_unless_the_u
         let file = Gltf::from_slice_without_validation(&bytes).unwrap();
         assert_eq!(file.nodes().count(), nodes, "{count} {storage:?}");
         assert_eq!(file.extensions_required().count() > 0, nodes == 2, "{count} {storage:?}");
-        assert!(notes.concat().starts_with(note) && notes.len() == usize::from(!note.is_empty()), "{notes:?}");
+        assert!(
+            notes.concat().starts_with(note) && notes.len() == usize::from(!note.is_empty()),
+            "{notes:?}"
+        );
         let drawn = drawn_triangles(&bytes);
         let volume: f64 = drawn.iter().map(|[a, b, c]| a.dot(b.cross(*c)) / 6.0).sum();
         let real = samples::volume(&scene);

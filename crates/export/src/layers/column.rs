@@ -41,7 +41,7 @@ impl ColumnKind {
     }
 
     /// Returns the type of a column that has values of two types; `None` for a part without values.
-    pub fn joined(a: Option<Self>, b: Option<Self>) -> Option<Self> {
+    pub fn join(a: Option<Self>, b: Option<Self>) -> Option<Self> {
         match (a, b) {
             (None, kind) | (kind, None) => kind,
             (Some(a), Some(b)) if a == b => Some(a),
@@ -74,7 +74,7 @@ pub fn column_kinds(table: &RecordTable) -> Vec<ColumnKind> {
     for record in &table.records {
         for (column, value) in &record.values {
             let Some(known) = kinds.get_mut(*column) else { continue };
-            *known = ColumnKind::joined(*known, ColumnKind::of(value));
+            *known = ColumnKind::join(*known, ColumnKind::of(value));
         }
     }
     kinds.into_iter().map(|kind| kind.unwrap_or(ColumnKind::Text)).collect()

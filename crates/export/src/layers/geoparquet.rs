@@ -93,15 +93,7 @@ const GEOMETRY: &str = "geometry";
 
 /// Returns the name of the type of a geometry, as GeoParquet has it.
 fn type_name(geometry: &Geometry) -> String {
-    let name = match geometry {
-        Geometry::Point(_) => "Point",
-        Geometry::Line(_) => "LineString",
-        Geometry::Polygon(_) => "Polygon",
-        Geometry::MultiPoint(_) => "MultiPoint",
-        Geometry::MultiLine(_) => "MultiLineString",
-        Geometry::MultiPolygon(_) => "MultiPolygon",
-        Geometry::Collection(_) => "GeometryCollection",
-    };
+    let name = geometry.kind().geojson();
     if geometry.has_heights() { format!("{name} Z") } else { name.to_owned() }
 }
 

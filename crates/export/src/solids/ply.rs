@@ -5,12 +5,13 @@
 use super::open_edges;
 use super::placed::{PlacedMesh, check_size, written_triangles};
 use crate::check::{SceneCheck, check};
-use crate::color::{fraction, srgb};
+use crate::color::fraction;
 use crate::decompose::normal_matrix;
 use crate::facts::Export;
 use crate::files::Files;
 use crate::texture::{ImageFile, Images};
 use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::srgb_byte;
 use glam::{DVec3, Vec3};
 use std::io::{self, Write};
 use std::path::Path;
@@ -99,14 +100,12 @@ fn write_points(placed: &PlacedMesh<'_>, colors: &[[u8; 4]], out: &mut impl Writ
 pub(super) fn colors(checked: &SceneCheck<'_>) -> Result<Vec<[u8; 4]>> {
     let images = Images::load(checked)?;
     let means: Vec<_> = images.files.iter().map(ImageFile::mean_color).collect::<Result<_>>()?;
-    let byte = |number: f32| (fraction(number) * 255.0).round() as u8;
     let materials = checked.scene.materials.iter().zip(&images.of_material);
     let color = materials.map(|(material, image)| {
         let mean = image.map_or([1.0; 3], |image| means[image]);
-        let light = |i: usize| {
-            byte(srgb(fraction(material.base_color[i]) * mean[i] + fraction(material.emissive[i])))
-        };
-        [light(0), light(1), light(2), byte(material.base_color[3])]
+        let light =
+            |i: usize| srgb_byte(fraction(material.base_color[i]) * mean[i] + fraction(material.emissive[i]));
+        [light(0), light(1), light(2), (fraction(material.base_color[3]) * 255.0).round() as u8]
     });
     Ok(color.collect())
 }

@@ -40,7 +40,7 @@ pub(crate) fn write(export: &Export<'_>, path: &Path, files: &mut Files) -> Resu
     let stop = files.stop();
     files.write(path, |out| {
         let (generator, place) = (env!("CARGO_PKG_VERSION"), place.unwrap_or_default());
-        let doc = quoted(&format!("Burgeon {generator}. {place}"));
+        let doc = quote(&format!("Burgeon {generator}. {place}"));
         writeln!(out, "#usda 1.0\n(\n    defaultPrim = \"World\"\n    doc = {doc}")?;
         writeln!(out, "    metersPerUnit = 1\n    upAxis = \"Z\"\n)\n\ndef Xform \"World\"\n{{")?;
         if checked.origin != DVec3::ZERO {
@@ -165,13 +165,13 @@ fn write_display_name(instance: &Instance, out: &mut impl Write) -> io::Result<(
     if instance.name.is_empty() {
         return Ok(());
     }
-    writeln!(out, "        displayName = {}", quoted(&instance.name))
+    writeln!(out, "        displayName = {}", quote(&instance.name))
 }
 
 /// Writes the id of the feature of an instance.
 fn write_feature(instance: &Instance, out: &mut impl Write) -> io::Result<()> {
     match &instance.feature {
-        Some(feature) => writeln!(out, "        custom string userProperties:feature = {}", quoted(feature)),
+        Some(feature) => writeln!(out, "        custom string userProperties:feature = {}", quote(feature)),
         None => Ok(()),
     }
 }
@@ -225,15 +225,15 @@ pub(super) fn tuple<'a, T: Copy + Display + Default + std::ops::Add<Output = T> 
 }
 
 /// Returns `text` as a string of the format. Control characters become spaces.
-pub(super) fn quoted(text: &str) -> String {
-    let mut quoted = String::from("\"");
+pub(super) fn quote(text: &str) -> String {
+    let mut quote = String::from("\"");
     for letter in text.chars() {
         match letter {
-            '"' | '\\' => quoted.extend(['\\', letter]),
-            letter if letter.is_control() => quoted.push(' '),
-            letter => quoted.push(letter),
+            '"' | '\\' => quote.extend(['\\', letter]),
+            letter if letter.is_control() => quote.push(' '),
+            letter => quote.push(letter),
         }
     }
-    quoted.push('"');
-    quoted
+    quote.push('"');
+    quote
 }

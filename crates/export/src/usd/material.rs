@@ -1,6 +1,6 @@
 //! Materials as `UsdPreviewSurface`, with an image where there is one.
 
-use super::document::{quoted, tuple};
+use super::document::{quote, tuple};
 use crate::check::SceneCheck;
 use crate::color::fraction;
 use crate::texture::Images;
@@ -39,7 +39,7 @@ fn write_material(
     let path = prim_path(index, material);
     writeln!(out, "    def Material \"{}\" (", identifier("material", index, &material.name))?;
     if !material.name.is_empty() {
-        writeln!(out, "        displayName = {}", quoted(&material.name))?;
+        writeln!(out, "        displayName = {}", quote(&material.name))?;
     }
     writeln!(out, "    )\n    {{\n        token outputs:surface.connect = <{path}/Surface.outputs:surface>")?;
     writeln!(out, "        def Shader \"Surface\"\n        {{")?;

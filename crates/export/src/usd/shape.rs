@@ -1,6 +1,6 @@
 //! Meshes, each once, with a prim for each material.
 
-use super::document::{quoted, tuple, write_list, write_vertex_list};
+use super::document::{quote, tuple, write_list, write_vertex_list};
 use super::material;
 use crate::check::{SceneCheck, shown_parts, triangles};
 use crate::xml::identifier;
@@ -22,7 +22,7 @@ pub(super) fn write(
 ) -> io::Result<()> {
     writeln!(out, "    def Xform \"{}\" (", identifier("mesh", index, &mesh.name))?;
     if !mesh.name.is_empty() {
-        writeln!(out, "        displayName = {}", quoted(&mesh.name))?;
+        writeln!(out, "        displayName = {}", quote(&mesh.name))?;
     }
     writeln!(out, "    )\n    {{")?;
     for (number, part) in shown_parts(mesh).enumerate() {

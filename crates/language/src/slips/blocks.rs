@@ -11,7 +11,7 @@ pub(super) struct Opener {
 
 /// Returns the block that lacks its `end`, if the lines are indented by their blocks: the first whose `end` is indented less
 /// than its beginning, or the last that stays open.
-pub(super) fn unclosed(lines: &[String]) -> Option<Opener> {
+pub(super) fn find_unclosed(lines: &[String]) -> Option<Opener> {
     let mut open: Vec<Opener> = Vec::new();
     for (number, line) in (1..).zip(lines) {
         let indentation = line.len() - line.trim_start().len();
@@ -53,7 +53,7 @@ mod tests {
 
     fn found(text: &str) -> Option<(String, usize)> {
         let lines: Vec<String> = text.lines().map(str::to_owned).collect();
-        unclosed(&lines).map(|opener| (opener.keyword, opener.line))
+        find_unclosed(&lines).map(|opener| (opener.keyword, opener.line))
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use burgeon_base::error::Error;
 
-use super::blocks::unclosed;
+use super::blocks::find_unclosed;
 use super::code::{code_lines, names_of};
 
 /// Adds a remedy to a syntax error of Luau, if its line has a construct of another language.
@@ -27,14 +27,14 @@ pub fn explain_syntax(error: Error, text: &str) -> Error {
     let here = code(line);
     let before = code(line.wrapping_sub(1)).trim();
     let is_head = message.starts_with("Expected 'then'") || message.starts_with("Expected 'do'");
-    let remedy = of_signs(here)
-        .or_else(|| is_head.then(|| of_words(before, &message)).flatten())
-        .or_else(|| of_words(here, &message))
+    let remedy = remedy_for_sign(here)
+        .or_else(|| is_head.then(|| remedy_for_word(before, &message)).flatten())
+        .or_else(|| remedy_for_word(here, &message))
         .map(str::to_owned)
-        .or_else(|| of_message(&message, here, before).map(str::to_owned))
-        .or_else(|| of_block(&message, &lines, line))
-        .or_else(|| of_words(before, &message).map(str::to_owned))
-        .or_else(|| of_bracket(&message));
+        .or_else(|| remedy_for_message(&message, here, before).map(str::to_owned))
+        .or_else(|| remedy_for_block(&message, &lines, line))
+        .or_else(|| remedy_for_word(before, &message).map(str::to_owned))
+        .or_else(|| remedy_for_bracket(&message));
     match remedy {
         Some(remedy) => error.help(remedy),
         None => error,
@@ -42,7 +42,7 @@ pub fn explain_syntax(error: Error, text: &str) -> Error {
 }
 
 /// Returns the remedy for signs that Lua lacks.
-fn of_signs(code: &str) -> Option<&'static str> {
+fn remedy_for_sign(code: &str) -> Option<&'static str> {
     let start = code.trim_start();
     // A sign, and the remedy. The first that occurs counts.
     const SIGNS: [(&str, &str); 24] = [
@@ -104,7 +104,7 @@ fn of_signs(code: &str) -> Option<&'static str> {
 }
 
 /// Returns the remedy for keywords of other languages.
-fn of_words(code: &str, message: &str) -> Option<&'static str> {
+fn remedy_for_word(code: &str, message: &str) -> Option<&'static str> {
     let names = names_of(code);
     let has = |word: &str| names.iter().any(|(_, name)| *name == word);
     let first = names.first().map_or("", |(_, name)| *name);
@@ -140,7 +140,7 @@ fn of_words(code: &str, message: &str) -> Option<&'static str> {
 }
 
 /// Returns the remedy for a message that names the fault itself.
-fn of_message(message: &str, here: &str, before: &str) -> Option<&'static str> {
+fn remedy_for_message(message: &str, here: &str, before: &str) -> Option<&'static str> {
     let got = message.rsplit_once(", got ").map_or("", |(_, got)| got);
     let is = |sign: &str| got.starts_with(&format!("'{sign}'"));
     if message.starts_with("Expected 'then'") || message.starts_with("Expected 'do'") {
@@ -182,7 +182,7 @@ fn of_message(message: &str, here: &str, before: &str) -> Option<&'static str> {
 }
 
 /// Returns the remedy for a block without `end`.
-fn of_block(message: &str, lines: &[String], line: usize) -> Option<String> {
+fn remedy_for_block(message: &str, lines: &[String], line: usize) -> Option<String> {
     let is_missing = message.starts_with("Expected 'end'") || message.starts_with("Expected 'until'");
     // An `end` that closed an inner block is followed by the rest of the outer call.
     let here = lines.get(line.wrapping_sub(1)).map_or("", |code| code.trim_start());
@@ -190,7 +190,7 @@ fn of_block(message: &str, lines: &[String], line: usize) -> Option<String> {
     if !is_missing && !is_early {
         return None;
     }
-    let opener = unclosed(lines.get(..line).unwrap_or(lines))?;
+    let opener = find_unclosed(lines.get(..line).unwrap_or(lines))?;
     let keyword = opener.keyword;
     Some(match keyword.as_str() {
         "repeat" => format!("write until for the repeat in line {}", opener.line),
@@ -199,7 +199,7 @@ fn of_block(message: &str, lines: &[String], line: usize) -> Option<String> {
 }
 
 /// Returns the remedy for a bracket that stays open, which the message names.
-fn of_bracket(message: &str) -> Option<String> {
+fn remedy_for_bracket(message: &str) -> Option<String> {
     let sign = message.strip_prefix("Expected '")?.split('\'').next()?;
     let place = message.split_once("(to close '")?.1;
     let (opening, place) = place.split_once("' at ")?;

@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use super::tileset::TilesetCheck;
 use crate::make::{TableFile, TileManifest};
-use crate::plan::{FeatureDigest, PlannedTile, TableFormat, id_digest};
+use crate::plan::{FeatureDigest, PlannedTile, TableFormat, hash_text, id_digest};
 
 impl TilesetCheck<'_> {
     /// Checks that a tile has the tables of the plan, and that they have its features.
@@ -28,7 +28,7 @@ impl TilesetCheck<'_> {
                     .help("make the tile again")
             })?;
             let name = format!("the {} table of tile {}", table.format, planned.id);
-            if blake3::hash(&bytes).to_hex()[..32] != *table.hash {
+            if hash_text(blake3::hash(&bytes)) != table.hash {
                 self.problem(format!("{name} is not that of the manifest"));
             }
             let checked = match table.format {

@@ -14,7 +14,7 @@ use super::terrain::TerrainCheck;
 use crate::earth::east_north_up;
 use crate::folder::{IMPLICIT_NAME, TileFolder, content_name};
 use crate::make::{TileFile, TileManifest};
-use crate::plan::{FeatureDigest, PlannedTile, TableFormat, TileId, TilePlan, id_digest};
+use crate::plan::{FeatureDigest, PlannedTile, TableFormat, TileId, TilePlan, hash_text, id_digest};
 
 /// Result of a check.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -360,7 +360,7 @@ impl TilesetCheck<'_> {
             Error::file(path, format!("cannot read {}: {error}", path.display()))
                 .help("check its permissions")
         })?;
-        if blake3::hash(&bytes).to_hex()[..32] != *file.hash {
+        if hash_text(blake3::hash(&bytes)) != file.hash {
             self.problem(format!("{uri}: the content is not that of the manifest"));
         }
         let model = match GlbModel::read(&bytes) {

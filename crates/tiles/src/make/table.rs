@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 use super::manifest::make_folder;
 use super::tile::TileContent;
 use crate::folder::TileFolder;
-use crate::plan::{PlannedTile, TableFormat, TileId, TilePlan};
+use crate::plan::{PlannedTile, TableFormat, TileId, TilePlan, hash_text};
 
 /// Tables to be written for a tile.
 pub struct TileTables {
@@ -129,7 +129,7 @@ pub(super) fn sync_file(path: &Path) -> Result<(u64, String)> {
     let read = || -> std::io::Result<(u64, String)> {
         fs::File::open(path)?.sync_all()?;
         let bytes = fs::read(path)?;
-        Ok((bytes.len() as u64, blake3::hash(&bytes).to_hex()[..32].to_owned()))
+        Ok((bytes.len() as u64, hash_text(blake3::hash(&bytes))))
     };
     read().map_err(|error| {
         Error::file(path, format!("cannot read {} after writing it: {error}", path.display()))

@@ -60,15 +60,15 @@ impl TerrainHeights {
         let [west, south, east, north] = TileGrid::bounds(tile.id);
         let spacing = PlannedTerrain::spacing(tile.id.level);
         let corner = DVec2::new(west, south);
-        let grid = SquareGrid { corner, spacing, heights: self.grid(corner, spacing, POINTS) };
+        let grid = SquareGrid { corner, spacing, heights: self.sample(corner, spacing, POINTS) };
         // Triangles are flat, and the earth is not.
         let bend = |spacing: f64| spacing * spacing / (4.0 * RADIUS);
         let finer = (tile.id.level < terrain.finest)
-            .then(|| self.grid(corner, spacing / 2.0, 2 * POINTS - 1))
+            .then(|| self.sample(corner, spacing / 2.0, 2 * POINTS - 1))
             .map_or(0.0, |finer| grid.distance(&finer) + bend(spacing));
         let margin = 0.05 + 2.0 * model.precision + 2.0 * bend(PlannedTerrain::spacing(terrain.coarsest));
         let sides = [(0, south), (0, north), (1, west), (1, east)];
-        let depth = sides.map(|(axis, at)| self.above(terrain, tile, axis, at));
+        let depth = sides.map(|(axis, at)| self.drop_at_side(terrain, tile, axis, at));
         let depth = depth.into_iter().fold(0.0, f64::max) + margin;
         let scene = self.scene(&grid, depth);
         let content = TileContent { scene, model, errors: vec![finer], ..TileContent::default() };
@@ -76,7 +76,7 @@ impl TerrainHeights {
     }
 
     /// Returns the heights of a square of `points` by `points`, row by row from the south.
-    fn grid(&self, corner: DVec2, spacing: f64, points: usize) -> Vec<Option<f64>> {
+    fn sample(&self, corner: DVec2, spacing: f64, points: usize) -> Vec<Option<f64>> {
         #[allow(clippy::cast_precision_loss, reason = "a tile has few points")]
         let at = |index: usize| index as f64 * spacing;
         let row = |y: usize| (0..points).map(move |x| self.height(corner.x + at(x), corner.y + at(y)));
@@ -85,7 +85,7 @@ impl TerrainHeights {
 
     /// Returns the largest height (m) of a side of a tile above the same side in another level; `axis` is the direction of the side (0
     /// east, 1 north), and `at` its other coordinate.
-    fn above(&self, terrain: &PlannedTerrain, tile: &PlannedTile, axis: usize, at: f64) -> f64 {
+    fn drop_at_side(&self, terrain: &PlannedTerrain, tile: &PlannedTile, axis: usize, at: f64) -> f64 {
         let bounds = TileGrid::bounds(tile.id);
         let (begin, end) = (bounds[axis], bounds[axis + 2]);
         let height = |along: f64| if axis == 0 { self.height(along, at) } else { self.height(at, along) };

@@ -172,12 +172,12 @@ fn divide<'a>(
     }
     let is_few = |sums: &CellSums| u128::from(sums.cost) <= most && id.level >= TileId::ANCHOR;
     if id.level == DEEPEST || is_few(&all) {
-        tiles.push(planned(id, &all, if tall.is_some() { None } else { Some(false) }));
+        tiles.push(plan_tile(id, &all, if tall.is_some() { None } else { Some(false) }));
         return;
     }
     let (mut rest, mut tall_rest) = (cells, tall);
     if high.features > 0 && is_few(&high) {
-        tiles.push(planned(id, &high, Some(true)));
+        tiles.push(plan_tile(id, &high, Some(true)));
         tall_rest = None;
     }
     for child in id.children() {
@@ -194,7 +194,7 @@ fn divide<'a>(
 }
 
 /// Returns the tile with these sums, without a hash.
-fn planned(id: TileId, sums: &CellSums, tall: Option<bool>) -> PlannedTile {
+fn plan_tile(id: TileId, sums: &CellSums, tall: Option<bool>) -> PlannedTile {
     #[allow(clippy::cast_precision_loss, reason = "the cost is a weight")]
     let cost = sums.cost as f64 / 10.0;
     let CellSums { features, region, ids, data, .. } = *sums;

@@ -217,7 +217,7 @@ impl TilePlan {
         let tile = |id: TileId| {
             let mut hasher = blake3::Hasher::new();
             hasher.update(common.as_bytes()).update(id.to_string().as_bytes());
-            let hash = hasher.finalize().to_hex()[..32].to_owned();
+            let hash = hash_text(hasher.finalize());
             let (ids, data, region) = (String::new(), String::new(), terrain.part(id));
             PlannedTile { id, features: 0, cost, region, ids, data, hash, lod: None, tall: None }
         };
@@ -230,7 +230,7 @@ impl TilePlan {
         for column in self.sources.iter().flat_map(|source| &source.columns) {
             match columns.iter_mut().find(|known| known.name == column.name) {
                 Some(known) => {
-                    let joined = ColumnKind::joined(Some(known.kind), Some(column.kind));
+                    let joined = ColumnKind::join(Some(known.kind), Some(column.kind));
                     known.kind = joined.unwrap_or(known.kind);
                 }
                 None => columns.push(column.clone()),

@@ -176,18 +176,18 @@ impl<'a> SourceScan<'a> {
         let add = |mut kinds: Vec<Option<ColumnKind>>, feature: &Feature| {
             for (number, value) in &*feature.attributes {
                 if let Some(kind) = kinds.get_mut(*number) {
-                    *kind = ColumnKind::joined(*kind, ColumnKind::of(value));
+                    *kind = ColumnKind::join(*kind, ColumnKind::of(value));
                 }
             }
             kinds
         };
         let join = |a: Vec<Option<ColumnKind>>, b: Vec<Option<ColumnKind>>| {
-            a.into_iter().zip(b).map(|(a, b)| ColumnKind::joined(a, b)).collect()
+            a.into_iter().zip(b).map(|(a, b)| ColumnKind::join(a, b)).collect()
         };
         let kinds = layer.features.par_iter().fold(none, add).reduce(none, join);
         for (name, kind) in layer.names.iter().zip(kinds) {
             match self.columns.iter_mut().find(|(known, _)| known == name) {
-                Some((_, known)) => *known = ColumnKind::joined(*known, kind),
+                Some((_, known)) => *known = ColumnKind::join(*known, kind),
                 None => self.columns.push((name.clone(), kind)),
             }
         }

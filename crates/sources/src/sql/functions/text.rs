@@ -85,15 +85,7 @@ pub(super) fn geojson(geometry: &Geometry, digits: i32, code: u32) -> String {
 }
 
 fn write_json(geometry: &Geometry, form: &Form, code: u32, text: &mut String) {
-    let name = match geometry {
-        Geometry::Point(_) => "Point",
-        Geometry::Line(_) => "LineString",
-        Geometry::Polygon(_) => "Polygon",
-        Geometry::MultiPoint(_) => "MultiPoint",
-        Geometry::MultiLine(_) => "MultiLineString",
-        Geometry::MultiPolygon(_) => "MultiPolygon",
-        Geometry::Collection(_) => "GeometryCollection",
-    };
+    let name = geometry.kind().geojson();
     let _ = write!(text, "{{\"type\":\"{name}\",");
     // GeoJSON has longitude and latitude by default.
     if !matches!(code, 0 | 4326) {
