@@ -1,6 +1,6 @@
 //! Stubs of the encoders of animated images, for builds without the feature `pictures`.
 
-use super::writer::FrameEncoder;
+use super::encoder::FrameEncoder;
 use crate::film_settings::FilmSettings;
 use std::io;
 

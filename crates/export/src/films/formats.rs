@@ -3,7 +3,7 @@
 //! The command line, its help and errors read this table. A new format is a row here.
 
 use super::encode;
-use super::writer::FrameEncoder;
+use super::encoder::FrameEncoder;
 use crate::files::Files;
 use crate::film_model::FilmModel;
 use crate::film_settings::FilmSettings;

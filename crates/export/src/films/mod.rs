@@ -9,9 +9,11 @@ mod writer;
 
 #[cfg_attr(not(feature = "pictures"), path = "absent.rs")]
 mod encode;
+mod encoder;
 
 pub use crate::film_model::FilmModel;
 pub use crate::film_settings::FilmSettings;
+pub use encoder::FrameEncoder;
 pub use formats::{FILM_FORMATS, FilmContent, FilmFormat};
 pub use pattern::FramePattern;
-pub use writer::{FilmFrame, FilmNeeds, FilmWriter, FrameEncoder};
+pub use writer::{FilmFrame, FilmNeeds, FilmWriter};

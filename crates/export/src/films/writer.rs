@@ -1,5 +1,6 @@
 //! Writes a film to one or several files, frame by frame.
 
+use super::encoder::FrameEncoder;
 use super::formats::{FILM_FORMATS, FilmContent, FilmFormat};
 use super::pattern::FramePattern;
 use crate::files::{Files, OpenFile};
@@ -15,15 +16,6 @@ use burgeon_scene::image::{Image, encode};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-
-/// Encoder of an animated image.
-pub trait FrameEncoder {
-    /// Encodes the next frame and writes its bytes.
-    fn add(&mut self, image: &Image, out: &mut dyn Write) -> io::Result<()>;
-
-    /// Writes the end of the file.
-    fn finish(self: Box<Self>, out: &mut dyn Write) -> io::Result<()>;
-}
 
 /// Parts of a frame that a [`FilmWriter`] needs.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]

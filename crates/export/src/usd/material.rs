@@ -1,6 +1,6 @@
 //! Materials as `UsdPreviewSurface`, with an image where there is one.
 
-use super::document::{quote, tuple};
+use super::text::{quote, tuple};
 use crate::check::SceneCheck;
 use crate::color::fraction;
 use crate::texture::Images;

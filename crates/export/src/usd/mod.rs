@@ -11,5 +11,6 @@ mod material;
 mod shape;
 #[cfg(test)]
 mod tests;
+mod text;
 
 pub(super) use document::write;

@@ -1,7 +1,7 @@
 //! Meshes, each once, with a prim for each material.
 
-use super::document::{quote, tuple, write_list, write_vertex_list};
 use super::material;
+use super::text::{quote, tuple, write_list, write_vertex_list};
 use crate::check::{SceneCheck, shown_parts, triangles};
 use crate::xml::identifier;
 use burgeon_scene::{Mesh, Part};

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::limits::MOST;
-use crate::sweeps::cylinder::CylinderPoint;
+use crate::sweeps::control_point::CylinderPoint;
 use burgeon_base::error::{Error, Result};
 
 /// An axis of a tree of tubes.

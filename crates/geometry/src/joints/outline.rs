@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use crate::planar::triangulate;
 use crate::sweeps::contour::{ContourPlace, places, sample};
-use crate::sweeps::cylinder::CylinderPoint;
+use crate::sweeps::control_point::CylinderPoint;
 use burgeon_base::error::Result;
 
 /// Outlines with a radius of 1 at the control points of an axis.

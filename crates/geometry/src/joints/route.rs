@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::outline::Outlines;
 use crate::sweeps::axis::rings;
-use crate::sweeps::cylinder::CylinderPoint;
+use crate::sweeps::control_point::CylinderPoint;
 use burgeon_base::error::Result;
 
 /// A place on an axis with the frame of its ring.

@@ -9,7 +9,7 @@ use proptest::prelude::*;
 use super::axis::{AxisPoint, JoinedTubes, JointAxis};
 use super::tubes::joined_tubes;
 use crate::solid::{check, volume};
-use crate::sweeps::cylinder::CylinderPoint;
+use crate::sweeps::control_point::CylinderPoint;
 use burgeon_scene::Part;
 
 /// Numbers of a surface whose points are welded.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::cylinder::CylinderPoint;
+use super::control_point::CylinderPoint;
 use crate::curves::curve::{Curve, CurveKind};
 use crate::curves::frames::rotation_minimizing;
 use crate::curves::ramp::{Ramp, RampKind};

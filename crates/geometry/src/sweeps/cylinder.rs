@@ -1,12 +1,10 @@
 //! Generalised cylinders: closed surfaces around smooth axes, with contours that change along them.
 
-use std::sync::Arc;
-
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use super::axis::{AxisRing, rings};
 use super::contour::{ContourPlace, places, sample};
-use crate::curves::curve::Curve;
+use super::control_point::CylinderPoint;
 use crate::limits::MOST;
 use crate::planar::triangulate;
 use burgeon_base::error::{Error, Limit, Result};
@@ -15,17 +13,6 @@ use burgeon_scene::Part;
 
 /// Number of rings between two checks for cancellation.
 const STRETCH: usize = 256;
-
-/// A control point of a generalised cylinder.
-#[derive(Debug, Clone)]
-pub struct CylinderPoint {
-    /// Position on the axis (m).
-    pub position: DVec3,
-    /// Radius (m), by which the contour is scaled.
-    pub radius: f64,
-    /// Closed curve in the plane z = 0; a circle with radius 1 if there is none.
-    pub contour: Option<Arc<Curve>>,
-}
 
 /// Adds a generalised cylinder: one closed surface around the smooth axis through `points`.
 ///

@@ -4,6 +4,7 @@
 
 pub(crate) mod axis;
 pub(crate) mod contour;
+pub(crate) mod control_point;
 pub(crate) mod cylinder;
 pub(crate) mod options;
 pub(crate) mod path;

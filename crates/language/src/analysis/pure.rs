@@ -10,18 +10,9 @@ use full_moon::ast::punctuated::Punctuated;
 use full_moon::ast::{Call, Expression, FunctionArgs, FunctionCall, Index, Prefix, Suffix, Var};
 use full_moon::tokenizer::TokenReference;
 
-use super::syntax::text_of;
+use super::syntax::{stream_argument, text_of};
 use super::walk::Walk;
 use crate::{Effect, is_pure_function, library_effect};
-
-/// Returns the first position of a random stream among the arguments of a distribution.
-pub(super) fn stream_argument(name: &str) -> Option<usize> {
-    match name {
-        "poisson" | "choose" => Some(1),
-        "normal" | "binomial" | "beta" => Some(2),
-        _ => None,
-    }
-}
 
 /// Returns true if a script sets metatables, so that even reading a table may have side effects.
 pub fn has_metatables(text: &str) -> bool {

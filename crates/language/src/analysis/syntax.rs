@@ -90,3 +90,12 @@ pub(super) fn string_of(token: &TokenReference) -> Option<String> {
         _ => None,
     }
 }
+
+/// Returns the first position of a random stream among the arguments of a distribution.
+pub(super) fn stream_argument(name: &str) -> Option<usize> {
+    match name {
+        "poisson" | "choose" => Some(1),
+        "normal" | "binomial" | "beta" => Some(2),
+        _ => None,
+    }
+}

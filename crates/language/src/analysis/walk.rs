@@ -10,8 +10,7 @@ use full_moon::tokenizer::TokenReference;
 
 use super::blocks::ScopeWalk;
 use super::globals::Globals;
-use super::pure::stream_argument;
-use super::syntax::{declared_module, end_of, first_position, instead_of, text_of};
+use super::syntax::{declared_module, end_of, first_position, instead_of, stream_argument, text_of};
 use crate::CallForm;
 use crate::slips::remedy_of_name;
 use burgeon_base::error::Error;

@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use burgeon_kit::{Argument, Field};
 
-use super::name::{Name, Operator, field};
+use super::name::{Name, Operator, field, options};
 use super::systems::{DERIVE, DERIVED, LSYSTEM, NOW, RULE, SYSTEM};
 use crate::form::argument;
 
@@ -201,10 +201,6 @@ fn distribution(
 
 fn metres(name: &'static str, luau: &str, doc: &'static str) -> Field {
     Field { unit: Some("m".into()), ..Field::new(name, luau, doc) }
-}
-
-pub(super) fn options(luau: &str, fields: impl Into<Vec<Field>>) -> Argument {
-    Argument { fields: fields.into(), ..argument("options", luau) }
 }
 
 /// Declaration of a script parameter.

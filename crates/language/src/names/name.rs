@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use burgeon_kit::{Argument, Deprecation, Field};
 
-use crate::form::CallForm;
+use crate::form::{CallForm, argument};
 
 /// Text that is static or derived from static text.
 type Text = Cow<'static, str>;
@@ -191,6 +191,11 @@ impl Name {
     pub fn find(&self, name: &str) -> Option<&Self> {
         self.functions.iter().find(|function| function.name == name)
     }
+}
+
+/// Returns the argument for a table of options.
+pub(super) fn options(luau: &str, fields: impl Into<Vec<Field>>) -> Argument {
+    Argument { fields: fields.into(), ..argument("options", luau) }
 }
 
 /// Creates an optional field with a default.

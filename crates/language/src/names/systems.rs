@@ -4,8 +4,7 @@ use std::sync::LazyLock;
 
 use burgeon_kit::{Argument, Field};
 
-use super::burgeon::options;
-use super::name::{Name, field};
+use super::name::{Name, field, options};
 use crate::form::argument;
 
 /// Constructor of systems.

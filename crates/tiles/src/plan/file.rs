@@ -11,7 +11,8 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    OmittedFeature, PlannedTerrain, PlannedTile, TableFormat, TallRule, TileGrid, TileId, hash_text,
+    OmittedFeature, PlannedFile, PlannedTerrain, PlannedTile, TableFormat, TallRule, TileGrid, TileId,
+    hash_text,
 };
 
 /// Version of the format of plans and manifests.
@@ -29,15 +30,6 @@ pub struct PlanFrame {
     /// Path of the grid of the heights of the geoid above the ellipsoid, one of the files of the plan.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub geoid: Option<String>,
-}
-
-/// File on which all tiles depend.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct PlannedFile {
-    /// Path, relative to the folder of the plan.
-    pub path: String,
-    /// Hash of the content.
-    pub hash: String,
 }
 
 /// Source whose features are divided among tiles.

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::file::PlannedFile;
 use super::grid::TileGrid;
+use super::planned_file::PlannedFile;
 use super::tile_id::{DEEPEST, TileId};
 
 /// Terrain of a plan: squares of a height grid, in a quadtree with its own levels.

@@ -6,7 +6,7 @@ use super::changes::PixelArea;
 use super::delay::fraction;
 use super::sink::EncodedBytes;
 use crate::film_settings::FilmSettings;
-use crate::films::writer::FrameEncoder;
+use crate::films::encoder::FrameEncoder;
 use burgeon_scene::image::Image;
 use png::{BitDepth, BlendOp, ColorType, Compression, DisposeOp, EncodingError, Filter};
 use std::io::{self, Write};

@@ -7,7 +7,7 @@ use super::delay::centiseconds;
 use super::palette::FramePalette;
 use super::sink::EncodedBytes;
 use crate::film_settings::FilmSettings;
-use crate::films::writer::FrameEncoder;
+use crate::films::encoder::FrameEncoder;
 use burgeon_scene::image::Image;
 use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 use std::borrow::Cow;

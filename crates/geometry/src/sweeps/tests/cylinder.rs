@@ -8,7 +8,8 @@ use proptest::prelude::*;
 
 use crate::curves::curve::{Curve, CurveKind};
 use crate::solid::{check, volume};
-use crate::sweeps::cylinder::{CylinderPoint, generalized_cylinder};
+use crate::sweeps::control_point::CylinderPoint;
+use crate::sweeps::cylinder::generalized_cylinder;
 use burgeon_scene::Part;
 
 fn point(position: DVec3, radius: f64) -> CylinderPoint {

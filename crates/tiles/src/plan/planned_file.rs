@@ -1,0 +1,12 @@
+//! Files that a plan names.
+
+use serde::{Deserialize, Serialize};
+
+/// File on which all tiles depend.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PlannedFile {
+    /// Path, relative to the folder of the plan.
+    pub path: String,
+    /// Hash of the content.
+    pub hash: String,
+}
