@@ -301,3 +301,22 @@ fn the_number_of_draws_before_changes_nothing_after_in_another_module() {
     seen.dedup();
     assert_eq!(seen.len(), 40, "each draw is another number");
 }
+
+#[test]
+fn a_rule_that_draws_many_numbers_draws_those_of_a_rule_that_draws_few() {
+    // In the second and third step, numbers are drawn in advance, as far as they fit in the buffer.
+    let numbers = |count: usize| {
+        let rule = format!(
+            "s:rule(\"W(n)\", function()
+               local drawn = {{}}
+               for index = 1, {count} do drawn[index] = random() end
+               return W(drawn[1]), U(drawn[30] + drawn[2])
+             end)"
+        );
+        draws(&rule, "W(0), W(1), W(2)", 3, 5)
+    };
+    let few = numbers(30);
+    assert_eq!(few.len(), 3 + 3 * 3);
+    assert_eq!(few, numbers(60));
+    assert_eq!(few, numbers(60_000));
+}

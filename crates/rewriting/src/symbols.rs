@@ -345,6 +345,11 @@ impl Symbols {
         }
     }
 
+    /// Returns true if `name` may refer to a module: if one has this name, or if it names a package.
+    pub fn has(&self, name: &str) -> bool {
+        name.contains('.') || self.by_name.contains_key(name)
+    }
+
     fn find_of_package(&self, name: &str, package: &str, inner: &str) -> Result<Symbol> {
         let of_package =
             || (FIRST_PLACEHOLDER..).zip(&self.owners).filter(|(_, owner)| owner.as_deref() == Some(package));

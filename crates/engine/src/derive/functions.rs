@@ -8,6 +8,9 @@ use burgeon_rewriting::{
 };
 use mlua::{FromLuaMulti, Function};
 
+/// Maximum number of random numbers that are drawn in advance for a batch.
+const MOST_PREPARED: usize = 1 << 17;
+
 /// Rule functions of a system in a virtual machine.
 pub(super) struct LuaRules<'a> {
     pub machine: &'a Machine,
@@ -54,9 +57,11 @@ impl LuaRules<'_> {
         }
     }
 
-    /// Draws the first `draws` random numbers of each application's stream in advance.
+    /// Draws the first `draws` random numbers of each application's stream in advance, or fewer if these would be too many
+    /// for a buffer.
     fn prepare_random(&self, count: usize, draws: usize) -> Result<()> {
         let current = &self.machine.current;
+        let draws = draws.min(MOST_PREPARED / count.max(1));
         let mut column = Vec::with_capacity(count * draws);
         for key in current.keys.borrow().iter() {
             let mut stream = key.stream();

@@ -53,6 +53,14 @@ struct RunningStep {
     read: bool,
 }
 
+/// Random stream of a module after some of its numbers.
+struct PartialStream {
+    key: ModuleKey,
+    /// Number of numbers that were drawn.
+    position: usize,
+    stream: Stream,
+}
+
 /// State of the current rewriting or interpretation.
 pub(crate) struct WorkState {
     pub session: Arc<Session>,
@@ -76,6 +84,8 @@ pub(crate) struct WorkState {
     pub used: Cell<usize>,
     /// Maximum number of random numbers that one recent application has drawn.
     pub drawn: Cell<usize>,
+    /// Stream of the number that was drawn last, so that the next one does not start from the first.
+    latest: RefCell<Option<PartialStream>>,
     /// Step for which rules run, if any have run.
     step: Cell<Option<RunningStep>>,
     /// Set if a function has requested that the step that is running is the last.
@@ -113,6 +123,7 @@ impl WorkState {
             skips_passes: Cell::new(false),
             used: Cell::new(0),
             drawn: Cell::new(0),
+            latest: RefCell::default(),
             step: Cell::new(None),
             ends: Cell::new(false),
             hook: RefCell::default(),
@@ -139,12 +150,19 @@ impl WorkState {
 
     /// Draws number `index` of an application's random stream.
     pub(crate) fn draw(&self, application: usize, index: usize) -> Result<f64> {
-        let mut stream = self.key(Some(application))?.stream();
-        for _ in 0..self.used.get() + index {
-            stream.uniform();
-        }
+        let key = self.key(Some(application))?;
+        let position = self.used.get() + index;
         self.drawn.set(self.drawn.get().max(index + 1));
-        Ok(stream.uniform())
+        let mut latest = self.latest.borrow_mut();
+        let latest = match &mut *latest {
+            Some(latest) if latest.key == key && latest.position <= position => latest,
+            other => other.insert(PartialStream { key, position: 0, stream: key.stream() }),
+        };
+        for _ in latest.position..position {
+            latest.stream.uniform();
+        }
+        latest.position = position + 1;
+        Ok(latest.stream.uniform())
     }
 
     /// Adds the key of a module that the interpretation rule with key `parent` has returned, from the hash of its name and

@@ -96,7 +96,8 @@ impl ChainView {
     pub(crate) fn find_modules(&self, words: &[String], scope: Option<&NameScope>) -> Vec<NamedModule> {
         let named =
             |word: &String| Some(NamedModule { word: word.clone(), symbol: self.find(word, scope).ok()? });
-        words.iter().filter_map(named).collect()
+        // Most words are not names of modules, and the error for an unknown name is expensive.
+        words.iter().filter(|word| self.symbols.has(word)).filter_map(named).collect()
     }
 
     /// Returns the module that a word of a query names in `scope`.
