@@ -31,6 +31,13 @@ export class Changes {
     this.#socket.ask(message, answer);
   }
 
+  /** Goes back to values and to a seed, if they are given, with one model. */
+  restore(params, seed) {
+    if (Object.keys(params).length > 0) this.#waiting.set = { type: 'set', params };
+    if (seed !== null) this.#waiting.seed = { type: 'seed', seed };
+    this.#pump();
+  }
+
   /** Any other message that makes a model: reset, seed, steps, preset. */
   send(message) {
     if (message.type === 'reset' || message.action === 'load') delete this.#waiting.set;

@@ -4,11 +4,14 @@ import { Axes } from './axes.js';
 import { firstView } from './camera.js';
 import { Card } from './card.js';
 import { Changes } from './changes.js';
+import { Cut } from './cut.js';
 import { find, make, say } from './dom.js';
 import * as exports_ from './exports.js';
 import { addIcons } from './icons.js';
 import { keep, restore } from './keep.js';
+import { History } from './history.js';
 import { Loading } from './loading.js';
+import { Measure } from './measure.js';
 import { closeMenu, menu } from './menu.js';
 import { Offer } from './offer.js';
 import { Params } from './params.js';
@@ -44,7 +47,7 @@ try {
   stage = new Stage(canvas);
 } catch {
   find('#stage').classList.add('blind');
-  find('#screenshot').hidden = find('#scale').hidden = true;
+  for (const id of ['#screenshot', '#scale', '#measure', '#cut']) find(id).hidden = true;
   find('#stage').append(
     make('p', {
       class: 'no-webgl',
@@ -60,6 +63,7 @@ const places = new Places(
   () => [...(state.model?.files ?? []), state.hello.script],
 );
 const params = new Params(changes);
+const history = new History(changes);
 const presets = new Presets(changes, socket);
 const seed = new Seed(changes);
 const steps = new Steps(changes);
@@ -72,6 +76,8 @@ const view = tools(stage, (mode) => {
   // Texture coordinates come only when they are shown.
   if (mode === 'uv' && state.model?.url && !loading.measured) show(state.model);
 });
+const measure = stage && new Measure(stage);
+const cut = stage && new Cut(stage);
 const offer = stage && new Offer(stage, () => view.fit());
 const loading = stage && new Loading(stage, (part) => working.download(part));
 
@@ -128,6 +134,8 @@ async function show(message) {
     if (card.open) card.close();
     if (marked) highlight(marked.file, marked.line, true);
     view.showGrid();
+    cut.shown();
+    measure.clear();
     if (state.fitted) offer.look(framed);
     if (!state.fitted && message.url) {
       state.fitted = true;
@@ -159,6 +167,7 @@ function tellRequested(message) {
   if (message === state.failed && message.params.length === 0) return;
   params.show(message.params);
   seed.show(message.seed);
+  history.note(message);
 }
 
 /** Tells what is known of a model besides its picture. */
@@ -256,7 +265,7 @@ if (stage) {
     if (state.fitted) keep(stage, state.hello.path);
   });
   listenToPointer(canvas, stage.camera, {
-    clicked: (x, y) => card.pick(x, y),
+    clicked: (x, y) => (measure.active ? measure.add(x, y) : card.pick(x, y)),
     doubled: (x, y) => {
       const hit = stage.at(x, y);
       if (hit) stage.camera.go({ target: hit.point });
@@ -272,6 +281,8 @@ function escape() {
   if (find('#sheet').open) find('#sheet').close();
   else if (!closeMenu() && !working.cancel()) {
     if (card.open) card.close();
+    else if (measure?.active) measure.toggle(false);
+    else if (cut?.active) cut.toggle(false);
     else if (variations.open && find('#tray').contains(document.activeElement)) variations.toggle(false);
     else if (!find('#line-result').hidden) clearMark();
     else if (variations.open) variations.toggle(false);
@@ -279,7 +290,7 @@ function escape() {
   }
 }
 
-shortcuts({ stage, view, steps, seed, variations, togglePanel, escape });
+shortcuts({ stage, view, steps, seed, variations, measure, cut, togglePanel, escape });
 
 /** For tests: to look, not to touch. */
 window.burgeon = Object.freeze({

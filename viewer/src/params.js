@@ -7,14 +7,24 @@ import { nearest, plain } from './format.js';
 import { toast } from './toast.js';
 
 const SEGMENTS = 4;
+const MANY = 8; // parameters without a search
 
 export class Params {
   #rows = new Map();
   #place = find('#params');
   #all = find('#reset-all');
+  #search = find('#params-search');
+  #none = make('p', { class: 'none', 'data-testid': 'params-none', text: 'No parameter has that in its name or description.', hidden: true });
 
   constructor(changes) {
     this.changes = changes;
+    this.#search.addEventListener('input', () => this.#filter());
+    this.#search.addEventListener('keydown', (event) => {
+      if (event.key !== 'Escape' || !this.#search.value) return;
+      event.stopPropagation();
+      this.#search.value = '';
+      this.#filter();
+    });
     changes.refused = (names, text) => {
       for (const name of names) this.#rows.get(name)?.putBack();
       toast(text);
@@ -58,7 +68,28 @@ export class Params {
       );
     else this.#place.querySelector(':scope > .none')?.remove();
     this.#all.hidden = !params.some((param) => param.changed);
+    this.#search.hidden = params.length <= MANY;
+    if (this.#search.hidden) this.#search.value = '';
+    this.#filter();
   }
+
+  /** Shows the parameters that have what is searched for, and the package above those that it owns. */
+  #filter() {
+    const words = this.#search.value.toLowerCase().split(/\s+/).filter(Boolean);
+    let shown = 0;
+    for (const row of this.#rows.values()) {
+      row.element.hidden = !matches(row.param, words);
+      if (!row.element.hidden) shown += 1;
+    }
+    this.#none.hidden = shown > 0 || this.#rows.size === 0;
+    this.#place.after(this.#none);
+  }
+}
+
+/** Whether a parameter has all words of a search in its name, its description or its choices. */
+function matches({ name, text, control }, words) {
+  const all = [name, text, ...(control.choices ?? [])].join(' ').toLowerCase();
+  return words.every((word) => all.includes(word));
 }
 
 /** The name of a parameter; that of a package stands smaller before it. */

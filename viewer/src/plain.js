@@ -17,6 +17,7 @@ EACH vec3 back;
 
 const VERTEX = /* glsl */ `
 #include <common>
+#include <clipping_planes_pars_vertex>
 #include <tonemapping_pars_fragment>
 uniform vec3 sun, up, bright, middle, above;
 ${VARYINGS}
@@ -44,6 +45,7 @@ void main() {
   #include <defaultnormal_vertex>
   #include <begin_vertex>
   #include <project_vertex>
+  #include <clipping_planes_vertex>
   vec3 facing = normalize(transformedNormal);
   front = seen(facing);
 #ifdef DOUBLE_SIDED
@@ -56,6 +58,7 @@ void main() {
 
 const FRAGMENT = /* glsl */ `
 #include <common>
+#include <clipping_planes_pars_fragment>
 uniform float opacity;
 ${VARYINGS}
 #ifdef PICTURE
@@ -66,6 +69,7 @@ varying vec2 at;
 #endif
 
 void main() {
+  #include <clipping_planes_fragment>
   vec4 color = vec4(front, opacity);
 #ifdef DOUBLE_SIDED
   if (!gl_FrontFacing) color.rgb = back;
@@ -135,6 +139,7 @@ function plain(material, { sky, sun }, seen) {
     side,
     transparent,
     depthWrite,
+    clipping: true,
     toneMapped: Boolean(map),
   });
 }

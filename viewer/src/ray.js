@@ -4,8 +4,8 @@
 
 import { DoubleSide, Matrix4, Ray, Vector3 } from 'three';
 
-/** The nearest triangle that `ray` meets: `{part, triangle, instance, point}`, or null. */
-export function nearest(model, ray) {
+/** The nearest triangle that `ray` meets: `{part, triangle, instance, point}`, or null; with `backs` also from behind. */
+export function nearest(model, ray, backs = false) {
   const hit = { distance: Infinity, part: null, triangle: 0, instance: null };
   const [matrix, inverse, inside] = [new Matrix4(), new Matrix4(), new Ray()];
   const meet = new Vector3();
@@ -25,7 +25,7 @@ export function nearest(model, ray) {
         continue;
       const stretch = new Vector3().copy(ray.direction).applyMatrix4(linear(inverse)).length();
       const flips = matrix.determinant() < 0;
-      const both = part.userData.material.side === DoubleSide;
+      const both = backs || part.userData.material.side === DoubleSide;
       const found = cross(part.geometry, inside, both ? 0 : flips ? -1 : 1, hit.distance * stretch);
       if (found)
         Object.assign(hit, {

@@ -5,11 +5,11 @@ import * as keys from './keys.js';
 import { viewKeys } from './view-keys.js';
 
 /** `view` is what `tools` returns. */
-export function shortcuts({ stage, view, steps, seed, variations, togglePanel, escape }) {
+export function shortcuts({ stage, view, steps, seed, variations, measure, cut, togglePanel, escape }) {
   const { rows, more } = viewKeys(stage, view);
   const showSheet = keys.listen(
     [
-      ['View', rows],
+      ['View', [...rows, ['M', 'Measure a distance', ['m'], () => measure?.toggle()], ['X', 'Cut with a plane', ['x'], () => cut?.toggle()]]],
       [
         'Mouse',
         [
@@ -26,6 +26,8 @@ export function shortcuts({ stage, view, steps, seed, variations, togglePanel, e
           ['Space', 'Play the derivation', [' '], () => steps.toggle()],
           [', .', 'One step back, one on', [','], () => steps.move(-1)],
           ['A', 'All steps', ['a'], () => steps.all()],
+          ['Ctrl Z', 'Undo a change of values or seed'],
+          ['Ctrl ⇧ Z', 'Redo'],
           ['R', 'Another seed', ['r'], () => seed.roll()],
           ['V', 'Variations', ['v'], () => variations.toggle()],
           ['Esc', 'Cancel, close, clear', ['Escape'], escape],

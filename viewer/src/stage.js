@@ -44,6 +44,8 @@ export class Stage {
   scene = new Scene();
   mark = new Mark();
   shading = new Shading();
+  /** The plane of the cut, whose normal points to what is kept; null without a cut. */
+  cut = null;
   #frame = 0;
   #rest = 0;
   #cost = 0;
@@ -309,7 +311,16 @@ export class Stage {
 
   /** The triangle under a pixel of the window, or null. */
   at(x, y) {
-    return nearest(this.model, this.#ray(x, y));
+    const ray = this.#ray(x, y);
+    const { cut } = this;
+    if (cut && cut.distanceToPoint(ray.origin) < 0) {
+      // What is cut away before the plane is not met.
+      const enters = ray.distanceToPlane(cut);
+      if (enters === null) return null;
+      ray.origin.addScaledVector(ray.direction, enters);
+    }
+    const hit = nearest(this.model, ray, cut !== null);
+    return hit && cut && cut.distanceToPoint(hit.point) < -1e-6 * this.model.box.getSize(new Vector3()).length() ? null : hit;
   }
 
   #ray(x, y) {
