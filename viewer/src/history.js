@@ -43,7 +43,8 @@ export class History {
       this.#wanted = null;
     }
     if (!present) this.#present = state;
-    else if (!same(state, present)) {
+    else if (same(state, present)) this.#present = state;
+    else {
       state.changed = difference(present, state);
       const goesOn = state.at - present.at < TOGETHER && String(state.changed) === String(present.changed);
       if (wanted) state.changed = [];
@@ -66,8 +67,10 @@ export class History {
   }
 
   #go(from, to) {
-    const target = from.pop();
-    if (!target) return;
+    // A state that differs only in parameters that the script does not have any more is none to go to.
+    let target = from.pop();
+    while (target && same(target, this.#present)) target = from.pop();
+    if (!target) return this.#show();
     to.push(this.#present);
     const params = {};
     for (const [name, value] of target.values)
@@ -89,10 +92,10 @@ export class History {
 /** A value as the server takes it. */
 const text = (value) => (typeof value === 'object' ? JSON.stringify(value) : String(value));
 
-/** The names of the parameters whose values differ, and `seed`. */
+/** The names of the parameters that both have and whose values differ; an empty one for the seed. */
 function difference(a, b) {
-  const names = [...b.values].filter(([name, value]) => a.values.get(name) !== value).map(([name]) => name);
-  return a.seed === b.seed ? names : [...names, '\u0000seed'];
+  const names = [...b.values.keys()].filter((name) => a.values.has(name) && a.values.get(name) !== b.values.get(name));
+  return a.seed === b.seed ? names : [...names, ''];
 }
 
-const same = (a, b) => a.values.size === b.values.size && difference(a, b).length === 0;
+const same = (a, b) => difference(a, b).length === 0;
