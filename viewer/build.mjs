@@ -7,13 +7,25 @@ import { build } from 'esbuild';
 const here = new URL('./', import.meta.url);
 const path = (name) => new URL(name, here).pathname;
 
-// The renderer of tilesets is in a script of its own, so that the page of scripts does not grow.
+// The renderer of tilesets and the editor are in scripts of their own, so that the page of scripts does not grow.
 await build({
   entryPoints: { viewer: path('src/main.js'), tileset: path('src/tileset/main.js') },
   outdir: path('dist'),
   bundle: true,
   minify: true,
   format: 'iife',
+  target: ['chrome111', 'firefox114', 'safari16.4'],
+  charset: 'utf8',
+  legalComments: 'inline',
+  logLevel: 'warning',
+});
+await build({
+  entryPoints: { editor: path('src/editor/main.js') },
+  outdir: path('dist'),
+  bundle: true,
+  minify: true,
+  format: 'iife',
+  globalName: 'burgeonEditor',
   target: ['chrome111', 'firefox114', 'safari16.4'],
   charset: 'utf8',
   legalComments: 'inline',

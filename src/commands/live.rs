@@ -13,6 +13,7 @@ use burgeon::{Error, Result};
 use clap::Args;
 use serde_json::json;
 
+use super::api::names_json;
 use super::report;
 use super::shared::{ScriptFlags, on_interrupt};
 
@@ -67,6 +68,7 @@ impl LiveCommand {
                 port: self.port,
                 token: self.token.take(),
                 editor: self.editor.take(),
+                names: names_json(),
                 tell: Box::new(tell),
             })?;
             self.announce(live.port(), &live.address(), live.token(), "it allows setting parameters")?;

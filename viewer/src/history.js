@@ -25,7 +25,7 @@ export class History {
     addEventListener('keydown', (event) => {
       const key = event.key.toLowerCase();
       if (!(event.ctrlKey || event.metaKey) || event.altKey || (key !== 'z' && key !== 'y')) return;
-      if (this.#dirty.has(event.target) || event.target.matches('textarea, [contenteditable]')) return;
+      if (this.#dirty.has(event.target) || event.target.matches('textarea, .pane-code')) return;
       if (find('#sheet').open) return;
       event.preventDefault();
       if (key === 'y' || event.shiftKey) this.redo();

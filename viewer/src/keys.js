@@ -48,7 +48,7 @@ export function listen(keys, ignore, more) {
 export function typing({ target, key }) {
   if (find('#sheet').open) return key !== '?';
   if (target.matches('input:not([type=range], [type=checkbox], [type=radio], [type=color]), textarea')) return true;
-  if (target.matches('select')) return true;
+  if (target.matches('select, .pane-code')) return true;
   const own = target.matches('input[type=range], input[type=radio]')
     ? /^Arrow|^Home|^End|^Page| /
     : target.matches('button, a, summary, input')

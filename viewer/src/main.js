@@ -20,6 +20,7 @@ import { listen as listenToPointer } from './pointer.js';
 import { Presets } from './presets.js';
 import { Profile } from './profile.js';
 import * as readouts from './readouts.js';
+import { ScriptPane } from './script-pane.js';
 import { Seed } from './seed.js';
 import { shortcuts } from './shortcuts.js';
 import { Socket } from './socket.js';
@@ -70,6 +71,8 @@ const steps = new Steps(changes);
 const trouble = new Trouble(places);
 const working = new Working(socket, stage?.slow ?? false);
 const profile = new Profile({ places, highlight });
+const files = () => [state.hello.script, ...(state.model?.files ?? [])].filter(Boolean);
+const pane = new ScriptPane({ socket, files });
 const variations = new Variations({ socket, changes, seed });
 const card = new Card({ stage, socket, places, picking: clearMark, closed: clearMark });
 const view = tools(stage, (mode) => {
@@ -213,6 +216,14 @@ socket.on('hello', (hello) => {
   trouble.aged(hello.stale);
 });
 socket.on('model', hear);
+for (const type of ['model', 'error'])
+  socket.on(type, (message) => {
+    const errors = (message.errors ?? []).map((it) => ({ ...it, severity: 'error' }));
+    const warnings = (message.warnings ?? []).map((it) => ({ ...it, severity: 'warning' }));
+    const told = (it) => ({ ...it, message: [it.message ?? it.text, it.help].filter(Boolean).join('\n') });
+    pane.mark([...errors, ...warnings].map(told));
+    if (message.cause === 'save') pane.refresh();
+  });
 socket.on('working', (message) => {
   stage?.wait(true);
   trouble.again();
@@ -290,7 +301,7 @@ function escape() {
   }
 }
 
-shortcuts({ stage, view, steps, seed, variations, measure, cut, togglePanel, escape });
+shortcuts({ stage, view, steps, seed, variations, measure, cut, pane, togglePanel, escape });
 
 /** For tests: to look, not to touch. */
 window.burgeon = Object.freeze({

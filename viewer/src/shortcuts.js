@@ -5,7 +5,7 @@ import * as keys from './keys.js';
 import { viewKeys } from './view-keys.js';
 
 /** `view` is what `tools` returns. */
-export function shortcuts({ stage, view, steps, seed, variations, measure, cut, togglePanel, escape }) {
+export function shortcuts({ stage, view, steps, seed, variations, measure, cut, pane, togglePanel, escape }) {
   const { rows, more } = viewKeys(stage, view);
   const showSheet = keys.listen(
     [
@@ -37,6 +37,8 @@ export function shortcuts({ stage, view, steps, seed, variations, measure, cut, 
         'Page',
         [
           ['P', 'Panel', ['p'], togglePanel],
+          ['C', 'Edit the script', ['c'], () => pane.toggle()],
+          ['Ctrl S', 'Save the script'],
           ['S', 'Save a picture of the view', ['s'], () => find('#screenshot').click()],
           ['E', 'Export', ['e'], () => find('#export').click()],
           ['L', 'Light or dark', ['l'], () => find('#theme').click()],

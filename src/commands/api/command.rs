@@ -121,6 +121,23 @@ fn write_book(folder: &Path, entries: &[Entry]) -> Result<()> {
     Ok(())
 }
 
+/// Returns all names and members for the editor of the live page as JSON: a list of `{ name, owner, usage, doc }`.
+pub(crate) fn names_json() -> String {
+    let described = |name: &str, owner: &str, usage: &str, doc: &str| {
+        json!({ "name": name, "owner": owner, "usage": usage, "doc": doc })
+    };
+    let registry = burgeon::registry();
+    let all = entries(&registry).into_iter().flat_map(|entry| {
+        let members = entry.members.iter().map(|member| {
+            let owner = format!("{}{}", entry.name, member.what.separator());
+            described(&member.name, &owner, &member.usage(), &member.doc)
+        });
+        let members: Vec<_> = members.collect();
+        std::iter::once(described(&entry.name, "", &entry.usage, &entry.doc)).chain(members)
+    });
+    serde_json::Value::Array(all.collect()).to_string()
+}
+
 /// Returns everything that scripts can use, sorted by group and name.
 pub(super) fn entries(registry: &Registry) -> Vec<Entry> {
     let types = registry.kinds().map(|kind| Entry::of_kind(kind));

@@ -10,4 +10,4 @@ mod text;
 #[cfg(test)]
 mod units;
 
-pub(crate) use command::ApiCommand;
+pub(crate) use command::{ApiCommand, names_json};

@@ -12,7 +12,7 @@ use super::message::{self, Cause, Event, PageCommand};
 use super::request::seed;
 use super::socket::PageState;
 use super::state::{DueRun, LiveState, ServerState};
-use super::{curves, tools, trace};
+use super::{curves, source, tools, trace};
 use burgeon_base::error::{Error, Result};
 use burgeon_engine::script::CurvesFile;
 
@@ -46,6 +46,10 @@ impl ServerState {
                 Some(curves::outline(self, id, &param, &points))
             }
             Ok(PageCommand::Store { id, param, points }) => Some(curves::store(self, id, &param, &points)),
+            Ok(PageCommand::Read { id, file }) => Some(source::read(self, id, &file)),
+            Ok(PageCommand::Write { id, file, text, hash }) => {
+                Some(source::write(self, id, &file, &text, &hash))
+            }
             Ok(PageCommand::Open { file, line }) => {
                 self.open(&file, line.unwrap_or(1)).err().and_then(|error| refused(None, &error))
             }

@@ -33,6 +33,7 @@ mod request;
 mod server;
 mod settings;
 mod socket;
+mod source;
 mod state;
 mod tileset;
 mod token;

@@ -27,6 +27,10 @@ pub(super) const INDEX: PageFile =
 pub(super) const SCRIPT: PageFile =
     PageFile { packed: packed!("viewer.js"), media_type: "text/javascript; charset=utf-8" };
 
+/// Editor of the page, which it loads when it is opened.
+pub(super) const EDITOR: PageFile =
+    PageFile { packed: packed!("editor.js"), media_type: "text/javascript; charset=utf-8" };
+
 /// Style sheet of the page.
 pub(super) const STYLE: PageFile =
     PageFile { packed: packed!("viewer.css"), media_type: "text/css; charset=utf-8" };

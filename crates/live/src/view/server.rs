@@ -159,6 +159,8 @@ async fn route_script(site: &ScriptSite, inner: &str, request: Request) -> Respo
     match inner {
         "" => page::INDEX.answer(request.headers()),
         "viewer.js" => page::SCRIPT.answer(request.headers()),
+        "editor.js" => page::EDITOR.answer(request.headers()),
+        "names.json" => json_text(site.state.names.clone()),
         "socket" => open_socket(&site.state, request).await,
         inner => match inner.split_once('/') {
             Some(("model", name)) => match measured_hash(name) {
@@ -301,6 +303,10 @@ fn plain(status: StatusCode, text: &'static str) -> Response {
 
 fn plain_text(status: StatusCode, text: String) -> Response {
     (status, [(header::CONTENT_TYPE, "text/plain; charset=utf-8")], Body::from(text)).into_response()
+}
+
+fn json_text(text: String) -> Response {
+    (StatusCode::OK, [(header::CONTENT_TYPE, "application/json")], Body::from(text)).into_response()
 }
 
 #[cfg(test)]

@@ -28,6 +28,8 @@ pub struct Settings {
     pub token: Option<Token>,
     /// Editor that opens lines of the script.
     pub editor: Option<Editor>,
+    /// Names of the scripting API for the page's editor as JSON: a list of `{ name, owner, usage, doc }`.
+    pub names: String,
     /// Receiver of events. It is called from several threads.
     pub tell: EventReceiver,
 }

@@ -13,7 +13,7 @@ use super::message::Event;
 use burgeon_base::error::Error;
 
 /// Maximum size (bytes) of a message from a page.
-const LARGEST: usize = 64 << 10;
+const LARGEST: usize = 1 << 20;
 
 /// Time limit for sending a message to a page before the connection is closed.
 const PATIENCE: Duration = Duration::from_secs(30);

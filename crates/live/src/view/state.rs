@@ -57,6 +57,8 @@ pub(super) struct ServerState {
     pub script: PathBuf,
     pub options: RunOptions,
     pub editor: Option<Editor>,
+    /// Names of the scripting API as JSON.
+    pub names: String,
     tell: EventReceiver,
     inner: Mutex<LiveState>,
     /// Condition that wakes the worker and the thread that reports progress.
@@ -188,6 +190,7 @@ impl ServerState {
             script: settings.script,
             options: settings.options,
             editor: settings.editor,
+            names: settings.names,
             tell: settings.tell,
             inner: Mutex::new(inner),
             wake: Condvar::new(),

@@ -38,6 +38,24 @@ pub enum PageCommand {
         /// Line, from 1.
         line: Option<usize>,
     },
+    /// Reads a file of the script for the page's editor.
+    Read {
+        /// Id to return with the answer.
+        id: u64,
+        /// File of the script.
+        file: String,
+    },
+    /// Writes a file of the script.
+    Write {
+        /// Id to return with the answer.
+        id: u64,
+        /// File of the script.
+        file: String,
+        /// New content.
+        text: String,
+        /// Hash of the content that the page knows. A file with other content is not overwritten.
+        hash: String,
+    },
     /// Queries the module that made a triangle, by glTF's indices.
     Pick(PickCommand),
     /// Queries the modules and triangles that a line of a script made.

@@ -110,6 +110,28 @@ pub enum Event {
         /// Name of the file.
         file: String,
     },
+    /// Content of a file of the script.
+    Source {
+        /// Id of the query.
+        id: u64,
+        /// Name of the file.
+        file: String,
+        /// Lines without their line feeds.
+        lines: Vec<String>,
+        /// Hash of the content.
+        hash: String,
+        /// Set if the file has changed since the page read it, so that it was not overwritten.
+        changed: bool,
+    },
+    /// Completed write of a file of the script.
+    Written {
+        /// Id of the command.
+        id: u64,
+        /// Name of the file.
+        file: String,
+        /// Hash of the new content.
+        hash: String,
+    },
     /// Progress of the runs for small renders. All renders share one camera, which is known when all scripts have run.
     Variations {
         /// Id of the query.
