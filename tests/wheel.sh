@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 mkdir -p "$1"
 folder=$(realpath "$1") root=$PWD
 dist=$folder/dist
-rm -rf "$dist" "$folder"/{tools,wheel,archive,empty}
+rm -rf "$dist" "$folder"/{tools,cargo,wheel,archive,empty}
 mkdir -p "$dist" "$folder/empty" "$folder/archive"
 
 if ! python3 -m venv "$folder/tools" >/dev/null 2>&1; then
@@ -19,10 +19,25 @@ if ! "$folder/tools/bin/pip" install --quiet --disable-pip-version-check 'maturi
   echo "skipped: maturin cannot be installed"
   exit 0
 fi
-case $(uname -s) in
-  Linux) ;;
-  *) echo "note: wheels are tried on Linux only" ;;
-esac
+
+# Features of dependencies depend on the packages of a build. With those of the tests, everything that the tests have built is used
+# again, and the program is built with the module. Other systems link modules with flags of maturin's own.
+mkdir -p "$folder/cargo"
+if [ "$(uname -s)" = Linux ]; then
+  cargo=$(command -v cargo)
+  cat >"$folder/cargo/cargo" <<END
+#!/usr/bin/env bash
+if [ "\${1:-}" = rustc ]; then
+  exec "$cargo" build --release --locked --message-format json-render-diagnostics --manifest-path "$root/Cargo.toml" \
+    --workspace --exclude burgeon-typecheck --lib --bin burgeon --test house
+fi
+exec "$cargo" "\$@"
+END
+  chmod +x "$folder/cargo/cargo"
+  export CARGO="$folder/cargo/cargo"
+else
+  echo "note: wheels have been tried on Linux only"
+fi
 
 # A compiler that fails shows that nothing is built.
 for tool in cc c++ gcc g++ clang cargo rustc; do
@@ -31,7 +46,7 @@ for tool in cc c++ gcc g++ clang cargo rustc; do
 done
 
 echo "-- wheel"
-(cd crates/python && "$folder/tools/bin/maturin" build --release --locked --out "$dist")
+(cd crates/python && env PATH="$folder/cargo:$PATH" "$folder/tools/bin/maturin" build --release --locked --out "$dist")
 wheel=("$dist"/burgeon-*-cp310-abi3-*.whl)
 [ "${#wheel[@]}" -eq 1 ]
 python3 -m venv "$folder/wheel"
@@ -68,7 +83,8 @@ fi
 echo "-- archive"
 program=${2:-}
 if [ -z "$program" ]; then
-  cargo build --release --locked
+  unset CARGO
+  [ "$(uname -s)" = Linux ] || cargo build --release --locked
   program=$(cargo metadata --format-version 1 --no-deps | python3 -c \
     'import json, sys; print(json.load(sys.stdin)["target_directory"] + "/release/burgeon")')
 fi
@@ -87,9 +103,12 @@ tar -C "$folder/archive" -xzf "$dist/$name.tar.gz"
 cmp "$folder/empty/tower.glb" "$folder/wheel.glb"
 
 echo "-- tests"
-packages=(pytest numpy pandas trimesh)
+packages=(pytest numpy pandas trimesh mypy)
 if "$folder/wheel/bin/pip" install --quiet --disable-pip-version-check "${packages[@]}"; then
   (cd crates/python && "$folder/wheel/bin/python" -B -m pytest -p no:cacheprovider)
+  # Types of the package, and those of the stub against the compiled module.
+  (cd crates/python && "$folder/wheel/bin/mypy" --cache-dir "$folder/mypy" python/burgeon)
+  (cd "$folder" && wheel/bin/stubtest burgeon._burgeon)
 else
   echo "skipped: ${packages[*]} cannot be installed"
 fi

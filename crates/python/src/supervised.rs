@@ -38,14 +38,14 @@ pub(crate) fn supervise<T: Send + 'static>(
     let thread = std::thread::Builder::new().name("burgeon".to_owned()).stack_size(STACK);
     let spawned = thread.spawn(move || {
         // The receiver waits for the result, whatever happens.
-        let _ = sender.send(WorkMessage::Done(work()));
+        let _ = sender.send(WorkMessage::Done(unwound(work)));
     });
     if let Err(error) = spawned {
         return Err(exception(py, &Error::system(format!("cannot start a thread: {error}"))));
     }
     let (begin, mut last) = (Instant::now(), Instant::now());
     let mut raised: Option<PyErr> = None;
-    let mut check = |raised: &mut Option<PyErr>, call: &dyn Fn() -> PyResult<()>| {
+    let check = |raised: &mut Option<PyErr>, call: &dyn Fn() -> PyResult<()>| {
         if raised.is_none()
             && let Err(error) = call()
         {
@@ -64,7 +64,7 @@ pub(crate) fn supervise<T: Send + 'static>(
             Ok(WorkMessage::Printed(text)) => check(&mut raised, &|| print(&text)),
             Ok(WorkMessage::Done(result)) => break result,
             Err(RecvTimeoutError::Timeout) => {}
-            Err(RecvTimeoutError::Disconnected) => break Err(Error::internal("the work panicked")),
+            Err(RecvTimeoutError::Disconnected) => break Err(panicked()),
         }
         if last.elapsed() >= PULSE {
             last = Instant::now();
@@ -76,6 +76,15 @@ pub(crate) fn supervise<T: Send + 'static>(
         Some(error) => Err(error),
         None => result.map_err(|error| exception(py, &error)),
     }
+}
+
+/// Calls `work`, and returns an error if it panics: no panic may reach Python.
+fn unwound<T>(work: impl FnOnce() -> Result<T>) -> Result<T> {
+    std::panic::catch_unwind(std::panic::AssertUnwindSafe(work)).unwrap_or_else(|_| Err(panicked()))
+}
+
+fn panicked() -> Error {
+    Error::internal("the work panicked").help("report it with the script")
 }
 
 /// Calls `work` as [`supervise`] does, without printed texts.

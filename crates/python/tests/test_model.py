@@ -35,8 +35,10 @@ posts:derive(17)
 
 
 def plots():
-    square = lambda x: {"type": "Polygon", "coordinates": [[[x, 0], [x + 8, 0], [x + 8, 8], [x, 8], [x, 0]]]}
-    rows = [{"id": str(x), "use": "shop" if x else "home \"🏡\"", "geometry": square(x)} for x in (0, 10)]
+    def square(x):
+        return {"type": "Polygon", "coordinates": [[[x, 0], [x + 8, 0], [x + 8, 8], [x, 8], [x, 0]]]}
+
+    rows = [{"id": str(x), "use": "shop" if x else 'home "🏡"', "geometry": square(x)} for x in (0, 10)]
     return burgeon.Table(rows, crs=25832)
 
 

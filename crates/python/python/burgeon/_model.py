@@ -24,9 +24,10 @@ def as_array(buffer: _burgeon.Buffer) -> Any:
     try:
         import numpy
     except ImportError:
-        form = {"f4": "f", "f8": "d", "u4": "I"}[buffer.typestr[1:]]
+        form: Any = {"f4": "f", "f8": "d", "u4": "I"}[buffer.typestr[1:]]
         view = memoryview(buffer.tobytes())
-        return view.cast(form, shape=buffer.shape) if len(buffer) else view.cast(form)
+        # A view of several dimensions cannot be empty.
+        return view.cast(form, buffer.shape) if len(buffer) else view.cast(form)
     return numpy.asarray(buffer)
 
 
@@ -236,7 +237,7 @@ class Model:
     @cached_property
     def features(self) -> list[dict[str, Any]]:
         """Rows of the features that the script has read: their attributes, with ``id``, ``system`` and ``source``."""
-        found = []
+        found: list[dict[str, Any]] = []
         for table in json.loads(self._raw.features()):
             known = {"system": table["system"], "source": table["source"]}
             found.extend({**row["values"], **known, "id": row["id"]} for row in table["rows"])

@@ -6,7 +6,7 @@ import json
 import math
 import os
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
@@ -68,11 +68,11 @@ def table_folder(sources: Mapping[str, Any]) -> Iterator[str]:
 
 def _known_crs(rows: Any) -> int | None:
     """Returns the EPSG code that a data frame with geometries has."""
-    crs = getattr(rows, "crs", None)
+    crs: Any = getattr(rows, "crs", None)
     return crs.to_epsg() if hasattr(crs, "to_epsg") else None
 
 
-def _rows(rows: Any) -> Iterable[Any]:
+def _rows(rows: Any) -> Any:
     if hasattr(rows, "to_dict") and hasattr(rows, "columns"):
         return rows.to_dict("records")
     if isinstance(rows, (str, bytes, Mapping)) or not hasattr(rows, "__iter__"):
