@@ -88,12 +88,7 @@ impl Buffer {
         for instance in instances {
             let (matrix, origin) = (instance.transform.matrix3, instance.transform.translation);
             for row in 0..3 {
-                numbers.extend([
-                    matrix.x_axis[row],
-                    matrix.y_axis[row],
-                    matrix.z_axis[row],
-                    origin[row],
-                ]);
+                numbers.extend([matrix.x_axis[row], matrix.y_axis[row], matrix.z_axis[row], origin[row]]);
             }
             numbers.extend([0.0, 0.0, 0.0, 1.0]);
         }

@@ -128,9 +128,9 @@ impl ScriptModel {
     fn layers(&self, py: Python<'_>) -> String {
         py.detach(|| {
             let tables = layers(&self.0.session, &self.0.run.systems);
-            let tables = tables.iter().map(|table| {
-                json!({ "name": table.name, "columns": table.columns, "count": table.records.len() })
-            });
+            let tables = tables.iter().map(
+                |table| json!({ "name": table.name, "columns": table.columns, "count": table.records.len() }),
+            );
             tables.collect::<Value>().to_string()
         })
     }

@@ -73,8 +73,9 @@ impl LoadedFolder {
     pub(super) fn path_of(&self, name: &str) -> Result<PathBuf> {
         let is_inside = Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
         if name.is_empty() || !is_inside {
-            return Err(Error::file(name, format!("{name:?} is not a name of a file in memory"))
-                .help("use a name such as tree.lua or textures/bark.png, without .. and without / at the beginning"));
+            return Err(Error::file(name, format!("{name:?} is not a name of a file in memory")).help(
+                "use a name such as tree.lua or textures/bark.png, without .. and without / at the beginning",
+            ));
         }
         Ok(self.path.join(name))
     }
