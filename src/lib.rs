@@ -34,6 +34,7 @@
 //! tiles      uses ──► base, data, export, scene, spatial
 //! live       uses ──► base, engine, export, picture, scene
 //! burgeon    uses ──► base, engine, export, kit, language, live, objects, packages, picture, scene, sources, terrain, tiles
+//! python     uses ──► base, burgeon
 //! ```
 //!
 //! - [`error`], [`warning`](mod@warning) and [`text`]: errors, warnings and human-readable text. [`Stop`] cancels work;
@@ -146,6 +147,13 @@
 //!   rule that ran left its module unchanged, if the object begins each pass empty and the step draws no random
 //!   numbers. Such a step is not counted.
 #![recursion_limit = "256"]
+
+// The commands use the public API by the name that other programs use.
+extern crate self as burgeon;
+
+mod commands;
+
+pub use commands::run_command;
 
 pub use burgeon_base::{
     Budget, Error, MemoryReservation, Result, Stop, Warning, WarningKind, error, locks, random, text, warning,

@@ -6,7 +6,6 @@ use burgeon_base::account::CountingAllocator;
 
 #[cfg(feature = "mimalloc")]
 mod allocator;
-mod commands;
 
 #[cfg(feature = "mimalloc")]
 #[global_allocator]
@@ -18,5 +17,5 @@ static ALLOCATOR: CountingAllocator<allocator::ProgramAllocator> =
 static ALLOCATOR: CountingAllocator<std::alloc::System> = CountingAllocator(std::alloc::System);
 
 fn main() -> ExitCode {
-    commands::main()
+    burgeon::run_command(std::env::args_os())
 }

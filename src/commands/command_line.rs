@@ -1,5 +1,6 @@
 //! Parses the command line and runs its command.
 
+use std::ffi::OsString;
 use std::io::{ErrorKind, Write as _};
 use std::process::ExitCode;
 
@@ -35,11 +36,14 @@ enum Command {
     Completions(completions::CompletionsCommand),
 }
 
-/// Runs the command of the command line.
-pub(crate) fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
+/// Runs the command that `arguments` describe, as the program does; the first argument is the name of the program.
+///
+/// It prints, and it may end the process.
+pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let cli = match Cli::try_parse_from(&arguments) {
         Ok(cli) => cli,
-        Err(error) => return refuse_command_line(&error),
+        Err(error) => return refuse_command_line(&error, &arguments),
     };
     let (json, result) = match cli.command {
         Command::Run(command) => (command.json(), command.run()),
@@ -93,11 +97,9 @@ fn print_help(error: &clap::Error) -> ExitCode {
 }
 
 /// Prints the error of the command line, or the requested help or version.
-fn refuse_command_line(error: &clap::Error) -> ExitCode {
-    let wants_json = std::env::args_os()
-        .skip(1)
-        .take_while(|argument| argument != "--")
-        .any(|argument| argument == "--json");
+fn refuse_command_line(error: &clap::Error, arguments: &[OsString]) -> ExitCode {
+    let mut flags = arguments.iter().skip(1).take_while(|argument| *argument != "--");
+    let wants_json = flags.any(|argument| argument == "--json");
     if !error.use_stderr() {
         return print_help(error);
     }

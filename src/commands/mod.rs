@@ -21,4 +21,4 @@ mod sources;
 mod tiles;
 mod variations;
 
-pub(crate) use command_line::main;
+pub use command_line::run_command;

@@ -283,6 +283,7 @@ fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
             continue;
         }
         let path = session.root().join(&texture.path);
+        session.provide(&path)?;
         let found = path.canonicalize();
         session.seek(&path, found.is_ok());
         let path = found.map_err(|_| {
@@ -293,9 +294,24 @@ fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
             return Err(Error::file(&path, format!("the texture {shown} is outside the script's folder"))
                 .help("a script can read only files in its own folder and its subfolders"));
         }
+        if session.is_in_memory() {
+            // The copy of the file is removed with the session.
+            texture.content = Some(texture_content(&path, &shown)?);
+            continue;
+        }
         texture.path = readable(path, &shown)?;
     }
     Ok(())
+}
+
+/// Maximum size (bytes) of a texture in memory.
+const LARGEST_TEXTURE: u64 = 1 << 30;
+
+/// Returns the content of a texture.
+fn texture_content(path: &Path, shown: &str) -> Result<Arc<[u8]>> {
+    let bytes = burgeon_base::files::read(path, LARGEST_TEXTURE)
+        .map_err(|error| Error::file(shown, format!("the texture {shown} cannot be read: {error}")))?;
+    Ok(bytes.into())
 }
 
 /// Returns the path of a texture if the file can be opened.

@@ -128,6 +128,7 @@ fn find(session: &Session, asker: Option<&Package>, what: &'static str, name: &s
             continue;
         }
         inside = true;
+        session.provide(&path)?;
         let found = path.canonicalize();
         session.seek(&path, found.is_ok());
         match found {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, LazyLock};
 use std::time::Duration;
 
-use super::{FeatureChoice, FeaturePart, Preset};
+use super::{FeatureChoice, FeaturePart, FileLoader, Preset};
 use crate::checkpoints::DerivationStore;
 use crate::queries::RowSource;
 use burgeon_base::stop::Stop;
@@ -106,6 +106,8 @@ pub struct RunInputs {
     pub mods: Vec<PathBuf>,
     /// Package folder of the user; it need not exist.
     pub user_mods: Option<PathBuf>,
+    /// Files in memory that replace the folder of the script. The path of the script is then a name of the loader.
+    pub loader: Option<FileLoader>,
     /// File that replaces the built-in standard library.
     pub stdlib: Option<PathBuf>,
 }

@@ -71,11 +71,9 @@ impl Session {
 
     /// Starts reading the main file, in parallel with the creation of a machine.
     pub(crate) fn read_ahead(&self) {
-        if let Ok(path) = self.script().canonicalize() {
-            let mut files = self.script_files();
-            files.next.push_back((path, self.script().display().to_string()));
-            files.begin();
-        }
+        let mut files = self.script_files();
+        files.next.push_back((self.path().to_path_buf(), self.script().display().to_string()));
+        files.begin();
     }
 
     /// Returns the source of the file at `path`, which is in the script's folder; `name` is for messages.
@@ -116,11 +114,12 @@ impl Session {
 /// Maximum number of files that are searched for parameters.
 const MOST_LOOKED_THROUGH: usize = 1000;
 
-/// Returns the names of the parameters that the file `script` declares, and files that it requires from the
-/// folder `root`. Considers only calls with literal strings.
-pub(super) fn own_params(script: &Path, root: &Path) -> BTreeSet<String> {
+/// Returns the names of the parameters that the script of a session declares, and files that it requires from its
+/// folder. Considers only calls with literal strings.
+pub(super) fn own_params(session: &Session) -> BTreeSet<String> {
+    let root = session.root();
     let mut names = BTreeSet::new();
-    let mut next: Vec<PathBuf> = script.canonicalize().into_iter().collect();
+    let mut next: Vec<PathBuf> = vec![session.path().to_path_buf()];
     let mut known: BTreeSet<PathBuf> = next.iter().cloned().collect();
     while let Some(path) = next.pop() {
         let Ok(bytes) = burgeon_base::files::read(&path, LARGEST) else { continue };
@@ -129,7 +128,12 @@ pub(super) fn own_params(script: &Path, root: &Path) -> BTreeSet<String> {
         let folder = path.parent().unwrap_or(root);
         for name in calls_with_text(&text, "require").filter(|name| !FileName::is_meant(name)) {
             let file = format!("{}.lua", name.strip_suffix(".lua").unwrap_or(name));
-            let found = [folder, root].into_iter().find_map(|from| from.join(&file).canonicalize().ok());
+            let find = |from: &Path| {
+                let path = from.join(&file);
+                // The error of a loader is reported when the script requires the file.
+                session.provide(&path).ok().and_then(|()| path.canonicalize().ok())
+            };
+            let found = [folder, root].into_iter().find_map(find);
             let inside = found.filter(|found| found.starts_with(root) && known.len() < MOST_LOOKED_THROUGH);
             next.extend(inside.filter(|found| known.insert(found.clone())));
         }

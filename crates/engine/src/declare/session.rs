@@ -9,6 +9,7 @@ use super::api::api_version;
 use super::curves_file::CurvesFile;
 use super::data::Data;
 use super::deprecations::Deprecations;
+use super::file_loader::LoadedFolder;
 use super::options::RunOptions;
 use super::param::Param;
 use super::positions::RandomPositions;
@@ -60,7 +61,11 @@ pub struct Session {
     /// Module parameters other than numbers.
     pub(crate) values: Arc<Values>,
     script: PathBuf,
+    /// Canonical path of the script.
+    path: PathBuf,
     root: PathBuf,
+    /// Folder for files in memory, if they replace the folder of the script.
+    loaded: Option<LoadedFolder>,
     data_roots: Vec<PathBuf>,
     packages: Packages,
     /// Names of the packages whose files were requested.
@@ -106,16 +111,25 @@ pub struct Session {
 }
 
 impl Session {
-    /// Creates a run of the file `script`.
+    /// Creates a run of the file `script`, or of the file in memory with this name if the options have a loader.
     pub fn new(script: &Path, options: RunOptions) -> Result<Arc<Self>> {
         options.registry.check()?;
-        let path = script.canonicalize().map_err(|error| unreadable(script, &error))?;
+        let loaded = options.inputs.loader.as_ref().map(LoadedFolder::new).transpose()?;
+        let file = match &loaded {
+            Some(folder) => folder.path_of(&script.to_string_lossy())?,
+            None => script.to_path_buf(),
+        };
+        if let Some(folder) = &loaded {
+            folder.provide(&file)?;
+            folder.provide(&CurvesFile::path_of(&file))?;
+        }
+        let path = file.canonicalize().map_err(|error| unreadable(script, &error))?;
         let root = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
         let stdlib = options.inputs.stdlib.as_deref().map(read_stdlib).transpose()?;
-        let curves = CurvesFile::read(script)?;
+        let curves = CurvesFile::read(&file)?;
         let data_roots = options.inputs.data.iter().map(|folder| data_root(folder)).collect::<Result<_>>()?;
         let search = PackageSearch {
-            script: script.parent(),
+            script: file.parent(),
             given: &options.inputs.mods,
             user: options.inputs.user_mods.as_deref(),
         };
@@ -133,7 +147,9 @@ impl Session {
             progress: RunProgress::default(),
             values: Arc::default(),
             script: script.to_path_buf(),
+            path: path.clone(),
             root,
+            loaded,
             data_roots,
             packages,
             used: Mutex::default(),
@@ -173,6 +189,21 @@ impl Session {
         &self.script
     }
 
+    /// Returns the canonical path of the script, which for a script in memory is the path of a copy.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Returns true if files in memory replace the folder of the script.
+    pub(crate) fn is_in_memory(&self) -> bool {
+        self.loaded.is_some()
+    }
+
+    /// Copies a file in memory to its path, if the run has such files and `path` is in their folder.
+    pub(crate) fn provide(&self, path: &Path) -> Result<()> {
+        self.loaded.as_ref().map_or(Ok(()), |folder| folder.provide(path))
+    }
+
     /// Returns the folder of the script, which contains all files that it may read by default.
     pub fn root(&self) -> &Path {
         &self.root
@@ -191,7 +222,7 @@ impl Session {
     /// Returns true if one of the script's own files, outside packages, declares a parameter `name` in a
     /// literal call.
     pub(crate) fn declares_own(&self, name: &str) -> bool {
-        self.own_params.get_or_init(|| own_params(&self.script, &self.root)).contains(name)
+        self.own_params.get_or_init(|| own_params(self)).contains(name)
     }
 
     /// Returns all script files that were read, sorted by path.

@@ -190,6 +190,7 @@ fn find(session: &Session, from: &Path, name: &str, bare: &str) -> Result<(PathB
         if !path.starts_with(session.root()) {
             return Err(outside());
         }
+        session.provide(&path)?;
         let found = path.canonicalize();
         session.seek(&path, found.is_ok());
         if let Ok(path) = found {

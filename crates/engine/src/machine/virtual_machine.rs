@@ -104,12 +104,8 @@ impl Machine {
     /// Runs the script's main file, and warns about declarations without effect.
     pub fn run(&self) -> Result<()> {
         let session = &self.session;
-        let path = session
-            .script()
-            .canonicalize()
-            .map_err(|error| Error::file(session.script(), error.to_string()))?;
-        let source =
-            session.source(&path, &session.script().display().to_string(), &self.library.globals())?;
+        let name = session.script().display().to_string();
+        let source = session.source(session.path(), &name, &self.library.globals())?;
         let problems = session.problems();
         if !problems.is_empty() && !session.options.check {
             self.load_file(&source)?;

@@ -1,0 +1,286 @@
+//! Models: results of runs.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use burgeon::export::{Export, FORMATS, Files, Format, Need, SceneFacts, SystemFacts};
+use burgeon::picture::Picture;
+use burgeon::results::layers;
+use burgeon::scene::Part;
+use burgeon::script::Session;
+use burgeon::sources::ReferenceFrame;
+use burgeon::{Error, Result, Run, Stop};
+use pyo3::prelude::*;
+use serde_json::{Value, json};
+
+use crate::buffer::Buffer;
+use crate::errors::exception;
+use crate::supervised::supervise_quietly;
+
+/// Run of a script, which buffers and exports share.
+pub(crate) struct ModelData {
+    pub run: Run,
+    pub session: Arc<Session>,
+}
+
+impl ModelData {
+    /// Returns a part of a mesh, if it exists.
+    pub(crate) fn part(&self, mesh: usize, part: usize) -> Option<&Part> {
+        self.run.scene.meshes.get(mesh)?.parts.get(part)
+    }
+
+    /// Returns the attributes of the features of each system.
+    fn systems(&self) -> Vec<SystemFacts> {
+        let known = self.run.systems.iter().filter_map(|system| {
+            let records = system.records();
+            let is_known = records.is_some() || system.city.is_some();
+            let (records, class) = (records.unwrap_or_default(), system.city);
+            is_known.then_some(SystemFacts { system: system.system, records, class })
+        });
+        known.collect()
+    }
+
+    /// Writes the model to `path`, and returns the warnings about it.
+    fn write(&self, path: &std::path::Path, settings: &ExportSettings, stop: &Arc<Stop>) -> Result<Value> {
+        let format = Format::of(path)?;
+        if self.run.systems.is_empty() {
+            return Err(Error::script("the script derives no system, so there is nothing to write")
+                .help("end it with system:derive()"));
+        }
+        let systems = self.systems();
+        let mut tables =
+            if format.needs(Need::Layers) { layers(&self.session, &self.run.systems) } else { Vec::new() };
+        if let Some(wanted) = &settings.layer {
+            let names: Vec<String> = tables.iter().map(|table| table.name.clone()).collect();
+            tables.retain(|table| table.name == *wanted);
+            if tables.is_empty() {
+                let names = names.iter().map(String::as_str);
+                let message = format!("the model has no layer named {wanted:?}");
+                let error = Error::not_found("layer", wanted, names.clone(), message);
+                return Err(error.help(format!("it has {}", names.collect::<Vec<_>>().join(", "))));
+            }
+        }
+        let columns = systems.iter().flat_map(|system| &system.records.columns).cloned();
+        let metadata: Option<Vec<String>> = settings.metadata.then(|| columns.collect());
+        let facts = SceneFacts {
+            frame: self.run.service(),
+            detail: self.session.options.lod,
+            systems: &systems,
+            layers: &tables,
+            metadata: metadata.as_deref(),
+            ..SceneFacts::default()
+        };
+        let mut files = Files::new(stop);
+        files.export(&Export { scene: &self.run.scene, picture: &settings.picture, facts }, path)?;
+        let warnings = files.take_warnings();
+        if let (true, Some(first)) = (self.session.options.strict, warnings.first()) {
+            return Err(first.clone().into_error());
+        }
+        files.publish()?;
+        Ok(warnings.iter().map(|warning| warning_json(warning)).collect())
+    }
+}
+
+/// Settings of a file.
+#[derive(Default)]
+struct ExportSettings {
+    picture: Picture,
+    metadata: bool,
+    layer: Option<String>,
+}
+
+impl ExportSettings {
+    fn parse(text: &str) -> Result<Self> {
+        let invalid =
+            |error: serde_json::Error| Error::argument(format!("invalid settings of a file: {error}"));
+        let mut settings: Value = serde_json::from_str(text).map_err(invalid)?;
+        Ok(Self {
+            picture: serde_json::from_value(settings["picture"].take()).map_err(invalid)?,
+            metadata: settings["metadata"].as_bool().unwrap_or(false),
+            layer: settings["layer"].as_str().map(str::to_owned),
+        })
+    }
+}
+
+/// Model that a script has made.
+#[pyclass(frozen, module = "burgeon._burgeon")]
+pub(crate) struct ScriptModel(Arc<ModelData>);
+
+impl ScriptModel {
+    pub(crate) fn new(data: ModelData) -> Self {
+        Self(Arc::new(data))
+    }
+}
+
+#[pymethods]
+impl ScriptModel {
+    /// Returns all facts except arrays and rows, as JSON.
+    fn facts(&self, py: Python<'_>) -> String {
+        py.detach(|| facts_json(&self.0).to_string())
+    }
+
+    /// Returns the attributes of the features of all systems as JSON: a list of rows for each system.
+    fn features(&self, py: Python<'_>) -> String {
+        py.detach(|| features_json(&self.0).to_string())
+    }
+
+    /// Returns the names, columns and numbers of rows of the layers as JSON.
+    fn layers(&self, py: Python<'_>) -> String {
+        py.detach(|| {
+            let tables = layers(&self.0.session, &self.0.run.systems);
+            let tables = tables.iter().map(
+                |table| json!({ "name": table.name, "columns": table.columns, "count": table.records.len() }),
+            );
+            tables.collect::<Value>().to_string()
+        })
+    }
+
+    /// Returns the feature and the name of each instance, and the index of its mesh, as JSON.
+    fn instances(&self, py: Python<'_>) -> String {
+        py.detach(|| {
+            let instances = self.0.run.scene.instances.iter();
+            let rows = instances.map(|instance| json!([instance.mesh, instance.name, instance.feature]));
+            rows.collect::<Value>().to_string()
+        })
+    }
+
+    /// Returns the positions (m) of a part.
+    fn positions(&self, mesh: usize, part: usize) -> Option<Buffer> {
+        Buffer::positions(&self.0, mesh, part)
+    }
+
+    /// Returns the unit normals of a part.
+    fn normals(&self, py: Python<'_>, mesh: usize, part: usize) -> Option<Buffer> {
+        py.detach(|| Buffer::normals(&self.0, mesh, part))
+    }
+
+    /// Returns the texture coordinates (m) of a part.
+    fn uvs(&self, mesh: usize, part: usize) -> Option<Buffer> {
+        Buffer::texture_coordinates(&self.0, mesh, part)
+    }
+
+    /// Returns the corners of the triangles of a part.
+    fn triangles(&self, py: Python<'_>, mesh: usize, part: usize) -> Option<Buffer> {
+        py.detach(|| Buffer::triangles(&self.0, mesh, part))
+    }
+
+    /// Returns the transforms of all instances.
+    fn transforms(&self, py: Python<'_>) -> Buffer {
+        py.detach(|| Buffer::transforms(&self.0))
+    }
+
+    /// Writes the model to a file in the format of its extension. `settings` is JSON. Returns the warnings as JSON.
+    fn export(&self, py: Python<'_>, path: PathBuf, settings: &str) -> PyResult<String> {
+        let settings = ExportSettings::parse(settings).map_err(|error| exception(py, &error))?;
+        let (data, stop) = (Arc::clone(&self.0), Arc::new(Stop::new()));
+        let working = Arc::clone(&stop);
+        let work = move || {
+            let _work = working.at_work();
+            data.write(&path, &settings, &working)
+        };
+        supervise_quietly(py, &stop, work).map(|warnings| warnings.to_string())
+    }
+}
+
+/// Returns the extensions, titles and needs of all formats of models as JSON.
+#[pyfunction]
+pub(crate) fn formats() -> String {
+    let rows = FORMATS.iter().filter(|format| format.file.check().is_ok()).map(|format| {
+        json!({
+            "extension": format.extension(),
+            "title": format.file.title,
+            "layers": format.needs(Need::Layers),
+            "files": if format.file.companion.is_some() || format.has_textures { "several" } else { "one" },
+        })
+    });
+    rows.collect::<Value>().to_string()
+}
+
+/// Returns a warning as JSON, with its complete text.
+fn warning_json(warning: &burgeon::Warning) -> Value {
+    let mut object = warning.to_json();
+    object["text"] = warning.to_string().into();
+    object
+}
+
+fn facts_json(data: &ModelData) -> Value {
+    let run = &data.run;
+    let bounds = run.scene.bounds().map(|(low, high)| [low.to_array(), high.to_array()]);
+    let meshes = run.scene.meshes.iter().map(|mesh| {
+        let parts = mesh.parts.iter().map(|part| {
+            json!({
+                "material": part.material,
+                "vertices": part.positions.len(),
+                "triangles": part.triangles.len(),
+            })
+        });
+        json!({ "name": mesh.name, "parts": parts.collect::<Value>() })
+    });
+    let materials = run.scene.materials.iter().map(|material| {
+        json!({
+            "name": material.name,
+            "color": material.base_color,
+            "metallic": material.metallic,
+            "roughness": material.roughness,
+            "emissive": material.emissive,
+            "double_sided": material.double_sided,
+            "texture": material.texture.as_ref().map(|texture| texture.path.to_string_lossy()),
+        })
+    });
+    let mut report = run.report().counts_json();
+    let mut remarks = Vec::new();
+    // Writing to memory does not fail.
+    if run.report().write_json(&mut remarks).is_ok()
+        && let Ok(whole) = serde_json::from_slice::<Value>(&remarks)
+    {
+        report = whole;
+    }
+    json!({
+        "script": data.session.script().to_string_lossy(),
+        "seed": data.session.options.seed,
+        "triangles": run.scene.triangles(),
+        "modules": run.systems.iter().map(|system| system.modules()).sum::<usize>(),
+        "steps": run.systems.iter().map(|system| system.steps).collect::<Vec<_>>(),
+        "bounds": bounds,
+        "values": run.params.iter().map(|param| (param.name.as_str(), param.value.to_json())).collect::<Value>(),
+        "warnings": run.warnings.iter().map(warning_json).collect::<Value>(),
+        "notes": run.notes,
+        "report": report,
+        "place": run.service::<ReferenceFrame>().map(|frame| frame.world_place().to_json()),
+        "meshes": meshes.collect::<Value>(),
+        "materials": materials.collect::<Value>(),
+        "seconds": {
+            "script": run.times.script.as_secs_f64(),
+            "rewriting": run.times.derivation.rewriting.as_secs_f64(),
+            "interpretation": run.times.derivation.interpretation.as_secs_f64(),
+            "scene": run.times.scene.as_secs_f64(),
+        },
+    })
+}
+
+fn features_json(data: &ModelData) -> Value {
+    let tables = data.systems().into_iter().map(|system| {
+        let table = system.records;
+        let rows = table.records.iter().map(|record| {
+            let mut values = serde_json::Map::new();
+            for (column, value) in &record.values {
+                if let Some(name) = table.columns.get(*column) {
+                    values.insert(name.clone(), attribute_json(value));
+                }
+            }
+            json!({ "id": record.id, "values": values })
+        });
+        json!({ "system": system.system, "source": table.name, "rows": rows.collect::<Value>() })
+    });
+    tables.collect()
+}
+
+fn attribute_json(value: &burgeon::kit::Attribute) -> Value {
+    use burgeon::kit::Attribute;
+    match value {
+        Attribute::Boolean(value) => (*value).into(),
+        Attribute::Number(number) => (*number).into(),
+        Attribute::Text(text) => (&**text).into(),
+        Attribute::Nested(value) => (**value).clone(),
+    }
+}
