@@ -148,7 +148,8 @@
 #![recursion_limit = "256"]
 
 pub use burgeon_base::{
-    Budget, Error, MemoryReservation, Result, Stop, Warning, WarningKind, error, locks, random, text, warning,
+    Budget, Error, MemoryReservation, Result, Stop, Warning, WarningKind, error, files, locks, random, text,
+    warning,
 };
 pub use burgeon_engine::each_part;
 pub use burgeon_engine::run::{Run, RunTimes, run, run_session};

@@ -14,6 +14,7 @@ use super::system::tell_unseen;
 use super::{Driver, Watchdog, WorkState, host, protected, watchdog};
 use crate::declare::{Session, SourceFile, bytecode};
 use burgeon_base::error::{Error, ErrorKind, Limit, Result, SourcePlace};
+use burgeon_base::files::canonical;
 use burgeon_base::stop::StopAtWork;
 use burgeon_base::warning::Warning;
 use burgeon_language::slips::{explain_syntax, remedy_of_value};
@@ -104,10 +105,8 @@ impl Machine {
     /// Runs the script's main file, and warns about declarations without effect.
     pub fn run(&self) -> Result<()> {
         let session = &self.session;
-        let path = session
-            .script()
-            .canonicalize()
-            .map_err(|error| Error::file(session.script(), error.to_string()))?;
+        let path =
+            canonical(session.script()).map_err(|error| Error::file(session.script(), error.to_string()))?;
         let source =
             session.source(&path, &session.script().display().to_string(), &self.library.globals())?;
         let problems = session.problems();
