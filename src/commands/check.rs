@@ -71,7 +71,8 @@ impl CheckCommand {
 
     /// Checks one script.
     fn check(&self, path: &Path) -> Result<ScriptCheck> {
-        let flags = ScriptFlags { script: path.to_owned(), ..self.script.clone() };
+        let mut flags = self.script.clone();
+        flags.script = path.to_owned();
         let options = || -> Result<_> {
             let mut options = flags.options()?;
             options.limits.whole_program = true;

@@ -70,9 +70,7 @@ fn find<'a>(program: &'a Command, path: &[String]) -> Result<&'a Command> {
 /// Returns the page of a command in the format roff.
 fn page(command: &Command) -> Result<String> {
     let mut bytes = Vec::new();
-    let name = page_name(command);
-    let titled = command.clone().name(name.clone()).display_name(name);
-    clap_mangen::Man::new(titled)
+    clap_mangen::Man::new(command.clone())
         .render(&mut bytes)
         .map_err(|error| Error::internal(format!("a manual page cannot be written: {error}")))?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())

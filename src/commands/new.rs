@@ -4,6 +4,7 @@ use std::fs::OpenOptions;
 use std::io::{ErrorKind, Write};
 use std::path::PathBuf;
 
+use burgeon::export::GLB;
 use burgeon::{Error, Result};
 use clap::Args;
 use serde_json::json;
@@ -61,7 +62,7 @@ impl NewCommand {
         if self.json {
             report::print(&format!("{}\n", json!({ "ok": true, "path": path })))?;
         } else {
-            let (script, model) = (shell_word(path), shell_word(&path.with_extension("glb")));
+            let (script, model) = (shell_word(path), shell_word(&path.with_extension(GLB.extension())));
             let live = if cfg!(feature = "live") {
                 format!("to see it: burgeon live {script}\n")
             } else {

@@ -167,7 +167,7 @@ impl RunCommand {
             !self.output.is_empty() || self.chain.is_some() || self.heights.is_some() || self.tiles.is_some();
         if is_short && !writes && !self.script.json && self.script.script.as_os_str() != STANDARD {
             let script = shell_word(&self.script.script);
-            let model = shell_word(&self.script.script.with_extension("glb"));
+            let model = shell_word(&self.script.script.with_extension(GLB.extension()));
             let live = if cfg!(feature = "live") {
                 format!("; to see it: burgeon live {script}")
             } else {

@@ -32,7 +32,7 @@ impl RunCommand {
         command.run()?;
         let content = std::fs::read(&path).map_err(|error| {
             Error::file(&path, format!("cannot read the written model: {error}"))
-                .help("write to a file: -o model.glb")
+                .help("write to a file: -o FILE")
         })?;
         report::print_all(|out| out.write_all(&content))
     }
@@ -43,7 +43,7 @@ impl RunCommand {
         if self.output.iter().filter(|output| *output == Path::new(STANDARD)).count() > 1 {
             return refuse(
                 "standard output takes one model, not several",
-                "write the others to files: -o model.glb",
+                "write the others to files: -o FILE",
             );
         }
         let Some(extension) = self.format.as_deref() else {
@@ -54,11 +54,11 @@ impl RunCommand {
             let message = "standard output cannot take both a model and a text";
             return refuse(
                 message,
-                "write one of them to a file: -o model.glb, --chain chains.txt, --report report.json",
+                "write one of them to a file: -o FILE, --chain FILE, --report FILE",
             );
         }
         if self.is_watching() || self.parts.is_some() {
-            return refuse("standard output takes one model, not several", "write to a file: -o model.glb");
+            return refuse("standard output takes one model, not several", "write to a file: -o FILE");
         }
         let name = format!("model.{extension}");
         if let Ok(format) = Format::of(Path::new(&name))

@@ -138,7 +138,7 @@ impl ValueWriter<'_> {
     fn module_of(&self, function: &Function) -> Option<String> {
         let constructors = self.library.constructors.borrow();
         let (symbol, _) = constructors.iter().find(|(_, constructor)| *constructor == function)?;
-        Some(self.library.symbols.borrow().signature(*symbol).usage())
+        Some(self.library.symbols.borrow().signature(*symbol).usage().into_owned())
     }
 }
 
