@@ -156,7 +156,8 @@ mod commands;
 pub use commands::run_command;
 
 pub use burgeon_base::{
-    Budget, Error, MemoryReservation, Result, Stop, Warning, WarningKind, error, locks, random, text, warning,
+    Budget, Error, MemoryReservation, Result, Stop, Warning, WarningKind, error, files, locks, random, text,
+    warning,
 };
 pub use burgeon_engine::each_part;
 pub use burgeon_engine::run::{Run, RunTimes, run, run_session};

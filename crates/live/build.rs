@@ -18,7 +18,15 @@ mod page {
 
     pub(super) fn compress() -> Result<()> {
         let folder = PathBuf::from(std::env::var_os("OUT_DIR").unwrap_or_default());
-        for name in ["index.html", "viewer.js", "editor.js", "viewer.css", "tileset.html", "tileset.js", "tileset.css"] {
+        for name in [
+            "index.html",
+            "viewer.js",
+            "editor.js",
+            "viewer.css",
+            "tileset.html",
+            "tileset.js",
+            "tileset.css",
+        ] {
             let path = format!("../../viewer/dist/{name}");
             println!("cargo::rerun-if-changed={path}");
             let packed = fs::File::create(folder.join(format!("{name}.gz")))?;

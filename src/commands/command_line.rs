@@ -4,16 +4,21 @@ use std::ffi::OsString;
 use std::io::{ErrorKind, Write as _};
 use std::process::ExitCode;
 
-use super::{api, check, completions, fit, live, mods, new, report, run, setup, sources, tiles, variations};
+use super::examples::with_examples;
+use super::short_forms::{suggest, with_command};
+use super::{
+    api, check, completions, fit, live, man, mods, new, report, run, setup, sources, tiles, variations,
+};
 use burgeon::Error;
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 #[derive(Parser)]
 #[command(
     name = "burgeon",
     version,
     about = "Procedural modelling by rewriting: rules in Lua, geometry in Rust.",
-    after_help = "Getting started:\n  burgeon new tree\n  burgeon live tree.lua\n  burgeon run tree.lua -o tree.glb"
+    after_help = "Getting started:\n  burgeon new tree\n  burgeon live tree.lua\n  burgeon run tree.lua -o tree.glb\n\n\
+                  burgeon tree.lua runs a script and shows what it makes; burgeon COMMAND --help has examples."
 )]
 pub(super) struct Cli {
     #[command(subcommand)]
@@ -34,22 +39,32 @@ enum Command {
     Sources(sources::SourcesCommand),
     Tiles(tiles::TilesCommand),
     Completions(completions::CompletionsCommand),
+    Man(man::ManCommand),
+}
+
+/// Returns the command line with the examples of all commands.
+pub(super) fn command() -> clap::Command {
+    with_examples(Cli::command())
 }
 
 /// Runs the command that `arguments` describe, as the program does; the first argument is the name of the program.
 ///
 /// It prints, and it may end the process.
 pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let arguments: Vec<OsString> = arguments.into_iter().collect();
-    let cli = match Cli::try_parse_from(&arguments) {
+    let program = command();
+    let given: Vec<OsString> = arguments.into_iter().collect();
+    let (arguments, is_short) = with_command(&program, given.clone());
+    let matches = program.clone().try_get_matches_from(arguments);
+    let cli = match matches.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
-        Err(error) => return refuse_command_line(&error, &arguments),
+        Err(error) => return refuse_command_line(&suggest(&program, error), &given),
     };
     let (json, result) = match cli.command {
-        Command::Run(command) => (command.json(), command.run()),
+        Command::Run(command) => (command.json(), command.run().map(|()| command.hint_at_outputs(is_short))),
         Command::Live(command) => (command.json(), command.run()),
         Command::Api(command) => (command.json(), command.run()),
-        Command::Check(command) => (command.json(), command.run()),
+        Command::Check(command) => return check(&command),
+        Command::Man(command) => (command.json(), command.run()),
         Command::Variations(command) => (command.json(), command.run()),
         Command::Fit(command) => (command.json(), command.run()),
         Command::Mods(command) => (command.json(), command.run()),
@@ -65,6 +80,18 @@ pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             report::error(&error, json);
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Runs `burgeon check`, which reports the problems of several scripts itself.
+fn check(command: &check::CheckCommand) -> ExitCode {
+    match command.run() {
+        Ok(true) if !report::is_closed() => ExitCode::SUCCESS,
+        Ok(_) => ExitCode::FAILURE,
+        Err(error) => {
+            report::error(&error, command.json());
             ExitCode::FAILURE
         }
     }

@@ -1,7 +1,7 @@
 //! `burgeon completions`: completion of the command line for shells.
 
 use burgeon::Result;
-use clap::{Args, CommandFactory};
+use clap::Args;
 use clap_complete::Shell;
 use serde_json::json;
 
@@ -23,7 +23,7 @@ impl CompletionsCommand {
 
     pub(crate) fn run(&self) -> Result<()> {
         let mut script = Vec::new();
-        clap_complete::generate(self.shell, &mut super::command_line::Cli::command(), "burgeon", &mut script);
+        clap_complete::generate(self.shell, &mut super::command_line::command(), "burgeon", &mut script);
         let script = String::from_utf8_lossy(&script);
         super::report::print(&match self.json {
             true => format!("{}\n", json!({ "ok": true, "script": script })),

@@ -7,9 +7,11 @@ mod api;
 mod check;
 mod command_line;
 mod completions;
+mod examples;
 mod fit;
 #[cfg_attr(not(feature = "live"), path = "absent.rs")]
 mod live;
+mod man;
 mod mods;
 mod new;
 mod progress;
@@ -17,7 +19,9 @@ mod report;
 mod run;
 mod setup;
 mod shared;
+mod short_forms;
 mod sources;
+mod style;
 mod tiles;
 mod variations;
 

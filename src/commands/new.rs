@@ -4,11 +4,13 @@ use std::fs::OpenOptions;
 use std::io::{ErrorKind, Write};
 use std::path::PathBuf;
 
+use burgeon::export::GLB;
 use burgeon::{Error, Result};
 use clap::Args;
 use serde_json::json;
 
 use super::report;
+use super::shared::shell_word;
 
 /// Content of a new script.
 const STARTER: &str = include_str!("starter.lua");
@@ -60,7 +62,13 @@ impl NewCommand {
         if self.json {
             report::print(&format!("{}\n", json!({ "ok": true, "path": path })))?;
         } else {
-            report::eprint(&format!("created {shown}; now: burgeon run {shown} -o model.glb\n"));
+            let (script, model) = (shell_word(path), shell_word(&path.with_extension(GLB.extension())));
+            let live = if cfg!(feature = "live") {
+                format!("to see it: burgeon live {script}\n")
+            } else {
+                String::new()
+            };
+            report::eprint(&format!("created {shown}\n{live}to write it: burgeon run {script} -o {model}\n"));
         }
         Ok(())
     }

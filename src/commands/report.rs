@@ -6,6 +6,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use burgeon::error::Excerpt;
 use burgeon::script::Param;
 use burgeon::sources::ReferenceFrame;
 use burgeon::text::escaped_lines;
@@ -13,23 +14,21 @@ use burgeon::text::grouped;
 use burgeon::{Error, Result, Run, Warning};
 use serde_json::json;
 
+use super::style;
+
 /// Axes of a run's coordinates.
 const WORLD_AXES: &str = "x east, y north, z up (m)";
 
 /// Prints an error to stderr, with the line of the script where it occurred. With `json`, prints JSON to stdout if
 /// possible.
 pub(crate) fn error(error: &Error, json: bool) {
-    if json {
-        let problems: Vec<_> = error.problems().map(Error::to_json).collect();
-        if print(&format!("{}\n", json!({ "ok": false, "errors": problems }))).is_ok() {
-            return;
-        }
+    if json && print(&format!("{}\n", json!({ "ok": false, "errors": error_list(error) }))).is_ok() {
+        return;
     }
     let mut text = String::new();
     for problem in error.problems() {
-        let line = problem.place().and_then(line);
         // Writing into a string cannot fail.
-        let _ = writeln!(text, "error: {}", problem.with_line(line.as_deref()));
+        let _ = writeln!(text, "error: {}", problem.with_excerpt(problem.excerpt().as_ref(), style::width()));
     }
     eprint(&text);
 }
@@ -38,21 +37,29 @@ pub(crate) fn error(error: &Error, json: bool) {
 pub(crate) fn warnings<'a>(warnings: impl IntoIterator<Item = &'a Warning>) -> String {
     let mut text = String::new();
     for warning in warnings {
-        let line = warning.place().and_then(line);
-        let _ = writeln!(text, "warning: {}", warning.with_line(line.as_deref()));
+        let excerpt = warning.excerpt();
+        let _ = writeln!(text, "warning: {}", warning.with_excerpt(excerpt.as_ref(), style::width()));
     }
     text
 }
 
-/// Converts warnings to JSON.
-pub(crate) fn warnings_json(warnings: &[Warning]) -> serde_json::Value {
-    warnings.iter().map(Warning::to_json).collect()
+/// Converts the problems of an error to JSON, with their columns.
+pub(crate) fn error_list(error: &Error) -> Vec<serde_json::Value> {
+    let problem = |problem: &Error| located_json(problem.to_json(), "error", problem.excerpt());
+    error.problems().map(problem).collect()
 }
 
-/// Returns the text of a line of a script.
-fn line(place: &burgeon::error::SourcePlace) -> Option<String> {
-    let (_, line) = place.excerpt(0, 0).pop()?;
-    Some(line.trim().to_owned())
+/// Converts warnings to JSON, with their columns.
+pub(crate) fn warnings_json(warnings: &[Warning]) -> serde_json::Value {
+    let warning = |warning: &Warning| located_json(warning.to_json(), "warning", warning.excerpt());
+    warnings.iter().map(warning).collect()
+}
+
+/// Adds the severity and the columns of an error or a warning to its JSON.
+fn located_json(mut json: serde_json::Value, severity: &str, excerpt: Option<Excerpt>) -> serde_json::Value {
+    json["severity"] = severity.into();
+    excerpt.into_iter().for_each(|excerpt| excerpt.add_to(&mut json));
+    json
 }
 
 /// Formats the summary of a run as text.
@@ -250,7 +257,7 @@ pub(crate) fn printed(text: &str) {
     let _ = io::stderr().write_all(line.as_bytes());
 }
 
-/// Writes to standard error.
+/// Writes to standard error, in colours if it is a terminal.
 pub(crate) fn eprint(text: &str) {
-    let _ = io::stderr().write_all(escaped_lines(text).as_bytes());
+    let _ = io::stderr().write_all(style::colored(&escaped_lines(text)).as_bytes());
 }

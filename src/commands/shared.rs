@@ -1,9 +1,12 @@
 //! Flags of several commands.
 
 use std::borrow::Cow;
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 use std::time::Duration;
 
+use burgeon::locks::LockRecovery as _;
 use burgeon::packages::{FileName, PackageSearch, Packages};
 use burgeon::picture::{Background, Picture, ViewBall};
 use burgeon::presets::Presets;
@@ -18,7 +21,7 @@ use super::report;
 /// Flags of commands that run a script.
 #[derive(Args, Clone)]
 pub(crate) struct ScriptFlags {
-    /// Script, a Lua file
+    /// Script, a Lua file; - is standard input
     pub script: PathBuf,
 
     /// Sets a parameter of the script
@@ -186,8 +189,11 @@ impl ScriptFlags {
         self.reach
     }
 
-    /// Returns the run options. Fails if the preset does not exist.
+    /// Returns the run options. Fails if the preset does not exist, or if the script is on standard input and cannot be read.
     pub(crate) fn options(&self) -> Result<RunOptions> {
+        if self.script.as_os_str() == STANDARD {
+            provide_script()?;
+        }
         let preset = match &self.preset {
             // The run reports a missing script.
             Some(name) if self.script.is_file() => {
@@ -228,6 +234,41 @@ impl ScriptFlags {
             strict: self.strict,
             ..burgeon::options()
         })
+    }
+}
+
+/// File name of standard input and output.
+pub(crate) const STANDARD: &str = "-";
+
+/// Reads the script on standard input, and provides it as the file `-` of the working folder.
+fn provide_script() -> Result<()> {
+    static PROVIDED: Mutex<bool> = Mutex::new(false);
+    let mut provided = PROVIDED.lock().recover();
+    if *provided {
+        return Ok(());
+    }
+    let refuse =
+        |error: std::io::Error| Error::system(format!("cannot read the script on standard input: {error}"));
+    let mut text = Vec::new();
+    std::io::stdin().lock().take(LARGEST_SCRIPT + 1).read_to_end(&mut text).map_err(refuse)?;
+    burgeon::files::provide(Path::new(STANDARD), text).map_err(refuse)?;
+    *provided = true;
+    Ok(())
+}
+
+/// Maximum size (bytes) of a script on standard input; runs refuse scripts of this size.
+const LARGEST_SCRIPT: u64 = 8_000_000;
+
+/// Returns a path as a word of a shell's command line, in quotes if it needs them.
+pub(crate) fn shell_word(path: &Path) -> String {
+    let text = path.display().to_string();
+    let text = if text.starts_with('-') { format!("./{text}") } else { text };
+    let is_plain =
+        |letter: char| letter.is_alphanumeric() || matches!(letter, '.' | '_' | '-' | '/' | '+' | ',' | ':');
+    let is_drive = cfg!(windows) && text.chars().all(|letter| is_plain(letter) || letter == '\\');
+    match text.chars().all(is_plain) || is_drive {
+        true if !text.is_empty() => text,
+        _ => format!("'{}'", text.replace('\'', "'\\''")),
     }
 }
 

@@ -10,9 +10,11 @@ use super::sources::{Source, collect};
 use super::{root, text};
 
 /// Formats that files name outside the tables: in examples of command lines, and for images and elements of the browser.
-const EXCEPTIONS: [(&str, &str); 8] = [
+const EXCEPTIONS: [(&str, &str); 10] = [
     ("src/commands/command_line.rs", ".glb"),
-    ("src/commands/new.rs", ".glb"),
+    ("src/commands/examples.rs", ".gif"),
+    ("src/commands/examples.rs", ".glb"),
+    ("src/commands/examples.rs", ".png"),
     ("src/commands/run/outputs.rs", ".tif"),
     ("viewer/src/curve.js", "'svg'"),
     ("viewer/src/exports.js", ".png"),

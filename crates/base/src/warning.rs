@@ -22,9 +22,10 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
+use std::ops::Range;
 use std::sync::Mutex;
 
-use crate::error::{Error, ErrorKind, SourcePlace};
+use crate::error::{Error, ErrorKind, Excerpt, SourcePlace};
 use crate::locks::LockRecovery;
 
 pub use crate::warning_kind::WarningKind;
@@ -249,18 +250,29 @@ impl Warning {
         object
     }
 
-    /// Formats the warning, with `line`, the text of its source line, below the message.
-    pub fn with_line(&self, line: Option<&str>) -> String {
+    /// Sets the columns of the location (characters of the line, from 0), unless they are already set.
+    #[must_use]
+    pub fn in_columns(self, columns: Range<usize>) -> Self {
+        Self { told: self.told.in_columns(columns), ..self }
+    }
+
+    /// Returns the line of the location with the columns that the warning is about, as [`Error::excerpt`] does.
+    pub fn excerpt(&self) -> Option<Excerpt> {
+        self.told.excerpt()
+    }
+
+    /// Formats the warning, with its column and with `excerpt` below the message, in `width` cells of a terminal.
+    pub fn with_excerpt(&self, excerpt: Option<&Excerpt>, width: usize) -> String {
         match self.count {
-            1 => self.told.with_line(line),
-            count => self.told.clone().noting(&format!("{count} times")).with_line(line),
+            1 => self.told.with_excerpt(excerpt, width),
+            count => self.told.clone().noting(&format!("{count} times")).with_excerpt(excerpt, width),
         }
     }
 }
 
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.with_line(None))
+        f.write_str(&self.with_excerpt(None, 0))
     }
 }
 

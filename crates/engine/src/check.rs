@@ -78,7 +78,9 @@ fn checked(session: &Arc<Session>, run: impl FnOnce(&Machine) -> Result<()>) -> 
     let mut found = Vec::new();
     let ran = declare_with(session, &mut found, run);
     let mut problems = session.problems();
-    problems.extend(session.call_problems());
+    let (of_calls, warnings) = session.call_problems();
+    problems.extend(of_calls);
+    warnings.into_iter().for_each(|warning| session.warn(warning));
     problems.retain(|known| !found.iter().any(|found| misses_same(known, found)));
     problems.extend(found);
     if let Err(error) = ran {
@@ -102,7 +104,7 @@ fn checked(session: &Arc<Session>, run: impl FnOnce(&Machine) -> Result<()>) -> 
     }
     problems.sort_by(|a, b| a.place().cmp(&b.place()));
     if !problems.is_empty() {
-        return Err(Error::several(problems));
+        return Err(session.with_usage(Error::several(problems)));
     }
     Ok(ScriptCheck { params: session.params(), types: session.types(), warnings })
 }

@@ -95,6 +95,11 @@ pub fn run(path: &Path, options: RunOptions) -> Result<Run> {
 
 /// Runs a session, which another thread can cancel.
 pub fn run_session(session: &Arc<Session>) -> Result<Run> {
+    run_stages(session).map_err(|error| session.with_usage(error))
+}
+
+/// Runs the stages of a run.
+fn run_stages(session: &Arc<Session>) -> Result<Run> {
     let begin = Instant::now();
     let _work = session.stop.at_work();
     let (machine, threads) = leading_machine(session)?;

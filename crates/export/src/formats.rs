@@ -4,6 +4,7 @@
 
 use std::path::Path;
 
+use super::conversions::way_to;
 use super::format::Need::{Attributes, Layers, Picture, Scene};
 use super::format::{FileFormat, Format, always, find};
 use super::{city, gltf, layers, obj, render, solids, svg, usd, x3d};
@@ -225,7 +226,10 @@ impl Format {
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     pub fn of(path: &Path) -> Result<&'static Self> {
-        find(&FORMATS, path)
+        find(&FORMATS, path).map_err(|error| match way_to(path) {
+            Some(way) => error.rather_help(way),
+            None => error,
+        })
     }
 }
 

@@ -19,6 +19,7 @@
 mod check;
 mod city;
 mod color;
+mod conversions;
 mod decompose;
 mod facts;
 mod files;

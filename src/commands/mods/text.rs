@@ -5,6 +5,8 @@ use std::fmt::Write as _;
 use burgeon::packages::{Dependency, Package, PackageOrigin, Packages};
 use serde_json::{Value, json};
 
+use crate::commands::report;
+
 /// Lists all packages as text.
 pub(super) fn list(packages: &Packages) -> String {
     let mut text = String::new();
@@ -142,8 +144,9 @@ pub(super) fn list_json(packages: &Packages) -> Value {
         .iter()
         .map(|it| json!({ "name": it.name, "version": it.version.to_string(), "folder": it.shown }))
         .collect();
-    let broken: Vec<Value> = packages.broken.iter().map(|broken| broken.error.to_json()).collect();
-    let problems: Vec<Value> = packages.problems.iter().map(burgeon::Error::to_json).collect();
+    let broken: Vec<Value> =
+        packages.broken.iter().flat_map(|broken| report::error_list(&broken.error)).collect();
+    let problems: Vec<Value> = packages.problems.iter().flat_map(report::error_list).collect();
     let warnings: Vec<Value> = packages.warnings.iter().map(burgeon::Warning::to_json).collect();
     json!({
         "ok": true, "packages": all, "hidden": hidden, "disabled": disabled, "broken": broken, "problems": problems, "warnings": warnings,

@@ -8,14 +8,14 @@ use super::films::FilmFlags;
 use super::{parts, watch};
 use crate::commands::progress::ProgressDisplay;
 use crate::commands::report;
-use crate::commands::shared::{PictureFlags, ScriptFlags, end_on_interrupt, size};
+use crate::commands::shared::{PictureFlags, STANDARD, ScriptFlags, end_on_interrupt, shell_word, size};
 use burgeon::export::films::FilmFormat;
 use burgeon::export::heights::{HEIGHT_FORMATS, HeightFormat};
 use burgeon::export::{FORMATS, FileFormat, Format, GLB, InstanceStorage, Need, extension_list};
 use burgeon::presets::Presets;
 use burgeon::results::layers;
 use burgeon::script::{Param, Preset, RunOptions, Session};
-use burgeon::{Result, Warning, WarningKind};
+use burgeon::{Error, Result, Warning, WarningKind};
 use clap::builder::ArgPredicate;
 use clap::{Args, ValueEnum};
 
@@ -49,6 +49,10 @@ pub(crate) struct RunCommand {
     /// Files of the model
     #[arg(short, long, value_name = "FILE", value_parser = output, help = output_help(), long_help = output_list())]
     pub(super) output: Vec<PathBuf>,
+
+    /// Format of the model on standard output, -o -
+    #[arg(long, value_name = "EXTENSION", value_parser = standard_format, requires = "output")]
+    pub(super) format: Option<String>,
 
     /// Attributes of features to include
     #[arg(long, value_name = "NAMES", num_args = 0..=1, require_equals = true, value_delimiter = ',')]
@@ -157,7 +161,42 @@ impl RunCommand {
         self.script.json
     }
 
+    /// Tells how to write or show the model, if a command line without a command `is_short` and wrote nothing.
+    pub(crate) fn hint_at_outputs(&self, is_short: bool) {
+        let writes =
+            !self.output.is_empty() || self.chain.is_some() || self.heights.is_some() || self.tiles.is_some();
+        if is_short && !writes && !self.script.json && self.script.script.as_os_str() != STANDARD {
+            let script = shell_word(&self.script.script);
+            let model = shell_word(&self.script.script.with_extension(GLB.extension()));
+            let live = if cfg!(feature = "live") {
+                format!("; to see it: burgeon live {script}")
+            } else {
+                String::new()
+            };
+            report::eprint(&format!(
+                "note: no file was written; to write it: burgeon {script} -o {model}{live}\n"
+            ));
+        }
+    }
+
+    /// Returns true if the command runs again on every save.
+    pub(super) fn is_watching(&self) -> bool {
+        self.watch
+    }
+
     pub(crate) fn run(&self) -> Result<()> {
+        if self.writes_standard() {
+            return self.run_to_standard();
+        }
+        if self.format.is_some() {
+            return Err(Error::usage(
+                "--format is the format of standard output; the extension selects that of a file",
+            )
+            .help("leave it out, or write to standard output: -o - --format glb"));
+        }
+        if self.watch && self.script.script.as_os_str() == STANDARD {
+            return Err(Error::usage("standard input cannot be watched").help("name a file in place of -"));
+        }
         if let Some(axis) = &self.film.frames {
             return self.run_frames(axis);
         }
@@ -292,8 +331,21 @@ impl RunCommand {
     }
 }
 
+/// Parses the format of standard output: an extension, with or without a dot.
+fn standard_format(text: &str) -> Result<String, String> {
+    let extension = text.trim_start_matches('.').to_ascii_lowercase();
+    let path = PathBuf::from(format!("model.{extension}"));
+    if FilmFormat::of(&path).is_ok() || Format::of(&path).is_ok() {
+        return Ok(extension);
+    }
+    Err(format!("write one of {}", extension_list(&FORMATS, "and")))
+}
+
 fn output(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
+    if text == STANDARD {
+        return Ok(path);
+    }
     if FilmFormat::of(&path).is_ok() {
         return Ok(path);
     }

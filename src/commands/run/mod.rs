@@ -6,6 +6,7 @@ mod command;
 mod films;
 mod outputs;
 mod parts;
+mod standard;
 mod watch;
 
 pub(crate) use command::RunCommand;

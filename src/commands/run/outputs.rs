@@ -14,10 +14,8 @@ use burgeon::terrain::{GroundMap, TilePlace};
 use burgeon::{Error, Result};
 
 use super::super::report;
+use super::super::shared::STANDARD;
 use super::RunCommand;
-
-/// File name that represents standard output.
-const STANDARD: &str = "-";
 
 impl RunCommand {
     /// Fails, before any work, if an output file could not be written.

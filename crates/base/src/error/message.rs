@@ -2,7 +2,9 @@
 
 use std::borrow::Cow;
 use std::fmt;
+use std::ops::Range;
 
+use super::excerpt::Excerpt;
 use super::kind::{ErrorKind, Limit};
 use super::source_place::SourcePlace;
 use crate::text::{escaped_lines, without_passwords};
@@ -33,6 +35,7 @@ struct ErrorParts {
     kind: ErrorKind,
     message: String,
     place: Option<SourcePlace>,
+    columns: Option<Range<usize>>,
     caller: Option<SourcePlace>,
     rule: Option<String>,
     module: Option<String>,
@@ -61,6 +64,7 @@ impl Error {
             kind,
             message: prepare_text(&message.to_string(), LONGEST),
             place: None,
+            columns: None,
             caller: None,
             rule: None,
             module: None,
@@ -203,11 +207,19 @@ impl Error {
         self
     }
 
+    /// Sets the columns of the location (characters of the line, from 0), unless they are already set.
+    #[must_use]
+    pub fn in_columns(mut self, columns: Range<usize>) -> Self {
+        self.0.columns.get_or_insert(columns);
+        self
+    }
+
     /// Replaces the location by a more precise one, if `place` is known.
     #[must_use]
     pub fn rather_at(mut self, place: Option<SourcePlace>) -> Self {
         if place.is_some() {
             self.0.place = place;
+            self.0.columns = None;
         }
         self
     }
@@ -336,19 +348,29 @@ impl Error {
         object.into()
     }
 
-    /// Formats only this problem, with `line`, the text of its source line, below the message.
-    pub fn with_line(&self, line: Option<&str>) -> String {
+    /// Returns the line of the location with the columns that the error is about. `None` if the file cannot be read, or if the
+    /// line is empty or missing.
+    pub fn excerpt(&self) -> Option<Excerpt> {
+        Excerpt::at(self.0.place.as_ref()?, self.0.columns.as_ref(), &self.0.message)
+    }
+
+    /// Formats only this problem, with its column and with `excerpt` below the message, in `width` cells of a terminal.
+    pub fn with_excerpt(&self, excerpt: Option<&Excerpt>, width: usize) -> String {
         let parts = &*self.0;
         let mut text = String::new();
-        if let Some(place) = &parts.place {
-            text += &format!("{place}: ");
+        match (&parts.place, excerpt) {
+            (Some(place), Some(excerpt)) => text += &format!("{place}:{}: ", excerpt.column()),
+            (Some(place), None) => text += &format!("{place}: "),
+            _ => {}
         }
         if let Some(rule) = &parts.rule {
             text += &format!("rule {rule}: ");
         }
         text += &parts.message;
-        if let Some(line) = line {
-            text += &format!("\n  | {line}");
+        if let Some(excerpt) = excerpt {
+            for row in excerpt.rows(width.saturating_sub(4)) {
+                text += &format!("\n  | {row}");
+            }
         }
         if let Some(caller) = self.caller() {
             text += &format!("\n  called at {caller}");
@@ -374,7 +396,7 @@ impl fmt::Display for Error {
             if i > 0 {
                 f.write_str("\n")?;
             }
-            f.write_str(&problem.with_line(None))?;
+            f.write_str(&problem.with_excerpt(None, 0))?;
         }
         Ok(())
     }
@@ -449,9 +471,11 @@ mod tests {
     fn a_place_in_another_file_has_the_line_that_led_there() {
         let at = |file: &str, line: usize| Some(SourcePlace { file: file.into(), line });
         let error = |file: &str| Error::script("no").at(at(file, 3)).called_at(at("a.lua", 7)).help("yes");
-        insta::assert_snapshot!(error("b.lua").with_line(Some("error()")), @r"
-        b.lua:3: no
+        let excerpt = Excerpt::of_line("  error()", None, "");
+        insta::assert_snapshot!(error("b.lua").with_excerpt(Some(&excerpt), 80), @r"
+        b.lua:3:3: no
           | error()
+          | ^^^^^^^
           called at a.lua:7
           help: yes
         ");

@@ -1,7 +1,9 @@
 //! Lines of files.
 
 use std::fmt;
+use std::path::Path;
 
+use crate::files;
 use crate::text::without_passwords;
 
 /// A line of a script or data file.
@@ -27,12 +29,7 @@ impl SourcePlace {
     /// Returns the lines from `before` lines before the location to `after` lines after it, with their numbers. Empty
     /// if the file cannot be read, or if the line itself is empty or missing.
     pub fn excerpt(&self, before: usize, after: usize) -> Vec<(usize, String)> {
-        let path = std::path::Path::new(&self.file);
-        let fits = |metadata: std::fs::Metadata| metadata.is_file() && metadata.len() <= LARGEST;
-        if !std::fs::metadata(path).is_ok_and(fits) {
-            return Vec::new();
-        }
-        let Ok(text) = std::fs::read_to_string(path) else { return Vec::new() };
+        let Some(text) = self.text() else { return Vec::new() };
         let first = self.line.saturating_sub(before).max(1);
         let lines = text.lines().enumerate().skip(first - 1).take(self.line + after + 1 - first);
         let shown = |line: &str| without_passwords(line.trim_end()).chars().take(WIDEST).collect();
@@ -41,6 +38,20 @@ impl SourcePlace {
         let there =
             lines.iter().any(|(number, line): &(usize, String)| *number == self.line && !line.is_empty());
         if there { lines } else { Vec::new() }
+    }
+
+    /// Returns the line itself. `None` if the file cannot be read, or if the line is empty or missing.
+    pub(super) fn line_text(&self) -> Option<String> {
+        let text = self.text()?;
+        let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+        let line = text.lines().nth(self.line.checked_sub(1)?)?.trim_end();
+        (!line.trim().is_empty()).then(|| line.to_owned())
+    }
+
+    /// Returns the content of the file, as far as it is text.
+    fn text(&self) -> Option<String> {
+        let bytes = files::read(Path::new(&self.file), LARGEST).ok()?;
+        String::from_utf8(bytes).ok()
     }
 }
 

@@ -25,6 +25,7 @@ mod scripts;
 mod session;
 mod stamps;
 mod types;
+mod usage;
 
 pub(crate) use api::has_name;
 pub use api::{API_VERSION, api_version};

@@ -9,7 +9,7 @@ use rustc_hash::FxHashMap;
 use super::bytecode::compile;
 use super::session::Session;
 use burgeon_base::MemoryOwner;
-use burgeon_base::error::{Error, Limit, Result, SourcePlace};
+use burgeon_base::error::{Error, Limit, Result, SourcePlace, did_you_mean, nearest};
 use burgeon_base::locks::LockRecovery;
 use burgeon_language::analysis::{Analysis, Globals, ScriptReader, calls_with_text};
 use burgeon_packages::FileName;
@@ -84,6 +84,7 @@ impl Session {
         }
         let mut analysis = files.reader(path, name)?.finish(globals);
         self.note(&analysis);
+        analysis.doubtful.iter().for_each(|warning| self.warn(warning.clone()));
         for (used, line) in &analysis.deprecated {
             if let Some(deprecation) = globals.deprecated.get(used) {
                 let place = SourcePlace::new(name, *line);
@@ -150,7 +151,10 @@ fn begin_reading(path: &Path, name: &str) -> Result<ScriptReader> {
         Error::file(path, format!("{name} is not a text file"))
             .help("scripts are UTF-8 text; check the file's name")
     })?;
-    Ok(ScriptReader::begin(name, text.strip_prefix('\u{feff}').unwrap_or(&text), compile))
+    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+    // The first line of a program for a shell becomes a comment of the same length, so columns stay.
+    let comment = text.strip_prefix("#!").map(|rest| format!("--{rest}"));
+    Ok(ScriptReader::begin(name, comment.as_deref().unwrap_or(text), compile))
 }
 
 /// Returns name and text of a file that replaces the standard library.
@@ -167,16 +171,45 @@ pub(super) fn read_stdlib(path: &Path) -> Result<(String, String)> {
     Ok((name, text))
 }
 
+/// Maximum number of entries of a folder that are searched for a script.
+const MOST_ENTRIES: usize = 10_000;
+
+/// Returns the file names of the scripts in a folder, sorted.
+fn scripts_in(folder: &Path) -> Vec<String> {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let entries = std::fs::read_dir(folder).into_iter().flatten().take(MOST_ENTRIES).flatten();
+    let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
+    let mut names: Vec<String> = names.filter(|name| name.ends_with(".lua")).collect();
+    names.sort();
+    names
+}
+
+/// Returns the script whose name is nearest to that of a missing file: `tree.lua` for `tre.lua` and for `tree`.
+fn nearest_script(path: &Path) -> Option<String> {
+    let folder = path.parent()?;
+    let name = path.file_name()?.to_str()?;
+    let stem = name.strip_suffix(".lua").unwrap_or(name);
+    let scripts = scripts_in(folder);
+    let stems = scripts.iter().filter_map(|script| script.strip_suffix(".lua"));
+    let near = nearest(stem, stems)?;
+    Some(folder.join(format!("{near}.lua")).display().to_string())
+}
+
 /// Returns the error for a script that cannot be read.
 pub(super) fn unreadable(path: &Path, error: &std::io::Error) -> Error {
     let shown = path.display();
     match error.kind() {
         std::io::ErrorKind::NotFound => {
-            Error::not_found("script", &shown, [], format!("script not found: {shown}"))
-                .help("check the path, or create a script: burgeon new NAME")
+            let error = Error::not_found("script", &shown, [], format!("script not found: {shown}"));
+            let error =
+                nearest_script(path).into_iter().fold(error, |error, near| error.help(did_you_mean(&near)));
+            error.help("check the path, or create a script: burgeon new NAME")
         }
         std::io::ErrorKind::IsADirectory => {
-            Error::file(path, format!("{shown} is a folder")).help("specify a script in the folder")
+            let inside = scripts_in(path).into_iter().next();
+            let inside = inside.map(|name| format!(", such as {}", path.join(name).display()));
+            let help = format!("specify a script in the folder{}", inside.unwrap_or_default());
+            Error::file(path, format!("{shown} is a folder")).help(help)
         }
         std::io::ErrorKind::FileTooLarge => {
             Error::limit(Limit::Size, format!("{shown} is larger than {} MB", LARGEST / 1_000_000))

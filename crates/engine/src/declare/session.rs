@@ -18,6 +18,7 @@ use super::scripts::{ScriptFiles, SourceFile, own_params, read_stdlib, unreadabl
 use super::types::DeclaredTypes;
 use crate::queries::{ChainView, RowCache};
 use burgeon_base::error::{Error, Result};
+use burgeon_base::files::canonical;
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::{Warning, Warnings};
@@ -123,7 +124,7 @@ impl Session {
             folder.provide(&file)?;
             folder.provide(&CurvesFile::path_of(&file))?;
         }
-        let path = file.canonicalize().map_err(|error| unreadable(script, &error))?;
+        let path = canonical(&file).map_err(|error| unreadable(script, &error))?;
         let root = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
         let stdlib = options.inputs.stdlib.as_deref().map(read_stdlib).transpose()?;
         let curves = CurvesFile::read(&file)?;
@@ -399,8 +400,9 @@ impl Session {
         required.entry(asker.to_owned()).or_default().insert(name.to_owned(), meant.to_owned());
     }
 
-    /// Returns the errors in the calls of all files, once the script has declared its object types.
-    pub(crate) fn call_problems(&self) -> Vec<Error> {
+    /// Returns the errors in the calls of all files and warnings about their rules, once the script has declared its object
+    /// types.
+    pub(crate) fn call_problems(&self) -> (Vec<Error>, Vec<Warning>) {
         let (required, none) = (self.required.lock().recover(), BTreeMap::new());
         let scripts = self.script_files();
         let mut files: Vec<CheckedFile> = scripts

@@ -96,11 +96,17 @@ impl Library {
         )?;
         globals.raw_set("lod", machine.session.options.lod)?;
         let session = Arc::clone(&machine.session);
+        let library = std::rc::Rc::clone(&machine.library);
         globals.raw_set(
             "print",
             lua.create_function(move |lua, values: MultiValue| {
                 session.count_print();
-                session.options.reports.print.as_ref().map_or(Ok(()), |hook| print(lua, &values, hook))
+                session
+                    .options
+                    .reports
+                    .print
+                    .as_ref()
+                    .map_or(Ok(()), |hook| print(lua, &library, &values, hook))
             })?,
         )
     }

@@ -1,10 +1,11 @@
 //! Texts that scripts print and warnings that they give.
 
-use mlua::{Function, Lua, LuaString, MultiValue, Value as LuaValue};
+use mlua::{Function, Lua, MultiValue, Value as LuaValue};
 
 use super::convert::to_value;
+use super::library::Library;
+use super::shown_values::shown_value;
 use crate::declare::Print;
-use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 
@@ -24,24 +25,18 @@ pub(super) fn script_warning(text: &LuaValue, help: &LuaValue) -> Result<Warning
 }
 
 /// Passes the values that a script prints to `hook`, unless the machine is silent.
-pub(super) fn print(lua: &Lua, values: &MultiValue, hook: &Print) -> mlua::Result<()> {
+pub(super) fn print(lua: &Lua, library: &Library, values: &MultiValue, hook: &Print) -> mlua::Result<()> {
     if lua.app_data_ref::<SilentMark>().is_some() && is_at_top_level(lua) {
         return Ok(());
     }
-    let tostring: Function = lua.globals().get("tostring")?;
-    let mut texts = Vec::new();
-    for value in values {
-        let text = tostring.call::<LuaString>(value)?;
-        // The receiver copies the text again.
-        MemoryOwner::ensure_room(3 * text.as_bytes().len()).map_err(mlua::Error::external)?;
-        texts.push(any_bytes(&text.as_bytes()));
-    }
+    let texts = values.iter().map(|value| shown_value(lua, library, value));
+    let texts: Vec<String> = texts.collect::<mlua::Result<_>>()?;
     hook.take(&texts.join("\t"));
     Ok(())
 }
 
 /// Returns bytes as text; invalid UTF-8 is escaped, such as `\xff`.
-fn any_bytes(bytes: &[u8]) -> String {
+pub(super) fn any_bytes(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len());
     for chunk in bytes.utf8_chunks() {
         text.push_str(chunk.valid());

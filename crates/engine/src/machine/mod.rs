@@ -25,6 +25,7 @@ mod prelude;
 mod protected;
 mod require;
 mod row_tables;
+mod shown_values;
 mod streams;
 mod system;
 mod table_classes;

@@ -132,6 +132,35 @@ impl Field {
             former: Vec::new(),
         }
     }
+
+    /// Returns the remedy for a wrong value: the values that the field takes.
+    ///
+    /// ```
+    /// use burgeon_kit::Field;
+    ///
+    /// let field = Field { default: "0.1".to_owned(), ..Field::new("width", "number?", "Width of lines (m). Rounded.") };
+    /// assert_eq!(field.usage(), "width takes a number, 0.1 unless given: Width of lines (m)");
+    /// ```
+    pub fn usage(&self) -> String {
+        let name = &self.name;
+        let taken = match self.luau.trim_end_matches('?') {
+            "Color" => {
+                return format!("write {name} = \"red\", {name} = \"#ff8000\" or {name} = {{ 1, 0.5, 0 }}");
+            }
+            "number" => "a number",
+            "string" => "a string",
+            "boolean" => "true or false",
+            "Vector" => "a vector: vec(1, 0, 0) or { 1, 0, 0 }",
+            luau => luau,
+        };
+        let default = match &*self.default {
+            "" | "nil" => String::new(),
+            default => format!(", {default} unless given"),
+        };
+        let doc = self.doc.lines().next().unwrap_or_default();
+        let doc = doc.split_once(". ").map_or(doc.trim_end_matches('.'), |(first, _)| first);
+        format!("{name} takes {taken}{default}: {doc}")
+    }
 }
 
 /// Returns the Luau name of the type called `name`: `StreetLamp` for `street_lamp`.

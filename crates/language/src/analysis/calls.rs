@@ -16,11 +16,13 @@ use full_moon::node::Node;
 use full_moon::tokenizer::TokenReference;
 
 use super::blocks::ScopeWalk;
+use super::endings::forgotten_return;
 use super::inference::Inference;
-use super::syntax::{is_function_option, string_of, text_of};
+use super::syntax::{columns_between, is_function_option, string_of, text_of};
 use super::walk::FunctionRole;
 use crate::Literal;
 use burgeon_base::error::Error;
+use burgeon_base::warning::Warning;
 use burgeon_kit::{Kind, Registry};
 
 /// Walk that checks the calls of a script.
@@ -42,6 +44,8 @@ pub(super) struct CallCheck<'a, 'f> {
     /// Function that infers the value that another file returns, from the name in `require`.
     pub(super) required: Option<&'f dyn Fn(&str) -> Inference<'a>>,
     pub(super) problems: Vec<Error>,
+    /// Warnings about functions of rules.
+    pub(super) warnings: Vec<Warning>,
 }
 
 /// Collects the names of all assigned variables.
@@ -115,6 +119,7 @@ impl<'a, 'f> CallCheck<'a, 'f> {
             rule,
             required,
             problems: Vec::new(),
+            warnings: Vec::new(),
         }
     }
 
@@ -220,6 +225,12 @@ impl<'a, 'f> CallCheck<'a, 'f> {
         let role = if call == "interpret" { FunctionRole::Interpretation } else { FunctionRole::Rule };
         let found = args.iter().map(|arg| match arg {
             Expression::Function(function) => {
+                if matches!(call, "rule" | "decompose") {
+                    let warning = forgotten_return(self.file, function.body());
+                    let rule = self.rule.clone();
+                    let warning = warning.map(|warning| rule.into_iter().fold(warning, Warning::rule));
+                    self.warnings.extend(warning);
+                }
                 self.role = role;
                 self.function(function.body(), kind);
                 self.role = outer.0;
@@ -351,9 +362,13 @@ impl<'a, 'f> CallCheck<'a, 'f> {
             Prefix::Name(name) => (Some(name), text_of(name)),
             _ => (None, String::new()),
         };
+        let mut dotted: Option<(Inference<'a>, String)> = None;
         for suffix in suffixes {
+            // Value and text before the dot of a call such as this.forward(1).
+            let owner = std::mem::take(&mut dotted);
             known = match suffix {
                 Suffix::Index(Index::Dot { name, .. }) => {
+                    dotted = Some((known.clone(), path.clone()));
                     word = Some(name);
                     path = format!("{path}.{}", text_of(name));
                     self.field(&known, name)
@@ -362,7 +377,12 @@ impl<'a, 'f> CallCheck<'a, 'f> {
                     self.expression(expression);
                     Inference::Unknown
                 }
-                Suffix::Call(Call::AnonymousCall(args)) => self.infer_call(&known, word, &path, args),
+                Suffix::Call(Call::AnonymousCall(args)) => {
+                    if let (Some((of, dotted)), Some(name)) = (&owner, word) {
+                        self.refuse_dot(of, dotted, name, args);
+                    }
+                    self.infer_call(&known, word, &path, args)
+                }
                 Suffix::Call(Call::MethodCall(method)) => {
                     word = Some(method.name());
                     self.method(&known, method.name(), method.args())
@@ -391,11 +411,15 @@ impl<'a, 'f> CallCheck<'a, 'f> {
     }
 
     pub(super) fn problem(&mut self, token: &TokenReference, error: Error) {
-        self.problem_at(token.start_position().map_or(1, |position| position.line()), error);
+        self.problem_of(token, error);
     }
 
-    pub(super) fn problem_at(&mut self, line: usize, error: Error) {
-        let error = error.at_line(self.file, line);
+    /// Adds the problem of a syntax node, with the columns of the node.
+    pub(super) fn problem_of(&mut self, piece: &impl Node, error: Error) {
+        let columns = piece.start_position().zip(piece.end_position());
+        let columns = columns.and_then(|(begin, end)| columns_between(begin, end));
+        let error = error.at_line(self.file, line_of(piece));
+        let error = columns.into_iter().fold(error, Error::in_columns);
         let error = match &self.rule {
             Some(rule) if self.role != FunctionRole::Script => error.rule(rule),
             _ => error,

@@ -5,10 +5,10 @@ use std::borrow::Cow;
 use full_moon::ast::{Expression, Field, FunctionArgs, TableConstructor};
 use full_moon::tokenizer::TokenReference;
 
-use super::calls::{CallCheck, expressions_of, line_of};
+use super::calls::{CallCheck, expressions_of};
 use super::inference::Inference;
 use super::syntax::{is_open, text_of};
-use crate::{ArgumentList, Literal, LuauType, NameKind, names};
+use crate::{ArgumentList, Literal, LuauType, NameKind, SYSTEM, names};
 use burgeon_base::error::Error;
 use burgeon_kit::{Argument, Field as KindField, Kind};
 
@@ -47,8 +47,11 @@ impl CallCheck<'_, '_> {
                 && let Some(argument) = form.argument(index)
             {
                 let message = wrong_value(name, &argument.name, &argument.luau, value);
-                let line = written.get(index).map_or_else(|| line_of(word), |written| line_of(*written));
-                return self.problem_at(line, Error::argument(message));
+                let error = Error::argument(message).help(format!("write {name}{form}"));
+                return match written.get(index) {
+                    Some(written) => self.problem_of(*written, error),
+                    None => self.problem(word, error),
+                };
             }
         }
         if of_count.len() == 1 {
@@ -61,6 +64,35 @@ impl CallCheck<'_, '_> {
                     self.hold_table(name, table, &argument.luau, &argument.fields);
                 }
             }
+        }
+    }
+
+    /// Refuses a call of a method with a dot that does not pass the object itself, such as `this.forward(1)`.
+    pub(super) fn refuse_dot(
+        &mut self,
+        of: &Inference,
+        path: &str,
+        name: &TokenReference,
+        args: &FunctionArgs,
+    ) {
+        let text = text_of(name);
+        let owner = match of {
+            Inference::Object(kind) if kind.method(&text).is_some() => kind.name.to_string(),
+            Inference::System(_) if SYSTEM.find(&text).is_some() => "system".to_owned(),
+            Inference::Given(given) if given.find(&text).is_some() => given.name.to_string(),
+            _ => return,
+        };
+        let passes_itself = match args {
+            FunctionArgs::Parentheses { arguments, .. } => {
+                // An object that is not a literal may be the right one.
+                arguments.iter().next().is_some_and(|first| matches!(first, Expression::Var(_)))
+            }
+            _ => false,
+        };
+        if !passes_itself {
+            let path = if path.is_empty() { "object" } else { path };
+            let message = format!("{owner}:{text} is a method, and a dot calls it without its object");
+            self.problem(name, Error::argument(message).help(format!("write a colon: {path}:{text}(...)")));
         }
     }
 
@@ -135,7 +167,8 @@ impl CallCheck<'_, '_> {
             // An omitted field can also be written as nil.
             let is_nil = matches!(&found, Inference::Value(Literal::Nil));
             if !is_nil && !self.may_be(&found, &known.luau, &known.fields, false) {
-                self.problem(key, Error::argument(wrong_value(owner, &name, &known.luau, &found)));
+                let error = Error::argument(wrong_value(owner, &name, &known.luau, &found));
+                self.problem_of(&**value, error.help(known.usage()));
             } else if let Expression::TableConstructor(inner) = &**value {
                 self.hold_table(&format!("{owner}.{name}"), inner, &known.luau, &known.fields);
             }

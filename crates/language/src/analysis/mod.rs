@@ -11,6 +11,8 @@
 
 mod blocks;
 mod calls;
+mod doubtful;
+mod endings;
 mod expressions;
 mod files;
 mod globals;

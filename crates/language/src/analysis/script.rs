@@ -5,11 +5,12 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
+use super::doubtful::doubtful_calls;
 use super::globals::Globals;
 use super::walk::{Facts, QueryCall, Walk};
 use crate::CallForm;
-use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Limit, SourcePlace};
+use burgeon_base::{MemoryOwner, Warning};
 use full_moon::ast::Ast;
 use full_moon::node::Node;
 use full_moon::tokenizer::TokenType;
@@ -55,6 +56,8 @@ pub struct Analysis {
     pub signatures: BTreeMap<usize, CallForm>,
     /// Syntax tree, if calls are to be checked.
     pub ast: Option<Arc<Ast>>,
+    /// Warnings about calls that are probably not intended.
+    pub doubtful: Vec<Warning>,
     /// String literals that may name files of packages, with their lines.
     pub packages: Vec<(String, usize)>,
 }
@@ -219,6 +222,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
     }
     out.push_str(&text[at..]);
     let packages = package_names(&ast);
+    let doubtful = doubtful_calls(file, text, &ast);
     let guards = guards.into_iter().filter_map(|(line, text)| Some((line, text?))).collect();
     let signatures = signatures.into_iter().filter_map(|(line, form)| Some((line, form?))).collect();
     let ast = globals.checks_calls.then(|| Arc::new(ast));
@@ -240,6 +244,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         signatures,
         ast,
         deprecated,
+        doubtful,
         packages,
     }
 }

@@ -1,5 +1,7 @@
 //! Helpers for syntax nodes.
 
+use std::ops::Range;
+
 use full_moon::ast::{Block, Call, Expression, FunctionArgs, Prefix, Suffix};
 use full_moon::node::Node;
 use full_moon::tokenizer::TokenReference;
@@ -98,4 +100,15 @@ pub(super) fn stream_argument(name: &str) -> Option<usize> {
         "normal" | "binomial" | "beta" => Some(2),
         _ => None,
     }
+}
+
+/// Returns the columns (characters, from 0) between two positions of a line; `None` if they are on different lines.
+pub(super) fn columns_between(begin: Position, end: Position) -> Option<Range<usize>> {
+    let columns = begin.character().saturating_sub(1)..end.character().saturating_sub(1);
+    (begin.line() == end.line() && !columns.is_empty()).then_some(columns)
+}
+
+/// Returns the columns of a token, if it is on one line.
+pub(super) fn columns_of(token: &TokenReference) -> Option<Range<usize>> {
+    columns_between(token.start_position()?, token.end_position()?)
 }

@@ -10,7 +10,9 @@ use full_moon::tokenizer::TokenReference;
 
 use super::blocks::ScopeWalk;
 use super::globals::Globals;
-use super::syntax::{declared_module, end_of, first_position, instead_of, stream_argument, text_of};
+use super::syntax::{
+    columns_of, declared_module, end_of, first_position, instead_of, stream_argument, text_of,
+};
 use crate::CallForm;
 use crate::slips::remedy_of_name;
 use burgeon_base::error::Error;
@@ -475,6 +477,7 @@ impl<'a> Walk<'a> {
     pub(super) fn problem(&mut self, token: &TokenReference, error: Error) {
         let line = token.start_position().map_or(1, |position| position.line());
         let error = error.at_line(self.file, line);
+        let error = columns_of(token).into_iter().fold(error, Error::in_columns);
         let rule = self.functions.iter().rev().find_map(|function| function.rule.as_ref());
         self.problems.push(match rule {
             Some(rule) => error.rule(rule),

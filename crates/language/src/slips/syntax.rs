@@ -1,5 +1,7 @@
 //! Remedies for syntax errors.
 
+use std::ops::Range;
+
 use burgeon_base::error::Error;
 
 use super::blocks::find_unclosed;
@@ -34,43 +36,62 @@ pub fn explain_syntax(error: Error, text: &str) -> Error {
         .or_else(|| remedy_for_message(&message, here, before).map(str::to_owned))
         .or_else(|| remedy_for_block(&message, &lines, line))
         .or_else(|| remedy_for_word(before, &message).map(str::to_owned))
-        .or_else(|| remedy_for_bracket(&message));
+        .or_else(|| remedy_for_bracket(&message))
+        .or_else(|| remedy_for_token(&message));
+    let error = sign_columns(here).into_iter().fold(error, Error::in_columns);
     match remedy {
         Some(remedy) => error.help(remedy),
         None => error,
     }
 }
 
+/// Signs that Lua lacks, and the remedies. The first that occurs counts.
+const SIGNS: [(&str, &str); 24] = [
+    ("\u{201c}", "write straight quotes: \"text\""),
+    ("\u{201d}", "write straight quotes: \"text\""),
+    ("\u{201e}", "write straight quotes: \"text\""),
+    ("\u{2018}", "write straight quotes: 'text'"),
+    ("\u{2019}", "write straight quotes: 'text'"),
+    ("\u{ab}", "write straight quotes: \"text\""),
+    ("\u{2212}", "write the minus of the keyboard: -"),
+    ("\u{2013}", "write the minus of the keyboard: -"),
+    ("\u{d7}", "write * for products"),
+    ("\u{b0}", "write angles as numbers (degrees): Turn(30)"),
+    ("\u{a0}", "write plain spaces: the line has a space that does not break"),
+    ("/*", "write comments with -- or --[[ and ]]"),
+    ("**", "write powers with ^: x ^ 2"),
+    ("!=", "write ~= for \"not equal\""),
+    ("<>", "write ~= for \"not equal\""),
+    ("===", "write == for \"equal\""),
+    ("&&", "write and"),
+    ("||", "write or"),
+    ("++", "write n += 1"),
+    (":=", "write local x = 1"),
+    ("=>", "write functions as function(x) return x end"),
+    ("<<", "write bit32.lshift(a, b)"),
+    (">>", "write bit32.rshift(a, b)"),
+    ("<const>", "write local x = 5: variables have no attributes"),
+];
+
+/// Returns the columns (characters, from 0) of a sign that Lua lacks.
+fn sign_columns(code: &str) -> Option<Range<usize>> {
+    let (sign, _) = SIGNS.iter().find(|(sign, _)| code.contains(sign))?;
+    let begin = code[..code.find(sign)?].chars().count();
+    Some(begin..begin + sign.chars().count())
+}
+
+/// Returns the general remedy for a token in the wrong place.
+fn remedy_for_token(message: &str) -> Option<String> {
+    let (_, got) = message.split_once(", got ")?;
+    Some(match got {
+        "<eof>" => "the script ends too early: complete its last statement".to_owned(),
+        got => format!("complete the code before {got}, or remove {got}"),
+    })
+}
+
 /// Returns the remedy for signs that Lua lacks.
 fn remedy_for_sign(code: &str) -> Option<&'static str> {
     let start = code.trim_start();
-    // A sign, and the remedy. The first that occurs counts.
-    const SIGNS: [(&str, &str); 24] = [
-        ("\u{201c}", "write straight quotes: \"text\""),
-        ("\u{201d}", "write straight quotes: \"text\""),
-        ("\u{201e}", "write straight quotes: \"text\""),
-        ("\u{2018}", "write straight quotes: 'text'"),
-        ("\u{2019}", "write straight quotes: 'text'"),
-        ("\u{ab}", "write straight quotes: \"text\""),
-        ("\u{2212}", "write the minus of the keyboard: -"),
-        ("\u{2013}", "write the minus of the keyboard: -"),
-        ("\u{d7}", "write * for products"),
-        ("\u{b0}", "write angles as numbers (degrees): Turn(30)"),
-        ("\u{a0}", "write plain spaces: the line has a space that does not break"),
-        ("/*", "write comments with -- or --[[ and ]]"),
-        ("**", "write powers with ^: x ^ 2"),
-        ("!=", "write ~= for \"not equal\""),
-        ("<>", "write ~= for \"not equal\""),
-        ("===", "write == for \"equal\""),
-        ("&&", "write and"),
-        ("||", "write or"),
-        ("++", "write n += 1"),
-        (":=", "write local x = 1"),
-        ("=>", "write functions as function(x) return x end"),
-        ("<<", "write bit32.lshift(a, b)"),
-        (">>", "write bit32.rshift(a, b)"),
-        ("<const>", "write local x = 5: variables have no attributes"),
-    ];
     if start.starts_with('#') {
         return Some("write comments with --");
     }

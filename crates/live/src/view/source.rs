@@ -97,7 +97,9 @@ mod tests {
 
     #[test]
     fn a_source_is_its_lines() {
-        let Event::Source { lines, changed, .. } = source(1, "a.lua", "one\r\n\ntwo\n", true) else { panic!() };
+        let Event::Source { lines, changed, .. } = source(1, "a.lua", "one\r\n\ntwo\n", true) else {
+            panic!()
+        };
         assert_eq!(lines, ["one\r", "", "two", ""]);
         assert!(changed);
     }

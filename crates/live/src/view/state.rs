@@ -17,7 +17,7 @@ use super::request::{Inputs, Request};
 use super::settings::EventReceiver;
 use super::urls::picture_url;
 use super::{LiveEvent, Settings, export};
-use burgeon_base::error::{Error, SourcePlace};
+use burgeon_base::error::{Error, Excerpt, SourcePlace};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::Warning;
@@ -293,15 +293,21 @@ impl ServerState {
 
     /// Converts an error to JSON, with the file named as pages name it and with the surrounding lines.
     pub(super) fn error_json(&self, error: &Error) -> serde_json::Value {
-        self.add_place(error.to_json(), error.place())
+        self.add_place(error.to_json(), error.place(), error.excerpt())
     }
 
     /// Converts a warning in the same way.
     pub(super) fn warning_json(&self, warning: &Warning) -> serde_json::Value {
-        self.add_place(warning.to_json(), warning.place())
+        self.add_place(warning.to_json(), warning.place(), warning.excerpt())
     }
 
-    fn add_place(&self, mut object: serde_json::Value, place: Option<&SourcePlace>) -> serde_json::Value {
+    fn add_place(
+        &self,
+        mut object: serde_json::Value,
+        place: Option<&SourcePlace>,
+        excerpt: Option<Excerpt>,
+    ) -> serde_json::Value {
+        excerpt.into_iter().for_each(|excerpt| excerpt.add_to(&mut object));
         for key in ["message", "help"] {
             if let Some(text) = object[key].as_str() {
                 object[key] = self.relative(text).into();

@@ -4,7 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 use std::sync::Arc;
 
-use mlua::{Lua, MultiValue, Table, UserData, UserDataMethods, UserDataRef, Value as LuaValue};
+use mlua::{Lua, MetaMethod, MultiValue, Table, UserData, UserDataMethods, UserDataRef, Value as LuaValue};
 
 use crate::machine::convert::to_value;
 use crate::machine::library::Library;
@@ -201,6 +201,7 @@ fn prototype(library: &Library, value: LuaValue) -> Result<Arc<dyn Object>> {
 
 impl UserData for SystemHandle {
     fn add_methods<M: UserDataMethods<Self>>(methods: &mut M) {
+        methods.add_meta_method(MetaMethod::ToString, |_, _, ()| Ok("a system"));
         methods.add_function("axiom", |lua, (this, arguments): (UserDataRef<Self>, MultiValue)| {
             let arguments: Vec<LuaValue> = arguments.into_iter().collect();
             let library = Rc::clone(&this.library);

@@ -1,0 +1,164 @@
+//! Columns and carets: each message about a script has its column, and a caret stands below the part that is wrong.
+
+use insta::assert_snapshot;
+
+use crate::support::{Folder, HEAD, printed, refused, refused_rules};
+
+/// Returns line and column of the first message, and the text above its carets.
+fn marked(text: &str) -> (usize, usize, String) {
+    let lines: Vec<&str> = text.lines().collect();
+    let carets = lines.iter().position(|line| line.starts_with("  | ") && line.trim_end().ends_with('^'));
+    let carets = carets.unwrap_or_else(|| panic!("no carets in: {text}"));
+    let (begin, end) = (lines[carets].find('^').unwrap(), lines[carets].len());
+    let part = lines[carets - 1].chars().skip(begin).take(end - begin).collect();
+    let numbers: Vec<usize> =
+        lines[0].split(':').filter_map(|part| part.trim().parse().ok()).take(2).collect();
+    (numbers[0], numbers[1], part)
+}
+
+#[test]
+fn carets_stand_below_the_part_that_is_wrong() {
+    for (script, line, column, part) in [
+        ("local a = 1\nprint(  flors)", 2, 9, "flors"),
+        ("local t = turtle({ wdth = 3 })", 1, 20, "wdth"),
+        ("local t = turtle({ width = \"a\" })", 1, 29, "a"),
+        ("local t = {}\n  print(t.size.width)", 2, 16, "width"),
+        ("local n\nprint(3 + n)", 2, 9, "+"),
+        ("local f = nil\nlocal x = f(1)", 2, 11, "f"),
+        ("if a != 2 then end", 1, 6, "!="),
+        ("local ä = 'é' .. nil", 1, 15, ".."),
+        ("local c = rgb(\"#12\")", 1, 16, "#12"),
+        ("error('no way')", 1, 8, "no way"),
+        ("local x = 3\n\treturn\tx.y.z", 2, 9, "x.y.z"),
+    ] {
+        let text = refused(script);
+        let found = marked(&text);
+        if part != "x.y.z" {
+            assert_eq!((found.0, found.1, found.2.as_str()), (line, column, part), "{script}\n{text}");
+        } else {
+            // Without a part that the message names alone, the whole text is marked.
+            assert_eq!((found.0, found.1), (line, 2), "{text}");
+        }
+    }
+}
+
+#[test]
+fn errors_of_rules_have_their_column_too() {
+    assert_snapshot!(refused_rules("s:interpret(\"A(x)\", function(this, x)\n    this:forward(1, 2)\nend)"), @"");
+    assert_snapshot!(refused_rules("s:interpret(\"A(x)\", function(this, x) this.forward(1) end)"), @"");
+    assert_snapshot!(refused_rules("s:rule(\"A(x)\", function(this, x) return A(x, 2) end)"), @"");
+}
+
+#[test]
+fn json_has_the_column_and_the_severity() {
+    let folder = Folder::new().with("s.lua", format!("{HEAD}  print(flors)\ns:derive(0)\n"));
+    let document = folder.burgeon(&["run", "s.lua", "--json"]).json();
+    let error = &document["errors"][0];
+    let parts = ["line", "column", "end_column", "severity"].map(|name| error[name].to_string());
+    assert_eq!(parts, ["3", "9", "14", "\"error\""]);
+    let folder = Folder::new().with("s.lua", format!("{HEAD}print(math.sin(90))\ns:derive(0)\n"));
+    let document = folder.burgeon(&["check", "s.lua", "--json"]).done().json();
+    let warnings = document["warnings"].as_array().unwrap();
+    let doubtful = warnings.iter().find(|warning| warning["kind"] == "doubtful").unwrap();
+    let parts = ["line", "column", "end_column", "severity"].map(|name| doubtful[name].to_string());
+    assert_eq!(parts, ["3", "16", "18", "\"warning\""]);
+}
+
+#[test]
+fn angles_of_the_wrong_unit_are_warned_about() {
+    let folder = Folder::new().with(
+        "s.lua",
+        "local A = module(\"A\")\nlocal s = lsystem({ object = turtle() }) s:axiom(A())\ns:rule(\"A\", function() return Turn(math.rad(90)), F(math.sin(90)) end)\ns:derive(1)",
+    );
+    assert_snapshot!(folder.warned(&["run", "s.lua"]), @"");
+}
+
+#[test]
+fn a_check_finds_a_forgotten_return_and_a_dot_in_place_of_a_colon() {
+    let script = |rules: &str| Folder::new().with("s.lua", format!("{HEAD}{rules}\ns:derive(1)\n"));
+    let folder = script("s:rule(\"A(x)\", function(this, x)\n  if x > 1 then return B() end\n  B()\nend)");
+    let text = folder.burgeon(&["check", "s.lua", "--quick"]).done().stderr;
+    assert!(
+        text.contains("s.lua:5:3: rule A(x): the function of the rule ends here without return"),
+        "{text}"
+    );
+    let folder = script("s:interpret(\"A(x)\", function(this, x)\n  if x > 5 then this.forward(1) end\nend)");
+    let text = folder.refuses(&["check", "s.lua"]);
+    assert!(text.contains("s.lua:4:22: ") && text.contains("write a colon: this:forward(...)"), "{text}");
+    let folder = script("if false then s.rule(\"A\", \"B\") end");
+    let text = folder.refuses(&["check", "s.lua"]);
+    assert!(text.contains("s.lua:3:17: ") && text.contains("write a colon: s:rule(...)"), "{text}");
+}
+
+#[test]
+fn a_wrong_argument_or_field_has_the_declaration_as_its_remedy() {
+    for (script, remedy) in [
+        (
+            "s:interpret(\"A(x)\", function(this, x) this:forward(1, 2) end)",
+            "write this:forward(length: number?",
+        ),
+        ("local t = turtle({ color = \"redd\" })", "color = \"#ff8000\""),
+        ("local t = turtle({ sides = \"a\" })", "sides takes a number"),
+    ] {
+        let text = refused_rules(script);
+        assert!(text.contains(&format!("help: {remedy}")) || text.contains(remedy), "{script}\n{text}");
+    }
+}
+
+#[test]
+fn no_message_speaks_of_types_of_the_program() {
+    for script in [
+        "print(vec(\"a\"))",
+        "turtle(3)",
+        "lsystem(3)",
+        "module(3)",
+        "module(nil)",
+        "param(3)",
+        "param(\"a\", 3)",
+        "source(nil)",
+        "rgb({})",
+        "noise(\"a\")",
+        "random({}, 2)",
+        "lsystem({ object = turtle(), seed = {} })",
+        "local s = lsystem() s:axiom(3)",
+        "local s = lsystem() s:rule(3, 4)",
+        "local s = lsystem() s:derive({})",
+        "turtle():forward({})",
+        "footprint({ geometry = 3 })",
+        "extruder({ sides = {} })",
+        "string.rep()",
+        "table.concat(3)",
+        "math.floor({})",
+        "tonumber()",
+        "select(0)",
+        "require(3)",
+    ] {
+        let text = refused(script);
+        let words = [
+            "f64", "i64", "u32", "usize", "Option<", "Vec<", "String", "HashMap", "UserData", "mlua",
+            "serde", "&str",
+        ];
+        for word in words {
+            assert!(!text.contains(word), "{word} in the message of {script}: {text}");
+        }
+        assert!(text.starts_with("error: s.lua:1:"), "{script}: {text}");
+    }
+}
+
+#[test]
+fn print_shows_tables_modules_and_objects() {
+    let lines = printed(
+        "local A = module(\"A\", \"x\", \"y?\")\nprint({ 1, { 2, \"b\" }, name = \"c\\\"d\", [\"e f\"] = true, [10] = 3 })\nprint({}, A, A(3), vec(1, 2, 3), print, nil)\nprint({ A(1), A }, turtle(), lsystem())\nlocal t = {} t.t = t print(t)\nprint(\"a\\27[2J\\255\", { \"\\255\\0\" })",
+    );
+    assert_snapshot!(lines.join("\n"), @"");
+}
+
+#[test]
+fn print_of_a_large_table_is_short() {
+    let lines = printed(
+        "local t = {} for i = 1, 100000 do t[i] = i end print(t)\nlocal d = {} for i = 1, 100 do d = { d } end print(d)\nlocal w = {} for i = 1, 300 do w[\"k\" .. i] = string.rep(\"x\", 1000) end print(w)",
+    );
+    assert!(lines[0].ends_with("200, and 99800 more }") && lines[0].len() < 2000, "{}", lines[0]);
+    assert!(lines[1].contains("{ ... }") && lines[1].len() < 100, "{}", lines[1]);
+    assert!(lines[2].len() < 30_000 && lines[2].contains(" more }"), "{}", lines[2].len());
+}
