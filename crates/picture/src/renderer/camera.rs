@@ -91,6 +91,11 @@ impl Camera {
         Vec3A::new(x, y, 1.0 - self.near * scale)
     }
 
+    /// Returns the size of a pixel at the distance of `position`, in the stage's units.
+    pub(super) fn footprint(&self, position: Vec3A) -> f32 {
+        (position - self.eye).dot(self.forward) / self.focal
+    }
+
     /// Returns the direction, not of unit length, from the eye through pixel coordinates `x`, `y`.
     pub(super) fn ray(&self, x: f32, y: f32) -> Vec3A {
         let (x, y) = ((x - self.center[0]) / self.focal, (y - self.center[1]) / self.focal);

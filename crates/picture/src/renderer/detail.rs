@@ -22,6 +22,11 @@ pub(super) struct RenderDetail {
     /// Set if the surfaces of a crowded pixel share the sky's light that they gather, as do neighbouring pixels of the
     /// ground.
     pub pools_light: bool,
+    /// Number of neighbouring pixels among which the maps of the sky are divided: 1, or the square of 2 or 4. The pixels
+    /// then share the light that they gather.
+    pub turns: usize,
+    /// Maximum number of surfaces of a pixel that are shaded; those of fewer samples count as the others.
+    pub surfaces: usize,
 }
 
 impl RenderDetail {
@@ -34,12 +39,14 @@ impl RenderDetail {
             Quality::Draft => Self {
                 columns: 1,
                 rows: 4,
-                sky_maps: affordable(2_500_000, 40, 10),
-                sky_side: 160.0,
-                sky_points: false,
-                sun_side: 768.0,
-                sun_taps: 12,
+                sky_maps: affordable(4_000_000, 40, 16),
+                sky_side: 192.0,
+                sky_points: true,
+                sun_side: 1024.0,
+                sun_taps: 10,
                 pools_light: false,
+                turns: 4,
+                surfaces: 2,
             },
             Quality::Film => Self {
                 columns: 2,
@@ -50,16 +57,32 @@ impl RenderDetail {
                 sun_side: 1280.0,
                 sun_taps: 16,
                 pools_light: true,
+                turns: 1,
+                surfaces: usize::MAX,
             },
             Quality::Fine => Self {
+                columns: 1,
+                rows: 8,
+                sky_maps: affordable(26_000_000, 72, 36),
+                sky_side: 448.0,
+                sky_points: true,
+                sun_side: 3072.0,
+                sun_taps: 28,
+                pools_light: false,
+                turns: 4,
+                surfaces: 4,
+            },
+            Quality::Best => Self {
                 columns: 2,
                 rows: 8,
-                sky_maps: affordable(26_000_000, 112, 18),
+                sky_maps: affordable(26_000_000, 112, 28),
                 sky_side: 768.0,
                 sky_points: false,
                 sun_side: 4096.0,
                 sun_taps: 40,
                 pools_light: false,
+                turns: 1,
+                surfaces: usize::MAX,
             },
         }
     }

@@ -4,8 +4,9 @@ use super::super::settings::{Background, Picture};
 use super::coverage::noise;
 use super::detail::RenderDetail;
 use super::shade::{Fragment, Light};
+use super::share;
 use super::sky::smooth;
-use super::surface::SurfacePoint;
+use super::surface::{SeenPoint, SurfacePoint};
 use super::tone;
 use super::visible::Visible;
 use burgeon_base::srgb_byte;
@@ -16,7 +17,7 @@ use rayon::prelude::*;
 /// Maximum number of samples in memory, which takes 8 bytes for each.
 const HELD: usize = 32_000_000;
 /// Width and height (pixels) of a tile that is shaded together.
-const TILE: [usize; 2] = [16, 8];
+const TILE: [usize; 2] = [32, 16];
 /// Distances from the model, in the stage's units, up to which the ground shows its full shadow, and from which on it
 /// shows none.
 const FADE: [f32; 2] = [0.7, 2.4];
@@ -70,6 +71,7 @@ fn tile(
     let mut fragments: Vec<Fragment> = Vec::new();
     let mut shares: Vec<FragmentShare> = Vec::new();
     let mut colors = vec![Vec4::ZERO; size[0] * size[1]];
+    let mut hint = 0;
     let mut seen: Vec<(Option<u32>, f32, [f32; 2])> = Vec::new();
     for (pixel, color) in colors.iter_mut().enumerate() {
         let (x, y) = (corner[0] + pixel % size[0], corner[1] + pixel / size[0]);
@@ -87,16 +89,26 @@ fn tile(
             // The ground comes last, so that all others can share their light.
             seen.sort_by_key(|(number, ..)| number.is_none());
         }
+        if seen.len() > detail.surfaces {
+            // The order of the samples is the same for any number of threads, and the sort is stable.
+            seen.sort_by(|(_, a, _), (_, b, _)| b.total_cmp(a));
+            seen.truncate(detail.surfaces);
+        }
         let part = 1.0 / seen.iter().map(|(_, count, _)| count).sum::<f32>();
         let noise = noise(x as u32, y as u32, 1);
         let first = fragments.len();
         for (number, count, sum) in &seen {
             let place = sum.map(|sum| sum / count);
             let weight = count * part;
-            let surface = match number {
+            let seen = match number {
                 Some(number) => {
-                    SurfacePoint::at_pixel(light.stage, light.textures, light.camera, *number, place)
+                    let (stage, textures) = (light.stage, light.textures);
+                    Some(SeenPoint::at_pixel(stage, &mut hint, textures, light.camera, *number, place))
                 }
+                None => None,
+            };
+            let surface = match &seen {
+                Some(seen) => seen.surface.clone(),
                 None => match ground(light, place) {
                     Some(surface) => surface,
                     None => {
@@ -106,25 +118,29 @@ fn tile(
                 },
             };
             // Triangles of one smooth surface are shaded as one fragment.
-            let ground = number.is_none();
             let alike = (first..fragments.len()).find(|i| fragments[*i].joins(&surface));
-            match alike {
-                Some(i) => shares[i].weight += weight,
-                None => {
-                    fragments.push(Fragment::new(surface, noise, fragments.len()));
-                    shares.push(FragmentShare { pixel, weight, ground });
-                }
+            if let Some(i) = alike {
+                shares[i].weight += weight;
+                continue;
             }
+            let ground = seen.is_none();
+            let surface = seen.map_or(surface, |seen| seen.finish(light.camera));
+            fragments.push(Fragment::new(surface, noise, fragments.len()));
+            shares.push(FragmentShare { pixel, weight, ground });
         }
         match detail.pools_light {
             true => pool_light(&mut fragments[first..], first),
-            false => take_turns(&mut fragments[first..], light.sky.maps.len()),
+            false => share::take_turns(&mut fragments[first..], light.sky.maps.len(), detail.turns, [x, y]),
         }
     }
     if detail.pools_light {
         pool_ground(&mut fragments, &shares, size[0]);
     }
-    let gathered = light.gather(&fragments, fragments.len());
+    let mut gathered = light.gather(&fragments, fragments.len());
+    if detail.turns > 1 {
+        let pixels: Vec<usize> = shares.iter().map(|share| share.pixel).collect();
+        gathered = share::add_neighbours(&fragments, &pixels, &gathered, size, light.camera);
+    }
     for (fragment, share) in fragments.iter().zip(&shares) {
         let gathered = &gathered[fragment.pool];
         let color = if share.ground {
@@ -141,21 +157,13 @@ fn tile(
     colors.into_iter().map(encode).collect()
 }
 
-/// Distributes lookups among the `fragments` of a pixel if they are many, because their light is mixed anyway. Each
-/// fragment gets enough of the sky's `maps` to distinguish light from shade.
-fn take_turns(fragments: &mut [Fragment], maps: usize) {
-    let turns = fragments.len().div_ceil(2).min(maps / 12).max(1);
-    for (i, fragment) in fragments.iter_mut().enumerate() {
-        fragment.share = (i % turns, turns);
-    }
-}
-
 /// Lets the surfaces of a crowded pixel share one light, the first of which has the index `pool`: each gathers it from a
 /// part of the sky, because their colours are mixed anyway. The ground, which is the last fragment, gathers its own.
 fn pool_light(fragments: &mut [Fragment], pool: usize) {
     let count = fragments.iter().filter(|fragment| fragment.surface.material.is_some()).count();
     if count > 2 {
         for (i, fragment) in fragments[..count].iter_mut().enumerate() {
+            fragment.crowd = (i, count);
             (fragment.share, fragment.pool) = ((i, count), pool);
         }
     }

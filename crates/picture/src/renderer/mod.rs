@@ -19,6 +19,7 @@ mod render;
 #[cfg(test)]
 mod samples;
 mod shade;
+mod share;
 mod sky;
 mod sky_points;
 mod stage;

@@ -34,8 +34,10 @@ pub(super) struct Light<'a> {
 pub(super) struct Fragment {
     /// Visible point of the surface.
     pub surface: SurfacePoint,
-    /// Index and number of the fragments that share the sky maps and the lookups in the sun's map.
+    /// Index and number of the fragments that share the sky maps.
     pub share: (usize, usize),
+    /// Index and number of the fragments of the same pixel that share the lookups in the sun's map.
+    pub crowd: (usize, usize),
     /// Number from 0 to 1 that varies from pixel to pixel.
     pub noise: f32,
     /// Index of the light that the fragment gathers, alone or with others.
@@ -54,7 +56,7 @@ pub(super) struct GatheredLight {
 impl Fragment {
     /// Creates a fragment that gathers the light `pool`.
     pub(super) fn new(surface: SurfacePoint, noise: f32, pool: usize) -> Self {
-        Self { surface, share: (0, 1), noise, pool }
+        Self { surface, share: (0, 1), crowd: (0, 1), noise, pool }
     }
 
     /// Returns true if another `surface` in the same pixel would look the same.
@@ -68,6 +70,14 @@ impl Fragment {
 }
 
 impl GatheredLight {
+    /// Adds the light that another fragment has gathered from other maps.
+    pub(super) fn add(&mut self, other: &Self) {
+        for i in 0..2 {
+            self.sky[i] += other.sky[i];
+            self.mirrored[i] += other.mirrored[i];
+        }
+    }
+
     /// Returns the fraction of the sky's light that arrives, for each colour.
     fn openness(&self) -> Vec3 {
         let [seen, all] = self.sky;
@@ -108,18 +118,17 @@ impl Light<'_> {
         let mut gathered = vec![GatheredLight::default(); pools];
         let count = self.sky.maps.len();
         let probes = fragments.iter().map(|fragment| Probe::new(fragment, self.sky.lift));
-        let (whole, shared): (Vec<Probe>, Vec<Probe>) = probes.partition(|probe| probe.share.1 == 1);
-        for map in &self.sky.maps {
-            for probe in &whole {
-                self.add_light(probe, map, &mut gathered[probe.pool]);
-            }
-        }
-        for probe in &shared {
-            let (turn, of) = probe.share;
+        let mut probes: Vec<Probe> = probes.collect();
+        // Probes of the same maps are close together, so that each map stays in the cache.
+        probes.sort_by_key(|probe| probe.share);
+        for probes in probes.chunk_by(|a, b| a.share == b.share) {
+            let (turn, of) = probes[0].share;
             // The maps whose number times `of`, divided by `count`, is `turn`.
             let maps = (turn * count).div_ceil(of)..((turn + 1) * count).div_ceil(of);
             for map in &self.sky.maps[maps] {
-                self.add_light(probe, map, &mut gathered[probe.pool]);
+                for probe in probes {
+                    self.add_light(probe, map, &mut gathered[probe.pool]);
+                }
             }
         }
         gathered
@@ -200,7 +209,7 @@ impl Light<'_> {
     }
 
     fn sun_seen(&self, fragment: &Fragment, normal: Vec3A) -> f32 {
-        self.sun.visibility(fragment.surface.rounded, normal, fragment.noise * TAU, fragment.share)
+        self.sun.visibility(fragment.surface.rounded, normal, fragment.noise * TAU, fragment.crowd)
     }
 
     /// Returns the sun's highlight for unit irradiance: GGX with the height-correlated Smith term and Schlick's Fresnel

@@ -142,9 +142,10 @@ impl SkySample {
 
     /// Draws all triangles.
     fn draw(&mut self, stage: &Stage) {
-        let all = 0..stage.triangles() as u32;
         let to_texels = self.frame.to_texels;
-        stage.each_triangle(all, &to_texels, |p| p, None, |draw, triangle| self.cover(draw, &triangle));
+        stage.each_caster(0..stage.triangles() as u32, &to_texels, |draw, triangle| {
+            self.cover(draw, &triangle)
+        });
     }
 
     /// Draws the points that stand for small triangles, and the other triangles. The map has this `number`.

@@ -9,9 +9,13 @@ use super::points;
 use super::texture::SampledTexture;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::stop::Stop;
-use burgeon_scene::{Material, Part, Scene};
-use glam::{Affine3A, DAffine3, DMat3, Mat3A, Vec3A};
+use burgeon_scene::{Material, Mesh, Part, Scene};
+use glam::{Affine3A, DAffine3, DMat3, DVec3, Mat3A, Vec3, Vec3A};
+use rayon::prelude::*;
 use std::ops::Range;
+
+/// Maximum length of the sum of the areas of a closed surface, as vectors, relative to the sum of their lengths.
+const CLOSED: f64 = 1e-3;
 
 /// Scene around the origin, in units of the radius of the sphere around its box.
 pub(super) struct Stage<'a> {
@@ -26,7 +30,7 @@ pub(super) struct Stage<'a> {
     /// Transform from the world to the stage.
     pub shrink: DAffine3,
     count: u32,
-    outlines: Vec<Vec<glam::Vec3>>,
+    outlines: Vec<Vec<Vec3>>,
     places: Vec<(usize, Affine3A)>,
     /// Cancellation signal. After cancellation nothing more is drawn.
     pub stop: &'a Stop,
@@ -52,6 +56,8 @@ pub(super) struct DrawCall<'a> {
     pub cutout: Option<&'a SampledTexture>,
     /// Set if both sides are visible.
     pub double_sided: bool,
+    /// Set if the part belongs to a closed solid, so that only its lit side casts shadows.
+    closed: bool,
 }
 
 /// Triangle, or a clipped part of one, after projection to a view.
@@ -97,6 +103,7 @@ impl<'a> Stage<'a> {
         let (center, radius) = extent.map_or_else(|| points::sphere(low, high), |extent| extent.sphere(turn));
         let shrink = DAffine3::from_mat3_translation(turn * (1.0 / radius), -center / radius);
 
+        let closed: Vec<bool> = scene.meshes.par_iter().map(is_closed).collect();
         let mut draws = Vec::new();
         let mut places = Vec::new();
         let mut count = 0_u32;
@@ -124,6 +131,7 @@ impl<'a> Stage<'a> {
                     opacity,
                     cutout,
                     double_sided,
+                    closed: closed[instance.mesh] && !double_sided,
                 });
                 let length = u32::try_from(part.triangles.len()).ok();
                 count = length
@@ -185,6 +193,63 @@ impl<'a> Stage<'a> {
         (draw, (number - draw.first) as usize)
     }
 
+    /// Returns the same as [`find`](Self::find). `hint` is the index of a draw that may contain the triangle, and becomes the
+    /// index of the one that does.
+    pub(super) fn find_near(&self, number: u32, hint: &mut usize) -> (&DrawCall<'a>, usize) {
+        let is_here = |draw: &&DrawCall<'a>| {
+            number.checked_sub(draw.first).is_some_and(|index| (index as usize) < draw.part.triangles.len())
+        };
+        if !self.draws.get(*hint).as_ref().is_some_and(is_here) {
+            *hint = self.draws.partition_point(|draw| draw.first <= number) - 1;
+        }
+        let draw = &self.draws[*hint];
+        (draw, (number - draw.first) as usize)
+    }
+
+    /// Calls `emit` with the draw and each triangle in `numbers` that casts a shadow in a map with the projection `view`,
+    /// at single precision. Of closed solids these are the triangles that face the light.
+    pub(super) fn each_caster(
+        &self,
+        numbers: Range<u32>,
+        view: &Affine3A,
+        mut emit: impl FnMut(&DrawCall<'a>, ProjectedTriangle),
+    ) {
+        let mut corners: Vec<Vec3A> = Vec::new();
+        let start = self.draws.partition_point(|draw| draw.first <= numbers.start).saturating_sub(1);
+        for draw in self.draws.get(start..).unwrap_or_default() {
+            if draw.first >= numbers.end || self.stop.is_stopped() {
+                break;
+            }
+            let from = (numbers.start.max(draw.first) - draw.first) as usize;
+            let to = ((numbers.end - draw.first) as usize).min(draw.part.triangles.len());
+            let Some((least, most)) = draw.part.triangles.corner_bounds(from..to) else { continue };
+            let place = *view * draw.place;
+            let project = |point: &Vec3| place.transform_point3a(Vec3A::from(*point));
+            let positions = &draw.part.positions;
+            let dense = ((most - least) as usize) < 3 * (to - from);
+            if dense {
+                corners.clear();
+                corners.extend(positions[least as usize..=most as usize].iter().map(project));
+            }
+            let first = draw.first + from as u32;
+            for (number, numbers) in (first..).zip(draw.part.triangles.range(from..to)) {
+                let [a, b, c] = match dense {
+                    true => numbers.map(|i| corners[(i - least) as usize]),
+                    false => numbers.map(|i| project(&positions[i as usize])),
+                };
+                if draw.closed {
+                    let turn = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+                    if (turn < 0.0) != draw.mirrored {
+                        continue;
+                    }
+                }
+                if (a + b + c).is_finite() {
+                    emit(draw, ProjectedTriangle { number, corners: [a, b, c], weights: None });
+                }
+            }
+        }
+    }
+
     /// Calls `emit` with the draw and each triangle in `numbers`, its corners transformed by `view` and `project`.
     ///
     /// Triangles with a corner that `project` cannot project are clipped at the plane at the distance `near`, if given.
@@ -210,8 +275,8 @@ impl<'a> Stage<'a> {
             let to = ((numbers.end - draw.first) as usize).min(draw.part.triangles.len());
             let triangles = draw.part.triangles.range(from..to);
             let matrix = to_double(view) * draw.exact;
-            let place = |point: &glam::Vec3| matrix.transform_point3(point.as_dvec3()).as_vec3a();
-            let turn = |point: &glam::Vec3| project(place(point));
+            let place = |point: &Vec3| matrix.transform_point3(point.as_dvec3()).as_vec3a();
+            let turn = |point: &Vec3| project(place(point));
             let Some((least, most)) = draw.part.triangles.corner_bounds(from..to) else { continue };
             let (least, most) = (least as usize, most as usize);
             let positions = &draw.part.positions;
@@ -244,6 +309,22 @@ impl<'a> Stage<'a> {
             }
         }
     }
+}
+
+/// Returns true if as much of the surface of `mesh` faces each direction as faces away from it, as with all closed solids.
+fn is_closed(mesh: &Mesh) -> bool {
+    let (mut sum, mut total) = (DVec3::ZERO, 0.0);
+    for part in &mesh.parts {
+        for numbers in part.triangles.iter() {
+            let [a, b, c] = numbers.map(|i| part.positions[i as usize]);
+            let cross = (b - a).cross(c - a).as_dvec3();
+            if cross.is_finite() {
+                sum += cross;
+                total += cross.length();
+            }
+        }
+    }
+    sum.length() < CLOSED * total
 }
 
 /// Converts `place` to double precision.
@@ -297,9 +378,9 @@ fn scene_error(message: String) -> Error {
 
 #[cfg(test)]
 mod tests {
+    use super::super::light_map::LightProjection;
     use super::super::samples;
     use super::*;
-    use glam::DVec3;
 
     #[test]
     fn a_triangle_is_found_by_its_number() {
@@ -320,6 +401,27 @@ mod tests {
             },
         );
         assert_eq!(seen, 25);
+    }
+
+    #[test]
+    fn a_closed_solid_casts_shadows_with_half_of_its_triangles_and_a_sheet_with_all() {
+        let mut scene = samples::boxes(&[DVec3::ZERO]);
+        scene.instances[0].transform = DAffine3::from_scale(DVec3::new(1.0, -2.0, 1.0));
+        let casters = |scene: &Scene| {
+            let stage = Stage::new(scene).unwrap();
+            let frame = LightProjection::fit(&stage.hull, Vec3A::new(0.48, 0.6, 0.64), 20.0);
+            let mut sum = 0.0;
+            let mut seen = 0;
+            stage.each_caster(0..stage.triangles() as u32, &frame.to_texels, |_, triangle| {
+                sum += triangle.corners.iter().map(|corner| corner.z).sum::<f32>() / 3.0;
+                seen += 1;
+            });
+            (seen, sum / seen as f32 / frame.depth)
+        };
+        let (seen, depth) = casters(&scene);
+        assert!(seen == 6 && depth < 0.5, "{seen} triangles at the depth {depth}");
+        scene.meshes[0].parts[0].triangles.truncate(10);
+        assert_eq!(casters(&scene).0, 10);
     }
 
     #[test]

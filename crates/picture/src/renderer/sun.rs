@@ -47,25 +47,19 @@ impl Sun {
         let width = frame.width;
         let grid = RasterGrid { width, rows: 0..frame.height, shifts: &[128.0] };
         stage.batches().into_par_iter().for_each(|numbers| {
-            stage.each_triangle(
-                numbers,
-                &frame.to_texels,
-                |p| p,
-                None,
-                |draw, triangle| {
-                    let coverage = Coverage::of(draw, &triangle, [4, 4], false);
-                    grid.cover(triangle.corners, |y, xs, z, growth| {
-                        for (i, x) in xs.enumerate() {
-                            // The bit patterns of non-negative floats have the same order as the floats.
-                            let depth = (z + growth * i as f32).max(0.0).to_bits();
-                            let texel = &texels[y * width + x];
-                            if depth < texel.load(Ordering::Relaxed) && coverage.covers(x, y, 128.0) {
-                                texel.fetch_min(depth, Ordering::Relaxed);
-                            }
+            stage.each_caster(numbers, &frame.to_texels, |draw, triangle| {
+                let coverage = Coverage::of(draw, &triangle, [4, 4], false);
+                grid.cover(triangle.corners, |y, xs, z, growth| {
+                    for (i, x) in xs.enumerate() {
+                        // The bit patterns of non-negative floats have the same order as the floats.
+                        let depth = (z + growth * i as f32).max(0.0).to_bits();
+                        let texel = &texels[y * width + x];
+                        if depth < texel.load(Ordering::Relaxed) && coverage.covers(x, y, 128.0) {
+                            texel.fetch_min(depth, Ordering::Relaxed);
                         }
-                    });
-                },
-            );
+                    }
+                });
+            });
         });
         let depths = texels.into_iter().map(|texel| f32::from_bits(texel.into_inner())).collect();
         let pools_light = detail.pools_light;

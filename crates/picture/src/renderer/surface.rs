@@ -1,7 +1,7 @@
 //! Surface point that a pixel sees.
 
 use super::camera::Camera;
-use super::stage::Stage;
+use super::stage::{DrawCall, Stage};
 use super::texture::SampledTexture;
 use glam::{Vec2, Vec3, Vec3A};
 
@@ -33,6 +33,7 @@ pub(super) struct SurfacePoint {
 }
 
 /// Triangle on the stage.
+#[derive(Debug, Clone, Copy)]
 struct StageTriangle {
     a: Vec3A,
     ab: Vec3A,
@@ -54,16 +55,32 @@ impl StageTriangle {
     }
 }
 
-impl SurfacePoint {
-    /// Returns the point of triangle `number` at pixel coordinates `place`.
+/// Point of a triangle that a pixel sees, before its texture is read.
+pub(super) struct SeenPoint<'a> {
+    /// Point with the colour of its material.
+    pub surface: SurfacePoint,
+    texture: Option<&'a SampledTexture>,
+    draw: &'a DrawCall<'a>,
+    corners: [usize; 3],
+    triangle: StageTriangle,
+    /// Weights of the second and third corner, and the same within the triangle.
+    exact: Vec2,
+    inside: Vec2,
+    place: [f32; 2],
+}
+
+impl<'a> SeenPoint<'a> {
+    /// Returns the point of triangle `number` at pixel coordinates `place`. The `hint` is the index of the draw that was found
+    /// last, where the search begins.
     pub(super) fn at_pixel(
-        stage: &Stage,
-        textures: &[Option<SampledTexture>],
+        stage: &'a Stage<'a>,
+        hint: &mut usize,
+        textures: &'a [Option<SampledTexture>],
         camera: &Camera,
         number: u32,
         place: [f32; 2],
     ) -> Self {
-        let (draw, index) = stage.find(number);
+        let (draw, index) = stage.find_near(number, hint);
         let part = draw.part;
         let triangle = part.triangles.get(index).unwrap_or_default().map(|i| i as usize);
         let [a, b, c] = triangle.map(|i| draw.place.transform_point3a(Vec3A::from(part.positions[i])));
@@ -79,38 +96,56 @@ impl SurfacePoint {
         let plane = outward.normalize_or(view);
         let side = if plane.dot(view) < 0.0 { -1.0 } else { 1.0 };
         let weights = [1.0 - inside.x - inside.y, inside.x, inside.y];
-        let normals = triangle.map(|i| {
-            let local = part.normals.get(i).map_or(Vec3::ZERO, |normal| normal.vector());
-            (draw.turn * Vec3A::from(local)).normalize_or(plane) * side
-        });
-        let blended = normals[0] * weights[0] + normals[1] * weights[1] + normals[2] * weights[2];
-        let normal = blended.normalize_or(plane * side);
+        let local = |i: usize| part.normals.get(i).map_or(Vec3::ZERO, |normal| normal.vector());
+        let blended: Vec3 = triangle.iter().zip(weights).map(|(i, weight)| local(*i) * weight).sum();
+        let normal = (draw.turn * Vec3A::from(blended)).normalize_or(plane) * side;
 
         let material = &stage.materials[part.material];
         let [red, green, blue, _] = material.base_color;
-        let mut base = Vec3::new(red, green, blue);
-        if let Some(texture) = &textures[part.material] {
-            let [ua, ub, uc] = triangle.map(|i| part.uvs.get(i).copied().unwrap_or_default());
-            let uv = |weights: Vec2| ua + (ub - ua) * weights.x + (uc - ua) * weights.y;
-            let beside = |x: f32, y: f32| corners.weights(camera.eye, camera.ray(place[0] + x, place[1] + y));
-            let here = uv(exact);
-            base *= texture.color(uv(inside), uv(beside(1.0, 0.0)) - here, uv(beside(0.0, 1.0)) - here);
-        }
-        Self {
+        let texture = textures[part.material].as_ref();
+        let surface = SurfacePoint {
             position,
-            rounded: round_position(position, [a, b, c], normals, weights),
+            rounded: position,
             plane: plane * side,
             normal: bend(normal, view),
             view,
             material: Some(part.material),
-            base,
+            base: Vec3::new(red, green, blue),
             metallic: material.metallic.clamp(0.0, 1.0),
             roughness: material.roughness.clamp(0.06, 1.0),
             emissive: Vec3::from_array(material.emissive),
             thin: material.double_sided && material.metallic < 0.5,
-        }
+        };
+        Self { surface, texture, draw, corners: triangle, triangle: corners, exact, inside, place }
     }
 
+    /// Returns the point with the colour of its texture, on the smooth surface.
+    pub(super) fn finish(self, camera: &Camera) -> SurfacePoint {
+        let mut surface = self.surface;
+        let (part, StageTriangle { a, ab, ac, .. }) = (self.draw.part, self.triangle);
+        let side = if surface.plane.dot(self.triangle.cross) < 0.0 { -1.0 } else { 1.0 };
+        let side = if self.draw.mirrored { -side } else { side };
+        let normals = self.corners.map(|i| {
+            let local = part.normals.get(i).map_or(Vec3::ZERO, |normal| normal.vector());
+            (self.draw.turn * Vec3A::from(local)).normalize_or(surface.plane * side) * side
+        });
+        let weights = [1.0 - self.inside.x - self.inside.y, self.inside.x, self.inside.y];
+        surface.rounded = round_position(surface.position, [a, a + ab, a + ac], normals, weights);
+        if let Some(texture) = self.texture {
+            let [a, b, c] = self.corners.map(|i| part.uvs.get(i).copied().unwrap_or_default());
+            let uv = |weights: Vec2| a + (b - a) * weights.x + (c - a) * weights.y;
+            let [x, y] = self.place;
+            let beside = |right: f32, down: f32| {
+                uv(self.triangle.weights(camera.eye, camera.ray(x + right, y + down)))
+            };
+            let here = uv(self.exact);
+            surface.base *= texture.color(uv(self.inside), beside(1.0, 0.0) - here, beside(0.0, 1.0) - here);
+        }
+        surface
+    }
+}
+
+impl SurfacePoint {
     /// Returns the direction of reflection of the view vector.
     pub(super) fn mirror(&self) -> Vec3A {
         self.normal * (2.0 * self.normal.dot(self.view)) - self.view

@@ -92,21 +92,25 @@ fn the_number_of_threads_does_not_change_a_byte() {
     scene
         .instances
         .extend((1..9).map(|i| instance(DVec3::new(f64::from(i) * 9.0, f64::from(i % 3) * 8.0, 0.0))));
-    let picture = Picture { background: Background::Light, ground: true, ..small() };
-    let with = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| render(&scene, &picture)).unwrap()
-    };
-    assert!(with(1) == with(3));
+    for quality in [Quality::Draft, Quality::Fine] {
+        let picture = Picture { background: Background::Light, ground: true, quality, ..small() };
+        let with = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| render(&scene, &picture)).unwrap()
+        };
+        assert!(with(1) == with(3));
+    }
 }
 
 #[test]
 fn an_edge_is_smooth() {
-    let image = render(&boxes(&[DVec3::ZERO]), &Picture { quality: Quality::Fine, ..small() }).unwrap();
-    let mut values: Vec<u8> = image.pixels().iter().map(|pixel| pixel[3]).collect();
-    values.sort_unstable();
-    values.dedup();
-    assert!(values.len() > 12, "{} steps between nothing and the model", values.len());
+    for (quality, steps) in [(Quality::Draft, 5), (Quality::Fine, 9), (Quality::Best, 13)] {
+        let image = render(&boxes(&[DVec3::ZERO]), &Picture { quality, ..small() }).unwrap();
+        let mut values: Vec<u8> = image.pixels().iter().map(|pixel| pixel[3]).collect();
+        values.sort_unstable();
+        values.dedup();
+        assert!(values.len() >= steps, "{} steps between nothing and the model", values.len());
+    }
 }
 
 #[test]

@@ -121,7 +121,7 @@ fn read(texture: &burgeon_scene::Texture) -> std::io::Result<Vec<u8>> {
 
 /// Converts a pixel to a linear colour times its opacity, and the opacity.
 fn linear([red, green, blue, alpha]: [u8; 4]) -> Vec4 {
-    let color = [red, green, blue].map(|byte| tone::decode(f32::from(byte) / 255.0));
+    let color = [red, green, blue].map(tone::decode);
     let alpha = f32::from(alpha) / 255.0;
     (Vec3::from_array(color) * alpha).extend(alpha)
 }

@@ -1,6 +1,7 @@
 //! Tone mapping: converts light to display colours.
 
 use glam::Vec3;
+use std::sync::LazyLock;
 
 /// Compresses light of any strength to 0 to 1, preserving the hue and saturation of colours that are not glaring.
 ///
@@ -23,9 +24,15 @@ pub(super) fn compress(light: Vec3) -> Vec3 {
     (light * (compressed / peak)).lerp(Vec3::splat(compressed), faded)
 }
 
-/// Converts an sRGB value from 0 to 1 to a linear value.
-pub(super) fn decode(curved: f32) -> f32 {
-    if curved <= 0.040_45 { curved / 12.92 } else { ((curved + 0.055) / 1.055).powf(2.4) }
+/// Returns the linear value, 0 to 1, of an sRGB byte.
+pub(super) fn decode(byte: u8) -> f32 {
+    static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
+        std::array::from_fn(|byte| {
+            let curved = byte as f32 / 255.0;
+            if curved <= 0.040_45 { curved / 12.92 } else { ((curved + 0.055) / 1.055).powf(2.4) }
+        })
+    });
+    LINEAR[usize::from(byte)]
 }
 
 #[cfg(test)]
@@ -36,7 +43,7 @@ mod tests {
 
     #[test]
     fn every_byte_survives_decoding_and_encoding() {
-        let bytes = (0..=255_u8).filter(|byte| srgb_byte(decode(f32::from(*byte) / 255.0)) == *byte).count();
+        let bytes = (0..=255_u8).filter(|byte| srgb_byte(decode(*byte)) == *byte).count();
         assert_eq!(bytes, 256);
     }
 

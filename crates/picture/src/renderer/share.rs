@@ -1,0 +1,101 @@
+//! Light that neighbouring pixels share: each gathers it from a part of the sky's maps, and takes the sum of its
+//! neighbours on the same surface.
+
+use super::camera::Camera;
+use super::shade::{Fragment, GatheredLight};
+
+/// Side (pixels) of the square of pixels whose light is added.
+const WINDOW: usize = 4;
+/// Maximum distance of a neighbour from the plane of a surface, in pixels at the surface's distance.
+const NEAR: f32 = 2.0;
+/// Minimum cosine of the angle between the normals of neighbours.
+const ALIKE: f32 = 0.9;
+/// Minimum number of maps that a fragment gathers from, so that it distinguishes light from shade alone.
+const LEAST: usize = 6;
+
+/// Divides the sky's `maps` among the pixels of a square of `turns` pixels, and further among the `fragments` of the
+/// pixel at `x`, `y`, if they are many, because their light is mixed anyway.
+pub(super) fn take_turns(fragments: &mut [Fragment], maps: usize, turns: usize, [x, y]: [usize; 2]) {
+    let side = turns.isqrt().max(1);
+    let turn = y % side * side + x % side;
+    let crowd = fragments.len().div_ceil(2).min(maps / turns.max(1) / LEAST).max(1);
+    for (i, fragment) in fragments.iter_mut().enumerate() {
+        fragment.crowd = (i % crowd, crowd);
+        fragment.share = (turn * crowd + i % crowd, turns * crowd);
+    }
+}
+
+/// Returns the light of each of `fragments`: the sum of what it and its neighbours on the same surface have `gathered`.
+/// The fragments are those of a tile of `size` pixels, in order, and `pixels` are the pixels that they belong to.
+pub(super) fn add_neighbours(
+    fragments: &[Fragment],
+    pixels: &[usize],
+    gathered: &[GatheredLight],
+    [width, height]: [usize; 2],
+    camera: &Camera,
+) -> Vec<GatheredLight> {
+    let mut starts = vec![0; width * height + 1];
+    for pixel in pixels {
+        starts[pixel + 1] += 1;
+    }
+    for pixel in 0..width * height {
+        starts[pixel + 1] += starts[pixel];
+    }
+    let range = |at: usize, most: usize| {
+        // The window holds as many pixels of each turn.
+        let first = at.saturating_sub(1 + at % 2).min(most.saturating_sub(WINDOW));
+        first..(first + WINDOW).min(most)
+    };
+    let sum = |(own, pixel): (&Fragment, &usize)| {
+        let (x, y) = (pixel % width, pixel / width);
+        let near = NEAR * camera.footprint(own.surface.position);
+        let mut light = GatheredLight::default();
+        for row in range(y, height) {
+            let columns = range(x, width);
+            for i in starts[row * width + columns.start]..starts[row * width + columns.end] {
+                let other = &fragments[i].surface;
+                let aside = (other.position - own.surface.position).dot(own.surface.plane).abs();
+                if aside < near && other.normal.dot(own.surface.normal) > ALIKE {
+                    light.add(&gathered[fragments[i].pool]);
+                }
+            }
+        }
+        light
+    };
+    fragments.iter().zip(pixels).map(sum).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::surface::SurfacePoint;
+    use super::super::view::Viewpoint;
+    use super::*;
+    use glam::Vec3A;
+
+    fn fragment(camera: &Camera, position: Vec3A, pool: usize) -> Fragment {
+        Fragment::new(SurfacePoint::ground(position, camera), 0.0, pool)
+    }
+
+    #[test]
+    fn the_turns_of_a_square_of_pixels_take_every_map_once() {
+        let camera =
+            Camera::fit([Vec3A::ZERO].into_iter(), Viewpoint { azimuth: 0.0, elevation: 1.0 }, [8, 8]);
+        for (maps, turns, crowd) in [(48_usize, 4_usize, 1), (48, 4, 6), (47, 16, 3), (24, 1, 9)] {
+            let mut taken = vec![0; maps];
+            for pixel in 0..turns {
+                let side = turns.isqrt();
+                let mut fragments: Vec<Fragment> =
+                    (0..crowd).map(|i| fragment(&camera, Vec3A::ZERO, i)).collect();
+                take_turns(&mut fragments, maps, turns, [pixel % side, pixel / side]);
+                let mut shares: Vec<_> = fragments.iter().map(|fragment| fragment.share).collect();
+                shares.sort_unstable();
+                shares.dedup();
+                for (turn, of) in shares {
+                    ((turn * maps).div_ceil(of)..((turn + 1) * maps).div_ceil(of))
+                        .for_each(|map| taken[map] += 1);
+                }
+            }
+            assert!(taken.iter().all(|count| *count == 1), "{maps} maps, {turns} turns, {crowd}: {taken:?}");
+        }
+    }
+}
