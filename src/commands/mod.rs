@@ -12,6 +12,8 @@ mod fit;
 mod live;
 mod mods;
 mod new;
+#[cfg_attr(not(feature = "live"), path = "absent_open.rs")]
+mod open;
 mod progress;
 mod report;
 mod run;

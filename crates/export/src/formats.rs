@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use super::format::Need::{Attributes, Layers, Picture, Scene};
+use super::format::Need::{Attributes, Layers, Picture, Recipe, Scene};
 use super::format::{FileFormat, Format, always, find};
 use super::{city, gltf, layers, obj, render, solids, svg, usd, x3d};
 use burgeon_base::error::Result;
@@ -14,7 +14,7 @@ use burgeon_scene::image;
 pub const GLB: Format = Format {
     file: FileFormat { extensions: &["glb"], title: "glTF 2.0, one file", companion: None, check: always },
     media_type: "model/gltf-binary",
-    needs: &[Scene],
+    needs: &[Scene, Recipe],
     has_metadata: true,
     has_textures: false,
     write: gltf::write_glb,
@@ -46,7 +46,7 @@ pub static FORMATS: [Format; 15] = [
             check: always,
         },
         media_type: "model/gltf+json",
-        needs: &[Scene],
+        needs: &[Scene, Recipe],
         has_metadata: true,
         has_textures: true,
         write: gltf::write_gltf,

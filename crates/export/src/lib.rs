@@ -31,6 +31,7 @@ pub mod gltf;
 pub mod heights;
 pub mod layers;
 pub mod obj;
+mod recipe;
 mod render;
 mod solids;
 pub mod svg;
@@ -49,6 +50,7 @@ pub use facts::{Export, InstanceStorage, SceneFacts, SystemFacts};
 pub use files::{Files, OpenFile, Out, Stoppable};
 pub use format::{FileFormat, Format, Need, extension_list};
 pub use formats::{FORMATS, GLB, PNG};
+pub use recipe::read_recipe;
 pub use render::png;
 pub use temporary::abandon;
 

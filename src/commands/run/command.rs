@@ -59,6 +59,10 @@ pub(crate) struct RunCommand {
     #[arg(long, value_name = "KIND", help = instances_help())]
     pub(super) instances: Option<InstancesFlag>,
 
+    /// Leaves the recipe out of models: the script, its values, and the hashes of its packages and data
+    #[arg(long)]
+    pub(super) no_recipe: bool,
+
     /// Writes the final chains as text, one per line; - is standard output, or the JSON document with --json
     #[arg(long, value_name = "FILE")]
     pub(super) chain: Option<PathBuf>,

@@ -120,6 +120,8 @@ impl RunCommand {
         );
         let metadata =
             self.metadata.as_ref().map(|names| attributes(session, names, &systems)).transpose()?;
+        let wanted = !self.no_recipe && self.writes(Need::Recipe);
+        let recipe = wanted.then(|| session.recipe(&run.params).complete()).transpose()?;
         let facts = SceneFacts {
             frame: run.service(),
             detail: session.options.lod,
@@ -127,6 +129,7 @@ impl RunCommand {
             layers: &layers,
             metadata: metadata.as_deref(),
             instances: self.instances.map(Into::into).unwrap_or_default(),
+            recipe: recipe.as_ref(),
         };
         // Copies of textures are written last, so that their names differ from all other names.
         let has_copies =

@@ -159,8 +159,8 @@ fn buffer_name(path: &Path) -> String {
     format!("{}.bin", stem(path))
 }
 
-/// Returns the extras of the asset: the packages that the scene was made with, and its location on the earth. Empty if
-/// there are neither.
+/// Returns the extras of the asset: the packages that the scene was made with, its location on the earth, and its recipe. Empty
+/// if there are none.
 fn asset_extras(packages: &[ScenePackage], facts: &SceneFacts<'_>) -> json::extras::Extras {
     let mut extras = serde_json::Map::new();
     if !packages.is_empty() {
@@ -171,6 +171,9 @@ fn asset_extras(packages: &[ScenePackage], facts: &SceneFacts<'_>) -> json::extr
         let mut place = frame.world_place().to_json();
         place["axes"] = Y_UP_AXES.into();
         extras.insert("place".into(), place);
+    }
+    if let Some(recipe) = facts.recipe.and_then(|recipe| serde_json::to_value(recipe).ok()) {
+        extras.insert("recipe".into(), recipe);
     }
     let text = serde_json::Value::Object(extras).to_string();
     RawValue::from_string(text).ok().filter(|text| text.get() != "{}")
@@ -218,7 +221,7 @@ impl<'a> Document<'a> {
         Ok(Self { description, body, layout, separate: placed.separate })
     }
 
-    /// Returns the origin of a document, with the packages of its scene.
+    /// Returns the origin of a document, with the packages and the recipe of its scene.
     pub(super) fn asset(packages: &[ScenePackage], facts: &SceneFacts<'_>) -> json::Asset {
         json::Asset {
             generator: Some(format!("Burgeon {}", env!("CARGO_PKG_VERSION"))),
