@@ -95,30 +95,36 @@ impl OpenCommand {
         let version = env!("CARGO_PKG_VERSION");
         if recipe.program != version {
             let text = format!("the model was made by Burgeon {}, and this is {version}", recipe.program);
-            missing.push(warning(text).help("the result may differ; install that version to get the same model"));
+            missing.push(
+                warning(text).help("the result may differ; install that version to get the same model"),
+            );
         }
         let packages = self.script.packages();
         for wanted in &recipe.packages {
             let (name, version) = (&wanted.name, &wanted.version);
             let Some(known) = packages.get(name) else {
-                missing.push(
-                    warning(format!("missing package: {name} {version}"))
-                        .help(format!("install it, or name its folder: --mods FOLDER; its hash is {}", wanted.hash)),
-                );
+                missing.push(warning(format!("missing package: {name} {version}")).help(format!(
+                    "install it, or name its folder: --mods FOLDER; its hash is {}",
+                    wanted.hash
+                )));
                 continue;
             };
             let locked = packages.lock(|it| it == name)?;
             if known.manifest.version.to_string() != *version {
-                let text = format!("the package {name} has version {}, not {version}", known.manifest.version);
+                let text =
+                    format!("the package {name} has version {}, not {version}", known.manifest.version);
                 missing.push(warning(text).help("the result may differ; install that version"));
             } else if locked.iter().any(|locked| locked.hash != wanted.hash) {
-                let text = format!("the package {name} {version} has other files than when the model was made");
-                missing.push(warning(text).help(format!("the result may differ; its hash was {}", wanted.hash)));
+                let text =
+                    format!("the package {name} {version} has other files than when the model was made");
+                missing
+                    .push(warning(text).help(format!("the result may differ; its hash was {}", wanted.hash)));
             }
         }
         for wanted in &recipe.data {
             let name = &wanted.name;
-            let found = self.script.data_folders().iter().map(|folder| folder.join(name)).find(|path| path.is_file());
+            let found =
+                self.script.data_folders().iter().map(|folder| folder.join(name)).find(|path| path.is_file());
             let hash = found.as_deref().and_then(|path| hash_file(path).ok());
             match (found, hash) {
                 (_, Some(hash)) if hash == wanted.hash => {}
@@ -126,14 +132,16 @@ impl OpenCommand {
                     warning(format!("the data file {} has changed since the model was made", path.display()))
                         .help(format!("the result may differ; its hash was {}", wanted.hash)),
                 ),
-                _ => missing.push(
-                    warning(format!("missing data file: {name}"))
-                        .help(format!("name the folder that it is relative to: --data FOLDER; its hash is {}", wanted.hash)),
-                ),
+                _ => missing.push(warning(format!("missing data file: {name}")).help(format!(
+                    "name the folder that it is relative to: --data FOLDER; its hash is {}",
+                    wanted.hash
+                ))),
             }
         }
         if recipe.databases && !self.script.has_databases() {
-            missing.push(warning("the model was made with a database".to_owned()).help("name it: --database ADDRESS"));
+            missing.push(
+                warning("the model was made with a database".to_owned()).help("name it: --database ADDRESS"),
+            );
         }
         if let Some(wanted) = &recipe.stdlib {
             let hash = self.script.stdlib().and_then(|path| hash_file(path).ok());
@@ -155,7 +163,10 @@ fn check_names(model: &Path, recipe: &Recipe) -> Result<()> {
             .help("Burgeon writes no such recipe; do not trust the file")
     };
     if recipe.files.len() > MOST_FILES {
-        return Err(refuse(format!("has {} files, and at most {MOST_FILES} are allowed", recipe.files.len())));
+        return Err(refuse(format!(
+            "has {} files, and at most {MOST_FILES} are allowed",
+            recipe.files.len()
+        )));
     }
     let is_sound = |name: &str| {
         let parts = name.split('/');
@@ -212,8 +223,11 @@ fn create_beside(model: &Path) -> Result<PathBuf> {
             }
         }
     }
-    Err(Error::file(model, format!("there are {MOST_FOLDERS} folders for recipes next to {}", model.display()))
-        .help("remove some, or name another folder: --into FOLDER"))
+    Err(Error::file(
+        model,
+        format!("there are {MOST_FOLDERS} folders for recipes next to {}", model.display()),
+    )
+    .help("remove some, or name another folder: --into FOLDER"))
 }
 
 /// Writes the files of a recipe to the new `folder`.

@@ -182,6 +182,11 @@ impl ScriptFlags {
         !self.database.is_empty()
     }
 
+    /// Sets the level of detail.
+    pub(crate) fn set_level(&mut self, lod: u8) {
+        self.lod = Some(lod);
+    }
+
     /// Returns the level of detail.
     fn level(&self) -> u8 {
         self.lod.unwrap_or(3)
@@ -206,8 +211,7 @@ impl ScriptFlags {
     #[cfg(feature = "live")]
     pub(crate) fn packages(&self) -> Packages {
         let user = user_mods();
-        let search =
-            PackageSearch { script: self.script.parent(), given: &self.mods, user: user.as_deref() };
+        let search = PackageSearch { script: self.script.parent(), given: &self.mods, user: user.as_deref() };
         Packages::find(search, &api_version())
     }
 

@@ -29,7 +29,8 @@ impl RecipeDraft {
         let mut recipe = self.recipe.clone();
         let locked = self.packages.lock(|name| self.used.contains(name))?;
         recipe.packages = locked.into_iter().map(scene_package).collect();
-        let data = self.data.iter().map(|(name, path)| Ok(RecipeData { name: name.clone(), hash: hash(path)? }));
+        let data =
+            self.data.iter().map(|(name, path)| Ok(RecipeData { name: name.clone(), hash: hash(path)? }));
         recipe.data = data.collect::<Result<_>>()?;
         recipe.stdlib = self.stdlib.as_deref().map(hash).transpose()?;
         let size = serde_json::to_vec(&recipe).map_err(Error::internal)?.len();
@@ -100,7 +101,8 @@ impl Session {
         let mut data = BTreeMap::new();
         for (path, exists) in self.sought() {
             let real = path.canonicalize().ok().filter(|real| exists && real.is_file());
-            let Some(real) = real.filter(|real| *real != curves && !scripts.contains(real) && !named.contains(real))
+            let Some(real) =
+                real.filter(|real| *real != curves && !scripts.contains(real) && !named.contains(real))
             else {
                 continue;
             };
@@ -120,7 +122,9 @@ impl Session {
             return None;
         }
         let roots = std::iter::once(self.root()).chain(self.data_roots().iter().map(PathBuf::as_path));
-        let inner = roots.take(if is_beside { 1 } else { usize::MAX }).find_map(|root| path.strip_prefix(root).ok())?;
+        let inner = roots
+            .take(if is_beside { 1 } else { usize::MAX })
+            .find_map(|root| path.strip_prefix(root).ok())?;
         let parts = inner.components().map(|part| match part {
             Component::Normal(name) => name.to_str(),
             _ => None,

@@ -32,6 +32,10 @@ pub struct SceneFacts<'a> {
     pub metadata: Option<&'a [String]>,
     /// Storage of instances in glTF models.
     pub instances: InstanceStorage,
+    /// Set to compress the arrays of `.glb` files (`EXT_meshopt_compression`).
+    pub is_compressed: bool,
+    /// Sums that the interpretations of each system have reported, with the index of the system in the script.
+    pub reports: &'a [(usize, RecordTable)],
     /// Recipe of the model, for formats that carry it.
     pub recipe: Option<&'a Recipe>,
 }
@@ -70,7 +74,7 @@ pub struct SystemFacts {
 }
 
 impl Default for SceneFacts<'_> {
-    /// Returns facts of a scene in full detail, without a frame, systems, layers, metadata or recipe.
+    /// Returns facts of a scene in full detail, without a frame, systems, layers, metadata, reports or recipe.
     fn default() -> Self {
         Self {
             frame: None,
@@ -79,6 +83,8 @@ impl Default for SceneFacts<'_> {
             layers: &[],
             metadata: None,
             instances: InstanceStorage::default(),
+            is_compressed: false,
+            reports: &[],
             recipe: None,
         }
     }

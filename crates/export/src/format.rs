@@ -49,6 +49,8 @@ pub enum Need {
     Attributes,
     /// Layers of modules that have a geometry.
     Layers,
+    /// Sums that interpretations report.
+    Reports,
     /// Recipe of the model, if there is one.
     Recipe,
 }

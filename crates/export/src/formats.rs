@@ -4,9 +4,9 @@
 
 use std::path::Path;
 
-use super::format::Need::{Attributes, Layers, Picture, Recipe, Scene};
+use super::format::Need::{Attributes, Layers, Picture, Recipe, Reports, Scene};
 use super::format::{FileFormat, Format, always, find};
-use super::{city, gltf, layers, obj, render, solids, svg, usd, x3d};
+use super::{city, gltf, layers, obj, page, render, solids, svg, table, usd, x3d};
 use burgeon_base::error::Result;
 use burgeon_scene::image;
 
@@ -36,7 +36,7 @@ pub const PNG: Format = Format {
 };
 
 /// All formats of a model, in the order in which messages list them.
-pub static FORMATS: [Format; 15] = [
+pub static FORMATS: [Format; 17] = [
     GLB,
     Format {
         file: FileFormat {
@@ -50,6 +50,20 @@ pub static FORMATS: [Format; 15] = [
         has_metadata: true,
         has_textures: true,
         write: gltf::write_gltf,
+    },
+    // A page that needs no server.
+    Format {
+        file: FileFormat {
+            extensions: &["html"],
+            title: "page with the model and its script, for any browser",
+            companion: None,
+            check: always,
+        },
+        media_type: "text/html",
+        needs: &[Scene, Recipe],
+        has_metadata: true,
+        has_textures: false,
+        write: page::write,
     },
     // Instances become copies.
     Format {
@@ -207,6 +221,19 @@ pub static FORMATS: [Format; 15] = [
         has_textures: false,
         write: layers::write_geopackage_file,
     },
+    Format {
+        file: FileFormat {
+            extensions: &["csv"],
+            title: "table of the numbers that the script reports",
+            companion: None,
+            check: always,
+        },
+        media_type: "text/csv",
+        needs: &[Reports],
+        has_metadata: false,
+        has_textures: false,
+        write: table::write,
+    },
 ];
 
 impl Format {
@@ -280,7 +307,7 @@ mod tests {
             assert_eq!(written.len() > own.len(), format.has_textures, "{own:?}: {written:?}");
             count += 1;
         }
-        assert_eq!(count, 9);
+        assert_eq!(count, 10);
     }
 
     #[test]

@@ -66,7 +66,9 @@ fn parse(path: &Path, text: &str) -> Result<Recipe> {
     if text.len() > Recipe::LARGEST {
         let (size, most) = (grouped(text.len()), grouped(Recipe::LARGEST));
         let text = format!("the recipe of {shown} has {size} bytes, and at most {most} are allowed");
-        return Err(Error::limit(Limit::Size, text).help("Burgeon writes no such recipe; do not trust the file"));
+        return Err(
+            Error::limit(Limit::Size, text).help("Burgeon writes no such recipe; do not trust the file")
+        );
     }
     let recipe: Recipe = serde_json::from_str(text).map_err(|error| {
         Error::file(path, format!("the recipe of {shown} is broken: {error}"))
@@ -137,7 +139,12 @@ mod tests {
             program: "0.1.0".into(),
             script: "a.lua".into(),
             files: vec![RecipeFile { name: "a.lua".into(), text: text.into() }],
-            values: vec![RecipeValue { name: "n".into(), value: 3.into(), default: None, unit: String::new() }],
+            values: vec![RecipeValue {
+                name: "n".into(),
+                value: 3.into(),
+                default: None,
+                unit: String::new(),
+            }],
             seed: 7,
             steps: None,
             lod: 3,
@@ -180,7 +187,10 @@ mod tests {
         };
         assert!(told(b"").contains("is no glTF file"));
         assert!(told(b"glTF").contains("not binary glTF 2.0"));
-        assert!(told(b"glTF\x02\0\0\0\xff\xff\xff\xff\xff\xff\xff\xffJSON{}").contains("shorter than its headers"));
+        assert!(
+            told(b"glTF\x02\0\0\0\xff\xff\xff\xff\xff\xff\xff\xffJSON{}")
+                .contains("shorter than its headers")
+        );
         assert!(told(b"glTF\x02\0\0\0\xff\xff\xff\xff\x02\0\0\0BIN\0{}").contains("does not begin"));
         assert!(told(b"{ \"asset\": {").contains("is broken"));
         assert!(told(b"{\"asset\":{\"extras\":5}}             ").contains("has no recipe"));
@@ -194,6 +204,8 @@ mod tests {
         empty.files.clear();
         write(Some(&empty), &path);
         assert!(read_recipe(&path).unwrap_err().to_string().contains("it has no script"));
-        assert!(read_recipe(&folder.path().join("missing.glb")).is_err() && read_recipe(folder.path()).is_err());
+        assert!(
+            read_recipe(&folder.path().join("missing.glb")).is_err() && read_recipe(folder.path()).is_err()
+        );
     }
 }

@@ -122,7 +122,10 @@ mod tests {
         let recipe = Recipe {
             program: "0.1.0".into(),
             script: "a \"b\" </script>\u{1f331}.lua".into(),
-            files: vec![RecipeFile { name: "a \"b\" </script>\u{1f331}.lua".into(), text: "-- \u{1f331}\n".into() }],
+            files: vec![RecipeFile {
+                name: "a \"b\" </script>\u{1f331}.lua".into(),
+                text: "-- \u{1f331}\n".into(),
+            }],
             values: vec![RecipeValue {
                 name: "n".into(),
                 value: 3.5.into(),
@@ -133,7 +136,11 @@ mod tests {
             steps: Some(4),
             lod: 2,
             part: Some(("2/4".into(), 30.0)),
-            packages: vec![ScenePackage { name: "castle".into(), version: "1.2.0".into(), hash: "blake3:0".into() }],
+            packages: vec![ScenePackage {
+                name: "castle".into(),
+                version: "1.2.0".into(),
+                hash: "blake3:0".into(),
+            }],
             data: vec![RecipeData { name: "a/b.csv".into(), hash: "blake3:1".into() }],
             databases: true,
             stdlib: Some("blake3:2".into()),
@@ -141,7 +148,8 @@ mod tests {
         let text = serde_json::to_string(&recipe).unwrap();
         assert_eq!(serde_json::from_str::<Recipe>(&text).unwrap(), recipe);
         assert_eq!(recipe.main_text(), Some("-- \u{1f331}\n"));
-        let least: Recipe = serde_json::from_str(r#"{"program":"9","script":"a.lua","files":[],"more":1}"#).unwrap();
+        let least: Recipe =
+            serde_json::from_str(r#"{"program":"9","script":"a.lua","files":[],"more":1}"#).unwrap();
         assert_eq!((least.lod, least.seed, least.main_text()), (3, 0, None));
         assert!(serde_json::from_str::<Recipe>(r#"{"program":"9"}"#).is_err());
     }
@@ -152,6 +160,9 @@ mod tests {
             RecipeValue { name: "a".into(), value, default: None, unit: String::new() }.text()
         };
         assert_eq!(text("#ff0000".into()), "#ff0000");
-        assert_eq!((text(true.into()), text(serde_json::json!([[0.0, 1.5]]))), ("true".into(), "[[0.0,1.5]]".into()));
+        assert_eq!(
+            (text(true.into()), text(serde_json::json!([[0.0, 1.5]]))),
+            ("true".into(), "[[0.0,1.5]]".into())
+        );
     }
 }
