@@ -1,5 +1,5 @@
-// Makes dist/: the pages of scripts and of tilesets, a script for each and one sheet of styles, the same bytes for the same
-// sources.
+// Makes dist/: the pages of scripts, of tilesets and of shared models, the same bytes for the same sources. The page of a shared
+// model has its script and its styles in itself, and places for the model.
 
 import { readFileSync, writeFileSync } from 'node:fs';
 import { build } from 'esbuild';
@@ -8,45 +8,60 @@ const here = new URL('./', import.meta.url);
 const path = (name) => new URL(name, here).pathname;
 
 // The renderer of tilesets and the editor are in scripts of their own, so that the page of scripts does not grow.
+const scripts = {
+  bundle: true,
+  minify: true,
+  format: 'iife',
+  target: ['chrome111', 'firefox114', 'safari16.4'],
+  charset: 'utf8',
+  legalComments: 'inline',
+  logLevel: 'warning',
+};
+const styles = { minify: true, target: scripts.target, logLevel: 'warning' };
 await build({
+  ...scripts,
   entryPoints: { viewer: path('src/main.js'), tileset: path('src/tileset/main.js') },
   outdir: path('dist'),
-  bundle: true,
-  minify: true,
-  format: 'iife',
-  target: ['chrome111', 'firefox114', 'safari16.4'],
-  charset: 'utf8',
-  legalComments: 'inline',
-  logLevel: 'warning',
 });
 await build({
+  ...scripts,
   entryPoints: { editor: path('src/editor/main.js') },
   outdir: path('dist'),
-  bundle: true,
-  minify: true,
-  format: 'iife',
   globalName: 'burgeonEditor',
-  target: ['chrome111', 'firefox114', 'safari16.4'],
-  charset: 'utf8',
-  legalComments: 'inline',
-  logLevel: 'warning',
 });
 await build({
+  ...styles,
   entryPoints: { viewer: path('src/style.css'), tileset: path('src/tileset/style.css') },
   outdir: path('dist'),
-  minify: true,
-  target: ['chrome111', 'firefox114', 'safari16.4'],
-  logLevel: 'warning',
 });
-// What stands between <!--script--> and <!--/script--> is for scripts alone, and the same for tilesets.
+
+/** The text that `settings` make of one file. */
+async function text(settings) {
+  const { outputFiles } = await build({ ...settings, write: false });
+  return outputFiles[0].text.trim();
+}
+const script = await text({ ...scripts, entryPoints: [path('src/shared/main.js')] });
+const bare = await text({ ...styles, entryPoints: [path('src/style.css')] });
+const style = `${bare}${await text({ ...styles, entryPoints: [path('src/shared/style.css')] })}`;
+if (/<\/script|<!--|{{\w+}}/i.test(script) || /<\/style|{{\w+}}/i.test(style))
+  throw new Error('the bundle has a text that ends its element, or that looks like a place');
+
+// What stands between <!--script--> and <!--/script--> is for scripts alone, and so for the other kinds.
 const page = readFileSync(path('page.html'), 'utf8');
-const other = { script: 'tileset', tileset: 'script' };
-for (const [name, kind] of [
-  ['index', 'script'],
-  ['tileset', 'tileset'],
-]) {
-  const own = page
-    .replace(new RegExp(`<!--${other[kind]}-->[^]*?<!--/${other[kind]}-->\\n?`, 'g'), '')
-    .replace(/<!--\/?\w+-->\n?/g, '');
-  writeFileSync(path(`dist/${name}.html`), own.replace(/^ +/gm, '').replace(/\n+/g, '\n'));
+const kinds = {
+  index: ['script', 'served', 'model'],
+  tileset: ['tileset', 'served'],
+  shared: ['shared', 'model'],
+};
+const all = [...new Set(Object.values(kinds).flat())];
+for (const [name, own] of Object.entries(kinds)) {
+  const left = all
+    .filter((kind) => !own.includes(kind))
+    .reduce((rest, kind) => rest.replace(new RegExp(`<!--${kind}-->[^]*?<!--/${kind}-->\\n?`, 'g'), ''), page)
+    .replace(/<!--\/?\w+-->\n?/g, '')
+    .replace(/^ +/gm, '')
+    .replace(/\n+/g, '\n')
+    .replace('{{style}}', () => style)
+    .replace('{{script}}', () => script);
+  writeFileSync(path(`dist/${name}.html`), left);
 }

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use super::examples::with_examples;
 use super::short_forms::{suggest, with_command};
 use super::{
-    api, check, completions, fit, live, man, mods, new, report, run, setup, sources, tiles, variations,
+    api, check, completions, fit, live, man, mods, new, open, report, run, setup, sources, tiles, variations,
 };
 use burgeon::Error;
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
@@ -35,6 +35,7 @@ enum Command {
     Fit(fit::FitCommand),
     Mods(mods::ModsCommand),
     New(new::NewCommand),
+    Open(open::OpenCommand),
     Setup(setup::SetupCommand),
     Sources(sources::SourcesCommand),
     Tiles(tiles::TilesCommand),
@@ -69,6 +70,7 @@ pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Fit(command) => (command.json(), command.run()),
         Command::Mods(command) => (command.json(), command.run()),
         Command::New(command) => (command.json(), command.run()),
+        Command::Open(command) => (command.json(), command.run()),
         Command::Setup(command) => (command.json(), command.run()),
         Command::Sources(command) => (command.json(), command.run()),
         Command::Tiles(command) => return tiles(&command),

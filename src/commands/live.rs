@@ -1,7 +1,7 @@
 //! `burgeon live`: runs the live view of a script, or of a tileset, until it is interrupted.
 
 use std::path::Path;
-use std::sync::mpsc::channel;
+use std::sync::mpsc::{Receiver, channel};
 
 use burgeon::live::{
     Editor, Live, LiveEvent, LiveTileset, PORT, Settings, TilesetProgress, TilesetSettings, Token, browse,
@@ -11,18 +11,15 @@ use burgeon::text::grouped;
 use burgeon::tiles::{TileFolder, TilePlan, TileStatus};
 use burgeon::{Error, Result};
 use clap::Args;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::api::names_json;
 use super::report;
 use super::shared::{ScriptFlags, on_interrupt};
 
-/// Shows what a script makes in the browser, and shows it anew on every save; also shows a folder of tiles
+/// Flags of the page.
 #[derive(Args)]
-pub(crate) struct LiveCommand {
-    #[command(flatten)]
-    script: ScriptFlags,
-
+pub(super) struct PageFlags {
     /// Port to listen on; 0 selects a free port [default: 4747 or the next free port]
     #[arg(long, value_name = "N", help_heading = "Page")]
     port: Option<u16>,
@@ -44,44 +41,39 @@ pub(crate) struct LiveCommand {
     token: Option<Token>,
 }
 
+/// Shows what a script makes in the browser, and shows it anew on every save; also shows a folder of tiles
+#[derive(Args)]
+pub(crate) struct LiveCommand {
+    #[command(flatten)]
+    script: ScriptFlags,
+
+    #[command(flatten)]
+    page: PageFlags,
+}
+
 impl LiveCommand {
     pub(crate) fn json(&self) -> bool {
         self.script.json
     }
 
     pub(crate) fn run(mut self) -> Result<()> {
-        let (interrupt, interrupted) = channel();
-        on_interrupt(move || {
-            // The receiver waits for only one interrupt.
-            let _ = interrupt.send(());
-        })?;
-        if self.script.script.is_dir() {
-            let live = self.start_tileset()?;
-            self.announce(live.port(), &live.address(), live.token(), "it shows the files of the tileset")?;
-            // Only an interrupt ends the command; a closed channel counts as one.
-            let _ = interrupted.recv();
-            drop(live);
-        } else {
-            let live = Live::start(Settings {
-                options: self.script.options()?,
-                script: std::mem::take(&mut self.script.script),
-                port: self.port,
-                token: self.token.take(),
-                editor: self.editor.take(),
-                names: names_json(),
-                tell: Box::new(tell),
-            })?;
-            self.announce(live.port(), &live.address(), live.token(), "it allows setting parameters")?;
-            let _ = interrupted.recv();
-            drop(live);
+        if !self.script.script.is_dir() {
+            return self.page.serve_script(self.script, &json!({}));
         }
+        let interrupted = interrupt()?;
+        let live = self.start_tileset()?;
+        let why = "it shows the files of the tileset";
+        self.page.announce(&self.script, (live.port(), &live.address(), live.token()), why, &json!({}))?;
+        // Only an interrupt ends the command; a closed channel counts as one.
+        let _ = interrupted.recv();
+        drop(live);
         Ok(())
     }
 
     /// Starts the server of a tileset. Fails if a flag of scripts was given.
     fn start_tileset(&mut self) -> Result<LiveTileset> {
         let mut flags = self.script.given_flags();
-        flags.extend(self.editor.is_some().then_some("--editor"));
+        flags.extend(self.page.editor.is_some().then_some("--editor"));
         if !flags.is_empty() {
             return Err(Error::usage(format!("{} is for scripts, but this is a folder", flags.join(", ")))
                 .help("leave it out to show the tileset, or name a script"));
@@ -89,20 +81,58 @@ impl LiveCommand {
         let folder = TileFolder(std::mem::take(&mut self.script.script));
         LiveTileset::start(TilesetSettings {
             folder: folder.path().to_owned(),
-            port: self.port,
-            token: self.token.take(),
+            port: self.page.port,
+            token: self.page.token.take(),
             progress: Box::new(move || progress(&folder)),
             tell: Box::new(tell),
         })
     }
+}
+
+/// Returns the receiver of the first interrupt.
+fn interrupt() -> Result<Receiver<()>> {
+    let (interrupt, interrupted) = channel();
+    on_interrupt(move || {
+        // The receiver waits for only one interrupt.
+        let _ = interrupt.send(());
+    })?;
+    Ok(interrupted)
+}
+
+impl PageFlags {
+    /// Serves the page of a script until an interrupt. The JSON document has the members of `facts` too.
+    pub(super) fn serve_script(mut self, mut script: ScriptFlags, facts: &Value) -> Result<()> {
+        let interrupted = interrupt()?;
+        let live = Live::start(Settings {
+            options: script.options()?,
+            script: std::mem::take(&mut script.script),
+            port: self.port,
+            token: self.token.take(),
+            editor: self.editor.take(),
+            names: names_json(),
+            tell: Box::new(tell),
+        })?;
+        let why = "it allows setting parameters";
+        self.announce(&script, (live.port(), &live.address(), live.token()), why, facts)?;
+        let _ = interrupted.recv();
+        drop(live);
+        Ok(())
+    }
 
     /// Prints the address, and opens the browser if it is wanted. `why` the address is secret is printed too.
-    fn announce(&self, port: u16, address: &str, token: &Token, why: &str) -> Result<()> {
-        if self.script.json {
-            report::print(&format!(
-                "{}\n",
-                json!({ "address": address, "port": port, "token": token.as_str() })
-            ))?;
+    fn announce(
+        &self,
+        script: &ScriptFlags,
+        (port, address, token): (u16, &str, &Token),
+        why: &str,
+        facts: &Value,
+    ) -> Result<()> {
+        if script.json {
+            let mut document = json!({ "address": address, "port": port, "token": token.as_str() });
+            for (name, value) in facts.as_object().into_iter().flatten() {
+                document[name] = value.clone();
+            }
+            report::print(&format!("{document}\n"))?;
         } else {
             report::print(&format!("{address}\n"))?;
             report::eprint(&format!("keep the address secret: {why}; Ctrl-C ends\n"));
@@ -110,7 +140,7 @@ impl LiveCommand {
         if self.port.is_none() && port != PORT {
             report::eprint(&format!("port {PORT} is in use; using port {port}\n"));
         }
-        let opens = self.open || (!self.no_open && !self.script.json && has_display());
+        let opens = self.open || (!self.no_open && !script.json && has_display());
         if let Some(Err(error)) = opens.then(|| browse(address)) {
             report::eprint(&format!("{error}\n"));
         }

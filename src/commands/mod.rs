@@ -14,6 +14,8 @@ mod live;
 mod man;
 mod mods;
 mod new;
+#[cfg_attr(not(feature = "live"), path = "absent_open.rs")]
+mod open;
 mod progress;
 mod report;
 mod run;

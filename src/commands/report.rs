@@ -9,8 +9,7 @@ use std::time::Duration;
 use burgeon::error::Excerpt;
 use burgeon::script::Param;
 use burgeon::sources::ReferenceFrame;
-use burgeon::text::escaped_lines;
-use burgeon::text::grouped;
+use burgeon::text::{escaped_lines, grouped, number, shown};
 use burgeon::{Error, Result, Run, Warning};
 use serde_json::json;
 
@@ -98,6 +97,9 @@ pub(crate) fn summary(run: &Run, writing: Duration, total: Duration, listed: Opt
     if let Some(frame) = run.service::<ReferenceFrame>() {
         let _ = writeln!(text, "origin at {}; {WORLD_AXES}", frame.world_place());
     }
+    for (name, ReportTotal { sum, rows }) in totals(run).iter().take(MOST_TOTALS) {
+        let _ = writeln!(text, "reported {}: {} in {}", shown(name), number(*sum), plural(*rows, "chain"));
+    }
     text += &memory_text();
     for note in &run.notes {
         let _ = writeln!(text, "note: {note}");
@@ -112,6 +114,42 @@ pub(crate) fn summary(run: &Run, writing: Duration, total: Duration, listed: Opt
         };
     }
     text
+}
+
+/// Maximum number of reported numbers in a summary.
+const MOST_TOTALS: usize = 20;
+
+/// Total of a reported number.
+#[derive(Default)]
+struct ReportTotal {
+    sum: f64,
+    /// Number of chains that have reported it.
+    rows: usize,
+}
+
+/// Returns the totals of the reported numbers of all systems by name.
+fn totals(run: &Run) -> Vec<(String, ReportTotal)> {
+    let mut totals: Vec<(String, ReportTotal)> = Vec::new();
+    for table in run.systems.iter().map(|system| system.reports()) {
+        for (place, name) in table.columns.into_iter().enumerate() {
+            let index = totals.iter().position(|(known, _)| *known == name).unwrap_or_else(|| {
+                totals.push((name, ReportTotal::default()));
+                totals.len() - 1
+            });
+            for value in table.records.iter().filter_map(|record| record.value(place)?.number()) {
+                totals[index].1.sum += value;
+                totals[index].1.rows += 1;
+            }
+        }
+    }
+    totals
+}
+
+/// Returns the totals of the reported numbers as JSON.
+fn totals_json(run: &Run) -> serde_json::Value {
+    let total =
+        |(name, total): (String, ReportTotal)| (name, json!({ "sum": total.sum, "chains": total.rows }));
+    totals(run).into_iter().map(total).collect()
 }
 
 /// Returns the summary of a run as JSON.
@@ -134,6 +172,7 @@ pub(crate) fn summary_json(run: &Run, writing: Duration, total: Duration) -> ser
         "notes": run.notes,
         "warnings": warnings_json(&run.warnings),
         "params": params_json(&run.params),
+        "reports": totals_json(run),
         "packages": packages_json(&run.scene.packages),
         "seconds": {
             "total": seconds(total),

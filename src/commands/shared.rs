@@ -10,6 +10,8 @@ use burgeon::locks::LockRecovery as _;
 use burgeon::packages::{FileName, PackageSearch, Packages};
 use burgeon::picture::{Background, Picture, ViewBall};
 use burgeon::presets::Presets;
+#[cfg(feature = "live")]
+use burgeon::scene::Recipe;
 use burgeon::script::{
     CurvesFile, FeaturePart, Limits, ParamValues, Print, RunInputs, RunOptions, RunReports, api_version,
 };
@@ -65,10 +67,9 @@ pub(crate) struct ScriptFlags {
           allow_negative_numbers = true)]
     reach: f64,
 
-    /// Level of detail: 0 footprints, 1 blocks, 2 roofs, 3 full detail
-    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(0..=3),
-          allow_negative_numbers = true)]
-    lod: u8,
+    /// Level of detail: 0 footprints, 1 blocks, 2 roofs, 3 full detail [default: 3]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=3), allow_negative_numbers = true)]
+    lod: Option<u8>,
 
     /// Number of threads; does not affect the result [default: number of cores]
     #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
@@ -143,7 +144,7 @@ impl ScriptFlags {
         self.stdlib.iter().try_for_each(|path| portable(path).map(|path| add("stdlib", path)))?;
         self.seed.iter().for_each(|seed| add("seed", seed.to_string()));
         self.steps.iter().for_each(|steps| add("steps", steps.to_string()));
-        add("lod", self.lod.to_string());
+        add("lod", self.level().to_string());
         add("time-limit", self.time_limit.to_string());
         add("memory-limit", self.memory_limit.to_string());
         add("module-limit", self.module_limit.to_string());
@@ -184,6 +185,57 @@ impl ScriptFlags {
         !self.database.is_empty()
     }
 
+    /// Sets the level of detail.
+    pub(crate) fn set_level(&mut self, lod: u8) {
+        self.lod = Some(lod);
+    }
+
+    /// Returns the level of detail.
+    fn level(&self) -> u8 {
+        self.lod.unwrap_or(3)
+    }
+
+    /// Changes the flags of a model to those of its script, which `recipe` was written to. Values that were given override those
+    /// of the recipe, which are in the preset `preset`.
+    #[cfg(feature = "live")]
+    pub(crate) fn follow(&mut self, script: PathBuf, recipe: &Recipe, preset: Option<&str>) {
+        self.script = script;
+        self.preset = self.preset.take().or(preset.map(str::to_owned));
+        self.seed = self.seed.or(Some(recipe.seed));
+        self.steps = self.steps.or(recipe.steps);
+        self.lod = self.lod.or(Some(recipe.lod));
+        if let (None, Some((text, reach))) = (self.part, &recipe.part) {
+            // A part in another form is no part of this version.
+            (self.part, self.reach) = (text.parse().ok(), reach.max(0.0));
+        }
+    }
+
+    /// Finds the packages of the script.
+    #[cfg(feature = "live")]
+    pub(crate) fn packages(&self) -> Packages {
+        let user = user_mods();
+        let search = PackageSearch { script: self.script.parent(), given: &self.mods, user: user.as_deref() };
+        Packages::find(search, &api_version())
+    }
+
+    /// Returns the folders whose data files the script may read, besides its own.
+    #[cfg(feature = "live")]
+    pub(crate) fn data_folders(&self) -> &[PathBuf] {
+        &self.data
+    }
+
+    /// Returns the file that replaces the standard library.
+    #[cfg(feature = "live")]
+    pub(crate) fn stdlib(&self) -> Option<&Path> {
+        self.stdlib.as_deref()
+    }
+
+    /// Returns true if warnings are errors.
+    #[cfg(feature = "live")]
+    pub(crate) fn is_strict(&self) -> bool {
+        self.strict
+    }
+
     /// Returns the distance (m) within which features of other parts are derived too.
     pub(crate) fn reach(&self) -> f64 {
         self.reach
@@ -212,7 +264,7 @@ impl ScriptFlags {
             seed: seed.unwrap_or(0),
             steps: self.steps,
             part: self.part.map(|part| FeaturePart { reach: self.reach, ..part }),
-            lod: self.lod,
+            lod: self.level(),
             threads: self.threads.map(usize::from),
             batch: self.batch as usize,
             limits: Limits {

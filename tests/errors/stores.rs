@@ -88,6 +88,10 @@ const STORES: &[Store] = &[
         "local lamp = object(\"lamp\", { changes = { go = function(self, n) self:note(string.rep(\"x\", 1000) .. n) end } })\nlocal list = {} for i = 1, 2000 do list[i] = { id = i } end\nlocal l = lsystem({ object = lamp() })\nl:axiom(source(list), function() return lamp(), A(1) end)\nl:interpret(\"A(x)\", function(this, x) for i = 1, 1000 do this:go(i) end end)\nl:derive(1)",
     ),
     store(
+        "reports",
+        "s:interpret(\"A(x)\", function(this, x) local n = 0 while true do n += 1 report(string.rep(\"x\", 1000) .. n, 1) end end)\ns:derive(0)",
+    ),
+    store(
         "state of custom types",
         "local lamp = object(\"lamp\", { state = { text = \"\" }, changes = { go = function(self, n) self.text = string.rep(\"x\", 100000) .. n end } })\nlocal list = {} for i = 1, 15000 do list[i] = { id = i } end\nlocal l = lsystem({ object = lamp() })\nl:axiom(source(list), function(feature) return lamp(), A(feature.id) end)\nl:interpret(\"A(x)\", function(this, x) this:go(x) end)\nl:derive(1)",
     ),

@@ -18,7 +18,8 @@ export function model({ bounds, triangles, instances, modules }) {
   say(find('#size'), bounds ? lengths(bounds.high.map((high, i) => high - bounds.low[i])) : 'nothing drawn');
   say(find('#triangles'), many(triangles, 'triangle'));
   say(find('#instances'), many(instances, 'instance'));
-  say(find('#modules'), many(modules, 'module'));
+  // A shared page does not know them.
+  if (modules !== undefined) say(find('#modules'), many(modules, 'module'));
 }
 
 /** `own` are the page's times `{load, draw}`. */

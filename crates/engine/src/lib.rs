@@ -11,6 +11,7 @@ mod machine;
 mod parts;
 mod placeholders;
 mod queries;
+mod recipe;
 pub mod results;
 pub mod run;
 pub mod trace;
@@ -25,6 +26,7 @@ pub mod script {
     };
     pub use crate::machine::{Machine, Watchdog, make_ready};
     pub use crate::queries::{RowSource, SqlQuery};
+    pub use crate::recipe::RecipeDraft;
     pub use burgeon_kit::PointRows;
 }
 

@@ -14,6 +14,7 @@ use crate::results::{
 };
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
+use burgeon_packages::LockedPackage;
 use burgeon_scene::{Scene, ScenePackage};
 
 /// Result of running a script.
@@ -54,10 +55,7 @@ impl Run {
     /// Records the packages of the run in its scene, with versions and content hashes. Reads all package
     /// files.
     pub fn note_packages(&mut self, session: &Session) -> Result<()> {
-        let locked = session.lock()?.into_iter();
-        let noted =
-            locked.map(|it| ScenePackage { name: it.name, version: it.version.to_string(), hash: it.hash });
-        self.scene.packages = noted.collect();
+        self.scene.packages = session.lock()?.into_iter().map(scene_package).collect();
         Ok(())
     }
 
@@ -71,6 +69,11 @@ impl Run {
         let reason = self.warnings.iter().find(|warning| tells_of_emptiness(warning)).cloned();
         reason.or_else(|| emptiness(&self.warnings, &self.systems))
     }
+}
+
+/// Returns a locked package as a scene lists it.
+pub(crate) fn scene_package(locked: LockedPackage) -> ScenePackage {
+    ScenePackage { name: locked.name, version: locked.version.to_string(), hash: locked.hash }
 }
 
 /// Time spent on a run.

@@ -1,7 +1,7 @@
 //! Input of an export: the scene and the facts about it.
 
 use burgeon_picture::Picture;
-use burgeon_scene::{CityClass, Scene};
+use burgeon_scene::{CityClass, Recipe, Scene};
 use burgeon_spatial::RecordTable;
 use burgeon_spatial::ReferenceFrame;
 
@@ -32,6 +32,12 @@ pub struct SceneFacts<'a> {
     pub metadata: Option<&'a [String]>,
     /// Storage of instances in glTF models.
     pub instances: InstanceStorage,
+    /// Set to compress the arrays of `.glb` files (`EXT_meshopt_compression`).
+    pub is_compressed: bool,
+    /// Sums that the interpretations of each system have reported, with the index of the system in the script.
+    pub reports: &'a [(usize, RecordTable)],
+    /// Recipe of the model, for formats that carry it.
+    pub recipe: Option<&'a Recipe>,
 }
 
 /// Storage of repeated instances in glTF models.
@@ -68,7 +74,7 @@ pub struct SystemFacts {
 }
 
 impl Default for SceneFacts<'_> {
-    /// Returns facts of a scene in full detail, without a frame, systems, layers or metadata.
+    /// Returns facts of a scene in full detail, without a frame, systems, layers, metadata, reports or recipe.
     fn default() -> Self {
         Self {
             frame: None,
@@ -77,6 +83,9 @@ impl Default for SceneFacts<'_> {
             layers: &[],
             metadata: None,
             instances: InstanceStorage::default(),
+            is_compressed: false,
+            reports: &[],
+            recipe: None,
         }
     }
 }

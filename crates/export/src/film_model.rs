@@ -1,5 +1,6 @@
 //! Models of several frames in one scene, where equal meshes are stored once.
 
+use crate::levels::LevelStorage;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_scene::{Instance, Mesh, Scene};
 use rustc_hash::{FxHashMap, FxHasher};
@@ -14,6 +15,8 @@ pub struct FilmModel {
     pub(crate) frames: Vec<u32>,
     /// Name of each frame.
     pub(crate) names: Vec<String>,
+    /// Storage of the frames as levels of detail; `None` in a film.
+    pub(crate) levels: Option<LevelStorage>,
     /// Meshes by hash.
     known: FxHashMap<u64, Vec<usize>>,
     /// Memory of the meshes and instances (bytes).

@@ -49,6 +49,10 @@ pub enum Need {
     Attributes,
     /// Layers of modules that have a geometry.
     Layers,
+    /// Sums that interpretations report.
+    Reports,
+    /// Recipe of the model, if there is one.
+    Recipe,
 }
 
 impl FileFormat {
@@ -94,7 +98,7 @@ impl Format {
 
     /// Returns true if a scene and a camera are enough for the format.
     pub fn is_of_scenes(&self) -> bool {
-        self.needs.iter().all(|need| matches!(need, Need::Scene | Need::Picture))
+        self.needs.iter().all(|need| matches!(need, Need::Scene | Need::Picture | Need::Recipe))
     }
 }
 

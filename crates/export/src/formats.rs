@@ -5,9 +5,9 @@
 use std::path::Path;
 
 use super::conversions::way_to;
-use super::format::Need::{Attributes, Layers, Picture, Scene};
+use super::format::Need::{Attributes, Layers, Picture, Recipe, Reports, Scene};
 use super::format::{FileFormat, Format, always, find};
-use super::{city, gltf, layers, obj, render, solids, svg, usd, x3d};
+use super::{city, gltf, layers, obj, page, render, solids, svg, table, usd, x3d};
 use burgeon_base::error::Result;
 use burgeon_scene::image;
 
@@ -15,7 +15,7 @@ use burgeon_scene::image;
 pub const GLB: Format = Format {
     file: FileFormat { extensions: &["glb"], title: "glTF 2.0, one file", companion: None, check: always },
     media_type: "model/gltf-binary",
-    needs: &[Scene],
+    needs: &[Scene, Recipe],
     has_metadata: true,
     has_textures: false,
     write: gltf::write_glb,
@@ -37,7 +37,7 @@ pub const PNG: Format = Format {
 };
 
 /// All formats of a model, in the order in which messages list them.
-pub static FORMATS: [Format; 15] = [
+pub static FORMATS: [Format; 17] = [
     GLB,
     Format {
         file: FileFormat {
@@ -47,10 +47,24 @@ pub static FORMATS: [Format; 15] = [
             check: always,
         },
         media_type: "model/gltf+json",
-        needs: &[Scene],
+        needs: &[Scene, Recipe],
         has_metadata: true,
         has_textures: true,
         write: gltf::write_gltf,
+    },
+    // A page that needs no server.
+    Format {
+        file: FileFormat {
+            extensions: &["html"],
+            title: "page with the model and its script, for any browser",
+            companion: None,
+            check: always,
+        },
+        media_type: "text/html",
+        needs: &[Scene, Recipe],
+        has_metadata: true,
+        has_textures: false,
+        write: page::write,
     },
     // Instances become copies.
     Format {
@@ -208,6 +222,19 @@ pub static FORMATS: [Format; 15] = [
         has_textures: false,
         write: layers::write_geopackage_file,
     },
+    Format {
+        file: FileFormat {
+            extensions: &["csv"],
+            title: "table of the numbers that the script reports",
+            companion: None,
+            check: always,
+        },
+        media_type: "text/csv",
+        needs: &[Reports],
+        has_metadata: false,
+        has_textures: false,
+        write: table::write,
+    },
 ];
 
 impl Format {
@@ -284,7 +311,7 @@ mod tests {
             assert_eq!(written.len() > own.len(), format.has_textures, "{own:?}: {written:?}");
             count += 1;
         }
-        assert_eq!(count, 9);
+        assert_eq!(count, 10);
     }
 
     #[test]

@@ -53,6 +53,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "query" shows "query";
     "random" shows "random";
     "remap" shows "remap";
+    "report" shows "report";
     "require" shows "require";
     "rgb" shows "rgb";
     "rule" shows "rule" "system:rule";

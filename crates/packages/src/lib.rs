@@ -49,7 +49,7 @@ pub use copy::{LARGEST, MOST};
 pub use find::PackageSearch;
 pub use install::{Installation, install};
 pub use locate::PackageFile;
-pub use lock::LockedPackage;
+pub use lock::{LockedPackage, hash_file};
 pub use manifest::{Dependency, MANIFEST, Manifest, ParamDefault, Replacement};
 pub use names::{FileName, is_name};
 pub use package::{BrokenPackage, DisabledPackage, HiddenPackage, Package, PackageOrigin, Packages};

@@ -69,6 +69,14 @@ impl Package {
     }
 }
 
+/// Returns the hash of the content of a file: `blake3:` and 64 hexadecimal digits.
+pub fn hash_file(path: &Path) -> std::io::Result<String> {
+    let (file, _) = burgeon_base::files::open(path)?;
+    let mut hasher = blake3::Hasher::new();
+    hasher.update_reader(file)?;
+    Ok(format!("blake3:{}", hasher.finalize().to_hex()))
+}
+
 /// Adds the first `length` bytes of a file; data that is appended in the meantime is ignored.
 fn add(hasher: &mut blake3::Hasher, file: File, length: u64) -> std::io::Result<()> {
     hasher.update_reader(file.take(length)).map(drop)

@@ -9,6 +9,7 @@ mod material;
 mod mesh;
 mod nearest;
 mod normal;
+mod recipe;
 mod shared;
 mod surface;
 mod triangles;
@@ -19,6 +20,7 @@ pub use material::{Material, Texture};
 pub use mesh::{Mesh, Part};
 pub use nearest::nearest_on_triangle;
 pub use normal::Normal;
+pub use recipe::{Recipe, RecipeData, RecipeFile, RecipeValue, ScenePackage};
 pub use shared::SharedMeshes;
 pub use surface::{SurfaceMeaning, SurfaceRuns};
 pub use triangles::{Iter, Triangles};
@@ -64,17 +66,6 @@ pub struct Scene {
     pub upright: Option<Upright>,
     /// Packages that the scene was made with, for files that list the requirements for reproducing it.
     pub packages: Vec<ScenePackage>,
-}
-
-/// Package of scripts that a scene was made with.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ScenePackage {
-    /// Name of the package.
-    pub name: String,
-    /// Version, three numbers.
-    pub version: String,
-    /// Hash of its files, with the name of the method as a prefix.
-    pub hash: String,
 }
 
 /// Placed mesh.

@@ -164,7 +164,7 @@ const NUMBERS: [&str; 39] = [
 ];
 
 /// Values in any unit that the script or the file uses.
-const ANY: [&str; 40] = [
+const ANY: [&str; 41] = [
     ".time",
     "beta a",
     "beta b",
@@ -198,6 +198,7 @@ const ANY: [&str; 40] = [
     "remap low",
     "remap to",
     "remap x",
+    "report value",
     "soil.amount",
     "soil:add amount",
     "soil:take amount",

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::films::FilmFlags;
+use super::levels::LevelFlags;
 use super::{parts, watch};
 use crate::commands::progress::ProgressDisplay;
 use crate::commands::report;
@@ -63,6 +64,14 @@ pub(crate) struct RunCommand {
     #[arg(long, value_name = "KIND", help = instances_help())]
     pub(super) instances: Option<InstancesFlag>,
 
+    /// Leaves the recipe out of models: the script, its values, and the hashes of its packages and data
+    #[arg(long)]
+    pub(super) no_recipe: bool,
+
+    /// Compresses the arrays of .glb files, for viewers with EXT_meshopt_compression
+    #[arg(long)]
+    pub(super) compress: bool,
+
     /// Writes the final chains as text, one per line; - is standard output, or the JSON document with --json
     #[arg(long, value_name = "FILE")]
     pub(super) chain: Option<PathBuf>,
@@ -91,6 +100,9 @@ pub(crate) struct RunCommand {
     /// Runs and writes again on every save, until interrupted
     #[arg(long)]
     watch: bool,
+
+    #[command(flatten)]
+    pub(super) detail: LevelFlags,
 
     #[command(flatten)]
     pub(super) film: FilmFlags,
@@ -127,7 +139,8 @@ fn metadata_help() -> String {
 }
 
 fn instances_help() -> String {
-    let formats = extension_list(FORMATS.iter().filter(|format| format.has_metadata), "and");
+    let is_gltf = |format: &&Format| format.media_type.starts_with("model/gltf");
+    let formats = extension_list(FORMATS.iter().filter(is_gltf), "and");
     let most = InstanceStorage::MOST_NODES;
     format!(
         "Storage of repeated models in {formats} files [default: nodes up to {most} instances, else extension]"
@@ -204,6 +217,9 @@ impl RunCommand {
             return self.run_turntable(frames);
         }
         self.refuse_films()?;
+        if !self.detail.levels.is_empty() {
+            return self.run_levels();
+        }
         self.check_files()?;
         if let Some(name) = &self.save_preset {
             burgeon::presets::check_name(name)?;
@@ -286,6 +302,16 @@ impl RunCommand {
                 Some(system) => system.locate(warning),
                 None => warning,
             };
+            if session.options.strict {
+                return Err(warning.into_error());
+            }
+            run.warnings.push(warning);
+        }
+        if self.writes(Need::Reports) && run.systems.iter().all(|system| system.reports().records.is_empty())
+        {
+            let text = "no numbers to write: no interpretation of the last drawing reports any";
+            let warning = Warning::new(WarningKind::NoEffect, text)
+                .help("call report in one, such as report(\"floor area\", this:area())");
             if session.options.strict {
                 return Err(warning.into_error());
             }

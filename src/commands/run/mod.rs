@@ -4,6 +4,7 @@
 
 mod command;
 mod films;
+mod levels;
 mod outputs;
 mod parts;
 mod standard;

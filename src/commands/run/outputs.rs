@@ -68,7 +68,7 @@ impl RunCommand {
 
     /// Fails if an output would overwrite an input of the run. Terrain edits may be written to the file from which they
     /// were read.
-    fn check_inputs(&self, session: &Session) -> Result<()> {
+    pub(super) fn check_inputs(&self, session: &Session) -> Result<()> {
         let read = session.sought().into_iter().filter(|(path, there)| *there && path.is_file());
         let read: Vec<_> = read.filter_map(|(path, _)| path.canonicalize().ok()).collect();
         let is_read = |path: &&Path| path.canonicalize().is_ok_and(|path| read.contains(&path));
@@ -118,6 +118,9 @@ impl RunCommand {
         );
         let metadata =
             self.metadata.as_ref().map(|names| attributes(session, names, &systems)).transpose()?;
+        let reports: Vec<_> = run.systems.iter().map(|system| (system.system, system.reports())).collect();
+        let wanted = !self.no_recipe && self.writes(Need::Recipe);
+        let recipe = wanted.then(|| session.recipe(&run.params).complete()).transpose()?;
         let facts = SceneFacts {
             frame: run.service(),
             detail: session.options.lod,
@@ -125,6 +128,9 @@ impl RunCommand {
             layers: &layers,
             metadata: metadata.as_deref(),
             instances: self.instances.map(Into::into).unwrap_or_default(),
+            is_compressed: self.compress,
+            reports: &reports,
+            recipe: recipe.as_ref(),
         };
         // Copies of textures are written last, so that their names differ from all other names.
         let has_copies =

@@ -5,7 +5,7 @@ import { Glb } from '../glb.js';
 import { build, geometry } from '../model.js';
 import { Attributes } from './attributes.js';
 import { facets } from './facets.js';
-import { unpack } from './unpack.js';
+import { unpack } from '../unpack.js';
 
 const MESH = 'EXT_mesh_features';
 const INSTANCES = 'EXT_instance_features';

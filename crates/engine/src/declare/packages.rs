@@ -1,5 +1,6 @@
 //! Access to the files of packages, for the scripts of a run.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use super::param::Param;
@@ -33,6 +34,11 @@ impl Session {
         // The file can belong to a package that replaces it.
         self.together(located.package)?;
         Ok(located)
+    }
+
+    /// Returns the names of the packages that the run has used.
+    pub(crate) fn used_packages(&self) -> BTreeSet<String> {
+        self.used.lock().recover().clone()
     }
 
     /// Returns the packages that the run has used, in order, with versions and content hashes. Fails if a

@@ -27,6 +27,8 @@ const MOST_AHEAD: usize = 4;
 pub(crate) struct SourceFile {
     /// Display name in messages, relative to the working directory.
     pub name: String,
+    /// Content of the file.
+    pub text: String,
     /// Result of parsing and analysing the file.
     pub analysis: Analysis,
 }
@@ -69,6 +71,15 @@ impl Session {
         self.scripts.lock().recover()
     }
 
+    /// Returns paths and texts of the files that do not belong to packages.
+    pub(crate) fn own_texts(&self) -> Vec<(PathBuf, String)> {
+        let files = self.script_files();
+        let own = files.read.iter().filter(|(_, source)| self.package_of(&source.name).is_none());
+        let mut own: Vec<_> = own.map(|(path, source)| (path.clone(), source.text.clone())).collect();
+        own.sort();
+        own
+    }
+
     /// Starts reading the main file, in parallel with the creation of a machine.
     pub(crate) fn read_ahead(&self) {
         let mut files = self.script_files();
@@ -82,7 +93,9 @@ impl Session {
         if let Some(source) = files.read.get(path) {
             return Ok(Arc::clone(source));
         }
-        let mut analysis = files.reader(path, name)?.finish(globals);
+        let reader = files.reader(path, name)?;
+        let text = reader.text().to_owned();
+        let mut analysis = reader.finish(globals);
         self.note(&analysis);
         analysis.doubtful.iter().for_each(|warning| self.warn(warning.clone()));
         for (used, line) in &analysis.deprecated {
@@ -94,7 +107,7 @@ impl Session {
         let undeclared = self.undeclared(name, &analysis.packages);
         analysis.problems.extend(undeclared);
         files.next.extend(self.named_scripts(name, &analysis.packages));
-        let source = Arc::new(SourceFile { name: name.to_owned(), analysis });
+        let source = Arc::new(SourceFile { name: name.to_owned(), text, analysis });
         files.read.insert(path.to_path_buf(), Arc::clone(&source));
         files.begin();
         Ok(source)

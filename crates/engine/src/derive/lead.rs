@@ -50,7 +50,7 @@ fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -
     machine.current.objects.replace(None);
     session.keep(&grown.chain.params);
     let plan = Arc::try_unwrap(plan).map_err(|_| Error::internal("a worker still holds the plan"))?;
-    let DerivationPlan { system, steps, interpretations, objects, variables, .. } = plan;
+    let DerivationPlan { system, steps, interpretations, objects, variables, reports, .. } = plan;
     let grammar = &steps.grammar;
     let objects = objects.map(Arc::try_unwrap).transpose();
     let objects = objects.map_err(|_| Error::internal("a worker still holds the objects"))?;
@@ -84,6 +84,9 @@ fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -
         }
         None => Vec::new(),
     };
+    let mut sums = reports.into_inner().recover();
+    sums.skip_chains(&left_out);
+    let reported = sums.table().map_err(|error| error.at_place(place.as_ref()))?;
     let neighbors = axiom.neighbors;
     let mut derived = Box::new(DerivedSystem {
         system,
@@ -109,6 +112,7 @@ fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -
         draws,
         undrawn,
         variables: variables.into_inner().recover().map(Arc::unwrap_or_clone),
+        reported,
         uses: SystemUses::default(),
     });
     derived.drop_chains(&neighbors);

@@ -1,6 +1,6 @@
 //! Plan of a derivation, made before the first step.
 
-use std::sync::{Arc, RwLock};
+use std::sync::{Arc, Mutex, RwLock};
 
 use super::rewriter::SystemRewriter;
 use crate::declare::TraceRequest;
@@ -8,7 +8,7 @@ use crate::machine::{
     Axiom, DerivationRequest, Environments, HookFunction, HookMoment, Interpretations, Machine, ModulePlaces,
     Objects, RulePhase, SystemFunctions, group_number,
 };
-use crate::results::VariableValues;
+use crate::results::{ReportSums, VariableValues};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::Warning;
@@ -62,6 +62,8 @@ pub(crate) struct DerivationPlan {
     pub skips_passes: bool,
     /// Places of modules in the present chain, if a pass has noted them.
     pub(super) places: RwLock<Option<Arc<ModulePlaces>>>,
+    /// Sums that the last interpretation pass reported.
+    pub(super) reports: Mutex<ReportSums>,
 }
 
 impl DerivationPlan {
@@ -256,6 +258,7 @@ impl Derivation {
             bounded: limit.is_some(),
             profiled: options.reports.profile,
             places: RwLock::default(),
+            reports: Mutex::default(),
             skips_passes: system.last_only && !located.is_empty(),
             located,
         });

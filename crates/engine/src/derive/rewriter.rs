@@ -2,7 +2,7 @@
 
 use std::cell::{RefCell, RefMut};
 use std::collections::hash_map::Entry;
-use std::sync::{Arc, RwLock};
+use std::sync::{Arc, Mutex, RwLock};
 
 use rustc_hash::FxHashMap;
 
@@ -63,6 +63,7 @@ impl<'a> SystemRewriter<'a> {
             assigns_variables: false,
             environments: None,
             places: RwLock::default(),
+            reports: Mutex::default(),
         });
         let declared = self.leader.machine.library.systems.borrow()[index].prepare(self.leader.machine)?;
         Ok(Ready { declared, stepper: Stepper::new(&plan.steps), plan })

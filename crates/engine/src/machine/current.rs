@@ -36,6 +36,9 @@ pub(crate) trait Flusher: std::any::Any {
     /// the contexts do not match.
     fn context(&self, entry: usize, rule: u16) -> Option<Vec<f64>>;
 
+    /// Adds a number that the interpretation rule of `entry` reports to the sum of `name` in its chain.
+    fn report(&mut self, entry: usize, name: &str, value: f64) -> Result<()>;
+
     /// Records that an interpretation rule has returned a module that nothing draws.
     fn note_undrawn(&self, symbol: Symbol);
 

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 use std::sync::Arc;
 
-use mlua::{Buffer, Lua, MultiValue, Table, Value as LuaValue, Variadic};
+use mlua::{Buffer, Lua, LuaString, MultiValue, Table, Value as LuaValue, Variadic};
 
 use super::current::WorkState;
 use super::native;
@@ -164,6 +164,23 @@ fn add_applications(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::R
         lua.create_function(move |_, (entry, called): (usize, usize)| {
             match state.flusher.borrow_mut().as_mut() {
                 Some(flusher) => flusher.flush(entry, called).map_err(mlua::Error::external),
+                None => Ok(()),
+            }
+        })?,
+    )?;
+    let state = Rc::clone(current);
+    host.set(
+        "report",
+        lua.create_function(move |_, (entry, name, value): (usize, LuaString, f64)| {
+            // A loop of reports can fill the memory.
+            state.session.stop.check().map_err(mlua::Error::external)?;
+            let name = name.to_str().map_err(|_| {
+                mlua::Error::external(
+                    Error::argument("the name of a report is not text").help("write it in UTF-8"),
+                )
+            })?;
+            match state.flusher.borrow_mut().as_mut() {
+                Some(flusher) => flusher.report(entry, &name, value).map_err(mlua::Error::external),
                 None => Ok(()),
             }
         })?,

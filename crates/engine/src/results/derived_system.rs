@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use super::records::{SourceFeatures, drop_indices};
+use super::report_sums::ReportTable;
 use super::row_features::RowFeatures;
 use super::trace::RuleName;
 use super::variables::VariableValues;
@@ -87,6 +88,8 @@ pub struct DerivedSystem {
     pub(crate) modules: usize,
     /// Variables of the system after the last step.
     pub(crate) variables: Option<VariableValues>,
+    /// Sums that the last interpretation pass reported, without those of skipped chains.
+    pub(crate) reported: ReportTable,
     /// Later uses of the system by the script.
     pub(crate) uses: SystemUses,
 }
@@ -140,6 +143,7 @@ impl DerivedSystem {
             .retain(|warning| warning.feature().is_none() || !dropped.contains(&warning.feature()));
         drop_indices(&mut self.objects, chains);
         drop_indices(&mut self.features, chains);
+        self.reported.drop_chains(chains);
         self.source.drop_chains(chains);
         if let Some(rows) = &mut self.rows {
             rows.drop_chains(chains);

@@ -187,8 +187,14 @@ impl<'a> Body<'a> {
 
     /// Compresses the shared views of vertices and triangles (`EXT_meshopt_compression`).
     pub(super) fn compress(&mut self) -> Result<()> {
+        let mut released = 0;
         for section in &mut self.sections {
             let Some(kind) = section.shared else { continue };
+            // As in `write`, only the corners of one batch stay in memory.
+            while released + 1 < section.batch {
+                self.batches[released].iter().for_each(|corners| corners.release());
+                released += 1;
+            }
             let mut bytes = Vec::new();
             section.blocks.iter().for_each(|block| block.write(&(0..usize::MAX), &mut bytes));
             let (view, packed) = match (kind, section.stride()) {
@@ -200,6 +206,8 @@ impl<'a> Body<'a> {
             section.length = packed.len() as u64;
             section.blocks = vec![BodyArray::Blob(packed)];
         }
+        self.batches.drain(..).flatten().for_each(|corners| corners.release());
+        self.sections.iter_mut().for_each(|section| section.batch = 0);
         Ok(())
     }
 

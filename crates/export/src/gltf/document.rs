@@ -9,6 +9,7 @@ use super::expand::expand;
 use super::material::Textures;
 use super::mesh::Arrays;
 use super::metadata::Metadata;
+use super::packing::MESHOPT;
 use super::{InstancePlace, body, film, material, mesh, place};
 use crate::check::{SceneCheck, check};
 use crate::decompose::{Y_UP_AXES, y_up};
@@ -79,6 +80,28 @@ pub fn glb_with_texture_coordinates(scene: &Scene, stop: &Stop) -> Result<Vec<u8
     bytes(scene, Arrays { small: true, measured: true }, stop).map(|(bytes, _)| bytes)
 }
 
+/// Encodes `scene` as [`glb_for_viewer`] does, with compressed arrays (`EXT_meshopt_compression`). `allow` may refuse the size
+/// (bytes) of the arrays and of the textures, before they are compressed.
+pub(crate) fn packed_glb_for_viewer(
+    scene: &Scene,
+    allow: impl FnOnce(u64, u64) -> Result<()>,
+    stop: &Stop,
+) -> Result<Vec<u8>> {
+    let checked = check(scene)?;
+    let images = Images::load(&checked)?;
+    let pictures: usize = images.files.iter().map(|file| file.bytes.len()).sum();
+    let arrays = Arrays { small: true, measured: false };
+    let facts = SceneFacts::default();
+    let mut document = Document::new(&checked, &facts, &images, &Textures::Embedded, (arrays, None), stop)?;
+    allow(document.body.length().saturating_sub(pictures as u64), pictures as u64)?;
+    document.compress()?;
+    stop.check()?;
+    let mut bytes = Vec::new();
+    document.body.write(document.head()?, &mut bytes, stop).map_err(Error::internal)?;
+    stop.check()?;
+    Ok(bytes)
+}
+
 fn bytes(scene: &Scene, arrays: Arrays, stop: &Stop) -> Result<(Vec<u8>, Layout)> {
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
@@ -100,7 +123,10 @@ pub(crate) fn write_glb(export: &Export<'_>, path: &Path, files: &mut Files) -> 
     let images = Images::load(&checked)?;
     let stop = files.stop();
     let content = (Arrays::default(), None);
-    let document = Document::new(&checked, &export.facts, &images, &Textures::Embedded, content, &stop)?;
+    let mut document = Document::new(&checked, &export.facts, &images, &Textures::Embedded, content, &stop)?;
+    if export.facts.is_compressed {
+        document.compress()?;
+    }
     document.write(path, files, &stop)?;
     files.note_all(document.note(path));
     Ok(())
@@ -122,10 +148,30 @@ pub(crate) fn write_film(
     let checked = check(&model.scene)?;
     let images = Images::load(&checked)?;
     let stop = files.stop();
-    let content = (Arrays::default(), Some((model, settings)));
+    let content = (Arrays::default(), Some((model, Some(settings))));
     let facts = SceneFacts::default();
     let document = Document::new(&checked, &facts, &images, &Textures::Embedded, content, &stop)?;
     document.write(path, files, &stop)
+}
+
+/// Writes one `.glb` file to `path` with the levels of detail of `model`.
+pub(crate) fn write_levels(
+    model: &FilmModel,
+    facts: &SceneFacts<'_>,
+    path: &Path,
+    files: &mut Files,
+) -> Result<()> {
+    let checked = check(&model.scene)?;
+    let images = Images::load(&checked)?;
+    let stop = files.stop();
+    let content = (Arrays::default(), Some((model, None)));
+    let mut document = Document::new(&checked, facts, &images, &Textures::Embedded, content, &stop)?;
+    if facts.is_compressed {
+        document.compress()?;
+    }
+    document.write(path, files, &stop)?;
+    files.note_all(document.note(path));
+    Ok(())
 }
 
 /// Writes a `.gltf` file to `path`, with a `.bin` file and copies of the textures next to it.
@@ -159,8 +205,8 @@ fn buffer_name(path: &Path) -> String {
     format!("{}.bin", stem(path))
 }
 
-/// Returns the extras of the asset: the packages that the scene was made with, and its location on the earth. Empty if
-/// there are neither.
+/// Returns the extras of the asset: the packages that the scene was made with, its location on the earth, and its recipe. Empty
+/// if there are none.
 fn asset_extras(packages: &[ScenePackage], facts: &SceneFacts<'_>) -> json::extras::Extras {
     let mut extras = serde_json::Map::new();
     if !packages.is_empty() {
@@ -172,6 +218,9 @@ fn asset_extras(packages: &[ScenePackage], facts: &SceneFacts<'_>) -> json::extr
         place["axes"] = Y_UP_AXES.into();
         extras.insert("place".into(), place);
     }
+    if let Some(recipe) = facts.recipe.and_then(|recipe| serde_json::to_value(recipe).ok()) {
+        extras.insert("recipe".into(), recipe);
+    }
     let text = serde_json::Value::Object(extras).to_string();
     RawValue::from_string(text).ok().filter(|text| text.get() != "{}")
 }
@@ -182,7 +231,7 @@ impl<'a> Document<'a> {
         facts: &SceneFacts<'a>,
         images: &'a Images,
         textures: &Textures,
-        (arrays, film): (Arrays, Option<(&'a FilmModel, &FilmSettings)>),
+        (arrays, film): (Arrays, Option<(&'a FilmModel, Option<&FilmSettings>)>),
         stop: &Stop,
     ) -> Result<Self> {
         stop.check()?;
@@ -199,11 +248,11 @@ impl<'a> Document<'a> {
         let meshes = mesh::write(checked, metadata, arrays, &materials, &mut description, &mut body, stop);
         stop.check()?;
         // The viewer reads the extension, and so does what plays films.
-        let is_own = arrays.small || film.is_some();
+        let is_own = arrays.small || film.is_some_and(|(_, settings)| settings.is_some());
         let storage = if is_own { InstanceStorage::Extension } else { facts.instances };
         let kinds = (arrays, film.map(|(model, _)| model), storage);
         let placed = place::write(checked, metadata, &meshes, kinds, &mut description, &mut body);
-        if let Some((_, settings)) = film {
+        if let Some((_, Some(settings))) = film {
             film::write(&placed.frames, settings, &mut description, &mut body);
         }
         if arrays.small {
@@ -218,7 +267,7 @@ impl<'a> Document<'a> {
         Ok(Self { description, body, layout, separate: placed.separate })
     }
 
-    /// Returns the origin of a document, with the packages of its scene.
+    /// Returns the origin of a document, with the packages and the recipe of its scene.
     pub(super) fn asset(packages: &[ScenePackage], facts: &SceneFacts<'_>) -> json::Asset {
         json::Asset {
             generator: Some(format!("Burgeon {}", env!("CARGO_PKG_VERSION"))),
@@ -232,6 +281,19 @@ impl<'a> Document<'a> {
     pub(super) fn of_parts(mut description: Description<'a>, body: Body<'a>) -> Result<Self> {
         body.describe(&mut description.root)?;
         Ok(Self { description, body, layout: Layout::default(), separate: 0 })
+    }
+
+    /// Compresses the arrays of the document.
+    fn compress(&mut self) -> Result<()> {
+        self.body.compress()?;
+        let root = &mut self.description.root;
+        (root.buffers, root.buffer_views) = (Vec::new(), Vec::new());
+        self.body.describe(root)?;
+        if root.buffers.len() > 1 {
+            use_extension(root, MESHOPT);
+            root.extensions_required.push(MESHOPT.into());
+        }
+        Ok(())
     }
 
     /// Returns a note on the storage of the repeated instances in the file at `path`, if there are any.

@@ -26,6 +26,8 @@ mod tile;
 mod weld;
 
 pub use document::{Layout, glb, glb_for_viewer, glb_with_texture_coordinates};
-pub(super) use document::{buffer_path, write_film, write_glb, write_gltf};
+pub(super) use document::{
+    buffer_path, packed_glb_for_viewer, write_film, write_glb, write_gltf, write_levels,
+};
 pub use place::InstancePlace;
 pub use tile::{TileCompression, TileModelCounts, TileModelOptions, write_tile_model};

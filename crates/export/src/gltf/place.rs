@@ -9,6 +9,7 @@ use super::mesh::{Arrays, accessor};
 use super::metadata::{FeaturePlace, INSTANCE_FEATURES, Metadata, instance_features};
 use crate::InstanceStorage;
 use crate::film_model::FilmModel;
+use crate::levels::LevelStorage;
 use burgeon_scene::Instance;
 use glam::{DAffine3, DQuat, DVec3};
 use gltf_json as json;
@@ -17,6 +18,9 @@ use json::scene::UnitQuaternion;
 use rustc_hash::FxHashMap;
 
 const INSTANCING: &str = "EXT_mesh_gpu_instancing";
+
+/// Extension of levels of detail.
+const LEVELS: &str = "MSFT_lod";
 
 /// Minimum number of instances that share a node.
 ///
@@ -170,6 +174,7 @@ pub(super) fn write<'a>(
     let features = features.list;
     let frames = film.map(|film| add_frames(film, &nodes, description)).unwrap_or_default();
     let nodes: Vec<usize> = match film {
+        Some(film) if film.levels == Some(LevelStorage::Extension) => link_levels(&frames, description),
         Some(_) => frames.iter().map(|(_, node)| *node).collect(),
         None => nodes.into_iter().map(|(_, node)| node).collect(),
     };
@@ -370,6 +375,17 @@ pub(super) fn add_group<'a>(
     })
 }
 
+/// Refers from the node of the first level of detail to the others (`MSFT_lod`), and returns it.
+fn link_levels(levels: &[(u32, usize)], description: &mut Description<'_>) -> Vec<usize> {
+    let Some(((_, first), others)) = levels.split_first() else { return Vec::new() };
+    let others: Vec<usize> = others.iter().map(|(_, node)| *node).collect();
+    if !others.is_empty() {
+        use_extension(&mut description.root, LEVELS);
+        description.nodes[*first].extensions = Some(serde_json::json!({ LEVELS: { "ids": others } }));
+    }
+    vec![*first]
+}
+
 /// Adds a node for each frame that shows something, with the `nodes` of the frame; only the first frame is visible at
 /// the beginning.
 fn add_frames<'a>(
@@ -385,7 +401,7 @@ fn add_frames<'a>(
     }
     let shown = (0_u32..).zip(children).zip(&film.names).filter(|((_, children), _)| !children.is_empty());
     let added = shown.map(|((frame, children), name)| {
-        let scale = (frame > 0).then_some([0.0; 3]);
+        let scale = (frame > 0 && film.levels.is_none()).then_some([0.0; 3]);
         (frame, description.node(Node { name, children: Some(children), scale, ..Node::default() }))
     });
     added.collect()

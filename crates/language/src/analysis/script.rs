@@ -113,6 +113,11 @@ pub struct ScriptReader {
 }
 
 impl ScriptReader {
+    /// Returns the content of the file.
+    pub fn text(&self) -> &str {
+        &self.source.1
+    }
+
     /// Starts the analysis of `text`, the content of `file`.
     pub fn begin(file: &str, text: &str, compile: Compile) -> Self {
         let (sender, analysis) = channel();

@@ -89,6 +89,12 @@ pub(super) fn names() -> Vec<Name> {
         )
         .form([], "()"),
         Name::global(
+            "report",
+            "Adds a number to the sum of `name` for the feature of the chain, such as a floor area (m²), in an interpretation. The \
+             sums of the last drawing are written to .csv files, to the JSON document of a run and to its summary.",
+        )
+        .form([argument("name", "string"), argument("value", "number")], "()"),
+        Name::global(
             "use_group",
             "Chooses the group of rules for the next steps, in a hook; without a name, only rules without a group apply.",
         )

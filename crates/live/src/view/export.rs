@@ -8,11 +8,12 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use super::message::FormatMessage;
-use burgeon_base::error::{Error, Result};
+use burgeon_base::error::{Error, ErrorKind, Result};
 use burgeon_base::stop::Stop;
-use burgeon_export::{FORMATS, Files, Format, Need};
+use burgeon_engine::script::RecipeDraft;
+use burgeon_export::{Export, FORMATS, Files, Format, Need};
 use burgeon_picture::Picture;
-use burgeon_scene::Scene;
+use burgeon_scene::Recipe;
 
 /// Maximum width and height (pixels) of a render.
 const LARGEST: u32 = 8192;
@@ -45,9 +46,17 @@ pub(super) fn run_separately<T: Send>(make: impl FnOnce() -> T + Send) -> T {
     }
 }
 
-/// Encodes `scene` as a file called `name`, whose extension selects the format. Several files are combined into one
-/// archive. Fails soon after a stop was requested.
-pub(super) fn download(scene: &Scene, name: &str, picture: &Picture, stop: &Arc<Stop>) -> Result<Download> {
+/// Returns the recipe of the present model; `None` if it would be too large.
+pub(super) fn complete(draft: &RecipeDraft) -> Result<Option<Recipe>> {
+    match draft.complete() {
+        Err(error) if matches!(error.kind(), ErrorKind::Limit(_)) => Ok(None),
+        recipe => recipe.map(Some),
+    }
+}
+
+/// Encodes a model as a file called `name`, whose extension selects the format. Several files are combined into one archive.
+/// Fails soon after a stop was requested.
+pub(super) fn download(export: &Export<'_>, name: &str, stop: &Arc<Stop>) -> Result<Download> {
     stop.check()?;
     let format = Format::of(name.as_ref())?;
     let stem = format.file.stem(name).unwrap_or(name);
@@ -60,7 +69,7 @@ pub(super) fn download(scene: &Scene, name: &str, picture: &Picture, stop: &Arc<
     let failed = |error: std::io::Error| Error::system(format!("cannot write a temporary file: {error}"));
     let folder = tempfile::tempdir().map_err(failed)?;
     let mut written = Files::new(stop);
-    written.scene(scene, &folder.path().join(&name), picture)?;
+    written.export(export, &folder.path().join(&name))?;
     written.publish()?;
     let mut files = Vec::new();
     for entry in fs::read_dir(folder.path()).map_err(failed)? {
@@ -118,6 +127,8 @@ pub(super) fn picture(query: &str) -> Result<Picture> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use burgeon_export::SceneFacts;
+    use burgeon_scene::Scene;
 
     #[test]
     fn a_run_does_not_wait_for_an_export() {
@@ -168,11 +179,13 @@ mod tests {
     #[test]
     fn names_lose_what_has_a_meaning_in_paths_and_formats_of_several_files_become_archives() {
         let scene = Scene::default();
-        let name =
-            |name: &str| download(&scene, name, &Picture::default(), &Arc::default()).map(|it| it.name);
+        let picture = Picture::default();
+        let export = Export { scene: &scene, picture: &picture, facts: SceneFacts::default() };
+        let name = |name: &str| download(&export, name, &Arc::default()).map(|it| it.name);
         assert_eq!(name("to wer-2.glb").unwrap(), "to wer-2.glb");
         assert_eq!(name("../../etc/\"x\r\n.GLB").unwrap(), "_.._etc__x__.glb");
         assert_eq!(name("..glb").unwrap(), "model.glb");
+        assert_eq!(name("tower.html").unwrap(), "tower.html");
         assert!(name("tower.obj").unwrap().starts_with("tower.obj"));
         assert!(name("tower.exe").is_err() && name("glb").is_err());
     }

@@ -19,7 +19,7 @@ use super::urls::{MODEL, PICTURE, measured_hash, model_url};
 use super::{LiveEvent, Token, export, page};
 use burgeon_base::error::Error;
 use burgeon_base::stop::Stop;
-use burgeon_export::{Format, gltf};
+use burgeon_export::{Export, Format, SceneFacts, gltf};
 
 /// Content security policy: only content of this server. Textures inside models are read from the browser's memory.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; \
@@ -256,7 +256,14 @@ async fn save(site: &ScriptSite, name: &str, query: &str) -> Response {
     let Some(shown) = site.state.shown() else {
         return plain(StatusCode::CONFLICT, "no model yet");
     };
-    match site.export(move |stop| export::download(&shown.run.scene, &name, &picture, stop)).await {
+    let recipe = Arc::clone(&shown.recipe);
+    let export = move |stop: &Arc<Stop>| {
+        let recipe = export::complete(&recipe)?;
+        let facts =
+            SceneFacts { frame: shown.run.service(), recipe: recipe.as_ref(), ..SceneFacts::default() };
+        export::download(&Export { scene: &shown.run.scene, picture: &picture, facts }, &name, stop)
+    };
+    match site.export(export).await {
         Some(Ok(download)) => {
             let disposition = disposition(&download.name);
             let headers = [

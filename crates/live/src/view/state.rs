@@ -22,7 +22,7 @@ use burgeon_base::locks::LockRecovery;
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::Warning;
 use burgeon_engine::run::Run;
-use burgeon_engine::script::{CurvesFile, Param, RunOptions, Session};
+use burgeon_engine::script::{CurvesFile, Param, RecipeDraft, RunOptions, Session};
 use burgeon_export::gltf::Layout;
 
 /// Maximum number of messages that wait for a page. A slower page receives the present state instead.
@@ -149,6 +149,8 @@ pub(super) struct PresentModel {
     /// Layout of the scene in the model's bytes.
     pub layout: Arc<Layout>,
     pub message: ModelMessage,
+    /// Recipe of the model, which its files carry.
+    pub recipe: Arc<RecipeDraft>,
 }
 
 impl ServerState {

@@ -22,7 +22,7 @@ use burgeon_base::locks::LockRecovery;
 use burgeon_base::text::panic_message;
 use burgeon_base::warning::Warning;
 use burgeon_engine::run::{Run, run_session};
-use burgeon_engine::script::{CurvesFile, Limits, Session, make_ready};
+use burgeon_engine::script::{CurvesFile, Limits, RecipeDraft, Session, make_ready};
 use burgeon_export::gltf::{self, Layout};
 
 /// Interval of progress reports to pages.
@@ -59,6 +59,7 @@ struct NewModel {
     file: ModelFile,
     /// Description for pages, except for the parts that depend on the request.
     message: ModelMessage,
+    recipe: RecipeDraft,
 }
 
 /// Encoded model for pages.
@@ -228,7 +229,8 @@ fn attempt(state: &ServerState, job: &RunJob, kept: &mut Option<Arc<Session>>) -
         }
         message.times.encode = describe::ms(time);
         message.times.total = describe::ms(job.due.at.elapsed());
-        Ok(NewModel { run, file, message })
+        let recipe = session.recipe(&run.params);
+        Ok(NewModel { run, file, message, recipe })
     });
     match made {
         _ if cancelled.load(Ordering::Acquire) => RunOutcome::Cancelled,
@@ -299,7 +301,7 @@ fn finish(state: &ServerState, job: RunJob, session: Option<&Session>, outcome: 
             notices.push(LiveEvent::Failed(error));
         }
         RunOutcome::NewModel(made) => {
-            let NewModel { run, file, mut message } = *made;
+            let NewModel { run, file, mut message, recipe } = *made;
             let RunJob { mut request, inputs, .. } = job;
             message.params = request.params(&run.params);
             inner.request.params(&run.params);
@@ -326,8 +328,8 @@ fn finish(state: &ServerState, job: RunJob, session: Option<&Session>, outcome: 
             let new: BTreeSet<String> = remark.into_iter().chain(note).collect();
             notices.extend(new.difference(&inner.notes).cloned().map(LiveEvent::Text));
             inner.notes = new;
-            let (run, layout) = (Arc::new(run), Arc::new(layout));
-            let model = PresentModel { run, request, inputs, layout, message };
+            let (run, layout, recipe) = (Arc::new(run), Arc::new(layout), Arc::new(recipe));
+            let model = PresentModel { run, request, inputs, layout, message, recipe };
             gone = Some((inner.shown.replace(Arc::new(model)), old));
         }
     }

@@ -9,6 +9,7 @@ use super::InterpretationPass;
 use super::memory::{PassMark, PassMemory};
 use super::notices::ObjectNotice;
 use crate::machine::{CLOSE_CALL, Interpretations, Machine, OPEN_CALL, Objects, read_column};
+use crate::results::ReportSums;
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
 use burgeon_base::warning::Warning;
@@ -60,6 +61,8 @@ pub(crate) struct Applier {
     locate: Option<Capability<dyn Locate>>,
     /// Places of the object at modules whose rules read them.
     places: Vec<(u32, ObjectPlace)>,
+    /// Sums of the numbers that rules have reported.
+    pub(super) reports: ReportSums,
 }
 
 /// Number of symbols between two checks for cancellation.
@@ -110,6 +113,7 @@ impl Applier {
             locate: kind.capability::<dyn Locate>(),
             kind,
             places: Vec::new(),
+            reports: ReportSums::default(),
         })
     }
 
@@ -339,6 +343,11 @@ impl Applier {
     /// Takes the noted places.
     pub(crate) fn take_places(&mut self) -> Vec<(u32, ObjectPlace)> {
         std::mem::take(&mut self.places)
+    }
+
+    /// Takes the sums of the reported numbers.
+    pub(super) fn take_reports(&mut self) -> ReportSums {
+        std::mem::take(&mut self.reports)
     }
 
     /// Applies the calls of the entry `next` that have been read.

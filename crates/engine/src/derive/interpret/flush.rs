@@ -49,6 +49,12 @@ impl Flusher for Applier {
         self.pass.context(rule, module)
     }
 
+    fn report(&mut self, entry: usize, name: &str, value: f64) -> Result<()> {
+        let (module, _) = *self.entries.get(entry).ok_or_else(|| Error::internal("unknown entry"))?;
+        self.reports.add(self.pass.chain_of(module), name, value);
+        Ok(())
+    }
+
     fn note_undrawn(&self, symbol: Symbol) {
         self.pass.note_undrawn(symbol);
     }

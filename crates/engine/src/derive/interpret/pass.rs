@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 use super::Applier;
@@ -12,7 +12,7 @@ use super::notices::Notices;
 use crate::derive::plan::DerivationPlan;
 use crate::derive::threads::{LeadingMachine, ThreadJob};
 use crate::machine::{Flusher, Machine, ModulePlaces, write_column};
-use crate::results::Use;
+use crate::results::{ReportSums, Use};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::Warning;
@@ -91,6 +91,10 @@ pub(crate) struct InterpretationPass {
     pub(super) regions: Vec<Region>,
     undrawn: Mutex<BTreeSet<Symbol>>,
     places: Mutex<Vec<(u32, ObjectPlace)>>,
+    /// Sums of the reported numbers.
+    reports: Mutex<ReportSums>,
+    /// Start of each chain, found when a rule reports a number.
+    starts: OnceLock<Vec<Mark>>,
     /// Memory of the last pass, if this pass continues it and can be continued.
     memory: Option<Mutex<PassMemory>>,
 }
@@ -192,6 +196,8 @@ impl InterpretationPass {
             links,
             undrawn: Mutex::default(),
             places: Mutex::default(),
+            reports: Mutex::default(),
+            starts: OnceLock::new(),
             memory: memory.map(Mutex::new),
         })
     }
@@ -210,13 +216,15 @@ impl InterpretationPass {
         let of_symbol = |symbol: Symbol| self.chain.symbols.iter().filter(|other| **other == symbol).count();
         let notices: Vec<Warning> = self.notices.into_list(of_symbol).collect();
         let undrawn = self.undrawn.into_inner().recover();
+        let reports = self.reports.into_inner().recover();
         let mut places = self.places.into_inner().recover();
         if let Some((memory, mut last)) = memory.zip(self.memory.map(|last| last.into_inner().recover())) {
             last.places.append(&mut places);
             places.clone_from(&last.places);
             let has_failed = plan.objects.as_ref().is_some_and(|objects| objects.failed().any());
-            // Their warnings and numbers of steps belong to a whole pass.
+            // Their warnings, reports and numbers of steps belong to a whole pass.
             if notices.is_empty()
+                && reports.is_empty()
                 && undrawn.is_empty()
                 && !has_failed
                 && !self.reads_step.load(Ordering::Relaxed)
@@ -231,6 +239,7 @@ impl InterpretationPass {
                 if let Some(environments) = &plan.environments {
                     environments.end_pass()?;
                 }
+                *plan.reports.lock().recover() = reports;
                 plan.set_places((!plan.located.is_empty()).then(|| ModulePlaces::new(places)));
                 Ok(PassOutcome {
                     reads_step: self.reads_step.into_inner(),
@@ -279,7 +288,9 @@ impl InterpretationPass {
             flusher.and_then(|flusher| (flusher as Box<dyn std::any::Any>).downcast::<Applier>().ok())
         {
             let first = u32::try_from(self.first.module).unwrap_or(u32::MAX);
-            let places = { *applier }.take_places().into_iter();
+            let mut applier = *applier;
+            self.reports.lock().recover().extend(applier.take_reports());
+            let places = applier.take_places().into_iter();
             let places = places.map(|(module, place)| (module.saturating_add(first), place));
             self.places.lock().recover().extend(places);
         }
@@ -444,6 +455,12 @@ impl InterpretationPass {
     /// Returns the number of symbols per call into Lua, and between two marks.
     pub(super) fn marked_symbols(&self) -> usize {
         self.plan.steps.batch.min(MARKED_SYMBOLS)
+    }
+
+    /// Returns the index of the chain of a module, given the index of the module.
+    pub(super) fn chain_of(&self, module: usize) -> usize {
+        let starts = self.starts.get_or_init(|| self.chain.starts(self.plan.steps.grammar.arities()));
+        self.first.chain + starts.partition_point(|start| start.module <= module).saturating_sub(1)
     }
 
     /// Records that nothing draws the modules with this symbol.

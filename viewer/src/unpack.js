@@ -1,4 +1,4 @@
-// Decompression of the views of a tile's buffer.
+// Decompression of the views of a file's buffer.
 //
 // EXT_meshopt_compression, 2021.
 
