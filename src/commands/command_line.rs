@@ -3,7 +3,7 @@
 use std::io::{ErrorKind, Write as _};
 use std::process::ExitCode;
 
-use super::{api, check, completions, fit, live, mods, new, report, run, setup, sources, tiles, variations};
+use super::{api, check, completions, examples, fit, live, mods, new, report, run, setup, sources, tiles, variations};
 use burgeon::Error;
 use clap::{Parser, Subcommand};
 
@@ -29,6 +29,7 @@ enum Command {
     Fit(fit::FitCommand),
     Mods(mods::ModsCommand),
     New(new::NewCommand),
+    Examples(examples::ExamplesCommand),
     Setup(setup::SetupCommand),
     Sources(sources::SourcesCommand),
     Tiles(tiles::TilesCommand),
@@ -50,6 +51,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Fit(command) => (command.json(), command.run()),
         Command::Mods(command) => (command.json(), command.run()),
         Command::New(command) => (command.json(), command.run()),
+        Command::Examples(command) => (command.json(), command.run()),
         Command::Setup(command) => (command.json(), command.run()),
         Command::Sources(command) => (command.json(), command.run()),
         Command::Tiles(command) => return tiles(&command),

@@ -7,6 +7,7 @@ mod api;
 mod check;
 mod command_line;
 mod completions;
+mod examples;
 mod fit;
 #[cfg_attr(not(feature = "live"), path = "absent.rs")]
 mod live;

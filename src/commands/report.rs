@@ -34,6 +34,17 @@ pub(crate) fn error(error: &Error, json: bool) {
     eprint(&text);
 }
 
+/// Formats a path as a word of a shell's command line, in quotes if it has other characters than file names usually have.
+pub(crate) fn shell_word(path: &Path) -> String {
+    let shown = path.display().to_string();
+    let is_plain = |c: char| c.is_alphanumeric() || "/\\._-:".contains(c);
+    match shown.chars().all(is_plain) && !shown.starts_with('-') {
+        true => shown,
+        false if shown.starts_with('-') => format!("./'{}'", shown.replace('\'', r"'\''")),
+        false => format!("'{}'", shown.replace('\'', r"'\''")),
+    }
+}
+
 /// Formats warnings as text, in the format of errors.
 pub(crate) fn warnings<'a>(warnings: impl IntoIterator<Item = &'a Warning>) -> String {
     let mut text = String::new();
