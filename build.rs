@@ -1,6 +1,9 @@
 //! Lists the example scripts and their data for `burgeon examples`, which writes them after an installation.
 
-#![allow(clippy::print_stdout, reason = "cargo reads the instructions of a build script from its standard output")]
+#![allow(
+    clippy::print_stdout,
+    reason = "cargo reads the instructions of a build script from its standard output"
+)]
 
 use std::error::Error;
 use std::fmt::Write as _;

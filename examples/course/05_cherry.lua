@@ -67,7 +67,7 @@ tree:interpret("Leaf", function(this)
 end)
 -- The last shoots are twigs.
 tree:interpret("Shoot(length, width)", function(this, length, width)
-  this:width(width):forward(length * 0.25)
+  this:width(width):forward(length * 0.12)
 end)
 
 tree:derive(years)

@@ -3,7 +3,9 @@
 use std::io::{ErrorKind, Write as _};
 use std::process::ExitCode;
 
-use super::{api, check, completions, examples, fit, live, mods, new, report, run, setup, sources, tiles, variations};
+use super::{
+    api, check, completions, examples, fit, live, mods, new, report, run, setup, sources, tiles, variations,
+};
 use burgeon::Error;
 use clap::{Parser, Subcommand};
 

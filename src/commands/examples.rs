@@ -17,8 +17,6 @@ const FILES: &[(&str, &[u8])] = &include!(concat!(env!("OUT_DIR"), "/examples.rs
 const FIRST: &str = "examples/course/01_box.lua";
 
 /// Writes the example scripts into a folder: the course, the cookbook, the gallery, the published models, and their data
-///
-/// All commands of the book work in this folder.
 #[derive(Args)]
 pub(crate) struct ExamplesCommand {
     /// Folder to create; an empty folder is accepted too
@@ -58,9 +56,9 @@ impl ExamplesCommand {
     /// Returns true if the folder does not exist. Fails if it contains files, or if the path is a file.
     fn refuse_occupied(&self) -> Result<bool> {
         let shown = self.folder.display();
-        let problem = match fs::read_dir(&self.folder) {
-            Ok(mut entries) if entries.next().is_none() => return Ok(false),
-            Ok(_) => format!("{shown} is not empty"),
+        let problem = match fs::read_dir(&self.folder).map(|mut entries| entries.next().is_none()) {
+            Ok(true) => return Ok(false),
+            Ok(false) => format!("{shown} is not empty"),
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(true),
             Err(error) if error.kind() == ErrorKind::NotADirectory => format!("{shown} is not a folder"),
             Err(error) => format!("cannot read {shown}: {error}"),
@@ -73,10 +71,8 @@ impl ExamplesCommand {
 fn write_all(folder: &Path) -> std::result::Result<(), (PathBuf, std::io::Error)> {
     for (name, content) in FILES {
         let path = folder.join(name);
-        let written = path
-            .parent()
-            .map_or(Ok(()), fs::create_dir_all)
-            .and_then(|()| fs::write(&path, content));
+        let written =
+            path.parent().map_or(Ok(()), fs::create_dir_all).and_then(|()| fs::write(&path, content));
         written.map_err(|error| (path, error))?;
     }
     Ok(())

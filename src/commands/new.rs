@@ -101,8 +101,8 @@ impl NewCommand {
 /// Creates a file. Fails if it exists.
 fn create(path: &Path, content: &str) -> Result<()> {
     let shown = path.display();
-    let mut file = OpenOptions::new().write(true).create_new(true).open(path).map_err(|error| {
-        match error.kind() {
+    let mut file =
+        OpenOptions::new().write(true).create_new(true).open(path).map_err(|error| match error.kind() {
             ErrorKind::AlreadyExists => {
                 Error::file(path, format!("{shown} already exists")).help("choose another name or folder")
             }
@@ -112,8 +112,7 @@ fn create(path: &Path, content: &str) -> Result<()> {
                     .help("create the folder first")
             }
             _ => Error::file(path, format!("cannot create {shown}: {error}")).help("choose another folder"),
-        }
-    })?;
+        })?;
     file.write_all(content.as_bytes()).map_err(|error| {
         // An incomplete file would only be in the way.
         let _ = std::fs::remove_file(path);
