@@ -4,10 +4,11 @@ use std::ffi::OsString;
 use std::io::{ErrorKind, Write as _};
 use std::process::ExitCode;
 
-use super::examples::with_examples;
+use super::help_examples::with_examples;
 use super::short_forms::{suggest, with_command};
 use super::{
-    api, check, completions, fit, live, man, mods, new, open, report, run, setup, sources, tiles, variations,
+    api, check, completions, examples, fit, live, man, mods, new, open, report, run, setup, sources, tiles,
+    variations,
 };
 use burgeon::Error;
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
@@ -36,6 +37,7 @@ enum Command {
     Mods(mods::ModsCommand),
     New(new::NewCommand),
     Open(open::OpenCommand),
+    Examples(examples::ExamplesCommand),
     Setup(setup::SetupCommand),
     Sources(sources::SourcesCommand),
     Tiles(tiles::TilesCommand),
@@ -71,6 +73,7 @@ pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Mods(command) => (command.json(), command.run()),
         Command::New(command) => (command.json(), command.run()),
         Command::Open(command) => (command.json(), command.run()),
+        Command::Examples(command) => (command.json(), command.run()),
         Command::Setup(command) => (command.json(), command.run()),
         Command::Sources(command) => (command.json(), command.run()),
         Command::Tiles(command) => return tiles(&command),

@@ -9,6 +9,7 @@ mod command_line;
 mod completions;
 mod examples;
 mod fit;
+mod help_examples;
 #[cfg_attr(not(feature = "live"), path = "absent.rs")]
 mod live;
 mod man;
