@@ -77,7 +77,7 @@ impl ModelData {
             return Err(first.clone().into_error());
         }
         files.publish()?;
-        Ok(warnings.iter().map(|warning| warning_json(warning)).collect())
+        Ok(warnings.iter().map(warning_json).collect())
     }
 }
 

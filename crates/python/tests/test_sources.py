@@ -100,7 +100,6 @@ def test_wkb_has_points_collections_heights_and_both_orders():
 def test_scripts_data_and_textures_come_from_memory():
     script = """
     local height = require("parts/height")
-    local texture = { file = "textures/it's 🌳.png", size = { 1, 1 } }
     local Slab = module("Slab")
     local tower = lsystem({ object = extruder({ sides = 4, texture = "textures/it's 🌳.png" }) })
     tower:axiom(Slab())

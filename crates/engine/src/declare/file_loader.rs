@@ -65,10 +65,6 @@ impl LoadedFolder {
         Ok(folder)
     }
 
-    pub(super) fn path(&self) -> &Path {
-        &self.path
-    }
-
     /// Returns the path of the file `name`. Fails if the name is not relative, or leads out of the folder.
     pub(super) fn path_of(&self, name: &str) -> Result<PathBuf> {
         let is_inside = Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
@@ -152,7 +148,7 @@ mod tests {
         let path = folder.path_of("a/b \"🌳\".lua").unwrap();
         for _ in 0..2 {
             folder.provide(&path).unwrap();
-            folder.provide(&folder.path().join("missing")).unwrap();
+            folder.provide(&folder.path.join("missing")).unwrap();
             folder.provide(Path::new("/elsewhere")).unwrap();
         }
         assert_eq!(std::fs::read(&path).unwrap(), b"text");
