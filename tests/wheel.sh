@@ -60,15 +60,22 @@ if refused=$("$folder/wheel/bin/pip" install --disable-pip-version-check --no-in
 fi
 grep -q 'not a supported wheel on this platform' <<<"$refused"
 
-# From the installation to the first picture.
-begin=$(date +%s%N)
-env PATH="$folder/empty:$folder/wheel/bin:/usr/bin:/bin" "$folder/wheel/bin/pip" install --quiet --disable-pip-version-check \
-  --no-index "${wheel[0]}"
-(cd "$folder/empty" && env PATH="$folder/empty:$folder/wheel/bin:/usr/bin:/bin" \
-  burgeon run "$root/scripts/tower.lua" -o tower.glb -o tower.png)
-milliseconds=$((($(date +%s%N) - begin) / 1000000))
-echo "from the wheel to the first picture: $milliseconds ms"
-[ "$milliseconds" -lt 10000 ]
+# From the installation to the first picture, in less than 10 s. The time of the processor counts, because other programs can
+# occupy the machine.
+first_picture() {
+  env PATH="$folder/empty:$folder/wheel/bin:/usr/bin:/bin" "$folder/wheel/bin/pip" install --quiet \
+    --disable-pip-version-check --no-index "${wheel[0]}"
+  (cd "$folder/empty" && env PATH="$folder/empty:$folder/wheel/bin:/usr/bin:/bin" \
+    burgeon run "$root/scripts/tower.lua" -o tower.glb -o tower.png)
+}
+TIMEFORMAT='%U %S %R'
+{ time first_picture 2>"$folder/first_picture.txt"; } 2>"$folder/seconds.txt" || {
+  cat "$folder/first_picture.txt"
+  exit 1
+}
+read -r user system real <"$folder/seconds.txt"
+echo "from the wheel to the first picture: $user s of the processor, $system s of the system, $real s in all"
+awk -v spent="$user" -v more="$system" 'BEGIN { exit !(spent + more < 10) }'
 cp "$folder/empty/tower.glb" "$folder/wheel.glb"
 
 # The module does not bring an allocator for the process.

@@ -134,8 +134,8 @@ fn members_use_those_that_stand_before_them_in_the_drawn_map() {
             .iter()
             .flat_map(|source| paths(&source.code))
             .filter_map(|path| Some(member_called(&path[0], "burgeon_")?.to_owned()))
-            // The commands of the main crate use its public API by its name.
-            .filter(|name| name != member)
+            // The main crate uses its own API by its name, and texts for users mention it.
+            .filter(|name| name != "burgeon" || built.contains(name))
             .collect();
         assert_eq!(drawn[member], named, "{member}: the map in src/lib.rs and its `use` lines differ");
     }

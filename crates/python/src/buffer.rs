@@ -5,7 +5,7 @@ use std::sync::Arc;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
-use crate::model::ModelData;
+use crate::model_data::ModelData;
 
 /// Array of numbers that belongs to a model. It is read-only and in the memory of the model, which it keeps alive.
 ///

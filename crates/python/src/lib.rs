@@ -9,6 +9,7 @@ mod command;
 mod errors;
 mod loader;
 mod model;
+mod model_data;
 mod options;
 mod parameters;
 mod run;

@@ -1,106 +1,20 @@
-//! Models: results of runs.
+//! Models for Python: facts, rows, arrays and files.
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use burgeon::export::{Export, FORMATS, Files, Format, Need, SceneFacts, SystemFacts};
-use burgeon::picture::Picture;
+use burgeon::Stop;
+use burgeon::export::{FORMATS, Need};
+use burgeon::kit::Attribute;
 use burgeon::results::layers;
-use burgeon::scene::Part;
-use burgeon::script::Session;
 use burgeon::sources::ReferenceFrame;
-use burgeon::{Error, Result, Run, Stop};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 
 use crate::buffer::Buffer;
 use crate::errors::exception;
+use crate::model_data::{ExportSettings, ModelData, warning_json};
 use crate::supervised::supervise_quietly;
-
-/// Run of a script, which buffers and exports share.
-pub(crate) struct ModelData {
-    pub run: Run,
-    pub session: Arc<Session>,
-}
-
-impl ModelData {
-    /// Returns a part of a mesh, if it exists.
-    pub(crate) fn part(&self, mesh: usize, part: usize) -> Option<&Part> {
-        self.run.scene.meshes.get(mesh)?.parts.get(part)
-    }
-
-    /// Returns the attributes of the features of each system.
-    fn systems(&self) -> Vec<SystemFacts> {
-        let known = self.run.systems.iter().filter_map(|system| {
-            let records = system.records();
-            let is_known = records.is_some() || system.city.is_some();
-            let (records, class) = (records.unwrap_or_default(), system.city);
-            is_known.then_some(SystemFacts { system: system.system, records, class })
-        });
-        known.collect()
-    }
-
-    /// Writes the model to `path`, and returns the warnings about it.
-    fn write(&self, path: &std::path::Path, settings: &ExportSettings, stop: &Arc<Stop>) -> Result<Value> {
-        let format = Format::of(path)?;
-        if self.run.systems.is_empty() {
-            return Err(Error::script("the script derives no system, so there is nothing to write")
-                .help("end it with system:derive()"));
-        }
-        let systems = self.systems();
-        let mut tables =
-            if format.needs(Need::Layers) { layers(&self.session, &self.run.systems) } else { Vec::new() };
-        if let Some(wanted) = &settings.layer {
-            let names: Vec<String> = tables.iter().map(|table| table.name.clone()).collect();
-            tables.retain(|table| table.name == *wanted);
-            if tables.is_empty() {
-                let names = names.iter().map(String::as_str);
-                let message = format!("the model has no layer named {wanted:?}");
-                let error = Error::not_found("layer", wanted, names.clone(), message);
-                return Err(error.help(format!("it has {}", names.collect::<Vec<_>>().join(", "))));
-            }
-        }
-        let columns = systems.iter().flat_map(|system| &system.records.columns).cloned();
-        let metadata: Option<Vec<String>> = settings.metadata.then(|| columns.collect());
-        let facts = SceneFacts {
-            frame: self.run.service(),
-            detail: self.session.options.lod,
-            systems: &systems,
-            layers: &tables,
-            metadata: metadata.as_deref(),
-            ..SceneFacts::default()
-        };
-        let mut files = Files::new(stop);
-        files.export(&Export { scene: &self.run.scene, picture: &settings.picture, facts }, path)?;
-        let warnings = files.take_warnings();
-        if let (true, Some(first)) = (self.session.options.strict, warnings.first()) {
-            return Err(first.clone().into_error());
-        }
-        files.publish()?;
-        Ok(warnings.iter().map(warning_json).collect())
-    }
-}
-
-/// Settings of a file.
-#[derive(Default)]
-struct ExportSettings {
-    picture: Picture,
-    metadata: bool,
-    layer: Option<String>,
-}
-
-impl ExportSettings {
-    fn parse(text: &str) -> Result<Self> {
-        let invalid =
-            |error: serde_json::Error| Error::argument(format!("invalid settings of a file: {error}"));
-        let mut settings: Value = serde_json::from_str(text).map_err(invalid)?;
-        Ok(Self {
-            picture: serde_json::from_value(settings["picture"].take()).map_err(invalid)?,
-            metadata: settings["metadata"].as_bool().unwrap_or(false),
-            layer: settings["layer"].as_str().map(str::to_owned),
-        })
-    }
-}
 
 /// Model that a script has made.
 #[pyclass(frozen, module = "burgeon._burgeon")]
@@ -196,13 +110,6 @@ pub(crate) fn formats() -> String {
     rows.collect::<Value>().to_string()
 }
 
-/// Returns a warning as JSON, with its complete text.
-fn warning_json(warning: &burgeon::Warning) -> Value {
-    let mut object = warning.to_json();
-    object["text"] = warning.to_string().into();
-    object
-}
-
 fn facts_json(data: &ModelData) -> Value {
     let run = &data.run;
     let bounds = run.scene.bounds().map(|(low, high)| [low.to_array(), high.to_array()]);
@@ -275,8 +182,7 @@ fn features_json(data: &ModelData) -> Value {
     tables.collect()
 }
 
-fn attribute_json(value: &burgeon::kit::Attribute) -> Value {
-    use burgeon::kit::Attribute;
+fn attribute_json(value: &Attribute) -> Value {
     match value {
         Attribute::Boolean(value) => (*value).into(),
         Attribute::Number(number) => (*number).into(),

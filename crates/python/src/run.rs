@@ -13,7 +13,8 @@ use pyo3::types::PyDict;
 
 use crate::errors::exception;
 use crate::loader::{RaisedException, file_loader};
-use crate::model::{ModelData, ScriptModel};
+use crate::model::ScriptModel;
+use crate::model_data::ModelData;
 use crate::options::OptionValues;
 use crate::supervised::{WorkMessage, supervise};
 

@@ -40,5 +40,5 @@ local endless = lsystem({ object = extruder({}) })
 endless:axiom(A(0))
 endless:rule("A(n)", function(this, n) return A(n + 1) end)
 endless:interpret("A(n)", function(this, n) end)
-endless:derive(1000000000)
+endless:derive()
 """

@@ -4,6 +4,7 @@ import json
 import re
 import subprocess
 import sys
+import warnings
 
 import pytest
 
@@ -34,7 +35,9 @@ def test_a_notebook_runs_from_the_first_cell_to_the_last(name, root, tmp_path, m
     notebook = json.loads(path.read_text())
     cells = ["".join(cell["source"]) for cell in notebook["cells"] if cell["cell_type"] == "code"]
     assert len(cells) > 3 and all(not cell.get("outputs") for cell in notebook["cells"])
-    run_blocks(cells, tmp_path, monkeypatch)
+    with warnings.catch_warnings():
+        warnings.filterwarnings("error", category=burgeon.BurgeonWarning)
+        run_blocks(cells, tmp_path, monkeypatch)
 
 
 def test_public_names_have_docstrings():

@@ -9,6 +9,15 @@ import burgeon
 from conftest import FENCE
 
 
+#: A script whose model is empty, which is worth a warning.
+EMPTY = """
+local A = module("A")
+local empty = lsystem({ object = turtle() })
+empty:axiom(A())
+empty:derive(1)
+"""
+
+
 def run(script, **options):
     return burgeon.run("s.lua", loader={"s.lua": script}, **options)
 
@@ -35,24 +44,24 @@ def test_errors_and_warnings_can_be_pickled():
     copy = pickle.loads(pickle.dumps(caught.value))
     assert (str(copy), copy.line, copy.problems) == (str(caught.value), 1, caught.value.problems)
     with pytest.warns(burgeon.BurgeonWarning) as shown:
-        run("lsystem({ object = turtle() }):derive(1)")
+        run(EMPTY)
     copy = pickle.loads(pickle.dumps(shown[0].message))
     assert (str(copy), copy.kind, copy.line) == (str(shown[0].message), shown[0].message.kind, shown[0].message.line)
 
 
 def test_warnings_belong_to_the_line_that_called_run():
     with pytest.warns(burgeon.BurgeonWarning) as shown:
-        run("lsystem({ object = turtle() }):derive(1)")
+        run(EMPTY)
     assert shown[0].filename == __file__ and shown[0].message.kind
     with warnings.catch_warnings():
         warnings.filterwarnings("error", category=burgeon.BurgeonWarning)
         with pytest.raises(burgeon.BurgeonWarning):
-            run("lsystem({ object = turtle() }):derive(1)")
+            run(EMPTY)
 
 
 def test_a_strict_run_raises_the_first_warning():
     with pytest.raises(burgeon.Error):
-        run("lsystem({ object = turtle() }):derive(1)", strict=True)
+        run(EMPTY, strict=True)
 
 
 @pytest.mark.parametrize(

@@ -106,6 +106,8 @@ def test_every_format_of_drawings_can_be_saved(tower, tmp_path):
 
 def test_a_refused_file_stays_as_it_was(tower, tmp_path):
     model = burgeon.run(tower, values={"floors": 2})
+    with pytest.raises(ValueError, match="several files"):
+        model.to_bytes("obj")
     path = tmp_path / "a.png"
     path.write_text("old")
     for settings in ({"width": 0}, {"widht": 3}):

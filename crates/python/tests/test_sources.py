@@ -37,7 +37,7 @@ def wkb(x, srid=None):
 def built(rows, **options):
     table = burgeon.Table(rows, crs=25832, **options)
     model = burgeon.run("h.lua", loader={"h.lua": HOUSES}, sources={"plots": table})
-    return model.to_bytes("obj"), [row["height"] for row in model.features]
+    return model.to_bytes("glb"), [row["height"] for row in model.features]
 
 
 def test_geojson_wkb_hex_and_objects_give_the_same_model():
@@ -101,9 +101,11 @@ def test_scripts_data_and_textures_come_from_memory():
     script = """
     local height = require("parts/height")
     local Slab = module("Slab")
-    local tower = lsystem({ object = extruder({ sides = 4, texture = "textures/it's 🌳.png" }) })
+    local tower = lsystem({ object = extruder({ sides = 4 }) })
     tower:axiom(Slab())
-    tower:interpret("Slab", function(this) this:extrude(height) end)
+    tower:interpret("Slab", function(this)
+      this:material({ texture = "textures/it's 🌳.png" }):extrude(height)
+    end)
     tower:derive(0)
     """
     files = {"s.lua": script, "parts/height.lua": "return 3", "textures/it's 🌳.png": PNG}

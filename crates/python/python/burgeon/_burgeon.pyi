@@ -1,8 +1,11 @@
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, final
+
+__all__ = ["Buffer", "ScriptModel", "VERSION", "formats", "parameters", "run", "run_command"]
 
 VERSION: str
 
+@final
 class Buffer:
     @property
     def shape(self) -> list[int]: ...
@@ -13,6 +16,7 @@ class Buffer:
     def tobytes(self) -> bytes: ...
     def __len__(self) -> int: ...
 
+@final
 class ScriptModel:
     def facts(self) -> str: ...
     def features(self) -> str: ...

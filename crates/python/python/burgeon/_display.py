@@ -22,6 +22,6 @@ def html_of(model: Model) -> str:
     if '"extension":"html"' in _formats().replace(" ", ""):
         page = model.to_bytes("html").decode()
         return f'<iframe srcdoc="{html.escape(page)}" width="{WIDTH}" height="{HEIGHT}" style="border:0"></iframe>'
-    picture = base64.b64encode(model.to_bytes("png", width=WIDTH, height=HEIGHT)).decode()
+    picture = base64.b64encode(model.to_bytes("png", width=WIDTH, height=HEIGHT, quality="film")).decode()
     title = html.escape(repr(model))
     return f'<img src="data:image/png;base64,{picture}" width="{WIDTH}" height="{HEIGHT}" alt="{title}">'

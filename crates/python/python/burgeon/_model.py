@@ -304,7 +304,7 @@ class Model:
             name = f"model.{extension.lstrip('.')}"
             self._save(os.path.join(folder, name), metadata, layer, picture, stacklevel + 1)
             if len(os.listdir(folder)) > 1:
-                raise ValueError(f"a model with textures has several files as .{extension}: use save, or glb")
+                raise ValueError(f"the model has several files as .{extension}: use save, or a format of one file such as glb")
             with open(os.path.join(folder, name), "rb") as file:
                 return file.read()
 
