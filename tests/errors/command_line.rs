@@ -170,7 +170,7 @@ fn a_check_finds_what_only_a_run_meets_and_a_quick_one_derives_nothing() {
     let document = folder.burgeon(&["check", "s.lua", "--quick", "--json", "--set", "n=4"]).done().json();
     assert_eq!(
         document.to_string(),
-        r#"{"ok":true,"params":[{"name":"n","package":null,"value":4.0,"unit":"m","text":"how far"}],"warnings":[]}"#
+        r#"{"ok":true,"params":[{"name":"n","package":null,"value":4.0,"default":3.0,"unit":"m","text":"how far","type":"number"}],"warnings":[]}"#
     );
     assert_eq!(folder.files().len(), 1);
 }
@@ -179,7 +179,10 @@ fn a_check_finds_what_only_a_run_meets_and_a_quick_one_derives_nothing() {
 fn new_makes_a_script_that_runs_and_never_overwrites_one() {
     let folder = Folder::new();
     let said = folder.burgeon(&["new", "tree"]).done();
-    assert_eq!(said.stderr, "created tree.lua; now: burgeon run tree.lua -o model.glb\n");
+    assert_eq!(
+        said.stderr,
+        "created tree.lua\nto see it: burgeon live tree.lua\nto write it: burgeon run tree.lua -o tree.glb\n"
+    );
     folder.burgeon(&["check", "tree.lua"]).done();
     folder.burgeon(&["run", "tree.lua", "-o", "model.glb"]).done();
     assert!(folder.files()["model.glb"] > 10_000);

@@ -33,7 +33,10 @@ fn a_script_without_a_command_is_run_and_the_outputs_are_hinted_at() {
     for name in ["tree.lua", "tree", "./tree.lua"] {
         let said = folder().burgeon(&[name]).done();
         assert!(said.stderr.starts_with("1 module in 1 chain, 0 steps\n"), "{}", said.stderr);
-        let hint = format!("note: no file was written; to write it: burgeon {}", name.replace("tree.lua", "tree").replace("tree", "tree.lua"));
+        let hint = format!(
+            "note: no file was written; to write it: burgeon {}",
+            name.replace("tree.lua", "tree").replace("tree", "tree.lua")
+        );
         assert!(said.stderr.contains(&hint) && said.stderr.contains("burgeon live"), "{}", said.stderr);
     }
     let folder = folder();
@@ -65,16 +68,27 @@ fn standard_input_and_output_take_scripts_and_models() {
     let folder = Folder::new();
     let script = format!("{HEAD}{SCRIPT}");
     let out = fed(&folder, &["run", "-", "-o", "-", "--format", "glb"], script.as_bytes());
-    assert!(out.status.success() && out.stdout.starts_with(b"glTF"), "{}", String::from_utf8_lossy(&out.stderr));
+    assert!(
+        out.status.success() && out.stdout.starts_with(b"glTF"),
+        "{}",
+        String::from_utf8_lossy(&out.stderr)
+    );
     let out = fed(&folder, &["-", "-o", "-", "--format", ".STL"], script.as_bytes());
     assert!(out.status.success() && out.stdout.len() > 84, "{}", String::from_utf8_lossy(&out.stderr));
     assert!(folder.files().is_empty(), "{:?}", folder.files());
     let out = fed(&folder, &["run", "-"], b"#!/usr/bin/env burgeon\n  print(flors)\n");
     let text = String::from_utf8_lossy(&out.stderr).into_owned();
-    assert!(text.starts_with("error: -:2:9: unknown name flors\n  | print(flors)\n  |       ^^^^^\n"), "{text}");
+    assert!(
+        text.starts_with("error: -:2:9: unknown name flors\n  | print(flors)\n  |       ^^^^^\n"),
+        "{text}"
+    );
     let folder = folder.with("parts.lua", "return 7");
     let out = fed(&folder, &["check", "-"], b"print(require(\"parts\"))\n");
-    assert!(out.status.success() && out.stderr.starts_with(b"7\n"), "{}", String::from_utf8_lossy(&out.stderr));
+    assert!(
+        out.status.success() && out.stderr.starts_with(b"7\n"),
+        "{}",
+        String::from_utf8_lossy(&out.stderr)
+    );
 }
 
 #[test]
@@ -110,7 +124,9 @@ fn a_check_of_several_scripts_reports_each() {
     let folder = folder().with("bad.lua", "print(flors)\n").with("worse.lua", "local = 3\nx(\n");
     let said = folder.burgeon(&["check", "tree.lua", "bad.lua", "worse.lua"]);
     assert_eq!(said.status, 1);
-    for part in ["tree.lua: no problems", "bad.lua:1:7: ", "worse.lua has 1 error", "2 of 3 scripts have errors"] {
+    for part in
+        ["tree.lua: no problems", "bad.lua:1:7: ", "worse.lua has 1 error", "2 of 3 scripts have errors"]
+    {
         assert!(said.stderr.contains(part), "{part} is not in: {}", said.stderr);
     }
     let document = folder.burgeon(&["check", "tree.lua", "bad.lua", "--json"]);
@@ -125,11 +141,18 @@ fn a_check_of_several_scripts_reports_each() {
 #[test]
 fn a_check_describes_parameters_with_their_bounds_and_choices() {
     let script = "param(\"n\", { default = 3, min = 1, max = 9, step = 2 })\nparam(\"k\", { default = \"a\", choices = { \"a\", \"b\" } })\nparam(\"on\", { default = true })\n";
-    let document = Folder::new().with("s.lua", script).burgeon(&["check", "s.lua", "--json", "--set", "n=5"]).done().json();
+    let document = Folder::new()
+        .with("s.lua", script)
+        .burgeon(&["check", "s.lua", "--json", "--set", "n=5"])
+        .done()
+        .json();
     let params = &document["params"];
     let number = ["value", "default", "min", "max", "step", "type"].map(|key| params[0][key].to_string());
     assert_eq!(number, ["5.0", "3.0", "1.0", "9.0", "2.0", "\"number\""]);
-    assert_eq!((params[1]["type"].as_str(), params[1]["choices"].to_string()), (Some("choice"), "[\"a\",\"b\"]".to_owned()));
+    assert_eq!(
+        (params[1]["type"].as_str(), params[1]["choices"].to_string()),
+        (Some("choice"), "[\"a\",\"b\"]".to_owned())
+    );
     assert_eq!(params[2]["type"], "boolean");
 }
 
@@ -151,7 +174,10 @@ fn messages_have_colours_only_if_the_environment_asks_for_them() {
 #[test]
 fn manual_pages_describe_the_program_and_each_command() {
     let page = Folder::new().burgeon(&["man"]).done().stdout;
-    assert!(page.starts_with(".ie") && page.contains(".TH burgeon 1") && page.contains("burgeon\\-run(1)"), "{page}");
+    assert!(
+        page.starts_with(".ie") && page.contains(".TH burgeon 1") && page.contains("burgeon\\-run(1)"),
+        "{page}"
+    );
     let page = Folder::new().burgeon(&["man", "tiles", "plan"]).done().stdout;
     assert!(page.contains("burgeon\\-tiles\\-plan") && page.contains("Examples"), "{page}");
     let text = Folder::new().burgeon(&["man", "rnu"]).failed();
@@ -159,7 +185,10 @@ fn manual_pages_describe_the_program_and_each_command() {
     let folder = Folder::new();
     folder.burgeon(&["man", "--folder", "man1"]).done();
     let files = folder.files();
-    assert!(files.contains_key("man1/burgeon.1") && files.contains_key("man1/burgeon-tiles-plan.1"), "{files:?}");
+    assert!(
+        files.contains_key("man1/burgeon.1") && files.contains_key("man1/burgeon-tiles-plan.1"),
+        "{files:?}"
+    );
 }
 
 #[test]
@@ -192,7 +221,10 @@ fn files_that_are_no_scripts_are_refused_with_a_reason() {
     let text = folder.burgeon(&["run", "sub"]).failed();
     assert!(text.contains("sub is a folder") && text.contains("sub/x.lua"), "{text}");
     let text = folder.burgeon(&["run", "bom.lua"]).failed();
-    assert!(text.contains("error: bom.lua:2:9: unknown name flors\n  | print(flors)\n  |       ^^^^^\n"), "{text}");
+    assert!(
+        text.contains("error: bom.lua:2:9: unknown name flors\n  | print(flors)\n  |       ^^^^^\n"),
+        "{text}"
+    );
     assert!(folder.burgeon(&["run", "shell.lua"]).done().stderr.starts_with("1\n"));
     assert!(folder.burgeon(&["check", "empty.lua"]).done().stderr.contains("no problems"));
     let text = folder.burgeon(&["run", "empty.lua", "-o", "a.glb"]).failed();

@@ -52,10 +52,7 @@ impl RunCommand {
         let is_named = |path: &Option<std::path::PathBuf>| path.as_deref() == Some(Path::new(STANDARD));
         if self.script.json || is_named(&self.chain) || is_named(&self.report) {
             let message = "standard output cannot take both a model and a text";
-            return refuse(
-                message,
-                "write one of them to a file: -o FILE, --chain FILE, --report FILE",
-            );
+            return refuse(message, "write one of them to a file: -o FILE, --chain FILE, --report FILE");
         }
         if self.is_watching() || self.parts.is_some() {
             return refuse("standard output takes one model, not several", "write to a file: -o FILE");
