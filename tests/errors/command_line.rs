@@ -228,6 +228,8 @@ fn a_wrong_command_line_is_status_2_and_says_what_is_right() {
     assert_snapshot!(wrong(&["rnu", "s.lua"]), @r"
     error: unrecognized subcommand 'rnu'
 
+      tip: a similar subcommand exists: 'run'
+
     Usage: burgeon <COMMAND>
 
     For more information, try '--help'.
@@ -346,6 +348,7 @@ fn help_reads_well() {
       sources      Lists the layers of data files and databases, with their attributes, coordinate systems and extents
       tiles        Makes 3D Tiles of the features of a country, with any number of processes
       completions  Prints a script that completes the command line in a shell
+      man          Prints the manual page of the program, or of a command
       help         Print this message or the help of the given subcommand(s)
 
     Options:
@@ -356,6 +359,8 @@ fn help_reads_well() {
       burgeon new tree
       burgeon live tree.lua
       burgeon run tree.lua -o tree.glb
+
+    burgeon tree.lua runs a script and shows what it makes; burgeon COMMAND --help has examples.
     ");
     assert_snapshot!(without_formats(&Folder::new().burgeon(&["run", "-h"]).done().stdout), @r"
     Runs a script and writes what it makes
@@ -363,7 +368,7 @@ fn help_reads_well() {
     Usage: burgeon run [OPTIONS] <SCRIPT>
 
     Arguments:
-      <SCRIPT>  Script, a Lua file
+      <SCRIPT>  Script, a Lua file; - is standard input
 
     Options:
           --set <NAME=VALUE>    Sets a parameter of the script
@@ -381,6 +386,7 @@ fn help_reads_well() {
           --stdlib <FILE>       Replaces the built-in standard library by this file
           --json                Prints machine-readable JSON instead of text
       -o, --output <FILE>       Writes the model to this file; the extension selects the format: FORMATS. May be repeated
+          --format <EXTENSION>  Format of the model on standard output, -o -
           --metadata[=<NAMES>]  Includes ids and attributes of features in .glb and .gltf files: the attributes that the script names, or =NAMES, or all with ='*'
           --instances <KIND>    Storage of repeated models in .glb and .gltf files [default: nodes up to 1000 instances, else extension] [possible values: nodes, extension, expanded]
           --chain <FILE>        Writes the final chains as text, one per line; - is standard output, or the JSON document with --json
@@ -418,10 +424,11 @@ fn help_reads_well() {
     assert_snapshot!(Folder::new().burgeon(&["check", "-h"]).done().stdout, @r"
     Checks a script and its required files as far as a run goes, and reports all problems
 
-    Usage: burgeon check [OPTIONS] <SCRIPT>
+    Usage: burgeon check [OPTIONS] <SCRIPT> [SCRIPTS]...
 
     Arguments:
-      <SCRIPT>  Script, a Lua file
+      <SCRIPT>      Script, a Lua file; - is standard input
+      [SCRIPTS]...  Further scripts to check
 
     Options:
           --quick               Loads the script and compiles every rule, without deriving anything
@@ -439,7 +446,7 @@ fn help_reads_well() {
           --threads <N>         Number of threads; does not affect the result [default: number of cores]
           --stdlib <FILE>       Replaces the built-in standard library by this file
           --json                Prints machine-readable JSON instead of text
-      -h, --help                Print help
+      -h, --help                Print help (see more with '--help')
 
     Limits:
           --time-limit <SECONDS>      Stops after this time [default: 300]

@@ -98,10 +98,22 @@ fn standard_output_takes_one_model_of_a_known_format() {
         assert!(said.status > 0 && said.stdout.is_empty(), "{}", said.stderr);
         said.stderr
     };
-    assert_snapshot!(refused(&["-o", "-"]), @"");
-    assert_snapshot!(refused(&["-o", "-", "--format", "obj"]), @"");
-    assert_snapshot!(refused(&["-o", "-", "--format", "glb", "--chain", "-"]), @"");
-    assert_snapshot!(refused(&["-o", "a.glb", "--format", "glb"]), @"");
+    assert_snapshot!(refused(&["-o", "-"]), @r"
+    error: the model on standard output has no format
+      help: name it: -o - --format glb
+    ");
+    assert_snapshot!(refused(&["-o", "-", "--format", "obj"]), @r"
+    error: the format obj has a second file, model.mtl, so standard output cannot take it
+      help: choose another format: --format glb
+    ");
+    assert_snapshot!(refused(&["-o", "-", "--format", "glb", "--chain", "-"]), @r"
+    error: standard output cannot take both a model and a text
+      help: write one of them to a file: -o FILE, --chain FILE, --report FILE
+    ");
+    assert_snapshot!(refused(&["-o", "a.glb", "--format", "glb"]), @r"
+    error: --format is the format of standard output; the extension selects that of a file
+      help: leave it out, or write to standard output: -o - --format glb
+    ");
 }
 
 #[test]
