@@ -36,7 +36,8 @@ fn an_error_in_any_thread_names_the_first_module_of_the_chain() {
         }
         assert!(said.iter().all(|other| *other == said[0]), "{body}: {said:#?}");
         assert!(
-            without_columns(&said[0]).starts_with("error: s.lua:7: rule A(x)") && said[0].contains("module: A(2999), step "),
+            without_columns(&said[0]).starts_with("error: s.lua:7: rule A(x)")
+                && said[0].contains("module: A(2999), step "),
             "{}",
             said[0]
         );
@@ -133,11 +134,16 @@ fn weak_tables_are_refused() {
         let script = format!("local kept = setmetatable({{}}, {weak})\nkept[1] = {{}}\n");
         let said = Folder::new().with("s.lua", script).burgeon(&["run", "s.lua"]).failed();
         assert!(
-            without_columns(&said).starts_with("error: s.lua:1: the content of a weak table is not deterministic\n"),
+            without_columns(&said)
+                .starts_with("error: s.lua:1: the content of a weak table is not deterministic\n"),
             "{said}"
         );
     }
     let script = "local meta: any = {}\nmeta.__mode = \"k\"\n";
     let said = Folder::new().with("s.lua", script).burgeon(&["check", "s.lua"]).failed();
-    assert!(without_columns(&said).starts_with("error: s.lua:2: the content of a weak table is not deterministic\n"), "{said}");
+    assert!(
+        without_columns(&said)
+            .starts_with("error: s.lua:2: the content of a weak table is not deterministic\n"),
+        "{said}"
+    );
 }

@@ -77,8 +77,16 @@ fn a_type_that_extends_another_has_its_former_names() {
                   local A = module(\"A\")\nlocal s = lsystem({ object = ways({ most = 20 }) })\ns:axiom(A())\n\
                   s:interpret(\"A\", function(this)\n  this:lead(1, { 90, 0 }, 0)\nend)\ns:derive(0)";
     let said = Folder::new().with("s.lua", script).burgeon(&["run", "s.lua"]).done().stderr;
-    assert!(without_columns(&said).contains("s.lua:3: ways.most is deprecated") && said.contains("use max_segments"), "{said}");
-    assert!(without_columns(&said).contains("s.lua:6: ways:lead is deprecated") && said.contains("network:grow_to"), "{said}");
+    assert!(
+        without_columns(&said).contains("s.lua:3: ways.most is deprecated")
+            && said.contains("use max_segments"),
+        "{said}"
+    );
+    assert!(
+        without_columns(&said).contains("s.lua:6: ways:lead is deprecated")
+            && said.contains("network:grow_to"),
+        "{said}"
+    );
 }
 
 #[test]

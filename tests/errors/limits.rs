@@ -110,7 +110,10 @@ fn an_endless_loop_at_the_top_level_is_stopped() {
 fn an_endless_loop_in_a_required_file_is_stopped() {
     let folder = Folder::new().with("s.lua", "require(\"lib\")\n").with("lib.lua", "\n\nwhile true do end\n");
     let said = folder.burgeon(&["run", "s.lua", "--time-limit", "1"]).failed();
-    assert!(without_columns(&said).starts_with("error: lib.lua:3: the run exceeded the time limit of 1 s\n"), "{said}");
+    assert!(
+        without_columns(&said).starts_with("error: lib.lua:3: the run exceeded the time limit of 1 s\n"),
+        "{said}"
+    );
 }
 
 #[test]
@@ -133,7 +136,8 @@ fn pcall_and_coroutines_do_not_outlive_the_time() {
     for body in bodies {
         let said = endless(&format!("s:rule(\"A(x)\", function(this, x)\n  {body}\nend)"));
         assert!(
-            without_columns(&said).starts_with("error: s.lua:4: rule A(x): the run exceeded the time limit of 1 s\n"),
+            without_columns(&said)
+                .starts_with("error: s.lua:4: rule A(x): the run exceeded the time limit of 1 s\n"),
             "{body}: {said}"
         );
         assert!(said.contains("module: A(1), step 1\n"), "{body}: {said}");
@@ -151,7 +155,8 @@ fn library_functions_do_not_outlive_the_time() {
     for body in bodies {
         let said = endless(&format!("s:rule(\"A(x)\", function(this, x)\n  {body}\nend)"));
         assert!(
-            without_columns(&said).starts_with("error: s.lua:4: rule A(x): the run exceeded the time limit of 1 s\n"),
+            without_columns(&said)
+                .starts_with("error: s.lua:4: rule A(x): the run exceeded the time limit of 1 s\n"),
             "{body}: {said}"
         );
     }
@@ -166,7 +171,8 @@ fn the_time_limit_is_kept_with_helpers_too() {
     let said = stopped(&script, &["--time-limit", "1", "--threads", "2"]);
     assert!(begin.elapsed() < Duration::from_secs(6), "{said}");
     assert!(
-        without_columns(&said).starts_with("error: s.lua:5: rule A(x): the run exceeded the time limit of 1 s\n"),
+        without_columns(&said)
+            .starts_with("error: s.lua:5: rule A(x): the run exceeded the time limit of 1 s\n"),
         "{said}"
     );
 }
@@ -272,7 +278,10 @@ fn a_script_that_is_too_large_is_refused_before_it_is_read() {
       help: divide it; require loads other files of its folder
     ");
     let said = folder.refuses(&["run", "t.lua"]);
-    assert!(without_columns(&said).starts_with("error: t.lua:1: ") && said.contains("s.lua is larger than 4 MB"), "{said}");
+    assert!(
+        without_columns(&said).starts_with("error: t.lua:1: ") && said.contains("s.lua is larger than 4 MB"),
+        "{said}"
+    );
 }
 
 #[test]
@@ -294,7 +303,8 @@ fn branches_of_a_context_are_not_nested_without_end() {
         for command in ["run", "check"] {
             let said = folder.burgeon(&[command, "s.lua"]).failed();
             assert!(
-                without_columns(&said).starts_with("error: s.lua:3: malformed pattern: unexpected '[' at character 205\n"),
+                without_columns(&said)
+                    .starts_with("error: s.lua:3: malformed pattern: unexpected '[' at character 205\n"),
                 "{said}"
             );
             assert!(

@@ -426,13 +426,17 @@ fn areas_that_are_no_polygons_or_cross_themselves_are_told() {
     for name in ["obstacles", "water"] {
         let text = told(&format!("{name} = {{ {{ vec(10, 10), vec(40, 40), vec(40, 10), vec(10, 40) }} }}"));
         assert!(
-            without_columns(&text).contains(&format!("s.lua:2: network: {name}: an area is not a simple polygon")),
+            without_columns(&text)
+                .contains(&format!("s.lua:2: network: {name}: an area is not a simple polygon")),
             "{text}"
         );
         assert!(text.contains("meet at (25.000, 25.000)"), "{text}");
     }
     let text = told("limit = { vec(0, 0), vec(100, 0), vec(200, 0) }");
-    assert!(without_columns(&text).contains("s.lua:2: network: limit: skipped an area that is not a polygon"), "{text}");
+    assert!(
+        without_columns(&text).contains("s.lua:2: network: limit: skipped an area that is not a polygon"),
+        "{text}"
+    );
 }
 
 #[test]

@@ -412,7 +412,10 @@ fn what_a_package_gives_is_changed_by_nobody() {
             .with("mods/castle/towers.lua", "return { height = 12, parts = { x = 1 } }\n")
             .with("s.lua", script);
         let text = refused(&folder);
-        assert!(without_columns(&text).starts_with("error: s.lua:2: attempt to modify a readonly table"), "{key}: {text}");
+        assert!(
+            without_columns(&text).starts_with("error: s.lua:2: attempt to modify a readonly table"),
+            "{key}: {text}"
+        );
     }
 }
 

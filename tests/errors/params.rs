@@ -64,7 +64,10 @@ fn a_value_out_of_range_or_between_steps_is_told_with_what_is_allowed() {
 fn a_value_of_the_wrong_type_is_told_with_the_default() {
     for value in ["n=many", "n=", "n=nan", "n=inf", "n=0x10", "n=1,5"] {
         let said = set(&[value]);
-        assert!(without_columns(&said).starts_with("error: s.lua:1: param n must be a number, not "), "{value}: {said}");
+        assert!(
+            without_columns(&said).starts_with("error: s.lua:1: param n must be a number, not "),
+            "{value}: {said}"
+        );
     }
     assert_snapshot!(set(&["n=many"]), @r#"
     error: s.lua:1: param n must be a number, not "many"

@@ -291,7 +291,8 @@ fn a_rule_is_declared_with_a_pattern_options_and_a_successor() {
     "#);
     let said = refused_rules("s:rule(\"A(x)\", 3)");
     assert!(
-        without_columns(&said).starts_with("error: s.lua:3: rule A(x): the successor must be a function or a string, not "),
+        without_columns(&said)
+            .starts_with("error: s.lua:3: rule A(x): the successor must be a function or a string, not "),
         "{said}"
     );
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", 3, function() end)"), @r#"
@@ -467,7 +468,8 @@ fn derive_takes_a_whole_number_of_steps_from_0() {
     for steps in ["-1", "2.5", "0/0", "1/0", "true", "\"many\"", "{ steps = 1.5 }"] {
         let said = refused(&format!("{HEAD}s:derive({steps})\n"));
         assert!(
-            without_columns(&said).starts_with("error: s.lua:3: derive needs an integer number of steps of at least 0, not "),
+            without_columns(&said)
+                .starts_with("error: s.lua:3: derive needs an integer number of steps of at least 0, not "),
             "{said}"
         );
     }

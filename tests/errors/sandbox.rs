@@ -29,7 +29,10 @@ fn the_system_is_out_of_reach_by_name() {
     ];
     let said = refused(&names.map(|name| format!("print({name})\n")).concat());
     for (line, name) in (1..).zip(names) {
-        assert!(without_columns(&said).contains(&format!("error: s.lua:{line}: unknown name {name}\n")), "{said}");
+        assert!(
+            without_columns(&said).contains(&format!("error: s.lua:{line}: unknown name {name}\n")),
+            "{said}"
+        );
     }
 }
 
@@ -133,7 +136,8 @@ fn a_rule_leaves_no_trace_for_another_in_what_the_language_shares() {
             "s:rule(\"A(x)\", function(this: any, x)\n  {write}\n  return A(x)\nend)"
         ));
         assert!(
-            without_columns(&said).starts_with("error: s.lua:4: rule A(x): ") && said.contains("module: A(1), step 1\n"),
+            without_columns(&said).starts_with("error: s.lua:4: rule A(x): ")
+                && said.contains("module: A(1), step 1\n"),
             "{write}: {said}"
         );
     }

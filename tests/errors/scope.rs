@@ -142,7 +142,8 @@ fn a_rule_cannot_write_into_a_captured_table() {
         );
         let said = refused_rules(&script);
         assert!(
-            without_columns(&said).contains("s.lua:7: rule A(x): ") && said.contains("module: A(1), step 1\n"),
+            without_columns(&said).contains("s.lua:7: rule A(x): ")
+                && said.contains("module: A(1), step 1\n"),
             "{write}: {said}"
         );
     }
@@ -309,7 +310,10 @@ fn random_takes_no_bounds_or_two_numbers() {
     for call in ["random(\"a\", \"b\")", "random(1, {})", "random(nil)", "random(1, nil)", "random(1, 2, 3)"]
     {
         let said = drawn(call);
-        assert!(without_columns(&said).starts_with("error: s.lua:4: rule A(x): random takes "), "{call}: {said}");
+        assert!(
+            without_columns(&said).starts_with("error: s.lua:4: rule A(x): random takes "),
+            "{call}: {said}"
+        );
     }
 }
 
@@ -354,7 +358,8 @@ fn declarations_belong_at_the_top_level() {
             let folder = Folder::new().with("s.lua", script).with("late.lua", "return 1\n");
             let said = folder.burgeon(&["run", "s.lua"]).failed();
             assert!(
-                without_columns(&said).starts_with("error: s.lua:5: rule A(x)") && said.contains("top level of the script"),
+                without_columns(&said).starts_with("error: s.lua:5: rule A(x)")
+                    && said.contains("top level of the script"),
                 "{call}: {said}"
             );
             assert!(said.contains("module: A(1), step "), "{call}: {said}");

@@ -133,11 +133,11 @@ fn formats_that_are_not_written_name_a_way_to_them() {
 
 #[test]
 fn a_check_of_several_scripts_reports_each() {
-    let folder = folder().with("bad.lua", "print(flors)\n").with("worse.lua", "local = 3\nx(\n");
+    let folder = folder().with("bad.lua", "local x = flors\n").with("worse.lua", "local = 3\nx(\n");
     let said = folder.burgeon(&["check", "tree.lua", "bad.lua", "worse.lua"]);
     assert_eq!(said.status, 1);
     for part in
-        ["tree.lua: no problems", "bad.lua:1:7: ", "worse.lua has 1 error", "2 of 3 scripts have errors"]
+        ["tree.lua: no problems", "bad.lua:1:11: ", "worse.lua has 1 error", "2 of 3 scripts have errors"]
     {
         assert!(said.stderr.contains(part), "{part} is not in: {}", said.stderr);
     }
@@ -145,7 +145,7 @@ fn a_check_of_several_scripts_reports_each() {
     assert_eq!((document.status, document.stderr.as_str()), (1, ""));
     let document = document.json();
     assert_eq!((&document["ok"], &document["scripts"][0]["ok"]), (&false.into(), &true.into()));
-    assert_eq!(document["scripts"][1]["errors"][0]["column"], 7);
+    assert_eq!(document["scripts"][1]["errors"][0]["column"], 11);
     assert_eq!(document["scripts"][1]["script"], "bad.lua");
     folder.burgeon(&["check", "tree.lua", "tree.lua"]).done();
 }

@@ -193,9 +193,13 @@ pub(crate) fn without_columns(text: &str) -> String {
         let is_digits = |part: &str| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit());
         let parts: Vec<&str> = line.split(':').collect();
         let follows_line = |index: usize| {
-            index > 1 && is_digits(parts[index]) && is_digits(parts[index - 1]) && parts[index - 2].ends_with(".lua")
+            index > 1
+                && is_digits(parts[index])
+                && is_digits(parts[index - 1])
+                && parts[index - 2].ends_with(".lua")
         };
-        let kept: Vec<&str> = (0..parts.len()).filter(|index| !follows_line(*index)).map(|index| parts[index]).collect();
+        let kept: Vec<&str> =
+            (0..parts.len()).filter(|index| !follows_line(*index)).map(|index| parts[index]).collect();
         plain.push_str(&kept.join(":"));
     }
     plain

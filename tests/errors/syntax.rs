@@ -176,7 +176,10 @@ fn names_of_the_engine_cannot_be_used_or_declared() {
     ];
     let said = refused(&names.map(|name| format!("{name}(1)\n")).concat());
     for (line, name) in (1..).zip(names) {
-        assert!(without_columns(&said).contains(&format!("error: s.lua:{line}: unknown name {name}\n")), "{said}");
+        assert!(
+            without_columns(&said).contains(&format!("error: s.lua:{line}: unknown name {name}\n")),
+            "{said}"
+        );
     }
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", function(this, x) local __done = nil return A(x) end)"), @r#"
     error: s.lua:3: rule A(x): a variable cannot be named __done

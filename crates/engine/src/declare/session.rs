@@ -111,6 +111,9 @@ impl Session {
     pub fn new(script: &Path, options: RunOptions) -> Result<Arc<Self>> {
         options.registry.check()?;
         let path = canonical(script).map_err(|error| unreadable(script, &error))?;
+        if path.is_dir() {
+            return Err(unreadable(script, &std::io::ErrorKind::IsADirectory.into()));
+        }
         let root = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
         let stdlib = options.inputs.stdlib.as_deref().map(read_stdlib).transpose()?;
         let curves = CurvesFile::read(script)?;
