@@ -298,5 +298,5 @@ pub(crate) fn printed(text: &str) {
 
 /// Writes to standard error, in colours if it is a terminal.
 pub(crate) fn eprint(text: &str) {
-    let _ = io::stderr().write_all(style::colored(&escaped_lines(text)).as_bytes());
+    let _ = io::stderr().write_all(style::with_colors(&escaped_lines(text)).as_bytes());
 }

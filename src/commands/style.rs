@@ -24,7 +24,7 @@ pub(super) fn width() -> usize {
 }
 
 /// Colours the beginnings of the lines of a message, if standard error shows colours.
-pub(super) fn colored(text: &str) -> Cow<'_, str> {
+pub(super) fn with_colors(text: &str) -> Cow<'_, str> {
     static SHOWS_COLORS: OnceLock<bool> = OnceLock::new();
     let set = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
     let shows = SHOWS_COLORS.get_or_init(|| shows_colors(set, std::io::stderr().is_terminal()));

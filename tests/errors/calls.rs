@@ -19,18 +19,21 @@ fn drawn(line: &str) -> String {
 #[test]
 fn a_method_that_there_is_not_is_found() {
     assert_snapshot!(drawn("this:scale(x):extrde(1)"), @r"
-    error: s.lua:5: rule A(x) (interpretation): unknown method or field `extrde` of extruder
+    error: s.lua:5:17: rule A(x) (interpretation): unknown method or field `extrde` of extruder
       | this:scale(x):extrde(1)
+      |               ^^^^^^
       help: did you mean extrude?
     ");
     assert_snapshot!(drawn("this:window()"), @r"
-    error: s.lua:5: rule A(x) (interpretation): unknown method or field `window` of extruder
+    error: s.lua:5:8: rule A(x) (interpretation): unknown method or field `window` of extruder
       | this:window()
+      |      ^^^^^^
       help: it has regular, star, rectangle, polygon, direction, resolution, scale, taper, bend, twist, caps, smooth, extrude, advance, shift, jump, turn, pitch, roll, color, material, mesh, place, position, heading, distance, open_edges
     ");
     assert_snapshot!(check("s:derve()"), @r"
-    error: s.lua:4: unknown method `derve` of a system
+    error: s.lua:4:3: unknown method `derve` of a system
       | s:derve()
+      |   ^^^^^
       help: did you mean derive?
     ");
 }
@@ -38,21 +41,25 @@ fn a_method_that_there_is_not_is_found() {
 #[test]
 fn what_is_too_much_or_too_little_is_found() {
     assert_snapshot!(drawn("this:extrude()"), @r"
-    error: s.lua:5: rule A(x) (interpretation): extruder:extrude takes 1 argument, not 0
+    error: s.lua:5:8: rule A(x) (interpretation): extruder:extrude takes 1 argument, not 0
       | this:extrude()
+      |      ^^^^^^^
       help: write extruder:extrude(length: number)
     ");
     assert_snapshot!(drawn("this:taper(1, 2, 3)"), @r"
-    error: s.lua:5: rule A(x) (interpretation): extruder:taper takes 1 to 2 arguments, not 3
+    error: s.lua:5:8: rule A(x) (interpretation): extruder:taper takes 1 to 2 arguments, not 3
       | this:taper(1, 2, 3)
+      |      ^^^^^
       help: write extruder:taper(scale: number, y: number? = scale)
     ");
     assert_snapshot!(check("print(lerp(1, 2), math.max())"), @r"
-    error: s.lua:4: lerp takes 3 arguments, not 2
+    error: s.lua:4:7: lerp takes 3 arguments, not 2
       | print(lerp(1, 2), math.max())
+      |       ^^^^
       help: write lerp(a: number, b: number, t: number)
-    error: s.lua:4: math.max takes at least 1 argument, not 0
+    error: s.lua:4:24: math.max takes at least 1 argument, not 0
       | print(lerp(1, 2), math.max())
+      |                        ^^^
       help: write math.max(x: number, ...number)
     ");
 }
@@ -60,24 +67,33 @@ fn what_is_too_much_or_too_little_is_found() {
 #[test]
 fn a_value_of_another_type_is_found() {
     assert_snapshot!(drawn("this:extrude(\"1\")"), @r#"
-    error: s.lua:5: rule A(x) (interpretation): extruder:extrude: length must be a number, not "1"
+    error: s.lua:5:16: rule A(x) (interpretation): extruder:extrude: length must be a number, not "1"
       | this:extrude("1")
+      |              ^^^
+      help: write extruder:extrude(length: number)
     "#);
     assert_snapshot!(drawn("this:extrude(this:position())"), @r"
-    error: s.lua:5: rule A(x) (interpretation): extruder:extrude: length must be a number, not a vector
+    error: s.lua:5:16: rule A(x) (interpretation): extruder:extrude: length must be a number, not a vector
       | this:extrude(this:position())
+      |              ^^^^^^^^^^^^^^^
+      help: write extruder:extrude(length: number)
     ");
     assert_snapshot!(drawn("this:color(3)"), @r"
-    error: s.lua:5: rule A(x) (interpretation): extruder:color: color must be a colour, not a number
+    error: s.lua:5:14: rule A(x) (interpretation): extruder:color: color must be a colour, not a number
       | this:color(3)
+      |            ^
+      help: write extruder:color(color: Color)
     ");
     assert_snapshot!(check("print(noise(\"a\"))"), @r#"
-    error: s.lua:4: noise: x must be a number, not "a"
+    error: s.lua:4:13: noise: x must be a number, not "a"
       | print(noise("a"))
+      |             ^^^
+      help: write noise(x: number, y: number? = 0, z: number? = 0, seed: number? = 0)
     "#);
     assert_snapshot!(check("s:rule(A, \"return nil\")"), @r#"
-    error: s.lua:4: the first argument of a rule must be a pattern
+    error: s.lua:4:3: the first argument of a rule must be a pattern
       | s:rule(A, "return nil")
+      |   ^^^^
       help: write system:rule("A(x)", function(this, x) return ... end)
     "#);
 }
@@ -85,24 +101,29 @@ fn a_value_of_another_type_is_found() {
 #[test]
 fn a_field_that_there_is_not_is_found() {
     assert_snapshot!(check("local f = footprint({ { 0, 0 }, { 1, 0 }, { 1, 1 } }, { hight = 3 })"), @r"
-    error: s.lua:4: unknown field `hight` in footprint
+    error: s.lua:4:57: unknown field `hight` in footprint
       | local f = footprint({ { 0, 0 }, { 1, 0 }, { 1, 1 } }, { hight = 3 })
+      |                                                         ^^^^^
       help: did you mean height?
     ");
     assert_snapshot!(check("extruder { sides = \"8\" }"), @r#"
-    error: s.lua:4: extruder: sides must be a number, not "8"
+    error: s.lua:4:20: extruder: sides must be a number, not "8"
       | extruder { sides = "8" }
+      |                    ^^^
+      help: sides takes a number, 16 unless given: Number of sides of the cross-section, a regular polygon with radius 1
     "#);
     let roof = "lsystem({ object = footprint }):interpret(\"A\", function(this)\n\
                   this:roof({ kind = \"hip\", details = { { modle = 3 } } })\nend)";
     assert_snapshot!(check(roof), @r#"
-    error: s.lua:5: rule A (interpretation): unknown field `modle` in footprint:roof.details
+    error: s.lua:5:41: rule A (interpretation): unknown field `modle` in footprint:roof.details
       | this:roof({ kind = "hip", details = { { modle = 3 } } })
+      |                                         ^^^^^
       help: did you mean model?
     "#);
     assert_snapshot!(check("s:rule(\"A(x)\", { wieght = 2 }, function() return nil end)"), @r#"
-    error: s.lua:4: rule A(x): unknown option `wieght` of a rule
+    error: s.lua:4:18: rule A(x): unknown option `wieght` of a rule
       | s:rule("A(x)", { wieght = 2 }, function() return nil end)
+      |                  ^^^^^^
       help: did you mean weight?
     "#);
 }
@@ -110,15 +131,17 @@ fn a_field_that_there_is_not_is_found() {
 #[test]
 fn a_change_of_the_object_in_a_rule_is_found() {
     assert_snapshot!(check("s:rule(\"A(x)\", function(this, x)\n  this:extrude(x)\n  return nil\nend)"), @r"
-    error: s.lua:5: rule A(x): extruder:extrude is a write method, so a rule cannot call it
+    error: s.lua:5:8: rule A(x): extruder:extrude is a write method, so a rule cannot call it
       | this:extrude(x)
+      |      ^^^^^^^
       help: use an interpretation rule: system:interpret(pattern, function(this, ...) ... end)
     ");
     let guard =
         "s:rule(\"A(x)\", { when = function(this) return this:extrude(1) end }, function() return nil end)";
     assert_snapshot!(check(guard), @r#"
-    error: s.lua:4: rule A(x): extruder:extrude is a write method, so a rule cannot call it
+    error: s.lua:4:52: rule A(x): extruder:extrude is a write method, so a rule cannot call it
       | s:rule("A(x)", { when = function(this) return this:extrude(1) end }, function() return nil end)
+      |                                                    ^^^^^^^
       help: use an interpretation rule: system:interpret(pattern, function(this, ...) ... end)
     "#);
 }

@@ -170,7 +170,7 @@ fn a_check_finds_what_only_a_run_meets_and_a_quick_one_derives_nothing() {
     let document = folder.burgeon(&["check", "s.lua", "--quick", "--json", "--set", "n=4"]).done().json();
     assert_eq!(
         document.to_string(),
-        r#"{"ok":true,"params":[{"name":"n","package":null,"value":4.0,"unit":"m","text":"how far"}],"warnings":[]}"#
+        r#"{"ok":true,"params":[{"name":"n","package":null,"value":4.0,"default":3.0,"unit":"m","text":"how far","type":"number"}],"warnings":[]}"#
     );
     assert_eq!(folder.files().len(), 1);
 }
@@ -179,7 +179,10 @@ fn a_check_finds_what_only_a_run_meets_and_a_quick_one_derives_nothing() {
 fn new_makes_a_script_that_runs_and_never_overwrites_one() {
     let folder = Folder::new();
     let said = folder.burgeon(&["new", "tree"]).done();
-    assert_eq!(said.stderr, "created tree.lua; now: burgeon run tree.lua -o model.glb\n");
+    assert_eq!(
+        said.stderr,
+        "created tree.lua\nto see it: burgeon live tree.lua\nto write it: burgeon run tree.lua -o tree.glb\n"
+    );
     folder.burgeon(&["check", "tree.lua"]).done();
     folder.burgeon(&["run", "tree.lua", "-o", "model.glb"]).done();
     assert!(folder.files()["model.glb"] > 10_000);
@@ -224,6 +227,8 @@ fn a_wrong_command_line_is_status_2_and_says_what_is_right() {
     ");
     assert_snapshot!(wrong(&["rnu", "s.lua"]), @r"
     error: unrecognized subcommand 'rnu'
+
+      tip: a similar subcommand exists: 'run'
 
     Usage: burgeon <COMMAND>
 
@@ -343,6 +348,7 @@ fn help_reads_well() {
       sources      Lists the layers of data files and databases, with their attributes, coordinate systems and extents
       tiles        Makes 3D Tiles of the features of a country, with any number of processes
       completions  Prints a script that completes the command line in a shell
+      man          Prints the manual page of the program, or of a command
       help         Print this message or the help of the given subcommand(s)
 
     Options:
@@ -353,6 +359,8 @@ fn help_reads_well() {
       burgeon new tree
       burgeon live tree.lua
       burgeon run tree.lua -o tree.glb
+
+    burgeon tree.lua runs a script and shows what it makes; burgeon COMMAND --help has examples.
     ");
     assert_snapshot!(without_formats(&Folder::new().burgeon(&["run", "-h"]).done().stdout), @r"
     Runs a script and writes what it makes
@@ -360,7 +368,7 @@ fn help_reads_well() {
     Usage: burgeon run [OPTIONS] <SCRIPT>
 
     Arguments:
-      <SCRIPT>  Script, a Lua file
+      <SCRIPT>  Script, a Lua file; - is standard input
 
     Options:
           --set <NAME=VALUE>    Sets a parameter of the script
@@ -378,6 +386,7 @@ fn help_reads_well() {
           --stdlib <FILE>       Replaces the built-in standard library by this file
           --json                Prints machine-readable JSON instead of text
       -o, --output <FILE>       Writes the model to this file; the extension selects the format: FORMATS. May be repeated
+          --format <EXTENSION>  Format of the model on standard output, -o -
           --metadata[=<NAMES>]  Includes ids and attributes of features in .glb and .gltf files: the attributes that the script names, or =NAMES, or all with ='*'
           --instances <KIND>    Storage of repeated models in .glb and .gltf files [default: nodes up to 1000 instances, else extension] [possible values: nodes, extension, expanded]
           --chain <FILE>        Writes the final chains as text, one per line; - is standard output, or the JSON document with --json
@@ -415,10 +424,11 @@ fn help_reads_well() {
     assert_snapshot!(Folder::new().burgeon(&["check", "-h"]).done().stdout, @r"
     Checks a script and its required files as far as a run goes, and reports all problems
 
-    Usage: burgeon check [OPTIONS] <SCRIPT>
+    Usage: burgeon check [OPTIONS] <SCRIPT> [SCRIPTS]...
 
     Arguments:
-      <SCRIPT>  Script, a Lua file
+      <SCRIPT>      Script, a Lua file; - is standard input
+      [SCRIPTS]...  Further scripts to check
 
     Options:
           --quick               Loads the script and compiles every rule, without deriving anything
@@ -436,7 +446,7 @@ fn help_reads_well() {
           --threads <N>         Number of threads; does not affect the result [default: number of cores]
           --stdlib <FILE>       Replaces the built-in standard library by this file
           --json                Prints machine-readable JSON instead of text
-      -h, --help                Print help
+      -h, --help                Print help (see more with '--help')
 
     Limits:
           --time-limit <SECONDS>      Stops after this time [default: 300]

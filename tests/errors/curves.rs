@@ -52,59 +52,70 @@ fn the_file_replaces_the_default_and_presets_and_flags_override_the_file() {
 #[test]
 fn an_invalid_file_is_reported_with_its_line() {
     assert_snapshot!(refused("{\n  \"taper\": [[0, 1],,\n", &[]), @r#"
-    error: vase.curves.json:2: this is not JSON: expected value
+    error: vase.curves.json:2:3: this is not JSON: expected value
       | "taper": [[0, 1],,
+      | ^^^^^^^^^^^^^^^^^^
       help: fix the file, or move it away
     "#);
     assert_snapshot!(refused("{ \"taper\": [[0, 1],\n [1, NaN]] }", &[]), @r"
-    error: vase.curves.json:2: this is not JSON: expected value
+    error: vase.curves.json:2:2: this is not JSON: expected value
       | [1, NaN]] }
+      | ^^^^^^^^^^^
       help: fix the file, or move it away
     ");
     assert_snapshot!(refused("[[0, 1], [1, 2]]", &[]), @r#"
-    error: vase.curves.json:1: the file is [[0, 1], [1, 2]], not an object
+    error: vase.curves.json:1:1: the file is [[0, 1], [1, 2]], not an object
       | [[0, 1], [1, 2]]
+      | ^^^^^^^^^^^^^^^^
       help: write { "taper": [[0, 1], [1, 0.2]] }
     "#);
     assert_snapshot!(refused("{\n\"taper\": 3 }", &[]), @r#"
-    error: vase.curves.json:2: taper is 3, not a list of points
+    error: vase.curves.json:2:1: taper is 3, not a list of points
       | "taper": 3 }
+      | ^^^^^^^^^^^^
       help: write a list of points: [[0, 1], [1, 0.2]]
     "#);
     assert_snapshot!(refused("{ \"taper\": [[0, 1],\n \"x\"] }", &[]), @r#"
-    error: vase.curves.json:2: taper: point 2 is "x", not a list of numbers
+    error: vase.curves.json:2:3: taper: point 2 is "x", not a list of numbers
       | "x"] }
+      |  ^
       help: write a list of points: [[0, 1], [1, 0.2]]
     "#);
     assert_snapshot!(refused("{ \"taper\": [[0, 1],\n [1, 2, 3]] }", &[]), @r"
-    error: vase.curves.json:2: param taper: point 2 has 3 numbers, not 2
+    error: vase.curves.json:2:2: param taper: point 2 has 3 numbers, not 2
       | [1, 2, 3]] }
+      | ^^^^^^^^^^^^
       help: write [x, y]
     ");
     assert_snapshot!(refused("{ \"taper\": [[0, 1],\n [0.5, 2],\n [0.5, 3]] }", &[]), @r"
-    error: vase.curves.json:3: param taper: the x of point 3 is 0.5, which is not above 0.5, the x before
+    error: vase.curves.json:3:2: param taper: the x of point 3 is 0.5, which is not above 0.5, the x before
       | [0.5, 3]] }
+      | ^^^^^^^^^^^
       help: a function has one y for each x: order the points by x, and remove repeated x
     ");
     assert_snapshot!(refused("{\n \"taper\": [[0, 1]] }", &[]), @r#"
-    error: vase.curves.json:2: param taper: a function needs at least 2 points, not 1
+    error: vase.curves.json:2:2: param taper: a function needs at least 2 points, not 1
       | "taper": [[0, 1]] }
+      | ^^^^^^^^^^^^^^^^^^^
       help: give at least 2 points, such as { { 0, 0.1 }, { 1, 0.8 } }
     "#);
     assert_snapshot!(refused("{\n \"path\": [[0, 0, 0], [1, 0]] }", &[]), @r#"
-    error: vase.curves.json:2: param path: point 2 has 2 numbers, not 3
+    error: vase.curves.json:2:2: param path: point 2 has 2 numbers, not 3
       | "path": [[0, 0, 0], [1, 0]] }
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: write [x, y, z]
     "#);
     assert_snapshot!(refused("{\n \"taper\": [],\n \"taper\": [] }", &[]), @r#"
-    error: vase.curves.json:3: the file has two members named `taper`
+    error: vase.curves.json:3:3: the file has two members named `taper`
       | "taper": [] }
+      |  ^^^^^
       help: remove or rename one of them
     "#);
     let many: Vec<String> = (0..1001).map(|x| format!("[{x}, 0]")).collect();
     assert_snapshot!(refused(&format!("{{\n \"taper\": [{}] }}", many.join(",")), &[]).replace(&many.join(","), "..."), @r#"
-    error: vase.curves.json:2: param taper: 1001 points are too many to draw
-      | "taper": [[0, 0],[1, 0],[2, 0],[3, 0],[4, 0],[5, 0],[6, 0],[7, 0],[8, 0],[9, 0],[10, 0],[11, 0],[12, 0],[13, 0],[14, 0],[15, 0],[16, 0],[17, 0],[18, 0],[19, 0]
+    error: vase.curves.json:2:2: param taper: 1001 points are too many to draw
+      | "taper": [[0, 0],[1, 0],[2, 0],[3, 0],[4, 0],[5, 0],[6, 0],[7, 0],[8, 0],[9, 0],[10, 0],[11, 0],[12, 0],[13, 0],[14, 0],[15, 0],[16, 0],[17, 0],[18, 0],[19, ...
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: give at most 1000 points
     "#);
 }
@@ -112,28 +123,33 @@ fn an_invalid_file_is_reported_with_its_line() {
 #[test]
 fn an_invalid_value_of_a_flag_is_reported() {
     assert_snapshot!(refused("", &["--set", "taper=3"]), @r#"
-    error: vase.lua:1: param taper is 3, not a list of points
+    error: vase.lua:1:15: param taper is 3, not a list of points
       | local taper = param("taper", { default = ramp({ { 0, 1 }, { 1, 0.5 } }, { kind = "linear" }) })
+      |               ^^^^^
       help: write a list of points: [[0, 1], [1, 0.2]]
     "#);
     assert_snapshot!(refused("", &["--set", "taper=straight"]), @r#"
-    error: vase.lua:1: param taper must be points, not "straight": expected value
+    error: vase.lua:1:15: param taper must be points, not "straight": expected value
       | local taper = param("taper", { default = ramp({ { 0, 1 }, { 1, 0.5 } }, { kind = "linear" }) })
+      |               ^^^^^
       help: write a list of points: [[0, 1], [1, 0.2]]
     "#);
     assert_snapshot!(refused("", &["--set", "taper=[[1,0],[0,1]]"]), @r#"
-    error: vase.lua:1: param taper: the x of point 2 is 0, which is not above 1, the x before
+    error: vase.lua:1:15: param taper: the x of point 2 is 0, which is not above 1, the x before
       | local taper = param("taper", { default = ramp({ { 0, 1 }, { 1, 0.5 } }, { kind = "linear" }) })
+      |               ^^^^^
       help: a function has one y for each x: order the points by x, and remove repeated x
     "#);
     assert_snapshot!(refused("", &["--set", "leaf=[[0,0],[0,0],[1,1]]"]), @r#"
-    error: vase.lua:2: param leaf: point 2 is equal to point 1
+    error: vase.lua:2:14: param leaf: point 2 is equal to point 1
       | local leaf = param("leaf", { default = curve({ { 0, 0 }, { 1, 1 }, { 2, 0 } }) })
+      |              ^^^^^
       help: remove one of them
     "#);
     assert_snapshot!(refused("", &["--set", "leaf=[[0,0],[1e999,0]]"]), @r#"
-    error: vase.lua:2: param leaf: point 2 is [1e999,0], not a list of numbers
+    error: vase.lua:2:14: param leaf: point 2 is [1e999,0], not a list of numbers
       | local leaf = param("leaf", { default = curve({ { 0, 0 }, { 1, 1 }, { 2, 0 } }) })
+      |              ^^^^^
       help: write a list of points: [[0, 1], [1, 0.2]]
     "#);
 }
@@ -145,23 +161,27 @@ fn points_without_a_drawn_parameter_are_warned_of() {
         said.split_once("warning: ").unwrap().1.to_owned()
     };
     assert_snapshot!(warned("{\n\"tapr\": [[0, 1], [1, 1]] }"), @r#"
-    vase.curves.json:2: vase.lua has no parameter `tapr`, so its points are unused
+    vase.curves.json:2:2: vase.lua has no parameter `tapr`, so its points are unused
       | "tapr": [[0, 1], [1, 1]] }
+      |  ^^^^
       help: did you mean taper?
     "#);
     assert_snapshot!(warned("{\n\"floors\": [[0, 1], [1, 1]] }"), @r#"
-    vase.curves.json:2: the parameter `floors` of vase.lua is not drawn, so its points are unused
+    vase.curves.json:2:2: the parameter `floors` of vase.lua is not drawn, so its points are unused
       | "floors": [[0, 1], [1, 1]] }
+      |  ^^^^^^
       help: remove floors from the file; only parameters that are functions or curves are drawn
     "#);
     assert_snapshot!(warned("{\n\"outline\": [[0, 1], [1, 1]] }"), @r#"
-    vase.curves.json:2: vase.lua has no parameter `outline`, so its points are unused
+    vase.curves.json:2:2: vase.lua has no parameter `outline`, so its points are unused
       | "outline": [[0, 1], [1, 1]] }
+      |  ^^^^^^^
       help: remove outline from the file, or declare param("outline", { default = ramp(...) })
     "#);
     assert_snapshot!(refused("{\n\"tapr\": [[0, 1], [1, 1]] }", &["--strict"]), @r#"
-    error: vase.curves.json:2: vase.lua has no parameter `tapr`, so its points are unused
+    error: vase.curves.json:2:2: vase.lua has no parameter `tapr`, so its points are unused
       | "tapr": [[0, 1], [1, 1]] }
+      |  ^^^^
       help: did you mean taper?
     "#);
 }
@@ -171,14 +191,16 @@ fn a_default_that_cannot_be_drawn_is_refused() {
     let script =
         "local a = ramp({ { 0, 1 }, { 1, 2 } })\nlocal x = param(\"x\", { default = a:mix(a, 0.5) })\n";
     assert_snapshot!(Folder::new().with("s.lua", script).refuses(&["run", "s.lua"]), @r#"
-    error: s.lua:2: param x: the default, a ramp from 0 to 1, has no points of its own
+    error: s.lua:2:11: param x: the default, a ramp from 0 to 1, has no points of its own
       | local x = param("x", { default = a:mix(a, 0.5) })
+      |           ^^^^^
       help: give one that is made of points, not one between two others
     "#);
     let script = "local x = param(\"x\", { default = extruder({}) })\n";
     assert_snapshot!(Folder::new().with("s.lua", script).refuses(&["run", "s.lua"]), @r#"
-    error: s.lua:1: param x: default must be a number, a boolean, a string, a function, a curve or a surface, not an object
+    error: s.lua:1:11: param x: default must be a number, a boolean, a string, a function, a curve or a surface, not an object
       | local x = param("x", { default = extruder({}) })
+      |           ^^^^^
       help: functions, curves and surfaces are drawn: default = ramp({ { 0, 1 }, { 1, 0.2 } })
     "#);
 }

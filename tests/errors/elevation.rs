@@ -106,8 +106,9 @@ fn told(line: &str) -> String {
 #[test]
 fn what_is_made_of_a_file_alone_takes_no_options() {
     assert_snapshot!(told(r#"model("a.glb", { fast = true })"#), @r#"
-    error: in/s.lua:2: model does not accept options
+    error: in/s.lua:2:1: model does not accept options
       | model("a.glb", { fast = true })
+      | ^^^^^
       help: write model("window.glb")
     "#);
 }
@@ -115,23 +116,27 @@ fn what_is_made_of_a_file_alone_takes_no_options() {
 #[test]
 fn a_file_of_heights_that_is_missing_or_lies_outside_is_told() {
     assert_snapshot!(told(r#"elevation("N43E008.hgt")"#), @r#"
-    error: in/s.lua:2: height file not found: N43E008.hgt
+    error: in/s.lua:2:1: height file not found: N43E008.hgt
       | elevation("N43E008.hgt")
+      | ^^^^^^^^^^^^^^^^^^^^^^^^
       help: it is looked for from the script's folder; other folders are given with --data FOLDER
     "#);
     assert_snapshot!(told(r#"elevation("../outside.hgt")"#), @r#"
-    error: in/s.lua:2: the height file ../outside.hgt lies outside the script's folder
+    error: in/s.lua:2:1: the height file ../outside.hgt lies outside the script's folder
       | elevation("../outside.hgt")
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: a script reads data in its own folder and below it, and in those that are given: --data FOLDER
     "#);
     assert_snapshot!(told(r#"elevation()"#), @r#"
-    error: in/s.lua:2: elevation needs a file name
+    error: in/s.lua:2:1: elevation needs a file name
       | elevation()
+      | ^^^^^^^^^
       help: write elevation("N43E007.hgt")
     "#);
     assert_snapshot!(told(r#"elevation("cut")"#), @r#"
-    error: in/s.lua:2: cut/N43E007.hgt is not square: it has 48 of the 2884802 bytes of 1201 x 1201 heights
+    error: in/s.lua:2:1: cut/N43E007.hgt is not square: it has 48 of the 2884802 bytes of 1201 x 1201 heights
       | elevation("cut")
+      | ^^^^^^^^^^^^^^^^
       help: it is cut short; download it again
     "#);
 }
@@ -139,48 +144,57 @@ fn a_file_of_heights_that_is_missing_or_lies_outside_is_told() {
 #[test]
 fn a_file_that_is_not_whole_is_told() {
     assert_snapshot!(told(r#"elevation("empty.hgt")"#), @r#"
-    error: in/s.lua:2: empty.hgt is empty
+    error: in/s.lua:2:1: empty.hgt is empty
       | elevation("empty.hgt")
+      | ^^^^^^^^^^^^^^^^^^^^^^
       help: download it again
     "#);
     assert_snapshot!(told(r#"elevation("cut/N43E007.hgt")"#), @r#"
-    error: in/s.lua:2: cut/N43E007.hgt is not square: it has 48 of the 2884802 bytes of 1201 x 1201 heights
+    error: in/s.lua:2:1: cut/N43E007.hgt is not square: it has 48 of the 2884802 bytes of 1201 x 1201 heights
       | elevation("cut/N43E007.hgt")
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: it is cut short; download it again
     "#);
     assert_snapshot!(told(r#"elevation("cut.r32")"#), @r#"
-    error: in/s.lua:2: cut.r32 is not square: it has 20 of the 36 bytes of 3 x 3 floats
+    error: in/s.lua:2:1: cut.r32 is not square: it has 20 of the 36 bytes of 3 x 3 floats
       | elevation("cut.r32")
+      | ^^^^^^^^^^^^^^^^^^^^
       help: it is cut short, or not a square of floats; a GeoTIFF can have any shape
     "#);
     assert_snapshot!(told(r#"elevation("cut.png", { bounds = { 0, 0, 1, 1 } })"#), @r#"
-    error: in/s.lua:2: cut.png is cut short: it ends after 42 bytes, but more should follow
+    error: in/s.lua:2:1: cut.png is cut short: it ends after 42 bytes, but more should follow
       | elevation("cut.png", { bounds = { 0, 0, 1, 1 } })
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: download it again
     "#);
     assert_snapshot!(told(r#"elevation("cut.tif")"#), @r#"
-    error: in/s.lua:2: cut.tif is cut short: it has 4000 of 5862 bytes
+    error: in/s.lua:2:1: cut.tif is cut short: it has 4000 of 5862 bytes
       | elevation("cut.tif")
+      | ^^^^^^^^^^^^^^^^^^^^
       help: download it again
     "#);
     assert_snapshot!(told(r#"elevation("cut2.tif")"#), @r#"
-    error: in/s.lua:2: cut2.tif is cut short
+    error: in/s.lua:2:1: cut2.tif is cut short
       | elevation("cut2.tif")
+      | ^^^^^^^^^^^^^^^^^^^^^
       help: download it again
     "#);
     assert_snapshot!(told(r#"elevation("cut.asc")"#), @r#"
-    error: in/s.lua:2: cut.asc is cut short: it has 3 of 4 heights (57 bytes)
+    error: in/s.lua:2:1: cut.asc is cut short: it has 3 of 4 heights (57 bytes)
       | elevation("cut.asc")
+      | ^^^^^^^^^^^^^^^^^^^^
       help: download it again
     "#);
     assert_snapshot!(told(r#"elevation("broken.zip")"#), @r#"
-    error: in/s.lua:2: broken.zip cannot be unpacked
+    error: in/s.lua:2:1: broken.zip cannot be unpacked
       | elevation("broken.zip")
+      | ^^^^^^^^^^^^^^^^^^^^^^^
       help: the file is damaged or cut short; download it again
     "#);
     assert_snapshot!(told(r#"elevation("packed.hgt.zip")"#), @r#"
-    error: in/s.lua:2: packed.hgt.zip contains no .hgt file
+    error: in/s.lua:2:1: packed.hgt.zip contains no .hgt file
       | elevation("packed.hgt.zip")
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: unpack it, and specify the height file itself
     "#);
 }
@@ -188,48 +202,57 @@ fn a_file_that_is_not_whole_is_told() {
 #[test]
 fn a_file_that_is_no_raster_of_heights_is_told() {
     assert_snapshot!(told(r#"elevation("heights.xyz")"#), @r#"
-    error: in/s.lua:2: heights.xyz has an unknown format of heights
+    error: in/s.lua:2:1: heights.xyz has an unknown format of heights
       | elevation("heights.xyz")
+      | ^^^^^^^^^^^^^^^^^^^^^^^^
       help: supported formats are .hgt (also zipped), GeoTIFF (.tif), ESRI ASCII grid (.asc), PNG, and raw floats (.r32, .r64)
     "#);
     assert_snapshot!(told(r#"elevation("text.tif")"#), @r#"
-    error: in/s.lua:2: text.tif does not begin like a .tif file
+    error: in/s.lua:2:1: text.tif does not begin like a .tif file
       | elevation("text.tif")
+      | ^^^^^^^^^^^^^^^^^^^^^
       help: download it again, or correct its extension
     "#);
     assert_snapshot!(told(r#"elevation("bytes.png")"#), @r#"
-    error: in/s.lua:2: bytes.png is a PNG of at most 8 bits: 256 levels are too coarse for heights
+    error: in/s.lua:2:1: bytes.png is a PNG of at most 8 bits: 256 levels are too coarse for heights
       | elevation("bytes.png")
+      | ^^^^^^^^^^^^^^^^^^^^^^
       help: export it with 16 bits, or as a GeoTIFF
     "#);
     assert_snapshot!(told(r#"elevation("colours.png")"#), @r#"
-    error: in/s.lua:2: colours.png is a PNG in colour, not in 16-bit grey
+    error: in/s.lua:2:1: colours.png is a PNG in colour, not in 16-bit grey
       | elevation("colours.png")
+      | ^^^^^^^^^^^^^^^^^^^^^^^^
       help: if its colours are heights in Mapbox encoding, set encoding = "terrain-rgb"
     "#);
     assert_snapshot!(told(r#"elevation("turned.tif")"#), @r#"
-    error: in/s.lua:2: turned.tif is rotated: its columns do not point north
+    error: in/s.lua:2:1: turned.tif is rotated: its columns do not point north
       | elevation("turned.tif")
+      | ^^^^^^^^^^^^^^^^^^^^^^^
       help: resample it: gdalwarp IN OUT.tif
     "#);
     assert_snapshot!(told(r#"elevation("comma.asc")"#), @r#"
-    error: in/s.lua:2: comma.asc has "1,5" in line 6, which is not a height
+    error: in/s.lua:2:1: comma.asc has "1,5" in line 6, which is not a height
       | elevation("comma.asc")
+      | ^^^^^^^^^^^^^^^^^^^^^^
       help: write heights with a decimal point, such as 12.5
     "#);
     assert_snapshot!(told(r#"elevation("size.asc")"#), @r#"
-    error: in/s.lua:2: size.asc has no cellsize in its header
+    error: in/s.lua:2:1: size.asc has no cellsize in its header
       | elevation("size.asc")
+      | ^^^^^^^^^^^^^^^^^^^^^
       help: a grid begins with ncols, nrows, xllcorner, yllcorner and cellsize; convert the file: gdal_translate -of AAIGrid IN OUT.asc
     "#);
     assert_snapshot!(told(r#"elevation("odd.asc")"#), @r#"
-    error: in/s.lua:2: odd.asc has "proj 3" in line 6, in its header
+    error: in/s.lua:2:1: odd.asc has "proj 3" in line 6, in its header
       | elevation("odd.asc")
+      | ^^^^^^^^^^^^^^^^^^^^
       help: a grid begins with ncols, nrows, xllcorner, yllcorner and cellsize; convert the file: gdal_translate -of AAIGrid IN OUT.asc
     "#);
     assert_snapshot!(told(r#"elevation("one.r32")"#), @r#"
-    error: in/s.lua:2: one.r32 has 1 x 1 heights
+    error: in/s.lua:2:1: one.r32 has 1 x 1 heights
       | elevation("one.r32")
+      | ^^^^^^^^^^^^^^^^^^^^
       help: at least 2 x 2 heights are needed for interpolation
     "#);
 }
@@ -237,28 +260,33 @@ fn a_file_that_is_no_raster_of_heights_is_told() {
 #[test]
 fn sizes_and_heights_that_cannot_be_are_told() {
     assert_snapshot!(told(r#"elevation("N43E007.hgt")"#), @r#"
-    error: in/s.lua:2: N43E007.hgt has 5 x 5 heights, which is not the size of a one-degree tile
+    error: in/s.lua:2:1: N43E007.hgt has 5 x 5 heights, which is not the size of a one-degree tile
       | elevation("N43E007.hgt")
+      | ^^^^^^^^^^^^^^^^^^^^^^^^
       help: tiles have 1201 x 1201 or 3601 x 3601 heights; if it is a part of a tile, specify its bounds and crs
     "#);
     assert_snapshot!(told(r#"elevation("bomb.png", { low = 0, high = 1, bounds = { 0, 0, 1, 1 } })"#), @r#"
-    error: in/s.lua:2: bomb.png is cut short: its 45 bytes cannot hold 14000 x 14000 heights
+    error: in/s.lua:2:1: bomb.png is cut short: its 45 bytes cannot hold 14000 x 14000 heights
       | elevation("bomb.png", { low = 0, high = 1, bounds = { 0, 0, 1, 1 } })
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: download it again
     "#);
     assert_snapshot!(told(r#"elevation("huge.asc")"#), @r#"
-    error: in/s.lua:2: huge.asc has 100000 x 100000 heights, more than 200 million
+    error: in/s.lua:2:1: huge.asc has 100000 x 100000 heights, more than 200 million
       | elevation("huge.asc")
+      | ^^^^^^^^^^^^^^^^^^^^^
       help: cut out a part: gdal_translate -srcwin LEFT TOP COLUMNS ROWS
     "#);
     assert_snapshot!(told(r#"elevation("big.png")"#), @r#"
-    error: in/s.lua:2: big.png has 65536 x 65536 heights, more than 200 million
+    error: in/s.lua:2:1: big.png has 65536 x 65536 heights, more than 200 million
       | elevation("big.png")
+      | ^^^^^^^^^^^^^^^^^^^^
       help: cut out a part: gdal_translate -srcwin LEFT TOP COLUMNS ROWS
     "#);
     assert_snapshot!(told(r#"elevation("sea/N43E006.hgt")"#), @r#"
-    error: in/s.lua:2: sea/N43E006.hgt contains no data: all its heights are missing
+    error: in/s.lua:2:1: sea/N43E006.hgt contains no data: all its heights are missing
       | elevation("sea/N43E006.hgt")
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: download another part, or open it in a map viewer
     "#);
 }
@@ -319,23 +347,27 @@ end
         folder.refuses(&["run", "s.lua"])
     };
     assert_snapshot!(refused(r#"elevation({ "a.asc", "b.asc" })"#), @r#"
-    error: s.lua:1: the heights of b.asc are not on the same grid as the heights of a.asc
+    error: s.lua:1:1: the heights of b.asc are not on the same grid as the heights of a.asc
       | elevation({ "a.asc", "b.asc" })
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: resample all files to one grid: gdalwarp -tr X Y -tap IN... OUT.tif
     "#);
     assert_snapshot!(refused(r#"elevation("empty")"#), @r#"
-    error: s.lua:1: empty means no files, each a height file
+    error: s.lua:1:1: empty means no files, each a height file
       | elevation("empty")
+      | ^^^^^^^^^^^^^^^^^^
       help: name 1 to 1000 files that end in .hgt, .tif, .tiff, .asc, .zip
     "#);
     assert_snapshot!(refused(r#"elevation({ "a.asc", 3 })"#), @r#"
-    error: s.lua:1: elevation needs a file name, or a list of file names
+    error: s.lua:1:1: elevation needs a file name, or a list of file names
       | elevation({ "a.asc", 3 })
+      | ^^^^^^^^^
       help: write elevation("N43E007.hgt")
     "#);
     assert_snapshot!(refused(r#"elevation("c*.asc")"#), @r#"
-    error: s.lua:1: c*.asc means no files, each a height file
+    error: s.lua:1:1: c*.asc means no files, each a height file
       | elevation("c*.asc")
+      | ^^^^^^^^^^^^^^^^^^^
       help: name 1 to 1000 files that end in .hgt, .tif, .tiff, .asc, .zip
     "#);
 }
@@ -343,43 +375,51 @@ end
 #[test]
 fn what_a_file_does_not_tell_is_asked_for() {
     assert_snapshot!(told(r#"elevation("nowhere.hgt")"#), @r#"
-    error: in/s.lua:2: nowhere.hgt does not contain its location
+    error: in/s.lua:2:1: nowhere.hgt does not contain its location
       | elevation("nowhere.hgt")
+      | ^^^^^^^^^^^^^^^^^^^^^^^^
       help: name it after its south-west corner, such as N43E007.hgt, or specify its bounds and crs
     "#);
     assert_snapshot!(told(r#"elevation("grey.png", { bounds = { 0, 0, 1, 1 } })"#), @r#"
-    error: in/s.lua:2: grey.png does not specify the heights of black and white
+    error: in/s.lua:2:1: grey.png does not specify the heights of black and white
       | elevation("grey.png", { bounds = { 0, 0, 1, 1 } })
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: specify them (m): elevation(file, { low = 0, high = 1200, ... })
     "#);
     assert_snapshot!(told(r#"elevation("grey.png", { low = 0, high = 100 })"#), @r#"
-    error: in/s.lua:2: grey.png does not contain its location
+    error: in/s.lua:2:1: grey.png does not contain its location
       | elevation("grey.png", { low = 0, high = 100 })
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: specify its bounds: elevation(file, { bounds = { west, south, east, north } }), in metres of the run, or in the coordinate system crs
     "#);
     assert_snapshot!(told(r#"elevation("plain.tif")"#), @r#"
-    error: in/s.lua:2: plain.tif does not contain its location
+    error: in/s.lua:2:1: plain.tif does not contain its location
       | elevation("plain.tif")
+      | ^^^^^^^^^^^^^^^^^^^^^^
       help: specify its bounds: elevation(file, { bounds = { west, south, east, north } }), in metres of the run, or in the coordinate system crs
     "#);
     assert_snapshot!(told(r#"elevation("other.tif")"#), @r#"
-    error: in/s.lua:2: other.tif has a coordinate system without an EPSG code
+    error: in/s.lua:2:1: other.tif has a coordinate system without an EPSG code
       | elevation("other.tif")
+      | ^^^^^^^^^^^^^^^^^^^^^^
       help: specify its EPSG code: elevation(file, { crs = 3067 }), or convert the file: gdalwarp -t_srs EPSG:4326 IN OUT.tif
     "#);
     assert_snapshot!(told(r#"elevation("unknown.tif")"#), @r#"
-    error: in/s.lua:2: unknown.tif: unknown coordinate system EPSG:9999
+    error: in/s.lua:2:1: unknown.tif: unknown coordinate system EPSG:9999
       | elevation("unknown.tif")
+      | ^^^^^^^^^^^^^^^^^^^^^^^^
       help: specify its EPSG code: elevation(file, { crs = 3067 }), or convert the file: gdalwarp -t_srs EPSG:4326 IN OUT.tif
     "#);
     assert_snapshot!(told(r#"elevation("degrees.asc")"#), @r#"
-    error: in/s.lua:2: degrees.asc has steps of 0.0002 x 0.0002 m, less than a millimetre
+    error: in/s.lua:2:1: degrees.asc has steps of 0.0002 x 0.0002 m, less than a millimetre
       | elevation("degrees.asc")
+      | ^^^^^^^^^^^^^^^^^^^^^^^^
       help: if these are degrees, specify it: elevation(file, { crs = 4326 })
     "#);
     assert_snapshot!(told(r#"elevation("whole.tif", { crs = 3067 }) source("none.gpkg")"#), @r#"
-    error: in/s.lua:2: data file not found: none.gpkg
+    error: in/s.lua:2:1: data file not found: none.gpkg
       | elevation("whole.tif", { crs = 3067 }) source("none.gpkg")
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: it is looked for from the script's folder; other folders are given with --data FOLDER
     "#);
 }
@@ -387,53 +427,63 @@ fn what_a_file_does_not_tell_is_asked_for() {
 #[test]
 fn options_that_cannot_be_are_told() {
     assert_snapshot!(told(r#"elevation("whole.tif", { csr = 4326 })"#), @r#"
-    error: in/s.lua:2: unknown field `csr` in elevation
+    error: in/s.lua:2:26: unknown field `csr` in elevation
       | elevation("whole.tif", { csr = 4326 })
+      |                          ^^^
       help: did you mean crs?
     "#);
     assert_snapshot!(told(r#"elevation("whole.tif", { crs = 99999 })"#), @r#"
-    error: in/s.lua:2: elevation: unknown coordinate system EPSG:99999
+    error: in/s.lua:2:1: elevation: unknown coordinate system EPSG:99999
       | elevation("whole.tif", { crs = 99999 })
+      | ^^^^^^^^^
       help: specify the correct one: elevation(file, { crs = 4326 })
     "#);
     assert_snapshot!(told(r#"elevation("whole.tif", { low = 1 })"#), @r#"
-    error: in/s.lua:2: whole.tif is not a PNG, so low, high and encoding are not allowed
+    error: in/s.lua:2:26: whole.tif is not a PNG, so low, high and encoding are not allowed
       | elevation("whole.tif", { low = 1 })
+      |                          ^^^
       help: its heights are already in metres; remove these options
     "#);
     assert_snapshot!(told(r#"elevation("whole.tif", { bounds = { 1, 2, 3 } })"#), @r#"
-    error: in/s.lua:2: elevation: bounds has 3 numbers, not 4
+    error: in/s.lua:2:1: elevation: bounds has 3 numbers, not 4
       | elevation("whole.tif", { bounds = { 1, 2, 3 } })
+      | ^^^^^^^^^
       help: write { west, south, east, north }
     "#);
     assert_snapshot!(told(r#"elevation("whole.tif", { bounds = { 1, 2, 0, 3 } })"#), @r#"
-    error: in/s.lua:2: elevation: bounds = { 1, 2, 0, 3 } are empty
+    error: in/s.lua:2:1: elevation: bounds = { 1, 2, 0, 3 } are empty
       | elevation("whole.tif", { bounds = { 1, 2, 0, 3 } })
+      | ^^^^^^^^^
       help: write { west, south, east, north }, with west below east and south below north
     "#);
     assert_snapshot!(told(r#"elevation("whole.tif", { bounds = { 385000, 6671000, 386000, 6672000 } })"#), @r#"
-    error: in/s.lua:2: whole.tif is at 385250, 6671750, which is not a valid longitude and latitude
+    error: in/s.lua:2:1: whole.tif is at 385250, 6671750, which is not a valid longitude and latitude
       | elevation("whole.tif", { bounds = { 385000, 6671000, 386000, 6672000 } })
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: specify the coordinate system of the file: elevation(file, { crs = 3067 })
     "#);
     assert_snapshot!(told(r#"elevation("grey.png", { encoding = "terrarium" })"#), @r#"
-    error: in/s.lua:2: elevation: unknown encoding "terrarium"
+    error: in/s.lua:2:37: elevation: unknown encoding "terrarium"
       | elevation("grey.png", { encoding = "terrarium" })
+      |                                     ^^^^^^^^^
       help: write encoding = "terrain-rgb", or omit it
     "#);
     assert_snapshot!(told(r#"elevation("grey.png", { encoding = "terrain-rgb" })"#), @r#"
-    error: in/s.lua:2: grey.png has no 8-bit colours to decode as heights
+    error: in/s.lua:2:1: grey.png has no 8-bit colours to decode as heights
       | elevation("grey.png", { encoding = "terrain-rgb" })
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: remove encoding if it is grey; download the tile as .pngraw if it has a palette
     "#);
     assert_snapshot!(told(r#"elevation("grey.png", { low = 9, high = 1, bounds = { 0, 0, 1, 1 } })"#), @r#"
-    error: in/s.lua:2: grey.png cannot be scaled from low = 9 to high = 1
+    error: in/s.lua:2:25: grey.png cannot be scaled from low = 9 to high = 1
       | elevation("grey.png", { low = 9, high = 1, bounds = { 0, 0, 1, 1 } })
+      |                         ^^^
       help: low is the height (m) of black; high, the height of white, must be greater
     "#);
     assert_snapshot!(told(r#"elevation("whole.tif", 4326)"#), @r#"
-    error: in/s.lua:2: elevation takes a table of options, not a number
+    error: in/s.lua:2:1: elevation takes a table of options, not a number
       | elevation("whole.tif", 4326)
+      | ^^^^^^^^^
       help: write elevation("N43E007.hgt", { crs = 4326 })
     "#);
 }
@@ -441,17 +491,21 @@ fn options_that_cannot_be_are_told() {
 #[test]
 fn a_place_outside_is_told() {
     assert_snapshot!(told(r#"elevation("whole.asc"):height({ 2, 2.5 })"#), @r#"
-    error: in/s.lua:2: elevation: 2.0, 2.5 is outside whole.asc, which extends from 0.0, 0.0 to 2.0, 2.0
+    error: in/s.lua:2:1: elevation: 2.0, 2.5 is outside whole.asc, which extends from 0.0, 0.0 to 2.0, 2.0
       | elevation("whole.asc"):height({ 2, 2.5 })
+      | ^^^^^^^^^
       help: use a position within its bounds, or a larger file
     "#);
     assert_snapshot!(told(r#"elevation("whole.asc"):height({ 2 })"#), @r#"
-    error: in/s.lua:2: elevation:height: place must be a vector: { x, y, z } or vec(x, y, z), not {2}
+    error: in/s.lua:2:24: elevation:height: place must be a vector: { x, y, z } or vec(x, y, z), not {2}
       | elevation("whole.asc"):height({ 2 })
+      |                        ^^^^^^
+      help: write this:height(place: Vector)
     "#);
     assert_snapshot!(told(r#"elevation("whole.asc"):hight({ 2, 2 })"#), @r#"
-    error: in/s.lua:2: unknown method or field `hight` of elevation
+    error: in/s.lua:2:24: unknown method or field `hight` of elevation
       | elevation("whole.asc"):hight({ 2, 2 })
+      |                        ^^^^^
       help: did you mean high?
     "#);
 }

@@ -246,11 +246,12 @@ fn what_goes_out_without_a_meaning_says_so() {
         folder.burgeon(&["run", "s.lua", "--strict", "-o", output]).failed()
     };
     let plain = "local A = module('A')\nlocal s = lsystem({ object = turtle() })\ns:axiom(A())\ns:interpret('A', function(this) this:forward(1) end)\ns:derive()\n";
-    assert_snapshot!(told(plain, "a.gpkg"), @r#"
-    error: s.lua:2: no layers to write: no module of the final chains has a geometry
+    assert_snapshot!(told(plain, "a.gpkg"), @r"
+    error: s.lua:2:1: no layers to write: no module of the final chains has a geometry
       | local s = lsystem({ object = turtle() })
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: pass a geometry, such as Lot(feature.geometry, area)
-    "#);
+    ");
     let nowhere = "local A = module('A', 'shape')\nlocal s = lsystem()\ns:axiom(A(geometry('POINT (1 2)')))\ns:derive()\n";
     assert_snapshot!(told(nowhere, "a.geojson"), @r#"
     error: the model has no location on the earth, which GeoJSON needs
@@ -258,13 +259,16 @@ fn what_goes_out_without_a_meaning_says_so() {
     "#);
     Folder::new().with("s.lua", nowhere).burgeon(&["run", "s.lua", "--strict", "-o", "a.gpkg"]).done();
     assert_snapshot!(told("lsystem({ city = 'Raod' })", "a.glb"), @r#"
-    error: s.lua:1: lsystem: city: unknown CityJSON class "Raod"
+    error: s.lua:1:19: lsystem: city: unknown CityJSON class "Raod"
       | lsystem({ city = 'Raod' })
+      |                   ^^^^
       help: did you mean Road?
     "#);
     assert_snapshot!(told("print(panel({ surface = 'roof' }))", "a.glb"), @r#"
-    error: s.lua:1: panel: surface must be "wall", "window" or "door", not "roof"
+    error: s.lua:1:26: panel: surface must be "wall", "window" or "door", not "roof"
       | print(panel({ surface = 'roof' }))
+      |                          ^^^^
+      help: surface takes a string: Meaning of the panel and its model in city models: "wall", "window" or "door"
     "#);
 }
 

@@ -26,13 +26,15 @@ fn required(line: &str) -> String {
 #[test]
 fn a_required_file_that_is_missing_is_told() {
     assert_snapshot!(required("require(\"nothing\")"), @r#"
-    error: in/s.lua:2: require("nothing"): file not found: nothing.lua
+    error: in/s.lua:2:10: require("nothing"): file not found: nothing.lua
       | require("nothing")
+      |          ^^^^^^^
       help: the name is a path relative to the requiring file or to the script's folder
     "#);
     assert_snapshot!(required("require()"), @r#"
-    error: in/s.lua:2: require needs a file name
+    error: in/s.lua:2:1: require needs a file name
       | require()
+      | ^^^^^^^
       help: write require("facade") for facade.lua
     "#);
 }
@@ -40,14 +42,16 @@ fn a_required_file_that_is_missing_is_told() {
 #[test]
 fn files_that_require_each_other_are_told_in_order() {
     assert_snapshot!(required("require(\"one\")"), @r#"
-    error: in/two.lua:1: circular require: one.lua -> two.lua -> one.lua
+    error: in/two.lua:1:8: circular require: one.lua -> two.lua -> one.lua
       | return require("one")
+      |        ^^^^^^^
       called at in/s.lua:2
       help: move the common part into a third file
     "#);
     assert_snapshot!(required("require(\"s\")"), @r#"
-    error: in/s.lua:2: circular require: s.lua -> s.lua
+    error: in/s.lua:2:1: circular require: s.lua -> s.lua
       | require("s")
+      | ^^^^^^^
       help: move the common part into a third file
     "#);
 }
@@ -55,8 +59,9 @@ fn files_that_require_each_other_are_told_in_order() {
 #[test]
 fn a_file_outside_the_folder_is_refused() {
     assert_snapshot!(required("require(\"../outside\")"), @r#"
-    error: in/s.lua:2: require("../outside") is outside the script's folder
+    error: in/s.lua:2:10: require("../outside") is outside the script's folder
       | require("../outside")
+      |          ^^^^^^^^^^
       help: a script can read only files in its own folder and its subfolders
     "#);
     for name in [
@@ -83,28 +88,34 @@ fn a_file_outside_the_folder_is_refused() {
 #[test]
 fn an_error_in_a_required_file_names_that_file() {
     assert_snapshot!(required("require(\"broken\")"), @r"
-    error: in/broken.lua:2: Expected identifier when parsing expression, got '='
+    error: in/broken.lua:2:1: Expected identifier when parsing expression, got '='
       | local b = = 2
+      | ^^^^^^^^^^^^^
+      help: complete the code before '=', or remove '='
     ");
     assert_snapshot!(required("require(\"unknown\")"), @r"
-    error: in/unknown.lua:2: unknown name aa
+    error: in/unknown.lua:2:7: unknown name aa
       | print(aa)
+      |       ^^
       help: did you mean a?
     ");
     assert_snapshot!(required("require(\"late\")({})"), @r"
-    error: in/late.lua:2: attempt to index nil with 'y'
+    error: in/late.lua:2:14: attempt to index nil with 'y'
       | return t.x.y
+      |            ^
       called at in/s.lua:2
       help: check that the value exists before one of its fields is read: nothing was assigned to it, or a list is shorter
     ");
     assert_snapshot!(required("require(\"binary\")"), @r#"
-    error: in/s.lua:2: in/binary.lua is not a text file
+    error: in/s.lua:2:1: in/binary.lua is not a text file
       | require("binary")
+      | ^^^^^^^^^^^^^^^^^
       help: scripts are UTF-8 text; check the file's name
     "#);
     assert_snapshot!(required("require(\"folder\")"), @r#"
-    error: in/s.lua:2: require("folder"): file not found: folder.lua
+    error: in/s.lua:2:10: require("folder"): file not found: folder.lua
       | require("folder")
+      |          ^^^^^^
       help: the name is a path relative to the requiring file or to the script's folder
     "#);
 }
@@ -115,16 +126,18 @@ fn a_rule_in_a_required_file_is_bound_by_the_same_laws() {
         .with("s.lua", format!("{HEAD}require(\"rules\")(s, A)\ns:derive(1)\n"))
         .with("rules.lua", "return function(s, A)\n  local n = 0\n  s:rule(\"A(x)\", function(this, x)\n    n = n + 1\n    return A(n)\n  end)\nend\n");
     assert_snapshot!(folder.refuses(&["run", "s.lua"]), @r"
-    error: rules.lua:4: rule A(x): a rule assigns n, a variable declared outside
+    error: rules.lua:4:5: rule A(x): a rule assigns n, a variable declared outside
       | n = n + 1
+      | ^
       help: pass it in a parameter of a module; to change the object, use an interpretation rule
     ");
     let folder = Folder::new()
         .with("s.lua", format!("{HEAD}local make = require(\"rules\")\ns:rule(\"A(x)\", function(this, x) return make(A, x) end)\ns:derive(1)\n"))
         .with("rules.lua", "local n = 0\nreturn function(A, x)\n  n = n + 1\n  return A(n)\nend\n");
     assert_snapshot!(folder.refuses(&["run", "s.lua"]), @r"
-    error: rules.lua:3: rule A(x): a rule assigns n, a variable declared outside
+    error: rules.lua:3:3: rule A(x): a rule assigns n, a variable declared outside
       | n = n + 1
+      | ^^^^^^^^^
       called at s.lua:2
       module: A(1), step 1
       help: a rule can assign only its own locals; pass it in a parameter of a module
@@ -133,8 +146,9 @@ fn a_rule_in_a_required_file_is_bound_by_the_same_laws() {
         .with("s.lua", format!("{HEAD}local make = require(\"rules\")\ns:rule(\"A(x)\", function(this, x) return make(A, x) end)\ns:derive(1)\n"))
         .with("rules.lua", "return function(A, x)\n  return A(x, 1)\nend\n");
     assert_snapshot!(folder.refuses(&["run", "s.lua"]), @r"
-    error: rules.lua:2: rule A(x): A has 1 parameter, not 2
+    error: rules.lua:2:10: rule A(x): A has 1 parameter, not 2
       | return A(x, 1)
+      |        ^
       called at s.lua:2
       module: A(1), step 1
       help: it was declared as A(x)
@@ -172,7 +186,7 @@ fn a_script_that_is_missing_or_no_text_or_a_folder_is_told() {
     ");
     assert_snapshot!(folder.refuses(&["run", "folder"]), @r"
     error: folder is a folder
-      help: specify a script in the folder
+      help: specify a script in the folder, such as folder/a.lua
     ");
     assert_snapshot!(folder.refuses(&["check", "nothing.lua"]), @r"
     error: script not found: nothing.lua

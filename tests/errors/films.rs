@@ -236,8 +236,9 @@ fn a_film_that_cannot_be_made_is_refused_and_leaves_the_old_one() {
     ");
     // Frames before the one that fails are complete, and not published.
     assert_snapshot!(refused(&["--frames", "5:9", "-o", "film.gif", "-o", "%d.png"]), @r#"
-    error: s.lua:7: rule A(x): seven is too many (frame 2, time 7)
+    error: s.lua:7:3: rule A(x): seven is too many (frame 2, time 7)
       | if time == 7 then error("seven is too many") end
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       module: A(1), step 1
     "#);
     assert_snapshot!(refused(&["--frames", "0:3"]), @r"

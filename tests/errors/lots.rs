@@ -43,36 +43,45 @@ fn asked(what: &str) -> String {
 #[test]
 fn lots_that_cannot_be_are_refused() {
     assert_snapshot!(refused(&asked("streets:lots({ width = 0 })")), @r"
-    error: s.lua:26: network:lots: width must be from 1 to 500 m, not 0
+    error: s.lua:26:9: network:lots: width must be from 1 to 500 m, not 0
       | streets:lots({ width = 0 })
+      |         ^^^^
+      help: write this:lots(options: { [string]: any }?)
     ");
     assert_snapshot!(refused(&asked("streets:lots({ area = 200, min_area = 150 })")), @r"
-    error: s.lua:26: network:lots: area (200 m²) is less than twice min_area (150 m²), so a lot above it could not be divided
+    error: s.lua:26:9: network:lots: area (200 m²) is less than twice min_area (150 m²), so a lot above it could not be divided
       | streets:lots({ area = 200, min_area = 150 })
+      |         ^^^^
       help: use a greater area, or a smaller min_area
     ");
     assert_snapshot!(refused(&asked("streets:lots({ width = 8, min_width = 12 })")), @r"
-    error: s.lua:26: network:lots: min_width (12 m) is more than width (8 m)
+    error: s.lua:26:9: network:lots: min_width (12 m) is more than width (8 m)
       | streets:lots({ width = 8, min_width = 12 })
+      |         ^^^^
       help: use a greater width, or a smaller min_width
     ");
     assert_snapshot!(refused(&asked("streets:lots({ kind = \"strip\" })")), @r#"
-    error: s.lua:26: network:lots: unknown kind of lots "strip"
+    error: s.lua:26:24: network:lots: unknown kind of lots "strip"
       | streets:lots({ kind = "strip" })
+      |                        ^^^^^
       help: did you mean strips?
     "#);
     assert_snapshot!(refused(&asked("streets:lots({ widht = 8 })")), @r"
-    error: s.lua:26: unknown field `widht` in network:lots
+    error: s.lua:26:16: unknown field `widht` in network:lots
       | streets:lots({ widht = 8 })
+      |                ^^^^^
       help: did you mean width?
     ");
     assert_snapshot!(refused(&asked("streets:lots({ blocks = { 3 } })")), @r"
-    error: s.lua:26: network:lots: blocks must be a list whose item 1 is a polygon: feature.geometry, or { { { x, y }, { x, y }, { x, y } }, hole, ... }, not 3
+    error: s.lua:26:9: network:lots: blocks must be a list whose item 1 is a polygon: feature.geometry, or { { { x, y }, { x, y }, { x, y } }, hole, ... }, not 3
       | streets:lots({ blocks = { 3 } })
+      |         ^^^^
+      help: write this:lots(options: { [string]: any }?)
     ");
     assert_snapshot!(refused(&asked("streets:lots({ width = 400, depth = 400 })")), @r"
-    error: s.lua:26: network:lots: none of 9 blocks has room for a lot with 200 m of front and 48000 m²: the greatest has 7833 m²
+    error: s.lua:26:9: network:lots: none of 9 blocks has room for a lot with 200 m of front and 48000 m²: the greatest has 7833 m²
       | streets:lots({ width = 400, depth = 400 })
+      |         ^^^^
       help: use a smaller width and depth, or fewer parks
     ");
 }
@@ -83,16 +92,18 @@ fn lots_that_are_too_long_are_told() {
         local lots = network({}):lots({ blocks = { thin }, width = 80, min_width = 60 })\nassert(#lots == 0)";
     let told = warned(&[thin]);
     let told: Vec<&str> = told.lines().skip_while(|line| !line.contains("network:lots")).take(3).collect();
-    assert_snapshot!(told.join("\n"), @r#"
-    warning: s.lua:2: network:lots: skipped 1 lot more than 4 times as long as wide, up to 10.0 times
+    assert_snapshot!(told.join("\n"), @r"
+    warning: s.lua:2:1: network:lots: skipped 1 lot more than 4 times as long as wide, up to 10.0 times
       | local lots = network({}):lots({ blocks = { thin }, width = 80, min_width = 60 })
-      help: set a greater elongation, or all = true to return them as lots with the use "rest"
-    "#);
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+    ");
     let whole = thin.replace("min_width = 60", "min_width = 60, elongation = 11").replace("== 0", "== 1");
     assert_eq!(printed(&format!("{whole}\nprint(\"sound\")")), ["sound"]);
     assert_snapshot!(refused(&asked("streets:lots({ terrace = 0 })")), @r"
-    error: s.lua:26: network:lots: terrace must be from 0.5 to 1000 m, not 0
+    error: s.lua:26:9: network:lots: terrace must be from 0.5 to 1000 m, not 0
       | streets:lots({ terrace = 0 })
+      |         ^^^^
+      help: write this:lots(options: { [string]: any }?)
     ");
 }
 
@@ -109,11 +120,11 @@ fn left_out(script: &str) -> String {
 fn lots_that_an_obstacle_reaches_into_are_told_once_and_counted() {
     let pond = "polygon({ { 30, 20 }, { 60, 20 }, { 60, 40 }, { 30, 40 } })";
     let wet = |what: &str| asked(what).replace("snap = 6", &format!("snap = 6, obstacles = {{ {pond} }}"));
-    assert_snapshot!(left_out(&wet("streets:lots({ width = 16 })")), @r#"
-    warning: s.lua:26: network:lots: skipped 4 lots that overlap an obstacle or water
+    assert_snapshot!(left_out(&wet("streets:lots({ width = 16 })")), @r"
+    warning: s.lua:26:9: network:lots: skipped 4 lots that overlap an obstacle or water
       | streets:lots({ width = 16 })
-      help: set all = true to return them as lots with the use "blocked", or cut the obstacle out of the blocks: block.geometry:difference(water:buffer(0.1))
-    "#);
+      |         ^^^^
+    ");
     // With `all = true`, blocked lots are included.
     let all = "local blocked = 0\nfor _, lot in streets:lots({ width = 16, all = true }) do\n\
         blocked += if lot.use == \"blocked\" then 1 else 0\nend\nassert(blocked > 0)";
@@ -123,8 +134,9 @@ fn lots_that_an_obstacle_reaches_into_are_told_once_and_counted() {
                  { x + 105, y + 15 }, { x + 105, y + 75 }, { x + 15, y + 75 } }))\n  end\nend\n";
     let ponds = format!("{ponds}{}", asked("streets:lots({ width = 16 })"));
     assert_snapshot!(refused(&ponds.replace("snap = 6", "snap = 6, obstacles = ponds")), @r"
-    error: s.lua:32: network:lots: all 147 lots overlap an obstacle or water
+    error: s.lua:32:9: network:lots: all 147 lots overlap an obstacle or water
       | streets:lots({ width = 16 })
+      |         ^^^^
       help: use a smaller width and depth, or fewer obstacles
     ");
 }
@@ -143,41 +155,45 @@ fn blocks_and_networks_without_any_lot_are_told() {
     assert_eq!(left_out(&given(yard)), "");
     assert_eq!(left_out(&given("")), "");
     assert_snapshot!(left_out(&given(&format!("{yard}, {flat}, {far}"))), @r"
-    warning: s.lua:2: network:lots: skipped 2 of 3 blocks: they have no area inside their borders, or are more than 500 km from the origin
+    warning: s.lua:2:13: network:lots: skipped 2 of 3 blocks: they have no area inside their borders, or are more than 500 km from the origin
       | network({}):lots({ blocks = blocks, width = 12, elongation = 9 })
-      help: give polygons with an area, near the origin
+      |             ^^^^
     ");
     assert_snapshot!(left_out(&given(&format!("{small}, {small}"))), @r"
-    warning: s.lua:2: network:lots: none of 2 blocks has room for a lot with 6 m of front and 100.8 m²: the greatest has 20 m²
+    warning: s.lua:2:13: network:lots: none of 2 blocks has room for a lot with 6 m of front and 100.8 m²: the greatest has 20 m²
       | network({}):lots({ blocks = blocks, width = 12, elongation = 9 })
-      help: use a smaller width and depth, or fewer parks
+      |             ^^^^
     ");
     assert_eq!(left_out(&given(&format!("{small}, {yard}"))), "");
     assert_eq!(left_out(&given(small).replace("width", "parks = 1, width")), "");
     assert_snapshot!(left_out("network({}):lots({})\nnetwork({}):sites({})"), @r"
-    warning: s.lua:1: network:lots: the streets enclose no block to divide
+    warning: s.lua:1:13: network:lots: the streets enclose no block to divide
       | network({}):lots({})
-      help: connect the streets, or specify the areas to divide: blocks = { polygon }
-    warning: s.lua:2: network:sites: the network has no streets
+      |             ^^^^
+    warning: s.lua:2:13: network:sites: the network has no streets
       | network({}):sites({})
-      help: call sites after the streets have grown: system:derive(steps).objects[1]:sites()
+      |             ^^^^^
     ");
 }
 
 #[test]
 fn sites_that_cannot_be_are_refused() {
     assert_snapshot!(refused(&asked("streets:sites({ sizes = {} })")), @r"
-    error: s.lua:26: network:sites: sizes must contain at least one pair of numbers from 1 to 500
+    error: s.lua:26:9: network:sites: sizes must contain at least one pair of numbers from 1 to 500
       | streets:sites({ sizes = {} })
+      |         ^^^^^
       help: write sizes = { { 24, 18 }, { 12, 10 } }
     ");
     assert_snapshot!(refused(&asked("streets:sites({ along = 0 })")), @r"
-    error: s.lua:26: network:sites: along must be from 0.5 to 1000, not 0
+    error: s.lua:26:9: network:sites: along must be from 0.5 to 1000, not 0
       | streets:sites({ along = 0 })
+      |         ^^^^^
+      help: write this:sites(options: { [string]: any }?)
     ");
     assert_snapshot!(refused(&asked("streets:sites({ setback = 30, distance = 10 })")), @r"
-    error: s.lua:26: network:sites: setback (30 m) is more than distance (10 m), so no site fits next to a street
+    error: s.lua:26:9: network:sites: setback (30 m) is more than distance (10 m), so no site fits next to a street
       | streets:sites({ setback = 30, distance = 10 })
+      |         ^^^^^
       help: use a smaller setback, or a greater distance
     ");
     // Four streets of 60 m leave no room between them for such a hall.
@@ -188,13 +204,15 @@ fn sites_that_cannot_be_are_refused() {
         "{ sizes = { { 200, 200 } } }"
     );
     assert_snapshot!(refused(&cross), @r"
-    error: s.lua:4: network:sites: no room for a site at any of 176 positions: 176 overlap a street
+    error: s.lua:4:24: network:sites: no room for a site at any of 176 positions: 176 overlap a street
       | s:derive(0).objects[1]:sites({ sizes = { { 200, 200 } } })
+      |                        ^^^^^
       help: use smaller sizes, or a smaller setback
     ");
     assert_snapshot!(refused(&asked("streets:sites({ along = 0.5, away = 0.5, distance = 2000 })")), @r"
-    error: s.lua:26: network:sites: 40289760 positions along the streets are too many
+    error: s.lua:26:9: network:sites: 40289760 positions along the streets are too many
       | streets:sites({ along = 0.5, away = 0.5, distance = 2000 })
+      |         ^^^^^
       help: use greater distances along and away
     ");
 }
@@ -387,9 +405,9 @@ fn blocks_that_lie_on_each_other_are_told() {
         ))
     };
     assert_snapshot!(divided("0, 70"), @r#"
-    warning: s.lua:5: network:lots: the blocks "40:30" and "110:30" overlap by 600.00 m², so lots overlap
+    warning: s.lua:5:13: network:lots: the blocks "40:30" and "110:30" overlap by 600.00 m², so lots overlap
       | network({}):lots({ blocks = blocks })
-      help: use blocks that do not overlap: one:difference(other)
+      |             ^^^^
     "#);
     let told = divided("0, 79, 40");
     assert!(told.contains("overlap by 2460.00 m², and 2 more pairs of blocks overlap, so lots"), "{told}");

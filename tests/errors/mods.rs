@@ -15,16 +15,19 @@ fn packages_are_checked() {
         )
         .with("mods/castle/stone.png", "x");
     insta::assert_snapshot!(folder.refuses(&["mods", "check", "mods/castle"]), @r#"
-    error: mods/castle/mod.toml:5: the package castle replaces a file of castle, but does not depend on it
+    error: mods/castle/mod.toml:5:1: the package castle replaces a file of castle, but does not depend on it
       | "@castle/gate.lua" = "gat.lua"
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: write below [depends]: castle = "*"
     "#);
     insta::assert_snapshot!(castle("").with("mods/castle/gate.lua", "local stone = \"@castle/ston.png\"\nlocal a = lenght(3)\nrequire(\"./wall\")\nreturn stone, a").refuses(&["mods", "check", "mods/castle"]), @r#"
-    error: mods/castle/gate.lua:1: the package castle has no file ston.png
+    error: mods/castle/gate.lua:1:1: the package castle has no file ston.png
       | local stone = "@castle/ston.png"
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: the expected location is mods/castle
-    error: mods/castle/gate.lua:2: unknown name lenght
+    error: mods/castle/gate.lua:2:11: unknown name lenght
       | local a = lenght(3)
+      |           ^^^^^^
       help: declare it: local lenght = ...
     "#);
     insta::assert_snapshot!(castle("").refuses(&["mods", "check", "nowhere"]), @r"
@@ -104,8 +107,9 @@ fn two_packages_of_one_name_in_the_users_folder_are_told_to_whoever_uses_them() 
         .with("user/burgeon/mods/two/init.lua", "return {}");
     let text = folder.burgeon(&["run", "s.lua"]).failed();
     insta::assert_snapshot!(text, @r#"
-    error: FOLDER/user/burgeon/mods/two/mod.toml:1: duplicate package lights: lights 1.0.0 in FOLDER/user/burgeon/mods/one, and 2.0.0 in FOLDER/user/burgeon/mods/two
+    error: FOLDER/user/burgeon/mods/two/mod.toml:1:1: duplicate package lights: lights 1.0.0 in FOLDER/user/burgeon/mods/one, and 2.0.0 in FOLDER/user/burgeon/mods/two
       | name = "lights"
+      | ^^^^^^^^^^^^^^^
       help: remove one of them
     "#);
     assert_eq!(folder.burgeon(&["check", "s.lua"]).failed(), text);

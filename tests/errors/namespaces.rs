@@ -338,32 +338,37 @@ fn what_may_be_one_of_several_is_told_with_what_to_write() {
         )
     };
     insta::assert_snapshot!(two(lua, &draw("this:turret(1)")).refuses(&["run", "s.lua"]), @r#"
-    error: s.lua:4: rule castle.Stone (interpretation): turret is a method of extruder added by castle and towers
+    error: s.lua:4:49: rule castle.Stone (interpretation): turret is a method of extruder added by castle and towers
       | s:interpret("castle.Stone", function(this) this:turret(1) end)
+      |                                                 ^^^^^^
       module: castle.Stone(1), step 0
       help: specify one: this:castle_turret(...) or this:towers_turret(...)
     "#);
     insta::assert_snapshot!(
         two(lua, "lsystem():rule(\"Stone(w)\", function() end)").refuses(&["run", "s.lua"]), @r#"
-    error: s.lua:2: Stone is a module of castle and of towers in the pattern "Stone(w)"
+    error: s.lua:2:17: Stone is a module of castle and of towers in the pattern "Stone(w)"
       | lsystem():rule("Stone(w)", function() end)
+      |                 ^^^^^^^^
       help: specify one: castle.Stone or towers.Stone
     "#);
     insta::assert_snapshot!(
         two(lua, "lsystem():rule(\"castle.Stole(w)\", function() end)").refuses(&["run", "s.lua"]), @r#"
-    error: s.lua:2: unknown symbol castle.Stole in the pattern "castle.Stole(w)"
+    error: s.lua:2:17: unknown symbol castle.Stole in the pattern "castle.Stole(w)"
       | lsystem():rule("castle.Stole(w)", function() end)
+      |                 ^^^^^^^^^^^^^^^
       help: did you mean castle.Stone?
     "#);
     insta::assert_snapshot!(
         two(lua, "lsystem():rule(\"castle.Stone(w)\", \"return Stone(w)\")").refuses(&["run", "s.lua"]), @r#"
-    error: s.lua:2: rule castle.Stone(w): Stone is a module of castle and of towers
+    error: s.lua:2:1: rule castle.Stone(w): Stone is a module of castle and of towers
       | lsystem():rule("castle.Stone(w)", "return Stone(w)")
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: return it from a function, with a constructor of the package: function(this) return stone(1) end
     "#);
     insta::assert_snapshot!(two(lua, "").refuses(&["run", "s.lua", "--set", "size=9"]), @r#"
-    error: mods/towers/init.lua:2: size is a parameter of castle and of towers
+    error: mods/towers/init.lua:2:40: size is a parameter of castle and of towers
       | return { Stone = module("Stone", "w"), size = param("size", { default = 2 }) }
+      |                                        ^^^^
       called at s.lua:1
       help: specify one: --set castle.size=VALUE or --set towers.size=VALUE
     "#);
@@ -428,8 +433,9 @@ fn a_package_is_switched_off_and_on() {
     let folder = castle("").with("other.lua", "print(1)");
     insta::assert_snapshot!(folder.burgeon(&["mods", "disable", "castle"]).done().stderr, @"disabled castle in mods/disabled.txt; to enable it: burgeon mods enable castle");
     insta::assert_snapshot!(folder.refuses(&["run", "s.lua"]), @r#"
-    error: s.lua:1: the package castle is disabled in mods/disabled.txt
+    error: s.lua:1:1: the package castle is disabled in mods/disabled.txt
       | local towers = require("@castle/towers")
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: enable it: burgeon mods enable castle
     "#);
     insta::assert_snapshot!(folder.burgeon(&["mods"]).done().stdout, @"disabled: castle 1.0.0 in mods/castle");
@@ -461,8 +467,9 @@ fn links_to_checkouts_are_used_and_never_replaced() {
     assert!(other.path().join("work/towers.lua").exists());
     std::fs::remove_dir_all(other.path().join("work")).unwrap();
     insta::assert_snapshot!(other.refuses(&["run", "s.lua"]), @r#"
-    error: s.lua:1: mods/castle is a broken link
+    error: s.lua:1:1: mods/castle is a broken link
       | local towers = require("@castle/towers")
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: remove it, or replace it by a package
     "#);
 }
@@ -473,8 +480,9 @@ fn what_is_no_package_is_never_deleted_and_what_is_missing_is_told() {
         .with("work/mod.toml", about("castle", "[depends]\nmasonry = \"1\""))
         .with("mods/castle/diary.txt", "dear");
     insta::assert_snapshot!(folder.refuses(&["mods", "add", "work"]), @r#"
-    error: work/mod.toml:5: the package castle needs masonry ^1, which is not installed
+    error: work/mod.toml:5:1: the package castle needs masonry ^1, which is not installed
       | masonry = "1"
+      | ^^^^^^^
       help: install it next to the other packages: burgeon mods add FOLDER
     "#);
     let folder = folder.with("mods/masonry/mod.toml", about("masonry", ""));
@@ -497,8 +505,9 @@ fn what_is_no_package_is_never_deleted_and_what_is_missing_is_told() {
     folder.burgeon(&["mods", "add", "work", "--replace"]).done();
     let folder = folder.with("work/mod.toml", about("castle", "[depends]\nmasonry = \"2\""));
     insta::assert_snapshot!(folder.refuses(&["mods", "add", "work", "--replace"]), @r#"
-    error: work/mod.toml:5: the package castle needs masonry ^2, but 1.0.0 is in mods/masonry
+    error: work/mod.toml:5:1: the package castle needs masonry ^2, but 1.0.0 is in mods/masonry
       | masonry = "2"
+      | ^^^^^^^
       help: install a masonry of that version
     "#);
 }

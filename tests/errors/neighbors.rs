@@ -51,8 +51,9 @@ fn an_edge_that_there_is_not_is_refused() {
     insta::assert_snapshot!(
         told(") })\ns:axiom(A())\ns:rule(\"A\", function(this)\n  return A(this:edge_length(4))\nend)\ns:derive(1)"),
         @r"
-    error: s.lua:5: rule A: footprint:edge_length: unknown edge 4
+    error: s.lua:5:17: rule A: footprint:edge_length: unknown edge 4
       | return A(this:edge_length(4))
+      |               ^^^^^^^^^^^
       module: A, step 1
       help: it has the edges 1 to 3: edges of the outer ring, followed by edges of holes
     "

@@ -41,32 +41,36 @@ fn checked(rest: &str) -> String {
 #[test]
 fn a_check_knows_the_methods_and_fields_of_types_of_the_script() {
     let system = "local A = module(\"A\", \"x\")\nlocal s = lsystem({ object = lamp({ height = 5 }) })\ns:axiom(A(1))\n";
-    assert_snapshot!(checked(&format!("{system}s:interpret(\"A(x)\", function(this, x) this:ligth(x) end)")), @r##"
-    error: s.lua:22: rule A(x) (interpretation): unknown method or field `ligth` of lamp
+    assert_snapshot!(checked(&format!("{system}s:interpret(\"A(x)\", function(this, x) this:ligth(x) end)")), @r"
+    error: s.lua:22:44: rule A(x) (interpretation): unknown method or field `ligth` of lamp
       help: did you mean light?
-    "##);
-    assert_snapshot!(checked(&format!("{system}s:interpret(\"A(x)\", function(this, x) this:light(x, 2, 3) this:light(\"far\") end)")), @r##"
-    error: s.lua:22: rule A(x) (interpretation): lamp:light takes 1 to 2 arguments, not 3
+    ");
+    assert_snapshot!(checked(&format!("{system}s:interpret(\"A(x)\", function(this, x) this:light(x, 2, 3) this:light(\"far\") end)")), @r#"
+    error: s.lua:22:44: rule A(x) (interpretation): lamp:light takes 1 to 2 arguments, not 3
       help: write lamp:light(reach: number, toward: number?)
-    error: s.lua:22: rule A(x) (interpretation): lamp:light: reach must be a number, not "far"
-    "##);
-    assert_snapshot!(checked(&format!("{system}s:rule(\"A(x)\", function(this, x) this:light(x) return A(this:lit()) end)")), @r##"
-    error: s.lua:22: rule A(x): lamp:light is a write method, so a rule cannot call it
+    error: s.lua:22:70: rule A(x) (interpretation): lamp:light: reach must be a number, not "far"
+      help: write lamp:light(reach: number, toward: number?)
+    "#);
+    assert_snapshot!(checked(&format!("{system}s:rule(\"A(x)\", function(this, x) this:light(x) return A(this:lit()) end)")), @r"
+    error: s.lua:22:39: rule A(x): lamp:light is a write method, so a rule cannot call it
       help: use an interpretation rule: system:interpret(pattern, function(this, ...) ... end)
-    "##);
-    assert_snapshot!(checked("lamp({ height = \"tall\", glow = 3, kind = \"oil\", sides = \"many\" })"), @r##"
-    error: s.lua:19: lamp: height must be a number, not "tall"
-    error: s.lua:19: unknown field `glow` in lamp
+    ");
+    assert_snapshot!(checked("lamp({ height = \"tall\", glow = 3, kind = \"oil\", sides = \"many\" })"), @r#"
+    error: s.lua:19:17: lamp: height must be a number, not "tall"
+      help: height takes a number, 4 unless given: How high it is
+    error: s.lua:19:25: unknown field `glow` in lamp
       help: it has height, kind, sides, shape, smooth, along, around, caps, color, roughness, metallic, position, heading
-    error: s.lua:19: lamp: kind must be "gas" | "arc", not "oil"
-    error: s.lua:19: lamp: sides must be a number, not "many"
-    "##);
-    assert_snapshot!(checked(&format!("{system}s:interpret(\"A(x)\", function(this, x) this:light(x):extrude(this.height):lightt(1) print(this.hieght, this.mast:extrude(1)) end)")), @r##"
-    error: s.lua:22: rule A(x) (interpretation): unknown method or field `lightt` of lamp
+    error: s.lua:19:42: lamp: kind must be "gas" | "arc", not "oil"
+      help: kind takes "gas" | "arc", "gas" unless given: 
+    error: s.lua:19:57: lamp: sides must be a number, not "many"
+      help: sides takes a number, 16 unless given: Number of sides of the cross-section, a regular polygon with radius 1
+    "#);
+    assert_snapshot!(checked(&format!("{system}s:interpret(\"A(x)\", function(this, x) this:light(x):extrude(this.height):lightt(1) print(this.hieght, this.mast:extrude(1)) end)")), @r"
+    error: s.lua:22:74: rule A(x) (interpretation): unknown method or field `lightt` of lamp
       help: did you mean light?
-    error: s.lua:22: rule A(x) (interpretation): unknown method or field `hieght` of lamp
+    error: s.lua:22:95: rule A(x) (interpretation): unknown method or field `hieght` of lamp
       help: did you mean height?
-    "##);
+    ");
 }
 
 #[test]
@@ -76,31 +80,32 @@ fn a_check_knows_what_the_functions_of_a_type_may_do() {
             "local other = object(\"other\", {{ extends = lamp, state = {{ n = 0 }}, {parts} }})"
         ))
     };
-    assert_snapshot!(of("reads = { bad = function(self) self.n = 1 self:extrude(1) return self.m end }"), @r##"
-    error: s.lua:19: other: a read method assigns n
+    assert_snapshot!(of("reads = { bad = function(self) self.n = 1 self:extrude(1) return self.m end }"), @r"
+    error: s.lua:19:104: other: a read method assigns n
       help: move it to the changes of the type, which interpretations can call
-    error: s.lua:19: other:extrude is a write method, so a read method cannot call it
+    error: s.lua:19:115: other:extrude is a write method, so a read method cannot call it
       help: move it to the changes of the type
-    error: s.lua:19: unknown method or field `m` of other
+    error: s.lua:19:138: unknown method or field `m` of other
       help: it has as, lit, light, bad, height, kind, lit, n, mast, regular, star, rectangle, polygon, direction, resolution, scale, taper, bend, twist, caps, smooth, extrude, advance, shift, jump, turn, pitch, roll, color, material, mesh, place, position, heading, distance, open_edges, note, detail
-    "##);
-    assert_snapshot!(of("changes = { bad = function(self) self.m = 1 self.height = 2 self.lit = 3 self:light() self:lite(1) end }"), @r##"
-    error: s.lua:19: other: unknown state variable `m`
+    ");
+    assert_snapshot!(of("changes = { bad = function(self) self.m = 1 self.height = 2 self.lit = 3 self:light() self:lite(1) end }"), @r"
+    error: s.lua:19:106: other: unknown state variable `m`
       help: declare it: state = { m = ... }
-    error: s.lua:19: height is a field of other, which only the constructor sets
+    error: s.lua:19:117: height is a field of other, which only the constructor sets
       help: keep changing values in the state
-    error: s.lua:19: other:light takes 1 to 2 arguments, not 0
+    error: s.lua:19:146: other:light takes 1 to 2 arguments, not 0
       help: write other:light(reach: number, toward: number?)
-    error: s.lua:19: unknown method or field `lite` of other
+    error: s.lua:19:159: unknown method or field `lite` of other
       help: did you mean lit?
-    "##);
-    assert_snapshot!(of("begin = function(self) self.mast:extrde(1) self:as(lamp):light(\"a\") self:as(lamp):go() end"), @r##"
-    error: s.lua:19: unknown method or field `extrde` of extruder
+    ");
+    assert_snapshot!(of("begin = function(self) self.mast:extrde(1) self:as(lamp):light(\"a\") self:as(lamp):go() end"), @r#"
+    error: s.lua:19:101: unknown method or field `extrde` of extruder
       help: did you mean extrude?
-    error: s.lua:19: lamp:light: reach must be a number, not "a"
-    error: s.lua:19: unknown method or field `go` of lamp
+    error: s.lua:19:131: lamp:light: reach must be a number, not "a"
+      help: write lamp:light(reach: number, toward: number?)
+    error: s.lua:19:150: unknown method or field `go` of lamp
       help: it has as, lit, light, height, kind, lit, mast, regular, star, rectangle, polygon, direction, resolution, scale, taper, bend, twist, caps, smooth, extrude, advance, shift, jump, turn, pitch, roll, color, material, mesh, place, position, heading, distance, open_edges, note, detail
-    "##);
+    "#);
     // A type that inherits from the allowed parts are methods that the base type lacks.
     assert_snapshot!(of("changes = { go = function(self) self:draw_top() end } })\nobject(\"third\", { extends = other, changes = { draw_top = function(self) end }"), @"s.lua: no problems");
 }
@@ -120,14 +125,18 @@ fn a_check_knows_types_of_required_files_and_of_packages() {
              extend(parts.lamp, { changes = { dim = function(self) end } })\ns:interpret(\"A\", function(this) this:dim(1) end)",
         );
     assert_snapshot!(folder.burgeon(&["check", "s.lua"]).stderr, @r#"
-    error: s.lua:5: rule A (interpretation): unknown method or field `lite` of lamp
+    error: s.lua:5:38: rule A (interpretation): unknown method or field `lite` of lamp
       | s:interpret("A", function(this) this:lite(1) end)
+      |                                      ^^^^
       help: did you mean lit?
-    error: s.lua:6: unknown field `powr` in lights.arc
+    error: s.lua:6:43: unknown field `powr` in lights.arc
       | local t = lsystem({ object = lights.arc({ powr = 3 }) })
+      |                                           ^^^^
       help: did you mean power?
-    error: s.lua:8: rule A (interpretation): lights.arc:shine: n must be a number, not "far"
+    error: s.lua:8:44: rule A (interpretation): lights.arc:shine: n must be a number, not "far"
       | t:interpret("A", function(this) this:shine("far") end)
+      |                                            ^^^^^
+      help: write lights.arc:shine(n: number)
     "#);
 }
 

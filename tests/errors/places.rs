@@ -2,7 +2,7 @@
 
 use insta::assert_snapshot;
 
-use crate::support::{Folder, HEAD, refused, refused_rules};
+use crate::support::{Folder, HEAD, refused, refused_rules, without_columns};
 
 /// Returns the line of the error of `script`, and its message.
 fn told(script: &str) -> (usize, String) {
@@ -43,8 +43,9 @@ fn a_wrong_axiom_is_told_where_it_stands() {
 #[test]
 fn an_error_that_is_no_text_is_told_where_it_was_raised() {
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", function(this, x)\n  local y = x\n  error({})\nend)"), @r#"
-    error: s.lua:5: rule A(x): the script raised an error that is not a string
+    error: s.lua:5:3: rule A(x): the script raised an error that is not a string
       | error({})
+      | ^^^^^
       module: A(1), step 1
       help: write error("what is wrong")
     "#);
@@ -67,7 +68,7 @@ fn an_error_that_is_no_text_is_told_where_it_was_raised() {
             let rule = format!("s:rule(\"A(x)\", function(this, x)\n  local y = x\n  {call}\nend)");
             let said = refused_rules(&rule);
             assert!(
-                said.starts_with(
+                without_columns(&said).starts_with(
                     "error: s.lua:5: rule A(x): the script raised an error that is not a string\n"
                 ),
                 "{call}: {said}"
@@ -147,36 +148,43 @@ fn what_a_library_catches_is_raised_again_in_the_line_of_its_caller() {
         refused(&script)
     };
     assert_snapshot!(of("extruder", "error(made, 2)"), @r"
-    error: s.lua:10: unknown field `sidess` in extruder
+    error: s.lua:10:17: unknown field `sidess` in extruder
       | return make({ sidess = 3 })
+      |               ^^^^^^
       help: did you mean sides?
     ");
     assert_snapshot!(of("extruder", "error(made, 3)"), @r"
-    error: s.lua:12: unknown field `sidess` in extruder
+    error: s.lua:12:1: unknown field `sidess` in extruder
       | use()
+      | ^^^^^
       help: did you mean sides?
     ");
     assert_snapshot!(of("rgb", "error(made, 2)"), @r##"
-    error: s.lua:10: rgb takes a colour such as "#336699", not a table
+    error: s.lua:10:3: rgb takes a colour such as "#336699", not a table
       | return make({ sidess = 3 })
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^
     "##);
     assert_snapshot!(of("function() error(\"wrong\") end", "error(made, 2)"), @r"
-    error: s.lua:10: wrong
+    error: s.lua:10:3: wrong
       | return make({ sidess = 3 })
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^
     ");
     // A message with additional text is not changed.
     assert_snapshot!(of("extruder", "error(\"no: \" .. made, 2)"), @r"
-    error: s.lua:10: no: s.lua:2: unknown field `sidess` in extruder
+    error: s.lua:10:17: no: s.lua:2: unknown field `sidess` in extruder
       | return make({ sidess = 3 })
+      |               ^^^^^^
     ");
     assert_snapshot!(of("extruder", "error(made, 0)"), @r"
-    error: s.lua:2: unknown field `sidess` in extruder
+    error: s.lua:2:3: unknown field `sidess` in extruder
       | local is_made, made = pcall(extruder, ...)
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: did you mean sides?
     ");
     assert_snapshot!(of("extruder", "error(\"no extruder\")"), @r#"
-    error: s.lua:4: no extruder
+    error: s.lua:4:5: no extruder
       | error("no extruder")
+      | ^^^^^^^^^^^^^^^^^^^^
     "#);
     let folder = Folder::new().with(
         "s.lua",
@@ -251,7 +259,7 @@ fn what_is_long_is_told_shortly() {
     ));
     let shown = "abc".repeat(33);
     assert_eq!(
-        said,
+        without_columns(&said),
         format!(
             "error: s.lua:5: rule A(x): wrong\n  | error(\"wrong\")\n  module: A(\"{shown}... (900002 characters in all) ...{shown}\"), step 1\n"
         )

@@ -74,28 +74,33 @@ fn an_unknown_preset_is_told_with_the_nearest_or_with_all() {
 #[test]
 fn a_preset_that_does_not_fit_the_script_any_more_is_told_with_its_line() {
     assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\"flors\": 60 } } }", &["--preset", "tall"]), @r#"
-    error: tower.presets.json:2: preset tall sets the unknown parameter `flors` of tower.lua
+    error: tower.presets.json:2:2: preset tall sets the unknown parameter `flors` of tower.lua
       | "flors": 60 } } }
+      |  ^^^^^
       help: did you mean floors?
     "#);
     assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\"wings\": 2 } } }", &["--preset", "tall"]), @r#"
-    error: tower.presets.json:2: preset tall sets the unknown parameter `wings` of tower.lua
+    error: tower.presets.json:2:2: preset tall sets the unknown parameter `wings` of tower.lua
       | "wings": 2 } } }
+      |  ^^^^^
       help: remove wings from the preset, or declare it again: param("wings", ...)
     "#);
     assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\"floors\": 100 } } }", &["--preset", "tall"]), @r#"
-    error: tower.presets.json:2: preset tall: param floors is 100, out of its range
+    error: tower.presets.json:2:1: preset tall: param floors is 100, out of its range
       | "floors": 100 } } }
+      | ^^^^^^^^^^^^^^^^^^^
       help: the allowed values are 1 to 90; change the preset
     "#);
     assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\"lit\": \"maybe\" } } }", &["--preset", "tall"]), @r#"
-    error: tower.presets.json:2: preset tall: param lit must be true or false, not "maybe"
+    error: tower.presets.json:2:9: preset tall: param lit must be true or false, not "maybe"
       | "lit": "maybe" } } }
+      |         ^^^^^
       help: its default is false; change the preset
     "#);
     assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\"kind\": \"c\" } } }", &["--preset", "tall"]), @r#"
-    error: tower.presets.json:2: preset tall: param kind is "c", which is not one of the choices
+    error: tower.presets.json:2:10: preset tall: param kind is "c", which is not one of the choices
       | "kind": "c" } } }
+      |          ^
       help: choose one of a, b; change the preset
     "#);
 }

@@ -37,15 +37,17 @@ fn a_later_package_replaces_a_file_and_builds_on_the_one_before() {
     assert_eq!(machine["packages"][1]["order"], 2);
     let folder = folder.with("mods/ruins/towers.lua", "return require(\"../castle/towers\")");
     insta::assert_snapshot!(refused(&folder), @r#"
-    error: mods/ruins/towers.lua:1: require("../castle/towers") is outside the package ruins
+    error: mods/ruins/towers.lua:1:17: require("../castle/towers") is outside the package ruins
       | return require("../castle/towers")
+      |                 ^^^^^^^^^^^^^^^^
       called at s.lua:1
       help: a file of another package needs the package name: require("@castle/towers")
     "#);
     std::fs::remove_file(folder.path().join("mods/ruins/towers.lua")).unwrap();
     insta::assert_snapshot!(refused(&folder), @r#"
-    error: mods/ruins/mod.toml:7: the package ruins has no file towers.lua, its replacement for @castle/towers.lua
+    error: mods/ruins/mod.toml:7:1: the package ruins has no file towers.lua, its replacement for @castle/towers.lua
       | "@castle/towers.lua" = "towers.lua"
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       called at s.lua:1
       help: the expected location is mods/ruins
     "#);
@@ -94,8 +96,9 @@ fn a_model_names_files_of_its_own_package_also_where_it_replaces_another() {
     assert_eq!(triangles(&folder), 2);
     let folder = folder.with("mods/ruins/door.gltf", door(6).replace("door.bin", "../castle/parts/door.bin"));
     insta::assert_snapshot!(refused(&folder), @r#"
-    error: s.lua:1: @ruins/../castle/parts/door.bin is outside the package ruins
+    error: s.lua:1:1: @ruins/../castle/parts/door.bin is outside the package ruins
       | local door = model("@castle/parts/door.gltf")
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: use a file in its folder or its subfolders: "@ruins/stone.png"
     "#);
 }
@@ -114,8 +117,9 @@ fn two_packages_that_replace_the_same_are_warned_of() {
     assert!(prints(&folder, &[]).contains("1\tsnow"));
     let folder = folder.with("s.lua", SCRIPT.replace("print", "local _ = tostring"));
     insta::assert_snapshot!(folder.warned(&["run", "s.lua"]), @r#"
-    warning: mods/ruins/mod.toml:7: ruins and snow both replace @castle/towers.lua; snow takes precedence
+    warning: mods/ruins/mod.toml:7:1: ruins and snow both replace @castle/towers.lua; snow takes precedence
       | "@castle/towers.lua" = "towers.lua"
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: remove one of them, or add ruins to the dependencies of snow if this is intended
     "#);
 }

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::support::Folder;
+use crate::support::{Folder, without_columns};
 
 /// Returns a town of `count` houses; every tenth cannot be built because of its plan, its kind or its height.
 fn town(count: usize) -> Folder {
@@ -125,7 +125,10 @@ fn where_nothing_is_left_the_error_is_told() {
     let bad = "local A = module(\"A\")\nlocal s = lsystem({ object = footprint })\n\
         s:axiom(source({ {}, {} }), function(f)\n  return footprint({ { 0, 0 }, { 1, 0 } }), A()\nend)\ns:derive()\n";
     let text = Folder::new().with("s.lua", bad).refuses(&["run", "s.lua"]);
-    assert!(text.contains("s.lua:4: the outer ring of the footprint has 2 distinct points"), "{text}");
+    assert!(
+        without_columns(&text).contains("s.lua:4: the outer ring of the footprint has 2 distinct points"),
+        "{text}"
+    );
     // Errors of the script are reported regardless of the data.
     let wrong = bad.replace("{ {}, {} }", "{ { ring = { { 0, 0 }, { 8, 0 }, { 8, 8 } } }, {} }");
     let wrong = wrong.replace("{ { 0, 0 }, { 1, 0 } }", "f.ring.points.none");

@@ -98,10 +98,22 @@ fn standard_output_takes_one_model_of_a_known_format() {
         assert!(said.status > 0 && said.stdout.is_empty(), "{}", said.stderr);
         said.stderr
     };
-    assert_snapshot!(refused(&["-o", "-"]), @"");
-    assert_snapshot!(refused(&["-o", "-", "--format", "obj"]), @"");
-    assert_snapshot!(refused(&["-o", "-", "--format", "glb", "--chain", "-"]), @"");
-    assert_snapshot!(refused(&["-o", "a.glb", "--format", "glb"]), @"");
+    assert_snapshot!(refused(&["-o", "-"]), @r"
+    error: the model on standard output has no format
+      help: name it: -o - --format glb
+    ");
+    assert_snapshot!(refused(&["-o", "-", "--format", "obj"]), @r"
+    error: the format obj has a second file, model.mtl, so standard output cannot take it
+      help: choose another format: --format glb
+    ");
+    assert_snapshot!(refused(&["-o", "-", "--format", "glb", "--chain", "-"]), @r"
+    error: standard output cannot take both a model and a text
+      help: write one of them to a file: -o FILE, --chain FILE, --report FILE
+    ");
+    assert_snapshot!(refused(&["-o", "a.glb", "--format", "glb"]), @r"
+    error: --format is the format of standard output; the extension selects that of a file
+      help: leave it out, or write to standard output: -o - --format glb
+    ");
 }
 
 #[test]
@@ -121,11 +133,11 @@ fn formats_that_are_not_written_name_a_way_to_them() {
 
 #[test]
 fn a_check_of_several_scripts_reports_each() {
-    let folder = folder().with("bad.lua", "print(flors)\n").with("worse.lua", "local = 3\nx(\n");
+    let folder = folder().with("bad.lua", "local x = flors\n").with("worse.lua", "local = 3\nx(\n");
     let said = folder.burgeon(&["check", "tree.lua", "bad.lua", "worse.lua"]);
     assert_eq!(said.status, 1);
     for part in
-        ["tree.lua: no problems", "bad.lua:1:7: ", "worse.lua has 1 error", "2 of 3 scripts have errors"]
+        ["tree.lua: no problems", "bad.lua:1:11: ", "worse.lua has 1 error", "2 of 3 scripts have errors"]
     {
         assert!(said.stderr.contains(part), "{part} is not in: {}", said.stderr);
     }
@@ -133,7 +145,7 @@ fn a_check_of_several_scripts_reports_each() {
     assert_eq!((document.status, document.stderr.as_str()), (1, ""));
     let document = document.json();
     assert_eq!((&document["ok"], &document["scripts"][0]["ok"]), (&false.into(), &true.into()));
-    assert_eq!(document["scripts"][1]["errors"][0]["column"], 7);
+    assert_eq!(document["scripts"][1]["errors"][0]["column"], 11);
     assert_eq!(document["scripts"][1]["script"], "bad.lua");
     folder.burgeon(&["check", "tree.lua", "tree.lua"]).done();
 }

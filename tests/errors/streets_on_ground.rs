@@ -78,7 +78,7 @@ print("sound")
 fn streets_that_cut_deep_into_the_ground_are_told() {
     let warnings = warned(&[&on_hills(3, "max_slope = 1", "")]);
     let told = warnings.lines().find(|line| line.starts_with("warning")).unwrap_or_default();
-    assert_snapshot!(told, @r"warning: s.lua:4: network: 33 of 57 street segments are more than 8 m above or below the ground, up to 24.1 m, to keep max_slope = 1 %");
+    assert_snapshot!(told, @"warning: s.lua:4:3: network: 33 of 57 street segments are more than 8 m above or below the ground, up to 24.1 m, to keep max_slope = 1 %");
 }
 
 #[test]
@@ -94,17 +94,22 @@ fn ground_that_is_shown_without_its_streets_is_told() {
 #[test]
 fn streets_beyond_their_ground_are_refused() {
     assert_snapshot!(refused(&grown("on = 3", "")), @r"
-    error: s.lua:2: network: on must be a derived terrain: land:derive().objects[1], not 3
+    error: s.lua:2:30: network: on must be a derived terrain: land:derive().objects[1], not 3
       | local s = lsystem({ object = network({ on = 3 }) })
+      |                              ^^^^^^^
+      help: on takes Terrain: Terrain under the streets, which must already be derived
     ");
     assert_snapshot!(refused(&grown("max_slope = 0", "")), @r"
-    error: s.lua:2: network: max_slope must be from 0.1 to 100, not 0
+    error: s.lua:2:30: network: max_slope must be from 0.1 to 100, not 0
       | local s = lsystem({ object = network({ max_slope = 0 }) })
+      |                              ^^^^^^^
+      help: max_slope takes a number, 10 unless given: Maximum slope (%) of streets on the terrain
     ");
     let land = "local land = lsystem({ object = terrain({ size = 64, levels = 4, rules = { A = { \"A\", \"A\", \"A\", \"A\" } } }) }):derive().objects[1]\n";
     assert_snapshot!(refused(&format!("{land}{}", grown("on = land", "this:grow(1, 0, 200, 0)"))), @r"
-    error: s.lua:3: network: on: the terrain has no ground at (200.0, 0.0), below a street
+    error: s.lua:3:30: network: on: the terrain has no ground at (200.0, 0.0), below a street
       | local s = lsystem({ object = network({ on = land }) })
+      |                              ^^^^^^^
       help: enlarge the terrain, derive it before, or keep streets on it: network { limit = ... }
     ");
 }

@@ -14,23 +14,27 @@ const TURTLE: &str = "object = turtle()";
 #[test]
 fn subsystem_takes_a_declared_module_and_a_system() {
     assert_snapshot!(with(TURTLE, "s:subsystem(\"In\")"), @r#"
-    error: s.lua:4: subsystem takes the name of a module and a system
+    error: s.lua:4:3: subsystem takes the name of a module and a system
       | s:subsystem("In")
+      |   ^^^^^^^^^
       help: write system:subsystem("Leaf", leaf), with a module and a system
     "#);
     assert_snapshot!(with(TURTLE, "s:subsystem(\"In\", turtle())"), @r#"
-    error: s.lua:4: subsystem takes the name of a module and a system
+    error: s.lua:4:3: subsystem takes the name of a module and a system
       | s:subsystem("In", turtle())
+      |   ^^^^^^^^^
       help: write system:subsystem("Leaf", leaf), with a module and a system
     "#);
     assert_snapshot!(with(TURTLE, "s:subsystem(\"Im\", t)"), @r#"
-    error: s.lua:4: unknown symbol Im
+    error: s.lua:4:1: unknown symbol Im
       | s:subsystem("Im", t)
+      | ^^^^^^^^^^^^^^^^^^^^
       help: did you mean In?
     "#);
     assert_snapshot!(with(TURTLE, "s:subsystem(\"F\", t)"), @r#"
-    error: s.lua:4: F is a module of the standard library
+    error: s.lua:4:1: F is a module of the standard library
       | s:subsystem("F", t)
+      | ^^^^^^^^^^^^^^^^^^^
       help: declare a module that begins the sub-system: local InLeaf = module("InLeaf", "scale")
     "#);
 }
@@ -38,13 +42,15 @@ fn subsystem_takes_a_declared_module_and_a_system() {
 #[test]
 fn a_module_begins_one_subsystem() {
     assert_snapshot!(with(TURTLE, "s:subsystem(\"In\", t)\ns:subsystem(\"In\", s)"), @r#"
-    error: s.lua:5: In already begins a sub-system in s.lua:4
+    error: s.lua:5:1: In already begins a sub-system in s.lua:4
       | s:subsystem("In", s)
+      | ^^^^^^^^^^^^^^^^^^^^
       help: declare another module for the other sub-system
     "#);
     assert_snapshot!(with(TURTLE, "s:subsystem(\"In\", t)\nt:subsystem(\"In\", s)"), @r#"
-    error: s.lua:5: In begins another sub-system in s.lua:4
+    error: s.lua:5:1: In begins another sub-system in s.lua:4
       | t:subsystem("In", s)
+      | ^^^^^^^^^^^^^^^^^^^^
       help: use a module of its own for each sub-system
     "#);
 }
@@ -52,13 +58,15 @@ fn a_module_begins_one_subsystem() {
 #[test]
 fn the_objects_of_both_systems_have_the_same_type() {
     assert_snapshot!(with("object = extruder()", "s:subsystem(\"In\", t)"), @r#"
-    error: s.lua:4: the sub-system has the object extruder, but this system has the object turtle
+    error: s.lua:4:1: the sub-system has the object extruder, but this system has the object turtle
       | s:subsystem("In", t)
+      | ^^^^^^^^^^^^^^^^^^^^
       help: give both systems the same type of object
     "#);
     assert_snapshot!(with("", "s:subsystem(\"In\", t)"), @r#"
-    error: s.lua:4: the sub-system has no object, but this system has the object turtle
+    error: s.lua:4:1: the sub-system has no object, but this system has the object turtle
       | s:subsystem("In", t)
+      | ^^^^^^^^^^^^^^^^^^^^
       help: give both systems the same type of object
     "#);
     assert_snapshot!(refused(
@@ -68,8 +76,9 @@ s:axiom(In(0.5), A())
 s:subsystem(\"In\", t)
 s:derive(1)"
     ), @r#"
-    error: s.lua:4: an object of the type extruder has no scale
+    error: s.lua:4:1: an object of the type extruder has no scale
       | s:subsystem("In", t)
+      | ^^^^^^^^^^^^^^^^^^^^
       help: declare In without a parameter scale
     "#);
 }
@@ -78,23 +87,27 @@ s:derive(1)"
 fn what_belongs_to_whole_derivations_is_refused_in_a_subsystem() {
     let hook = "s:subsystem(\"In\", t)\nt:after_step(function(now) end)";
     assert_snapshot!(with(TURTLE, hook), @r#"
-    error: s.lua:4: the sub-system has a hook, after_step in s.lua:5, which would not run
+    error: s.lua:4:1: the sub-system has a hook, after_step in s.lua:5, which would not run
       | s:subsystem("In", t)
+      | ^^^^^^^^^^^^^^^^^^^^
       help: declare the hook in the system that is derived
     "#);
     assert_snapshot!(with("object = turtle(), ring = true", "s:subsystem(\"In\", t)"), @r#"
-    error: s.lua:4: the sub-system has rings, but its modules are parts of other chains
+    error: s.lua:4:1: the sub-system has rings, but its modules are parts of other chains
       | s:subsystem("In", t)
+      | ^^^^^^^^^^^^^^^^^^^^
       help: set ring = true only in the system that is derived
     "#);
     assert_snapshot!(with("object = turtle(), variables = variables({ x = 1 })", "s:subsystem(\"In\", t)"), @r#"
-    error: s.lua:4: the sub-system has other variables than this system
+    error: s.lua:4:1: the sub-system has other variables than this system
       | s:subsystem("In", t)
+      | ^^^^^^^^^^^^^^^^^^^^
       help: give both systems the same variables
     "#);
     assert_snapshot!(with("object = turtle(), environment = shadow_voxels()", "s:subsystem(\"In\", t)"), @r#"
-    error: s.lua:4: the sub-system has other environments than this system
+    error: s.lua:4:1: the sub-system has other environments than this system
       | s:subsystem("In", t)
+      | ^^^^^^^^^^^^^^^^^^^^
       help: give both systems the same environments
     "#);
 }
@@ -103,14 +116,16 @@ fn what_belongs_to_whole_derivations_is_refused_in_a_subsystem() {
 fn events_are_refused_together_with_subsystems() {
     let of_outer = "s:subsystem(\"In\", t)\ns:rule(\"B\", { propensity = 1 }, function() return A(1) end)";
     assert_snapshot!(with(TURTLE, of_outer), @r#"
-    error: s.lua:5: rule B: it has a propensity, but rules of sub-systems apply in every step
+    error: s.lua:5:15: rule B: it has a propensity, but rules of sub-systems apply in every step
       | s:rule("B", { propensity = 1 }, function() return A(1) end)
+      |               ^^^^^^^^^^
       help: use guards or weights, or place a derived system: Place(model)
     "#);
     let of_inner = "s:subsystem(\"In\", t)\nt:rule(\"B\", { propensity = 1 }, function() return A(1) end)";
     assert_snapshot!(with(TURTLE, of_inner), @r#"
-    error: s.lua:5: rule B: it has a propensity, but rules of sub-systems apply in every step
+    error: s.lua:5:15: rule B: it has a propensity, but rules of sub-systems apply in every step
       | t:rule("B", { propensity = 1 }, function() return A(1) end)
+      |               ^^^^^^^^^^
       help: use guards or weights, or place a derived system: Place(model)
     "#);
 }
@@ -140,14 +155,16 @@ s:derive(0)"
         ))
     };
     assert_snapshot!(of("0"), @r#"
-    error: s.lua:4: the scale must be above 0 and finite, not 0
+    error: s.lua:4:1: the scale must be above 0 and finite, not 0
       | s:subsystem("In", t)
+      | ^^^^^^^^^^^^^^^^^^^^
       module: In(0), step 0
       help: use 0.5 for half of the size
     "#);
     assert_snapshot!(of("\"half\""), @r#"
-    error: s.lua:4: the scale must be a number, not "half"
+    error: s.lua:4:1: the scale must be a number, not "half"
       | s:subsystem("In", t)
+      | ^^^^^^^^^^^^^^^^^^^^
       module: In("half"), step 0
       help: use 0.5 for half of the size
     "#);
@@ -163,8 +180,9 @@ s:subsystem(\"In\", t)
 t:rule(\"A(x)\", function(this, x) return B(x) end)
 s:derive(1)"
     ), @r#"
-    error: s.lua:5: rule A(x): B has no parameters, not 1
+    error: s.lua:5:41: rule A(x): B has no parameters, not 1
       | t:rule("A(x)", function(this, x) return B(x) end)
+      |                                         ^
       help: it was declared as B
     "#);
 }

@@ -182,6 +182,29 @@ impl Folder {
     }
 }
 
+/// Returns a message without columns and without rows of carets.
+pub(crate) fn without_columns(text: &str) -> String {
+    let mut plain = String::new();
+    for line in text.split_inclusive('\n') {
+        let row = line.trim_end().strip_prefix("  | ").unwrap_or_default();
+        if !row.is_empty() && row.trim_matches([' ', '^']).is_empty() {
+            continue;
+        }
+        let is_digits = |part: &str| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit());
+        let parts: Vec<&str> = line.split(':').collect();
+        let follows_line = |index: usize| {
+            index > 1
+                && is_digits(parts[index])
+                && is_digits(parts[index - 1])
+                && parts[index - 2].ends_with(".lua")
+        };
+        let kept: Vec<&str> =
+            (0..parts.len()).filter(|index| !follows_line(*index)).map(|index| parts[index]).collect();
+        plain.push_str(&kept.join(":"));
+    }
+    plain
+}
+
 /// Returns the error message for a script that fails and leaves an older model unchanged.
 pub(crate) fn refused(script: &str) -> String {
     refused_with(script, &[])

@@ -17,26 +17,30 @@ fn rules_that_others_forestall() {
     s:rule("A(y)", function(this, y) return F(1), F(y) end)
     s:rule("B < A(y)", { when = function(this, y) return true end, weight = 2 }, function() return F(1) end)
     s:derive(1)
-    warning: s.lua:4: rule A(y): this rule is never applied: A(x) in s.lua:3 always applies first
+    warning: s.lua:4:3: rule A(y): this rule is never applied: A(x) in s.lua:3 always applies first
       | s:rule("A(y)", function(this, y) return F(1), F(y) end)
+      |   ^^^^
       help: add a guard to the earlier rule, set a weight for both, or put this rule before it
-    warning: s.lua:5: rule B < A(y): this rule is never applied: A(x) in s.lua:3 always applies first
+    warning: s.lua:5:3: rule B < A(y): this rule is never applied: A(x) in s.lua:3 always applies first
       | s:rule("B < A(y)", { when = function(this, y) return true end, weight = 2 }, function() return F(1) end)
+      |   ^^^^
       help: add a guard to the earlier rule, set a weight for both, or put this rule before it
 
     s:rule("A(x)", { weight = 3 }, function(this, x) return F(x) end)
     s:rule("A(x)", function(this, x) return F(x), F(x) end)
     s:derive(1)
-    warning: s.lua:4: rule A(x): this rule is never applied: A(x) in s.lua:3 always applies first
+    warning: s.lua:4:3: rule A(x): this rule is never applied: A(x) in s.lua:3 always applies first
       | s:rule("A(x)", function(this, x) return F(x), F(x) end)
+      |   ^^^^
       help: set a weight for both rules: { weight = 1 }
 
     s:rule("B < A(x) > [B] A(y)", function(this, x) return F(x) end)
     s:rule("B < A(k) > [B] A(l)", function(this, k) return F(k) end)
     s:rule("A(x)", function() return F(1) end)
     s:derive(1)
-    warning: s.lua:4: rule B < A(k) > [B] A(l): this rule is never applied: B < A(x) > [B] A(y) in s.lua:3 always applies first
+    warning: s.lua:4:3: rule B < A(k) > [B] A(l): this rule is never applied: B < A(x) > [B] A(y) in s.lua:3 always applies first
       | s:rule("B < A(k) > [B] A(l)", function(this, k) return F(k) end)
+      |   ^^^^
       help: add a guard to the earlier rule, set a weight for both, or put this rule before it
     "#);
     silent(&[
@@ -68,16 +72,18 @@ fn contexts_that_cannot_occur() {
     s:rule("B < A(x)", function() return F(2) end)
     s:rule("A(x)", function() return F(1) end)
     s:derive(1)
-    warning: s.lua:4: rule B < A(x): B is ignored, so this context never occurs
+    warning: s.lua:4:1: rule B < A(x): B is ignored, so this context never occurs
       | s:rule("B < A(x)", function() return F(2) end)
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: remove it from system:ignore(...), or from the context
 
     s:consider("A")
     s:rule("A(x) > [A(y) B]", function() return F(2) end)
     s:rule("A(x)", function() return F(1) end)
     s:derive(1)
-    warning: s.lua:4: rule A(x) > [A(y) B]: B is not among the modules to consider, so this context never occurs
+    warning: s.lua:4:1: rule A(x) > [A(y) B]: B is not among the modules to consider, so this context never occurs
       | s:rule("A(x) > [A(y) B]", function() return F(2) end)
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: add it: system:consider("B")
     "#);
     // An ignored module can be rewritten itself.
@@ -99,16 +105,18 @@ fn a_rule_with_the_guard_of_an_earlier_one_is_never_applied() {
       return x > 0 -- again
     end, weight = 2 }, function(this, y) return F(y) end)
     s:derive(1)
-    warning: s.lua:4: rule A(y): this rule is never applied: A(x) in s.lua:3 applies first and has the same guard
+    warning: s.lua:4:3: rule A(y): this rule is never applied: A(x) in s.lua:3 applies first and has the same guard
       | s:rule("A(y)", { when = function(this, x)
+      |   ^^^^
       help: join the two rules, change the guard of one, or set a weight for both
 
     local function large(this, x) return x > 0 end
     s:rule("A(x)", { when = large }, function(this, x) return F(x) end)
     s:rule("A(x)", { when = large }, function(this, x) return F(2 * x) end)
     s:derive(1)
-    warning: s.lua:5: rule A(x): this rule is never applied: A(x) in s.lua:4 applies first and has the same guard
+    warning: s.lua:5:3: rule A(x): this rule is never applied: A(x) in s.lua:4 applies first and has the same guard
       | s:rule("A(x)", { when = large }, function(this, x) return F(2 * x) end)
+      |   ^^^^
       help: join the two rules, change the guard of one, or set a weight for both
     "#);
     silent(&[
@@ -146,8 +154,9 @@ fn an_axiom_that_replaces_another_is_told() {
     s:axiom(A(1))
     s:axiom(A(2))
     s:derive(0)
-    warning: s.lua:5: this axiom replaces the axiom in s.lua:4, which was never derived
+    warning: s.lua:5:3: this axiom replaces the axiom in s.lua:4, which was never derived
       | s:axiom(A(2))
+      |   ^^^^^
       help: set one axiom with all modules, or derive the system before the next axiom
     "#);
     silent(&["local A = module(\"A\", \"x\")\nlocal s = lsystem({ object = turtle() })\n\

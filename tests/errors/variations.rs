@@ -63,8 +63,9 @@ fn a_variation_that_fails_is_told_and_leaves_the_others_alone() {
     assert!(said.stderr.ends_with(" in all\n"));
     assert_snapshot!(said.stderr.rsplit_once(';').unwrap().0, @r#"
     n 3 m failed
-    error: s.lua:7: rule A(x): three is too many
+    error: s.lua:7:3: rule A(x): three is too many
       | if n == 3 then error("three is too many") end
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       module: A(3), step 1
     3 variations, 1 of them failed, 3 in a row
     "#);
@@ -76,8 +77,9 @@ fn a_variation_that_fails_is_told_and_leaves_the_others_alone() {
 #[test]
 fn if_all_variations_fail_the_reasons_are_told_once() {
     assert_snapshot!(told(&["--seeds", "1..9", "--set", "n=3"], 1), @r#"
-    error: s.lua:7: rule A(x): three is too many
+    error: s.lua:7:3: rule A(x): three is too many
       | if n == 3 then error("three is too many") end
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       module: A(3), step 1
     "#);
     assert_snapshot!(Folder::new().refuses(&["variations", "no.lua", "--seeds", "1..9", "-o", "a.png"]), @r"

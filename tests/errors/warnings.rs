@@ -56,8 +56,9 @@ fn a_branch_without_a_smooth_joint_is_counted() {
     local s = lsystem({ object = turtle({ joints = "smooth", width = 0.2 }) })
     s:axiom(F(1), { Turn(60), F(0.05) }, F(1))
     s:derive(0)
-    warning: s.lua:1: 1 branch does not fit into its joint, so it is a closed tube of its own; smooth joints: 1
+    warning: s.lua:1:39: 1 branch does not fit into its joint, so it is a closed tube of its own; smooth joints: 1
       | local s = lsystem({ object = turtle({ joints = "smooth", width = 0.2 }) })
+      |                                       ^^^^^^
       help: make these branches longer than the radius of their parent, or their angles larger, or branches thinner
     "#);
 }
@@ -88,8 +89,9 @@ fn values_that_an_interpretation_returns() {
       return x
     end)
     s:derive(0)
-    warning: s.lua:3: rule A(x) (interpretation): the number 1 returned by an interpretation is ignored
+    warning: s.lua:3:1: rule A(x) (interpretation): the number 1 returned by an interpretation is ignored
       | s:interpret("A(x)", function(this, x)
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       module: A(1), step 0
       help: an interpretation returns modules or nothing
     "#);
@@ -116,8 +118,9 @@ fn systems_that_draw_nothing_beside_others() {
     t:axiom(B())
     t:interpret("B", function(this) this:extrude(1) end)
     t:derive(0)
-    warning: s.lua:2: this system draws nothing
+    warning: s.lua:2:1: this system draws nothing
       | local s = lsystem({ object = extruder })
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: its interpretations draw nothing: check that lengths and scales are above 0
 
     local A, B = module("A"), module("B")
@@ -129,8 +132,9 @@ fn systems_that_draw_nothing_beside_others() {
     t:axiom(B())
     t:interpret("B", function(this) this:extrude(1):place(model) end)
     t:derive(0)
-    warning: s.lua:2: this system draws nothing
+    warning: s.lua:2:1: this system draws nothing
       | local s = lsystem({ object = extruder })
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: its interpretations draw nothing: check that lengths and scales are above 0
     "#);
     silent(&[&format!("{nothing}t:interpret(\"B\", function(this) this:extrude(1) end)\nt:derive(0)")
@@ -147,8 +151,9 @@ fn interpretations_without_an_object() {
     s:axiom(A())
     s:interpret("A", function(this) this:forward(1) end)
     s:derive(0)
-    warning: s.lua:4: rule A (interpretation): the system has no object, so its interpretations never run
+    warning: s.lua:4:1: rule A (interpretation): the system has no object, so its interpretations never run
       | s:interpret("A", function(this) this:forward(1) end)
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: set an object, such as lsystem({ object = turtle() })
     "#);
     silent(&[
@@ -170,20 +175,25 @@ fn declarations_after_derive() {
     s:ignore("B")
     s:consider("A")
     s:axiom(B())
-    warning: s.lua:5: rule has no effect after derive
+    warning: s.lua:5:3: rule has no effect after derive
       | s:rule("B", function() return F(1) end)
+      |   ^^^^
       help: call it before system:derive()
-    warning: s.lua:6: interpretation has no effect after derive
+    warning: s.lua:6:1: interpretation has no effect after derive
       | s:interpret("B", function(this) this:forward(1) end)
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: call it before system:derive()
-    warning: s.lua:7: ignore has no effect after derive
+    warning: s.lua:7:3: ignore has no effect after derive
       | s:ignore("B")
+      |   ^^^^^^
       help: call it before system:derive()
-    warning: s.lua:8: consider has no effect after derive
+    warning: s.lua:8:3: consider has no effect after derive
       | s:consider("A")
+      |   ^^^^^^^^
       help: call it before system:derive()
-    warning: s.lua:9: axiom has no effect after derive
+    warning: s.lua:9:3: axiom has no effect after derive
       | s:axiom(B())
+      |   ^^^^^
       help: call it before system:derive()
     "#);
     // A system may be derived repeatedly, with more declarations each time.
@@ -206,8 +216,9 @@ fn modules_that_nothing_draws() {
     s:interpret("A(x)", function(this, x) this:forward(x) end)
     s:rule("A(x)", function(this, x) return A(x), B() end)
     s:derive(2)
-    warning: s.lua:1: B has neither a rule nor an interpretation, so it is never drawn
+    warning: s.lua:1:10: B has neither a rule nor an interpretation, so it is never drawn
       | local A, B = module("A", "x"), module("B")
+      |          ^
       help: system:interpret("B", function(this) ... end); if it is only a mark, ignore it: system:ignore("B")
 
     local A = module("A")
@@ -215,8 +226,9 @@ fn modules_that_nothing_draws() {
     s:axiom(A(), F(1))
     s:interpret("A", function(this) this:extrude(1) end)
     s:derive(0)
-    warning: s.lua:2: the standard library draws F only with a turtle
+    warning: s.lua:2:1: the standard library draws F only with a turtle
       | local s = lsystem({ object = extruder() })
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: system:interpret("F(length)", function(this, length) ... end)
 
     local A, B = module("A"), module("B")
@@ -224,8 +236,9 @@ fn modules_that_nothing_draws() {
     s:axiom(A())
     s:rule("A", function() return F(1), B() end)
     s:derive()
-    warning: s.lua:1: B has neither a rule nor an interpretation, so it is never drawn
+    warning: s.lua:1:10: B has neither a rule nor an interpretation, so it is never drawn
       | local A, B = module("A"), module("B")
+      |          ^
       help: system:interpret("B", function(this) ... end); if it is only a mark, ignore it: system:ignore("B")
     "#);
     for script in [&*undrawn, other] {
@@ -260,8 +273,9 @@ fn a_module_of_the_library_that_is_declared_anew() {
     s:axiom(F(1, 2), Sphere(1))
     s:rule("F(l, w)", function(this, l, w) return F(l, w), F(l, w) end)
     s:derive(2)
-    warning: s.lua:1: F(length, width) replaces the standard library's F(length?), so the turtle draws nothing for it
+    warning: s.lua:1:7: F(length, width) replaces the standard library's F(length?), so the turtle draws nothing for it
       | local F = module("F", "length", "width")
+      |       ^
       help: interpret it, system:interpret("F(length, width)", function(this, length, width) ... end), or rename it
     "#);
     assert!(checked(hidden).contains("replaces the standard library's"));
@@ -292,8 +306,9 @@ fn calls_that_draw_nothing() {
     end)
     s:interpret("B", function(this) this:scale(1):extrude(1) end)
     s:derive(0)
-    warning: s.lua:6: rule A(r) (interpretation): extruder:extrude draws nothing if the scale is 0 (2 times)
+    warning: s.lua:6:17: rule A(r) (interpretation): extruder:extrude draws nothing if the scale is 0 (2 times)
       | this:scale(r):extrude(1)
+      |               ^^^^^^^
       module: A(0), step 0
       help: use a scale above 0, or advance without drawing: this:advance(length)
     "#);
@@ -322,12 +337,14 @@ fn calls_of_an_object_that_is_held_name_their_line() {
       this:up(r)
     end)
     s:derive(0)
-    warning: s.lua:3: rule A(r) (interpretation): extruder:extrude draws nothing if the scale is 0
+    warning: s.lua:3:24: rule A(r) (interpretation): extruder:extrude draws nothing if the scale is 0
       | self.rail:scale(r):extrude(1)
+      |                    ^^^^^^^
       module: A(0), step 0
       help: use a scale above 0, or advance without drawing: this:advance(length)
-    warning: s.lua:7: the model is empty: this system draws nothing
+    warning: s.lua:7:1: the model is empty: this system draws nothing
       | local s = lsystem({ object = post() })
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: another warning shows the reason
     "#);
 }
@@ -343,11 +360,13 @@ fn a_system_that_is_derived_twice() {
     s:derive(1)
     s:derive(2)
     local last = s:derive(3)
-    warning: s.lua:5: the system is derived again after the time in s.lua:4, and both models are kept
+    warning: s.lua:5:1: the system is derived again after the time in s.lua:4, and both models are kept
       | s:derive(2)
+      | ^^^^^^^^^^^
       help: derive it once; a model that another system places is not shown separately
-    warning: s.lua:6: the system is derived again after the time in s.lua:4, and both models are kept
+    warning: s.lua:6:1: the system is derived again after the time in s.lua:4, and both models are kept
       | local last = s:derive(3)
+      | ^^^^^^^^^^^^^^^^^^^^^^^^
       help: derive it once; a model that another system places is not shown separately
     "#);
     silent(&[
@@ -364,13 +383,14 @@ fn a_system_that_is_derived_twice() {
 
 #[test]
 fn systems_of_which_none_is_derived() {
-    insta::assert_snapshot!(warned(&["local s = lsystem({ object = turtle() })\ns:axiom(F(1))"]), @r#"
+    insta::assert_snapshot!(warned(&["local s = lsystem({ object = turtle() })\ns:axiom(F(1))"]), @r"
     local s = lsystem({ object = turtle() })
     s:axiom(F(1))
-    warning: s.lua:1: no system is derived, so the model is empty
+    warning: s.lua:1:1: no system is derived, so the model is empty
       | local s = lsystem({ object = turtle() })
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: end the script with system:derive()
-    "#);
+    ");
     // A file that other scripts require, and a script without systems.
     silent(&["local s = lsystem({ object = turtle() })\ns:axiom(F(1))\nreturn s", "print(1)"]);
 }
@@ -383,14 +403,16 @@ fn a_parameter_that_is_declared_twice() {
     ]), @r#"
     local a = param("n", { default = 1 })
     local b = param("n", { default = 2, min = 0 })
-    warning: s.lua:2: the parameter n is already declared in s.lua:1, and users see only that declaration
+    warning: s.lua:2:1: the parameter n is already declared in s.lua:1, and users see only that declaration
       | local b = param("n", { default = 2, min = 0 })
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: declare it once and reuse its value, or rename this one
 
     local a = param("n", { default = 1 })
     local b = param("n", { default = 1 })
-    warning: s.lua:2: the parameter n is already declared in s.lua:1, and users see only that declaration
+    warning: s.lua:2:1: the parameter n is already declared in s.lua:1, and users see only that declaration
       | local b = param("n", { default = 1 })
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: declare it once and reuse its value, or rename this one
     "#);
     // A parameter in a function that is called twice, and in a file that shares it.
@@ -418,30 +440,35 @@ fn a_model_without_triangles() {
     ]), @r#"
     s:rule("A(x)", function(this, x) return A(x), A(x) end)
     s:derive(2)
-    warning: s.lua:2: the model is empty: this system draws nothing
+    warning: s.lua:2:1: the model is empty: this system draws nothing
       | local s = lsystem({ object = turtle() }) s:axiom(A(1))
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: no module of its final chain is drawn: add system:interpret(pattern, function(this, ...) ... end)
 
     s:derive()
-    warning: s.lua:1: A has neither a rule nor an interpretation, so it is never drawn
+    warning: s.lua:1:1: A has neither a rule nor an interpretation, so it is never drawn
       | local A, B = module("A", "x"), module("B")
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: system:interpret("A(x)", function(this, x) ... end); if it is only a mark, ignore it: system:ignore("A")
-    warning: s.lua:2: the model is empty: this system draws nothing
+    warning: s.lua:2:1: the model is empty: this system draws nothing
       | local s = lsystem({ object = turtle() }) s:axiom(A(1))
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: another warning shows the reason
 
     s:interpret("A(x)", function(this, x) this:advance(x) end)
     s:derive(0)
-    warning: s.lua:2: the model is empty: this system draws nothing
+    warning: s.lua:2:1: the model is empty: this system draws nothing
       | local s = lsystem({ object = turtle() }) s:axiom(A(1))
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: its interpretations draw nothing: check that lengths and scales are above 0
 
     local A = module("A")
     local s = lsystem({ object = turtle() })
     s:axiom(source({}), function() return F(1) end)
     s:derive()
-    warning: s.lua:2: the model is empty: this system draws nothing
+    warning: s.lua:2:1: the model is empty: this system draws nothing
       | local s = lsystem({ object = turtle() })
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: its source has no features
 
     local s = lsystem({ object = turtle() })
@@ -450,15 +477,17 @@ fn a_model_without_triangles() {
     local t = lsystem({ object = extruder() })
     t:axiom(Place(made))
     t:derive()
-    warning: s.lua:4: the model is empty: this system draws nothing
+    warning: s.lua:4:1: the model is empty: this system draws nothing
       | local t = lsystem({ object = extruder() })
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: a system that another one places is not shown separately: check that it is placed
     "#);
-    insta::assert_snapshot!(file("local A = module(\"A\")\nlocal s = lsystem()\ns:axiom(A())\ns:derive(0)"), @r#"
-    warning: s.lua:2: the model is empty: no system has an object that draws
+    insta::assert_snapshot!(file("local A = module(\"A\")\nlocal s = lsystem()\ns:axiom(A())\ns:derive(0)"), @r"
+    warning: s.lua:2:1: the model is empty: no system has an object that draws
       | local s = lsystem()
+      | ^^^^^^^^^^^^^^^^^^^
       help: set one, such as lsystem({ object = turtle() }); to write chains, use --chain FILE
-    "#);
+    ");
     // `--steps` shows an earlier step.
     let folder =
         Folder::new().with("s.lua", with("s:rule(\"A(x)\", function(this, x) return F(x) end) s:derive(1)"));
@@ -515,11 +544,13 @@ fn an_axiom_declares_nothing_while_it_makes_chains() {
         told += &folder.refuses(&["run", "s.lua"]);
     }
     insta::assert_snapshot!(told, @r#"
-    error: s.lua:4: a declaration cannot be called in the function that returns each feature's chain
+    error: s.lua:4:3: a declaration cannot be called in the function that returns each feature's chain
       | s:rule("A", function() return F(1) end)
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: call it before derive, and use the result in the function
-    error: s.lua:4: lsystem cannot be called in the function that returns each feature's chain
+    error: s.lua:4:3: lsystem cannot be called in the function that returns each feature's chain
       | lsystem()
+      | ^^^^^^^
       help: call it before derive, and use the result in the function
     "#);
 }
@@ -530,11 +561,13 @@ fn a_script_warns_with_its_line_and_a_remedy() {
                   look(2)\nlook(5)\nwarn(\"a b\")";
     let folder = Folder::new().with("s.lua", script);
     insta::assert_snapshot!(folder.warned(&["run", "s.lua"]), @r#"
-    warning: s.lua:2: 2 trees are few
+    warning: s.lua:2:3: 2 trees are few
       | if count < 3 then warn(`{count} trees are few`, "plant more") end
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: plant more
-    warning: s.lua:6: a b
+    warning: s.lua:6:1: a b
       | warn("a b")
+      | ^^^^^^^^^^^
     "#);
     let document = folder.burgeon(&["run", "s.lua", "--json"]).done().json();
     let kinds: Vec<&str> =

@@ -295,8 +295,18 @@ fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
         let found = path.canonicalize();
         session.seek(&path, found.is_ok());
         let path = found.map_err(|_| {
-            let error = Error::not_found("texture", &shown, [], format!("texture not found: {shown}"));
-            session.propose_packages(&shown, error).help("textures are files next to the script")
+            let near = path.parent().zip(path.file_name());
+            let near = near.and_then(|(folder, name)| session.nearest_file(folder, &name.to_string_lossy()));
+            let error = Error::not_found(
+                "texture",
+                &shown,
+                near.as_deref(),
+                format!("texture not found: \"{shown}\""),
+            );
+            let error = session.propose_packages(&shown, error).at(session.place_of_string(&shown));
+            error.help(
+                "textures are files next to the script: put the file there, or change its name in the script",
+            )
         })?;
         if !path.starts_with(session.root()) {
             return Err(Error::file(&path, format!("the texture {shown} is outside the script's folder"))

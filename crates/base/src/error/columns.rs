@@ -28,7 +28,7 @@ const OPERATIONS: [(&str, &[&str]); 11] = [
 /// A message names a part in quotes, as a method or function, or by the operation that failed.
 pub(super) fn find_columns(line: &str, message: &str) -> Option<Range<usize>> {
     let code = code_of(line);
-    let found = quoted(message)
+    let found = quoted_parts(message)
         .find_map(|name| only(line, name).or_else(|| only(&code, name)))
         .or_else(|| {
             names(message).find_map(|name| only(&code, name).filter(|found| is_telling(&code, found)))
@@ -36,12 +36,13 @@ pub(super) fn find_columns(line: &str, message: &str) -> Option<Range<usize>> {
         .or_else(|| operation(&code, message))
         .or_else(|| message.starts_with("attempt to call").then(|| only_call(&code)).flatten());
     let found = found?;
-    let count = |end: usize| line[..end].chars().count();
-    Some(count(found.start)..count(found.end))
+    // Blanked strings have the length of the line in bytes, but not its letters.
+    let count = |end: usize| Some(line.get(..end)?.chars().count());
+    Some(count(found.start)?..count(found.end)?)
 }
 
 /// Returns the texts of a message between quotes.
-fn quoted(message: &str) -> impl Iterator<Item = &str> {
+fn quoted_parts(message: &str) -> impl Iterator<Item = &str> {
     ['`', '\'', '"'].into_iter().flat_map(move |quote| {
         let parts = message.split(quote).skip(1).step_by(2);
         parts.filter(|part| !part.trim().is_empty() && part.len() <= 80)
@@ -193,8 +194,9 @@ mod tests {
             ("local x = a + b + c", "attempt to perform arithmetic (add) on nil and number"),
             ("a.width = b.width", "attempt to index nil with 'width'"),
             ("local x = f(g(1))", "attempt to call a nil value"),
-            ("local size = list", "the size is too large for a list"),
+            ("local x = size + list", "the size is too large for a list"),
             ("", "unknown name x"),
+            ("f('é')", "the sign \" '\" is wrong"),
         ] {
             assert_eq!(found(line, message), None, "{line}: {message}");
         }

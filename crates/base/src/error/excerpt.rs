@@ -69,9 +69,12 @@ impl Excerpt {
         let first = self.columns.start.min(cells.len().saturating_sub(1));
         let mut begin = text.start.min(first);
         let is_cut = cells_of(begin..cells.len()) > width;
-        if is_cut && cells_of(begin..first) > width / 3 {
+        // Cells before the columns: a third, or fewer if the columns need the others.
+        let marked = cells_of(first..self.columns.end.clamp(first, cells.len()));
+        let before = (width / 3).min(width.saturating_sub(2 * CUT.len() + marked));
+        if is_cut && cells_of(begin..first) > before {
             begin = first;
-            while begin > text.start && cells_of(begin - 1..first) <= width / 3 {
+            while begin > text.start && cells_of(begin - 1..first) <= before {
                 begin -= 1;
             }
         }

@@ -72,7 +72,7 @@ impl Session {
     }
 
     /// Returns the data file in `folder` whose name is most similar to `wanted`.
-    pub(super) fn nearest_file(&self, folder: &Path, wanted: &str) -> Option<String> {
+    pub(crate) fn nearest_file(&self, folder: &Path, wanted: &str) -> Option<String> {
         self.options.registry.sources()?.nearest_file(folder, wanted)
     }
 }

@@ -113,6 +113,19 @@ impl Session {
         Ok(source)
     }
 
+    /// Returns the first line of the script files that contains the string `text` in quotes.
+    pub(crate) fn place_of_string(&self, text: &str) -> Option<SourcePlace> {
+        let quoted = [format!("\"{text}\""), format!("'{text}'")];
+        let files = self.script_files();
+        let mut sources: Vec<&Arc<SourceFile>> = files.read.values().collect();
+        sources.sort_by(|a, b| a.name.cmp(&b.name));
+        sources.into_iter().find_map(|source| {
+            let mut lines = source.analysis.text.lines();
+            let line = lines.position(|line| quoted.iter().any(|quoted| line.contains(quoted)))?;
+            Some(SourcePlace::new(&*source.name, line + 1))
+        })
+    }
+
     /// Returns paths and display names of the package scripts that strings of a file name.
     fn named_scripts(&self, file: &str, texts: &[(String, usize)]) -> Vec<(PathBuf, String)> {
         let asker = self.package_of(file);

@@ -125,6 +125,9 @@ impl Session {
             folder.provide(&CurvesFile::path_of(&file))?;
         }
         let path = canonical(&file).map_err(|error| unreadable(script, &error))?;
+        if path.is_dir() {
+            return Err(unreadable(script, &std::io::ErrorKind::IsADirectory.into()));
+        }
         let root = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
         let stdlib = options.inputs.stdlib.as_deref().map(read_stdlib).transpose()?;
         let curves = CurvesFile::read(&file)?;

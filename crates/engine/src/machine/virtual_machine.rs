@@ -317,7 +317,33 @@ pub(super) fn translate(error: &mlua::Error) -> Error {
         mlua::Error::MemoryError(_) => Error::limit(Limit::Memory, OUT_OF_MEMORY_IN_LUA),
         mlua::Error::SyntaxError { message, .. } => parse(message).in_kind(ErrorKind::Syntax),
         mlua::Error::RuntimeError(message) => parse(message),
+        mlua::Error::BadArgument { pos, cause, .. } => match &**cause {
+            mlua::Error::FromLuaConversionError { from, to, .. } => {
+                let wanted = script_type(to);
+                Error::argument(format!("argument {pos} must be {wanted}, not {from}"))
+                    .help(format!("pass {wanted}"))
+            }
+            cause => translate(cause),
+        },
+        mlua::Error::FromLuaConversionError { from, to, .. } => {
+            let wanted = script_type(to);
+            Error::argument(format!("a value must be {wanted}, not {from}")).help(format!("pass {wanted}"))
+        }
         other => parse(&other.to_string()),
+    }
+}
+
+/// Returns the name of a type in scripts, given its name in Rust.
+fn script_type(rust: &str) -> &'static str {
+    let name = rust.rsplit("::").next().unwrap_or(rust).trim_start_matches('&');
+    match name {
+        "String" | "LuaString" | "str" | "BString" | "BorrowedStr" | "string" => "a string",
+        "f64" | "f32" | "i64" | "i32" | "i8" | "u8" | "u16" | "u32" | "u64" | "usize" | "number"
+        | "integer" => "a number",
+        "bool" | "boolean" => "true or false",
+        "LuaFunction" | "Function" | "function" => "a function",
+        "LuaTable" | "Table" | "table" => "a table",
+        _ => "a value of another type",
     }
 }
 

@@ -18,6 +18,7 @@ use full_moon::tokenizer::TokenReference;
 use super::blocks::ScopeWalk;
 use super::endings::forgotten_return;
 use super::inference::Inference;
+use super::prepare::signature;
 use super::syntax::{columns_between, is_function_option, string_of, text_of};
 use super::walk::FunctionRole;
 use crate::Literal;
@@ -33,6 +34,8 @@ pub(super) struct CallCheck<'a, 'f> {
     pub(super) scope: Vec<(String, Inference<'a>)>,
     /// Names of variables that are assigned after their declaration.
     assigned: BTreeSet<String>,
+    /// Names of the types that the file declares.
+    pub(super) own_types: BTreeSet<String>,
     /// Package of the file; `None` for the script.
     pub(super) package: Option<&'a str>,
     /// Functions that the file adds to types: the type's name, if known, and the function's name.
@@ -48,11 +51,15 @@ pub(super) struct CallCheck<'a, 'f> {
     pub(super) warnings: Vec<Warning>,
 }
 
-/// Collects the names of all assigned variables.
-fn collect_assigned(ast: &Ast, names: &mut BTreeSet<String>) {
+/// Collects the names of all assigned variables, and of all declared types.
+fn collect_assigned(ast: &Ast, names: &mut BTreeSet<String>, types: &mut BTreeSet<String>) {
     use full_moon::visitors::Visitor;
-    struct AssignmentNames<'a>(&'a mut BTreeSet<String>);
+    struct AssignmentNames<'a>(&'a mut BTreeSet<String>, &'a mut BTreeSet<String>);
     impl Visitor for AssignmentNames<'_> {
+        fn visit_type_declaration(&mut self, declaration: &full_moon::ast::luau::TypeDeclaration) {
+            self.1.insert(text_of(declaration.type_name()));
+        }
+
         fn visit_assignment(&mut self, assignment: &full_moon::ast::Assignment) {
             for variable in assignment.variables() {
                 if let Var::Name(name) = variable {
@@ -67,7 +74,7 @@ fn collect_assigned(ast: &Ast, names: &mut BTreeSet<String>) {
             }
         }
     }
-    AssignmentNames(names).visit_ast(ast);
+    AssignmentNames(names, types).visit_ast(ast);
 }
 
 impl ScopeWalk for CallCheck<'_, '_> {
@@ -104,8 +111,8 @@ impl<'a, 'f> CallCheck<'a, 'f> {
         registry: &'a Registry,
         required: Option<&'f dyn Fn(&str) -> Inference<'a>>,
     ) -> Self {
-        let mut assigned = BTreeSet::new();
-        collect_assigned(ast, &mut assigned);
+        let (mut assigned, mut own_types) = (BTreeSet::new(), BTreeSet::new());
+        collect_assigned(ast, &mut assigned, &mut own_types);
         let (role, rule) = (FunctionRole::Script, None);
         let added = BTreeSet::new();
         Self {
@@ -115,6 +122,7 @@ impl<'a, 'f> CallCheck<'a, 'f> {
             registry,
             scope: Vec::new(),
             assigned,
+            own_types,
             role,
             rule,
             required,
@@ -158,15 +166,19 @@ impl<'a, 'f> CallCheck<'a, 'f> {
             }
             Stmt::FunctionDeclaration(declaration) => self.function(declaration.body(), None),
             Stmt::LocalFunction(function) => {
-                self.declare(function.name(), Inference::Unknown);
+                self.declare(function.name(), Inference::Local(Arc::new(signature(function.body()))));
                 self.function(function.body(), None);
             }
             Stmt::ConstFunction(function) => {
                 self.declare(function.name(), Inference::Unknown);
                 self.function(function.body(), None);
             }
-            Stmt::LocalAssignment(local) => self.local(local.names(), local.expressions()),
-            Stmt::ConstAssignment(local) => self.local(local.names(), local.expressions()),
+            Stmt::LocalAssignment(local) => {
+                let types =
+                    local.type_specifiers().map(|of| Some(of?.type_info().to_string().trim().to_owned()));
+                self.local(local.names(), local.expressions(), &types.collect::<Vec<_>>());
+            }
+            Stmt::ConstAssignment(local) => self.local(local.names(), local.expressions(), &[]),
             Stmt::GenericFor(generic) => {
                 self.expressions(generic.expressions());
                 let outside = self.scope.len();
@@ -180,8 +192,18 @@ impl<'a, 'f> CallCheck<'a, 'f> {
         }
     }
 
-    fn local(&mut self, names: &Punctuated<TokenReference>, values: &Punctuated<Expression>) {
+    fn local(
+        &mut self,
+        names: &Punctuated<TokenReference>,
+        values: &Punctuated<Expression>,
+        types: &[Option<String>],
+    ) {
         let found: Vec<Inference<'a>> = values.iter().map(|value| self.expression(value)).collect();
+        for (((name, luau), value), known) in names.iter().zip(types).zip(values).zip(&found) {
+            if let Some(luau) = luau {
+                self.hold_declared(name, luau, value, known);
+            }
+        }
         let mut found = found.into_iter();
         for name in names {
             let known = found.next().unwrap_or(Inference::Unknown);

@@ -8,7 +8,7 @@ use full_moon::tokenizer::TokenReference;
 use super::calls::{CallCheck, expressions_of};
 use super::inference::Inference;
 use super::syntax::{is_open, text_of};
-use crate::{ArgumentList, Literal, LuauType, NameKind, SYSTEM, names};
+use crate::{ArgumentList, CallForm, Literal, LuauType, NameKind, SYSTEM, names};
 use burgeon_base::error::Error;
 use burgeon_kit::{Argument, Field as KindField, Kind};
 
@@ -65,6 +65,51 @@ impl CallCheck<'_, '_> {
                 }
             }
         }
+    }
+
+    /// Checks the literals among the arguments of a local function against the types that the script declares for them.
+    pub(super) fn hold_local(
+        &mut self,
+        path: &str,
+        form: &CallForm,
+        args: &FunctionArgs,
+        given: &[Inference],
+    ) {
+        let written = expressions_of(args);
+        for ((argument, value), written) in form.arguments.iter().zip(given).zip(written) {
+            if argument.name != "..." && self.contradicts(value, &argument.luau) {
+                let message = wrong_value(path, &argument.name, &argument.luau, value);
+                let help = format!("the script declares {path}{form}: change the type or the value");
+                self.problem_of(written, Error::argument(message).help(help));
+            }
+        }
+    }
+
+    /// Checks the literal with which a local variable begins against the type that the script declares for it.
+    pub(super) fn hold_declared(
+        &mut self,
+        name: &TokenReference,
+        luau: &str,
+        value: &Expression,
+        known: &Inference,
+    ) {
+        if self.contradicts(known, luau) {
+            let text = text_of(name);
+            let message = wrong_value("local variable", &text, luau, known);
+            self.problem_of(
+                value,
+                Error::argument(message)
+                    .help(format!("the script declares {text}: {luau}: change the type or the value")),
+            );
+        }
+    }
+
+    /// Returns true if a literal does not have the type `luau` that the script declares. Types of the script's own are not known.
+    fn contradicts(&self, value: &Inference, luau: &str) -> bool {
+        let is_own = luau
+            .split(|letter: char| !letter.is_alphanumeric() && letter != '_')
+            .any(|name| self.own_types.contains(name));
+        matches!(value, Inference::Value(_)) && !is_own && !self.may_be(value, luau, &[], false)
     }
 
     /// Refuses a call of a method with a dot that does not pass the object itself, such as `this.forward(1)`.
@@ -194,6 +239,7 @@ impl CallCheck<'_, '_> {
             | Inference::Constructor(_)
             | Inference::System(_)
             | Inference::Given(_)
+            | Inference::Local(_)
             | Inference::Name(_) => {
                 return true;
             }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::{Literal, Name};
+use crate::{CallForm, Literal, Name};
 use burgeon_kit::Kind;
 
 /// Inferred value of an expression.
@@ -25,6 +25,8 @@ pub(super) enum Inference<'a> {
     Given(&'static Name),
     /// A function or a library of the language.
     Name(&'static Name),
+    /// A local function of the script with its declared types.
+    Local(Arc<CallForm>),
 }
 
 impl Inference<'_> {

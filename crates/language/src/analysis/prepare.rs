@@ -384,7 +384,7 @@ fn keep_common<T>(
 }
 
 /// Returns the declared signature of a function.
-fn signature(body: &FunctionBody) -> CallForm {
+pub(super) fn signature(body: &FunctionBody) -> CallForm {
     let luau = |of: Option<&TypeSpecifier>| {
         let text = of.map(|of| of.type_info().to_string());
         text.as_deref().unwrap_or("any").split_whitespace().collect::<Vec<_>>().join(" ")

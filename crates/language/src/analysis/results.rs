@@ -99,6 +99,11 @@ impl<'a> CallCheck<'a, '_> {
                 }
                 self.result(name, args)
             }
+            Inference::Local(form) => {
+                let given = self.arguments(args);
+                self.hold_local(path, form, args, &given);
+                Inference::Unknown
+            }
             _ => {
                 self.arguments(args);
                 Inference::Unknown

@@ -203,6 +203,7 @@ pub(in crate::machine) fn named_fields(what: &str, options: LuaValue) -> Result<
 pub(in crate::machine) fn no_table(what: &str, given: &LuaValue) -> Error {
     let given = match to_field(given) {
         Ok(Value::Object(object)) => object.kind().with_article(),
+        Ok(Value::Number(number)) => format!("the number {number}"),
         _ => format!("a {}", given.type_name()),
     };
     Error::argument(format!("{what} takes a table of named fields, not {given}"))
