@@ -35,6 +35,7 @@ mod own_types;
 mod packages;
 mod params;
 mod patterns;
+mod pictures;
 mod places;
 mod planets;
 mod presets;

@@ -5,6 +5,7 @@
 
 mod api;
 pub(crate) mod bytecode;
+mod camera;
 mod curves_file;
 mod data;
 mod deprecations;
@@ -27,6 +28,7 @@ mod types;
 
 pub(crate) use api::has_name;
 pub use api::{API_VERSION, api_version};
+pub(crate) use camera::declare_camera;
 pub use curves_file::CurvesFile;
 pub use json_text::{JsonMembers, JsonText, PlacedPoints, json_excerpt};
 pub use options::{Limits, ParamValues, Print, RunInputs, RunOptions, RunReports, TraceRequest};
