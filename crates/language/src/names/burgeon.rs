@@ -238,7 +238,7 @@ pub static PARAM: LazyLock<Name> = LazyLock::new(|| {
 pub static CAMERA: LazyLock<Name> = LazyLock::new(|| {
     Name::global(
         "camera",
-        "Adds a camera to the model, for pictures, glTF files and the live page. The first camera is that of pictures; \
+        "Adds a camera to the model, for pictures and glTF files. The first camera is that of pictures; \
          `--camera NAME` selects another.",
     )
     .form(

@@ -83,7 +83,7 @@ impl Sun {
         let depths = texels.into_iter().map(|texel| f32::from_bits(texel.into_inner())).collect();
         let pools_light = detail.pools_light;
         let height = place.elevation as f32;
-        let (light, dusk) = (sunlight(height), (height.sin() / SUN_HEIGHT.sin()).clamp(0.0, 1.0).powf(0.6));
+        let (light, dusk) = (sunlight(height), (height.sin() / SUN_HEIGHT.sin()).clamp(0.0, 1.0).powf(0.35));
         Self { direction, light, dusk, frame, depths, disc: disc(detail.sun_taps), pools_light }
     }
 
