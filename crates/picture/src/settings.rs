@@ -179,7 +179,7 @@ impl Picture {
         }
         if self
             .sun
-            .is_some_and(|sun| !sun.azimuth.is_finite() || !(0.0 < sun.elevation && sun.elevation <= 90.0))
+            .is_some_and(|sun| !(sun.azimuth.is_finite() && 0.0 < sun.elevation && sun.elevation <= 90.0))
         {
             return Err(Error::argument("the sun is not above the horizon")
                 .help("give an elevation above 0 and at most 90 degrees, or a time of the day"));
