@@ -12,6 +12,7 @@ mod fit;
 mod live;
 mod mods;
 mod new;
+mod picture_flags;
 mod progress;
 mod report;
 mod run;

@@ -11,9 +11,10 @@ use burgeon::{Error, Result, Warning};
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::json;
 
+use super::picture_flags::PictureFlags;
 use super::progress::ProgressDisplay;
 use super::report;
-use super::shared::{PictureFlags, ScriptFlags, end_on_interrupt, size};
+use super::shared::{ScriptFlags, end_on_interrupt, size};
 
 /// Runs a script many times, with other seeds or other values of a parameter, and shows them side by side
 #[derive(Args)]

@@ -6,9 +6,10 @@ use std::time::Instant;
 
 use super::films::FilmFlags;
 use super::{parts, watch};
+use crate::commands::picture_flags::PictureFlags;
 use crate::commands::progress::ProgressDisplay;
 use crate::commands::report;
-use crate::commands::shared::{PictureFlags, ScriptFlags, end_on_interrupt, size};
+use crate::commands::shared::{ScriptFlags, end_on_interrupt, size};
 use burgeon::export::films::FilmFormat;
 use burgeon::export::heights::{HEIGHT_FORMATS, HeightFormat};
 use burgeon::export::{FORMATS, FileFormat, Format, GLB, InstanceStorage, Need, extension_list};

@@ -1,6 +1,8 @@
 //! Cameras that scripts declare (`camera`).
 
+use super::session::Session;
 use burgeon_base::error::{Error, Result, SourcePlace};
+use burgeon_base::locks::LockRecovery;
 use burgeon_kit::{Parameter, Table, TableKey};
 use burgeon_language::CAMERA;
 use burgeon_scene::{CameraView, SceneCamera};
@@ -75,6 +77,30 @@ pub(crate) fn declare_camera(options: &Table, place: Option<SourcePlace>) -> Res
     };
     view.check()?;
     Ok(SceneCamera { name, view, place })
+}
+
+impl Session {
+    /// Returns the declared cameras, in order.
+    pub(crate) fn cameras(&self) -> Vec<SceneCamera> {
+        self.cameras.lock().recover().clone()
+    }
+
+    /// Adds a camera, which other virtual machines may have added already. Fails if another line has declared its name.
+    pub(crate) fn add_camera(&self, camera: SceneCamera) -> Result<()> {
+        let mut cameras = self.cameras.lock().recover();
+        match cameras.iter().find(|known| known.name == camera.name) {
+            Some(known) if *known == camera => Ok(()),
+            Some(known) => {
+                let first = known.place.as_ref().map_or_else(String::new, |first| format!(" in {first}"));
+                Err(Error::argument(format!("the camera {} is already declared{first}", camera.name))
+                    .help("give each camera a name: camera({ name = \"street\", ... })"))
+            }
+            None => {
+                cameras.push(camera);
+                Ok(())
+            }
+        }
+    }
 }
 
 /// Reads the field `name`, if the table has it.

@@ -17,9 +17,8 @@ use super::scripts::{ScriptFiles, SourceFile, own_params, read_stdlib, unreadabl
 use super::types::DeclaredTypes;
 use crate::queries::{ChainView, RowCache};
 use burgeon_base::error::{Error, Result};
-use burgeon_base::locks::LockRecovery;
-use burgeon_base::stop::Stop;
 use burgeon_base::warning::{Warning, Warnings};
+use burgeon_base::{locks::LockRecovery, stop::Stop};
 use burgeon_kit::Values;
 use burgeon_language::CallForm;
 use burgeon_language::analysis::{
@@ -28,7 +27,6 @@ use burgeon_language::analysis::{
 };
 use burgeon_packages::{PackageSearch, Packages};
 use burgeon_rewriting::Symbol;
-use burgeon_scene::SceneCamera;
 use rustc_hash::FxHashSet;
 
 /// Facts about the script files, found by static analysis.
@@ -90,7 +88,7 @@ pub struct Session {
     /// Labels of the layers whose features became chains; `None` for a list of the script.
     feature_sources: Mutex<BTreeSet<Option<String>>>,
     params: Mutex<Vec<Param>>,
-    cameras: Mutex<Vec<SceneCamera>>,
+    pub(super) cameras: Mutex<Vec<burgeon_scene::SceneCamera>>,
     left_out: Mutex<Vec<(String, Error)>>,
     warnings: Warnings,
     /// Deprecated names, and the names that scripts have used.
@@ -286,28 +284,6 @@ impl Session {
     /// Returns the declared parameters, in order.
     pub fn params(&self) -> Vec<Param> {
         self.params.lock().recover().clone()
-    }
-
-    /// Returns the declared cameras, in order.
-    pub(crate) fn cameras(&self) -> Vec<SceneCamera> {
-        self.cameras.lock().recover().clone()
-    }
-
-    /// Adds a camera, which other virtual machines may have added already. Fails if another line has declared its name.
-    pub(crate) fn add_camera(&self, camera: SceneCamera) -> Result<()> {
-        let mut cameras = self.cameras.lock().recover();
-        match cameras.iter().find(|known| known.name == camera.name) {
-            Some(known) if *known == camera => Ok(()),
-            Some(known) => {
-                let first = known.place.as_ref().map_or_else(String::new, |first| format!(" in {first}"));
-                Err(Error::argument(format!("the camera {} is already declared{first}", camera.name))
-                    .help("give each camera a name: camera({ name = \"street\", ... })"))
-            }
-            None => {
-                cameras.push(camera);
-                Ok(())
-            }
-        }
     }
 
     pub(crate) fn add_param(&self, param: Param) {
