@@ -17,6 +17,7 @@ mod mods;
 mod new;
 #[cfg_attr(not(feature = "live"), path = "absent_open.rs")]
 mod open;
+mod picture_flags;
 mod progress;
 mod report;
 mod run;

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use burgeon::locks::LockRecovery as _;
 use burgeon::packages::{FileName, PackageSearch, Packages};
-use burgeon::picture::{Background, Picture, ViewBall};
+use burgeon::picture::Picture;
 use burgeon::presets::Presets;
 #[cfg(feature = "live")]
 use burgeon::scene::Recipe;
@@ -16,7 +16,7 @@ use burgeon::script::{
     CurvesFile, FeaturePart, Limits, ParamValues, Print, RunInputs, RunOptions, RunReports, api_version,
 };
 use burgeon::{Error, Result};
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::report;
 
@@ -330,67 +330,6 @@ pub(crate) fn user_mods() -> Option<PathBuf> {
     let home = || set("HOME").map(|home| home.join(".local/share"));
     let data = if cfg!(windows) { set("LOCALAPPDATA") } else { set("XDG_DATA_HOME").or_else(home) };
     data.map(|folder| folder.join("burgeon/mods"))
-}
-
-/// Flags of a render, except its size.
-#[derive(Args, Clone)]
-pub(crate) struct PictureFlags {
-    /// Azimuth of the camera: 0 is north, 90 east (degrees) [default: from the model]
-    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, help_heading = "Pictures")]
-    azimuth: Option<f64>,
-
-    /// Elevation of the camera above the horizon (degrees) [default: from the model]
-    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, help_heading = "Pictures")]
-    elevation: Option<f64>,
-
-    /// Frames the sphere with this centre and radius (m) [default: the whole model]
-    #[arg(long, value_name = "X,Y,Z,M", value_parser = look, allow_hyphen_values = true, help_heading = "Pictures")]
-    look: Option<ViewBall>,
-
-    /// Background of the render
-    #[arg(long, value_enum, default_value_t = BackgroundFlag::Light, help_heading = "Pictures")]
-    background: BackgroundFlag,
-}
-
-/// Parses `X,Y,Z,M`.
-fn look(text: &str) -> std::result::Result<ViewBall, &'static str> {
-    let numbers: Vec<f64> = text
-        .split(',')
-        .map(|part| part.trim().parse::<f64>())
-        .collect::<std::result::Result<_, _>>()
-        .unwrap_or_default();
-    match numbers.as_slice() {
-        [x, y, z, radius] if numbers.iter().all(|number| number.is_finite()) && *radius > 0.0 => {
-            Ok(ViewBall { at: [*x, *y, *z], radius: *radius })
-        }
-        _ => Err("write a position and a distance above 0, such as 10,-5,0,40"),
-    }
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum BackgroundFlag {
-    Light,
-    Dark,
-    /// Transparent
-    Clear,
-}
-
-impl PictureFlags {
-    pub(crate) fn picture(&self, (width, height): (u32, u32)) -> Picture {
-        Picture {
-            width,
-            height,
-            azimuth: self.azimuth,
-            elevation: self.elevation,
-            look: self.look,
-            background: match self.background {
-                BackgroundFlag::Light => Background::Light,
-                BackgroundFlag::Dark => Background::Dark,
-                BackgroundFlag::Clear => Background::Clear,
-            },
-            ..Picture::default()
-        }
-    }
 }
 
 /// Calls `ended` when the user interrupts the program. If the program is still running 0.5 s later, it exits.

@@ -5,16 +5,16 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use burgeon::export::{self, Format, PNG};
-use burgeon::picture::{Picture, Quality};
 use burgeon::scene::image;
 use burgeon::variations::{Framing, SheetLayout, Variation, VariationAxis, Variations, sheet};
 use burgeon::{Error, Result, Warning};
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::json;
 
+use super::picture_flags::PictureFlags;
 use super::progress::ProgressDisplay;
 use super::report;
-use super::shared::{PictureFlags, ScriptFlags, end_on_interrupt, size};
+use super::shared::{ScriptFlags, end_on_interrupt, size};
 
 /// Runs a script many times, with other seeds or other values of a parameter, and shows them side by side
 #[derive(Args)]
@@ -40,7 +40,7 @@ pub(crate) struct VariationsCommand {
     columns: Option<usize>,
 
     /// Camera of the cells
-    #[arg(long, value_enum, default_value_t = FramingFlag::All, help_heading = "Pictures")]
+    #[arg(long, value_enum, default_value_t = FramingFlag::Each, help_heading = "Pictures")]
     fit: FramingFlag,
 
     /// Width and height of a cell (pixels)
@@ -78,7 +78,7 @@ impl VariationsCommand {
                 .help(format!("remove --set {name} or --sweep {name}")));
         }
         let variations = Arc::new(Variations::new(&self.script.script, options, over)?);
-        let picture = Picture { quality: Quality::Draft, ..self.picture.picture(self.size) };
+        let picture = self.picture.picture(self.size);
         let layout = SheetLayout::new(variations.len(), self.columns, &picture)?;
         let framing = match self.fit {
             FramingFlag::All => Framing::Together,

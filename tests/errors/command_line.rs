@@ -415,11 +415,34 @@ fn help_reads_well() {
               Frames per second of a film [default: 25]
 
     Pictures:
-          --size <WIDTHxHEIGHT>      Width and height of a render (pixels); 800x600 for films [default: 1280x960]
-          --azimuth <DEGREES>        Azimuth of the camera: 0 is north, 90 east (degrees) [default: from the model]
-          --elevation <DEGREES>      Elevation of the camera above the horizon (degrees) [default: from the model]
-          --look <X,Y,Z,M>           Frames the sphere with this centre and radius (m) [default: the whole model]
-          --background <BACKGROUND>  Background of the render [default: light] [possible values: light, dark, clear]
+          --size <WIDTHxHEIGHT>
+              Width and height of a render (pixels); 800x600 for films [default: 1280x960]
+          --azimuth <DEGREES>
+              Azimuth of the camera: 0 is north, 90 east (degrees) [default: from the model]
+          --elevation <DEGREES>
+              Elevation of the camera above the horizon (degrees) [default: from the model]
+          --look <X,Y,Z,M>
+              Frames the sphere with this centre and radius (m) [default: the whole model]
+          --camera <NAME>
+              Camera of the script, or plan, from above, or eye, at the height of a person's eyes [default: the script's first]
+          --from <X,Y,Z>
+              Position of the camera (m)
+          --to <X,Y,Z>
+              Point in the middle of the render (m)
+          --fov <DEGREES>
+              Vertical field of view of the camera at --from (degrees) [default: 40]
+          --orthographic[=<METRES>]
+              Parallel projection of the camera at --from; =METRES is the height that the render shows [default: the whole model]
+          --quality <QUALITY>
+              Quality of the render; films have one of their own [default: draft] [possible values: draft, fine, best]
+          --sun <AZIMUTH,ELEVATION|HH:MM[,LATITUDE]>
+              Sun, by its azimuth and elevation (degrees), or by the solar time of a day in June and the latitude [default: behind the viewer's left shoulder]
+          --haze <METRES>
+              Haze that hides two thirds of what is this far away (m)
+          --background <BACKGROUND>
+              Background of the render [default: light] [possible values: light, dark, sky, clear]
+          --no-floor
+              Leaves out the ground and the shadow on it
     ");
     assert_snapshot!(Folder::new().burgeon(&["check", "-h"]).done().stdout, @r"
     Checks a script and its required files as far as a run goes, and reports all problems

@@ -36,6 +36,7 @@ mod own_types;
 mod packages;
 mod params;
 mod patterns;
+mod pictures;
 mod places;
 mod planets;
 mod presets;

@@ -53,7 +53,7 @@ fn a_sheet_is_the_same_for_any_number_of_threads_and_tells_its_cells() {
     assert_snapshot!(document, @r#"{"ok":true,"columns":2,"rows":2,"size":[92,114],"cells":[{"label":"seed 1","seed":1,"params":{"n":2.0,"kind":"a"},"modules":1,"triangles":28,"warnings":[]}],"seconds":0}"#);
     assert_eq!(said.stderr, "");
     assert!(sheet(&["--seeds", "5..8"]).0 != one);
-    sheet(&["--sweep", "kind", "--fit", "each", "--columns", "1", "--background", "dark", "--azimuth", "10"]);
+    sheet(&["--sweep", "kind", "--fit", "all", "--columns", "1", "--background", "dark", "--azimuth", "10"]);
 }
 
 #[test]

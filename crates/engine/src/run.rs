@@ -123,7 +123,7 @@ fn run_stages(session: &Arc<Session>) -> Result<Run> {
     times.script =
         begin.elapsed().saturating_sub(times.derivation.rewriting + times.derivation.interpretation);
     let begin = Instant::now();
-    let mut scene = Scene::default();
+    let mut scene = Scene { cameras: session.cameras(), ..Scene::default() };
     let mut idle = Vec::new();
     for (number, system) in systems.iter_mut().enumerate() {
         session.stop.check()?;

@@ -23,6 +23,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "api" shows "api" "api.has";
     "beta" shows "beta";
     "binomial" shows "binomial";
+    "camera" shows "camera";
     "choose" shows "choose";
     "color" shows "color";
     "consider" shows "system:consider";

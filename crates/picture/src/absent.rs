@@ -4,7 +4,7 @@ use super::settings::Picture;
 use burgeon_base::error::Result;
 use burgeon_base::stop::Stop;
 use burgeon_scene::image::{self, Image};
-use burgeon_scene::{Scene, Upright};
+use burgeon_scene::{CameraView, Scene, Upright};
 use glam::DVec3;
 
 /// Extent of one or more scenes.
@@ -38,6 +38,32 @@ impl Extent {
     pub fn revolved(&self, _upright: Option<Upright>, _center: Option<DVec3>, _count: usize) -> Self {
         Self(())
     }
+}
+
+/// Place of a camera in the world.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CameraPose {
+    /// Position (m).
+    pub eye: DVec3,
+    /// Unit vector along the view.
+    pub forward: DVec3,
+    /// Unit vector that is up in the picture.
+    pub up: DVec3,
+    /// Vertical field of view (degrees) in perspective, height that the picture shows (m) in parallel projection.
+    pub shown: f64,
+    /// Set for a parallel projection.
+    pub is_parallel: bool,
+}
+
+/// Fails, because rendering is not available.
+pub fn pose(_scene: &Scene, view: &CameraView, _aspect: f64) -> Result<CameraPose> {
+    view.check()?;
+    Err(image::check().err().unwrap_or_else(|| burgeon_base::Error::internal("no renderer")))
+}
+
+/// Returns false, because nothing is measured.
+pub fn is_inside(_scene: &Scene, _point: DVec3) -> Result<bool> {
+    Ok(false)
 }
 
 /// Fails, because rendering is not available.

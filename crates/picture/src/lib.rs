@@ -14,5 +14,5 @@ mod settings;
 #[cfg_attr(not(feature = "pictures"), path = "absent.rs")]
 mod renderer;
 
-pub use renderer::{Extent, render, render_within};
-pub use settings::{Background, Picture, Quality, ViewBall};
+pub use renderer::{CameraPose, Extent, is_inside, pose, render, render_within};
+pub use settings::{Background, CameraChoice, Picture, Quality, SunPosition, ViewBall};

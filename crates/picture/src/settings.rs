@@ -1,6 +1,7 @@
 //! Settings of a render.
 
 use burgeon_base::error::{Error, Result};
+use burgeon_scene::CameraView;
 use serde::Deserialize;
 
 /// Settings of a render.
@@ -14,7 +15,7 @@ use serde::Deserialize;
 /// assert!(serde_json::from_str::<Picture>(r#"{ "widht": 640 }"#).is_err());
 /// # Ok::<(), serde_json::Error>(())
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Picture {
     /// Width (pixels), 1 to 16384.
@@ -29,6 +30,13 @@ pub struct Picture {
     pub elevation: Option<f64>,
     /// Sphere that the render shows: its centre (m) and radius (m). `None` shows the whole model.
     pub look: Option<ViewBall>,
+    /// Camera of the render. The angles and the sphere above replace the first camera of the scene.
+    #[serde(skip)]
+    pub camera: CameraChoice,
+    /// Position of the sun. `None` places it behind the left shoulder of the viewer.
+    pub sun: Option<SunPosition>,
+    /// Distance (m) at which haze hides two thirds of a surface; `None` is clear air.
+    pub haze: Option<f64>,
     /// Background of the render.
     pub background: Background,
     /// Set if a ground plane below the model's lowest point shows its shadow.
@@ -47,6 +55,58 @@ pub struct ViewBall {
     pub radius: f64,
 }
 
+/// Choice of the camera of a render.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub enum CameraChoice {
+    /// First camera of the scene, or one that is fitted to the model.
+    #[default]
+    Automatic,
+    /// Camera of the scene with this name.
+    Named(String),
+    /// Camera at this place.
+    View(CameraView),
+}
+
+/// Direction of the sun.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SunPosition {
+    /// Azimuth from north, clockwise (degrees).
+    pub azimuth: f64,
+    /// Elevation above the horizon (degrees), above 0 and at most 90.
+    pub elevation: f64,
+}
+
+impl SunPosition {
+    /// Returns the position at a true solar time of `hour` (h), 12 at noon, at this `latitude` (degrees) on the day of the
+    /// longest light in the north, 21 June. The elevation is negative at night.
+    ///
+    /// ```
+    /// use burgeon_picture::SunPosition;
+    ///
+    /// let noon = SunPosition::at(12.0, 45.0);
+    /// assert!((noon.azimuth - 180.0).abs() < 1e-6 && (noon.elevation - 68.44).abs() < 0.01);
+    /// assert!(SunPosition::at(7.0, 45.0).azimuth < 90.0 && SunPosition::at(0.0, 45.0).elevation < 0.0);
+    /// ```
+    #[must_use]
+    pub fn at(hour: f64, latitude: f64) -> Self {
+        let (turn, latitude) = (((hour - 12.0) * 15.0).to_radians(), latitude.to_radians());
+        let tilt = TILT.to_radians();
+        let up = latitude.sin() * tilt.sin() + latitude.cos() * tilt.cos() * turn.cos();
+        let (east, north) = (
+            -tilt.cos() * turn.sin(),
+            tilt.sin() * latitude.cos() - tilt.cos() * latitude.sin() * turn.cos(),
+        );
+        Self {
+            azimuth: east.atan2(north).to_degrees().rem_euclid(360.0),
+            elevation: up.clamp(-1.0, 1.0).asin().to_degrees(),
+        }
+    }
+}
+
+/// Tilt of the earth's axis (degrees).
+const TILT: f64 = 23.44;
+
 /// Background of a render.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -56,6 +116,8 @@ pub enum Background {
     Light,
     /// Dark, slightly cool grey.
     Dark,
+    /// Sky with the sun's glow, above a ground that reaches to the horizon.
+    Sky,
     /// Transparent, with the shadow on the ground as translucent black.
     Clear,
 }
@@ -85,6 +147,9 @@ impl Default for Picture {
             azimuth: None,
             elevation: None,
             look: None,
+            camera: CameraChoice::Automatic,
+            sun: None,
+            haze: None,
             background: Background::Light,
             ground: true,
             quality: Quality::Draft,
@@ -111,6 +176,21 @@ impl Picture {
             let message = format!("invalid image size {} x {}", self.width, self.height);
             return Err(Error::argument(message)
                 .help(format!("use a width and a height from 1 to {} pixels", Self::LARGEST)));
+        }
+        if self
+            .sun
+            .is_some_and(|sun| !(sun.azimuth.is_finite() && 0.0 < sun.elevation && sun.elevation <= 90.0))
+        {
+            return Err(Error::argument("the sun is not above the horizon")
+                .help("give an elevation above 0 and at most 90 degrees, or a time of the day"));
+        }
+        if self.haze.is_some_and(|distance| !distance.is_finite() || distance <= 0.0) {
+            return Err(
+                Error::argument("the distance of the haze is not above 0").help("give metres, such as 2000")
+            );
+        }
+        if let CameraChoice::View(view) = &self.camera {
+            view.check()?;
         }
         if self.azimuth.is_some_and(|angle| !angle.is_finite()) {
             return Err(

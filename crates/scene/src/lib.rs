@@ -3,6 +3,7 @@
 //! Input: meshes and instances from objects, in chain order. Output: the same, unchanged. The crate never builds
 //! geometry and never uses rules.
 
+mod camera;
 mod city;
 pub mod image;
 mod material;
@@ -15,6 +16,7 @@ mod surface;
 mod triangles;
 mod upright;
 
+pub use camera::{CameraView, SceneCamera};
 pub use city::CityClass;
 pub use material::{Material, Texture};
 pub use mesh::{Mesh, Part};
@@ -64,6 +66,8 @@ pub struct Scene {
     pub shared: SharedMeshes,
     /// Up and north for the default camera; z and y if no object sets them.
     pub upright: Option<Upright>,
+    /// Cameras, in the order of their declarations. The first is that of a picture without another.
+    pub cameras: Vec<SceneCamera>,
     /// Packages that the scene was made with, for files that list the requirements for reproducing it.
     pub packages: Vec<ScenePackage>,
 }
@@ -126,7 +130,7 @@ impl Scene {
     /// Returns a scene with only the instances that `keep` accepts, and the meshes and materials that they need.
     #[must_use]
     pub fn only(&self, keep: impl Fn(&Instance) -> bool) -> Self {
-        let mut scene = Self { upright: self.upright, ..Self::default() };
+        let mut scene = Self { upright: self.upright, cameras: self.cameras.clone(), ..Self::default() };
         let mut meshes = vec![None; self.meshes.len()];
         for instance in self.instances.iter().filter(|instance| keep(instance)) {
             let mesh = *meshes[instance.mesh].get_or_insert_with(|| {

@@ -7,7 +7,7 @@ use crate::commands::report;
 use burgeon::export::PNG;
 use burgeon::kit::ScriptExample;
 use burgeon::objects::EXAMPLES;
-use burgeon::picture::Picture;
+use burgeon::picture::{Picture, Quality};
 use burgeon::scene::{Instance, Material, Mesh, Part, Scene, image};
 use burgeon::script::{Print, RunOptions, RunReports};
 use burgeon::{Error, Result, Stop, export};
@@ -94,7 +94,8 @@ fn picture(example: &ScriptExample) -> Result<Vec<u8>> {
         add_axes(&mut scene);
     }
     let (width, height) = SIZE;
-    let bytes = export::png(&scene, &Picture { width, height, ..Picture::default() }, &Stop::default())?;
+    let picture = Picture { width, height, quality: Quality::Fine, ..Picture::default() };
+    let bytes = export::png(&scene, &picture, &Stop::default())?;
     image::encode_indexed(&image::decode(&bytes)?, COLORS)
 }
 

@@ -7,12 +7,14 @@ use std::time::Instant;
 use super::films::FilmFlags;
 use super::levels::LevelFlags;
 use super::{parts, watch};
+use crate::commands::picture_flags::PictureFlags;
 use crate::commands::progress::ProgressDisplay;
 use crate::commands::report;
-use crate::commands::shared::{PictureFlags, STANDARD, ScriptFlags, end_on_interrupt, shell_word, size};
+use crate::commands::shared::{STANDARD, ScriptFlags, end_on_interrupt, shell_word, size};
 use burgeon::export::films::FilmFormat;
 use burgeon::export::heights::{HEIGHT_FORMATS, HeightFormat};
 use burgeon::export::{FORMATS, FileFormat, Format, GLB, InstanceStorage, Need, extension_list};
+use burgeon::picture::{CameraChoice, is_inside};
 use burgeon::presets::Presets;
 use burgeon::results::layers;
 use burgeon::script::{Param, Preset, RunOptions, Session};
@@ -269,6 +271,7 @@ impl RunCommand {
             }
             run.note_packages(session)?;
             self.warn_of_nothing(session, &mut run)?;
+            self.warn_of_cameras(session, &mut run)?;
             let writing = Instant::now();
             self.write(&mut run, session)?;
             if let Some(name) = &self.save_preset {
@@ -332,6 +335,38 @@ impl RunCommand {
             return Err(warning.into_error());
         }
         run.warnings.push(warning);
+        Ok(())
+    }
+
+    /// Adds warnings about cameras inside solids, which see nothing of the model but backs of faces. In strict mode such a run
+    /// fails.
+    fn warn_of_cameras(&self, session: &Session, run: &mut burgeon::Run) -> Result<()> {
+        if !self.writes(Need::Scene) {
+            return Ok(());
+        }
+        let given = match self.picture.picture(self.size).camera {
+            CameraChoice::View(view) => {
+                view.position().map(|from| ("the camera at --from".to_owned(), from, None))
+            }
+            CameraChoice::Automatic | CameraChoice::Named(_) => None,
+        };
+        let declared = run.scene.cameras.iter().filter_map(|camera| {
+            Some((format!("camera {}", camera.name), camera.view.position()?, camera.place.clone()))
+        });
+        for (name, from, place) in declared.chain(given).collect::<Vec<_>>() {
+            if !is_inside(&run.scene, from)? {
+                continue;
+            }
+            let text =
+                format!("{name} is inside a solid of the model, so it sees only the back of its faces");
+            let warning = Warning::new(WarningKind::Doubtful, text)
+                .at(place)
+                .help("move it outside: from = { x, y, z }");
+            if session.options.strict {
+                return Err(warning.into_error());
+            }
+            run.warnings.push(warning);
+        }
         Ok(())
     }
 

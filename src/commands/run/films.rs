@@ -28,7 +28,7 @@ pub(crate) struct FilmFlags {
 
     /// Writes a film of N frames in which the camera goes once around the model
     #[arg(long, value_name = "N", value_parser = turns, help_heading = "Films", allow_negative_numbers = true)]
-    #[arg(group = "film", conflicts_with_all = OTHERS)]
+    #[arg(group = "film", conflicts_with_all = OTHERS, conflicts_with_all = ["camera", "from"])]
     pub(super) turntable: Option<u32>,
 
     /// Frames per second of a film
@@ -43,8 +43,19 @@ pub(crate) struct FilmFlags {
 }
 
 /// Options that a film does not have.
-const OTHERS: [&str; 10] =
-    ["watch", "parts", "part", "save_preset", "chain", "heights", "edits", "tiles", "metadata", "report"];
+const OTHERS: [&str; 11] = [
+    "quality",
+    "watch",
+    "parts",
+    "part",
+    "save_preset",
+    "chain",
+    "heights",
+    "edits",
+    "tiles",
+    "metadata",
+    "report",
+];
 
 fn frames_help() -> String {
     let formats = extension_list(&FILM_FORMATS, "or");

@@ -5,6 +5,7 @@
 
 mod api;
 pub(crate) mod bytecode;
+mod camera;
 mod curves_file;
 mod data;
 mod deprecations;
@@ -29,6 +30,7 @@ mod usage;
 
 pub(crate) use api::has_name;
 pub use api::{API_VERSION, api_version};
+pub(crate) use camera::declare_camera;
 pub use curves_file::CurvesFile;
 pub use file_loader::FileLoader;
 pub use json_text::{JsonMembers, JsonText, PlacedPoints, json_excerpt};

@@ -19,9 +19,8 @@ use super::types::DeclaredTypes;
 use crate::queries::{ChainView, RowCache};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::files::canonical;
-use burgeon_base::locks::LockRecovery;
-use burgeon_base::stop::Stop;
 use burgeon_base::warning::{Warning, Warnings};
+use burgeon_base::{locks::LockRecovery, stop::Stop};
 use burgeon_kit::Values;
 use burgeon_language::CallForm;
 use burgeon_language::analysis::{
@@ -95,6 +94,7 @@ pub struct Session {
     /// Labels of the layers whose features became chains; `None` for a list of the script.
     feature_sources: Mutex<BTreeSet<Option<String>>>,
     params: Mutex<Vec<Param>>,
+    pub(super) cameras: Mutex<Vec<burgeon_scene::SceneCamera>>,
     left_out: Mutex<Vec<(String, Error)>>,
     warnings: Warnings,
     /// Deprecated names, and the names that scripts have used.
@@ -172,6 +172,7 @@ impl Session {
             notes: Mutex::default(),
             feature_sources: Mutex::default(),
             params: Mutex::default(),
+            cameras: Mutex::default(),
             left_out: Mutex::default(),
             warnings,
             deprecated,

@@ -12,7 +12,7 @@ use super::messages::{print, script_warning};
 use super::require::require;
 use super::system::{SourceHandle, SystemHandle};
 use super::types::{declare_type, extend_type, named_fields, no_table};
-use crate::declare::{API_VERSION, Param, has_name};
+use crate::declare::{API_VERSION, Param, declare_camera, has_name};
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::Field;
 use burgeon_language::PARAM;
@@ -92,6 +92,20 @@ impl Library {
                 let value = param.script_value().map_err(mlua::Error::external)?;
                 library.add_param(param, place).map_err(mlua::Error::external)?;
                 to_lua(lua, &value, false)
+            })?,
+        )?;
+        let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));
+        globals.raw_set(
+            "camera",
+            lua.create_function(move |lua, options: LuaValue| {
+                let place = Machine::place(lua);
+                let declare = || {
+                    library.at_top_level("camera")?;
+                    let options = named_fields("camera", options)?;
+                    let camera = declare_camera(&options, place)?;
+                    session.add_camera(camera)
+                };
+                declare().map_err(mlua::Error::external)
             })?,
         )?;
         globals.raw_set("lod", machine.session.options.lod)?;

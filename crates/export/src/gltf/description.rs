@@ -24,6 +24,7 @@ pub(super) struct Description<'a> {
     /// Extensions of the document.
     pub(super) extensions: Option<serde_json::Value>,
     pub(super) animations: Vec<serde_json::Value>,
+    pub(super) cameras: Vec<serde_json::Value>,
     pub(super) accessors: Vec<Accessor>,
     pub(super) meshes: Vec<MeshDescription<'a>>,
     pub(super) nodes: Vec<Node<'a>>,
@@ -105,6 +106,8 @@ pub(super) struct Attributes {
 #[derive(Default, Serialize)]
 pub(super) struct Node<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) camera: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) children: Option<Vec<usize>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) extensions: Option<serde_json::Value>,
@@ -156,6 +159,8 @@ struct DocumentHead<'a> {
     buffers: &'a [json::Buffer],
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     buffer_views: &'a [json::buffer::View],
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    cameras: &'a [serde_json::Value],
     scene: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
     extensions: Option<&'a serde_json::Value>,
@@ -201,6 +206,7 @@ impl<'a> Description<'a> {
                 asset: &root.asset,
                 buffers: &root.buffers,
                 buffer_views: &root.buffer_views,
+                cameras: &self.cameras,
                 scene: 0,
                 extensions: self.extensions.as_ref(),
                 extensions_used: &root.extensions_used,

@@ -10,7 +10,7 @@ use super::material::Textures;
 use super::mesh::Arrays;
 use super::metadata::Metadata;
 use super::packing::MESHOPT;
-use super::{InstancePlace, body, film, material, mesh, place};
+use super::{InstancePlace, body, camera, film, material, mesh, place};
 use crate::check::{SceneCheck, check};
 use crate::decompose::{Y_UP_AXES, y_up};
 use crate::files::Files;
@@ -259,8 +259,12 @@ impl<'a> Document<'a> {
             use_extension(&mut description.root, QUANTIZATION);
             description.root.extensions_required.push(QUANTIZATION.into());
         }
+        let mut roots = placed.nodes.clone();
+        if !is_own {
+            camera::write(checked, &mut roots, &mut description)?;
+        }
         let extras = scene_extras(&placed.features, checked.scene);
-        let nodes = placed.nodes.iter().map(|node| json::Index::new(*node as u32)).collect();
+        let nodes = roots.iter().map(|node| json::Index::new(*node as u32)).collect();
         description.root.scenes.push(json::Scene { extensions: None, extras, name: None, nodes });
         body.describe(&mut description.root)?;
         let layout = Layout { places: placed.places, meshes };

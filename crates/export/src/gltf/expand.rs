@@ -42,6 +42,7 @@ pub(super) fn expand(scene: &Scene) -> Result<Scene> {
         materials: scene.materials.clone(),
         meshes: scene.meshes.clone(),
         upright: scene.upright,
+        cameras: scene.cameras.clone(),
         packages: scene.packages.clone(),
         ..Scene::default()
     };

@@ -7,6 +7,7 @@
 //! Specification: Khronos Group, "glTF 2.0 Specification", 2021.
 
 mod body;
+mod camera;
 mod coordinates;
 mod corners;
 mod description;

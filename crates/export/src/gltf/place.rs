@@ -450,11 +450,11 @@ fn with_transform<'a>(node: Node<'a>, trs: &Trs) -> Node<'a> {
     }
 }
 
-fn translation(translation: DVec3) -> Option<[f32; 3]> {
+pub(super) fn translation(translation: DVec3) -> Option<[f32; 3]> {
     unless([0.0; 3], (translation.as_vec3() + 0.0).to_array())
 }
 
-fn rotation(rotation: DQuat) -> Option<UnitQuaternion> {
+pub(super) fn rotation(rotation: DQuat) -> Option<UnitQuaternion> {
     unless([0.0, 0.0, 0.0, 1.0], quaternion(rotation)).map(UnitQuaternion)
 }
 

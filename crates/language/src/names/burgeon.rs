@@ -11,8 +11,8 @@ use crate::form::argument;
 /// Returns all names of this file.
 pub(super) fn names() -> Vec<Name> {
     let shared = [
-        &*PARAM, &OBJECT, &EXTEND, &LSYSTEM, &SYSTEM, &RULE, &DERIVE, &DERIVED, &NOW, &SOURCE, &LAYER,
-        &QUERY, &FRAGMENT, &VECTOR,
+        &*PARAM, &CAMERA, &OBJECT, &EXTEND, &LSYSTEM, &SYSTEM, &RULE, &DERIVE, &DERIVED, &NOW, &SOURCE,
+        &LAYER, &QUERY, &FRAGMENT, &VECTOR,
     ];
     let mut names: Vec<Name> = shared.into_iter().cloned().collect();
     names.extend([
@@ -233,6 +233,42 @@ pub static PARAM: LazyLock<Name> = LazyLock::new(|| {
             ),
         ],
         "any",
+    )
+});
+
+/// Declaration of a camera.
+pub static CAMERA: LazyLock<Name> = LazyLock::new(|| {
+    Name::global(
+        "camera",
+        "Adds a camera to the model, for pictures and glTF files. The first camera is that of pictures; \
+         `--camera NAME` selects another.",
+    )
+    .form(
+        [options(
+            "{ ... }",
+            [
+                field("name", "string", "\"camera\"", "Name, unique in the script."),
+                field(
+                    "from",
+                    "Vector?",
+                    "nil",
+                    "Position of the camera (m): x, y and z. Required unless `view` fits the camera to the model.",
+                ),
+                field("to", "Vector?", "nil", "Point in the middle of the picture (m): x, y and z."),
+                field("fov", "number", "40", "Vertical field of view (degrees), 1 to 120."),
+                field(
+                    "view",
+                    "(\"perspective\" | \"orthographic\" | \"plan\" | \"eye\")?",
+                    "\"perspective\"",
+                    "Projection: \"perspective\"; \"orthographic\", in which parallel lines stay parallel; \"plan\", from above \
+                     with north at the top; or \"eye\", from the height of a standing person's eyes. \"plan\" and \"eye\" are \
+                     fitted to the model.",
+                ),
+                field("height", "number?", "nil", "Height (m) that an orthographic picture shows. Without it, the picture shows the whole model."),
+                field("azimuth", "number?", "nil", "Azimuth of the view \"eye\" (degrees): 0 looks at the model from the north, 90 from the east. Without it, the model's shape determines it."),
+            ],
+        )],
+        "()",
     )
 });
 

@@ -10,7 +10,7 @@ mod name;
 mod standard;
 mod systems;
 
-pub use burgeon::{EXTEND, LAYER, OBJECT, PARAM, SOURCE, VECTOR};
+pub use burgeon::{CAMERA, EXTEND, LAYER, OBJECT, PARAM, SOURCE, VECTOR};
 pub use list::{deprecated_names, is_pure_function, library_effect, names};
 pub use luau::LOCKED;
 pub use name::{Effect, Name, NameKind, Operator};

@@ -180,7 +180,7 @@ impl Film {
     ) -> Result<()> {
         picture.check()?;
         let count = self.frames as usize;
-        let picture = Picture { quality: Quality::Film, ..*picture };
+        let picture = Picture { quality: Quality::Film, ..picture.clone() };
         let (extent, waiting) = match needs.images {
             true => self.measure_all(needs, &picture)?,
             false => Default::default(),

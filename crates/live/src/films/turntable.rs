@@ -31,7 +31,7 @@ impl<'a> Turntable<'a> {
         picture.check()?;
         let center = picture.look.map(|look| DVec3::from(look.at));
         let extent = Extent::of(scene)?.revolved(scene.upright, center, frames as usize);
-        let picture = Picture { quality: Quality::Film, ..*picture };
+        let picture = Picture { quality: Quality::Film, ..picture.clone() };
         Ok(Self { scene, picture, extent, frames, done })
     }
 
@@ -47,7 +47,7 @@ impl<'a> Turntable<'a> {
         let frame = |number: usize| {
             let turned = 360.0 * number as f64 / f64::from(self.frames);
             let azimuth = (self.picture.azimuth.unwrap_or(BEGIN) + turned).rem_euclid(360.0);
-            let picture = Picture { azimuth: Some(azimuth), ..self.picture };
+            let picture = Picture { azimuth: Some(azimuth), ..self.picture.clone() };
             let image = render_within(self.scene, Some(&self.extent), &picture, stop)?;
             self.done.fetch_add(1, Ordering::Relaxed);
             FilmFrame::of_image(needs, image)

@@ -265,10 +265,10 @@ impl Variations {
 
 fn thumbnail(scene: &Scene, extent: &Extent, picture: &Picture, stop: &Stop) -> Result<Image> {
     let (width, height) = (picture.width, picture.height);
-    if picture.quality == Quality::Fine || width.max(height) > Picture::LARGEST / 2 {
+    if picture.quality != Quality::Draft || width.max(height) > Picture::LARGEST / 2 {
         return render_within(scene, Some(extent), picture, stop);
     }
-    let large = Picture { width: 2 * width, height: 2 * height, ..*picture };
+    let large = Picture { width: 2 * width, height: 2 * height, ..picture.clone() };
     let large = render_within(scene, Some(extent), &large, stop)?;
     Ok(Image::from_fn(width, height, |x, y| {
         let four = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j)| large.pixel(2 * x + i, 2 * y + j));

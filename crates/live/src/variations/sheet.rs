@@ -93,7 +93,7 @@ pub fn sheet<'a>(
     cells: impl IntoIterator<Item = (&'a str, Result<&'a Image, &'a str>)>,
 ) -> Image {
     let (paper, ink, wrong) = match background {
-        Background::Light => ([246, 245, 243, 255], [58, 56, 54], [168, 44, 30]),
+        Background::Light | Background::Sky => ([246, 245, 243, 255], [58, 56, 54], [168, 44, 30]),
         Background::Dark => ([22, 23, 25, 255], [204, 206, 210], [240, 128, 108]),
         Background::Clear => ([0, 0, 0, 0], [120, 120, 120], [200, 80, 60]),
     };

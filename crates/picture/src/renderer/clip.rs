@@ -4,24 +4,25 @@
 
 use glam::Vec3A;
 
-/// Slope of the side planes. The image itself reaches a slope of 0.29, so it is never clipped, and the coordinates of
-/// clipped corners stay in the range that the raster computes exactly.
-const ASIDE: f32 = 1.0;
-
 /// Maximum number of corners: the triangle has three, and each of the five planes adds at most one.
 const MOST: usize = 8;
 
 /// Corner in the camera's axes, and its weights relative to the triangle's three corners.
 type ClippedCorner = (Vec3A, Vec3A);
 
-/// Clips a triangle by the plane at the distance `near` and by the side planes. Calls `emit` with the resulting
+/// Clips a triangle by the plane at the distance `near` and by side planes with the slope `aside`, which are outside of the
+/// image, so that the coordinates of clipped corners stay in the range that the raster computes exactly. Calls `emit` with the resulting
 /// triangles: their corners in the camera's axes, and for each corner its weights relative to the given corners.
 ///
 /// Triangles that share an edge are cut at the same points, regardless of their orientation.
-pub(super) fn clip(corners: [Vec3A; 3], near: f32, mut emit: impl FnMut([Vec3A; 3], [Vec3A; 3])) {
+pub(super) fn clip(
+    corners: [Vec3A; 3],
+    [near, aside]: [f32; 2],
+    mut emit: impl FnMut([Vec3A; 3], [Vec3A; 3]),
+) {
     let planes: [&dyn Fn(Vec3A) -> f32; 5] =
-        [&|p| p.z - near, &|p| ASIDE * p.z - p.x, &|p| ASIDE * p.z + p.x, &|p| ASIDE * p.z - p.y, &|p| {
-            ASIDE * p.z + p.y
+        [&|p| p.z - near, &|p| aside * p.z - p.x, &|p| aside * p.z + p.x, &|p| aside * p.z - p.y, &|p| {
+            aside * p.z + p.y
         }];
     let [a, b, c] = corners;
     let mut polygon = [(Vec3A::ZERO, Vec3A::ZERO); MOST];
@@ -70,9 +71,11 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    const ASIDE: f32 = 1.0;
+
     fn clip_triangle(corners: [Vec3A; 3], near: f32) -> Vec<([Vec3A; 3], [Vec3A; 3])> {
         let mut all = Vec::new();
-        clip(corners, near, |corners, weights| all.push((corners, weights)));
+        clip(corners, [near, ASIDE], |corners, weights| all.push((corners, weights)));
         all
     }
 

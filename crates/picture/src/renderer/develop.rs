@@ -112,7 +112,7 @@ fn tile(
                 None => match ground(light, place) {
                     Some(surface) => surface,
                     None => {
-                        *color += backdrop(picture, place) * weight;
+                        *color += backdrop(light, picture, place) * weight;
                         continue;
                     }
                 },
@@ -143,14 +143,22 @@ fn tile(
     }
     for (fragment, share) in fragments.iter().zip(&shares) {
         let gathered = &gathered[fragment.pool];
+        let pixel = share.pixel;
+        let place = [(corner[0] + pixel % size[0]) as f32 + 0.5, (corner[1] + pixel / size[0]) as f32 + 0.5];
+        let position = fragment.surface.position;
         let color = if share.ground {
-            let pixel = share.pixel;
-            let place =
-                [(corner[0] + pixel % size[0]) as f32 + 0.5, (corner[1] + pixel / size[0]) as f32 + 0.5];
-            let fade = fade(light, fragment.surface.position);
-            shade_backdrop(backdrop(picture, place), Vec3::ONE.lerp(light.ground(fragment, gathered), fade))
+            let fade = fade(light, position);
+            let part = Vec3::ONE.lerp(light.ground(fragment, gathered), fade);
+            let color = shade_backdrop(backdrop(light, picture, place), part);
+            // The studio's ground is its background.
+            if picture.background == Background::Sky {
+                hazy(light, picture, color, position, place)
+            } else {
+                color
+            }
         } else {
-            tone::compress(light.color(fragment, gathered)).extend(1.0)
+            let color = tone::compress(light.color(fragment, gathered)).extend(1.0);
+            hazy(light, picture, color, position, place)
         };
         colors[share.pixel] += color * share.weight;
     }
@@ -199,13 +207,33 @@ fn pool_ground(fragments: &mut [Fragment], shares: &[FragmentShare], width: usiz
 }
 
 /// Returns the background at pixel coordinates `place`: a linear colour times its opacity, and the opacity.
-fn backdrop(picture: &Picture, place: [f32; 2]) -> Vec4 {
+fn backdrop(light: &Light, picture: &Picture, place: [f32; 2]) -> Vec4 {
     let (top, bottom) = match picture.background {
         Background::Light => (Vec3::new(0.560, 0.590, 0.620), Vec3::new(0.775, 0.765, 0.740)),
         Background::Dark => (Vec3::new(0.020, 0.022, 0.026), Vec3::new(0.062, 0.064, 0.070)),
+        Background::Sky => {
+            let (_, ray) = light.camera.ray(place[0], place[1]);
+            return tone::compress(light.sky.visible(ray.normalize())).extend(1.0);
+        }
         Background::Clear => return Vec4::ZERO,
     };
     top.lerp(bottom, smooth(0.0, 1.0, place[1] / picture.height as f32)).extend(1.0)
+}
+
+/// Returns `color` behind the haze between the camera and `position`, at the pixel coordinates `place`.
+fn hazy(light: &Light, picture: &Picture, color: Vec4, position: Vec3A, place: [f32; 2]) -> Vec4 {
+    let Some(haze) = picture.haze else { return color };
+    let metres = f64::from(light.camera.distance(position)) / light.stage.shrink.matrix3.x_axis.length();
+    let kept = (-metres.max(0.0) / haze).exp() as f32;
+    let air = match picture.background {
+        Background::Light | Background::Dark => backdrop(light, picture, place).truncate(),
+        Background::Sky | Background::Clear => {
+            let (_, ray) = light.camera.ray(place[0], place[1]);
+            // Haze has the colour of the sky above the horizon.
+            tone::compress(light.sky.visible(ray.with_z(ray.z.max(0.0)).normalize_or(Vec3A::X)))
+        }
+    };
+    (color.truncate().lerp(air * color.w, 1.0 - kept)).extend(color.w)
 }
 
 /// Returns `backdrop` with a ground in front of it that receives this fraction of its light.
@@ -220,12 +248,12 @@ fn shade_backdrop(backdrop: Vec4, part: Vec3) -> Vec4 {
 /// Returns the ground at pixel coordinates `place`, if it is visible there and near enough to show a shadow.
 fn ground(light: &Light, place: [f32; 2]) -> Option<SurfacePoint> {
     let floor = light.floor?.height;
-    let ray = light.camera.ray(place[0], place[1]);
-    let height = light.camera.eye.z - floor;
+    let (eye, ray) = light.camera.ray(place[0], place[1]);
+    let height = eye.z - floor;
     if height <= 0.0 || ray.z >= -1e-6 {
         return None;
     }
-    let position = light.camera.eye + ray * (height / -ray.z);
+    let position = eye + ray * (height / -ray.z);
     (fade(light, position) > 0.0).then(|| SurfacePoint::ground(position, light.camera))
 }
 

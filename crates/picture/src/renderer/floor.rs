@@ -1,6 +1,6 @@
 //! Brightness of the ground around the model, which lights the model's underside.
 
-use super::sky::{SUN, Sky};
+use super::sky::Sky;
 use super::stage::Stage;
 use super::sun::Sun;
 use glam::{Vec2, Vec3A};
@@ -25,7 +25,8 @@ impl Floor {
     pub(super) fn new(stage: &Stage, sun: &Sun, sky: &Sky, height: f32) -> Self {
         let (low, high) = (stage.bounds.0.truncate() - 1.0, stage.bounds.1.truncate() + 1.0);
         let scale = Vec2::splat(CELLS as f32) / (high - low);
-        let (sunlight, skylight) = (SUN.element_sum() * sun.direction.z, sky.open(Vec3A::Z).element_sum());
+        let (sunlight, skylight) =
+            (sun.light.element_sum() * sun.direction.z, sky.open(Vec3A::Z).element_sum());
         let total = sunlight + skylight;
         let sharp: Vec<f32> = (0..CELLS * CELLS)
             .into_par_iter()
@@ -84,7 +85,7 @@ mod tests {
         let scene = samples::boxes(&[DVec3::ZERO]);
         let stage = Stage::new(&scene).unwrap();
         let detail = RenderDetail::of(Quality::Draft, 12);
-        let sun = Sun::new(&stage, Viewpoint { azimuth: 0.0, elevation: 0.3 }, &detail);
+        let sun = Sun::new(&stage, Viewpoint { azimuth: 0.0, elevation: 0.3 }, None, &detail);
         let sky = Sky::new(&stage, &sun, &detail, true);
         let height = stage.bounds.0.z - 0.001;
         let floor = Floor::new(&stage, &sun, &sky, height);

@@ -14,6 +14,7 @@ mod floor;
 mod light_map;
 mod measure;
 mod points;
+mod pose;
 mod raster;
 mod render;
 #[cfg(test)]
@@ -33,4 +34,5 @@ mod view;
 mod visible;
 
 pub use extent::Extent;
+pub use pose::{CameraPose, is_inside, pose};
 pub use render::{render, render_within};

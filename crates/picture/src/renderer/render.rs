@@ -1,12 +1,12 @@
 //! Renders a scene.
 
-use super::{Extent, camera, detail, develop, floor, shade, sky, stage, sun, texture, view};
-use crate::settings::{Picture, Quality, ViewBall};
+use super::pose::picture_camera;
+use super::{Extent, detail, develop, floor, shade, sky, stage, sun, texture};
+use crate::settings::{Background, Picture, Quality};
 use burgeon_base::error::Result;
 use burgeon_base::stop::Stop;
 use burgeon_scene::Scene;
 use burgeon_scene::image::Image;
-use glam::DVec3;
 
 /// Renders `scene` as sRGB with straight alpha; opaque unless the background is clear.
 ///
@@ -68,20 +68,10 @@ pub fn render_within(
     let is_film = picture.quality == Quality::Film;
     let stage = stage::Stage::within(scene, &textures, extent, is_film, stop)?;
     let detail = detail::RenderDetail::of(picture.quality, stage.triangles());
-    let size = [picture.width, picture.height];
-    let points = extent.map(|extent| extent.points(&stage.shrink));
-    let eye = view::viewpoint(points.as_ref().unwrap_or(&stage.hull), picture);
-    let camera = match (points, picture.look) {
-        (_, Some(look)) => {
-            let axes = if is_film { eye.axes() } else { [DVec3::X, DVec3::Y, DVec3::Z] };
-            let points = ball(look, axes).map(|point| stage.shrink.transform_point3(point).as_vec3a());
-            camera::Camera::fit(points, eye, size).with_nearer_plane()
-        }
-        (None, None) => camera::Camera::fit(stage.points(), eye, size),
-        (Some(points), None) => camera::Camera::fit(points.into_iter(), eye, size),
-    };
-    let sun = sun::Sun::new(&stage, eye, &detail);
-    let sky = sky::Sky::new(&stage, &sun, &detail, picture.ground);
+    let camera = picture_camera(scene, &stage, extent, picture, is_film)?;
+    let sun = sun::Sun::new(&stage, camera.viewpoint(), picture.sun, &detail);
+    let mut sky = sky::Sky::new(&stage, &sun, &detail, picture.ground);
+    sky.is_shown = picture.background == Background::Sky;
     // Slightly below the model, so that surfaces on the ground do not merge with it.
     let height = stage.bounds.0.z - 0.0005;
     let floor = picture.ground.then(|| floor::Floor::new(&stage, &sun, &sky, height));
@@ -96,10 +86,4 @@ pub fn render_within(
     let image = develop::develop(&light, picture, &detail);
     // A cancelled render is incomplete.
     stop.check().map(|()| image)
-}
-
-/// Returns the points of a sphere along `axes`.
-fn ball(look: ViewBall, axes: [DVec3; 3]) -> impl Iterator<Item = DVec3> {
-    let directions = axes.into_iter().flat_map(|axis| [axis, -axis]);
-    directions.map(move |axis| DVec3::from(look.at) + axis * look.radius)
 }

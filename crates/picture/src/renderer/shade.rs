@@ -2,7 +2,7 @@
 
 use super::camera::Camera;
 use super::floor::Floor;
-use super::sky::{SUN, Sky, SkySample};
+use super::sky::{Sky, SkySample};
 use super::stage::Stage;
 use super::sun::Sun;
 use super::surface::SurfacePoint;
@@ -176,12 +176,12 @@ impl Light<'_> {
         if toward > 0.0 {
             let seen = self.sun_seen(fragment, surface.normal);
             let kept = if surface.thin { 1.0 - 0.5 * THROUGH } else { 1.0 };
-            let light = SUN * (toward * seen);
+            let light = self.sun.light * (toward * seen);
             color += light * (diffuse * (kept / PI) + self.gloss(surface, glossy, facing, toward));
         } else if surface.thin {
             // Light that shines through a leaf is more saturated than light that the leaf reflects.
             let seen = self.sun_seen(fragment, -surface.normal);
-            color += SUN * diffuse * diffuse.powf(0.35) * (-toward * seen * 1.6 * THROUGH / PI);
+            color += self.sun.light * diffuse * diffuse.powf(0.35) * (-toward * seen * 1.6 * THROUGH / PI);
         }
         if surface.thin {
             sky += self.sky.open(-surface.normal) * open * THROUGH;
@@ -199,7 +199,7 @@ impl Light<'_> {
     /// Returns the ground's brightness at `fragment`, relative to its brightness without the model.
     pub(super) fn ground(&self, fragment: &Fragment, gathered: &GatheredLight) -> Vec3 {
         let sky = self.sky.open(Vec3A::Z);
-        let sun = SUN * self.sun.direction.z;
+        let sun = self.sun.light * self.sun.direction.z;
         // The edges of shadows on the ground are visible, so pixels that share the sky's light do not share the sun's.
         let turn = fragment.noise * TAU;
         let seen = self.sun.visibility(fragment.surface.rounded, Vec3A::Z, turn, (0, 1));

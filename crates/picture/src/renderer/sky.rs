@@ -37,6 +37,11 @@ pub(super) struct Sky {
     /// Unshadowed irradiance of planes that face along +x, -x, +y, -y, +z, -z.
     open: [Vec3; 6],
     sun: Vec3A,
+    /// Irradiance of a plane that faces the sun.
+    sunlight: Vec3,
+    dusk: f32,
+    /// Set if the sky is the background, so that smooth surfaces mirror it.
+    pub is_shown: bool,
 }
 
 /// Light and depth map of one direction.
@@ -61,12 +66,13 @@ impl Sky {
         let count = detail.sky_maps;
         // Without a ground, the light from below is weak and uniform, as in a white studio.
         let below = if ground {
-            GROUND * (SUN * sun.direction.z + Vec3::splat(1.1)) / std::f32::consts::PI
+            GROUND * (sun.light * sun.direction.z + Vec3::splat(1.1 * sun.dusk)) / std::f32::consts::PI
         } else {
-            HORIZON
+            HORIZON * sun.dusk
         };
-        let light =
-            |direction: Vec3A| if direction.z > 0.0 { sky_light(direction, sun.direction) } else { below };
+        let light = |direction: Vec3A| {
+            if direction.z > 0.0 { sky_light(direction, sun.direction) * sun.dusk } else { below }
+        };
         let fit = |i: usize| LightProjection::fit(&stage.hull, direction(i, count).0, detail.sky_side);
         let frames: Vec<LightProjection> = (0..count).into_par_iter().map(fit).collect();
         let points = detail.sky_points.then(|| SkyPoints::new(stage, &frames)).flatten();
@@ -93,7 +99,7 @@ impl Sky {
                 .map(|(toward, angle)| light(toward) * angle * toward.dot(normal).max(0.0))
                 .sum()
         });
-        Self { maps, lift, open, sun: sun.direction }
+        Self { maps, lift, open, sun: sun.direction, sunlight: sun.light, dusk: sun.dusk, is_shown: false }
     }
 
     /// Returns the unshadowed irradiance of a plane with unit `normal`, interpolated from the six axis directions.
@@ -115,16 +121,39 @@ impl Sky {
         seen / f32::max(all, 1e-6)
     }
 
+    /// Returns the radiance of the open ground.
+    fn ground(&self) -> Vec3 {
+        GROUND * (self.sunlight * self.sun.z + Vec3::splat(1.1 * self.dusk)) / std::f32::consts::PI
+    }
+
+    /// Returns the colour of the visible sky, and of the ground below the horizon, in a unit `direction`. Air lightens both
+    /// near the horizon, and redder if the sun is low.
+    pub(super) fn visible(&self, direction: Vec3A) -> Vec3 {
+        let warm = self.sunlight / SUN;
+        let warm = warm / warm.max_element().max(1e-3);
+        let horizon = Vec3::new(0.64, 0.72, 0.80) * Vec3::ONE.lerp(warm, 0.8);
+        let toward = direction.dot(self.sun).max(0.0);
+        let glow = (toward.powi(8) * 0.12 + toward.powi(200) * 0.5) * warm;
+        let disc = self.sunlight * smooth(0.999_75, 0.999_9, toward);
+        let air = if direction.z >= 0.0 {
+            horizon.lerp(Vec3::new(0.13, 0.28, 0.58), direction.z.powf(0.55).min(1.0)) + glow + disc
+        } else {
+            (horizon + glow).lerp(Vec3::new(0.36, 0.35, 0.32), smooth(0.0, 0.22, -direction.z))
+        };
+        air * (0.25 + 0.75 * self.dusk)
+    }
+
     /// Returns the light that a surface of this `roughness` reflects from `direction` without occluders.
     pub(super) fn reflection(&self, direction: Vec3A, roughness: f32) -> Vec3 {
         let blur = 0.04 + 0.8 * roughness;
         let above = smooth(-blur, blur, direction.z);
-        let sky = sky_light(direction.with_z(direction.z.max(0.0)), self.sun);
-        let floor = GROUND * (SUN * self.sun.z + Vec3::splat(1.1)) / std::f32::consts::PI;
+        let sky = sky_light(direction.with_z(direction.z.max(0.0)), self.sun) * self.dusk;
+        let floor = self.ground();
         // A bright strip high on the side opposite to the sun, as photographers place behind shiny objects.
         let across = Vec3A::new(-self.sun.x, -self.sun.y, 0.35).normalize().dot(direction);
         let strip = 0.55 * smooth(0.88 - 0.5 * blur, 0.94 + 0.3 * blur, across) / (1.0 + 2.0 * roughness);
-        floor.lerp(sky + strip, above)
+        let studio = floor.lerp(sky + strip, above);
+        if self.is_shown { self.visible(direction).lerp(studio, smooth(0.1, 0.5, roughness)) } else { studio }
     }
 }
 

@@ -252,14 +252,15 @@ impl<'a> Stage<'a> {
 
     /// Calls `emit` with the draw and each triangle in `numbers`, its corners transformed by `view` and `project`.
     ///
-    /// Triangles with a corner that `project` cannot project are clipped at the plane at the distance `near`, if given.
+    /// Triangles with a corner that `project` cannot project are clipped at the plane at the distance `near` and at side
+    /// planes with a slope, if given.
     /// Triangles with a corner that is not finite are skipped.
     pub(super) fn each_triangle(
         &self,
         numbers: Range<u32>,
         view: &Affine3A,
         project: impl Fn(Vec3A) -> Vec3A,
-        near: Option<f32>,
+        near: Option<[f32; 2]>,
         mut emit: impl FnMut(&DrawCall<'a>, ProjectedTriangle),
     ) {
         if numbers.is_empty() {
@@ -303,7 +304,7 @@ impl<'a> Stage<'a> {
                 };
                 clip(placed, near, |corners, weights| {
                     // Rounding can place a corner behind the plane, so move it onto the plane.
-                    let corners = corners.map(|corner| project(corner.with_z(corner.z.max(near))));
+                    let corners = corners.map(|corner| project(corner.with_z(corner.z.max(near[0]))));
                     emit(draw, ProjectedTriangle { number, corners, weights: Some(weights) });
                 });
             }

@@ -4,9 +4,11 @@ use super::coverage::Coverage;
 use super::detail::RenderDetail;
 use super::light_map::LightProjection;
 use super::raster::RasterGrid;
+use super::sky::SUN;
 use super::stage::Stage;
 use super::view::Viewpoint;
-use glam::{Vec2, Vec3A};
+use crate::settings::SunPosition;
+use glam::{Vec2, Vec3, Vec3A};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -14,6 +16,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 const ASIDE: f64 = 58.0;
 /// Elevation of the sun above the horizon (degrees).
 const HEIGHT: f64 = 43.0;
+/// The same in radians.
+const SUN_HEIGHT: f32 = 0.750_491_6;
 /// Growth of the penumbra's radius per distance from the occluder. The real sun's is 0.005; a larger value looks like
 /// thin haze.
 const SOFTNESS: f32 = 0.018;
@@ -27,6 +31,10 @@ const CROWDED: f32 = 2.0;
 pub(super) struct Sun {
     /// Unit vector towards the sun.
     pub direction: Vec3A,
+    /// Irradiance of a plane that faces the sun.
+    pub light: Vec3,
+    /// Brightness of the sky, relative to that under the sun of a studio.
+    pub dusk: f32,
     frame: LightProjection,
     depths: Vec<f32>,
     /// Offsets of the lookups for a full pixel, within the unit disc. Any consecutive part of them is distributed over
@@ -37,9 +45,20 @@ pub(super) struct Sun {
 }
 
 impl Sun {
-    /// Places the sun behind the left shoulder of a viewer at `eye`, so that every render has a light and a dark side.
-    pub(super) fn new(stage: &Stage, eye: Viewpoint, detail: &RenderDetail) -> Self {
-        let place = Viewpoint { azimuth: eye.azimuth + ASIDE.to_radians(), elevation: HEIGHT.to_radians() };
+    /// Places the sun at `position`, or behind the left shoulder of a viewer at `eye`, so that every render has a light and
+    /// a dark side.
+    pub(super) fn new(
+        stage: &Stage,
+        eye: Viewpoint,
+        position: Option<SunPosition>,
+        detail: &RenderDetail,
+    ) -> Self {
+        let place = match position {
+            Some(SunPosition { azimuth, elevation }) => {
+                Viewpoint { azimuth: azimuth.to_radians(), elevation: elevation.to_radians() }
+            }
+            None => Viewpoint { azimuth: eye.azimuth + ASIDE.to_radians(), elevation: HEIGHT.to_radians() },
+        };
         let direction = place.direction().as_vec3a();
         let frame = LightProjection::fit(&stage.hull, direction, detail.sun_side);
         let mut texels = Vec::new();
@@ -63,7 +82,9 @@ impl Sun {
         });
         let depths = texels.into_iter().map(|texel| f32::from_bits(texel.into_inner())).collect();
         let pools_light = detail.pools_light;
-        Self { direction, frame, depths, disc: disc(detail.sun_taps), pools_light }
+        let height = place.elevation as f32;
+        let (light, dusk) = (sunlight(height), (height.sin() / SUN_HEIGHT.sin()).clamp(0.0, 1.0).powf(0.35));
+        Self { direction, light, dusk, frame, depths, disc: disc(detail.sun_taps), pools_light }
     }
 
     /// Returns the depth of the lit surface at texel `x`, `y`; infinite if there is none.
@@ -130,6 +151,14 @@ impl Sun {
     }
 }
 
+/// Returns the irradiance of a plane that faces the sun at this elevation (rad): less and redder near the horizon, where its
+/// light passes through more air.
+fn sunlight(elevation: f32) -> Vec3 {
+    let air = |elevation: f32| 1.0 / elevation.sin().max(0.03);
+    let more = (air(elevation) - air(SUN_HEIGHT)).clamp(-0.5, 12.0);
+    SUN * Vec3::new(-0.06, -0.11, -0.21).map(|absorbed| (absorbed * more).exp())
+}
+
 /// Returns points distributed evenly over the unit disc; so is any consecutive part of them.
 fn disc(count: usize) -> Vec<Vec2> {
     let fraction = |i: usize, factor: f64| (0.5 + factor * i as f64).fract() as f32;
@@ -155,6 +184,7 @@ mod tests {
         let sun = Sun::new(
             &stage,
             Viewpoint { azimuth: 0.0, elevation: 0.3 },
+            None,
             &RenderDetail::of(Quality::Draft, 12),
         );
         let behind = stage.bounds.0.with_x(0.0).with_y(0.0) - sun.direction.with_z(0.0) * 0.7;
@@ -164,5 +194,12 @@ mod tests {
             let point = Vec3A::new((i % 10) as f32 * 0.1 - 0.45, (i / 10) as f32 * 0.1 - 0.45, top);
             assert!(sun.visibility(point, Vec3A::Z, i as f32, (0, 1)) > 0.99, "acne at {point}");
         }
+    }
+
+    #[test]
+    fn a_low_sun_is_redder_and_the_light_of_the_studio_is_unchanged() {
+        let (high, low) = (sunlight(HEIGHT.to_radians() as f32), sunlight(0.1));
+        assert!((high - SUN).length() < 1e-4, "{high}");
+        assert!(low.x < high.x && low.z / low.x < 0.5 * high.z / high.x, "{low}");
     }
 }

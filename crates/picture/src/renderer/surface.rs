@@ -44,7 +44,7 @@ struct StageTriangle {
 impl StageTriangle {
     /// Returns the weights of the second and third corner at the intersection of `ray` from `eye` with the triangle's
     /// plane; the weights of the centroid if the triangle is seen edge-on.
-    fn weights(&self, eye: Vec3A, ray: Vec3A) -> Vec2 {
+    fn weights(&self, (eye, ray): (Vec3A, Vec3A)) -> Vec2 {
         let steep = self.cross.dot(ray);
         let size = self.cross.length_squared();
         if size <= 0.0 || steep.abs() < 1e-6 * size.sqrt() {
@@ -85,12 +85,12 @@ impl<'a> SeenPoint<'a> {
         let triangle = part.triangles.get(index).unwrap_or_default().map(|i| i as usize);
         let [a, b, c] = triangle.map(|i| draw.place.transform_point3a(Vec3A::from(part.positions[i])));
         let corners = StageTriangle { a, ab: b - a, ac: c - a, cross: (b - a).cross(c - a) };
-        let exact = corners.weights(camera.eye, camera.ray(place[0], place[1]));
+        let exact = corners.weights(camera.ray(place[0], place[1]));
         // The centre of the samples may be slightly outside the triangle.
         let inside = exact.max(Vec2::ZERO);
         let inside = inside / (inside.x + inside.y).max(1.0);
         let position = a + corners.ab * inside.x + corners.ac * inside.y;
-        let view = (camera.eye - position).normalize();
+        let view = camera.toward(position);
 
         let outward = if draw.mirrored { -corners.cross } else { corners.cross };
         let plane = outward.normalize_or(view);
@@ -135,9 +135,7 @@ impl<'a> SeenPoint<'a> {
             let [a, b, c] = self.corners.map(|i| part.uvs.get(i).copied().unwrap_or_default());
             let uv = |weights: Vec2| a + (b - a) * weights.x + (c - a) * weights.y;
             let [x, y] = self.place;
-            let beside = |right: f32, down: f32| {
-                uv(self.triangle.weights(camera.eye, camera.ray(x + right, y + down)))
-            };
+            let beside = |right: f32, down: f32| uv(self.triangle.weights(camera.ray(x + right, y + down)));
             let here = uv(self.exact);
             surface.base *= texture.color(uv(self.inside), beside(1.0, 0.0) - here, beside(0.0, 1.0) - here);
         }
@@ -158,7 +156,7 @@ impl SurfacePoint {
             rounded: position,
             plane: Vec3A::Z,
             normal: Vec3A::Z,
-            view: (camera.eye - position).normalize(),
+            view: camera.toward(position),
             material: None,
             base: Vec3::splat(0.5),
             metallic: 0.0,

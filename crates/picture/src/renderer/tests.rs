@@ -2,10 +2,10 @@
 
 use super::samples::{boxes, instance, prism, quad, ring, scene_of, twisted_tower};
 use super::{render, render_within};
-use crate::{Background, Picture, Quality};
+use crate::{Background, CameraChoice, Picture, Quality, SunPosition};
 use burgeon_base::stop::Stop;
 use burgeon_scene::image::Image;
-use burgeon_scene::{Material, Part, Scene, Texture, Upright};
+use burgeon_scene::{CameraView, Material, Part, Scene, SceneCamera, Texture, Upright};
 use glam::{DAffine3, DVec3, Vec3};
 
 /// Returns the settings of a small render from the south-east with a transparent background and without a ground.
@@ -15,10 +15,10 @@ fn small() -> Picture {
         height: 96,
         azimuth: Some(135.0),
         elevation: Some(20.0),
-        look: None,
         background: Background::Clear,
         ground: false,
         quality: Quality::Draft,
+        ..Picture::default()
     }
 }
 
@@ -55,8 +55,8 @@ fn the_model_fills_the_picture_up_to_the_margin() {
     let seen: Vec<(u32, u32)> =
         places(&image).filter(|(_, _, pixel)| pixel[3] > 0).map(|(x, y, _)| (x, y)).collect();
     let (top, bottom) = (seen.iter().map(|p| p.1).min().unwrap(), seen.iter().map(|p| p.1).max().unwrap());
-    assert!((11..=13).contains(&top) && (186..=188).contains(&bottom), "rows {top} to {bottom} of 200");
-    assert!(seen.iter().all(|(x, _)| (5..91).contains(x)));
+    assert!((7..=9).contains(&top) && (190..=192).contains(&bottom), "rows {top} to {bottom} of 200");
+    assert!(seen.iter().all(|(x, _)| (3..93).contains(x)));
 }
 
 #[test]
@@ -354,4 +354,95 @@ fn a_plain_that_reaches_behind_the_camera_is_clipped_and_not_dropped() {
             count_covered(&many)
         );
     }
+}
+
+#[test]
+fn a_sky_is_blue_above_the_horizon_and_red_at_dusk() {
+    let view = CameraView::Perspective { from: DVec3::new(0.0, -9.0, 0.0), to: DVec3::ZERO, fov: 50.0 };
+    let picture = Picture {
+        background: Background::Sky,
+        ground: true,
+        camera: CameraChoice::View(view),
+        sun: Some(SunPosition { azimuth: 180.0, elevation: 50.0 }),
+        ..small()
+    };
+    let scene = boxes(&[DVec3::ZERO]);
+    let noon = render(&scene, &picture).unwrap();
+    let [red, _, blue, _] = noon.pixel(4, 2);
+    assert!(blue > red + 20, "{red} {blue}");
+    let [red, _, blue, _] = noon.pixel(4, 94);
+    assert!(red >= blue, "the ground is not blue: {red} {blue}");
+    let low = Some(SunPosition { azimuth: 180.0, elevation: 3.0 });
+    let dusk = render(&scene, &Picture { sun: low, ..picture.clone() }).unwrap();
+    let warmth = |image: &Image| f64::from(image.pixel(48, 40)[0]) / f64::from(image.pixel(48, 40)[2]);
+    assert!(warmth(&dusk) > 1.3 * warmth(&noon), "{} {}", warmth(&dusk), warmth(&noon));
+    let night = Picture { sun: Some(SunPosition { azimuth: 0.0, elevation: -2.0 }), ..picture };
+    assert_eq!(render(&scene, &night).unwrap_err().message(), "the sun is not above the horizon");
+}
+
+#[test]
+fn haze_lets_a_model_fade_into_the_background() {
+    let picture = Picture { background: Background::Light, ..small() };
+    let scene = boxes(&[DVec3::ZERO]);
+    let empty = render(&Scene::default(), &picture).unwrap().pixel(48, 48);
+    let gap = |haze: Option<f64>| {
+        let pixel = render(&scene, &Picture { haze, ..picture.clone() }).unwrap().pixel(48, 48);
+        (0..3).map(|i| pixel[i].abs_diff(empty[i])).max().unwrap()
+    };
+    let (clear, hazy, thick) = (gap(None), gap(Some(6.0)), gap(Some(0.1)));
+    assert!(hazy < clear && thick < 3, "{clear} {hazy} {thick}");
+}
+
+#[test]
+fn the_first_camera_of_a_scene_is_that_of_its_picture_unless_another_is_chosen() {
+    let mut scene = boxes(&[DVec3::ZERO]);
+    let free = Picture { azimuth: None, elevation: None, ..small() };
+    let fitted = render(&scene, &free).unwrap();
+    let view = CameraView::Perspective { from: DVec3::new(0.0, -30.0, 0.0), to: DVec3::ZERO, fov: 40.0 };
+    for (name, view) in [("far", view), ("above", CameraView::Plan)] {
+        scene.cameras.push(SceneCamera { name: name.to_owned(), view, place: None });
+    }
+    let far = render(&scene, &free).unwrap();
+    assert!(count_covered(&far) * 8 < count_covered(&fitted));
+    let named = |name: &str| Picture { camera: CameraChoice::Named(name.to_owned()), ..free.clone() };
+    assert!(render(&scene, &named("far")).unwrap() == far);
+    let above = render(&scene, &named("above")).unwrap();
+    // A square from above fills 92 % of the width and of the height.
+    assert!(count_covered(&above).abs_diff(88 * 88) < 400, "{}", count_covered(&above));
+    assert!(render(&scene, &named("plan")).unwrap() == above);
+    assert!(render(&scene, &Picture { azimuth: Some(150.0), ..free.clone() }).unwrap() != far);
+    let error = render(&scene, &named("fra")).unwrap_err();
+    assert!(error.message().contains("no camera named `fra`"), "{error}");
+}
+
+#[test]
+fn glass_mirrors_the_sky_and_a_lamp_shines_in_the_dark() {
+    let view = CameraView::Perspective {
+        from: DVec3::new(0.0, -9.0, 1.0),
+        to: DVec3::new(0.0, 0.0, 2.0),
+        fov: 30.0,
+    };
+    let picture = Picture {
+        background: Background::Sky,
+        camera: CameraChoice::View(view),
+        sun: Some(SunPosition { azimuth: 0.0, elevation: 40.0 }),
+        ..small()
+    };
+    let blueness = |roughness: f32| {
+        let dark =
+            Material { base_color: [0.01, 0.01, 0.01, 1.0], metallic: 0.0, roughness, ..Material::default() };
+        let tilted = Material { base_color: [0.8, 0.8, 0.8, 1.0], metallic: 1.0, ..dark };
+        // A mirror that leans back shows the sky above the viewer.
+        let mut part = Part::default();
+        let corners = [[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 4.0], [-2.0, 2.0, 4.0]];
+        quad(&mut part, corners.map(Vec3::from_array));
+        let [red, _, blue, _] = render(&scene_of(part, tilted), &picture).unwrap().pixel(48, 48);
+        i32::from(blue) - i32::from(red)
+    };
+    assert!(blueness(0.05) > blueness(0.9) + 20, "{} {}", blueness(0.05), blueness(0.9));
+    let glow = |emissive: [f32; 3]| {
+        let lamp = Material { emissive, base_color: [0.0, 0.0, 0.0, 1.0], ..Material::default() };
+        brightness(&render(&wall(lamp), &picture).unwrap(), 44..52, 44..52)
+    };
+    assert!(glow([0.9, 0.7, 0.3]) > glow([0.0; 3]) + 60.0);
 }

@@ -1,7 +1,9 @@
 //! Default viewpoint, chosen from the shape of the model.
 
 use super::super::settings::Picture;
-use glam::{DMat3, DVec3, Vec3A};
+use super::camera::Camera;
+use super::points::spread;
+use glam::{DMat3, DVec2, DVec3, Vec3A};
 
 /// Maximum thickness of a flat vertical model, relative to its next larger extent.
 const WALL: f64 = 0.15;
@@ -9,6 +11,16 @@ const WALL: f64 = 0.15;
 const PLAN: f64 = 0.02;
 /// Maximum relative thickness of a model that is shown as a plan, such as a map.
 const FLAT: f64 = 0.002;
+
+/// Turns of the camera (degrees) among which the one that fills the image is found.
+const AZIMUTHS: [f64; 11] = [0.0, -10.0, 10.0, -20.0, 20.0, -30.0, 30.0, -40.0, 40.0, -50.0, -60.0];
+/// Lifts of the camera (degrees).
+const ELEVATIONS: [f64; 5] = [0.0, -5.0, 5.0, 10.0, 15.0];
+/// Parts of the image that a degree of turn and of lift are worth.
+const TURN: f64 = 0.001;
+const LIFT: f64 = 0.005;
+/// Number of directions in which the outermost points are found.
+const OUTERMOST: usize = 160;
 
 /// Direction to the camera.
 #[derive(Debug, Clone, Copy)]
@@ -34,37 +46,92 @@ impl Viewpoint {
     }
 }
 
-/// Returns the viewpoint that `picture` specifies. Unspecified angles are chosen to suit a model with this `hull`.
+/// Returns the viewpoint that `picture` specifies. Unspecified angles are chosen to suit a model with this `hull`; if both
+/// are, they are turned so that the model fills the image.
 pub(super) fn viewpoint(hull: &[Vec3A], picture: &Picture) -> Viewpoint {
     let points: Vec<DVec3> = hull.iter().map(|point| point.as_dvec3()).collect();
-    let (azimuth, elevation) = suitable(&points);
-    Viewpoint {
+    let (azimuth, elevation, is_solid) = suitable(&points);
+    let given = Viewpoint {
         azimuth: picture.azimuth.unwrap_or(azimuth).to_radians(),
         elevation: picture.elevation.unwrap_or(elevation).to_radians(),
+    };
+    if !is_solid || picture.azimuth.is_some() || picture.elevation.is_some() || points.is_empty() {
+        return given;
     }
+    filling(hull, given, [picture.width, picture.height])
 }
 
-/// Returns the azimuth and elevation (degrees) from which `points` are seen well.
-fn suitable(points: &[DVec3]) -> (f64, f64) {
+/// Returns the viewpoint near `given` from which a model with this `hull` fills most of an image of `size` (pixels).
+fn filling(hull: &[Vec3A], given: Viewpoint, size: [u32; 2]) -> Viewpoint {
+    let outermost: Vec<Vec3A> = (0..OUTERMOST)
+        .filter_map(|i| {
+            let direction = spread(i, OUTERMOST).as_vec3a();
+            hull.iter().copied().max_by(|a, b| a.dot(direction).total_cmp(&b.dot(direction)))
+        })
+        .collect();
+    let candidates = AZIMUTHS.iter().flat_map(|turn| ELEVATIONS.iter().map(move |lift| (*turn, *lift)));
+    let mut best = (f64::NEG_INFINITY, given);
+    for (turn, lift) in candidates {
+        let eye = Viewpoint {
+            azimuth: given.azimuth + turn.to_radians(),
+            elevation: given.elevation + lift.to_radians(),
+        };
+        let camera = Camera::fit(outermost.iter().copied(), eye, size);
+        let seen = outermost.iter().map(|point| camera.project(camera.view.transform_point3a(*point)));
+        let area = outline_area(seen.map(|point| point.truncate().as_dvec2()).collect());
+        let score = area / (f64::from(size[0]) * f64::from(size[1])) - TURN * turn.abs() - LIFT * lift.abs();
+        if score > best.0 {
+            best = (score, eye);
+        }
+    }
+    best.1
+}
+
+/// Returns the area of the convex hull of `points`.
+///
+/// Method: Andrew, "Another efficient algorithm for convex hulls in two dimensions", 1979.
+fn outline_area(mut points: Vec<DVec2>) -> f64 {
+    points.retain(|point| point.is_finite());
+    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    let chain = |points: &mut dyn Iterator<Item = DVec2>| {
+        let mut chain: Vec<DVec2> = Vec::new();
+        for point in points {
+            while let [.., a, b] = chain.as_slice()
+                && (*b - *a).perp_dot(point - *a) <= 0.0
+            {
+                chain.pop();
+            }
+            chain.push(point);
+        }
+        chain
+    };
+    let mut ring = chain(&mut points.iter().copied());
+    ring.extend(chain(&mut points.iter().rev().copied()));
+    let next = ring.iter().cycle().skip(1);
+    0.5 * ring.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum::<f64>().abs()
+}
+
+/// Returns the azimuth and elevation (degrees) from which `points` are seen well, and true unless they are flat.
+fn suitable(points: &[DVec3]) -> (f64, f64, bool) {
     let (normal, thickness, breadth) = thinnest(points);
     if thickness < WALL * breadth && normal.z.abs() < 0.5 {
         // A vertical curve or wall is shown from the front, slightly from the side to reveal its depth.
         let toward =
             if normal.y > 0.0 || (normal.y.abs() < 1e-6 && normal.x < 0.0) { -normal } else { normal };
-        return (toward.x.atan2(toward.y).to_degrees().rem_euclid(360.0) - 12.0, 10.0);
+        return (toward.x.atan2(toward.y).to_degrees().rem_euclid(360.0) - 12.0, 10.0, false);
     }
     if thickness < FLAT * breadth && normal.z.abs() > 0.9 {
         // A plan, with north at the top.
-        return (180.0, 90.0);
+        return (180.0, 90.0, false);
     }
     if thickness < PLAN * breadth && normal.z.abs() > 0.9 {
-        return (165.0, 58.0);
+        return (165.0, 58.0, true);
     }
     let extent = |axis: DVec3| reach(points, axis).1;
     let wide = extent(DVec3::X).max(extent(DVec3::Y)).max(1e-9);
     let slender = (extent(DVec3::Z) / wide).clamp(0.1, 3.0);
     // From 38 degrees for a low city to 22 for a cube and 14 for a tower.
-    (150.0, 22.0 - 16.0 * slender.log10() * if slender < 1.0 { 1.0 } else { 1.05 })
+    (150.0, 22.0 - 16.0 * slender.log10() * if slender < 1.0 { 1.0 } else { 1.05 }, true)
 }
 
 /// Returns the direction of the smallest extent of `points`, that extent, and the next larger extent.
@@ -126,7 +193,7 @@ mod tests {
         for turn in [0.0, 0.4, 0.8, 1.2, 2.0, 3.0] {
             let along = DVec3::new(f64::cos(turn), f64::sin(turn), 0.0);
             let points = grid(along * 4.0, DVec3::Z * 2.0, DVec3::ZERO);
-            let (azimuth, elevation) = suitable(&points);
+            let (azimuth, elevation, _) = suitable(&points);
             let eye = Viewpoint { azimuth: azimuth.to_radians(), elevation: elevation.to_radians() };
             assert!(eye.direction().cross(along).length() > 0.9, "turned by {turn}");
             assert!(elevation < 20.0);
@@ -138,5 +205,33 @@ mod tests {
         assert!(suitable(&grid(DVec3::X * 4.0, DVec3::Y * 3.0, DVec3::ZERO)).1 > 50.0);
         assert!(suitable(&grid(DVec3::X, DVec3::Y, DVec3::Z * 4.0)).1 < 16.0);
         assert!(suitable(&grid(DVec3::X * 8.0, DVec3::Y * 8.0, DVec3::Z * 2.0)).1 > 28.0);
+    }
+
+    #[test]
+    fn a_long_model_is_seen_along_its_length_so_that_it_fills_the_image() {
+        let hull = |a, b, c| grid(a, b, c).iter().map(|point| point.as_vec3a()).collect::<Vec<_>>();
+        let area = |hull: &[Vec3A], eye| {
+            let camera = Camera::fit(hull.iter().copied(), eye, [640, 480]);
+            let seen = hull.iter().map(|point| camera.project(camera.view.transform_point3a(*point)));
+            outline_area(seen.map(|point| point.truncate().as_dvec2()).collect()) / (640.0 * 480.0)
+        };
+        for (model, least) in [
+            (hull(DVec3::X * 8.0, DVec3::Y * 0.7, DVec3::Z * 0.8), 0.24),
+            (hull(DVec3::X * 8.0, DVec3::Y * 8.0, DVec3::Z * 1.2), 0.55),
+        ] {
+            let picture = Picture { width: 640, height: 480, ..Picture::default() };
+            let chosen = area(&model, viewpoint(&model, &picture));
+            let (azimuth, elevation, _) = suitable(&model.iter().map(|p| p.as_dvec3()).collect::<Vec<_>>());
+            let plain = Viewpoint { azimuth: azimuth.to_radians(), elevation: elevation.to_radians() };
+            let before = area(&model, plain);
+            assert!(chosen > least && chosen > 1.1 * before, "{chosen} instead of {before}");
+        }
+    }
+
+    #[test]
+    fn the_area_of_an_outline_is_that_of_its_convex_hull() {
+        let square: Vec<DVec2> = (0..49).map(|i| DVec2::new((i % 7) as f64, (i / 7) as f64)).collect();
+        assert!((outline_area(square) - 36.0).abs() < 1e-9);
+        assert_eq!(outline_area(vec![DVec2::ONE]), 0.0);
     }
 }

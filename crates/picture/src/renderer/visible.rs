@@ -47,7 +47,7 @@ impl Visible {
         let offset = Vec3A::new(0.0, (pixels.start * rows) as f32, 0.0);
         stage.batches().into_par_iter().for_each(|numbers| {
             let project = |point| camera.project(point) * scale - offset;
-            let near = Some(camera.near_plane());
+            let near = Some([camera.near_plane(), camera.slope()]);
             stage.each_triangle(numbers, &camera.view, project, near, |draw, triangle| {
                 let [a, b, c] = triangle.corners;
                 let turn = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
@@ -55,7 +55,7 @@ impl Visible {
                 if ((turn > 0.0) != draw.mirrored) && !draw.double_sided {
                     return;
                 }
-                let coverage = Coverage::of(draw, &triangle, [columns, rows], true);
+                let coverage = Coverage::of(draw, &triangle, [columns, rows], !camera.is_parallel());
                 grid.cover(triangle.corners, |y, xs, z, growth| {
                     let shift = shifts[y & (rows - 1)];
                     for (i, x) in xs.enumerate() {

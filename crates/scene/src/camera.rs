@@ -1,0 +1,101 @@
+//! Cameras of a scene, which scripts place.
+
+use burgeon_base::error::{Error, Result, SourcePlace};
+use glam::DVec3;
+
+/// Camera with a name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SceneCamera {
+    /// Name, unique in the scene.
+    pub name: String,
+    /// Position and projection.
+    pub view: CameraView,
+    /// Line of the declaration, if a script declares the camera.
+    pub place: Option<SourcePlace>,
+}
+
+/// Position and projection of a camera. Up is z.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CameraView {
+    /// Perspective.
+    Perspective {
+        /// Position (m).
+        from: DVec3,
+        /// Point in the middle of the picture (m).
+        to: DVec3,
+        /// Vertical field of view (degrees).
+        fov: f64,
+    },
+    /// Parallel projection.
+    Orthographic {
+        /// Position (m), from which the point is seen.
+        from: DVec3,
+        /// Point in the middle of the picture (m).
+        to: DVec3,
+        /// Height (m) that the picture shows; `None` fits the whole model.
+        height: Option<f64>,
+    },
+    /// Parallel projection from above, with north at the top, fitted to the model.
+    Plan,
+    /// Perspective from the height of a standing person's eyes, 1.7 m above the lowest point, fitted to the model.
+    EyeLevel {
+        /// Azimuth from north, clockwise (degrees); `None` chooses by the model's shape.
+        azimuth: Option<f64>,
+    },
+}
+
+impl CameraView {
+    /// Fails if the camera has no direction or no size.
+    ///
+    /// ```
+    /// use burgeon_scene::CameraView;
+    /// use glam::DVec3;
+    ///
+    /// let view = |to| CameraView::Perspective { from: DVec3::ONE, to, fov: 40.0 };
+    /// assert!(view(DVec3::ZERO).check().is_ok());
+    /// assert_eq!(view(DVec3::ONE).check().unwrap_err().message(), "the camera has no direction");
+    /// ```
+    pub fn check(&self) -> Result<()> {
+        let direction = |from: DVec3, to: DVec3| {
+            if !from.is_finite() || !to.is_finite() {
+                return Err(Error::argument("the position of the camera is not finite")
+                    .help("give three numbers (m)"));
+            }
+            if (to - from).length() <= 1e-9 * (1.0 + from.length()) {
+                return Err(Error::argument("the camera has no direction")
+                    .help("give two different points: from, its position, and to, the point that it shows"));
+            }
+            Ok(())
+        };
+        match *self {
+            Self::Perspective { from, to, fov } => {
+                if !(1.0..=120.0).contains(&fov) {
+                    return Err(Error::argument(format!("the field of view is {fov} degrees"))
+                        .help("give 1 to 120 degrees"));
+                }
+                direction(from, to)
+            }
+            Self::Orthographic { from, to, height } => {
+                if height.is_some_and(|height| !height.is_finite() || height <= 0.0) {
+                    return Err(Error::argument("the height that the camera shows is not above 0")
+                        .help("give metres"));
+                }
+                direction(from, to)
+            }
+            Self::EyeLevel { azimuth: Some(azimuth) } if !azimuth.is_finite() => {
+                Err(Error::argument("the camera's azimuth is not a number").help("give degrees from north"))
+            }
+            Self::Plan | Self::EyeLevel { .. } => Ok(()),
+        }
+    }
+
+    /// Returns the position (m) of a camera that is not fitted to the model.
+    #[must_use]
+    pub fn position(&self) -> Option<DVec3> {
+        match *self {
+            Self::Perspective { from, .. } => Some(from),
+            // A parallel projection shows the whole model, wherever the camera stands.
+            Self::Orthographic { .. } | Self::Plan | Self::EyeLevel { .. } => None,
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! Tests of pictures: cameras, quality, sky and ground.
+
+use insta::assert_snapshot;
+
+use crate::support::{Folder, assert_decent};
+
+const SCRIPT: &str = r#"local Slab = module("Slab")
+camera({ name = "street", from = { 12, -9, 1.7 }, to = { 0, 0, 3 }, fov = 60 })
+camera({ name = "map", view = "plan" })
+local tower = lsystem({ object = extruder({ sides = 4 }) })
+tower:axiom(Slab())
+tower:interpret("Slab", function(this) this:scale(3):extrude(8) end)
+tower:derive()
+"#;
+
+fn folder() -> Folder {
+    Folder::new().with("s.lua", SCRIPT)
+}
+
+/// Returns the pixels of a picture of the script with these options.
+fn picture(flags: &[&str]) -> Vec<u8> {
+    let folder = folder();
+    folder.burgeon(&[&["run", "s.lua", "--size", "64x48", "-o", "a.png"], flags].concat()).done();
+    image::open(folder.path().join("a.png")).unwrap().into_rgba8().into_raw()
+}
+
+/// Returns the error of a script that declares this camera.
+fn refused(camera: &str) -> String {
+    Folder::new().with("s.lua", &format!("\n{camera}\n{SCRIPT}")).refuses(&["run", "s.lua"])
+}
+
+/// Returns the error message for a wrong command line.
+fn wrong(flags: &[&str]) -> String {
+    let said = folder().burgeon(&[&["run", "s.lua", "-o", "a.png"], flags].concat());
+    assert_eq!((said.status, said.stdout.as_str()), (2, ""), "{}", said.stderr);
+    assert_decent(&said.stderr);
+    said.stderr
+}
+
+#[test]
+fn a_picture_has_the_first_camera_of_the_script_or_the_chosen_one() {
+    let first = picture(&[]);
+    assert!(first == picture(&["--camera", "street"]));
+    assert!(first == picture(&["--from", "12,-9,1.7", "--to", "0,0,3", "--fov", "60"]));
+    let map = picture(&["--camera", "map"]);
+    assert!(map != first && map == picture(&["--camera", "plan"]));
+    let others = [
+        picture(&["--camera", "eye"]),
+        picture(&["--azimuth", "150"]),
+        picture(&["--from", "12,-9,1.7", "--to", "0,0,3", "--orthographic"]),
+        picture(&["--from", "12,-9,1.7", "--to", "0,0,3", "--orthographic=4"]),
+        picture(&["--quality", "fine"]),
+        picture(&["--background", "sky"]),
+        picture(&["--sun", "90,20"]),
+        picture(&["--sun", "17:30"]),
+        picture(&["--haze", "20"]),
+        picture(&["--no-floor"]),
+    ];
+    for (number, other) in others.iter().enumerate() {
+        assert!(*other != first, "picture {number} is the first");
+        assert!(others[..number].iter().all(|before| before != other), "picture {number} repeats another");
+    }
+}
+
+#[test]
+fn a_camera_without_a_direction_or_with_a_wrong_field_is_refused_with_its_line() {
+    assert_snapshot!(refused(r#"camera({ from = { 1, 2, 3 }, to = { 1, 2, 3 } })"#), @r#"
+    error: s.lua:2: the camera has no direction
+      | camera({ from = { 1, 2, 3 }, to = { 1, 2, 3 } })
+      help: give two different points: from, its position, and to, the point that it shows
+    "#);
+    assert_snapshot!(refused(r#"camera({ name = "a", to = { 1, 2, 3 } })"#), @r#"
+    error: s.lua:2: camera a has no `from`
+      | camera({ name = "a", to = { 1, 2, 3 } })
+      help: write camera({ name = "a", from = { 20, -30, 2 }, to = { 0, 0, 5 } })
+    "#);
+    assert_snapshot!(refused(r#"camera({ form = { 1, 2, 3 } })"#), @r#"
+    error: s.lua:2: unknown field `form` in camera
+      | camera({ form = { 1, 2, 3 } })
+      help: did you mean from?
+    "#);
+    assert_snapshot!(refused(r#"camera({ name = "a", view = "plan", fov = 20 })"#), @r#"
+    error: s.lua:2: camera a has no `fov`: its view is "plan"
+      | camera({ name = "a", view = "plan", fov = 20 })
+      help: remove it: the view "plan" is fitted to the model
+    "#);
+    assert_snapshot!(refused(r#"camera({ name = "a", view = "above" })"#), @r#"
+    error: s.lua:2: unknown view "above" of camera a
+      | camera({ name = "a", view = "above" })
+      help: write "perspective", "orthographic", "plan" or "eye"
+    "#);
+    assert_snapshot!(refused(r#"camera({ from = { 1, 2, 3 }, to = { 0, 0, 0 }, fov = 200 })"#), @r#"
+    error: s.lua:2: the field of view is 200 degrees
+      | camera({ from = { 1, 2, 3 }, to = { 0, 0, 0 }, fov = 200 })
+      help: give 1 to 120 degrees
+    "#);
+    assert_snapshot!(refused(r#"camera({ name = "map", view = "eye" })"#), @r#"
+    error: s.lua:5: the camera map is already declared in s.lua:2
+      | camera({ name = "map", view = "plan" })
+      help: give each camera a name: camera({ name = "street", ... })
+    "#);
+}
+
+#[test]
+fn a_camera_inside_a_solid_is_a_warning_with_its_line() {
+    let inside = "camera({ name = \"cellar\", from = { 0.5, 0.3, 4 }, to = { 9, 0, 4 } })\n";
+    let folder = Folder::new().with("s.lua", &format!("{inside}{SCRIPT}"));
+    let said = folder.burgeon(&["run", "s.lua", "-o", "a.glb"]).done();
+    assert!(said.stderr.contains("s.lua:1: camera cellar is inside a solid"), "{}", said.stderr);
+    assert!(!said.stderr.contains("street"), "{}", said.stderr);
+    folder.refuses(&["run", "s.lua", "--strict", "-o", "a.glb"]);
+}
+
+#[test]
+fn an_unknown_camera_and_a_sun_at_night_are_refused() {
+    let error = folder().refuses(&["run", "s.lua", "-o", "a.png", "--camera", "stret"]);
+    assert!(error.contains("did you mean street?"), "{error}");
+    for sun in ["0:30", "90,-3", "noon", "12:00,95"] {
+        assert!(wrong(&["--sun", sun]).contains("--sun"), "{sun}");
+    }
+    assert!(wrong(&["--from", "1,2"]).contains("write a position"));
+    assert!(wrong(&["--from", "1,2,3"]).contains("--to"));
+    assert!(wrong(&["--haze", "0"]).contains("write a distance above 0"));
+    assert!(wrong(&["--frames", "0:3", "--quality", "fine"]).contains("cannot be used with"));
+}
