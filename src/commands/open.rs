@@ -4,7 +4,7 @@ use std::fs::{self, OpenOptions};
 use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
-use burgeon::export::read_recipe;
+use burgeon::export::{FORMATS, Need, extension_list, read_recipe};
 use burgeon::packages::{FileName, hash_file};
 use burgeon::presets::Presets;
 use burgeon::scene::Recipe;
@@ -27,7 +27,7 @@ const MOST_FOLDERS: usize = 100;
 
 /// Shows a model live again: writes the script of its recipe to a new folder, and says what is missing
 #[derive(Args)]
-#[command(mut_arg("script", |arg| arg.value_name("MODEL").help("Model with a recipe, a .glb or .gltf file")))]
+#[command(mut_arg("script", |arg| arg.value_name("MODEL").help(model_help())))]
 pub(crate) struct OpenCommand {
     #[command(flatten)]
     script: ScriptFlags,
@@ -42,6 +42,11 @@ pub(crate) struct OpenCommand {
 
     #[command(flatten)]
     page: PageFlags,
+}
+
+fn model_help() -> String {
+    let formats = FORMATS.iter().filter(|format| format.needs(Need::Recipe));
+    format!("Model with a recipe: {}", extension_list(formats, "or"))
 }
 
 impl OpenCommand {

@@ -184,7 +184,7 @@ fn files_without_a_usable_recipe_are_refused() {
         .with("cut.glb", b"glTF\x02\0\0\0\x99\0\0\0\x40\0\0\0JSON{}")
         .with("none.gltf", r#"{ "asset": { "version": "2.0" } }"#);
     let said = |name: &str| folder.burgeon(&["open", name, "--no-live"]).failed();
-    assert!(said("text.glb").contains("text.glb is broken: it is no glTF file"));
+    assert!(said("text.glb").contains("text.glb is broken: it is neither glTF nor a page"));
     assert!(said("cut.glb").contains("it is shorter than its headers say"));
     assert!(said("none.gltf").contains("none.gltf has no recipe"));
     assert!(said("missing.glb").contains("cannot read missing.glb"));

@@ -31,6 +31,7 @@ const CHAPTERS: [(&str, &str); 24] = [
     ("Street networks", "networks"),
     ("Running scripts", "running"),
     ("Export formats", "formats"),
+    ("Recipes and shared pages", "sharing"),
     ("3D Tiles", "tiles"),
     ("Live view", "live"),
     ("Custom object types", "types"),
