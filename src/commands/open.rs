@@ -1,5 +1,6 @@
 //! `burgeon open`: shows a model live again, from the recipe in its file.
 
+use std::collections::BTreeSet;
 use std::fs::{self, OpenOptions};
 use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
@@ -185,6 +186,11 @@ fn check_names(model: &Path, recipe: &Recipe) -> Result<()> {
             })
             && name.len() <= 1000
     };
+    // Some file systems do not distinguish these.
+    let names: BTreeSet<String> = recipe.files.iter().map(|file| file.name.to_lowercase()).collect();
+    if names.len() < recipe.files.len() {
+        return Err(refuse("has several files with the same name".to_owned()));
+    }
     match recipe.files.iter().find(|file| !is_sound(&file.name)) {
         Some(file) => {
             let name = burgeon::text::shown(&file.name).chars().take(100).collect::<String>();
