@@ -1,10 +1,11 @@
 //! `burgeon open`: shows a model live again, from the recipe in its file.
 
+use std::collections::BTreeSet;
 use std::fs::{self, OpenOptions};
 use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
-use burgeon::export::read_recipe;
+use burgeon::export::{FORMATS, Need, extension_list, read_recipe};
 use burgeon::packages::{FileName, hash_file};
 use burgeon::presets::Presets;
 use burgeon::scene::Recipe;
@@ -27,7 +28,7 @@ const MOST_FOLDERS: usize = 100;
 
 /// Shows a model live again: writes the script of its recipe to a new folder, and says what is missing
 #[derive(Args)]
-#[command(mut_arg("script", |arg| arg.value_name("MODEL").help("Model with a recipe, a .glb or .gltf file")))]
+#[command(mut_arg("script", |arg| arg.value_name("MODEL").help(model_help())))]
 pub(crate) struct OpenCommand {
     #[command(flatten)]
     script: ScriptFlags,
@@ -42,6 +43,11 @@ pub(crate) struct OpenCommand {
 
     #[command(flatten)]
     page: PageFlags,
+}
+
+fn model_help() -> String {
+    let formats = FORMATS.iter().filter(|format| format.needs(Need::Recipe));
+    format!("Model with a recipe: {}", extension_list(formats, "or"))
 }
 
 impl OpenCommand {
@@ -180,6 +186,11 @@ fn check_names(model: &Path, recipe: &Recipe) -> Result<()> {
             })
             && name.len() <= 1000
     };
+    // Some file systems do not distinguish these.
+    let names: BTreeSet<String> = recipe.files.iter().map(|file| file.name.to_lowercase()).collect();
+    if names.len() < recipe.files.len() {
+        return Err(refuse("has several files with the same name".to_owned()));
+    }
     match recipe.files.iter().find(|file| !is_sound(&file.name)) {
         Some(file) => {
             let name = burgeon::text::shown(&file.name).chars().take(100).collect::<String>();

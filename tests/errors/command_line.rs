@@ -344,6 +344,7 @@ fn help_reads_well() {
       fit          Searches for a rule table whose terrain is like a height map
       mods         Lists the packages that scripts can use, and what they replace; checks, explains, makes, adds and disables them
       new          Makes a script to start from
+      open         Shows a model live again: writes the script of its recipe to a new folder, and says what is missing
       setup        Writes into a folder what Visual Studio Code with luau-lsp needs to complete and check scripts, with the types of objects that they declare
       sources      Lists the layers of data files and databases, with their attributes, coordinate systems and extents
       tiles        Makes 3D Tiles of the features of a country, with any number of processes
@@ -371,33 +372,37 @@ fn help_reads_well() {
       <SCRIPT>  Script, a Lua file; - is standard input
 
     Options:
-          --set <NAME=VALUE>    Sets a parameter of the script
-          --preset <NAME>       Loads parameters and seed from a preset; --set and --seed override it
-          --data <FOLDER>       Allows the script to read data files in this folder and its subfolders; may be repeated
-          --database <ADDRESS>  Allows the script to query this database, postgres://USER:PASSWORD@HOST/NAME; may be repeated
-          --mods <FOLDER>       Adds a folder of packages, or one package; may be repeated
-          --strict              Treats warnings as errors, and stops at the first unusable feature
-          --seed <N>            Seed of all random numbers [default: 0]
-          --steps <N>           Derives at most N steps
-          --part <K/N>          Builds one of several parts of the features, such as 2/4
-          --reach <METRES>      Distance (m) within which features of other parts are derived too, but not written [default: 0]
-          --lod <N>             Level of detail: 0 footprints, 1 blocks, 2 roofs, 3 full detail [default: 3]
-          --threads <N>         Number of threads; does not affect the result [default: number of cores]
-          --stdlib <FILE>       Replaces the built-in standard library by this file
-          --json                Prints machine-readable JSON instead of text
-      -o, --output <FILE>       Writes the model to this file; the extension selects the format: FORMATS. May be repeated
-          --format <EXTENSION>  Format of the model on standard output, -o -
-          --metadata[=<NAMES>]  Includes ids and attributes of features in .glb and .gltf files: the attributes that the script names, or =NAMES, or all with ='*'
-          --instances <KIND>    Storage of repeated models in .glb and .gltf files [default: nodes up to 1000 instances, else extension] [possible values: nodes, extension, expanded]
-          --chain <FILE>        Writes the final chains as text, one per line; - is standard output, or the JSON document with --json
-          --heights <FILE>      Writes the heights of the terrain as a height map: HEIGHT FORMATS
-          --edits <FILE>        Writes the terrain edits, for edits(FILE) in a script
-          --tiles <FOLDER>      Writes a .glb file for each tile of the terrain to this folder
-          --report <FILE>       Writes a JSON report of skipped and simplified features; - is standard output
-          --parts <N>           Writes the model in N parts, one after another: FILE-1 to FILE-N. Memory is that of one part
-          --watch               Runs and writes again on every save, until interrupted
-          --save-preset <NAME>  Saves the seed and the given values as a preset, if the run succeeds
-      -h, --help                Print help (see more with '--help')
+          --set <NAME=VALUE>      Sets a parameter of the script
+          --preset <NAME>         Loads parameters and seed from a preset; --set and --seed override it
+          --data <FOLDER>         Allows the script to read data files in this folder and its subfolders; may be repeated
+          --database <ADDRESS>    Allows the script to query this database, postgres://USER:PASSWORD@HOST/NAME; may be repeated
+          --mods <FOLDER>         Adds a folder of packages, or one package; may be repeated
+          --strict                Treats warnings as errors, and stops at the first unusable feature
+          --seed <N>              Seed of all random numbers [default: 0]
+          --steps <N>             Derives at most N steps
+          --part <K/N>            Builds one of several parts of the features, such as 2/4
+          --reach <METRES>        Distance (m) within which features of other parts are derived too, but not written [default: 0]
+          --lod <N>               Level of detail: 0 footprints, 1 blocks, 2 roofs, 3 full detail [default: 3]
+          --threads <N>           Number of threads; does not affect the result [default: number of cores]
+          --stdlib <FILE>         Replaces the built-in standard library by this file
+          --json                  Prints machine-readable JSON instead of text
+      -o, --output <FILE>         Writes the model to this file; the extension selects the format: FORMATS. May be repeated
+          --format <EXTENSION>    Format of the model on standard output, -o -
+          --metadata[=<NAMES>]    Includes ids and attributes of features in .glb, .gltf and .html files: the attributes that the script names, or =NAMES, or all with ='*'
+          --instances <KIND>      Storage of repeated models in .glb and .gltf files [default: nodes up to 1000 instances, else extension] [possible values: nodes, extension, expanded]
+          --no-recipe             Leaves the recipe out of models: the script, its values, and the hashes of its packages and data
+          --compress              Compresses the arrays of .glb files, for viewers with EXT_meshopt_compression
+          --chain <FILE>          Writes the final chains as text, one per line; - is standard output, or the JSON document with --json
+          --heights <FILE>        Writes the heights of the terrain as a height map: HEIGHT FORMATS
+          --edits <FILE>          Writes the terrain edits, for edits(FILE) in a script
+          --tiles <FOLDER>        Writes a .glb file for each tile of the terrain to this folder
+          --report <FILE>         Writes a JSON report of skipped and simplified features; - is standard output
+          --parts <N>             Writes the model in N parts, one after another: FILE-1 to FILE-N. Memory is that of one part
+          --watch                 Runs and writes again on every save, until interrupted
+          --levels <LODS>         Writes several levels of detail, from the finest on, such as 3,2,1
+          --level-storage <KIND>  Storage of the levels [default: names] [possible values: names, extension, files]
+          --save-preset <NAME>    Saves the seed and the given values as a preset, if the run succeeds
+      -h, --help                  Print help (see more with '--help')
 
     Limits:
           --time-limit <SECONDS>      Stops after this time [default: 300]

@@ -169,7 +169,10 @@ fn names_that_lead_out_of_the_folder_are_refused_before_anything_is_written() {
         assert_eq!(folder.files().len(), 1, "{name:?}");
     }
     let twice = model(&recipe(&[("s.lua", "return 1"), ("s.lua", "return 2")]));
-    assert!(twice.burgeon(&["open", "m.gltf", "--no-live"]).failed().contains("cannot write"));
+    assert!(
+        twice.burgeon(&["open", "m.gltf", "--no-live"]).failed().contains("several files with the same name")
+    );
+    assert_eq!(twice.files().len(), 1);
     // Quotes, spaces and emoji are names like others.
     let name = "a \"b\" </script> '\u{1f331}.lua".replace('/', "");
     let folder = model(&recipe(&[(&name, "return 1")]));
@@ -184,7 +187,7 @@ fn files_without_a_usable_recipe_are_refused() {
         .with("cut.glb", b"glTF\x02\0\0\0\x99\0\0\0\x40\0\0\0JSON{}")
         .with("none.gltf", r#"{ "asset": { "version": "2.0" } }"#);
     let said = |name: &str| folder.burgeon(&["open", name, "--no-live"]).failed();
-    assert!(said("text.glb").contains("text.glb is broken: it is no glTF file"));
+    assert!(said("text.glb").contains("text.glb is broken: it is neither glTF nor a page"));
     assert!(said("cut.glb").contains("it is shorter than its headers say"));
     assert!(said("none.gltf").contains("none.gltf has no recipe"));
     assert!(said("missing.glb").contains("cannot read missing.glb"));

@@ -346,7 +346,7 @@ mod tests {
         ");
         insta::assert_snapshot!(find(&FORMATS[..3], Path::new("tower.step")).unwrap_err(), @r"
         cannot write tower.step: unknown file extension .step
-          help: supported formats are .glb, .gltf and .obj
+          help: supported formats are .glb, .gltf and .html
         ");
     }
 

@@ -20,6 +20,12 @@ use crate::{Export, SceneFacts, gltf, stem};
 /// Text of the page, with places for its generator, title and content.
 const PAGE: &str = include_str!("../../../viewer/dist/shared.html");
 
+/// Number of bytes by which a page is recognised.
+const BEGIN: usize = 15;
+
+/// Start tag of the facts.
+const FACTS: &str = "<script type=\"application/json\" id=\"facts\">";
+
 /// Maximum size (bytes) of a page. Browsers hold its text in memory several times.
 const LARGEST: u64 = 100_000_000;
 
@@ -58,7 +64,7 @@ pub(crate) fn write(export: &Export<'_>, path: &Path, files: &mut Files) -> Resu
         head.replacen("{{generator}}", &generator, 1).replacen("{{title}}", &escape_attribute(&name), 1);
     files.write(path, |out| {
         out.write_all(head.as_bytes())?;
-        writeln!(out, "<script type=\"application/json\" id=\"facts\">{facts}</script>")?;
+        writeln!(out, "{FACTS}{facts}</script>")?;
         if let Some(model) = &model {
             out.write_all(b"<script type=\"application/octet-stream\" id=\"model\">")?;
             let mut encoder = EncoderWriter::new(&mut *out, &STANDARD);
@@ -69,6 +75,17 @@ pub(crate) fn write(export: &Export<'_>, path: &Path, files: &mut Files) -> Resu
         }
         out.write_all(tail.as_bytes())
     })
+}
+
+/// Returns true if a file that begins with `text` is a page.
+pub(crate) fn is_page(text: &[u8]) -> bool {
+    PAGE.as_bytes().starts_with(text.get(..BEGIN).unwrap_or(b"no page"))
+}
+
+/// Returns the facts in the text of a page as JSON; `None` if it is no page of a model.
+pub(crate) fn facts_of(text: &str) -> Option<&str> {
+    let (_, facts) = text.split_once(FACTS).filter(|_| is_page(text.as_bytes()))?;
+    facts.split_once("</script>").map(|(facts, _)| facts)
 }
 
 /// Returns the facts that the page shows.

@@ -3,6 +3,7 @@
 use std::io::{ErrorKind, Read as _};
 use std::path::Path;
 
+use crate::page;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::text::grouped;
 use burgeon_scene::Recipe;
@@ -33,7 +34,7 @@ struct RecipeExtras<'a> {
     recipe: Option<&'a RawValue>,
 }
 
-/// Returns the recipe in the `.glb` or `.gltf` file at `path`.
+/// Returns the recipe in the `.glb`, `.gltf` or `.html` file at `path`.
 ///
 /// Fails if the file is broken, if it has no recipe, or if the recipe is larger than [`Recipe::LARGEST`] or incomplete. The file
 /// need not be trusted.
@@ -50,12 +51,20 @@ struct RecipeExtras<'a> {
 pub fn read_recipe(path: &Path) -> Result<Recipe> {
     let text = description(path)?;
     let text = std::str::from_utf8(&text).map_err(|_| broken(path, &"its description is not text"))?;
-    let document: RecipeDocument<'_> = serde_json::from_str(text).map_err(|error| broken(path, &error))?;
-    let extras = document.asset.and_then(|asset| asset.extras);
-    let extras = extras.and_then(|extras| serde_json::from_str::<RecipeExtras<'_>>(extras.get()).ok());
+    let extras = match page::facts_of(text) {
+        Some(facts) => {
+            Some(serde_json::from_str::<RecipeExtras<'_>>(facts).map_err(|error| broken(path, &error))?)
+        }
+        None => {
+            let document: RecipeDocument<'_> =
+                serde_json::from_str(text).map_err(|error| broken(path, &error))?;
+            let extras = document.asset.and_then(|asset| asset.extras);
+            extras.and_then(|extras| serde_json::from_str::<RecipeExtras<'_>>(extras.get()).ok())
+        }
+    };
     let Some(recipe) = extras.and_then(|extras| extras.recipe) else {
         return Err(Error::file(path, format!("{} has no recipe", path.display()))
-            .help("burgeon run writes one into .glb and .gltf files, unless --no-recipe is given"));
+            .help("burgeon run writes one into .glb, .gltf and .html files, unless --no-recipe is given"));
     };
     parse(path, recipe.get())
 }
@@ -81,13 +90,13 @@ fn parse(path: &Path, text: &str) -> Result<Recipe> {
     Ok(recipe)
 }
 
-/// Reads the description of the model at `path`: the first part of a `.glb` file, or all of a `.gltf` file.
+/// Reads the description of the model at `path`: the first part of a `.glb` file, or all of another file.
 fn description(path: &Path) -> Result<Vec<u8>> {
     let unreadable = |error: &std::io::Error| {
         let error_of = Error::file(path, format!("cannot read {}: {error}", path.display()));
         match error.kind() {
             ErrorKind::NotFound => error_of.help("check the path"),
-            _ => error_of.help("specify a .glb or .gltf file with read permission"),
+            _ => error_of.help("specify a .glb, .gltf or .html file with read permission"),
         }
     };
     let (mut file, meta) = burgeon_base::files::open(path).map_err(|error| unreadable(&error))?;
@@ -109,8 +118,10 @@ fn description(path: &Path) -> Result<Vec<u8>> {
             }
             (u64::from(length), Vec::new())
         }
-        text if text.trim_ascii_start().starts_with(b"{") => (meta.len().saturating_sub(HEAD), text.to_vec()),
-        _ => return Err(broken(path, &"it is no glTF file")),
+        text if text.trim_ascii_start().starts_with(b"{") || page::is_page(text) => {
+            (meta.len().saturating_sub(HEAD), text.to_vec())
+        }
+        _ => return Err(broken(path, &"it is neither glTF nor a page")),
     };
     if length > LARGEST {
         let text = format!("the description of {} has {} MB", path.display(), length / 1_000_000);
@@ -124,7 +135,7 @@ fn description(path: &Path) -> Result<Vec<u8>> {
 /// Returns the error for a file that is no model, for the reason `why`.
 fn broken(path: &Path, why: &dyn std::fmt::Display) -> Error {
     Error::file(path, format!("{} is broken: {why}", path.display()))
-        .help("specify a .glb or .gltf file that burgeon run has written")
+        .help("specify a .glb, .gltf or .html file that burgeon run has written")
 }
 
 #[cfg(test)]
@@ -165,10 +176,10 @@ mod tests {
     }
 
     #[test]
-    fn both_forms_of_gltf_carry_a_recipe_with_any_text() {
+    fn models_and_pages_carry_a_recipe_with_any_text() {
         let folder = tempfile::tempdir().unwrap();
         let recipe = recipe("-- \"quotes\", </script>, \u{1f331} and \\\n\u{0}");
-        for name in ["a.glb", "a.gltf"] {
+        for name in ["a.glb", "a.gltf", "a.html"] {
             let path = folder.path().join(name);
             write(Some(&recipe), &path);
             assert_eq!(read_recipe(&path).unwrap(), recipe);
@@ -185,7 +196,7 @@ mod tests {
             std::fs::write(&path, bytes).unwrap();
             read_recipe(&path).unwrap_err().to_string()
         };
-        assert!(told(b"").contains("is no glTF file"));
+        assert!(told(b"").contains("is neither glTF nor a page"));
         assert!(told(b"glTF").contains("not binary glTF 2.0"));
         assert!(
             told(b"glTF\x02\0\0\0\xff\xff\xff\xff\xff\xff\xff\xffJSON{}")
@@ -195,7 +206,7 @@ mod tests {
         assert!(told(b"{ \"asset\": {").contains("is broken"));
         assert!(told(b"{\"asset\":{\"extras\":5}}             ").contains("has no recipe"));
         assert!(told(b"{\"asset\":{\"extras\":{\"recipe\":5}}}   ").contains("recipe of"));
-        assert!(told("[".repeat(100_000).as_bytes()).contains("is no glTF file"));
+        assert!(told("[".repeat(100_000).as_bytes()).contains("is neither glTF nor a page"));
         let nested = format!("{{\"asset\":{}", "[".repeat(100_000));
         assert!(told(nested.as_bytes()).contains("is broken"));
         write(Some(&recipe(&"x".repeat(Recipe::LARGEST))), &path);

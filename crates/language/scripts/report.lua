@@ -2,11 +2,11 @@
 local House, Storey = module("House", "levels"), module("Storey", "height")
 local houses = lsystem({ object = footprint })
 local plots = {
-  { id = "mill", levels = 2, geometry = "POLYGON ((0 0, 12 0, 12 8, 0 8, 0 0))" },
-  { id = "barn", levels = 1, geometry = "POLYGON ((20 0, 30 0, 30 15, 20 15, 20 0))" },
+  { id = "mill", levels = 2, outline = { { 0, 0 }, { 12, 0 }, { 12, 8 }, { 0, 8 } } },
+  { id = "barn", levels = 1, outline = { { 20, 0 }, { 30, 0 }, { 30, 15 }, { 20, 15 } } },
 }
 houses:axiom(source(plots), function(feature)
-  return footprint(feature.geometry), House(feature.levels)
+  return footprint(feature.outline), House(feature.levels)
 end)
 houses:rule("House(levels)", function(this, levels)
   if levels > 0 then

@@ -32,6 +32,7 @@ const CHAPTERS: [(&str, &str); 25] = [
     ("Running scripts", "running"),
     ("Pictures", "renders"),
     ("Export formats", "formats"),
+    ("Recipes and shared pages", "sharing"),
     ("3D Tiles", "tiles"),
     ("Live view", "live"),
     ("Custom object types", "types"),

@@ -70,8 +70,8 @@ pub(crate) struct RunCommand {
     #[arg(long)]
     pub(super) no_recipe: bool,
 
-    /// Compresses the arrays of .glb files, for viewers with EXT_meshopt_compression
-    #[arg(long)]
+    /// Compresses arrays of models
+    #[arg(long, help = compress_help())]
     pub(super) compress: bool,
 
     /// Writes the final chains as text, one per line; - is standard output, or the JSON document with --json
@@ -147,6 +147,10 @@ fn instances_help() -> String {
     format!(
         "Storage of repeated models in {formats} files [default: nodes up to {most} instances, else extension]"
     )
+}
+
+fn compress_help() -> String {
+    format!("Compresses the arrays of .{} files, for viewers with EXT_meshopt_compression", GLB.extension())
 }
 
 fn heights_help() -> String {

@@ -43,9 +43,9 @@ const OTHERS: [&str; 12] = [
 /// Storage of levels of detail
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum LevelsFlag {
-    /// Nodes NAME_LOD0, NAME_LOD1 and so on in one .glb file, for game engines
+    /// Nodes NAME_LOD0, NAME_LOD1 and so on in one file, for game engines
     Names,
-    /// MSFT_lod in one .glb file
+    /// MSFT_lod in one file
     Extension,
     /// A file for each level: FILE_LOD0, FILE_LOD1 and so on
     Files,
