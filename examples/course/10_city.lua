@@ -80,10 +80,10 @@ local styles = {
 local Tower, House = module("Tower", "height", "style"), module("House", "height", "style")
 local sites: { any } = {}
 for _, lot in lots do
-  local plan = lot.geometry:inset(2.5)
+  local plan = lot.geometry:inset(2.5):geometry_n(1)
   local away = lot.geometry:distance(point(0, 0)) / extent
   local height = highest * math.exp(-4.5 * away) * random(0.6, 1.25) + random(7, 12)
-  if lot.use ~= "building" or plan:is_empty() then
+  if lot.use ~= "building" or not plan then
     continue
   elseif height < 24 or plan:area() < 220 then
     table.insert(
@@ -91,12 +91,12 @@ for _, lot in lots do
       { id = lot.id, geometry = plan, height = math.min(height, 21), style = choose({ 1, 2 }) }
     )
   else
-    local core = plan:inset(3)
+    local core = plan:inset(3):geometry_n(1)
     local style = choose({ 1, 3, 3, 4, 4 })
     table.insert(sites, { id = lot.id, geometry = plan, height = 10, style = style })
-    if not core:is_empty() then
+    if core then
       local ring = {}
-      for _, corner in core:geometry_n(1).rings[1] do
+      for _, corner in core.rings[1] do
         table.insert(ring, { corner[1], corner[2], 10 })
       end
       table.insert(
