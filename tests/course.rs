@@ -59,7 +59,7 @@ fn every_script_of_the_course_and_the_cookbook_runs_without_a_warning_and_is_dra
                 Err(error) => wrong.push(format!("{}: {error}", path.display())),
                 Ok(run) => {
                     let share = covered(&run.scene, &folder.path().join("picture.png"));
-                    if share < 0.02 {
+                    if share < 0.01 {
                         wrong.push(format!("{} covers {share} of its picture", path.display()));
                     }
                 }
