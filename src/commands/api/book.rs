@@ -42,10 +42,10 @@ const CHAPTERS: [(&str, &str); 24] = [
 ];
 
 /// Page with its subpages: their titles, and their files in the folder of the page.
-type Section = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
+type BookSection = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
 
 /// Pages for beginners.
-const LEARNING: [Section; 2] = [
+const LEARNING: [BookSection; 2] = [
     (
         "Course",
         "course",
