@@ -39,13 +39,15 @@ end)
 local city: Network = roads:derive(16).objects[1]
 
 -- 2. Lots. Each is a feature with its polygon, its area and its use.
-local lots = city:lots({ kind = "strips", width = 24, depth = 26, parks = parks, all = true })
+local blocks = city:blocks()
+local lots =
+  city:lots({ blocks = blocks, kind = "strips", width = 24, depth = 26, parks = parks, all = true })
 
 -- 3. The ground: a plate under the city, and lawns in the blocks.
 local Plate = module("Plate", "shape", "from", "to", "color")
 local ground = lsystem({ object = extruder({ smooth = false, roughness = 1 }) })
 local plates = { Plate(edge:buffer(16), -8, -0.3, "#8a8f74") }
-for _, block in city:blocks() do
+for _, block in blocks do
   table.insert(plates, Plate(block.geometry, -0.3, 0.14, "#93996f"))
 end
 for _, lot in lots do
