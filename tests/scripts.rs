@@ -242,13 +242,21 @@ fn every_script_gives_the_same_bytes_for_one_thread_and_for_two() {
     }
 }
 
-/// Returns README.md and the manually written pages of the book.
+/// Returns README.md and the manually written pages of the book, with the files that they include.
 fn guide() -> String {
     let pages = fs::read_dir(root().join("docs/book/src")).unwrap().map(|entry| entry.unwrap().path());
     let mut pages: Vec<PathBuf> = pages.filter(|path| path.is_file()).collect();
     pages.sort();
     assert!(pages.len() > 8, "{pages:?}");
-    pages.iter().fold(README.to_owned(), |text, page| text + &fs::read_to_string(page).unwrap())
+    let text = pages.iter().fold(README.to_owned(), |text, page| text + &fs::read_to_string(page).unwrap());
+    let mut parts = text.split("{{#include ../../../");
+    let mut guide = parts.next().unwrap().to_owned();
+    for part in parts {
+        let (file, rest) = part.split_once("}}").unwrap();
+        guide += fs::read_to_string(root().join(file)).unwrap().trim_end();
+        guide += rest;
+    }
+    guide
 }
 
 #[test]
@@ -276,7 +284,7 @@ fn every_lua_block_of_the_guide_runs() {
         assert!(modules + run.scene.triangles() > 0, "{block}");
         count += 1;
     }
-    assert_eq!(count, 79);
+    assert_eq!(count, 83);
     assert_eq!(count, guide.matches("```lua").count(), "a fragment would go untested");
 }
 

@@ -38,9 +38,13 @@ forest:rule("Wood", function(this)
       table.insert(trees, { Tree(kind, x, y) })
     end
   end
-  return sequence(trees)
+  return Wood(), sequence(trees)
+end)
+forest:interpret("Wood", function(this)
+  local corners = { { -115, -115, 0 }, { 115, -115, 0 }, { 115, 115, 0 }, { -115, 115, 0 } }
+  this:color("#87935c"):mesh(corners, { { 1, 2, 3, 4 } })
 end)
 forest:interpret("Tree(kind, x, y)", function(this, kind, x, y)
   this:jump({ x, y, 0 }):roll(random(0, 360)):place(models[kind], random(0.8, 1.7))
 end)
-forest:derive()
+forest:derive(1)

@@ -53,7 +53,7 @@ local rules = {
   Shore = { "Hill", "Hill", "Hill", "Shore", change = { 0.1, 0.05, 0.05, -0.2 }, decay = 0.3 },
 }
 
-local Spring = module("Spring")
+local Spring, River = module("Spring"), module("River", "place")
 local land = lsystem({
   object = terrain({
     size = 1300,
@@ -95,9 +95,19 @@ local land = lsystem({
   }),
 })
 
--- The river runs downhill from its source to the lake.
+-- A river begins in the north-west, at the first of some random places from which it cuts no deep gorge.
 land:axiom(Spring())
-land:interpret("Spring", function(this)
-  this:river({ -340, 250, 0 }, 9)
+land:rule("Spring", function(this)
+  for _ = 1, 60 do
+    local place = vec(random(-450, -50), random(100, 450), 0)
+    local depth = this:river_cut(place, 9)
+    if depth and depth < 4 then
+      return River(place)
+    end
+  end
+  return nil
 end)
-land:derive(0)
+land:interpret("River(place)", function(this, place)
+  this:river(place, 9)
+end)
+land:derive(1)

@@ -39,13 +39,15 @@ end)
 local city: Network = roads:derive(16).objects[1]
 
 -- 2. Lots. Each is a feature with its polygon, its area and its use.
-local lots = city:lots({ kind = "strips", width = 24, depth = 26, parks = parks, all = true })
+local blocks = city:blocks()
+local lots =
+  city:lots({ blocks = blocks, kind = "strips", width = 24, depth = 26, parks = parks, all = true })
 
 -- 3. The ground: a plate under the city, and lawns in the blocks.
 local Plate = module("Plate", "shape", "from", "to", "color")
 local ground = lsystem({ object = extruder({ smooth = false, roughness = 1 }) })
 local plates = { Plate(edge:buffer(16), -8, -0.3, "#8a8f74") }
-for _, block in city:blocks() do
+for _, block in blocks do
   table.insert(plates, Plate(block.geometry, -0.3, 0.14, "#93996f"))
 end
 for _, lot in lots do
@@ -80,10 +82,10 @@ local styles = {
 local Tower, House = module("Tower", "height", "style"), module("House", "height", "style")
 local sites: { any } = {}
 for _, lot in lots do
-  local plan = lot.geometry:inset(2.5)
+  local plan = lot.geometry:inset(2.5):geometry_n(1)
   local away = lot.geometry:distance(point(0, 0)) / extent
   local height = highest * math.exp(-4.5 * away) * random(0.6, 1.25) + random(7, 12)
-  if lot.use ~= "building" or plan:is_empty() then
+  if lot.use ~= "building" or not plan then
     continue
   elseif height < 24 or plan:area() < 220 then
     table.insert(
@@ -91,12 +93,12 @@ for _, lot in lots do
       { id = lot.id, geometry = plan, height = math.min(height, 21), style = choose({ 1, 2 }) }
     )
   else
-    local core = plan:inset(3)
+    local core = plan:inset(3):geometry_n(1)
     local style = choose({ 1, 3, 3, 4, 4 })
     table.insert(sites, { id = lot.id, geometry = plan, height = 10, style = style })
-    if not core:is_empty() then
+    if core then
       local ring = {}
-      for _, corner in core:geometry_n(1).rings[1] do
+      for _, corner in core.rings[1] do
         table.insert(ring, { corner[1], corner[2], 10 })
       end
       table.insert(

@@ -188,18 +188,70 @@ fn new_makes_a_script_that_runs_and_never_overwrites_one() {
     assert!(folder.files()["model.glb"] > 10_000);
     assert_snapshot!(folder.refuses(&["new", "tree"]), @r"
     error: tree.lua already exists
-      help: choose another name
+      help: choose another name or folder
     ");
     assert_snapshot!(folder.refuses(&["new", "tree.lua"]), @r"
     error: tree.lua already exists
-      help: choose another name
+      help: choose another name or folder
     ");
     assert_snapshot!(folder.refuses(&["new", "no/tree"]), @r"
     error: cannot create no/tree.lua: folder not found: no
       help: create the folder first
     ");
     let said = folder.burgeon(&["new", "--json", "bush.lua"]).done();
-    assert_eq!(said.stdout, "{\"ok\":true,\"path\":\"bush.lua\"}\n");
+    assert_eq!(said.stdout, "{\"ok\":true,\"path\":\"bush.lua\",\"files\":[\"bush.lua\"]}\n");
+}
+
+#[test]
+fn every_starting_point_is_a_script_that_runs_without_a_warning() {
+    let folder = Folder::new();
+    for from in ["plant", "building", "tower", "terrain", "town", "empty"] {
+        let said = folder.burgeon(&["new", "--from", from, from]).done();
+        assert!(said.stderr.ends_with(&format!("; now: burgeon live {from}.lua\n")), "{}", said.stderr);
+        folder.burgeon(&["run", &format!("{from}.lua"), "--strict", "-o", "model.glb"]).done();
+    }
+    let said = folder.burgeon(&["new", "second", "--from", "town"]).done();
+    assert_eq!(said.stderr, "created second.lua; now: burgeon live second.lua\n", "the data is there");
+    let wrong = folder.burgeon(&["new", "third", "--from", "castle"]);
+    assert_eq!(wrong.status, 2);
+    assert!(wrong.stderr.contains("[possible values: plant, building,"), "{}", wrong.stderr);
+}
+
+#[test]
+fn a_starting_point_never_overwrites_data_and_its_name_is_quoted() {
+    let folder = Folder::new().with("town.geojson", "mine");
+    assert_snapshot!(folder.refuses(&["new", "--from", "town", "village"]), @r"
+    error: town.geojson already exists
+      help: choose another name or folder
+    ");
+    assert_eq!(folder.read("town.geojson"), "mine");
+    let said = folder.burgeon(&["new", "my tree's"]).done();
+    assert_eq!(said.stderr, "created my tree's.lua; now: burgeon live 'my tree'\\''s.lua'\n");
+}
+
+#[test]
+fn examples_are_written_into_a_new_folder_and_run_there() {
+    let folder = Folder::new();
+    let said = folder.burgeon(&["examples", "all"]).done();
+    assert!(said.stderr.ends_with("; now: burgeon live all/examples/course/01_box.lua\n"), "{}", said.stderr);
+    let count = folder.files().len();
+    assert!(count > 250, "{count} files");
+    assert!(said.stderr.starts_with(&format!("wrote {count} files to all")), "{}", said.stderr);
+    let box_script = include_str!("../../examples/course/01_box.lua");
+    assert_eq!(folder.read("all/examples/course/01_box.lua"), box_script);
+    folder.burgeon(&["run", "all/examples/course/08_street.lua", "--strict", "-o", "street.glb"]).done();
+    folder.burgeon(&["check", "all/scripts/town.lua", "--data", "all/examples/data"]).done();
+    folder.burgeon(&["check", "all/examples/castle.lua"]).done();
+    assert_snapshot!(folder.refuses(&["examples", "all"]), @r"
+    error: all is not empty
+      help: name a new folder: burgeon examples burgeon-examples
+    ");
+    assert_snapshot!(folder.refuses(&["examples", "street.glb"]), @r"
+    error: street.glb is not a folder
+      help: name a new folder: burgeon examples burgeon-examples
+    ");
+    let paths = folder.burgeon(&["examples", "more", "--json"]).done().json();
+    assert_eq!(paths["files"].as_array().unwrap().len(), count);
 }
 
 #[test]
@@ -343,8 +395,9 @@ fn help_reads_well() {
       variations   Runs a script many times, with other seeds or other values of a parameter, and shows them side by side
       fit          Searches for a rule table whose terrain is like a height map
       mods         Lists the packages that scripts can use, and what they replace; checks, explains, makes, adds and disables them
-      new          Makes a script to start from
+      new          Creates a starter script
       open         Shows a model live again: writes the script of its recipe to a new folder, and says what is missing
+      examples     Writes the example scripts into a folder: the course, the cookbook, the gallery, the published models, and their data
       setup        Writes into a folder what Visual Studio Code with luau-lsp needs to complete and check scripts, with the types of objects that they declare
       sources      Lists the layers of data files and databases, with their attributes, coordinate systems and extents
       tiles        Makes 3D Tiles of the features of a country, with any number of processes

@@ -14,12 +14,12 @@ const AXES: [&str; 2] = ["extruder", "turtle"];
 pub(super) type Page = (String, String);
 
 /// Chapters that are written by hand: their titles and files.
-const CHAPTERS: [(&str, &str); 25] = [
-    ("Introduction", "introduction"),
+const CHAPTERS: [(&str, &str); 27] = [
     ("Contexts and features", "rules"),
     ("Phases, hooks and variables", "phases"),
     ("Environments", "environments"),
     ("Curves and surfaces", "curves"),
+    ("Coming from other programs", "coming_from"),
     ("Burgeon for those who know lpfg, L-Py, XL or Houdini", "comparison"),
     ("Drawing, time and files compared", "drawing"),
     ("Porting an lpfg model", "porting"),
@@ -30,6 +30,7 @@ const CHAPTERS: [(&str, &str); 25] = [
     ("API reference", "objects"),
     ("Street networks", "networks"),
     ("Running scripts", "running"),
+    ("Python", "python"),
     ("Pictures", "renders"),
     ("Export formats", "formats"),
     ("Recipes and shared pages", "sharing"),
@@ -43,12 +44,53 @@ const CHAPTERS: [(&str, &str); 25] = [
     ("Code walkthrough", "walkthrough"),
 ];
 
+/// Page with its subpages: their titles, and their files in the folder of the page.
+type BookSection = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
+
+/// Pages for beginners.
+const LEARNING: [BookSection; 2] = [
+    (
+        "Course",
+        "course",
+        &[
+            ("A box", "01_box"),
+            ("A column", "02_column"),
+            ("A tower", "03_tower"),
+            ("A fern", "04_fern"),
+            ("A cherry tree", "05_cherry"),
+            ("A foxglove", "06_foxglove"),
+            ("A house", "07_house"),
+            ("A street", "08_street"),
+            ("A valley", "09_terrain"),
+            ("A city", "10_city"),
+        ],
+    ),
+    (
+        "Cookbook",
+        "cookbook",
+        &[
+            ("Rules and randomness", "rules"),
+            ("Shapes and materials", "shapes"),
+            ("Plants and growth", "plants"),
+            ("Buildings", "buildings"),
+            ("Land and data", "land"),
+        ],
+    ),
+];
+
 /// Returns the generated pages of the scripting API, and the list of all pages.
 pub(super) fn pages(entries: &[Entry]) -> Vec<Page> {
-    let mut summary = "# Summary\n\n".to_owned();
+    let mut summary = "# Summary\n\n[Introduction](introduction.md)\n\n# Learning\n\n".to_owned();
+    // Writing into a string cannot fail.
+    for (title, folder, subpages) in LEARNING {
+        let _ = writeln!(summary, "- [{title}]({folder}/README.md)");
+        for (title, file) in subpages {
+            let _ = writeln!(summary, "  - [{title}]({folder}/{file}.md)");
+        }
+    }
+    summary.push_str("\n# Guide\n\n");
     for (title, file) in CHAPTERS {
-        // Writing into a string cannot fail.
-        let _ = writeln!(summary, "[{title}]({file}.md)");
+        let _ = writeln!(summary, "- [{title}]({file}.md)");
     }
     summary.push_str("\n# Object types\n\n");
     let mut pages = Vec::new();
