@@ -174,7 +174,7 @@ fn messages_have_colours_only_if_the_environment_asks_for_them() {
     let said = |set: &[(&str, &str)]| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_burgeon"));
         command.args(["run", "s.lua"]).current_dir(folder.path()).env_remove("NO_COLOR");
-        set.iter().for_each(|(name, value)| drop(command.env(name, value)));
+        command.envs(set.iter().copied());
         String::from_utf8(command.output().unwrap().stderr).unwrap()
     };
     let plain = said(&[]);
