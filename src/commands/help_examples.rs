@@ -30,12 +30,12 @@ const EXAMPLES: [(&str, &[&str]); 27] = [
             "burgeon check tree.lua --json --strict",
         ],
     ),
-    ("api", &["burgeon api", "burgeon api turtle", "burgeon api turtle.forward"]),
+    ("api", &["burgeon api", "burgeon api turtle", "burgeon api turtle:forward"]),
     (
         "variations",
         &[
-            "burgeon variations tree.lua -o tree.html",
-            "burgeon variations tree.lua --vary height -o sheet.png",
+            "burgeon variations tree.lua --seeds 1..16 -o sheet.png",
+            "burgeon variations tree.lua --sweep height=2..10:2 -o sheet.png",
         ],
     ),
     ("fit", &["burgeon fit heights.tif -o island.lua"]),
@@ -54,12 +54,12 @@ const EXAMPLES: [(&str, &[&str]); 27] = [
     (
         "tiles",
         &[
-            "burgeon tiles plan house.lua land.gpkg:buildings -o tiles",
+            "burgeon tiles plan house.lua --data maps -o tiles",
             "burgeon tiles make tiles",
             "burgeon live tiles",
         ],
     ),
-    ("tiles plan", &["burgeon tiles plan house.lua land.gpkg:buildings -o tiles"]),
+    ("tiles plan", &["burgeon tiles plan house.lua --data maps -o tiles"]),
     ("tiles make", &["burgeon tiles make tiles"]),
     ("tiles join", &["burgeon tiles join tiles"]),
     ("tiles check", &["burgeon tiles check tiles"]),

@@ -102,7 +102,7 @@ fn an_error_says_what_is_wrong_with_the_arguments_of_a_string() {
       rule F: unknown name x
       help: a string knows the parameters of the pattern and the names of all scripts; write a function to use others
     s:rule("F", "F(1 +)")
-      error: s.lua:4:21: rule F: Expected identifier when parsing expression, got ')'
+      rule F: Expected identifier when parsing expression, got ')'
     s:rule("Q(F)", "F(F)")
       rule Q(F): read as F(F): F is also a parameter
       help: give the parameter of the pattern another name
