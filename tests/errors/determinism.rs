@@ -122,10 +122,11 @@ fn keys_whose_order_depends_on_addresses_are_refused_in_loops() {
     }
     let said =
         Folder::new().with("s.lua", "for key in pairs(nil) do end\n").burgeon(&["run", "s.lua"]).failed();
-    insta::assert_snapshot!(said, @r##"
-error: s.lua:1: pairs takes a table, not nothing
+    insta::assert_snapshot!(said, @r"
+error: s.lua:1:12: pairs takes a table, not nothing
   | for key in pairs(nil) do end
-"##);
+  |            ^^^^^
+");
 }
 
 #[test]

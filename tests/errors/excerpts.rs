@@ -194,8 +194,8 @@ fn literals_that_contradict_declared_types_are_found_by_a_check() {
     for (script, column, part) in [
         ("local x: number = \"a\"\nlocal y = x", 19, "x must be a number, not \"a\""),
         (
-            "local function f(a: number, b: string?) return a, b end\nprint(f(1), f(\"2\"))",
-            15,
+            "local function f(a: number, b: string?) return a, b end\nlocal both = { f(1), f(\"2\") }",
+            24,
             "f: a must be a number",
         ),
         ("local x: { number } = 3\nlocal y = x", 23, "x must be a table"),

@@ -79,20 +79,23 @@ fn existing_streets_that_cannot_be_are_told() {
         assert!(without_columns(&told).contains(expected), "{told}");
     }
     assert_snapshot!(refused(&grown("", "this:walk(0)")), @r"
-    error: s.lua:5: rule A (interpretation): network:walk: invalid street length 0 m
+    error: s.lua:5:8: rule A (interpretation): network:walk: invalid street length 0 m
       | this:walk(0)
+      |      ^^^^
       module: A, step 0
       help: use a length above 0
     ");
     assert_snapshot!(refused(&grown("", "this:probe(1, 0, -4, 0)")), @r"
-    error: s.lua:5: rule A (interpretation): network:probe: invalid street of -4 m with the heading 0 degrees
+    error: s.lua:5:8: rule A (interpretation): network:probe: invalid street of -4 m with the heading 0 degrees
       | this:probe(1, 0, -4, 0)
+      |      ^^^^^
       module: A, step 0
       help: use a finite heading, and a length above 0
     ");
     assert_snapshot!(refused(&grown("", "this:move_to(9, 0)")), @r"
-    error: s.lua:5: rule A (interpretation): unknown junction 9
+    error: s.lua:5:3: rule A (interpretation): unknown junction 9
       | this:move_to(9, 0)
+      | ^^^^^^^^^^^^^^^^^^
       module: A, step 0
       help: junctions are numbered from 1 to 1: network:open_end returns the junction at the end of a street
     ");

@@ -36,17 +36,22 @@ fn fields_given_through_the_library_of_roads_are_refused_in_the_line_of_the_scri
         assert!(said.contains("help: did you mean min_length?"), "{function}: {said}");
     }
     assert_snapshot!(refused_by_roads("roads.grow({ network = { snap = 3, clearance = 6 } })"), @r"
-    error: s.lua:2: network: snap (3 m) is less than clearance (6 m), so a street that ends between the two can neither join nor remain
+    error: s.lua:2:14: network: snap (3 m) is less than clearance (6 m), so a street that ends between the two can neither join nor remain
       | roads.grow({ network = { snap = 3, clearance = 6 } })
+      |              ^^^^^^^
       help: use a greater snap, or a smaller clearance
     ");
     assert_snapshot!(refused_by_roads("roads.grow({ network = { streets = { { width = \"wide\" } } } })"), @r#"
-    error: s.lua:2: network: streets must be a list whose item 1 is a street type (street: width must be a number, not "wide"), not {width="wide"}
+    error: s.lua:2:49: network: streets must be a list whose item 1 is a street type (street: width must be a number, not "wide"), not {width="wide"}
       | roads.grow({ network = { streets = { { width = "wide" } } } })
+      |                                                 ^^^^
+      help: streets takes { { name: string?, width: number?, asphalt: Color?, sidewalk: number?, lanes: number?, median: number?, parking: number?, trees: number?, lamps: number? } }, { {}, {}, {} } unless given: Street types, by depth from 0
     "#);
     assert_snapshot!(refused_by_roads("roads.word({ network = { streets = { { width = 0 } } } })"), @r"
-    error: s.lua:2: network: streets: kind 1: width must be from 2 to 200 m, not 0
+    error: s.lua:2:14: network: streets: kind 1: width must be from 2 to 200 m, not 0
       | roads.word({ network = { streets = { { width = 0 } } } })
+      |              ^^^^^^^
+      help: streets takes { { name: string?, width: number?, asphalt: Color?, sidewalk: number?, lanes: number?, median: number?, parking: number?, trees: number?, lamps: number? } }, { {}, {}, {} } unless given: Street types, by depth from 0
     ");
 }
 

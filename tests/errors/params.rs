@@ -70,25 +70,29 @@ fn a_value_of_the_wrong_type_is_told_with_the_default() {
         );
     }
     assert_snapshot!(set(&["n=many"]), @r#"
-    error: s.lua:1: param n must be a number, not "many"
+    error: s.lua:1:11: param n must be a number, not "many"
       | local n = param("n", { default = 5, min = 0, max = 10, step = 2.5, unit = "m" })
+      |           ^^^^^
       help: its default is 5
     "#);
     assert_snapshot!(set(&["mode=dusk"]), @r#"
-    error: s.lua:2: param mode is "dusk", which is not one of the choices
+    error: s.lua:2:14: param mode is "dusk", which is not one of the choices
       | local mode = param("mode", { default = "day", choices = { "day", "night" } })
+      |              ^^^^^
       help: choose one of day, night
     "#);
     assert_snapshot!(set(&["on=maybe"]), @r#"
-    error: s.lua:3: param on must be true or false, not "maybe"
+    error: s.lua:3:12: param on must be true or false, not "maybe"
       | local on = param("on", { default = true, doc = "whether it shines" })
+      |            ^^^^^
       help: its default is true
     "#);
-    assert_snapshot!(set(&["hue=rde"]), @r##"
-    error: s.lua:4: param hue must be a colour, #rrggbb, not "rde"
+    assert_snapshot!(set(&["hue=rde"]), @r#"
+    error: s.lua:4:13: param hue must be a colour, #rrggbb, not "rde"
       | local hue = param("hue", { default = "#ff0000" })
+      |             ^^^^^
       help: its default is #ff0000
-    "##);
+    "#);
 }
 
 #[test]

@@ -296,28 +296,33 @@ fn a_rule_is_declared_with_a_pattern_options_and_a_successor() {
         "{said}"
     );
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", 3, function() end)"), @r#"
-    error: s.lua:3: rule A(x): the options of a rule must be a table
+    error: s.lua:3:3: rule A(x): the options of a rule must be a table
       | s:rule("A(x)", 3, function() end)
+      |   ^^^^
       help: write { weight = 2 }
     "#);
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", { wieght = 3 }, function() end)"), @r#"
-    error: s.lua:3: rule A(x): unknown option `wieght` of a rule
+    error: s.lua:3:18: rule A(x): unknown option `wieght` of a rule
       | s:rule("A(x)", { wieght = 3 }, function() end)
+      |                  ^^^^^^
       help: did you mean weight?
     "#);
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", { weight = -3 }, function() end)"), @r#"
-    error: s.lua:3: rule A(x): weight must be a number of at least 0, not -3
+    error: s.lua:3:18: rule A(x): weight must be a number of at least 0, not -3
       | s:rule("A(x)", { weight = -3 }, function() end)
+      |                  ^^^^^^
       help: a rule with weight 0 is never chosen
     "#);
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", { when = true }, function() end)"), @r#"
-    error: s.lua:3: rule A(x): when must be a function, not a boolean
+    error: s.lua:3:18: rule A(x): when must be a function, not a boolean
       | s:rule("A(x)", { when = true }, function() end)
+      |                  ^^^^
       help: write { when = function(this, x) return x > 0 end }
     "#);
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", function() end, function() end, 3)"), @r#"
-    error: s.lua:3: rule A(x): rule takes 2 or 3 arguments, not 4
+    error: s.lua:3:3: rule A(x): rule takes 2 or 3 arguments, not 4
       | s:rule("A(x)", function() end, function() end, 3)
+      |   ^^^^
       help: write system:rule("A(x)", function(this, x) return ... end)
     "#);
 }
@@ -474,8 +479,9 @@ fn derive_takes_a_whole_number_of_steps_from_0() {
         );
     }
     assert_snapshot!(refused(&format!("{HEAD}s:derive(-1)\n")), @r"
-    error: s.lua:3: derive needs an integer number of steps of at least 0, not -1
+    error: s.lua:3:3: derive needs an integer number of steps of at least 0, not -1
       | s:derive(-1)
+      |   ^^^^^^
       help: omit it to derive until no rule applies
     ");
 }

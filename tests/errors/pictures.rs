@@ -64,39 +64,46 @@ fn a_picture_has_the_first_camera_of_the_script_or_the_chosen_one() {
 
 #[test]
 fn a_camera_without_a_direction_or_with_a_wrong_field_is_refused_with_its_line() {
-    assert_snapshot!(refused(r#"camera({ from = { 1, 2, 3 }, to = { 1, 2, 3 } })"#), @r#"
-    error: s.lua:2: the camera has no direction
+    assert_snapshot!(refused(r#"camera({ from = { 1, 2, 3 }, to = { 1, 2, 3 } })"#), @r"
+    error: s.lua:2:1: the camera has no direction
       | camera({ from = { 1, 2, 3 }, to = { 1, 2, 3 } })
+      | ^^^^^^
       help: give two different points: from, its position, and to, the point that it shows
-    "#);
+    ");
     assert_snapshot!(refused(r#"camera({ name = "a", to = { 1, 2, 3 } })"#), @r#"
-    error: s.lua:2: camera a has no `from`
+    error: s.lua:2:1: camera a has no `from`
       | camera({ name = "a", to = { 1, 2, 3 } })
+      | ^^^^^^
       help: write camera({ name = "a", from = { 20, -30, 2 }, to = { 0, 0, 5 } })
     "#);
-    assert_snapshot!(refused(r#"camera({ form = { 1, 2, 3 } })"#), @r#"
-    error: s.lua:2: unknown field `form` in camera
+    assert_snapshot!(refused(r#"camera({ form = { 1, 2, 3 } })"#), @r"
+    error: s.lua:2:10: unknown field `form` in camera
       | camera({ form = { 1, 2, 3 } })
+      |          ^^^^
       help: did you mean from?
-    "#);
+    ");
     assert_snapshot!(refused(r#"camera({ name = "a", view = "plan", fov = 20 })"#), @r#"
-    error: s.lua:2: camera a has no `fov`: its view is "plan"
+    error: s.lua:2:37: camera a has no `fov`: its view is "plan"
       | camera({ name = "a", view = "plan", fov = 20 })
+      |                                     ^^^
       help: remove it: the view "plan" is fitted to the model
     "#);
     assert_snapshot!(refused(r#"camera({ name = "a", view = "above" })"#), @r#"
-    error: s.lua:2: unknown view "above" of camera a
+    error: s.lua:2:30: unknown view "above" of camera a
       | camera({ name = "a", view = "above" })
+      |                              ^^^^^
       help: write "perspective", "orthographic", "plan" or "eye"
     "#);
-    assert_snapshot!(refused(r#"camera({ from = { 1, 2, 3 }, to = { 0, 0, 0 }, fov = 200 })"#), @r#"
-    error: s.lua:2: the field of view is 200 degrees
+    assert_snapshot!(refused(r#"camera({ from = { 1, 2, 3 }, to = { 0, 0, 0 }, fov = 200 })"#), @r"
+    error: s.lua:2:1: the field of view is 200 degrees
       | camera({ from = { 1, 2, 3 }, to = { 0, 0, 0 }, fov = 200 })
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       help: give 1 to 120 degrees
-    "#);
+    ");
     assert_snapshot!(refused(r#"camera({ name = "map", view = "eye" })"#), @r#"
-    error: s.lua:5: the camera map is already declared in s.lua:2
+    error: s.lua:5:1: the camera map is already declared in s.lua:2
       | camera({ name = "map", view = "plan" })
+      | ^^^^^^
       help: give each camera a name: camera({ name = "street", ... })
     "#);
 }
@@ -106,7 +113,7 @@ fn a_camera_inside_a_solid_is_a_warning_with_its_line() {
     let inside = "camera({ name = \"cellar\", from = { 0.5, 0.3, 4 }, to = { 9, 0, 4 } })\n";
     let folder = Folder::new().with("s.lua", &format!("{inside}{SCRIPT}"));
     let said = folder.burgeon(&["run", "s.lua", "-o", "a.glb"]).done();
-    assert!(said.stderr.contains("s.lua:1: camera cellar is inside a solid"), "{}", said.stderr);
+    assert!(said.stderr.contains("s.lua:1:1: camera cellar is inside a solid"), "{}", said.stderr);
     assert!(!said.stderr.contains("street"), "{}", said.stderr);
     folder.refuses(&["run", "s.lua", "--strict", "-o", "a.glb"]);
 }

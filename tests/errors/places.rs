@@ -6,7 +6,7 @@ use crate::support::{Folder, HEAD, refused, refused_rules, without_columns};
 
 /// Returns the line of the error of `script`, and its message.
 fn told(script: &str) -> (usize, String) {
-    let said = refused(script);
+    let said = without_columns(&refused(script));
     let rest = said.strip_prefix("error: s.lua:").unwrap_or_else(|| panic!("{said}"));
     let (line, rest) = rest.split_once(": ").unwrap();
     (line.parse().unwrap(), rest.lines().next().unwrap().to_owned())

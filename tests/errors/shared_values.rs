@@ -231,20 +231,23 @@ fn state_that_cannot_be_kept_is_told_of_where_it_is_assigned() {
         assert!(error.contains(what) && error.contains("help: "), "{assignment}: {error}");
     }
     insta::assert_snapshot!(kept("self.pen = extruder()"), @r"
-    error: s.lua:4: rule A (interpretation): lamp: unknown state variable `pen`
+    error: s.lua:4:10: rule A (interpretation): lamp: unknown state variable `pen`
       | self.pen = extruder()
+      |      ^^^
       module: A, step 0
       help: declare the child object: state = { pen = extruder() }, and call its methods: self.pen:...
     ");
     insta::assert_snapshot!(kept("self.n = f"), @r"
-    error: s.lua:4: rule A (interpretation): n of the state of lamp cannot be a function
+    error: s.lua:4:10: rule A (interpretation): n of the state of lamp cannot be a function
       | self.n = f
+      |      ^
       module: A, step 0
       help: a state variable is a number, a boolean, a string, a table of these, or an object
     ");
     insta::assert_snapshot!(kept("self.n = extruder() self.n:extrude(1)"), @r"
-    error: s.lua:4: rule A (interpretation): extruder:extrude changes an object that was made here, and nothing is drawn with it
+    error: s.lua:4:32: rule A (interpretation): extruder:extrude changes an object that was made here, and nothing is drawn with it
       | self.n = extruder() self.n:extrude(1)
+      |                            ^^^^^^^
       module: A, step 0
       help: let the type hold one from the beginning: state = { pen = extruder() }, and call self.pen:extrude(1)
     ");

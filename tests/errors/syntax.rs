@@ -182,13 +182,15 @@ fn names_of_the_engine_cannot_be_used_or_declared() {
         );
     }
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", function(this, x) local __done = nil return A(x) end)"), @r#"
-    error: s.lua:3: rule A(x): a variable cannot be named __done
+    error: s.lua:3:40: rule A(x): a variable cannot be named __done
       | s:rule("A(x)", function(this, x) local __done = nil return A(x) end)
+      |                                        ^^^^^^
       help: names that begin with two underscores are reserved
     "#);
     assert_snapshot!(refused("local function __guard() end\n"), @r"
-    error: s.lua:1: a variable cannot be named __guard
+    error: s.lua:1:16: a variable cannot be named __guard
       | local function __guard() end
+      |                ^^^^^^^
       help: names that begin with two underscores are reserved
     ");
 }

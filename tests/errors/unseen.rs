@@ -198,7 +198,7 @@ fn print_writes_control_characters_out_and_takes_any_bytes() {
     );
     let expected = [
         "a\\u{1b}[2Jb\\r\\u{0}\t\\xff\\xfex\\xc3\t\\u{202e}é",
-        "table\tnil\ttrue\tnan\tvec(1, 2, 3)",
+        "{ 1 }\tnil\ttrue\tnan\tvec(1, 2, 3)",
         "two",
         "lines",
     ];

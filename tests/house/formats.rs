@@ -9,18 +9,28 @@ use burgeon::export::{FORMATS, FileFormat};
 use super::sources::{Source, collect};
 use super::{root, text};
 
-/// Formats that files name outside the tables: in examples of command lines, and for images and elements of the browser.
-const EXCEPTIONS: [(&str, &str); 10] = [
+/// Formats that files name outside the tables: in examples of command lines, for files of tilesets and of starting points, and for
+/// pages, images and elements of the browser.
+const EXCEPTIONS: [(&str, &str); 19] = [
+    ("crates/live/src/view/page.rs", ".html"),
+    ("crates/live/src/view/page.rs", "text/html"),
+    ("crates/live/src/view/tileset/folder.rs", "\"csv\""),
+    ("crates/live/src/view/tileset/folder.rs", "text/csv"),
     ("src/commands/command_line.rs", ".glb"),
-    ("src/commands/examples.rs", ".gif"),
-    ("src/commands/examples.rs", ".glb"),
-    ("src/commands/examples.rs", ".png"),
+    ("src/commands/help_examples.rs", ".gif"),
+    ("src/commands/help_examples.rs", ".glb"),
+    ("src/commands/help_examples.rs", ".gpkg"),
+    ("src/commands/help_examples.rs", ".png"),
+    ("src/commands/help_examples.rs", ".tif"),
+    ("src/commands/new.rs", ".geojson"),
     ("src/commands/run/outputs.rs", ".tif"),
+    ("src/commands/tiles/join.rs", ".csv"),
     ("viewer/src/curve.js", "'svg'"),
     ("viewer/src/exports.js", ".png"),
     ("viewer/src/icons.js", "'svg'"),
     ("viewer/src/stage.js", "image/png"),
     ("viewer/src/tileset/main.js", ".geojson"),
+    ("viewer/src/tileset/panel.js", ".csv"),
 ];
 
 /// Returns the rows of all tables.

@@ -1,6 +1,6 @@
 //! Models of several frames in one scene, where equal meshes are stored once.
 
-use crate::levels::LevelStorage;
+use crate::level_storage::LevelStorage;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_scene::{Instance, Mesh, Scene};
 use rustc_hash::{FxHashMap, FxHasher};

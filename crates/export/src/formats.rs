@@ -249,7 +249,7 @@ impl Format {
     /// assert_eq!(Format::of(Path::new("out/Town.GLB"))?.media_type, "model/gltf-binary");
     /// assert_eq!(Format::of(Path::new("town.city.json"))?.extension(), "city.json");
     /// let error = Format::of(Path::new("town.blend")).expect_err("no such format");
-    /// assert!(error.to_string().contains("gltf"), "{error}");
+    /// assert!(error.to_string().contains("open it in a 3D program"), "{error}");
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
     pub fn of(path: &Path) -> Result<&'static Self> {

@@ -7,17 +7,8 @@ use burgeon_scene::Scene;
 
 use crate::files::Files;
 use crate::film_model::FilmModel;
+use crate::level_storage::LevelStorage;
 use crate::{Format, GLB, SceneFacts, gltf, stem};
-
-/// Storage of levels of detail in one file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LevelStorage {
-    /// Nodes called `NAME_LOD0`, `NAME_LOD1` and so on, from the finest level, as game engines import them. A viewer without
-    /// levels shows all of them at once.
-    Names,
-    /// The extension `MSFT_lod` at the node of the finest level. A viewer without it shows that level.
-    Extension,
-}
 
 /// Model in several levels of detail, where equal meshes are stored once.
 #[derive(Debug)]

@@ -132,6 +132,7 @@ fn facts_json(data: &ModelData) -> Value {
             "emissive": material.emissive,
             "double_sided": material.double_sided,
             "texture": material.texture.as_ref().map(|texture| texture.path.to_string_lossy()),
+            "texture_size": material.texture.as_ref().map(|texture| texture.size),
         })
     });
     let mut report = run.report().counts_json();

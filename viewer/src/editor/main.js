@@ -135,14 +135,17 @@ function complete(names) {
   });
   const [globals, members] = [names.filter((it) => !it.owner), names.filter((it) => it.owner)].map((all) => all.map(option));
   return (context) => {
+    // Comments are prose.
+    const { from, text } = context.state.doc.lineAt(context.pos);
+    if (text.slice(0, context.pos - from).includes('--')) return null;
     const member = context.matchBefore(/[.:]\w*$/);
     const word = member ?? context.matchBefore(/[A-Za-z_]\w*$/);
     if (!word || (word.from === word.to && !context.explicit)) return null;
     if (member) {
-      const from = word.from + 1;
+      const begin = word.from + 1;
       const owner = /(\w+)$/.exec(context.state.sliceDoc(Math.max(0, word.from - 60), word.from))?.[1];
       const own = members.filter((it) => it.detail === owner);
-      return { from, options: own.length > 0 ? own : members, validFor: /^\w*$/ };
+      return { from: begin, options: own.length > 0 ? own : members, validFor: /^\w*$/ };
     }
     const own = new Set(context.state.sliceDoc().match(/[A-Za-z_]\w{2,}/g));
     own.delete(context.state.sliceDoc(word.from, word.to));

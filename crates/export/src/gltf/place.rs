@@ -9,7 +9,7 @@ use super::mesh::{Arrays, accessor};
 use super::metadata::{FeaturePlace, INSTANCE_FEATURES, Metadata, instance_features};
 use crate::InstanceStorage;
 use crate::film_model::FilmModel;
-use crate::levels::LevelStorage;
+use crate::level_storage::LevelStorage;
 use burgeon_scene::Instance;
 use glam::{DAffine3, DQuat, DVec3};
 use gltf_json as json;

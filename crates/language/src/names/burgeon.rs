@@ -209,6 +209,10 @@ fn metres(name: &'static str, luau: &str, doc: &'static str) -> Field {
     Field { unit: Some("m".into()), ..Field::new(name, luau, doc) }
 }
 
+fn degrees(field: Field) -> Field {
+    Field { unit: Some("deg".into()), ..field }
+}
+
 /// Declaration of a script parameter.
 pub static PARAM: LazyLock<Name> = LazyLock::new(|| {
     Name::global("param", "Declares a script parameter and returns its value for this run.").form(
@@ -255,7 +259,7 @@ pub static CAMERA: LazyLock<Name> = LazyLock::new(|| {
                     "Position of the camera (m): x, y and z. Required unless `view` fits the camera to the model.",
                 ),
                 field("to", "Vector?", "nil", "Point in the middle of the picture (m): x, y and z."),
-                field("fov", "number", "40", "Vertical field of view (degrees), 1 to 120."),
+                degrees(field("fov", "number", "40", "Vertical field of view, 1 to 120.")),
                 field(
                     "view",
                     "(\"perspective\" | \"orthographic\" | \"plan\" | \"eye\")?",
@@ -264,8 +268,8 @@ pub static CAMERA: LazyLock<Name> = LazyLock::new(|| {
                      with north at the top; or \"eye\", from the height of a standing person's eyes. \"plan\" and \"eye\" are \
                      fitted to the model.",
                 ),
-                field("height", "number?", "nil", "Height (m) that an orthographic picture shows. Without it, the picture shows the whole model."),
-                field("azimuth", "number?", "nil", "Azimuth of the view \"eye\" (degrees): 0 looks at the model from the north, 90 from the east. Without it, the model's shape determines it."),
+                metres("height", "number?", "Height that an orthographic picture shows. Without it, the picture shows the whole model."),
+                degrees(field("azimuth", "number?", "nil", "Azimuth of the view \"eye\": 0 looks at the model from the north, 90 from the east. Without it, the model's shape determines it.")),
             ],
         )],
         "()",

@@ -234,14 +234,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_error_on_a_line_of_plain_lua_has_no_invented_remedy() {
-        for (message, text) in [
-            ("Expected identifier when parsing expression, got ','", "local x = f(,)"),
-            ("Ambiguous syntax", "local t = { [1] = 2, [\"a\"] = 3 }"),
-            ("Expected identifier, got '1'", "local 1 = 2"),
+    fn an_error_on_a_line_of_plain_lua_has_no_remedy_for_another_language() {
+        for (message, text, remedy) in [
+            (
+                "Expected identifier when parsing expression, got ','",
+                "local x = f(,)",
+                Some("complete the code before ',', or remove ','"),
+            ),
+            ("Ambiguous syntax", "local t = { [1] = 2, [\"a\"] = 3 }", None),
+            (
+                "Expected identifier, got '1'",
+                "local 1 = 2",
+                Some("complete the code before '1', or remove '1'"),
+            ),
         ] {
             let error = explain_syntax(Error::syntax(message).at_line("s.lua", 1), text);
-            assert_eq!(error.remedy(), None, "{text}");
+            assert_eq!(error.remedy(), remedy, "{text}");
         }
     }
 
@@ -249,6 +257,6 @@ mod tests {
     fn a_text_or_a_comment_is_no_slip() {
         let error = Error::syntax("Expected identifier, got '1'").at_line("s.lua", 1);
         let error = explain_syntax(error, "local 1 = \"a != b ** [c]\" -- && def");
-        assert_eq!(error.remedy(), None);
+        assert_eq!(error.remedy(), Some("complete the code before '1', or remove '1'"));
     }
 }

@@ -65,6 +65,8 @@ class Material:
     double_sided: bool
     #: Path of the texture, if there is one.
     texture: str | None
+    #: Width and height (m) of one repetition of the texture.
+    texture_size: list[float] | None
 
 
 @dataclass(frozen=True)

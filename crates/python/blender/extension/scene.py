@@ -1,0 +1,189 @@
+"""A model as objects of Blender.
+
+Each mesh of the model is one mesh of the file; its instances are objects that share it. Features are collections with the
+attributes as custom properties. What a run makes is reused by the next one, so that modifiers, constraints and changed
+materials stay.
+"""
+
+from collections import Counter
+from typing import Any
+
+import bpy
+import burgeon
+import numpy as np
+from mathutils import Matrix
+
+# Custom property with the key of an object, a feature's collection, a mesh or a material that a run has made.
+KEY = "burgeon"
+# Custom property with the facts from which a material was made. If they change, it is made again.
+FACTS = "burgeon_facts"
+
+
+def show(model: burgeon.Model, root: bpy.types.Collection) -> int:
+    """Replaces the content of a collection by a model, and returns the number of objects."""
+    materials = [_material(it, root) for it in model.materials]
+    by_material = dict(zip(map(id, model.materials), materials))
+    meshes = _meshes(model, root, by_material)
+    folders = _folders(model, root)
+    return _objects(model, root, meshes, folders)
+
+
+def _owned(items: Any, root: bpy.types.Collection) -> dict[str, Any]:
+    """Returns what earlier runs of this model have made, by key."""
+    prefix = f"{root.session_uid}:"
+    return {it[KEY]: it for it in items if str(it.get(KEY, "")).startswith(prefix)}
+
+
+def _material(it: burgeon.Material, root: bpy.types.Collection) -> bpy.types.Material:
+    facts = repr((it.color, it.metallic, it.roughness, it.emissive, it.texture, it.texture_size))
+    name = it.name or "Burgeon"
+    known = bpy.data.materials.get(name)
+    if known is None or known.get(KEY) != name:
+        known = next((m for m in bpy.data.materials if m.get(KEY) == name), None) or bpy.data.materials.new(name)
+        known[KEY] = name
+    if known.get(FACTS) == facts:
+        return known
+    known[FACTS] = facts
+    if known.node_tree is None:
+        known.use_nodes = True
+    known.use_backface_culling = not it.double_sided
+    known.diffuse_color = it.color
+    surface = next((node for node in known.node_tree.nodes if node.type == "BSDF_PRINCIPLED"), None)
+    if surface is None:
+        return known
+    surface.inputs["Base Color"].default_value = it.color
+    surface.inputs["Metallic"].default_value = it.metallic
+    surface.inputs["Roughness"].default_value = it.roughness
+    surface.inputs["Alpha"].default_value = it.color[3]
+    surface.inputs["Emission Color"].default_value = (*it.emissive, 1.0)
+    surface.inputs["Emission Strength"].default_value = 1.0 if any(it.emissive) else 0.0
+    if it.texture:
+        _texture(known, surface, it)
+    return known
+
+
+def _texture(material: bpy.types.Material, surface: bpy.types.Node, it: burgeon.Material) -> None:
+    """Adds the texture of a material; texture coordinates are in metres."""
+    tree = material.node_tree
+    try:
+        image = bpy.data.images.load(it.texture, check_existing=True)
+    except RuntimeError:
+        return
+    texture = tree.nodes.new("ShaderNodeTexImage")
+    texture.image = image
+    mapping, source = tree.nodes.new("ShaderNodeMapping"), tree.nodes.new("ShaderNodeUVMap")
+    source.uv_map = "UVMap"
+    width, height = it.texture_size or (1.0, 1.0)
+    mapping.inputs["Scale"].default_value = (1.0 / width, 1.0 / height, 1.0)
+    for at, node in enumerate((source, mapping, texture)):
+        node.location = (surface.location.x - 600 + 200 * at, surface.location.y)
+    tree.links.new(source.outputs["UV"], mapping.inputs["Vector"])
+    tree.links.new(mapping.outputs["Vector"], texture.inputs["Vector"])
+    tree.links.new(texture.outputs["Color"], surface.inputs["Base Color"])
+
+
+def _meshes(
+    model: burgeon.Model, root: bpy.types.Collection, by_material: dict[int, bpy.types.Material]
+) -> list[bpy.types.Mesh]:
+    known = _owned(bpy.data.meshes, root)
+    made = []
+    for at, it in enumerate(model.meshes):
+        key = f"{root.session_uid}:{at}"
+        mesh = known.pop(key, None) or bpy.data.meshes.new(it.name or root.name)
+        mesh[KEY] = key
+        _fill(mesh, it, by_material)
+        made.append(mesh)
+    bpy.data.batch_remove(list(known.values()))
+    return made
+
+
+def _fill(mesh: bpy.types.Mesh, it: burgeon.Mesh, by_material: dict[int, bpy.types.Material]) -> None:
+    """Replaces the content of a mesh. Each part has a slot for its material."""
+    mesh.clear_geometry()
+    mesh.materials.clear()
+    parts = [part for part in it.parts if part.triangle_count]
+    for part in parts:
+        mesh.materials.append(by_material[id(part.material)])
+    if not parts:
+        return
+    firsts = np.cumsum([0, *(part.vertex_count for part in parts)])
+    points = np.concatenate([part.positions for part in parts])
+    corners = np.concatenate([part.triangles + first for part, first in zip(parts, firsts)]).astype(np.int32).ravel()
+    count = len(corners) // 3
+    mesh.vertices.add(len(points))
+    mesh.attributes["position"].data.foreach_set("vector", np.ascontiguousarray(points, np.float32).ravel())
+    mesh.loops.add(3 * count)
+    mesh.loops.foreach_set("vertex_index", corners)
+    mesh.polygons.add(count)
+    mesh.polygons.foreach_set("loop_start", np.arange(0, 3 * count, 3, dtype=np.int32))
+    slots = np.repeat(np.arange(len(parts), dtype=np.int32), [part.triangle_count for part in parts])
+    mesh.polygons.foreach_set("material_index", slots)
+    if all(len(part.uvs) == part.vertex_count for part in parts):
+        uvs = np.concatenate([part.uvs for part in parts]).astype(np.float32)
+        mesh.uv_layers.new(name="UVMap").uv.foreach_set("vector", uvs[corners].ravel())
+    mesh.update(calc_edges=True)
+    if all(len(part.normals) == part.vertex_count for part in parts):
+        normals = np.concatenate([part.normals for part in parts]).astype(np.float32)
+        attribute = mesh.attributes.new("custom_normal", "FLOAT_VECTOR", "POINT")
+        attribute.data.foreach_set("vector", normals.ravel())
+
+
+def _folders(model: burgeon.Model, root: bpy.types.Collection) -> dict[str, bpy.types.Collection]:
+    """Returns the collection of each feature, with its attributes as custom properties."""
+    known = _owned(root.children, root)
+    features = {it["id"]: it for it in model.features}
+    made = {}
+    for feature in dict.fromkeys(it.feature for it in model.instances if it.feature is not None):
+        key = f"{root.session_uid}:{feature}"
+        folder = known.pop(key, None)
+        if folder is None:
+            folder = bpy.data.collections.new(str(feature))
+            root.children.link(folder)
+        for name in [name for name in folder.keys() if name != KEY]:
+            del folder[name]
+        folder[KEY] = key
+        for name, value in features.get(feature, {}).items():
+            if isinstance(value, (str, bool, int, float)) and name:
+                # Names of custom properties are limited.
+                folder[name[:63]] = value
+        made[feature] = folder
+    for folder in known.values():
+        bpy.data.batch_remove([it for it in folder.objects if KEY in it])
+        bpy.data.collections.remove(folder)
+    return made
+
+
+def _objects(
+    model: burgeon.Model,
+    root: bpy.types.Collection,
+    meshes: list[bpy.types.Mesh],
+    folders: dict[str, bpy.types.Collection],
+) -> int:
+    """Places the instances. An object keeps its key from run to run: feature, name and number among those."""
+    known = _owned(root.all_objects, root)
+    numbers: Counter[tuple[str | None, str]] = Counter()
+    by_mesh = {id(mesh): made for mesh, made in zip(model.meshes, meshes)}
+    instances = model.instances
+    transforms = np.array(model.transforms, np.float64).reshape(-1, 4, 4)
+    for it, transform in zip(instances, transforms):
+        numbers[it.feature, it.name] += 1
+        key = f"{root.session_uid}:{it.feature}:{it.name}:{numbers[it.feature, it.name]}"
+        item = known.pop(key, None)
+        mesh = by_mesh[id(it.mesh)]
+        if item is None:
+            item = bpy.data.objects.new(it.name or root.name, mesh)
+            item[KEY] = key
+            (folders[it.feature] if it.feature is not None else root).objects.link(item)
+        elif item.data is not mesh:
+            item.data = mesh
+        item.matrix_world = Matrix(transform.tolist())
+    bpy.data.batch_remove(list(known.values()))
+    return len(instances)
+
+
+def remove(root: bpy.types.Collection) -> None:
+    """Removes a model from the file, with everything that its runs have made."""
+    objects, meshes = _owned(root.all_objects, root), _owned(bpy.data.meshes, root)
+    folders = _owned(root.children, root)
+    bpy.data.batch_remove([*objects.values(), *meshes.values(), *folders.values()])
+    bpy.data.collections.remove(root)
