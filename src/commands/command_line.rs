@@ -29,14 +29,14 @@ pub(super) struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Run(Box<run::RunCommand>),
-    Live(live::LiveCommand),
-    Check(check::CheckCommand),
+    Live(Box<live::LiveCommand>),
+    Check(Box<check::CheckCommand>),
     Api(api::ApiCommand),
     Variations(Box<variations::VariationsCommand>),
     Fit(fit::FitCommand),
     Mods(mods::ModsCommand),
     New(new::NewCommand),
-    Open(open::OpenCommand),
+    Open(Box<open::OpenCommand>),
     Examples(examples::ExamplesCommand),
     Setup(setup::SetupCommand),
     Sources(sources::SourcesCommand),

@@ -182,7 +182,6 @@ impl PictureFlags {
                 BackgroundFlag::Sky => Background::Sky,
                 BackgroundFlag::Clear => Background::Clear,
             },
-            ..Picture::default()
         }
     }
 }

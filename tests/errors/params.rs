@@ -87,12 +87,12 @@ fn a_value_of_the_wrong_type_is_told_with_the_default() {
       |            ^^^^^
       help: its default is true
     "#);
-    assert_snapshot!(set(&["hue=rde"]), @r#"
+    assert_snapshot!(set(&["hue=rde"]), @r##"
     error: s.lua:4:13: param hue must be a colour, #rrggbb, not "rde"
       | local hue = param("hue", { default = "#ff0000" })
       |             ^^^^^
       help: its default is #ff0000
-    "#);
+    "##);
 }
 
 #[test]

@@ -26,7 +26,7 @@ fn picture(flags: &[&str]) -> Vec<u8> {
 
 /// Returns the error of a script that declares this camera.
 fn refused(camera: &str) -> String {
-    Folder::new().with("s.lua", &format!("\n{camera}\n{SCRIPT}")).refuses(&["run", "s.lua"])
+    Folder::new().with("s.lua", format!("\n{camera}\n{SCRIPT}")).refuses(&["run", "s.lua"])
 }
 
 /// Returns the error message for a wrong command line.
@@ -111,7 +111,7 @@ fn a_camera_without_a_direction_or_with_a_wrong_field_is_refused_with_its_line()
 #[test]
 fn a_camera_inside_a_solid_is_a_warning_with_its_line() {
     let inside = "camera({ name = \"cellar\", from = { 0.5, 0.3, 4 }, to = { 9, 0, 4 } })\n";
-    let folder = Folder::new().with("s.lua", &format!("{inside}{SCRIPT}"));
+    let folder = Folder::new().with("s.lua", format!("{inside}{SCRIPT}"));
     let said = folder.burgeon(&["run", "s.lua", "-o", "a.glb"]).done();
     assert!(said.stderr.contains("s.lua:1:1: camera cellar is inside a solid"), "{}", said.stderr);
     assert!(!said.stderr.contains("street"), "{}", said.stderr);

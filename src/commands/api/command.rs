@@ -122,6 +122,7 @@ fn write_book(folder: &Path, entries: &[Entry]) -> Result<()> {
 }
 
 /// Returns all names and members for the editor of the live page as JSON: a list of `{ name, owner, usage, doc }`.
+#[cfg(feature = "live")]
 pub(crate) fn names_json() -> String {
     let described = |name: &str, owner: &str, usage: &str, doc: &str| json!({ "name": name, "owner": owner, "usage": usage, "doc": doc });
     let registry = burgeon::registry();

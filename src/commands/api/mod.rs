@@ -10,4 +10,6 @@ mod text;
 #[cfg(test)]
 mod units;
 
-pub(crate) use command::{ApiCommand, names_json};
+pub(crate) use command::ApiCommand;
+#[cfg(feature = "live")]
+pub(crate) use command::names_json;
