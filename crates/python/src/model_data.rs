@@ -56,7 +56,13 @@ impl ModelData {
         }
         let columns = systems.iter().flat_map(|system| &system.records.columns).cloned();
         let metadata: Option<Vec<String>> = settings.metadata.then(|| columns.collect());
+        let reports: Vec<_> =
+            self.run.systems.iter().map(|system| (system.system, system.reports())).collect();
+        let has_recipe = settings.recipe && format.needs(Need::Recipe);
+        let recipe = has_recipe.then(|| self.session.recipe(&self.run.params).complete()).transpose()?;
         let facts = SceneFacts {
+            reports: &reports,
+            recipe: recipe.as_ref(),
             frame: self.run.service(),
             detail: self.session.options.lod,
             systems: &systems,
@@ -79,6 +85,7 @@ impl ModelData {
 pub(crate) struct ExportSettings {
     picture: Picture,
     metadata: bool,
+    recipe: bool,
     layer: Option<String>,
 }
 
@@ -90,6 +97,7 @@ impl ExportSettings {
         Ok(Self {
             picture: serde_json::from_value(settings["picture"].take()).map_err(invalid)?,
             metadata: settings["metadata"].as_bool().unwrap_or(false),
+            recipe: settings["recipe"].as_bool().unwrap_or(true),
             layer: settings["layer"].as_str().map(str::to_owned),
         })
     }

@@ -99,7 +99,8 @@ def test_every_format_of_drawings_can_be_saved(tower, tmp_path):
         path = tmp_path / f"it's \"a\" 🌳.{format.extension}"
         settings = {"width": 40, "height": 30} if format.extension == "png" else {}
         model.save(path, **settings)
-        assert path.stat().st_size > 20, format
+        # A table without reports has only its head.
+        assert path.stat().st_size > 14, format
         count += 1
     assert count > 8
 

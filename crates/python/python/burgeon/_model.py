@@ -251,32 +251,33 @@ class Model:
         rows = json.loads(self._raw.layers())
         return [Layer(it["name"], tuple(it["columns"]), it["count"]) for it in rows]
 
-    def save(self, path: PathLike, *, metadata: bool = False, layer: str | None = None, **picture: Any) -> None:
+    def save(self, path: PathLike, *, metadata: bool = False, layer: str | None = None, recipe: bool = True, **picture: Any) -> None:
         """Writes the model in the format of the extension of ``path``; ``formats()`` lists them.
 
         metadata: write ids and attributes of features to glTF files.
         layer: name of the only layer to write, for formats of layers.
+        recipe: write the script and its values to glTF files and pages, so that ``burgeon open`` shows them live again.
         picture: settings of a render: ``width``, ``height``, ``azimuth``, ``elevation``, ``background``, ``ground`` and
             ``quality``.
 
         Raises ``Error`` if the file cannot be written; it is then as before.
         """
-        self._save(path, metadata, layer, picture, 3)
+        self._save(path, metadata, layer, recipe, picture, 3)
 
-    def to_bytes(self, extension: str, *, metadata: bool = False, layer: str | None = None, **picture: Any) -> bytes:
+    def to_bytes(self, extension: str, *, metadata: bool = False, layer: str | None = None, recipe: bool = True, **picture: Any) -> bytes:
         """Returns the content of a file with this extension, such as ``glb``; other arguments are those of ``save``.
 
         Raises ``ValueError`` for a model that needs several files.
         """
-        return self._bytes(extension, metadata, layer, picture, 3)
+        return self._bytes(extension, metadata, layer, recipe, picture, 3)
 
     def geojson(self, layer: str | None = None) -> bytes:
         """Returns the layers, or one of them, as GeoJSON."""
-        return self._bytes("geojson", False, layer, {}, 3)
+        return self._bytes("geojson", False, layer, False, {}, 3)
 
     def geopackage(self, layer: str | None = None) -> bytes:
         """Returns the layers, or one of them, as a GeoPackage."""
-        return self._bytes("gpkg", False, layer, {}, 3)
+        return self._bytes("gpkg", False, layer, False, {}, 3)
 
     def to_trimesh(self) -> trimesh.Scene:
         """Returns the model as a scene of trimesh, with a node for each part of each instance.
@@ -288,9 +289,9 @@ class Model:
         return scene_of(self)
 
     def _save(
-        self, path: PathLike, metadata: bool, layer: str | None, picture: dict[str, Any], stacklevel: int
+        self, path: PathLike, metadata: bool, layer: str | None, recipe: bool, picture: dict[str, Any], stacklevel: int
     ) -> None:
-        settings = json.dumps({"picture": picture, "metadata": metadata, "layer": layer})
+        settings = json.dumps({"picture": picture, "metadata": metadata, "layer": layer, "recipe": recipe})
         found = json.loads(self._raw.export(os.fspath(path), settings))
         warnings = [BurgeonWarning._of(it) for it in found]
         of_layers = {it.extension for it in formats() if it.layers}
@@ -300,11 +301,11 @@ class Model:
         show(warnings, stacklevel)
 
     def _bytes(
-        self, extension: str, metadata: bool, layer: str | None, picture: dict[str, Any], stacklevel: int
+        self, extension: str, metadata: bool, layer: str | None, recipe: bool, picture: dict[str, Any], stacklevel: int
     ) -> bytes:
         with tempfile.TemporaryDirectory(prefix="burgeon-") as folder:
             name = f"model.{extension.lstrip('.')}"
-            self._save(os.path.join(folder, name), metadata, layer, picture, stacklevel + 1)
+            self._save(os.path.join(folder, name), metadata, layer, recipe, picture, stacklevel + 1)
             if len(os.listdir(folder)) > 1:
                 raise ValueError(f"the model has several files as .{extension}: use save, or a format of one file such as glb")
             with open(os.path.join(folder, name), "rb") as file:
