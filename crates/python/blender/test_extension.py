@@ -116,7 +116,7 @@ def test_a_slider_changes_the_model_and_keeps_the_objects(extension, add):
 
 def test_an_error_stands_in_the_panel_with_its_line_and_leaves_the_model(extension, add):
     model, path = add(TOWER)
-    path.write_text(TOWER.replace("this:extrude(h)", "this:extruded(h)"), encoding="utf-8")
+    path.write_text(TOWER.replace(":extrude(h)", ":extruded(h)"), encoding="utf-8")
     with pytest.raises(RuntimeError, match="extruded"):
         bpy.ops.burgeon.run()
     assert "model.lua:" in model.burgeon.error and "extruded" in model.burgeon.error
