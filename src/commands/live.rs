@@ -112,7 +112,7 @@ impl PageFlags {
             names: names_json(),
             tell: Box::new(tell),
         })?;
-        let why = "it allows setting parameters";
+        let why = "it allows changing the script and its parameters";
         self.announce(&script, (live.port(), &live.address(), live.token()), why, facts)?;
         let _ = interrupted.recv();
         drop(live);

@@ -1,8 +1,8 @@
 //! Live view: a local server that shows a script's model in the browser and updates it on every save.
 //!
 //! Input: a script, and commands of its pages ([`message`]). Output: the page, the present model as glTF, and events
-//! over a socket. The server answers only this machine's user (`address`, `token`), writes only presets and drawn
-//! curves to the script's folder, and never lets a page wait for a run.
+//! over a socket. The server answers only this machine's user (`address`, `token`), writes only presets, drawn
+//! curves and saved files of the script (`source`), and never lets a page wait for a run.
 //!
 //! ```text
 //! files ──► watch ──► state ──► work ──► state ──► server, socket ──► pages

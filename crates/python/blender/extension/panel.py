@@ -121,7 +121,7 @@ class BURGEON_OT_save(OfModel, bpy.types.Operator, ExportHelper):
     check_extension = None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        job = work._job_of(active_model(context))
+        job = work.job_of(active_model(context))
         try:
             burgeon.run(job.script, print=None, **job.arguments).save(self.filepath)
         except burgeon.Error as error:

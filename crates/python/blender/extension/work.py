@@ -96,7 +96,7 @@ def request(collection: bpy.types.Collection) -> None:
     if key in _held:
         _held[key] = True
     elif bpy.app.background:
-        job = _job_of(collection)
+        job = job_of(collection)
         job.run()
         _finish(collection, job)
     else:
@@ -121,7 +121,7 @@ def one_request(collection: bpy.types.Collection, runs: bool = True) -> Iterator
         request(collection)
 
 
-def _job_of(collection: bpy.types.Collection) -> Job:
+def job_of(collection: bpy.types.Collection) -> Job:
     from . import values
 
     settings = collection.burgeon
@@ -191,7 +191,7 @@ def pulse() -> float:
             _waiting.discard(key)
         elif key not in _jobs:
             _waiting.discard(key)
-            job = _job_of(by_key[key])
+            job = job_of(by_key[key])
             job.thread = threading.Thread(target=job.run, daemon=True)
             _jobs[key] = job
             job.thread.start()
