@@ -37,7 +37,7 @@ fn files(folder: &str, extension: &str) -> Vec<PathBuf> {
 }
 
 /// Returns the share of a picture of the scene that the model covers.
-fn covered(scene: &burgeon::scene::Scene, file: &Path) -> f64 {
+fn coverage(scene: &burgeon::scene::Scene, file: &Path) -> f64 {
     let picture =
         Picture { width: 96, height: 72, background: Background::Clear, ground: false, ..Picture::default() };
     export::write(scene, file, &picture).unwrap();
@@ -58,7 +58,7 @@ fn every_script_of_the_course_and_the_cookbook_runs_without_a_warning_and_is_dra
             match burgeon::run(&path, options) {
                 Err(error) => wrong.push(format!("{}: {error}", path.display())),
                 Ok(run) => {
-                    let share = covered(&run.scene, &folder.path().join("picture.png"));
+                    let share = coverage(&run.scene, &folder.path().join("picture.png"));
                     if share < 0.01 {
                         wrong.push(format!("{} covers {share} of its picture", path.display()));
                     }

@@ -5,7 +5,7 @@ use insta::assert_snapshot;
 use crate::support::{Folder, HEAD, printed, refused, refused_rules};
 
 /// Returns line and column of the first message, and the text above its carets.
-fn marked(text: &str) -> (usize, usize, String) {
+fn marked_columns(text: &str) -> (usize, usize, String) {
     let lines: Vec<&str> = text.lines().collect();
     let carets = lines.iter().position(|line| line.starts_with("  | ") && line.trim_end().ends_with('^'));
     let carets = carets.unwrap_or_else(|| panic!("no carets in: {text}"));
@@ -32,7 +32,7 @@ fn carets_stand_below_the_part_that_is_wrong() {
         ("local x = 3\n\treturn\tx.y.z", 2, 11, "y"),
     ] {
         let text = refused(script);
-        let found = marked(&text);
+        let found = marked_columns(&text);
         assert_eq!((found.0, found.1, found.2.as_str()), (line, column, part), "{script}\n{text}");
     }
 }

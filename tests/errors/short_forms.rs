@@ -14,7 +14,7 @@ fn folder() -> Folder {
 }
 
 /// Runs the program with `input` on standard input.
-fn fed(folder: &Folder, arguments: &[&str], input: &[u8]) -> std::process::Output {
+fn run_with_input(folder: &Folder, arguments: &[&str], input: &[u8]) -> std::process::Output {
     let mut child = Command::new(env!("CARGO_BIN_EXE_burgeon"))
         .args(arguments)
         .current_dir(folder.path())
@@ -67,23 +67,23 @@ fn misspelt_commands_and_scripts_get_a_suggestion() {
 fn standard_input_and_output_take_scripts_and_models() {
     let folder = Folder::new();
     let script = format!("{HEAD}{SCRIPT}");
-    let out = fed(&folder, &["run", "-", "-o", "-", "--format", "glb"], script.as_bytes());
+    let out = run_with_input(&folder, &["run", "-", "-o", "-", "--format", "glb"], script.as_bytes());
     assert!(
         out.status.success() && out.stdout.starts_with(b"glTF"),
         "{}",
         String::from_utf8_lossy(&out.stderr)
     );
-    let out = fed(&folder, &["-", "-o", "-", "--format", ".STL"], script.as_bytes());
+    let out = run_with_input(&folder, &["-", "-o", "-", "--format", ".STL"], script.as_bytes());
     assert!(out.status.success() && out.stdout.len() > 84, "{}", String::from_utf8_lossy(&out.stderr));
     assert!(folder.files().is_empty(), "{:?}", folder.files());
-    let out = fed(&folder, &["run", "-"], b"#!/usr/bin/env burgeon\n  print(flors)\n");
+    let out = run_with_input(&folder, &["run", "-"], b"#!/usr/bin/env burgeon\n  print(flors)\n");
     let text = String::from_utf8_lossy(&out.stderr).into_owned();
     assert!(
         text.starts_with("error: -:2:9: unknown name flors\n  | print(flors)\n  |       ^^^^^\n"),
         "{text}"
     );
     let folder = folder.with("parts.lua", "return 7");
-    let out = fed(&folder, &["check", "-"], b"print(require(\"parts\"))\n");
+    let out = run_with_input(&folder, &["check", "-"], b"print(require(\"parts\"))\n");
     assert!(
         out.status.success() && out.stderr.starts_with(b"7\n"),
         "{}",

@@ -94,14 +94,14 @@ pub fn provide(name: &Path, content: Vec<u8>) -> Result<()> {
 
 /// Returns the absolute path of a file without links. A name that was [provided](provide) is in the working folder.
 pub fn canonical(path: &Path) -> Result<PathBuf> {
-    match provided(path) {
+    match find_provided(path) {
         Some((path, _)) => Ok(path),
         None => path.canonicalize(),
     }
 }
 
 /// Returns path and content of a name that was provided.
-fn provided(path: &Path) -> Option<(PathBuf, Vec<u8>)> {
+fn find_provided(path: &Path) -> Option<(PathBuf, Vec<u8>)> {
     let provided = PROVIDED.read().recover();
     if provided.is_empty() {
         return None;
@@ -116,7 +116,7 @@ fn working_folder() -> Result<PathBuf> {
 
 /// Reads the whole file at `path`, or the content that was [provided](provide) for it. Fails if it has more than `most` bytes.
 pub fn read(path: &Path, most: u64) -> Result<Vec<u8>> {
-    if let Some((_, content)) = provided(path) {
+    if let Some((_, content)) = find_provided(path) {
         let is_large = content.len() as u64 > most;
         return if is_large {
             Err(Error::new(ErrorKind::FileTooLarge, "it is too large"))

@@ -50,14 +50,16 @@ struct RecipeExtras<'a> {
 /// ```
 pub fn read_recipe(path: &Path) -> Result<Recipe> {
     let text = description(path)?;
-    let text = std::str::from_utf8(&text).map_err(|_| broken(path, &"its description is not text"))?;
+    let text =
+        std::str::from_utf8(&text).map_err(|_| unreadable_recipe(path, &"its description is not text"))?;
     let extras = match page::facts_of(text) {
-        Some(facts) => {
-            Some(serde_json::from_str::<RecipeExtras<'_>>(facts).map_err(|error| broken(path, &error))?)
-        }
+        Some(facts) => Some(
+            serde_json::from_str::<RecipeExtras<'_>>(facts)
+                .map_err(|error| unreadable_recipe(path, &error))?,
+        ),
         None => {
             let document: RecipeDocument<'_> =
-                serde_json::from_str(text).map_err(|error| broken(path, &error))?;
+                serde_json::from_str(text).map_err(|error| unreadable_recipe(path, &error))?;
             let extras = document.asset.and_then(|asset| asset.extras);
             extras.and_then(|extras| serde_json::from_str::<RecipeExtras<'_>>(extras.get()).ok())
         }
@@ -108,20 +110,20 @@ fn description(path: &Path) -> Result<Vec<u8>> {
                 Some(u32::from_le_bytes(numbers.get(at..at + 4)?.try_into().ok()?))
             };
             let (Some(2), Some(length), Some(kind)) = (number(0), number(8), number(12)) else {
-                return Err(broken(path, &"it is not binary glTF 2.0"));
+                return Err(unreadable_recipe(path, &"it is not binary glTF 2.0"));
             };
             if kind != u32::from_le_bytes(*b"JSON") {
-                return Err(broken(path, &"it does not begin with its description"));
+                return Err(unreadable_recipe(path, &"it does not begin with its description"));
             }
             if HEAD + u64::from(length) > meta.len() {
-                return Err(broken(path, &"it is shorter than its headers say"));
+                return Err(unreadable_recipe(path, &"it is shorter than its headers say"));
             }
             (u64::from(length), Vec::new())
         }
         text if text.trim_ascii_start().starts_with(b"{") || page::is_page(text) => {
             (meta.len().saturating_sub(HEAD), text.to_vec())
         }
-        _ => return Err(broken(path, &"it is neither glTF nor a page")),
+        _ => return Err(unreadable_recipe(path, &"it is neither glTF nor a page")),
     };
     if length > LARGEST {
         let text = format!("the description of {} has {} MB", path.display(), length / 1_000_000);
@@ -133,7 +135,7 @@ fn description(path: &Path) -> Result<Vec<u8>> {
 }
 
 /// Returns the error for a file that is no model, for the reason `why`.
-fn broken(path: &Path, why: &dyn std::fmt::Display) -> Error {
+fn unreadable_recipe(path: &Path, why: &dyn std::fmt::Display) -> Error {
     Error::file(path, format!("{} is broken: {why}", path.display()))
         .help("specify a .glb, .gltf or .html file that burgeon run has written")
 }

@@ -64,7 +64,7 @@ pub(crate) fn supervise<T: Send + 'static>(
             Ok(WorkMessage::Printed(text)) => check(&mut raised, &|| print(&text)),
             Ok(WorkMessage::Done(result)) => break result,
             Err(RecvTimeoutError::Timeout) => {}
-            Err(RecvTimeoutError::Disconnected) => break Err(panicked()),
+            Err(RecvTimeoutError::Disconnected) => break Err(panic_error()),
         }
         if last.elapsed() >= PULSE {
             last = Instant::now();
@@ -80,10 +80,10 @@ pub(crate) fn supervise<T: Send + 'static>(
 
 /// Calls `work`, and returns an error if it panics: no panic may reach Python.
 fn unwound<T>(work: impl FnOnce() -> Result<T>) -> Result<T> {
-    std::panic::catch_unwind(std::panic::AssertUnwindSafe(work)).unwrap_or_else(|_| Err(panicked()))
+    std::panic::catch_unwind(std::panic::AssertUnwindSafe(work)).unwrap_or_else(|_| Err(panic_error()))
 }
 
-fn panicked() -> Error {
+fn panic_error() -> Error {
     Error::internal("the work panicked").help("report it with the script")
 }
 

@@ -80,7 +80,7 @@ impl Camera {
 
     /// Places a camera at `from` with `to` in the middle of the image and a vertical field of view (rad). `bounds` are the
     /// corners of the model's box.
-    pub(super) fn placed(from: DVec3, to: DVec3, fov: f64, bounds: (Vec3A, Vec3A), size: [u32; 2]) -> Self {
+    pub(super) fn between(from: DVec3, to: DVec3, fov: f64, bounds: (Vec3A, Vec3A), size: [u32; 2]) -> Self {
         let eye = from.as_vec3a();
         let outside = (eye - eye.clamp(bounds.0, bounds.1)).length();
         let focal = (0.5 * f64::from(size[1]) / (0.5 * fov).tan()) as f32;
@@ -282,7 +282,7 @@ mod tests {
         let stage = Stage::new(&scene).unwrap();
         let (from, to) = (DVec3::new(3.0, -2.0, 1.0), DVec3::new(0.2, 0.1, -0.3));
         let points: Vec<Vec3A> = stage.points().collect();
-        let placed = Camera::placed(from, to, 0.8, stage.bounds, [300, 200]);
+        let placed = Camera::between(from, to, 0.8, stage.bounds, [300, 200]);
         let parallel = Camera::parallel(&points, to - from, Some((to, 0.5)), [300, 200]);
         for camera in [&placed, &parallel] {
             let middle = camera.project(camera.view.transform_point3a(to.as_vec3a()));

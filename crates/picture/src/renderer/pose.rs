@@ -116,7 +116,7 @@ pub(super) fn picture_camera(
     let is_free = picture.azimuth.is_none() && picture.elevation.is_none() && picture.look.is_none();
     let view = match &picture.camera {
         CameraChoice::View(view) => Some(*view),
-        CameraChoice::Named(name) => Some(named(scene, name)?),
+        CameraChoice::Named(name) => Some(find_camera(scene, name)?),
         CameraChoice::Automatic => scene.cameras.first().filter(|_| is_free).map(|camera| camera.view),
     };
     if let Some(view) = view {
@@ -135,7 +135,7 @@ pub(super) fn picture_camera(
 }
 
 /// Returns the camera of `scene` called `name`, or one of those that every scene has.
-fn named(scene: &Scene, name: &str) -> Result<CameraView> {
+fn find_camera(scene: &Scene, name: &str) -> Result<CameraView> {
     if let Some(camera) = scene.cameras.iter().find(|camera| camera.name == name) {
         return Ok(camera.view);
     }
@@ -156,7 +156,7 @@ fn view_camera(stage: &Stage, view: &CameraView, size: [u32; 2]) -> Camera {
     let metre = stage.shrink.matrix3.x_axis.length();
     match *view {
         CameraView::Perspective { from, to, fov } => {
-            Camera::placed(place(from), place(to), fov.to_radians(), stage.bounds, size)
+            Camera::between(place(from), place(to), fov.to_radians(), stage.bounds, size)
         }
         CameraView::Orthographic { from, to, height } => {
             let (from, to) = (place(from), place(to));
