@@ -1,0 +1,63 @@
+//! Geometry of shapes.
+
+use std::borrow::Cow;
+use std::sync::{Arc, LazyLock};
+
+use glam::DVec3;
+
+use crate::Scope;
+use crate::mesh::{PolygonFace, PolygonMesh};
+use crate::style::SharedStyle;
+
+/// Geometry of a shape. Boxes and rectangles that fill their scope need no mesh, so that a million of them fit in memory.
+#[derive(Debug, Clone)]
+pub enum Body {
+    /// The solid of the scope, with the styles of its faces: bottom, front, right, back, left and top.
+    Box(Option<Arc<[SharedStyle; 6]>>),
+    /// The rectangle of the scope's x and y axes, which faces along z.
+    Rectangle(SharedStyle),
+    /// The line along the scope's x axis.
+    Edge(crate::EdgeKind, SharedStyle),
+    /// Any faces.
+    Mesh(Arc<PolygonMesh>),
+}
+
+/// Corners of the faces of a box, as numbers of [`Scope::corners`].
+pub(crate) const BOX_FACES: [[u32; 4]; 6] =
+    [[0, 2, 3, 1], [0, 1, 5, 4], [1, 3, 7, 5], [3, 2, 6, 7], [2, 0, 4, 6], [4, 5, 7, 6]];
+/// Number of the top face of a box.
+pub(crate) const TOP: usize = 5;
+
+/// A mesh without faces.
+static EMPTY: LazyLock<PolygonMesh> = LazyLock::new(PolygonMesh::default);
+
+impl Body {
+    /// Returns the faces as a mesh; empty for an edge.
+    pub(crate) fn mesh(&self, scope: &Scope) -> Cow<'_, PolygonMesh> {
+        match self {
+            Self::Mesh(mesh) => Cow::Borrowed(mesh),
+            Self::Edge(..) => Cow::Borrowed(&EMPTY),
+            Self::Rectangle(style) => {
+                let corners = scope.corners();
+                let points: Vec<DVec3> = [0, 1, 3, 2].map(|corner: usize| corners[corner]).to_vec();
+                Cow::Owned(PolygonMesh::new(points, vec![PolygonFace::of(&[0, 1, 2, 3], style)]))
+            }
+            Self::Box(styles) => {
+                let style = |face: usize| styles.as_deref().and_then(|styles| styles[face].clone());
+                let faces = BOX_FACES.iter().enumerate();
+                let faces = faces.map(|(number, ring)| PolygonFace::of(ring, &style(number))).collect();
+                Cow::Owned(PolygonMesh::new(scope.corners().to_vec(), faces))
+            }
+        }
+    }
+
+    /// Returns the number of faces.
+    pub fn faces(&self) -> usize {
+        match self {
+            Self::Box(_) => BOX_FACES.len(),
+            Self::Rectangle(_) => 1,
+            Self::Edge(..) => 0,
+            Self::Mesh(mesh) => mesh.faces.len(),
+        }
+    }
+}

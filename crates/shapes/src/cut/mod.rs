@@ -1,0 +1,4 @@
+//! Division of meshes by planes.
+
+mod crossing;
+pub(crate) mod plane;

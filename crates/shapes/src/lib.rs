@@ -1,0 +1,30 @@
+//! Shapes of a shape grammar: boxes, solids, faces and edges with scopes, and operations that divide and join them.
+//!
+//! Input: plans, sizes and selectors. Output: new shapes; a shape never changes. This crate never reads a file, draws a
+//! random number or knows modules and scripts.
+
+mod body;
+mod components;
+mod construct;
+mod cut;
+mod mesh;
+mod operations;
+mod scope;
+mod shape;
+mod sizes;
+mod solids;
+mod split;
+mod style;
+
+pub use body::Body;
+pub use components::edges::EdgeKind;
+pub use components::selector::Selector;
+pub use cut::plane::CutPlane;
+pub use mesh::{PolygonFace, PolygonMesh};
+pub use operations::Setback;
+pub use scope::Scope;
+pub use shape::Shape;
+pub use sizes::{PartSize, PartSizes, SizedParts};
+pub use solids::SolidOperation;
+pub use split::{SplitAxis, SplitParts};
+pub use style::FaceStyle;

@@ -1,0 +1,12 @@
+//! Meshes of polygons with holes.
+
+mod build;
+mod closed;
+mod loops;
+mod polygon_mesh;
+mod triangles;
+
+pub(crate) use build::MeshBuilder;
+pub(crate) use closed::EdgeSums;
+pub(crate) use loops::trace_loops;
+pub use polygon_mesh::{PolygonFace, PolygonMesh};

@@ -1,0 +1,255 @@
+//! Shapes joined to one, and coplanar faces joined to larger ones.
+
+use burgeon_base::Stop;
+use burgeon_base::error::Result;
+use glam::{DMat3, DVec3};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use crate::mesh::{EdgeSums, PolygonFace, PolygonMesh, trace_loops};
+use crate::{Scope, Shape};
+
+/// Distance (m) within which points are equal.
+const SAME_POINT: f64 = 1e-6;
+/// Largest sine of the angle between the normals of coplanar faces.
+const SAME_NORMAL: f64 = 1e-6;
+
+impl Shape {
+    /// Returns one shape with the faces of all `parts`, in their order, and the axes of the first; `None` without parts.
+    ///
+    /// Points within 1 µm are joined.
+    pub fn joined(parts: &[&Self]) -> Result<Option<Self>> {
+        let Some(first) = parts.first() else { return Ok(None) };
+        let mut mesh = PolygonMesh::default();
+        for part in parts {
+            Stop::check_current()?;
+            let own = part.mesh();
+            let base = u32::try_from(mesh.points.len()).unwrap_or(u32::MAX);
+            burgeon_base::MemoryOwner::ensure_room(own.memory())?;
+            mesh.points.extend_from_slice(&own.points);
+            mesh.faces.extend(own.faces.iter().cloned().map(|mut face| {
+                face.rings.iter_mut().flatten().for_each(|point| *point += base);
+                face
+            }));
+        }
+        Ok(Some(Self::of_mesh(weld(&mesh), first.scope.axes)))
+    }
+
+    /// Returns the shape with coplanar neighbouring faces of the same style joined, points on edges inserted there, and
+    /// pairs of opposite equal faces removed. So the parts of a split become the whole again.
+    pub fn recomposed(&self) -> Result<Self> {
+        let mut mesh = weld(&self.mesh());
+        insert_points_on_edges(&mut mesh)?;
+        remove_opposite_faces(&mut mesh);
+        let merged = merge_coplanar(&mesh);
+        Ok(Self::of_mesh(merged, self.scope.axes))
+    }
+}
+
+/// Joins points within the tolerance, and drops faces without area.
+pub(crate) fn weld(mesh: &PolygonMesh) -> PolygonMesh {
+    let cell = |at: DVec3| (at / (2.0 * SAME_POINT)).floor();
+    let key = |cell: DVec3| cell.to_array().map(|number| (number + 0.0).to_bits());
+    let mut cells: FxHashMap<[u64; 3], Vec<u32>> = FxHashMap::default();
+    let mut points: Vec<DVec3> = Vec::new();
+    let mut numbers = Vec::with_capacity(mesh.points.len());
+    for &at in &mesh.points {
+        let own = cell(at);
+        // A cell is two tolerances wide, so that only neighbours on the nearer sides can hold an equal point.
+        let nearer = (at / (2.0 * SAME_POINT) - own - 0.5).signum();
+        let near = (0..8).find_map(|corner| {
+            let step = DVec3::new(f64::from(corner & 1), f64::from(corner >> 1 & 1), f64::from(corner >> 2));
+            let others = cells.get(&key(own + step * nearer))?;
+            others.iter().copied().find(|other| points[*other as usize].distance(at) <= SAME_POINT)
+        });
+        numbers.push(near.unwrap_or_else(|| {
+            points.push(at);
+            let number = u32::try_from(points.len() - 1).unwrap_or(u32::MAX);
+            cells.entry(key(own)).or_default().push(number);
+            number
+        }));
+    }
+    let mut faces = mesh.faces.clone();
+    faces.retain_mut(|face| {
+        for ring in &mut face.rings {
+            ring.iter_mut().for_each(|point| *point = numbers[*point as usize]);
+            ring.dedup();
+            while ring.len() > 1 && ring.first() == ring.last() {
+                ring.pop();
+            }
+        }
+        let is_face = face.rings.first().is_some_and(|ring| ring.len() > 2);
+        face.rings.retain(|ring| ring.len() > 2);
+        is_face
+    });
+    PolygonMesh::new(points, faces)
+}
+
+/// Inserts points that lie on edges of other faces into these edges.
+fn insert_points_on_edges(mesh: &mut PolygonMesh) -> Result<()> {
+    // Only ends of unmatched edges can lie within edges.
+    let open: Vec<[u32; 2]> = mesh.open_edges().collect();
+    let mut ends: Vec<u32> = open.iter().flatten().copied().collect();
+    ends.sort_by(|a, b| mesh.at(*a).x.total_cmp(&mesh.at(*b).x).then(a.cmp(b)));
+    ends.dedup();
+    let open: FxHashSet<[u32; 2]> = open.into_iter().flat_map(|[from, to]| [[from, to], [to, from]]).collect();
+    let points = &mesh.points;
+    for (number, face) in mesh.faces.iter_mut().enumerate() {
+        if number.is_multiple_of(256) {
+            Stop::check_current()?;
+        }
+        for ring in &mut face.rings {
+            let mut longer: Vec<u32> = Vec::with_capacity(ring.len());
+            for index in 0..ring.len() {
+                let (from, to) = (ring[index], ring[(index + 1) % ring.len()]);
+                longer.push(from);
+                if !open.contains(&[from, to]) {
+                    continue;
+                }
+                let [a, b] = [from, to].map(|point| points[point as usize]);
+                let first = ends.partition_point(|end| points[*end as usize].x < a.x.min(b.x) - SAME_POINT);
+                let near = ends[first..].iter().take_while(|end| points[**end as usize].x <= a.x.max(b.x) + SAME_POINT);
+                let length = a.distance(b);
+                let along = (b - a) / length;
+                let mut inside: Vec<(f64, u32)> = near
+                    .filter_map(|&end| {
+                        let offset = points[end as usize] - a;
+                        let way = offset.dot(along);
+                        let is_on = way > SAME_POINT
+                            && way < length - SAME_POINT
+                            && (offset - along * way).length() <= SAME_POINT;
+                        is_on.then_some((way, end))
+                    })
+                    .collect();
+                inside.sort_by(|a, b| a.0.total_cmp(&b.0));
+                longer.extend(inside.into_iter().map(|(_, end)| end));
+            }
+            *ring = longer;
+        }
+    }
+    *mesh = PolygonMesh::new(std::mem::take(&mut mesh.points), std::mem::take(&mut mesh.faces));
+    Ok(())
+}
+
+/// Removes pairs of faces with the same outline and opposite directions.
+fn remove_opposite_faces(mesh: &mut PolygonMesh) {
+    // The same outline from its smallest point on, and in which direction it runs there.
+    let outline = |face: &PolygonFace, reversed: bool| -> Vec<u32> {
+        let mut ring: Vec<u32> = face.rings[0].clone();
+        if reversed {
+            ring.reverse();
+        }
+        let least = (0..ring.len()).min_by_key(|&index| ring[index]).unwrap_or(0);
+        ring.rotate_left(least);
+        ring
+    };
+    let mut known: FxHashMap<Vec<u32>, Vec<usize>> = FxHashMap::default();
+    let mut removed = vec![false; mesh.faces.len()];
+    for (number, face) in mesh.faces.iter().enumerate().filter(|(_, face)| face.rings.len() == 1) {
+        if let Some(other) = known.get_mut(&outline(face, true)).and_then(Vec::pop) {
+            removed[other] = true;
+            removed[number] = true;
+        } else {
+            known.entry(outline(face, false)).or_default().push(number);
+        }
+    }
+    let mut flags = removed.into_iter();
+    mesh.faces.retain(|_| !flags.next().unwrap_or(false));
+    *mesh = PolygonMesh::new(std::mem::take(&mut mesh.points), std::mem::take(&mut mesh.faces));
+}
+
+/// Joins coplanar faces with a common edge and the same style.
+pub(crate) fn merge_coplanar(mesh: &PolygonMesh) -> PolygonMesh {
+    let normals: Vec<DVec3> = mesh.faces.iter().map(|face| mesh.normal(face)).collect();
+    let mut sides: FxHashMap<[u32; 2], usize> = FxHashMap::default();
+    let mut doubled: FxHashSet<[u32; 2]> = FxHashSet::default();
+    for (number, face) in mesh.faces.iter().enumerate() {
+        for edge in face.edges() {
+            if sides.insert(edge, number).is_some() {
+                doubled.insert(edge);
+            }
+        }
+    }
+    let mut parents: Vec<usize> = (0..mesh.faces.len()).collect();
+    for (number, face) in mesh.faces.iter().enumerate() {
+        for [from, to] in face.edges() {
+            let Some(&other) = sides.get(&[to, from]) else { continue };
+            let same = normals[number].cross(normals[other]).length() <= SAME_NORMAL
+                && normals[number].dot(normals[other]) > 0.0
+                && face.style == mesh.faces[other].style
+                && !doubled.contains(&[from, to])
+                && !doubled.contains(&[to, from]);
+            if same {
+                let (a, b) = (root(&mut parents, number), root(&mut parents, other));
+                parents[a.max(b)] = a.min(b);
+            }
+        }
+    }
+    let mut groups: Vec<Vec<usize>> = vec![Vec::new(); mesh.faces.len()];
+    for number in 0..mesh.faces.len() {
+        groups[root(&mut parents, number)].push(number);
+    }
+    let mut faces = Vec::new();
+    for group in groups.iter().filter(|group| !group.is_empty()) {
+        if let [only] = group.as_slice() {
+            faces.push(mesh.faces[*only].clone());
+            continue;
+        }
+        let first = &mesh.faces[group[0]];
+        let turn = Scope::face_axes(normals[group[0]], DMat3::IDENTITY).transpose();
+        let mut rim = EdgeSums::default();
+        group.iter().flat_map(|face| mesh.faces[*face].edges()).for_each(|edge| rim.add(edge));
+        let edges: Vec<[u32; 2]> = rim.rest().collect();
+        match trace_loops(&edges, |point| (turn * mesh.at(point)).truncate()) {
+            Some(loops) => {
+                faces.extend(loops.into_iter().map(|rings| PolygonFace { rings, style: first.style.clone() }));
+            }
+            None => faces.extend(group.iter().map(|face| mesh.faces[*face].clone())),
+        }
+    }
+    let mut merged = PolygonMesh::new(mesh.points.clone(), faces);
+    remove_straight_points(&mut merged);
+    let count = merged.faces.len();
+    merged.selected(0..count)
+}
+
+/// Removes points that lie on a straight line between their only two neighbours.
+fn remove_straight_points(mesh: &mut PolygonMesh) {
+    // Up to two different neighbours of each point, and whether there are more.
+    let mut neighbors: Vec<([u32; 2], bool)> = vec![([u32::MAX; 2], false); mesh.points.len()];
+    for [from, to] in mesh.faces.iter().flat_map(|face| face.edges()) {
+        for (point, other) in [(from, to), (to, from)] {
+            let (known, more) = &mut neighbors[point as usize];
+            if known.contains(&other) {
+                continue;
+            }
+            match known.iter_mut().find(|slot| **slot == u32::MAX) {
+                Some(slot) => *slot = other,
+                None => *more = true,
+            }
+        }
+    }
+    let points = &mesh.points;
+    let is_straight = |point: u32| {
+        let ([one, other], more) = neighbors[point as usize];
+        if more || other == u32::MAX {
+            return false;
+        }
+        let at = points[point as usize];
+        let (back, forth) = (points[one as usize] - at, points[other as usize] - at);
+        back.cross(forth).length() <= 1e-9 * back.length() * forth.length() && back.dot(forth) < 0.0
+    };
+    for ring in mesh.faces.iter_mut().flat_map(|face| &mut face.rings) {
+        if ring.iter().filter(|point| !is_straight(**point)).count() > 2 {
+            ring.retain(|point| !is_straight(*point));
+        }
+    }
+}
+
+/// Returns the representative of a set, and shortens the path to it.
+fn root(parents: &mut [usize], mut at: usize) -> usize {
+    while parents[at] != at {
+        parents[at] = parents[parents[at]];
+        at = parents[at];
+    }
+    at
+}

@@ -1,0 +1,179 @@
+//! Shapes: geometry with a scope.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use burgeon_geometry::{Polygon, Rings};
+use glam::{DMat3, DVec2, DVec3};
+
+use crate::body::TOP;
+use crate::mesh::PolygonMesh;
+use crate::style::{FaceStyle, SharedStyle};
+use crate::{Body, Scope};
+
+/// A solid, faces or an edge, with a scope. A shape never changes.
+///
+/// ```
+/// use burgeon_shapes::Shape;
+/// use glam::DVec3;
+///
+/// let mass = Shape::cuboid(DVec3::new(10.0, 6.0, 3.0));
+/// assert_eq!((mass.volume(), mass.area(), mass.is_closed()), (180.0, 216.0, true));
+/// ```
+#[derive(Debug, Clone)]
+pub struct Shape {
+    /// Coordinate system.
+    pub scope: Scope,
+    /// Geometry.
+    pub body: Body,
+}
+
+/// Smallest extent (m) along an axis that is not 0.
+const THINNEST: f64 = 1e-6;
+
+impl Shape {
+    /// Creates a box with a corner at the origin.
+    pub fn cuboid(size: DVec3) -> Self {
+        Self { scope: Scope { size, ..Scope::default() }, body: Body::Box(None) }
+    }
+
+    /// Creates a shape of faces, with a scope of these axes around them. Boxes and rectangles that fill it are recognised.
+    pub fn of_mesh(mesh: PolygonMesh, axes: DMat3) -> Self {
+        let mut scope = Scope::around(axes, mesh.points.iter().copied());
+        for size in scope.size.as_mut() {
+            if *size < THINNEST {
+                *size = 0.0;
+            }
+        }
+        if let Some(style) = rectangle_style(&mesh, &scope) {
+            return Self { scope, body: Body::Rectangle(style) };
+        }
+        Self { scope, body: Body::Mesh(Arc::new(mesh)) }
+    }
+
+    /// Creates the face of a polygon in the plane of a scope's x and y axes, with a scope around it.
+    pub fn of_polygon(polygon: &Polygon, frame: &Scope, style: &SharedStyle) -> Self {
+        let rings: Vec<Vec<DVec3>> =
+            polygon.iter().map(|ring| ring.iter().map(|at| frame.point(at.extend(0.0))).collect()).collect();
+        let mut builder = crate::mesh::MeshBuilder::default();
+        builder.face(rings.iter().map(Vec::as_slice), style);
+        Self::of_mesh(builder.build(), frame.axes)
+    }
+
+    /// Returns the faces as a mesh.
+    pub fn mesh(&self) -> Cow<'_, PolygonMesh> {
+        self.body.mesh(&self.scope)
+    }
+
+    /// Returns true if every edge has the same number of faces in both directions.
+    pub fn is_closed(&self) -> bool {
+        match &self.body {
+            Body::Box(_) => true,
+            Body::Rectangle(_) | Body::Edge(..) => false,
+            Body::Mesh(mesh) => mesh.is_closed(),
+        }
+    }
+
+    /// Returns the enclosed volume (m³); 0 if the shape is open.
+    pub fn volume(&self) -> f64 {
+        match &self.body {
+            Body::Box(_) => self.scope.size.element_product(),
+            Body::Mesh(mesh) if mesh.is_closed() => mesh.volume(),
+            _ => 0.0,
+        }
+    }
+
+    /// Returns the area (m²) of all faces.
+    pub fn area(&self) -> f64 {
+        let size = self.scope.size;
+        match &self.body {
+            Body::Box(_) => 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x),
+            Body::Rectangle(_) => size.x * size.y,
+            Body::Edge(..) => 0.0,
+            Body::Mesh(mesh) => mesh.area(),
+        }
+    }
+
+    /// Returns the normal of the first face; the z axis of an edge.
+    pub fn normal(&self) -> DVec3 {
+        match &self.body {
+            Body::Mesh(mesh) => mesh.faces.first().map_or(DVec3::ZERO, |face| mesh.normal(face)),
+            Body::Box(_) => -self.scope.axes.z_axis,
+            Body::Rectangle(_) | Body::Edge(..) => self.scope.axes.z_axis,
+        }
+    }
+
+    /// Returns the mean of the faces' centroids (m), weighted by area; the middle of the scope if there is none.
+    pub fn centroid(&self) -> DVec3 {
+        let Body::Mesh(mesh) = &self.body else { return self.scope.center() };
+        let (mut sum, mut area) = (DVec3::ZERO, 0.0);
+        for (center, own) in mesh.faces.iter().map(|face| mesh.centroid(face)) {
+            sum += center * own;
+            area += own;
+        }
+        if area > 0.0 { sum / area } else { self.scope.center() }
+    }
+
+    /// Returns the styles of all faces.
+    pub fn styles(&self) -> Vec<Option<Arc<FaceStyle>>> {
+        match &self.body {
+            Body::Box(styles) => styles.as_deref().map_or_else(|| vec![None; TOP + 1], |styles| styles.to_vec()),
+            Body::Rectangle(style) | Body::Edge(_, style) => vec![style.clone()],
+            Body::Mesh(mesh) => mesh.faces.iter().map(|face| face.style.clone()).collect(),
+        }
+    }
+
+    /// Returns the shape with other styles of its faces.
+    #[must_use]
+    pub fn with_styles(&self, change: impl Fn(&Option<Arc<FaceStyle>>) -> Option<Arc<FaceStyle>>) -> Self {
+        let body = match &self.body {
+            Body::Box(styles) => {
+                let of = |face: usize| change(&styles.as_deref().and_then(|styles| styles[face].clone()));
+                let new: [SharedStyle; 6] = std::array::from_fn(of);
+                Body::Box(new.iter().any(Option::is_some).then(|| Arc::new(new)))
+            }
+            Body::Rectangle(style) => Body::Rectangle(change(style)),
+            Body::Edge(kind, style) => Body::Edge(*kind, change(style)),
+            Body::Mesh(mesh) => {
+                let mut new = (**mesh).clone();
+                new.faces.iter_mut().for_each(|face| face.style = change(&face.style));
+                Body::Mesh(Arc::new(new))
+            }
+        };
+        Self { scope: self.scope, body }
+    }
+
+    /// Returns the approximate memory (bytes).
+    pub fn memory(&self) -> usize {
+        let mesh = if let Body::Mesh(mesh) = &self.body { mesh.memory() } else { 0 };
+        size_of::<Self>() + mesh
+    }
+
+    /// Returns the face as a polygon in the plane of the scope's x and y axes; `None` unless it is one flat face.
+    pub fn polygon(&self) -> Option<Polygon> {
+        let mesh = self.mesh();
+        let [face] = mesh.faces.as_slice() else { return None };
+        mesh.flat_polygon(face, self.scope.axes, self.scope.origin)
+    }
+}
+
+/// Returns the style of the only face, if it is the rectangle of the scope's x and y axes that faces along z.
+fn rectangle_style(mesh: &PolygonMesh, scope: &Scope) -> Option<SharedStyle> {
+    let [face] = mesh.faces.as_slice() else { return None };
+    let [ring] = face.rings.as_slice() else { return None };
+    if ring.len() != 4 || scope.size.z > 0.0 || scope.size.x <= 0.0 || scope.size.y <= 0.0 {
+        return None;
+    }
+    let near = |a: f64, b: f64| (a - b).abs() < 1e-9 * (1.0 + b.abs());
+    let is_corner = |point: &u32| {
+        let at = scope.local(mesh.at(*point));
+        (near(at.x, 0.0) || near(at.x, scope.size.x)) && (near(at.y, 0.0) || near(at.y, scope.size.y))
+    };
+    let faces_up = mesh.area_vector(face).dot(scope.axes.z_axis) > 0.0;
+    (ring.iter().all(is_corner) && faces_up).then(|| face.style.clone())
+}
+
+/// Returns rings in a plane as rings in space.
+pub(crate) fn lift(rings: &Rings<DVec2>, frame: &Scope, height: f64) -> Vec<Vec<DVec3>> {
+    rings.iter().map(|ring| ring.iter().map(|at| frame.point(at.extend(height))).collect()).collect()
+}

@@ -1,0 +1,105 @@
+//! Tags and colours of faces.
+
+use std::sync::Arc;
+
+/// Tags and colour of a face.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct FaceStyle {
+    /// Tags, such as "roof.slope", in alphabetical order.
+    pub tags: Vec<Arc<str>>,
+    /// Linear colour with opacity, if the face has its own.
+    pub color: Option<[f32; 4]>,
+}
+
+/// Style that several faces share; `None` without tags and colour.
+pub(crate) type SharedStyle = Option<Arc<FaceStyle>>;
+
+impl FaceStyle {
+    /// Returns a style with one tag.
+    pub(crate) fn tagged(tag: &str) -> SharedStyle {
+        Some(Arc::new(Self { tags: vec![tag.into()], color: None }))
+    }
+
+    /// Returns `style` with another tag.
+    pub(crate) fn with_tag(style: &SharedStyle, tag: &Arc<str>) -> SharedStyle {
+        let mut own = style.as_deref().cloned().unwrap_or_default();
+        if let Err(at) = own.tags.binary_search(tag) {
+            own.tags.insert(at, Arc::clone(tag));
+        }
+        Some(Arc::new(own))
+    }
+
+    /// Returns `style` without the tags that `pattern` matches.
+    pub(crate) fn without_tags(style: &SharedStyle, pattern: &str) -> SharedStyle {
+        let own = style.as_deref()?;
+        let tags: Vec<Arc<str>> =
+            own.tags.iter().filter(|tag| !matches_tag(pattern, tag)).map(Arc::clone).collect();
+        (!tags.is_empty() || own.color.is_some()).then(|| Arc::new(Self { tags, color: own.color }))
+    }
+
+    /// Returns `style` in another colour.
+    pub(crate) fn with_color(style: &SharedStyle, color: [f32; 4]) -> SharedStyle {
+        let own = style.as_deref().cloned().unwrap_or_default();
+        Some(Arc::new(Self { color: Some(color), ..own }))
+    }
+
+    /// Returns true if a tag matches `pattern`.
+    pub(crate) fn has_tag(style: &SharedStyle, pattern: &str) -> bool {
+        style.as_deref().is_some_and(|own| own.tags.iter().any(|tag| matches_tag(pattern, tag)))
+    }
+}
+
+/// Returns true if a pattern matches a tag or one of the levels above it: "roof" matches "roof.slope".
+///
+/// `*` stands for any characters and `?` for one, within a level. Linear in the length of the tag per star.
+pub(crate) fn matches_tag(pattern: &str, tag: &str) -> bool {
+    let mut levels = tag.split('.');
+    pattern.split('.').all(|wanted| levels.next().is_some_and(|level| matches_level(wanted, level)))
+}
+
+fn matches_level(pattern: &str, text: &str) -> bool {
+    let (pattern, text): (Vec<char>, Vec<char>) = (pattern.chars().collect(), text.chars().collect());
+    let (mut at, mut place) = (0, 0);
+    let mut star: Option<(usize, usize)> = None;
+    while place < text.len() {
+        match pattern.get(at) {
+            Some('*') => {
+                star = Some((at, place));
+                at += 1;
+            }
+            Some(wanted) if *wanted == '?' || *wanted == text[place] => {
+                at += 1;
+                place += 1;
+            }
+            _ => {
+                let Some((star_at, star_place)) = star else { return false };
+                star = Some((star_at, star_place + 1));
+                at = star_at + 1;
+                place = star_place + 1;
+            }
+        }
+    }
+    pattern[at..].iter().all(|left| *left == '*')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pattern_matches_a_tag_and_the_levels_below_it() {
+        for (pattern, tag, matches) in [
+            ("roof", "roof", true),
+            ("roof", "roof.slope", true),
+            ("roof.slope", "roof", false),
+            ("r*f.s?ope", "roof.slope", true),
+            ("*", "roof.slope", true),
+            ("*.side", "extrude.side", true),
+            ("*.side", "extrude.top", false),
+            ("ro", "roof", false),
+            ("*a*b", "xxaxxbab", true),
+        ] {
+            assert_eq!(matches_tag(pattern, tag), matches, "{pattern} {tag}");
+        }
+    }
+}
