@@ -523,6 +523,78 @@ turtle_module("Elasticity", "elasticity", "elasticity")
 names.Place = module("Place", "model", "scale?")
 __interpretation("turtle", "Place", "place")
 
+-- Shapes ----------------------------------------------------------------------------------------------------
+
+-- Draws the faces of a shape.
+names.Shape = module("Shape", "shape")
+__interpretation("turtle", "Shape", "shape")
+__interpretation("extruder", "Shape", "shape")
+
+--- Adds what a part becomes: a module with the part, what a function returns for it, or nothing for false.
+local function add_part(list: { any }, maker: any, part: any, owner: string)
+  if maker == false then
+    return
+  elseif maker == nil then
+    refuse(`{owner}: an entry has no module`, "write { 3, Floor }, or { 3, false } to leave the part empty")
+  end
+  local item = maker(part)
+  if item ~= nil then
+    table.insert(list, item)
+  end
+end
+
+--- Divides a shape along an axis of its scope into modules: each part is { size, Module }, a list of such parts is
+--- repeated, and false instead of the module leaves the part empty.
+local function split(shape: any, axis: string, parts: { any }): any
+  local sizes: { any }, makers: { any } = {}, {}
+  for _, part in parts do
+    if type(part) ~= "table" then
+      refuse(`split: a part is {describe(part)}`, 'write split(s, "z", {{ {{ 4, Ground }}, {{ "~3*", Floor }} }})')
+    elseif type(part[1]) == "table" then
+      local group = {}
+      for _, inner in part do
+        table.insert(group, inner[1])
+        table.insert(makers, if inner[2] == nil then 0 else inner[2])
+      end
+      table.insert(sizes, group)
+    else
+      table.insert(sizes, part[1])
+      table.insert(makers, if part[2] == nil then 0 else part[2])
+    end
+  end
+  local list: { any } = {}
+  for _, part in shape:split(axis, sizes) do
+    local maker = makers[part:entry()]
+    add_part(list, if maker == 0 then nil else maker, part, "split")
+  end
+  return sequence(list)
+end
+
+--- Divides a shape into modules for its components, "faces", "edges", "holes" or "pieces": each of `parts` is
+--- { selector, Module }, and a component becomes the first whose selector it matches. A selector is a name or a function.
+local function components(shape: any, kind: string, parts: { any }): any
+  local all = if kind == "faces"
+    then shape:faces()
+    elseif kind == "edges" then shape:edges()
+    elseif kind == "holes" then shape:holes()
+    elseif kind == "pieces" then shape:pieces()
+    else refuse(`components: unknown kind {describe(kind)}`, 'use "faces", "edges", "holes" or "pieces"')
+  local list: { any } = {}
+  for _, component in all do
+    for _, part in parts do
+      local selector = part[1]
+      local matches = if type(selector) == "function"
+        then selector(component)
+        else selector == "all" or component:matches(selector)
+      if matches then
+        add_part(list, part[2], component, "components")
+        break
+      end
+    end
+  end
+  return sequence(list)
+end
+
 -- Pruning ---------------------------------------------------------------------------------------------------
 
 -- %
@@ -541,5 +613,7 @@ names.rgb = rgb
 names.mix = mix
 names.prototype = prototype
 names.abop = abop
+names.split = split
+names.components = components
 table.freeze(Vec)
 return names

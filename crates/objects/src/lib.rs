@@ -19,6 +19,7 @@ mod line_index;
 mod mesh;
 mod network;
 pub mod planet;
+mod shapes;
 mod surface;
 pub mod terrain;
 mod turtle;
@@ -39,6 +40,7 @@ pub use footprint::{EdgeKeywords, Footprint, Roof, RoofDetail, Walls};
 pub use line_index::LineIndex;
 pub use network::Network;
 pub use planet::Planet;
+pub use shapes::ShapeObject;
 pub use surface::MaterialOptions;
 pub use terrain::{EditFile, Terrain};
 pub use turtle::Turtle;
@@ -69,6 +71,7 @@ pub fn registry() -> Registry {
         Extruder::kind(),
         Footprint::kind(),
         GeometryObject::kind(),
+        ShapeObject::kind(),
         Planet::kind(),
         LineIndex::kind(),
         Network::kind(),
@@ -97,6 +100,6 @@ mod tests {
     #[test]
     fn no_type_is_left_out_for_its_name() {
         super::registry().check().expect("each has a name of its own");
-        assert_eq!(super::registry().kinds().count(), 22 + super::facade::kinds().len());
+        assert_eq!(super::registry().kinds().count(), 23 + super::facade::kinds().len());
     }
 }

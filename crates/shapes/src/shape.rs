@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use burgeon_geometry::{Polygon, Rings};
-use glam::{DMat3, DVec2, DVec3};
+use burgeon_geometry::Polygon;
+use glam::{DMat3, DVec3};
 
 use crate::body::TOP;
 use crate::mesh::PolygonMesh;
@@ -171,9 +171,4 @@ fn rectangle_style(mesh: &PolygonMesh, scope: &Scope) -> Option<SharedStyle> {
     };
     let faces_up = mesh.area_vector(face).dot(scope.axes.z_axis) > 0.0;
     (ring.iter().all(is_corner) && faces_up).then(|| face.style.clone())
-}
-
-/// Returns rings in a plane as rings in space.
-pub(crate) fn lift(rings: &Rings<DVec2>, frame: &Scope, height: f64) -> Vec<Vec<DVec3>> {
-    rings.iter().map(|ring| ring.iter().map(|at| frame.point(at.extend(height))).collect()).collect()
 }

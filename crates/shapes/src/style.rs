@@ -12,7 +12,7 @@ pub struct FaceStyle {
 }
 
 /// Style that several faces share; `None` without tags and colour.
-pub(crate) type SharedStyle = Option<Arc<FaceStyle>>;
+pub type SharedStyle = Option<Arc<FaceStyle>>;
 
 impl FaceStyle {
     /// Returns a style with one tag.
@@ -21,7 +21,7 @@ impl FaceStyle {
     }
 
     /// Returns `style` with another tag.
-    pub(crate) fn with_tag(style: &SharedStyle, tag: &Arc<str>) -> SharedStyle {
+    pub fn with_tag(style: &SharedStyle, tag: &Arc<str>) -> SharedStyle {
         let mut own = style.as_deref().cloned().unwrap_or_default();
         if let Err(at) = own.tags.binary_search(tag) {
             own.tags.insert(at, Arc::clone(tag));
@@ -30,7 +30,7 @@ impl FaceStyle {
     }
 
     /// Returns `style` without the tags that `pattern` matches.
-    pub(crate) fn without_tags(style: &SharedStyle, pattern: &str) -> SharedStyle {
+    pub fn without_tags(style: &SharedStyle, pattern: &str) -> SharedStyle {
         let own = style.as_deref()?;
         let tags: Vec<Arc<str>> =
             own.tags.iter().filter(|tag| !matches_tag(pattern, tag)).map(Arc::clone).collect();
@@ -38,7 +38,7 @@ impl FaceStyle {
     }
 
     /// Returns `style` in another colour.
-    pub(crate) fn with_color(style: &SharedStyle, color: [f32; 4]) -> SharedStyle {
+    pub fn with_color(style: &SharedStyle, color: [f32; 4]) -> SharedStyle {
         let own = style.as_deref().cloned().unwrap_or_default();
         Some(Arc::new(Self { color: Some(color), ..own }))
     }

@@ -8,6 +8,7 @@ use super::options::ExtruderOptions;
 use super::state::{ExtruderState, SolidRun};
 use crate::MaterialOptions;
 use crate::frame_stack::{FrameStack, FrameStackMark};
+use crate::shapes::{ShapeObject, draw_shape};
 use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
@@ -225,6 +226,14 @@ impl Extruder {
     pub fn mesh(&mut self, points: MeshPoints, faces: MeshFaces, options: Option<MeshOptions>) -> Result<()> {
         let to = ("extruder", &mut self.drawing, &*self.state.material);
         draw_mesh(to, &self.state.frame.transform(), &points, &faces, &options.unwrap_or_default())
+    }
+
+    /// Draws the faces of a shape in the extruder's frame, in their own colours or in the colour of the extruder.
+    pub fn shape(&mut self, shape: Arc<ShapeObject>) -> Result<()> {
+        let transform = self.state.frame.transform();
+        let warning = draw_shape((&mut self.drawing, &self.state.material), &transform, &shape)?;
+        self.warnings.extend(warning);
+        Ok(())
     }
 
     /// Places another system's model at the extruder's frame, with this `scale` (1 unless given), which may be a vector

@@ -25,5 +25,6 @@ mod walls;
 
 pub use object::Footprint;
 pub use options::EdgeKeywords;
+pub(crate) use roof::roof_shape;
 pub use roof::{Roof, RoofDetail};
 pub use walls::Walls;

@@ -13,6 +13,7 @@ use crate::MaterialOptions;
 use crate::curves::curve::CurveObject;
 use crate::curves::surface::SurfaceObject;
 use crate::frame_stack::FrameStack;
+use crate::shapes::{ShapeObject, draw_shape};
 use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
@@ -263,6 +264,15 @@ impl Turtle {
         let sides = self.options.sides.max(6);
         let radius = radius * self.state.scale;
         sphere(self.drawing.part(self.state.part), self.state.frame.position, radius, sides)
+    }
+
+    /// Draws the faces of a shape in the turtle's frame, in their own colours or in the colour of the turtle.
+    pub fn shape(&mut self, shape: Arc<ShapeObject>) -> Result<()> {
+        let base = self.drawing.material_of(self.state.part);
+        let transform = self.state.transform();
+        let warning = draw_shape((&mut self.drawing, &base), &transform, &shape)?;
+        self.warnings.extend(warning);
+        Ok(())
     }
 
     /// Places another system's model at the turtle's frame, with this `scale` (1 unless given), which may be a vector

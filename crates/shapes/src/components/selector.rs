@@ -57,7 +57,7 @@ pub enum Inclination {
 const NEAR: f64 = 0.195_090_322_016_128_28;
 
 /// Selectors with fixed names.
-const NAMES: [(&str, Selector); 18] = {
+static NAMES: [(&str, Selector); 18] = {
     use FaceDirection::{Back, Bottom, Front, Left, Right, Side, Top};
     use Inclination::{Horizontal, Overhanging, Slanted, Vertical};
     [
@@ -96,12 +96,25 @@ impl Selector {
         if let Some(pattern) = name.strip_prefix("tag:") {
             return Ok(Self::Tagged(pattern.trim().to_owned()));
         }
-        if let Some((_, selector)) = NAMES.into_iter().find(|(known, _)| *known == name) {
-            return Ok(selector);
+        if let Some((_, selector)) = NAMES.iter().find(|(known, _)| *known == name) {
+            return Ok(selector.clone());
         }
         let names = || NAMES.iter().map(|(name, _)| *name);
         Err(Error::not_found("selector", name, names(), format!("unknown selector {name:?}"))
             .help(format!("use {}, or \"tag:\" with a pattern", listed(names()))))
+    }
+
+    /// Returns the bit of a selector with a fixed name; `None` for a pattern of tags.
+    pub fn bit(&self) -> Option<u32> {
+        NAMES.iter().position(|(_, known)| known == self).map(|index| 1 << index)
+    }
+
+    /// Returns the bits of the selectors with fixed names that match a face, as [`Selector::matches`].
+    pub fn matching(normal: DVec3, style: &SharedStyle, axes: &DMat3) -> u32 {
+        let bits = NAMES.iter().enumerate().map(|(index, (_, selector))| {
+            u32::from(selector.matches(normal, style, axes)) << index
+        });
+        bits.sum()
     }
 
     /// Returns true for a face with this unit normal and style, of a shape with these axes.

@@ -18,7 +18,7 @@ pub(super) enum Side {
 
 impl Side {
     /// Returns the side at a signed distance (m); within `tolerance` (m) a point lies on the plane.
-    pub fn of(distance: f64, tolerance: f64) -> Self {
+    pub(crate) fn of(distance: f64, tolerance: f64) -> Self {
         if distance > tolerance {
             Self::Above
         } else if distance < -tolerance {
@@ -51,7 +51,7 @@ struct Run {
 
 impl FaceCutter<'_> {
     /// Adds the kept parts of a face to `faces`, and their edges on the plane, reversed, to `rim`.
-    pub fn cut(&mut self, face: &PolygonFace, faces: &mut Vec<PolygonFace>, rim: &mut EdgeSums) {
+    pub(crate) fn cut(&mut self, face: &PolygonFace, faces: &mut Vec<PolygonFace>, rim: &mut EdgeSums) {
         let normal = self.mesh.normal(face);
         let inward = if self.side == Side::Above { self.plane.normal } else { -self.plane.normal };
         let along = inward.cross(normal).normalize_or_zero();

@@ -16,7 +16,7 @@ pub(crate) struct MeshBuilder {
 
 impl MeshBuilder {
     /// Returns the number of a point (m).
-    pub fn point(&mut self, at: DVec3) -> u32 {
+    pub(crate) fn point(&mut self, at: DVec3) -> u32 {
         // Turns -0 into 0.
         let at = at + DVec3::ZERO;
         let points = &mut self.mesh.points;
@@ -27,7 +27,7 @@ impl MeshBuilder {
     }
 
     /// Adds a face; consecutive equal points count once, and rings with fewer than three points are dropped.
-    pub fn face<'a>(&mut self, rings: impl IntoIterator<Item = &'a [DVec3]>, style: &SharedStyle) {
+    pub(crate) fn face<'a>(&mut self, rings: impl IntoIterator<Item = &'a [DVec3]>, style: &SharedStyle) {
         let mut numbers: SmallVec<[Vec<u32>; 1]> = SmallVec::new();
         for (index, ring) in rings.into_iter().enumerate() {
             let mut ring: Vec<u32> = ring.iter().map(|at| self.point(*at)).collect();
@@ -46,18 +46,8 @@ impl MeshBuilder {
         }
     }
 
-    /// Adds all faces of a mesh.
-    pub fn mesh(&mut self, mesh: &PolygonMesh) {
-        let numbers: Vec<u32> = mesh.points.iter().map(|at| self.point(*at)).collect();
-        for face in &mesh.faces {
-            let mut face = face.clone();
-            face.rings.iter_mut().flatten().for_each(|point| *point = numbers[*point as usize]);
-            self.mesh.faces.push(face);
-        }
-    }
-
     /// Returns the mesh.
-    pub fn build(self) -> PolygonMesh {
+    pub(crate) fn build(self) -> PolygonMesh {
         self.mesh
     }
 }

@@ -13,7 +13,7 @@ pub(crate) struct EdgeSums {
 
 impl EdgeSums {
     /// Adds an edge.
-    pub fn add(&mut self, [from, to]: [u32; 2]) {
+    pub(crate) fn add(&mut self, [from, to]: [u32; 2]) {
         if from == to {
             return;
         }
@@ -26,7 +26,7 @@ impl EdgeSums {
     }
 
     /// Returns the edges that nothing cancels, in their direction, as often as they remain.
-    pub fn rest(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
+    pub(crate) fn rest(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
         self.sums.iter().flat_map(|&([from, to], sum)| {
             let edge = if sum > 0 { [from, to] } else { [to, from] };
             std::iter::repeat_n(edge, sum.unsigned_abs() as usize)

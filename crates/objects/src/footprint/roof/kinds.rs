@@ -34,7 +34,7 @@ const EAVES: [&str; 3] = ["closed", "open", "slab"];
 const THICKNESS: f64 = 0.15;
 
 /// Returns the roof shape for the options of the script. Fails if an option is unknown or out of range.
-pub(super) fn shape(options: &Roof) -> Result<RoofShape> {
+pub(crate) fn shape(options: &Roof) -> Result<RoofShape> {
     check(options)?;
     let kind = options.kind.as_str();
     let border = Border { height: options.border, width: options.border_width };

@@ -12,4 +12,5 @@ mod replace;
 mod tests;
 
 pub use detail::RoofDetail;
+pub(crate) use kinds::shape as roof_shape;
 pub use options::Roof;

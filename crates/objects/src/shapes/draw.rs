@@ -1,0 +1,79 @@
+//! Drawing of shapes.
+
+use burgeon_base::Stop;
+use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::warning::{Warning, WarningKind};
+use burgeon_kit::Drawing;
+use burgeon_scene::{Material, Part};
+use burgeon_shapes::{Body, PolygonFace, PolygonMesh, Scope};
+use glam::{DAffine3, DVec3};
+
+use super::object::ShapeObject;
+
+/// Number of faces between two checks for cancellation.
+const STRETCH: usize = 4096;
+
+/// Draws the faces of a shape at `transform`, in their colours or with the material `base`. Texture coordinates are
+/// metres in the plane of each face, x to the right seen from outside and y upwards.
+///
+/// Returns a warning if the shape draws nothing.
+pub(crate) fn draw_shape(
+    (drawing, base): (&mut Drawing, &Material),
+    transform: &DAffine3,
+    shape: &ShapeObject,
+) -> Result<Option<Warning>> {
+    let shape = shape.shape();
+    if matches!(shape.body, Body::Edge(..)) {
+        let text = "an edge has no faces, so it draws nothing";
+        let help = "sweep a section along it: an extruder at its position, with its length";
+        return Ok(Some(Warning::new(WarningKind::DrawsNothing, text).help(help)));
+    }
+    let mesh = shape.mesh();
+    let plain = drawing.material(base);
+    let mut last: (Option<[f32; 4]>, usize) = (None, plain);
+    for (number, face) in mesh.faces.iter().enumerate() {
+        if number.is_multiple_of(STRETCH) {
+            Stop::check_current()?;
+        }
+        let color = face.style.as_deref().and_then(|style| style.color);
+        if color != last.0 {
+            let material = |color| Material { base_color: color, ..base.clone() };
+            last = (color, color.map_or(plain, |color| drawing.material(&material(color))));
+        }
+        draw_face(drawing.part(last.1), &mesh, face, transform)?;
+    }
+    Ok(None)
+}
+
+/// Adds the triangles of a face.
+fn draw_face(part: &mut Part, mesh: &PolygonMesh, face: &PolygonFace, transform: &DAffine3) -> Result<()> {
+    let normal = transform.transform_vector3(mesh.normal(face)).normalize_or_zero();
+    if normal == DVec3::ZERO {
+        return Ok(());
+    }
+    let axes = Scope::face_axes(normal, glam::DMat3::IDENTITY);
+    let points: Vec<u32> = face.rings.iter().flatten().copied().collect();
+    let base = u32::try_from(part.positions.len() + points.len())
+        .map_err(|_| Error::limit(Limit::Size, "a mesh has too many vertices"))?
+        - u32::try_from(points.len()).unwrap_or(0);
+    let triangles = mesh.triangles(face)?;
+    part.make_room(points.len(), triangles.len());
+    for point in &points {
+        let at = transform.transform_point3(mesh.at(*point));
+        part.positions.push(at.as_vec3());
+        part.normals.push(normal.into());
+        part.uvs.push(glam::DVec2::new(at.dot(axes.x_axis), at.dot(axes.y_axis)).as_vec2());
+    }
+    // A face of one ring has each point once, so its first place is the only one.
+    let place = |point: u32| points.iter().position(|known| *known == point).unwrap_or(0);
+    for corners in triangles {
+        #[allow(clippy::cast_possible_truncation, reason = "the sum fits, as checked above")]
+        let [a, b, c] = corners.map(|corner| base + place(corner) as u32);
+        let at = |vertex: u32| part.positions[vertex as usize];
+        // Points that coincide at the precision of files leave no triangle.
+        if at(a) != at(b) && at(b) != at(c) && at(c) != at(a) {
+            part.triangles.push([a, b, c]);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,503 @@
+//! Methods of shapes for scripts.
+
+use std::sync::Arc;
+
+use burgeon_base::error::{Error, ErrorKind, Result};
+use burgeon_geometry::Rings;
+use burgeon_kit::{Color, TableOf, Value, Vector, methods};
+use burgeon_shapes::{Body, CutPlane, EdgeKind, FaceStyle, Selector, Shape, SolidOperation, SplitAxis};
+use burgeon_spatial::Geometry;
+use glam::{DAffine3, DMat3, DVec3};
+
+use super::edge_distances::EdgeDistances;
+use super::object::{ShapeObject, warn};
+use super::options::{ScatterOptions, ShapeRoofOptions};
+use super::part_sizes::SplitSizes;
+use super::relations::ShapeOrPlace;
+
+#[methods("shape")]
+impl ShapeObject {
+    /// Returns the extent (m) along the axes of the scope.
+    pub fn size(&self) -> DVec3 {
+        self.shape.scope.size
+    }
+
+    /// Returns the corner of the scope with the least coordinates (m).
+    pub fn position(&self) -> DVec3 {
+        self.shape.scope.origin
+    }
+
+    /// Returns the centre of the scope (m).
+    pub fn center(&self) -> DVec3 {
+        self.shape.scope.center()
+    }
+
+    /// Returns the direction of the x axis: along an edge, and to the right on a face seen from outside.
+    pub fn x_axis(&self) -> DVec3 {
+        self.shape.scope.axes.x_axis
+    }
+
+    /// Returns the direction of the y axis: upwards on a face.
+    pub fn y_axis(&self) -> DVec3 {
+        self.shape.scope.axes.y_axis
+    }
+
+    /// Returns the direction of the z axis: outwards on a face and an edge.
+    pub fn z_axis(&self) -> DVec3 {
+        self.shape.scope.axes.z_axis
+    }
+
+    /// Returns true if the shape is closed, so that it has a volume.
+    pub fn is_solid(&self) -> bool {
+        self.shape.is_closed()
+    }
+
+    /// Returns the kind of an edge: "ridge", "hip", "valley", "eave", "rake", "corner", "border" or "plain"; nil for
+    /// other shapes.
+    pub fn edge_kind(&self) -> Option<String> {
+        match &self.shape.body {
+            Body::Edge(kind, _) => Some(kind.name().into()),
+            _ => None,
+        }
+    }
+
+    /// Returns the volume of a solid (m³); 0 if the shape is open.
+    pub fn volume(&self) -> f64 {
+        self.shape.volume()
+    }
+
+    /// Returns the area of all faces (m²).
+    pub fn area(&self) -> f64 {
+        self.shape.area()
+    }
+
+    /// Returns the length of an edge, or of the outlines of open faces (m); 0 for a solid.
+    pub fn length(&self) -> f64 {
+        if let Body::Edge(..) = self.shape.body {
+            return self.shape.scope.size.x;
+        }
+        let mesh = self.shape.mesh();
+        mesh.open_edges().map(|[from, to]| mesh.at(from).distance(mesh.at(to))).sum()
+    }
+
+    /// Returns the angle between the first face and the horizontal plane (degrees): 0 for a floor, 90 for a wall, 180
+    /// for a ceiling.
+    pub fn slope(&self) -> f64 {
+        self.shape.normal().angle_between(DVec3::Z).to_degrees()
+    }
+
+    /// Returns the number of faces.
+    pub fn face_count(&self) -> f64 {
+        self.shape.body.faces() as f64
+    }
+
+    /// Returns the number of open edges: 0 for a solid.
+    pub fn open_edges(&self) -> f64 {
+        self.shape.mesh().open_edges().count() as f64
+    }
+
+    /// Returns the corners (m) in the order of the faces.
+    pub fn points(&self) -> Vec<Vector> {
+        if let Body::Edge(..) = self.shape.body {
+            let scope = &self.shape.scope;
+            return vec![Vector(scope.origin), Vector(scope.point(scope.size))];
+        }
+        self.shape.mesh().points.iter().copied().map(Vector).collect()
+    }
+
+    /// Returns the number among the parts of the operation that made the shape, from 1.
+    pub fn index(&self) -> f64 {
+        f64::from(self.place.index + 1)
+    }
+
+    /// Returns the number of parts of the operation that made the shape.
+    pub fn count(&self) -> f64 {
+        f64::from(self.place.count)
+    }
+
+    /// Returns the number of the size that made the part of a split, from 1. Sizes in repeated lists count separately.
+    pub fn entry(&self) -> f64 {
+        f64::from(self.place.entry + 1)
+    }
+
+    /// Returns the named value; nil if there is none. Parts inherit values.
+    pub fn get(&self, name: String) -> Value {
+        self.value(&name)
+    }
+
+    /// Returns the shape with a named value, which its parts inherit; nil removes it.
+    pub fn with(&self, name: String, value: Option<Value>) -> Self {
+        self.with_value(&name, value.unwrap_or(Value::Nil))
+    }
+
+    /// Returns the tags of the faces, in alphabetical order.
+    pub fn tags(&self) -> Vec<String> {
+        let mut tags: Vec<String> =
+            self.shape.styles().iter().flatten().flat_map(|style| style.tags.iter().map(ToString::to_string)).collect();
+        tags.sort();
+        tags.dedup();
+        tags
+    }
+
+    /// Returns true if a face has a tag that matches `pattern`: "roof" matches "roof.slope", * any characters, and ? one.
+    pub fn has_tag(&self, pattern: String) -> bool {
+        let tagged = Selector::Tagged(pattern);
+        self.shape.styles().iter().any(|style| tagged.matches(DVec3::Z, style, &DMat3::IDENTITY))
+    }
+
+    /// Returns the shape with a tag on all faces, such as "facade.front".
+    pub fn tag(&self, name: String) -> Result<Self> {
+        if name.is_empty() || name.split('.').any(str::is_empty) || name.contains(['*', '?']) {
+            return Err(Error::argument(format!("shape:tag: {name:?} is no tag"))
+                .help("use names with dots between them, such as \"facade.front\""));
+        }
+        let name: Arc<str> = name.as_str().into();
+        Ok(self.changed(self.shape.with_styles(|style| FaceStyle::with_tag(style, &name))))
+    }
+
+    /// Returns the shape without the tags that match `pattern`.
+    pub fn untag(&self, pattern: String) -> Self {
+        self.changed(self.shape.with_styles(|style| FaceStyle::without_tags(style, &pattern)))
+    }
+
+    /// Returns the shape with faces of this colour, which override the colour of the drawing object.
+    pub fn color(&self, color: Color) -> Self {
+        self.changed(self.shape.with_styles(|style| FaceStyle::with_color(style, color.0)))
+    }
+
+    /// Returns the parts along an axis of the scope, "x", "y" or "z", in ascending order.
+    ///
+    /// `sizes` is a list: a number (m), "30%" of the whole, "~3" for a flexible size that shares the rest, "3*" or "~3*"
+    /// for as many as fit, and a list of sizes for a repeated group. A solid's parts are solids.
+    pub fn split(&self, axis: String, sizes: SplitSizes) -> Result<Vec<Arc<Self>>> {
+        let axis = match axis.as_str() {
+            "x" => SplitAxis::X,
+            "y" => SplitAxis::Y,
+            "z" => SplitAxis::Z,
+            other => {
+                let message = format!("shape:split: unknown axis {other:?}");
+                return Err(Error::argument(message).help("use \"x\", \"y\" or \"z\""));
+            }
+        };
+        let split = self.shape.split(axis, &sizes.0).map_err(|error| error.about("shape:split"))?;
+        if split.missing > 0.0 {
+            let text = format!("the sizes exceed the shape by {:.3} m, so the last parts are cut", split.missing);
+            warn("split", &text, "use flexible sizes, such as \"~3\"");
+        } else if split.rest > 0.0 {
+            let text = format!("the sizes leave {:.3} m at the end", split.rest);
+            warn("split", &text, "add a flexible size, such as \"~1\"");
+        }
+        if split.open {
+            warn("split", "a solid could not be closed where it was cut", "check the solid with shape:open_edges");
+        }
+        Ok(self.numbered(split.parts))
+    }
+
+    /// Returns the part behind the plane through a point (m), against its `normal`; nil if there is none.
+    pub fn trim(&self, point: Vector, normal: Vector) -> Result<Option<Self>> {
+        let normal = unit("shape:trim: the normal", normal.0)?;
+        let ([below, _], open) = self.shape.cut(&CutPlane::through(point.0, normal))?;
+        if open {
+            warn("trim", "the solid could not be closed where it was cut", "check the solid with shape:open_edges");
+        }
+        Ok(below.map(|part| self.changed(part)))
+    }
+
+    /// Returns the faces, each as a shape: all, or those that `selector` matches.
+    ///
+    /// Selectors are "front", "back", "left", "right", "side", "top" and "bottom" by the scope; "north", "east",
+    /// "south", "west", "up" and "down"; "vertical", "horizontal", "slanted" and "overhanging"; and "tag:" with a
+    /// pattern.
+    pub fn faces(&self, selector: Option<String>) -> Result<Vec<Arc<Self>>> {
+        let mut faces = self.parts(self.shape.faces(&selected("faces", selector)?)?);
+        for face in faces.iter_mut().filter_map(Arc::get_mut) {
+            let style = face.shape.styles().into_iter().next().flatten();
+            face.matching = Selector::matching(face.shape.normal(), &style, &self.shape.scope.axes);
+        }
+        Ok(faces)
+    }
+
+    /// Returns true if `selector` selects this face among the faces of the shape that it comes from, or this edge by its
+    /// kind.
+    pub fn matches(&self, selector: String) -> Result<bool> {
+        if let Body::Edge(kind, _) = &self.shape.body
+            && let Ok(wanted) = EdgeKind::read(&selector)
+        {
+            return Ok(*kind == wanted);
+        }
+        let selector = Selector::read(&selector).map_err(|error| error.about("shape:matches"))?;
+        let (normal, axes) = (self.shape.normal(), &self.shape.scope.axes);
+        Ok(match selector.bit() {
+            Some(bit) if self.matching != 0 => self.matching & bit != 0,
+            _ => self.shape.styles().iter().any(|style| selector.matches(normal, style, axes)),
+        })
+    }
+
+    /// Returns the faces that `selector` matches as one shape; nil if there are none.
+    pub fn joined_faces(&self, selector: Option<String>) -> Result<Option<Self>> {
+        let joined = self.shape.faces_joined(&selected("joined_faces", selector)?);
+        Ok(joined.map(|faces| self.changed(faces)))
+    }
+
+    /// Returns the edges, each as a shape along its x axis: all, or those of a kind such as "ridge". Edges between
+    /// coplanar faces do not count.
+    pub fn edges(&self, kind: Option<String>) -> Result<Vec<Arc<Self>>> {
+        let kind = kind.map(|kind| EdgeKind::read(&kind)).transpose();
+        let kind = kind.map_err(|error| error.about("shape:edges"))?;
+        Ok(self.parts(self.shape.edges(kind.as_ref().map(std::slice::from_ref))))
+    }
+
+    /// Returns the holes of the faces, filled.
+    pub fn holes(&self) -> Vec<Arc<Self>> {
+        self.parts(self.shape.holes())
+    }
+
+    /// Returns the faces without holes.
+    pub fn without_holes(&self) -> Self {
+        self.changed(self.shape.without_holes())
+    }
+
+    /// Returns the connected pieces.
+    pub fn pieces(&self) -> Vec<Arc<Self>> {
+        self.parts(self.shape.pieces())
+    }
+
+    /// Returns the solid between the faces and their copies at `distance` (m) along `direction`, their normal unless
+    /// given. New faces have the tags "extrude.bottom", "extrude.side" and "extrude.top".
+    pub fn extrude(&self, distance: f64, direction: Option<Vector>) -> Result<Self> {
+        let direction = direction.map(|to| unit("shape:extrude: the direction", to.0)).transpose()?;
+        let solid = self.shape.extrude(distance, direction).map_err(|error| error.about("shape:extrude"))?;
+        Ok(self.changed(solid))
+    }
+
+    /// Returns the solid between a face and its copy at `height` (m), scaled by `scale` (0 unless given, a pyramid).
+    pub fn taper(&self, height: f64, scale: Option<f64>) -> Result<Self> {
+        let solid = self.shape.taper(height, scale.unwrap_or(0.0)).map_err(|error| error.about("shape:taper"))?;
+        Ok(self.changed(solid))
+    }
+
+    /// Returns a roof over a horizontal face, closed from below. Faces have the tags "roof.slope", "roof.gable",
+    /// "roof.side" and "roof.bottom".
+    pub fn roof(&self, options: Option<TableOf<ShapeRoofOptions>>) -> Result<Self> {
+        let ShapeRoofOptions { kind, height, slope, overhang } = options.unwrap_or_default().read()?;
+        let roof = crate::Roof { kind, height, slope, overhang, ..crate::Roof::default() };
+        let shape = crate::footprint::roof_shape(&roof).map_err(|error| error.about("shape:roof"))?;
+        let (solid, hipped) = self.shape.roof(&shape).map_err(|error| error.about("shape:roof"))?;
+        if hipped {
+            warn("roof", "a gable was not possible, so there are hips", "use a plan with an end for each gable");
+        }
+        Ok(self.changed(solid))
+    }
+
+    /// Returns the faces after all edges of a face moved outwards by `distance` (m), or inwards if it is negative; an
+    /// empty list if nothing remains.
+    pub fn offset(&self, distance: f64) -> Result<Vec<Arc<Self>>> {
+        Ok(self.parts(self.shape.offset(-distance).map_err(|error| error.about("shape:offset"))?))
+    }
+
+    /// Returns the rest of a face after its edges moved inwards: by one distance (m), by a list with one for each edge,
+    /// or by a table of selectors, such as { front = 3, side = 1 }.
+    pub fn setback(&self, distances: EdgeDistances) -> Result<Vec<Arc<Self>>> {
+        Ok(self.parts(self.divide_border("setback", &distances)?.inner))
+    }
+
+    /// Returns the strips along the edges of a face, in the order of the edges, with distances as of `setback`. Strips
+    /// of neighbouring edges meet on the line between them.
+    pub fn border(&self, distances: EdgeDistances) -> Result<Vec<Arc<Self>>> {
+        Ok(self.parts(self.divide_border("border", &distances)?.border))
+    }
+
+    /// Returns the strips along the edges of a face, with distances as of `setback`, joined to an L, a U, an O or parts
+    /// of them.
+    pub fn wings(&self, distances: EdgeDistances) -> Result<Vec<Arc<Self>>> {
+        let border = self.divide_border("wings", &distances)?.border;
+        let strips: Vec<&Shape> = border.iter().collect();
+        let Some(joined) = Shape::joined(&strips)? else { return Ok(Vec::new()) };
+        Ok(self.parts(joined.recomposed()?.faces(&Selector::All)?))
+    }
+
+    /// Returns the rest of a face with this `area` (m²) after all edges moved inwards by the same distance.
+    pub fn setback_to_area(&self, area: f64) -> Result<Vec<Arc<Self>>> {
+        let setback = self.shape.setback_to_area(area).map_err(|error| error.about("shape:setback_to_area"))?;
+        Ok(self.parts(setback.0.inner))
+    }
+
+    /// Returns the shape moved by an offset (m).
+    pub fn translate(&self, offset: Vector) -> Self {
+        self.changed(self.shape.moved(offset.0))
+    }
+
+    /// Returns the shape moved by an offset (m) along the axes of its scope.
+    pub fn shift(&self, offset: Vector) -> Self {
+        self.changed(self.shape.moved(self.shape.scope.axes * offset.0))
+    }
+
+    /// Returns the shape rotated by `angle` (degrees) around an axis through the centre of its scope: the z axis of the
+    /// scope unless given.
+    pub fn rotate(&self, angle: f64, axis: Option<Vector>) -> Result<Self> {
+        let axis = axis.map_or(Ok(self.shape.scope.axes.z_axis), |axis| unit("shape:rotate: the axis", axis.0))?;
+        Ok(self.changed(self.shape.rotated(self.shape.scope.center(), axis, angle.to_radians())))
+    }
+
+    /// Returns the shape with a scope of this size (m), scaled from the scope's position.
+    pub fn resize(&self, size: Vector) -> Result<Self> {
+        Ok(self.changed(self.shape.resized(size.0).map_err(|error| error.about("shape:resize"))?))
+    }
+
+    /// Returns the shape mirrored at the plane through `point` (m, the centre of the scope unless given) with a normal.
+    pub fn mirror(&self, normal: Vector, point: Option<Vector>) -> Result<Self> {
+        let normal = unit("shape:mirror: the normal", normal.0)?;
+        let point = point.map_or_else(|| self.shape.scope.center(), |point| point.0);
+        Ok(self.changed(self.shape.mirrored(point, normal)))
+    }
+
+    /// Returns the shape with its faces turned inside out.
+    pub fn reverse(&self) -> Self {
+        self.changed(self.shape.reversed())
+    }
+
+    /// Returns the shape with another scope around it: z along `up` (the world's z axis unless given), and x close to
+    /// `right` (the world's x axis unless given).
+    pub fn align(&self, right: Option<Vector>, up: Option<Vector>) -> Result<Self> {
+        let up = unit("shape:align: up", up.map_or(DVec3::Z, |up| up.0))?;
+        let right = right.map_or(DVec3::X, |right| right.0);
+        let x = unit("shape:align: the part of right across up", right - up * up.dot(right))?;
+        Ok(self.changed(self.shape.aligned(DMat3::from_cols(x, up.cross(x), up))))
+    }
+
+    /// Returns another shape, moved, turned and scaled so that its scope fills the scope of this one. An extent of 0
+    /// keeps the size along this axis.
+    pub fn fit(&self, other: Arc<Self>) -> Result<Self> {
+        let (own, others) = (&self.shape.scope, &other.shape.scope);
+        let size = DVec3::from_array([0, 1, 2].map(|axis| {
+            if own.size[axis] > 0.0 { own.size[axis] } else { others.size[axis] }
+        }));
+        let sized = other.shape.resized(size).map_err(|error| error.about("shape:fit"))?;
+        let turn = own.axes * sized.scope.axes.transpose();
+        let frame = DAffine3::from_mat3_translation(turn, own.origin - turn * sized.scope.origin);
+        Ok(other.changed(sized.placed(&frame)))
+    }
+
+    /// Returns `count` copies of the shape, each moved by `offset` (m) from the one before; the first is in place.
+    pub fn array(&self, count: u32, offset: Vector) -> Result<Vec<Arc<Self>>> {
+        burgeon_base::MemoryOwner::ensure_room((count as usize).saturating_mul(self.shape.memory()))?;
+        Ok(self.parts((0..count).map(|number| self.shape.moved(offset.0 * f64::from(number)))))
+    }
+
+    /// Returns `count` positions (m) on the faces, uniformly distributed.
+    pub fn scatter(&self, count: u32, options: Option<TableOf<ScatterOptions>>) -> Result<Vec<Vector>> {
+        let seed = options.unwrap_or_default().read()?.seed.to_bits();
+        let points = self.shape.scatter(count as usize, seed).map_err(|error| error.about("shape:scatter"))?;
+        Ok(points.into_iter().map(|(at, _)| Vector(at)).collect())
+    }
+
+    /// Returns the union with another solid. If the operation fails, a warning says so, and this solid is returned.
+    pub fn union(&self, other: Arc<Self>) -> Result<Option<Self>> {
+        self.combine("union", &other, SolidOperation::Union)
+    }
+
+    /// Returns this solid without another; nil if nothing remains. If the operation fails, a warning says so, and this
+    /// solid is returned.
+    pub fn subtract(&self, other: Arc<Self>) -> Result<Option<Self>> {
+        self.combine("subtract", &other, SolidOperation::Difference)
+    }
+
+    /// Returns the intersection with another solid; nil if there is none. If the operation fails, a warning says so, and
+    /// this solid is returned.
+    pub fn intersect(&self, other: Arc<Self>) -> Result<Option<Self>> {
+        self.combine("intersect", &other, SolidOperation::Intersection)
+    }
+
+    /// Returns the shape with coplanar neighbouring faces of the same tags and colour joined, and without opposite equal
+    /// faces inside: the joined parts of a split become the whole.
+    pub fn recompose(&self) -> Result<Self> {
+        Ok(self.changed(self.shape.recomposed()?))
+    }
+
+    /// Returns true if a position (m), or a whole shape, is inside this solid.
+    pub fn contains(&self, other: ShapeOrPlace) -> Result<bool> {
+        let place = match other {
+            ShapeOrPlace::Place(place) => place,
+            ShapeOrPlace::Shape(other) => {
+                let rest = other.shape.combined(&self.shape, SolidOperation::Difference);
+                return Ok(rest.map_err(|error| error.about("shape:contains"))?.is_none_or(|rest| rest.volume() < 1e-9));
+            }
+        };
+        self.shape.contains(place).map_err(|error| error.about("shape:contains"))
+    }
+
+    /// Returns true if the interiors of two solids, or the faces of open shapes, intersect.
+    pub fn overlaps(&self, other: Arc<Self>) -> Result<bool> {
+        self.shape.overlaps(&other.shape)
+    }
+
+    /// Returns true if two shapes touch without overlapping.
+    pub fn touches(&self, other: Arc<Self>) -> Result<bool> {
+        self.shape.touches(&other.shape)
+    }
+
+    /// Returns the distance (m) to a position or another shape; 0 if they touch or overlap.
+    pub fn distance(&self, other: ShapeOrPlace) -> Result<f64> {
+        match other {
+            ShapeOrPlace::Place(place) => self.shape.distance_to_place(place),
+            ShapeOrPlace::Shape(other) => self.shape.distance(&other.shape),
+        }
+    }
+
+    /// Returns the outline of a face as a polygon with heights, for geometries and footprints.
+    pub fn geometry(&self) -> Result<Geometry> {
+        let mesh = self.shape.mesh();
+        let [face] = mesh.faces.as_slice() else {
+            let message = format!("shape:geometry: the shape has {} faces", mesh.faces.len());
+            return Err(Error::argument(message).help("use one face: shape:faces(\"top\")[1]"));
+        };
+        let ring = |ring: &Vec<u32>| ring.iter().map(|point| mesh.at(*point)).collect();
+        let invalid = || Error::geometry("shape:geometry: the face is upright, so it has no plan");
+        let mut geometry = Geometry::polygon(Rings(face.rings.iter().map(ring).collect())).ok_or_else(invalid)?;
+        if geometry.area() <= 0.0 {
+            return Err(invalid().help("use a face that looks up or down"));
+        }
+        geometry.turn();
+        Ok(geometry)
+    }
+}
+
+impl ShapeObject {
+    fn divide_border(&self, method: &str, distances: &EdgeDistances) -> Result<burgeon_shapes::Setback> {
+        let name = format!("shape:{method}");
+        if let EdgeDistances::Each(each) = distances {
+            let count = self.shape.mesh().faces.first().map_or(0, |face| face.edges().count());
+            if each.len() != count {
+                return Err(Error::argument(format!("{name}: {} distances for {count} edges", each.len()))
+                    .help("give one for each edge, or a table of selectors"));
+            }
+        }
+        let by_edge = distances.by_edge(self.shape.scope.axes).map_err(|error| error.about(&name))?;
+        self.shape.setback(by_edge).map_err(|error| error.about(&name))
+    }
+
+    fn combine(&self, method: &str, other: &Self, operation: SolidOperation) -> Result<Option<Self>> {
+        match self.shape.combined(&other.shape, operation) {
+            Ok(solid) => Ok(solid.map(|solid| self.changed(solid))),
+            Err(error) if *error.kind() != ErrorKind::Geometry => Err(error),
+            Err(error) => {
+                let text = format!("{}; the first shape is kept", error.message());
+                warn(method, &text, error.remedy().unwrap_or("use closed solids"));
+                Ok(Some(self.clone()))
+            }
+        }
+    }
+}
+
+/// Returns the unit vector; fails without a length.
+fn unit(name: &str, vector: DVec3) -> Result<DVec3> {
+    vector.try_normalize().ok_or_else(|| {
+        Error::argument(format!("{name} has no length")).help("use a vector that is not zero")
+    })
+}
+
+/// Reads a selector; all faces without one.
+fn selected(method: &str, selector: Option<String>) -> Result<Selector> {
+    let Some(name) = selector else { return Ok(Selector::All) };
+    Selector::read(&name).map_err(|error| error.about(&format!("shape:{method}")))
+}

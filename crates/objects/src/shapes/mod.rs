@@ -1,0 +1,15 @@
+//! Shapes as values: solids, faces and edges that rules divide.
+
+mod construct;
+mod draw;
+mod edge_distances;
+mod methods;
+mod object;
+mod options;
+mod part_sizes;
+mod relations;
+#[cfg(test)]
+mod tests;
+
+pub(crate) use draw::draw_shape;
+pub use object::ShapeObject;

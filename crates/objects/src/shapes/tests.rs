@@ -1,0 +1,1 @@
+//! Tests of shapes in scripts are in `tests/kind` and `tests/scripts`.
