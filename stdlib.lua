@@ -564,7 +564,7 @@ local function split(shape: any, axis: string, parts: { any }): any
   end
   local list: { any } = {}
   for _, part in shape:split(axis, sizes) do
-    local maker = makers[part:entry()]
+    local maker = makers[if makers[2] == nil then 1 else part:entry()]
     add_part(list, if maker == 0 then nil else maker, part, "split")
   end
   return sequence(list)

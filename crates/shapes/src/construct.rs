@@ -98,13 +98,18 @@ impl Shape {
         }
         let mesh = PolygonMesh::new(points, Vec::new());
         for (number, ring) in (1..).zip(faces) {
-            let fails = |what: String, help: &str| Err(Error::argument(format!("face {number} {what}")).help(help.to_owned()));
+            let fails = |what: String, help: &str| {
+                Err(Error::argument(format!("face {number} {what}")).help(help.to_owned()))
+            };
             if ring.len() < 3 {
                 return fails(format!("has {} corners", ring.len()), "give at least three corners");
             }
             if let Some(missing) = ring.iter().find(|point| **point as usize >= mesh.points.len()) {
                 let count = mesh.points.len();
-                return fails(format!("refers to point {}, and there are {count}", missing + 1), "points are numbered from 1");
+                return fails(
+                    format!("refers to point {}, and there are {count}", missing + 1),
+                    "points are numbered from 1",
+                );
             }
             let face = PolygonFace::of(ring, &None);
             let normal = mesh.normal(&face);
@@ -112,10 +117,14 @@ impl Shape {
                 return fails("has no area".into(), "remove it");
             }
             let heights = ring.iter().map(|point| mesh.at(*point).dot(normal));
-            let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
+            let (low, high) = heights
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
             let size = Scope::around(DMat3::IDENTITY, ring.iter().map(|point| mesh.at(*point))).size.length();
             if high - low > (size * 1e-3).max(1e-3) {
-                return fails(format!("is not flat: its corners are {:.3} m apart along its normal", high - low), "divide it into triangles");
+                return fails(
+                    format!("is not flat: its corners are {:.3} m apart along its normal", high - low),
+                    "divide it into triangles",
+                );
             }
             made.push(face);
         }
@@ -129,13 +138,19 @@ impl Shape {
     pub fn of_parts<'a>(parts: impl IntoIterator<Item = (&'a Part, Option<[f32; 4]>)>) -> Option<Self> {
         let mut mesh = PolygonMesh::default();
         for (part, color) in parts {
-            let style = color.map(|color| std::sync::Arc::new(crate::FaceStyle { tags: Vec::new(), color: Some(color) }));
+            let style = color
+                .map(|color| std::sync::Arc::new(crate::FaceStyle { tags: Vec::new(), color: Some(color) }));
             let base = u32::try_from(mesh.points.len()).unwrap_or(u32::MAX);
             mesh.points.extend(part.positions.iter().map(|at| at.as_dvec3()));
-            mesh.faces.extend(part.triangles.iter().map(|corners| PolygonFace::of(&corners.map(|corner| corner + base), &style)));
+            mesh.faces.extend(
+                part.triangles
+                    .iter()
+                    .map(|corners| PolygonFace::of(&corners.map(|corner| corner + base), &style)),
+            );
         }
         let welded = crate::operations::weld(&mesh);
-        (!welded.faces.is_empty()).then(|| Self::of_mesh(crate::operations::merge_coplanar(&welded), DMat3::IDENTITY))
+        (!welded.faces.is_empty())
+            .then(|| Self::of_mesh(crate::operations::merge_coplanar(&welded), DMat3::IDENTITY))
     }
 }
 

@@ -22,7 +22,7 @@ pub use components::edges::EdgeKind;
 pub use components::selector::Selector;
 pub use cut::plane::CutPlane;
 pub use mesh::{PolygonFace, PolygonMesh};
-pub use operations::Setback;
+pub use operations::{EnvelopeLimit, Setback};
 pub use scope::Scope;
 pub use shape::Shape;
 pub use sizes::{PartSize, PartSizes, SizedParts};

@@ -35,7 +35,8 @@ impl Shape {
         if self.is_closed() && self.contains(place)? {
             return Ok(0.0);
         }
-        let distance = |(corners, _): &([DVec3; 3], [DVec3; 2])| nearest_on_triangle(place, *corners).distance(place);
+        let distance =
+            |(corners, _): &([DVec3; 3], [DVec3; 2])| nearest_on_triangle(place, *corners).distance(place);
         Ok(self.triangle_list()?.0.iter().map(distance).fold(f64::INFINITY, f64::min))
     }
 
@@ -104,7 +105,9 @@ impl Shape {
 
     fn closed_mesh(&self) -> Result<ClosedMesh> {
         if !self.is_closed() {
-            return Err(Error::geometry("the shape is open, so it has no inside").help("extrude its faces first"));
+            return Err(
+                Error::geometry("the shape is open, so it has no inside").help("extrude its faces first")
+            );
         }
         ClosedMesh::new(self.triangle_list()?.0.into_iter().map(|(corners, _)| corners).collect())
     }
@@ -138,9 +141,12 @@ fn boxes_overlap(one: &Shape, two: &Shape) -> bool {
     let half = |shape: &Shape, axes: &[DVec3; 3], along: DVec3| -> f64 {
         (0..3).map(|axis| axes[axis].dot(along).abs() * shape.scope.size[axis] / 2.0).sum()
     };
-    own.iter().chain(&others).copied().chain(crossed).filter_map(DVec3::try_normalize).all(|along| {
-        offset.dot(along).abs() < half(one, &own, along) + half(two, &others, along) - CONTACT
-    })
+    own.iter()
+        .chain(&others)
+        .copied()
+        .chain(crossed)
+        .filter_map(DVec3::try_normalize)
+        .all(|along| offset.dot(along).abs() < half(one, &own, along) + half(two, &others, along) - CONTACT)
 }
 
 /// Returns true if an edge of `one` passes through `other` by more than the contact distance.
@@ -227,6 +233,8 @@ mod tests {
         let inner = Shape::sphere(1.0, 12).expect("a sphere");
         assert!(outer.overlaps(&inner).expect("solids") && inner.overlaps(&outer).expect("solids"));
         assert!(!outer.overlaps(&inner.moved(DVec3::X * 6.0)).expect("solids"));
-        assert!(outer.contains(DVec3::X).expect("closed") && !outer.contains(DVec3::X * 5.0).expect("closed"));
+        assert!(
+            outer.contains(DVec3::X).expect("closed") && !outer.contains(DVec3::X * 5.0).expect("closed")
+        );
     }
 }

@@ -117,7 +117,9 @@ impl Shape {
     /// Returns the styles of all faces.
     pub fn styles(&self) -> Vec<Option<Arc<FaceStyle>>> {
         match &self.body {
-            Body::Box(styles) => styles.as_deref().map_or_else(|| vec![None; TOP + 1], |styles| styles.to_vec()),
+            Body::Box(styles) => {
+                styles.as_deref().map_or_else(|| vec![None; TOP + 1], |styles| styles.to_vec())
+            }
             Body::Rectangle(style) | Body::Edge(_, style) => vec![style.clone()],
             Body::Mesh(mesh) => mesh.faces.iter().map(|face| face.style.clone()).collect(),
         }

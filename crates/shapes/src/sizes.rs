@@ -79,7 +79,9 @@ impl PartSizes {
         for parts in &self.0 {
             match parts {
                 SizedParts::One(size) => once += length(size),
-                SizedParts::Repeated(group) => groups += u32::from(group.iter().map(length).sum::<f64>() > 0.0),
+                SizedParts::Repeated(group) => {
+                    groups += u32::from(group.iter().map(length).sum::<f64>() > 0.0)
+                }
             }
         }
         let each = (whole - once).max(0.0) / f64::from(groups.max(1));
@@ -167,7 +169,13 @@ mod tests {
     #[test]
     fn a_group_with_flexible_sizes_is_repeated_to_the_nearest_count() {
         let row = |size| vec![One(Absolute(1.0)), Repeated(vec![size]), One(Absolute(1.0))];
-        assert_eq!(lengths(row(Flexible(3.0)), 12.0).0, vec![1.0, 10.0 / 3.0, 10.0 / 3.0, 10.0 / 3.0, 1.0].into_iter().map(|it: f64| (it * 1e6).round() / 1e6).collect::<Vec<_>>());
+        assert_eq!(
+            lengths(row(Flexible(3.0)), 12.0).0,
+            vec![1.0, 10.0 / 3.0, 10.0 / 3.0, 10.0 / 3.0, 1.0]
+                .into_iter()
+                .map(|it: f64| (it * 1e6).round() / 1e6)
+                .collect::<Vec<_>>()
+        );
         assert_eq!(lengths(row(Absolute(3.0)), 12.0), (vec![1.0, 3.0, 3.0, 3.0, 1.0], 1.0, 0.0));
         let bays = vec![Repeated(vec![Flexible(1.0), Absolute(1.0), Flexible(1.0)])];
         assert_eq!(lengths(bays, 7.0).0, vec![1.25, 1.0, 1.25, 1.25, 1.0, 1.25]);
@@ -175,7 +183,13 @@ mod tests {
 
     #[test]
     fn what_does_not_fit_is_cut_and_counted() {
-        let row = vec![One(Absolute(4.0)), One(Absolute(0.0)), One(Absolute(4.0)), One(Flexible(1.0)), One(Absolute(4.0))];
+        let row = vec![
+            One(Absolute(4.0)),
+            One(Absolute(0.0)),
+            One(Absolute(4.0)),
+            One(Flexible(1.0)),
+            One(Absolute(4.0)),
+        ];
         assert_eq!(lengths(row, 7.0), (vec![4.0, 3.0], 0.0, 5.0));
     }
 

@@ -53,9 +53,13 @@ impl Shape {
             }
         }
         if self.is_apart(other) {
+            let [one, two] = [(self, "bool.a"), (other, "bool.b")].map(|(shape, tag)| {
+                let tag = tag.into();
+                shape.with_styles(|style| FaceStyle::with_tag(style, &tag))
+            });
             return match operation {
-                SolidOperation::Union => Self::joined(&[self, other]),
-                SolidOperation::Difference => Ok(Some(self.clone())),
+                SolidOperation::Union => Self::joined(&[&one, &two]),
+                SolidOperation::Difference => Ok(Some(one)),
                 SolidOperation::Intersection => Ok(None),
             };
         }
@@ -64,12 +68,15 @@ impl Shape {
         let one = triangles(self, center, "bool.a", &mut styles)?;
         let two = triangles(other, center, "bool.b", &mut styles)?;
         if one.1.len() + two.1.len() > 3 * MOST_TRIANGLES {
-            let message = format!("a set operation takes solids of at most {MOST_TRIANGLES} triangles together");
+            let message =
+                format!("a set operation takes solids of at most {MOST_TRIANGLES} triangles together");
             return Err(Error::limit(Limit::Size, message).help("use simpler solids"));
         }
         Stop::check_current()?;
+        let kind = operation;
         let result = catch_unwind(AssertUnwindSafe(|| {
-            let [one, two] = [one, two].map(|(points, corners, faces)| Manifold::new_with_values(&points, &corners, &faces));
+            let [one, two] = [one, two]
+                .map(|(points, corners, faces)| Manifold::new_with_values(&points, &corners, &faces));
             let operation = match operation {
                 SolidOperation::Union => OpType::Add,
                 SolidOperation::Difference => OpType::Subtract,
@@ -83,15 +90,21 @@ impl Shape {
         };
         let solid = match result {
             Ok(Ok(solid)) => solid,
+            // The crate refuses empty results, too.
+            Ok(Err(_)) if self.leaves_nothing(other, kind)? => return Ok(None),
             Ok(Err(cause)) => return Err(failed(&cause)),
             Err(_) => return Err(failed("numerical trouble")),
         };
         let points = solid.ps.iter().map(|at| DVec3::from_array(at.to_array()) + center).collect();
         let mut faces = Vec::with_capacity(solid.nf);
-        for corners in solid.hs.chunks_exact(3) {
+        for (corners, values) in solid.hs.chunks_exact(3).zip(solid.vals.chunks_exact(3)) {
             let ring: Vec<u32> = corners.iter().filter_map(|half| u32::try_from(half.tail).ok()).collect();
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "numbers of faces, interpolated")]
-            let face = solid.vals.get(corners[0].prop).map_or(0, |value| value.round() as usize);
+            #[allow(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "numbers of faces, interpolated"
+            )]
+            let face = values[0].round() as usize;
             faces.push(PolygonFace::of(&ring, styles.get(face).unwrap_or(&None)));
         }
         if faces.is_empty() {
@@ -102,6 +115,18 @@ impl Shape {
             return Err(failed("the result is open"));
         }
         Ok(Some(Self::of_mesh(mesh, self.scope.axes)))
+    }
+
+    /// Returns true if nothing is the result of an operation on two solids.
+    fn leaves_nothing(&self, other: &Self, operation: SolidOperation) -> Result<bool> {
+        match operation {
+            SolidOperation::Union => Ok(false),
+            SolidOperation::Intersection => Ok(!self.overlaps(other)?),
+            SolidOperation::Difference => {
+                let both = self.combined(other, SolidOperation::Intersection)?.map_or(0.0, |both| both.volume());
+                Ok(both >= self.volume() * (1.0 - 1e-9))
+            }
+        }
     }
 
     /// Returns true if the bounding boxes along the world's axes do not touch.

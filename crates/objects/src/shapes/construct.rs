@@ -15,7 +15,7 @@ use super::object::ShapeObject;
 const SIDES: u32 = 32;
 
 /// Returns the functions.
-pub fn constructors() -> [Constructor; 7] {
+pub(super) fn constructors() -> [Constructor; 7] {
     [
         Constructor { name: "shape", make: shape },
         Constructor { name: "cuboid", make: cuboid },
@@ -49,7 +49,9 @@ fn shape(given: &[Value]) -> Result<Value> {
             Ok(model) => of_model(&model)?,
             Err(_) => return Err(Expectation::new(what).refuse("shape", "what it is given", value)),
         },
-        Value::Table(table) if table.get("faces").is_some() || table.get("points").is_some() => of_faces(table)?,
+        Value::Table(table) if table.get("faces").is_some() || table.get("points").is_some() => {
+            of_faces(table)?
+        }
         Value::Table(table) => match shapes(table) {
             Some(parts) => return joined(&parts),
             None => plan(value, height)?,
@@ -62,7 +64,8 @@ fn shape(given: &[Value]) -> Result<Value> {
 /// Returns the items of a list, if the first is a shape.
 fn shapes(table: &Table) -> Option<Vec<&Value>> {
     let list = table.list();
-    let is_shape = |value: &&Value| matches!(value, Value::Object(object) if ShapeObject::of(&**object).is_some());
+    let is_shape =
+        |value: &&Value| matches!(value, Value::Object(object) if ShapeObject::of(&**object).is_some());
     list.first().filter(|first| is_shape(first))?;
     Some(list)
 }
@@ -103,8 +106,10 @@ fn plan(value: &Value, height: f64) -> Result<Shape> {
 fn of_faces(table: &Table) -> Result<Shape> {
     let read = |name: &str| table.get(name).cloned().unwrap_or(Value::Nil);
     let (points, faces) = (read("points"), read("faces"));
-    let places = Vec::<Vector>::read_value(&points).map_err(|error| error.refuse("shape", "points", &points))?;
-    let lists = Vec::<Vec<u32>>::read_value(&faces).map_err(|error| error.refuse("shape", "faces", &faces))?;
+    let places =
+        Vec::<Vector>::read_value(&points).map_err(|error| error.refuse("shape", "points", &points))?;
+    let lists =
+        Vec::<Vec<u32>>::read_value(&faces).map_err(|error| error.refuse("shape", "faces", &faces))?;
     if let Some(number) = lists.iter().position(|face| face.contains(&0)) {
         let message = format!("shape: face {} refers to point 0", number + 1);
         return Err(Error::argument(message).help("points are numbered from 1"));
@@ -170,7 +175,9 @@ fn sides(name: &str, value: Option<f64>) -> Result<u32> {
     match value {
         None => Ok(SIDES),
         Some(sides) if sides.fract() == 0.0 && (3.0..=1024.0).contains(&sides) => Ok(sides as u32),
-        Some(sides) => Err(Error::argument(format!("{name}: sides is {sides}")).help("use an integer from 3 to 1024")),
+        Some(sides) => {
+            Err(Error::argument(format!("{name}: sides is {sides}")).help("use an integer from 3 to 1024"))
+        }
     }
 }
 

@@ -16,7 +16,8 @@ pub enum EdgeDistances {
     Selected(Vec<(String, f64)>),
 }
 
-const EXPECTED: &str = "a distance (m), a list with one for each edge, or a table such as { front = 3, side = 1 }";
+const EXPECTED: &str =
+    "a distance (m), a list with one for each edge, or a table such as { front = 3, side = 1 }";
 
 impl Parameter for EdgeDistances {
     fn luau() -> String {
@@ -29,7 +30,8 @@ impl Parameter for EdgeDistances {
             Value::Table(table) => table,
             _ => return Err(Expectation::new(EXPECTED)),
         };
-        let number = |value: &Value| f64::read_value(value).map_err(|_| Expectation::new(EXPECTED).found(value));
+        let number =
+            |value: &Value| f64::read_value(value).map_err(|_| Expectation::new(EXPECTED).found(value));
         let list = table.list();
         if !list.is_empty() && list.len() == table.entries.len() {
             return Ok(Self::Each(list.into_iter().map(number).collect::<Result<_, Expectation>>()?));

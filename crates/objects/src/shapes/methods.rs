@@ -132,8 +132,13 @@ impl ShapeObject {
 
     /// Returns the tags of the faces, in alphabetical order.
     pub fn tags(&self) -> Vec<String> {
-        let mut tags: Vec<String> =
-            self.shape.styles().iter().flatten().flat_map(|style| style.tags.iter().map(ToString::to_string)).collect();
+        let mut tags: Vec<String> = self
+            .shape
+            .styles()
+            .iter()
+            .flatten()
+            .flat_map(|style| style.tags.iter().map(ToString::to_string))
+            .collect();
         tags.sort();
         tags.dedup();
         tags
@@ -181,14 +186,19 @@ impl ShapeObject {
         };
         let split = self.shape.split(axis, &sizes.0).map_err(|error| error.about("shape:split"))?;
         if split.missing > 0.0 {
-            let text = format!("the sizes exceed the shape by {:.3} m, so the last parts are cut", split.missing);
+            let text =
+                format!("the sizes exceed the shape by {:.3} m, so the last parts are cut", split.missing);
             warn("split", &text, "use flexible sizes, such as \"~3\"");
         } else if split.rest > 0.0 {
             let text = format!("the sizes leave {:.3} m at the end", split.rest);
             warn("split", &text, "add a flexible size, such as \"~1\"");
         }
         if split.open {
-            warn("split", "a solid could not be closed where it was cut", "check the solid with shape:open_edges");
+            warn(
+                "split",
+                "a solid could not be closed where it was cut",
+                "check the solid with shape:open_edges",
+            );
         }
         Ok(self.numbered(split.parts))
     }
@@ -198,7 +208,11 @@ impl ShapeObject {
         let normal = unit("shape:trim: the normal", normal.0)?;
         let ([below, _], open) = self.shape.cut(&CutPlane::through(point.0, normal))?;
         if open {
-            warn("trim", "the solid could not be closed where it was cut", "check the solid with shape:open_edges");
+            warn(
+                "trim",
+                "the solid could not be closed where it was cut",
+                "check the solid with shape:open_edges",
+            );
         }
         Ok(below.map(|part| self.changed(part)))
     }
@@ -272,7 +286,8 @@ impl ShapeObject {
 
     /// Returns the solid between a face and its copy at `height` (m), scaled by `scale` (0 unless given, a pyramid).
     pub fn taper(&self, height: f64, scale: Option<f64>) -> Result<Self> {
-        let solid = self.shape.taper(height, scale.unwrap_or(0.0)).map_err(|error| error.about("shape:taper"))?;
+        let solid =
+            self.shape.taper(height, scale.unwrap_or(0.0)).map_err(|error| error.about("shape:taper"))?;
         Ok(self.changed(solid))
     }
 
@@ -284,7 +299,11 @@ impl ShapeObject {
         let shape = crate::footprint::roof_shape(&roof).map_err(|error| error.about("shape:roof"))?;
         let (solid, hipped) = self.shape.roof(&shape).map_err(|error| error.about("shape:roof"))?;
         if hipped {
-            warn("roof", "a gable was not possible, so there are hips", "use a plan with an end for each gable");
+            warn(
+                "roof",
+                "a gable was not possible, so there are hips",
+                "use a plan with an end for each gable",
+            );
         }
         Ok(self.changed(solid))
     }
@@ -318,7 +337,8 @@ impl ShapeObject {
 
     /// Returns the rest of a face with this `area` (m²) after all edges moved inwards by the same distance.
     pub fn setback_to_area(&self, area: f64) -> Result<Vec<Arc<Self>>> {
-        let setback = self.shape.setback_to_area(area).map_err(|error| error.about("shape:setback_to_area"))?;
+        let setback =
+            self.shape.setback_to_area(area).map_err(|error| error.about("shape:setback_to_area"))?;
         Ok(self.parts(setback.0.inner))
     }
 
@@ -335,7 +355,8 @@ impl ShapeObject {
     /// Returns the shape rotated by `angle` (degrees) around an axis through the centre of its scope: the z axis of the
     /// scope unless given.
     pub fn rotate(&self, angle: f64, axis: Option<Vector>) -> Result<Self> {
-        let axis = axis.map_or(Ok(self.shape.scope.axes.z_axis), |axis| unit("shape:rotate: the axis", axis.0))?;
+        let axis =
+            axis.map_or(Ok(self.shape.scope.axes.z_axis), |axis| unit("shape:rotate: the axis", axis.0))?;
         Ok(self.changed(self.shape.rotated(self.shape.scope.center(), axis, angle.to_radians())))
     }
 
@@ -369,9 +390,9 @@ impl ShapeObject {
     /// keeps the size along this axis.
     pub fn fit(&self, other: Arc<Self>) -> Result<Self> {
         let (own, others) = (&self.shape.scope, &other.shape.scope);
-        let size = DVec3::from_array([0, 1, 2].map(|axis| {
-            if own.size[axis] > 0.0 { own.size[axis] } else { others.size[axis] }
-        }));
+        let size = DVec3::from_array(
+            [0, 1, 2].map(|axis| if own.size[axis] > 0.0 { own.size[axis] } else { others.size[axis] }),
+        );
         let sized = other.shape.resized(size).map_err(|error| error.about("shape:fit"))?;
         let turn = own.axes * sized.scope.axes.transpose();
         let frame = DAffine3::from_mat3_translation(turn, own.origin - turn * sized.scope.origin);
@@ -387,7 +408,8 @@ impl ShapeObject {
     /// Returns `count` positions (m) on the faces, uniformly distributed.
     pub fn scatter(&self, count: u32, options: Option<TableOf<ScatterOptions>>) -> Result<Vec<Vector>> {
         let seed = options.unwrap_or_default().read()?.seed.to_bits();
-        let points = self.shape.scatter(count as usize, seed).map_err(|error| error.about("shape:scatter"))?;
+        let points =
+            self.shape.scatter(count as usize, seed).map_err(|error| error.about("shape:scatter"))?;
         Ok(points.into_iter().map(|(at, _)| Vector(at)).collect())
     }
 
@@ -420,7 +442,9 @@ impl ShapeObject {
             ShapeOrPlace::Place(place) => place,
             ShapeOrPlace::Shape(other) => {
                 let rest = other.shape.combined(&self.shape, SolidOperation::Difference);
-                return Ok(rest.map_err(|error| error.about("shape:contains"))?.is_none_or(|rest| rest.volume() < 1e-9));
+                return Ok(rest
+                    .map_err(|error| error.about("shape:contains"))?
+                    .is_none_or(|rest| rest.volume() < 1e-9));
             }
         };
         self.shape.contains(place).map_err(|error| error.about("shape:contains"))
@@ -453,7 +477,8 @@ impl ShapeObject {
         };
         let ring = |ring: &Vec<u32>| ring.iter().map(|point| mesh.at(*point)).collect();
         let invalid = || Error::geometry("shape:geometry: the face is upright, so it has no plan");
-        let mut geometry = Geometry::polygon(Rings(face.rings.iter().map(ring).collect())).ok_or_else(invalid)?;
+        let mut geometry =
+            Geometry::polygon(Rings(face.rings.iter().map(ring).collect())).ok_or_else(invalid)?;
         if geometry.area() <= 0.0 {
             return Err(invalid().help("use a face that looks up or down"));
         }
@@ -491,9 +516,9 @@ impl ShapeObject {
 
 /// Returns the unit vector; fails without a length.
 fn unit(name: &str, vector: DVec3) -> Result<DVec3> {
-    vector.try_normalize().ok_or_else(|| {
-        Error::argument(format!("{name} has no length")).help("use a vector that is not zero")
-    })
+    vector
+        .try_normalize()
+        .ok_or_else(|| Error::argument(format!("{name} has no length")).help("use a vector that is not zero"))
 }
 
 /// Reads a selector; all faces without one.

@@ -8,8 +8,6 @@ mod object;
 mod options;
 mod part_sizes;
 mod relations;
-#[cfg(test)]
-mod tests;
 
 pub(crate) use draw::draw_shape;
 pub use object::ShapeObject;

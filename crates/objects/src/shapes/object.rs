@@ -1,6 +1,6 @@
 //! Script object of a shape.
 
-use std::hash::{Hash, Hasher};
+use std::hash::Hasher;
 use std::sync::Arc;
 
 use burgeon_base::error::Result;
@@ -113,12 +113,14 @@ impl ObjectContent for ShapeObject {
             }
     }
 
-    fn hash(&self, mut state: &mut dyn Hasher) {
+    fn hash(&self, state: &mut dyn Hasher) {
         let scope = &self.shape.scope;
         let numbers = scope.origin.to_array().into_iter().chain(scope.size.to_array());
-        // The two zeros are equal.
-        numbers.for_each(|number| (number + 0.0).to_bits().hash(&mut state));
-        (self.place.index, self.shape.body.faces()).hash(&mut state);
+        // One number for the hasher, since each call of it is a virtual one. The two zeros are equal.
+        let mixed = numbers.fold(u64::from(self.place.index), |mixed, number| {
+            (mixed.rotate_left(7) ^ (number + 0.0).to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15)
+        });
+        state.write_u64(mixed);
     }
 
     fn text(&self) -> String {

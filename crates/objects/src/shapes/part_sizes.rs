@@ -8,7 +8,8 @@ use burgeon_shapes::{PartSize, PartSizes, SizedParts};
 #[derive(Debug, Clone, Default)]
 pub struct SplitSizes(pub PartSizes);
 
-const EXPECTED: &str = "a list of sizes: numbers (m), \"30%\", \"~3\", \"3*\", \"~3*\", or a list that is repeated";
+const EXPECTED: &str =
+    "a list of sizes: numbers (m), \"30%\", \"~3\", \"3*\", \"~3*\", or a list that is repeated";
 
 impl Parameter for SplitSizes {
     fn luau() -> String {
@@ -25,7 +26,9 @@ impl Parameter for SplitSizes {
             Value::Table(group) => {
                 let sizes = group.list().into_iter().map(|item| match size(item)? {
                     (size, false) => Ok(size),
-                    (_, true) => Err(Expectation::new("a size without *, since its list is repeated").found(item)),
+                    (_, true) => {
+                        Err(Expectation::new("a size without *, since its list is repeated").found(item))
+                    }
                 });
                 Ok(SizedParts::Repeated(sizes.collect::<Result<_, Expectation>>()?))
             }

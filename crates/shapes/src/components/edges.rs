@@ -90,7 +90,9 @@ impl Shape {
                 continue;
             }
             let up = outward.iter().sum::<DVec3>();
-            let up = (up - along * up.dot(along)).try_normalize().unwrap_or_else(|| along.any_orthonormal_vector());
+            let up = (up - along * up.dot(along))
+                .try_normalize()
+                .unwrap_or_else(|| along.any_orthonormal_vector());
             let scope = Scope {
                 origin: a,
                 axes: DMat3::from_cols(along, up.cross(along), up),
@@ -141,7 +143,9 @@ fn kind(mesh: &PolygonMesh, edge: &MeshEdge, normals: &[DVec3], along: DVec3) ->
     };
     let goes_up = |face: usize, normal: DVec3| into(face, normal).z > 1e-6;
     match (slopes(one), slopes(other)) {
-        (true, true) if is_convex && is_level && !goes_up(first, one) && !goes_up(second, other) => EdgeKind::Ridge,
+        (true, true) if is_convex && is_level && !goes_up(first, one) && !goes_up(second, other) => {
+            EdgeKind::Ridge
+        }
         (true, true) if is_convex && !is_level => EdgeKind::Hip,
         (true, _) | (_, true) if !is_convex && rises(one) && rises(other) => EdgeKind::Valley,
         (true, false) if is_level && goes_up(first, one) => EdgeKind::Eave,

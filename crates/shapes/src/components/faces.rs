@@ -32,7 +32,8 @@ impl Shape {
             }
             Body::Box(styles) => {
                 let corners = self.scope.corners();
-                let normals = [-axes.z_axis, -axes.y_axis, axes.x_axis, axes.y_axis, -axes.x_axis, axes.z_axis];
+                let normals =
+                    [-axes.z_axis, -axes.y_axis, axes.x_axis, axes.y_axis, -axes.x_axis, axes.z_axis];
                 let mut faces = Vec::new();
                 for (number, (ring, normal)) in BOX_FACES.iter().zip(normals).enumerate() {
                     let style = styles.as_deref().and_then(|styles| styles[number].clone());
@@ -41,9 +42,8 @@ impl Shape {
                         let mut scope = Scope::around(own, ring.map(|corner| corners[corner as usize]));
                         scope.size.z = 0.0;
                         // A box that leans is not made of rectangles along these axes.
-                        let is_upright = (scope.size.x * scope.size.y
-                            - face_area(self.scope.size, number))
-                        .abs()
+                        let is_upright = (scope.size.x * scope.size.y - face_area(self.scope.size, number))
+                            .abs()
                             <= 1e-9 * (1.0 + scope.size.x * scope.size.y);
                         faces.push(if is_upright {
                             Self { scope, body: Body::Rectangle(style) }
@@ -73,7 +73,8 @@ impl Shape {
     pub fn faces_joined(&self, selector: &Selector) -> Option<Self> {
         let mesh = self.mesh();
         let axes = &self.scope.axes;
-        let matching = |&face: &usize| selector.matches(mesh.normal(&mesh.faces[face]), &mesh.faces[face].style, axes);
+        let matching =
+            |&face: &usize| selector.matches(mesh.normal(&mesh.faces[face]), &mesh.faces[face].style, axes);
         let part = mesh.selected((0..mesh.faces.len()).filter(matching));
         (!part.faces.is_empty()).then(|| Self::of_mesh(part, *axes))
     }
@@ -87,7 +88,10 @@ impl Shape {
                 let ring: Vec<DVec3> = hole.iter().rev().map(|point| mesh.at(*point)).collect();
                 let mut builder = crate::mesh::MeshBuilder::default();
                 builder.face([ring.as_slice()], &face.style);
-                holes.push(Self::of_mesh(builder.build(), Scope::face_axes(mesh.normal(face), self.scope.axes)));
+                holes.push(Self::of_mesh(
+                    builder.build(),
+                    Scope::face_axes(mesh.normal(face), self.scope.axes),
+                ));
             }
         }
         holes

@@ -111,9 +111,10 @@ impl Selector {
 
     /// Returns the bits of the selectors with fixed names that match a face, as [`Selector::matches`].
     pub fn matching(normal: DVec3, style: &SharedStyle, axes: &DMat3) -> u32 {
-        let bits = NAMES.iter().enumerate().map(|(index, (_, selector))| {
-            u32::from(selector.matches(normal, style, axes)) << index
-        });
+        let bits = NAMES
+            .iter()
+            .enumerate()
+            .map(|(index, (_, selector))| u32::from(selector.matches(normal, style, axes)) << index);
         bits.sum()
     }
 
@@ -187,7 +188,9 @@ mod tests {
     #[test]
     fn a_roof_slope_is_slanted_and_its_soffit_overhanging() {
         let slope = DVec3::new(0.0, -1.0, 1.0).normalize();
-        let is = |name: &str, normal| Selector::read(name).expect("known").matches(normal, &None, &DMat3::IDENTITY);
+        let is = |name: &str, normal| {
+            Selector::read(name).expect("known").matches(normal, &None, &DMat3::IDENTITY)
+        };
         assert!(is("slanted", slope) && is("top", slope) && !is("vertical", slope));
         assert!(is("overhanging", -slope) && is("vertical", DVec3::X) && is("horizontal", -DVec3::Z));
     }

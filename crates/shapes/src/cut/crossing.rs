@@ -65,7 +65,8 @@ impl FaceCutter<'_> {
         }
         // A point on the plane between two crossings stays a corner, since other faces may have it.
         let on = face.rings.iter().flatten().filter(|point| self.sides[**point as usize] == Side::On);
-        let mut on: Vec<(f64, u32)> = on.map(|&point| (self.points[point as usize].dot(along), point)).collect();
+        let mut on: Vec<(f64, u32)> =
+            on.map(|&point| (self.points[point as usize].dot(along), point)).collect();
         on.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut rings: Vec<Vec<u32>> = Vec::new();
         for mut ring in join_runs(&runs, &on, rim) {
@@ -140,7 +141,8 @@ impl FaceCutter<'_> {
                 faces.push(PolygonFace { rings: FaceRings::from_iter([ring]), style: None });
                 outlines.push(places);
             } else {
-                let place = places.iter().sum::<DVec2>() / f64::from(u32::try_from(places.len()).unwrap_or(1));
+                let place =
+                    places.iter().sum::<DVec2>() / f64::from(u32::try_from(places.len()).unwrap_or(1));
                 // The middle of a hole may lie outside of it, but its first point may lie on the plane.
                 let inner = if contains(&places, place) { place } else { places[1] };
                 holes.push((ring, inner));

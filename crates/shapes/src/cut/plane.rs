@@ -52,7 +52,8 @@ impl CutPlane {
     ///
     /// Points are classified once, so the topology of both parts is exact.
     pub(crate) fn cut(&self, mesh: &PolygonMesh, style: &SharedStyle) -> Result<Halves> {
-        let sides: Vec<Side> = mesh.points.iter().map(|point| Side::of(self.distance(*point), ON_PLANE)).collect();
+        let sides: Vec<Side> =
+            mesh.points.iter().map(|point| Side::of(self.distance(*point), ON_PLANE)).collect();
         let above = sides.contains(&Side::Above);
         let below = sides.contains(&Side::Below);
         if !above || !below {
@@ -80,13 +81,21 @@ impl CutPlane {
         style: &SharedStyle,
     ) -> Result<(Option<PolygonMesh>, bool)> {
         let outward = if side == Side::Above { -self.normal } else { self.normal };
-        let mut cutter = FaceCutter { plane: self, mesh, sides, side, points: mesh.points.clone(), new: FxHashMap::default() };
+        let mut cutter = FaceCutter {
+            plane: self,
+            mesh,
+            sides,
+            side,
+            points: mesh.points.clone(),
+            new: FxHashMap::default(),
+        };
         let (mut faces, mut rim) = (Vec::new(), EdgeSums::default());
         for (number, face) in mesh.faces.iter().enumerate() {
             if number.is_multiple_of(STRETCH) {
                 Stop::check_current()?;
             }
-            let all = |wanted: Side| face.rings.iter().flatten().all(|point| sides[*point as usize] == wanted);
+            let all =
+                |wanted: Side| face.rings.iter().flatten().all(|point| sides[*point as usize] == wanted);
             if all(side) {
                 faces.push(face.clone());
             } else if all(Side::On) {

@@ -32,7 +32,9 @@ impl Shape {
             }
         }
         if total <= 0.0 {
-            return Err(Error::argument("the shape has no area to scatter points on").help("use faces or a solid"));
+            return Err(
+                Error::argument("the shape has no area to scatter points on").help("use faces or a solid")
+            );
         }
         Stop::check_current()?;
         let mut stream = Stream::new(seed);

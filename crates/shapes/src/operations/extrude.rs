@@ -64,8 +64,10 @@ impl Shape {
     pub fn taper(&self, height: f64, scale: f64) -> Result<Self> {
         self.check_open("taper")?;
         if height <= 0.0 || !height.is_finite() || !(0.0..=1e3).contains(&scale) {
-            return Err(Error::argument(format!("a taper of height {height} m and scale {scale} is no solid"))
-                .help("use a height above 0, and a scale from 0"));
+            return Err(Error::argument(format!(
+                "a taper of height {height} m and scale {scale} is no solid"
+            ))
+            .help("use a height above 0, and a scale from 0"));
         }
         let mesh = self.mesh();
         let normal: DVec3 = mesh.faces.iter().map(|face| mesh.area_vector(face)).sum();

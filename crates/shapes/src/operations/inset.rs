@@ -6,7 +6,7 @@ use burgeon_geometry::skeleton::{Pace, Skeleton};
 use burgeon_geometry::{Polygon, Rings};
 
 use super::strips::{Strips, divide};
-use crate::{Scope, Shape, Selector};
+use crate::{Scope, Selector, Shape};
 
 /// Mitre limit of outward offsets, as a multiple of the distance.
 const MITRE: f64 = 4.0;
@@ -99,8 +99,10 @@ impl Shape {
             [face] => mesh.flat_polygon(face, axes, frame.origin),
             faces => {
                 let count = faces.len();
-                return Err(Error::argument(format!("{operation} takes one face, and the shape has {count}"))
-                    .help("use its faces: shape:faces(\"top\")"));
+                return Err(Error::argument(format!(
+                    "{operation} takes one face, and the shape has {count}"
+                ))
+                .help("use its faces: shape:faces(\"top\")"));
             }
         };
         let invalid = || Error::geometry(format!("{operation}: the outline of the face crosses itself"));
@@ -130,7 +132,13 @@ impl Shape {
         let tagged = |tag: &str| crate::FaceStyle::with_tag(&style, &tag.into());
         let (border, inner) = (tagged("setback.border"), tagged("setback.inner"));
         Setback {
-            border: strips.border.iter().map(|strip| Self::of_polygon(strip, frame, &border)).collect(),
+            border: strips
+                .border
+                .iter()
+                .map(|(strip, along)| {
+                    Self::of_polygon(strip, frame, &border).along(frame.axes * along.extend(0.0))
+                })
+                .collect(),
             inner: strips.inner.iter().map(|rest| Self::of_polygon(rest, frame, &inner)).collect(),
         }
     }

@@ -91,7 +91,8 @@ fn insert_points_on_edges(mesh: &mut PolygonMesh) -> Result<()> {
     let mut ends: Vec<u32> = open.iter().flatten().copied().collect();
     ends.sort_by(|a, b| mesh.at(*a).x.total_cmp(&mesh.at(*b).x).then(a.cmp(b)));
     ends.dedup();
-    let open: FxHashSet<[u32; 2]> = open.into_iter().flat_map(|[from, to]| [[from, to], [to, from]]).collect();
+    let open: FxHashSet<[u32; 2]> =
+        open.into_iter().flat_map(|[from, to]| [[from, to], [to, from]]).collect();
     let points = &mesh.points;
     for (number, face) in mesh.faces.iter_mut().enumerate() {
         if number.is_multiple_of(256) {
@@ -107,7 +108,9 @@ fn insert_points_on_edges(mesh: &mut PolygonMesh) -> Result<()> {
                 }
                 let [a, b] = [from, to].map(|point| points[point as usize]);
                 let first = ends.partition_point(|end| points[*end as usize].x < a.x.min(b.x) - SAME_POINT);
-                let near = ends[first..].iter().take_while(|end| points[**end as usize].x <= a.x.max(b.x) + SAME_POINT);
+                let near = ends[first..]
+                    .iter()
+                    .take_while(|end| points[**end as usize].x <= a.x.max(b.x) + SAME_POINT);
                 let length = a.distance(b);
                 let along = (b - a) / length;
                 let mut inside: Vec<(f64, u32)> = near
@@ -201,7 +204,8 @@ pub(crate) fn merge_coplanar(mesh: &PolygonMesh) -> PolygonMesh {
         let edges: Vec<[u32; 2]> = rim.rest().collect();
         match trace_loops(&edges, |point| (turn * mesh.at(point)).truncate()) {
             Some(loops) => {
-                faces.extend(loops.into_iter().map(|rings| PolygonFace { rings, style: first.style.clone() }));
+                faces
+                    .extend(loops.into_iter().map(|rings| PolygonFace { rings, style: first.style.clone() }));
             }
             None => faces.extend(group.iter().map(|face| mesh.faces[*face].clone())),
         }

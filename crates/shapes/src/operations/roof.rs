@@ -4,9 +4,9 @@ use burgeon_base::error::{Error, Result};
 use burgeon_geometry::roof::{PatchKind, RoofShape, Support};
 use glam::DVec3;
 
+use crate::Shape;
 use crate::mesh::MeshBuilder;
 use crate::style::FaceStyle;
-use crate::Shape;
 
 impl Shape {
     /// Returns a roof over a face that looks upwards, closed from below, and true if a requested gable could not be
@@ -23,7 +23,8 @@ impl Shape {
         let cover = shape.cover_on(&Support::new(&polygon, 0.0))?;
         let own = self.styles().into_iter().next().flatten();
         let style = |tag: &str| FaceStyle::with_tag(&own, &tag.into());
-        let [slope, gable, side, bottom] = ["slope", "gable", "side", "bottom"].map(|name| style(&format!("roof.{name}")));
+        let [slope, gable, side, bottom] =
+            ["slope", "gable", "side", "bottom"].map(|name| style(&format!("roof.{name}")));
         let place = |ring: &[DVec3]| -> Vec<DVec3> { ring.iter().map(|at| frame.point(*at)).collect() };
         let mut builder = MeshBuilder::default();
         for patch in &cover.patches {

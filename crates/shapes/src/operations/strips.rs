@@ -12,8 +12,8 @@ use crate::mesh::{EdgeSums, MeshBuilder, PolygonFace, PolygonMesh, trace_loops};
 /// Parts of a polygon at a moment of its wavefront.
 #[derive(Debug, Default)]
 pub(super) struct Strips {
-    /// Areas that the wavefront has passed, in the order of the edges.
-    pub border: Vec<Polygon>,
+    /// Areas that the wavefront has passed, in the order of the edges, with the direction of their edge.
+    pub border: Vec<(Polygon, DVec2)>,
     /// Areas that it has not reached.
     pub inner: Vec<Polygon>,
 }
@@ -24,9 +24,9 @@ pub(super) fn divide(polygon: &Polygon, skeleton: &Skeleton, time: f64) -> Resul
     let plane = CutPlane { normal: DVec3::Z, offset: time };
     let mut strips = MeshBuilder::default();
     let mut border = Vec::new();
-    for face in &skeleton.faces {
-        let mut ring = Vec::with_capacity(face.len());
-        ring.extend(face.iter().filter_map(|point| u32::try_from(*point).ok()));
+    for corners in &skeleton.faces {
+        let mut ring = Vec::with_capacity(corners.len());
+        ring.extend(corners.iter().filter_map(|point| u32::try_from(*point).ok()));
         // All faces share their points, so that the cuts of neighbours have the same ends.
         let lifted = PolygonMesh::new(points.clone(), vec![PolygonFace::of(&ring, &None)]);
         let Some(below) = plane.cut(&lifted, &None)?.below else { continue };
@@ -38,7 +38,8 @@ pub(super) fn divide(polygon: &Polygon, skeleton: &Skeleton, time: f64) -> Resul
             if let Some(ring) = Ring::without_repeats(flat).filter(|ring| ring.area() > 1e-12)
                 && let Ok(strip) = Polygon::turned(Rings(vec![ring.into_points()]))
             {
-                border.push(strip);
+                let [from, to] = [corners[0], corners[1]].map(|peak| skeleton.peaks[peak].at);
+                border.push((strip, (to - from).normalize_or(DVec2::X)));
             }
         }
     }

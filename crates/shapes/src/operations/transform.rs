@@ -24,7 +24,8 @@ impl Shape {
     pub fn rotated(&self, center: DVec3, axis: DVec3, angle: f64) -> Self {
         let turn = DMat3::from_axis_angle(axis, angle);
         let place = |at: DVec3| center + turn * (at - center);
-        let scope = Scope { origin: place(self.scope.origin), axes: turn * self.scope.axes, size: self.scope.size };
+        let scope =
+            Scope { origin: place(self.scope.origin), axes: turn * self.scope.axes, size: self.scope.size };
         let body = match &self.body {
             Body::Mesh(mesh) => Body::Mesh(Arc::new(mesh.moved(place, false))),
             other => other.clone(),

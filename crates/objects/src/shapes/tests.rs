@@ -1,1 +1,0 @@
-//! Tests of shapes in scripts are in `tests/kind` and `tests/scripts`.
