@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use burgeon::error::Excerpt;
+use burgeon::results::ReportTotal;
 use burgeon::script::Param;
 use burgeon::sources::ReferenceFrame;
 use burgeon::text::{escaped_lines, grouped, number, shown};
@@ -97,8 +98,15 @@ pub(crate) fn summary(run: &Run, writing: Duration, total: Duration, listed: Opt
     if let Some(frame) = run.service::<ReferenceFrame>() {
         let _ = writeln!(text, "origin at {}; {WORLD_AXES}", frame.world_place());
     }
-    for (name, ReportTotal { sum, rows }) in totals(run).iter().take(MOST_TOTALS) {
-        let _ = writeln!(text, "reported {}: {} in {}", shown(name), number(*sum), plural(*rows, "chain"));
+    for (name, ReportTotal { sum, count, chains }) in totals(run).iter().take(MOST_TOTALS) {
+        #[allow(clippy::cast_precision_loss, reason = "fewer than 2^52 reports")]
+        let mean = if count > chains {
+            format!(", {} on average of {count}", number(sum / *count as f64))
+        } else {
+            String::new()
+        };
+        let (sum, chains) = (number(*sum), plural(*chains, "chain"));
+        let _ = writeln!(text, "reported {}: {sum} in {chains}{mean}", shown(name));
     }
     text += &memory_text();
     for note in &run.notes {
@@ -119,27 +127,22 @@ pub(crate) fn summary(run: &Run, writing: Duration, total: Duration, listed: Opt
 /// Maximum number of reported numbers in a summary.
 const MOST_TOTALS: usize = 20;
 
-/// Total of a reported number.
-#[derive(Default)]
-struct ReportTotal {
-    sum: f64,
-    /// Number of chains that have reported it.
-    rows: usize,
-}
-
-/// Returns the totals of the reported numbers of all systems by name.
+/// Returns the totals of the reported numbers of all systems by name. A name with dots also counts for the names above it:
+/// "cost.windows" for "cost".
 fn totals(run: &Run) -> Vec<(String, ReportTotal)> {
     let mut totals: Vec<(String, ReportTotal)> = Vec::new();
-    for table in run.systems.iter().map(|system| system.reports()) {
-        for (place, name) in table.columns.into_iter().enumerate() {
-            let index = totals.iter().position(|(known, _)| *known == name).unwrap_or_else(|| {
-                totals.push((name, ReportTotal::default()));
+    for (name, own) in run.systems.iter().flat_map(|system| system.report_totals()) {
+        let ends = name.match_indices('.').map(|(end, _)| end).chain([name.len()]);
+        for name in ends.map(|end| &name[..end]).filter(|name| !name.is_empty()) {
+            let index = totals.iter().position(|(known, _)| known == name).unwrap_or_else(|| {
+                totals.push((name.to_owned(), ReportTotal::default()));
                 totals.len() - 1
             });
-            for value in table.records.iter().filter_map(|record| record.value(place)?.number()) {
-                totals[index].1.sum += value;
-                totals[index].1.rows += 1;
-            }
+            let total = &mut totals[index].1;
+            total.sum += own.sum;
+            total.count += own.count;
+            // Names below another one are mostly reported by the same chains.
+            total.chains = total.chains.max(own.chains);
         }
     }
     totals
@@ -147,8 +150,9 @@ fn totals(run: &Run) -> Vec<(String, ReportTotal)> {
 
 /// Returns the totals of the reported numbers as JSON.
 fn totals_json(run: &Run) -> serde_json::Value {
-    let total =
-        |(name, total): (String, ReportTotal)| (name, json!({ "sum": total.sum, "chains": total.rows }));
+    let total = |(name, total): (String, ReportTotal)| {
+        (name, json!({ "sum": total.sum, "count": total.count, "chains": total.chains }))
+    };
     totals(run).into_iter().map(total).collect()
 }
 

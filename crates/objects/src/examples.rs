@@ -10,6 +10,8 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "obstacles" shows "obstacles" "obstacles:sphere" "obstacles:contains" "obstacles:distance";
     "soil" shows "soil" "soil:take" "soil:taken" "soil:gradient";
     "extruder" shows "extruder";
+    "shape" shows "shape" "shape:roof" "shape:color";
+    "volumes" shows "volumes" "volumes:claim";
     "footprint" shows "footprint";
     "planet" shows "planet";
     "terrain" shows "terrain";
@@ -32,6 +34,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "extruder/resolution" shows "extruder:resolution" "extruder.along" "extruder.around";
     "extruder/roll" shows "extruder:roll";
     "extruder/scale" shows "extruder:scale";
+    "extruder/shape" shows "extruder:shape";
     "extruder/shift" shows "extruder:shift";
     "extruder/smooth" shows "extruder:smooth" "extruder.smooth";
     "extruder/star" shows "extruder:star";
@@ -60,6 +63,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "turtle/pitch" shows "turtle:pitch" "turtle:pitch_up";
     "turtle/place" shows "turtle:place";
     "turtle/roll" shows "turtle:roll" "turtle:roll_back";
+    "turtle/shape" shows "turtle:shape";
     "turtle/sphere" shows "turtle:sphere";
     "turtle/surface" shows "turtle:surface";
     "turtle/tropism" shows "turtle:tropism" "turtle:elasticity" "turtle.tropism" "turtle.elasticity";
@@ -118,6 +122,23 @@ pub const PLAIN_EXAMPLES: &[ScriptExample] = examples! {
     "planet/height" shows "planet:focus" "planet:height" "planet:surface" "planet:symbol"
         "planet:heights";
     "ramp/slope" shows "ramp:slope" "ramp:at" "ramp:integral" "ramp:mix";
+    "shape/components" shows "shape:faces" "shape:matches" "shape:edges" "shape:edge_kind" "shape:holes"
+        "shape:without_holes" "shape:geometry" "shape:joined_faces" "shape:pieces";
+    "shape/measures" shows "shape:size" "shape:position" "shape:center" "shape:x_axis" "shape:y_axis"
+        "shape:z_axis" "shape:volume" "shape:area" "shape:length" "shape:slope" "shape:face_count"
+        "shape:open_edges" "shape:points" "shape:is_solid";
+    "shape/moves" shows "shape:translate" "shape:shift" "shape:rotate" "shape:resize" "shape:mirror"
+        "shape:reverse" "shape:align" "shape:fit" "shape:array";
+    "shape/parts" shows "shape:split" "shape:split_area" "shape:index" "shape:count" "shape:entry"
+        "shape:get" "shape:with";
+    "shape/plans" shows "shape:offset" "shape:setback" "shape:border" "shape:wings"
+        "shape:setback_to_area" "shape:envelope" "shape:inner_rectangle" "shape:scatter";
+    "shape/relations" shows "shape:contains" "shape:overlaps" "shape:touches" "shape:distance";
+    "shape/sets" shows "shape:union" "shape:subtract" "shape:intersect" "shape:trim";
+    "shape/solids" shows "shape:extrude" "shape:taper" "shape:molding" "shape:loft" "shape:chamfer"
+        "shape:fillet";
+    "shape/tags" shows "shape:tag" "shape:untag" "shape:tags" "shape:has_tag" "shape:recompose";
+    "volumes/distance" shows "volumes:has" "volumes:count" "volumes:is_free" "volumes:distance";
     "soil/total" shows "soil:add" "soil:diffuse" "soil:amount" "soil:total";
     "streets/distance" shows "streets:distance";
     "surface/normal" shows "surface:normal" "surface:point" "surface:mix";

@@ -40,7 +40,7 @@ pub use footprint::{EdgeKeywords, Footprint, Roof, RoofDetail, Walls};
 pub use line_index::LineIndex;
 pub use network::Network;
 pub use planet::Planet;
-pub use shapes::ShapeObject;
+pub use shapes::{ShapeObject, Volumes};
 pub use surface::MaterialOptions;
 pub use terrain::{EditFile, Terrain};
 pub use turtle::Turtle;
@@ -91,6 +91,7 @@ pub fn registry() -> Registry {
         Discs::kind(),
         ObstacleSolids::kind(),
         Soil::kind(),
+        Volumes::kind(),
     ];
     own.into_iter().chain(facade::kinds()).map(Arc::clone).collect()
 }
@@ -100,6 +101,6 @@ mod tests {
     #[test]
     fn no_type_is_left_out_for_its_name() {
         super::registry().check().expect("each has a name of its own");
-        assert_eq!(super::registry().kinds().count(), 23 + super::facade::kinds().len());
+        assert_eq!(super::registry().kinds().count(), 24 + super::facade::kinds().len());
     }
 }

@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use crate::Shape;
 use crate::mesh::{PolygonFace, PolygonMesh};
-use crate::operations::merge_coplanar;
+use crate::operations::{merge_coplanar, remove_flat_triangles};
 use crate::style::{FaceStyle, SharedStyle};
 
 /// Set operation of two solids.
@@ -110,7 +110,9 @@ impl Shape {
         if faces.is_empty() {
             return Ok(None);
         }
-        let mesh = merge_coplanar(&PolygonMesh::new(points, faces));
+        let mut mesh = PolygonMesh::new(points, faces);
+        remove_flat_triangles(&mut mesh);
+        let mesh = merge_coplanar(&mesh);
         if !mesh.is_closed() {
             return Err(failed("the result is open"));
         }
@@ -123,7 +125,8 @@ impl Shape {
             SolidOperation::Union => Ok(false),
             SolidOperation::Intersection => Ok(!self.overlaps(other)?),
             SolidOperation::Difference => {
-                let both = self.combined(other, SolidOperation::Intersection)?.map_or(0.0, |both| both.volume());
+                let both =
+                    self.combined(other, SolidOperation::Intersection)?.map_or(0.0, |both| both.volume());
                 Ok(both >= self.volume() * (1.0 - 1e-9))
             }
         }

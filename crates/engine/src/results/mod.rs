@@ -23,6 +23,7 @@ pub(crate) use feature_report::{skipped_feature, unread_feature};
 pub use layers::layers;
 pub(crate) use records::SourceFeatures;
 pub(crate) use report_sums::ReportSums;
+pub use report_sums::ReportTotal;
 pub(crate) use row_features::RowFeatures;
 pub use trace::{Ancestor, Module, RuleName, RuleProducts, Trace};
 pub(crate) use trace::{PendingAnswer, RESOLVED};

@@ -16,6 +16,19 @@ struct ReportSum {
     /// Index of the name among those of the chain, in the order of their first reports.
     order: usize,
     sum: f64,
+    /// Number of reports.
+    count: usize,
+}
+
+/// Total of a reported name.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct ReportTotal {
+    /// Sum of all chains.
+    pub sum: f64,
+    /// Number of reports.
+    pub count: usize,
+    /// Number of chains with reports.
+    pub chains: usize,
 }
 
 /// Sums by chain and by name.
@@ -27,10 +40,13 @@ impl ReportSums {
     pub(crate) fn add(&mut self, chain: usize, name: &str, value: f64) {
         let sums = self.0.entry(chain).or_default();
         match sums.get_mut(name) {
-            Some(known) => known.sum += value,
+            Some(known) => {
+                known.sum += value;
+                known.count += 1;
+            }
             None => {
                 let order = sums.len();
-                sums.insert(name.into(), ReportSum { order, sum: value });
+                sums.insert(name.into(), ReportSum { order, sum: value, count: 1 });
             }
         }
     }
@@ -58,12 +74,12 @@ impl ReportSums {
             let mut sums: Vec<(&str, ReportSum)> = sums.iter().map(|(name, sum)| (&**name, *sum)).collect();
             sums.sort_by_key(|(_, sum)| sum.order);
             let mut row = Vec::with_capacity(sums.len());
-            for (name, ReportSum { sum, .. }) in sums {
+            for (name, ReportSum { sum, count, .. }) in sums {
                 let place = *places.entry(name).or_insert_with(|| {
                     table.names.push(name.to_owned());
                     table.names.len() - 1
                 });
-                row.push((place, sum));
+                row.push((place, sum, count));
             }
             if table.names.len() > MOST_NAMES {
                 let text = format!("the interpretations of a system report more than {MOST_NAMES} names");
@@ -80,8 +96,8 @@ impl ReportSums {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct ReportTable {
     names: Vec<String>,
-    /// Chains, with the sums of some names.
-    rows: Vec<(usize, Vec<(usize, f64)>)>,
+    /// Chains, with the sums of some names and the numbers of their reports.
+    rows: Vec<(usize, Vec<(usize, f64, usize)>)>,
 }
 
 impl ReportTable {
@@ -101,11 +117,24 @@ impl DerivedSystem {
         let records = self.reported.rows.iter().map(|(chain, sums)| Record {
             id: self.features.get(*chain).cloned().flatten().unwrap_or_default(),
             geometry: None,
-            values: sums.iter().map(|(place, sum)| (*place, Attribute::Number(*sum))).collect(),
+            values: sums.iter().map(|(place, sum, _)| (*place, Attribute::Number(*sum))).collect(),
         });
         let records = records.collect();
         let name = format!("system {}", self.system + 1);
         RecordTable { name, columns: self.reported.names.clone(), records }
+    }
+
+    /// Returns the totals over all chains of the names that [`DerivedSystem::reports`] has as columns, in their order.
+    pub fn report_totals(&self) -> Vec<(&str, ReportTotal)> {
+        let mut totals: Vec<(&str, ReportTotal)> =
+            self.reported.names.iter().map(|name| (name.as_str(), ReportTotal::default())).collect();
+        for (place, sum, count) in self.reported.rows.iter().flat_map(|(_, row)| row) {
+            let (_, total) = &mut totals[*place];
+            total.sum += sum;
+            total.count += count;
+            total.chains += 1;
+        }
+        totals
     }
 }
 
@@ -123,9 +152,9 @@ mod tests {
         }
         let mut table = sums.table().unwrap();
         assert_eq!(table.names, ["a", "b", "c"]);
-        assert_eq!(table.rows[2], (2, vec![(2, 4.5), (0, 1.0)]));
+        assert_eq!(table.rows[2], (2, vec![(2, 4.5, 2), (0, 1.0, 1)]));
         table.drop_chains(&[1]);
-        assert_eq!(table.rows, [(0, vec![(0, 1.0)]), (1, vec![(2, 4.5), (0, 1.0)])]);
+        assert_eq!(table.rows, [(0, vec![(0, 1.0, 1)]), (1, vec![(2, 4.5, 2), (0, 1.0, 1)])]);
         sums.skip_chains(&[1]);
         let table = sums.table().unwrap();
         assert_eq!((table.names, table.rows[1].0), (vec!["a".to_owned(), "c".to_owned()], 2));

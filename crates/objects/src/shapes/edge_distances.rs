@@ -2,7 +2,7 @@
 
 use burgeon_base::error::Result;
 use burgeon_kit::{Expectation, Parameter, TableKey, Value};
-use burgeon_shapes::{Selector, Shape};
+use burgeon_shapes::{EnvelopeLimit, Selector, Shape};
 use glam::DMat3;
 
 /// One distance (m) for all edges, a list with one for each edge, or a table by direction: { front = 3, side = 1 }.
@@ -41,13 +41,7 @@ impl Parameter for EdgeDistances {
             let TableKey::Name(name) = key else { return Err(Expectation::new(EXPECTED)) };
             named.push((name.to_string(), number(value)?));
         }
-        // "side" and "all" stand for the edges that no other name matches.
-        let rank = |name: &str| match name {
-            "all" => 2,
-            "side" => 1,
-            _ => 0,
-        };
-        named.sort_by(|a, b| rank(&a.0).cmp(&rank(&b.0)).then(a.0.cmp(&b.0)));
+        sort_by_rank(&mut named);
         Ok(Self::Selected(named))
     }
 
@@ -74,6 +68,59 @@ impl EdgeDistances {
                 let found = selectors.iter().find(|(selector, _)| selector.matches_edge(edge, &axes));
                 found.map_or(0.0, |(_, distance)| *distance)
             }
+        })
+    }
+}
+
+/// Sorts names of selectors: "side" and "all" stand for the edges that no other name matches.
+fn sort_by_rank<T>(named: &mut [(String, T)]) {
+    let rank = |name: &str| match name {
+        "all" => 2,
+        "side" => 1,
+        _ => 0,
+    };
+    named.sort_by(|a, b| rank(&a.0).cmp(&rank(&b.0)).then(a.0.cmp(&b.0)));
+}
+
+/// Limits of a zoning envelope by selectors of edges: { front = { 6, 45 }, side = { 12, 60 } }.
+#[derive(Debug, Clone)]
+pub struct EnvelopeLimits(Vec<(String, EnvelopeLimit)>);
+
+const LIMITS: &str = "a table such as { front = { 6, 45 } }: a height (m) and an angle (degrees) for edges";
+
+impl Parameter for EnvelopeLimits {
+    fn luau() -> String {
+        "{ [string]: { number } }".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        let Value::Table(table) = value else { return Err(Expectation::new(LIMITS)) };
+        let mut named = Vec::with_capacity(table.entries.len());
+        for (key, value) in &table.entries {
+            let pair = Vec::<f64>::read_value(value).map_err(|_| Expectation::new(LIMITS).found(value))?;
+            let (TableKey::Name(name), &[height, angle]) = (key, pair.as_slice()) else {
+                return Err(Expectation::new(LIMITS));
+            };
+            named.push((name.to_string(), EnvelopeLimit { height, angle: angle.to_radians() }));
+        }
+        sort_by_rank(&mut named);
+        Ok(Self(named))
+    }
+
+    fn into_value(self) -> Value {
+        Value::Nil
+    }
+}
+
+impl EnvelopeLimits {
+    /// Returns the function that gives the limit of an edge, for the edges of a face with these axes. Fails if a selector
+    /// is unknown.
+    pub fn by_edge(&self, axes: DMat3) -> Result<impl Fn(&Shape) -> Option<EnvelopeLimit> + use<>> {
+        let read = |(name, limit): &(String, EnvelopeLimit)| Ok((Selector::read(name)?, *limit));
+        let selectors: Vec<(Selector, EnvelopeLimit)> = self.0.iter().map(read).collect::<Result<_>>()?;
+        Ok(move |edge: &Shape| {
+            let found = selectors.iter().find(|(selector, _)| selector.matches_edge(edge, &axes));
+            found.map(|(_, limit)| *limit)
         })
     }
 }

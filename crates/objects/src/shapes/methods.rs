@@ -2,18 +2,19 @@
 
 use std::sync::Arc;
 
-use burgeon_base::error::{Error, ErrorKind, Result};
+use burgeon_base::error::{Error, Result};
 use burgeon_geometry::Rings;
 use burgeon_kit::{Color, TableOf, Value, Vector, methods};
-use burgeon_shapes::{Body, CutPlane, EdgeKind, FaceStyle, Selector, Shape, SolidOperation, SplitAxis};
+use burgeon_shapes::{Body, CutPlane, EdgeKind, FaceStyle, Selector, Shape, SolidOperation};
 use burgeon_spatial::Geometry;
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::edge_distances::EdgeDistances;
+use super::edge_distances::{EdgeDistances, EnvelopeLimits};
 use super::object::{ShapeObject, warn};
 use super::options::{ScatterOptions, ShapeRoofOptions};
 use super::part_sizes::SplitSizes;
 use super::relations::ShapeOrPlace;
+use super::support::{selected, split_axis, unit, warn_of_split};
 
 #[methods("shape")]
 impl ShapeObject {
@@ -34,17 +35,20 @@ impl ShapeObject {
 
     /// Returns the direction of the x axis: along an edge, and to the right on a face seen from outside.
     pub fn x_axis(&self) -> DVec3 {
-        self.shape.scope.axes.x_axis
+        // Turns -0 into 0.
+        self.shape.scope.axes.x_axis + DVec3::ZERO
     }
 
     /// Returns the direction of the y axis: upwards on a face.
     pub fn y_axis(&self) -> DVec3 {
-        self.shape.scope.axes.y_axis
+        // Turns -0 into 0.
+        self.shape.scope.axes.y_axis + DVec3::ZERO
     }
 
     /// Returns the direction of the z axis: outwards on a face and an edge.
     pub fn z_axis(&self) -> DVec3 {
-        self.shape.scope.axes.z_axis
+        // Turns -0 into 0.
+        self.shape.scope.axes.z_axis + DVec3::ZERO
     }
 
     /// Returns true if the shape is closed, so that it has a volume.
@@ -175,31 +179,17 @@ impl ShapeObject {
     /// `sizes` is a list: a number (m), "30%" of the whole, "~3" for a flexible size that shares the rest, "3*" or "~3*"
     /// for as many as fit, and a list of sizes for a repeated group. A solid's parts are solids.
     pub fn split(&self, axis: String, sizes: SplitSizes) -> Result<Vec<Arc<Self>>> {
-        let axis = match axis.as_str() {
-            "x" => SplitAxis::X,
-            "y" => SplitAxis::Y,
-            "z" => SplitAxis::Z,
-            other => {
-                let message = format!("shape:split: unknown axis {other:?}");
-                return Err(Error::argument(message).help("use \"x\", \"y\" or \"z\""));
-            }
-        };
-        let split = self.shape.split(axis, &sizes.0).map_err(|error| error.about("shape:split"))?;
-        if split.missing > 0.0 {
-            let text =
-                format!("the sizes exceed the shape by {:.3} m, so the last parts are cut", split.missing);
-            warn("split", &text, "use flexible sizes, such as \"~3\"");
-        } else if split.rest > 0.0 {
-            let text = format!("the sizes leave {:.3} m at the end", split.rest);
-            warn("split", &text, "add a flexible size, such as \"~1\"");
-        }
-        if split.open {
-            warn(
-                "split",
-                "a solid could not be closed where it was cut",
-                "check the solid with shape:open_edges",
-            );
-        }
+        let split = self.shape.split(split_axis("split", &axis)?, &sizes.0);
+        let split = split.map_err(|error| error.about("shape:split"))?;
+        warn_of_split("split", "m", &split);
+        Ok(self.numbered(split.parts))
+    }
+
+    /// Returns the parts of a face along an axis of the scope by area: sizes as of `split`, in m².
+    pub fn split_area(&self, axis: String, areas: SplitSizes) -> Result<Vec<Arc<Self>>> {
+        let split = self.shape.split_area(split_axis("split_area", &axis)?, &areas.0);
+        let split = split.map_err(|error| error.about("shape:split_area"))?;
+        warn_of_split("split_area", "m²", &split);
         Ok(self.numbered(split.parts))
     }
 
@@ -306,6 +296,44 @@ impl ShapeObject {
             );
         }
         Ok(self.changed(solid))
+    }
+
+    /// Returns the solid that a closed profile sweeps around the outline of a face, with mitred corners: a cornice or a
+    /// frame. `profile` is a list of points { outwards, up } (m) from the outline.
+    pub fn molding(&self, profile: Vec<Vector>) -> Result<Self> {
+        let profile: Vec<_> = profile.into_iter().map(|at| at.0.truncate()).collect();
+        Ok(self.changed(self.shape.molding(&profile).map_err(|error| error.about("shape:molding"))?))
+    }
+
+    /// Returns the solid between a face and another one with as many corners.
+    pub fn loft(&self, other: Arc<Self>) -> Result<Self> {
+        Ok(self.changed(self.shape.loft(&other.shape).map_err(|error| error.about("shape:loft"))?))
+    }
+
+    /// Returns a solid with convex edges cut off by planes, `distance` (m) from the edge on both faces: all, or those of
+    /// a kind.
+    pub fn chamfer(&self, distance: f64, kind: Option<String>) -> Result<Self> {
+        self.bevel("chamfer", distance, 0, kind)
+    }
+
+    /// Returns a solid with convex edges rounded from `distance` (m) on both faces, by arcs of `segments` (4 unless
+    /// given): all edges, or those of a kind.
+    pub fn fillet(&self, distance: f64, kind: Option<String>, segments: Option<u32>) -> Result<Self> {
+        self.bevel("fillet", distance, segments.unwrap_or(4).max(1), kind)
+    }
+
+    /// Returns the volume that a zoning law allows over a horizontal face, at most `height` (m) high. `limits` has, by
+    /// selectors of edges, { height (m), angle (degrees) }: up to the height an upright wall, then a slope inwards.
+    pub fn envelope(&self, height: f64, limits: EnvelopeLimits) -> Result<Self> {
+        let by_edge = limits.by_edge(self.shape.scope.axes).map_err(|error| error.about("shape:envelope"))?;
+        let solid = self.shape.envelope(height, by_edge).map_err(|error| error.about("shape:envelope"))?;
+        Ok(self.changed(solid))
+    }
+
+    /// Returns a large rectangle inside a face, along the axes of its scope; nil if the face is too narrow.
+    pub fn inner_rectangle(&self) -> Result<Option<Self>> {
+        let inner = self.shape.inner_rectangle().map_err(|error| error.about("shape:inner_rectangle"))?;
+        Ok(inner.map(|inner| self.changed(inner)))
     }
 
     /// Returns the faces after all edges of a face moved outwards by `distance` (m), or inwards if it is negative; an
@@ -485,44 +513,4 @@ impl ShapeObject {
         geometry.turn();
         Ok(geometry)
     }
-}
-
-impl ShapeObject {
-    fn divide_border(&self, method: &str, distances: &EdgeDistances) -> Result<burgeon_shapes::Setback> {
-        let name = format!("shape:{method}");
-        if let EdgeDistances::Each(each) = distances {
-            let count = self.shape.mesh().faces.first().map_or(0, |face| face.edges().count());
-            if each.len() != count {
-                return Err(Error::argument(format!("{name}: {} distances for {count} edges", each.len()))
-                    .help("give one for each edge, or a table of selectors"));
-            }
-        }
-        let by_edge = distances.by_edge(self.shape.scope.axes).map_err(|error| error.about(&name))?;
-        self.shape.setback(by_edge).map_err(|error| error.about(&name))
-    }
-
-    fn combine(&self, method: &str, other: &Self, operation: SolidOperation) -> Result<Option<Self>> {
-        match self.shape.combined(&other.shape, operation) {
-            Ok(solid) => Ok(solid.map(|solid| self.changed(solid))),
-            Err(error) if *error.kind() != ErrorKind::Geometry => Err(error),
-            Err(error) => {
-                let text = format!("{}; the first shape is kept", error.message());
-                warn(method, &text, error.remedy().unwrap_or("use closed solids"));
-                Ok(Some(self.clone()))
-            }
-        }
-    }
-}
-
-/// Returns the unit vector; fails without a length.
-fn unit(name: &str, vector: DVec3) -> Result<DVec3> {
-    vector
-        .try_normalize()
-        .ok_or_else(|| Error::argument(format!("{name} has no length")).help("use a vector that is not zero"))
-}
-
-/// Reads a selector; all faces without one.
-fn selected(method: &str, selector: Option<String>) -> Result<Selector> {
-    let Some(name) = selector else { return Ok(Selector::All) };
-    Selector::read(&name).map_err(|error| error.about(&format!("shape:{method}")))
 }

@@ -8,6 +8,9 @@ mod object;
 mod options;
 mod part_sizes;
 mod relations;
+mod support;
+mod volumes;
 
 pub(crate) use draw::draw_shape;
 pub use object::ShapeObject;
+pub use volumes::Volumes;

@@ -27,7 +27,8 @@ impl Shape {
             return Err(Error::argument(format!("the solid has {} edges", edges.len()))
                 .help(format!("cut off at most {MOST_EDGES}, such as those of one kind")));
         }
-        let faces: Vec<(DVec3, DVec3)> = self.faces(&Selector::All)?.iter().map(|face| (face.normal(), face.centroid())).collect();
+        let faces: Vec<(DVec3, DVec3)> =
+            self.faces(&Selector::All)?.iter().map(|face| (face.normal(), face.centroid())).collect();
         let (mut solid, mut failed) = (self.clone(), 0);
         for edge in &edges {
             let Some(wedge) = wedge(edge, &faces, self, distance, segments)? else { continue };
@@ -42,12 +43,20 @@ impl Shape {
 }
 
 /// Returns the prism that is cut off along an edge; `None` for a concave edge.
-fn wedge(edge: &Shape, faces: &[(DVec3, DVec3)], solid: &Shape, distance: f64, segments: u32) -> Result<Option<Shape>> {
+fn wedge(
+    edge: &Shape,
+    faces: &[(DVec3, DVec3)],
+    solid: &Shape,
+    distance: f64,
+    segments: u32,
+) -> Result<Option<Shape>> {
     let scope = &edge.scope;
     let along = scope.axes.x_axis;
     let middle = scope.point(scope.size / 2.0);
     // The two faces at the edge.
-    let is_at = |(normal, center): &&(DVec3, DVec3)| normal.dot(middle - *center).abs() < 1e-6 && normal.dot(along).abs() < 1e-6;
+    let is_at = |(normal, center): &&(DVec3, DVec3)| {
+        normal.dot(middle - *center).abs() < 1e-6 && normal.dot(along).abs() < 1e-6
+    };
     let near: Vec<DVec3> = faces.iter().filter(is_at).map(|(normal, _)| *normal).collect();
     let up = scope.axes.z_axis;
     let best = |left: bool| {
@@ -61,14 +70,20 @@ fn wedge(edge: &Shape, faces: &[(DVec3, DVec3)], solid: &Shape, distance: f64, s
     if solid.contains(middle + out * 1e-4)? || !solid.contains(middle - out * 1e-4)? {
         return Ok(None);
     }
-    let away = |normal: DVec3, other: DVec3| -> DVec3 { (normal * normal.dot(other) - other).normalize_or_zero() };
+    let away =
+        |normal: DVec3, other: DVec3| -> DVec3 { (normal * normal.dot(other) - other).normalize_or_zero() };
     let (first, second) = (away(one, two), away(two, one));
     // Coordinates across the edge: to the right and outwards.
     let right = out.cross(along);
     let flat = |vector: DVec3| DVec2::new(vector.dot(right), vector.dot(out));
     let (a, b) = (flat(first * distance), flat(second * distance));
     let beyond = (a - b) * 0.2;
-    let mut ring = vec![a + beyond, DVec2::Y * (2.0 * distance) + beyond, DVec2::Y * (2.0 * distance) - beyond, b - beyond];
+    let mut ring = vec![
+        a + beyond,
+        DVec2::Y * (2.0 * distance) + beyond,
+        DVec2::Y * (2.0 * distance) - beyond,
+        b - beyond,
+    ];
     if segments > 0 {
         ring.push(b);
         // The centre of the arc lies on the normals through both ends.
@@ -78,13 +93,18 @@ fn wedge(edge: &Shape, faces: &[(DVec3, DVec3)], solid: &Shape, distance: f64, s
         let mut turn = to - from;
         turn -= std::f64::consts::TAU * (turn / std::f64::consts::TAU).round();
         for step in 1..segments {
-            ring.push(center + DVec2::from_angle(from + turn * f64::from(step) / f64::from(segments)) * radius);
+            ring.push(
+                center + DVec2::from_angle(from + turn * f64::from(step) / f64::from(segments)) * radius,
+            );
         }
         ring.push(a);
     }
     let start = scope.origin - along * distance;
-    let frame = Scope { origin: start, axes: DMat3::from_cols(right, out, right.cross(out)), size: DVec3::ZERO };
-    let Ok(polygon) = burgeon_geometry::Polygon::turned(burgeon_geometry::Rings(vec![ring])) else { return Ok(None) };
+    let frame =
+        Scope { origin: start, axes: DMat3::from_cols(right, out, right.cross(out)), size: DVec3::ZERO };
+    let Ok(polygon) = burgeon_geometry::Polygon::turned(burgeon_geometry::Rings(vec![ring])) else {
+        return Ok(None);
+    };
     let face = Shape::of_polygon(&polygon, &frame, &None);
     let length = scope.size.x + 2.0 * distance;
     face.extrude(length, Some(along)).map(Some)

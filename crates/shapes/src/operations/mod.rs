@@ -3,6 +3,7 @@
 mod array;
 mod bevel;
 mod extrude;
+mod flat_faces;
 mod inset;
 mod merge;
 mod molding;
@@ -11,6 +12,7 @@ mod roof;
 mod strips;
 mod transform;
 
+pub(crate) use flat_faces::remove_flat_triangles;
 pub use inset::Setback;
-pub use regions::EnvelopeLimit;
 pub(crate) use merge::{merge_coplanar, weld};
+pub use regions::EnvelopeLimit;

@@ -34,7 +34,8 @@ impl Shape {
         for ring in &polygon {
             let count = ring.len();
             let corner = |index: usize| -> Vec<DVec3> {
-                let [before, at, after] = [index + count - 1, index, index + 1].map(|index| ring[index % count]);
+                let [before, at, after] =
+                    [index + count - 1, index, index + 1].map(|index| ring[index % count]);
                 let outward = mitre(at - before, after - at);
                 let point = |offset: &DVec2| frame.point((at + outward * offset.x).extend(offset.y));
                 profile.iter().map(point).collect()
@@ -69,8 +70,10 @@ impl Shape {
         let towards = other.centroid() - self.centroid();
         let (normal, other_normal) = (own.normal(one), others.normal(two));
         if normal.dot(towards) <= 0.0 || other_normal.dot(towards) <= 0.0 {
-            return Err(Error::geometry("the faces of a loft do not look in the direction from the first to the second")
-                .help("turn a face with shape:reverse(), or swap the faces"));
+            return Err(Error::geometry(
+                "the faces of a loft do not look in the direction from the first to the second",
+            )
+            .help("turn a face with shape:reverse(), or swap the faces"));
         }
         let style = |tag: &str| FaceStyle::with_tag(&one.style, &tag.into());
         let [bottom, side, top] = ["loft.bottom", "loft.side", "loft.top"].map(style);

@@ -28,7 +28,9 @@ impl Shape {
     /// Method: bisection of the position of each cut.
     pub fn split_area(&self, axis: SplitAxis, areas: &PartSizes) -> Result<SplitParts> {
         if self.is_closed() {
-            return Err(Error::argument("a solid is not divided by area").help("use a face: shape:faces(\"top\")"));
+            return Err(
+                Error::argument("a solid is not divided by area").help("use a face: shape:faces(\"top\")")
+            );
         }
         let axis = axis as usize;
         let normal = self.scope.axes.col(axis);
@@ -67,7 +69,8 @@ impl Shape {
     pub fn envelope(&self, most: f64, limits: impl Fn(&Self) -> Option<EnvelopeLimit>) -> Result<Self> {
         let (polygon, frame) = self.single_face("envelope")?;
         if frame.axes.z_axis.z < 1.0 - 1e-6 {
-            return Err(Error::argument("the face below an envelope is not horizontal").help("use shape:faces(\"up\")"));
+            return Err(Error::argument("the face below an envelope is not horizontal")
+                .help("use shape:faces(\"up\")"));
         }
         let mut solid = self.extrude(most, None)?;
         for edge in self.border_edges(&polygon, &frame) {
@@ -82,7 +85,8 @@ impl Shape {
             let normal = (outward * angle.sin() + DVec3::Z * angle.cos()).normalize();
             let plane = CutPlane::through(edge.scope.origin + DVec3::Z * height, normal);
             let ([below, _], _) = solid.cut(&plane)?;
-            solid = below.ok_or_else(|| Error::geometry("nothing remains of the envelope").help("raise the limits"))?;
+            solid = below
+                .ok_or_else(|| Error::geometry("nothing remains of the envelope").help("raise the limits"))?;
         }
         Ok(solid)
     }
@@ -96,7 +100,8 @@ impl Shape {
         let Some([low, high]) = polygon.bounds() else { return Ok(None) };
         let lines = |axis: usize| -> Vec<f64> {
             #[allow(clippy::cast_precision_loss, reason = "few lines")]
-            let even = (0..=LATTICE).map(|line| low[axis] + (high[axis] - low[axis]) * line as f64 / LATTICE as f64);
+            let even =
+                (0..=LATTICE).map(|line| low[axis] + (high[axis] - low[axis]) * line as f64 / LATTICE as f64);
             let corners = polygon.points().map(|at| at[axis]).take(LATTICE);
             let mut lines: Vec<f64> = even.chain(corners).collect();
             lines.sort_by(f64::total_cmp);
@@ -109,7 +114,12 @@ impl Shape {
             .map(|row| {
                 columns
                     .windows(2)
-                    .map(|column| contains_rectangle(&polygon, [DVec2::new(column[0], row[0]), DVec2::new(column[1], row[1])]))
+                    .map(|column| {
+                        contains_rectangle(
+                            &polygon,
+                            [DVec2::new(column[0], row[0]), DVec2::new(column[1], row[1])],
+                        )
+                    })
                     .collect()
             })
             .collect();
@@ -192,7 +202,9 @@ fn grow(polygon: &Polygon, [low, high]: [&mut DVec2; 2], axis: usize) {
             *if is_high { &mut b[axis] } else { &mut a[axis] } = middle;
             *if contains_rectangle(polygon, [a, b]) { &mut near } else { &mut far } = middle;
         }
-        *if is_high { &mut high[axis] } else { &mut low[axis] } = near;
+        // The search ends next to a corner of the outline, whose coordinate is exact.
+        let exact = polygon.points().map(|at| at[axis]).find(|corner| (corner - near).abs() < 1e-6);
+        *if is_high { &mut high[axis] } else { &mut low[axis] } = exact.unwrap_or(near);
     }
 }
 
@@ -202,17 +214,24 @@ mod tests {
     use crate::{PartSize, SizedParts};
 
     fn corner_lot() -> Shape {
-        let ring = [(0.0, 0.0), (20.0, 0.0), (20.0, 8.0), (8.0, 8.0), (8.0, 20.0), (0.0, 20.0)].map(DVec2::from);
+        let ring =
+            [(0.0, 0.0), (20.0, 0.0), (20.0, 8.0), (8.0, 8.0), (8.0, 20.0), (0.0, 20.0)].map(DVec2::from);
         Shape::plan(&[ring.to_vec()], 0.0).expect("a plan")
     }
 
     #[test]
     fn parts_by_area_have_these_areas() {
         let lot = corner_lot();
-        let areas = PartSizes(vec![SizedParts::One(PartSize::Absolute(50.0)), SizedParts::Repeated(vec![PartSize::Flexible(60.0)])]);
+        let areas = PartSizes(vec![
+            SizedParts::One(PartSize::Absolute(50.0)),
+            SizedParts::Repeated(vec![PartSize::Flexible(60.0)]),
+        ]);
         let parts = lot.split_area(SplitAxis::X, &areas).expect("parts").parts;
         let areas: Vec<f64> = parts.iter().map(|(_, part)| part.area()).collect();
-        assert!((areas[0] - 50.0).abs() < 1e-6 && (areas.iter().sum::<f64>() - 256.0).abs() < 1e-6, "{areas:?}");
+        assert!(
+            (areas[0] - 50.0).abs() < 1e-6 && (areas.iter().sum::<f64>() - 256.0).abs() < 1e-6,
+            "{areas:?}"
+        );
         assert!(areas[1..].iter().all(|area| (area - areas[1]).abs() < 1e-5), "{areas:?}");
     }
 
@@ -225,7 +244,10 @@ mod tests {
     #[test]
     fn an_envelope_is_cut_by_the_planes_of_its_edges() {
         let lot = Shape::rectangle(DVec2::new(10.0, 20.0));
-        let front = |edge: &Shape| (edge.scope.axes.z_axis.y < -0.5).then_some(EnvelopeLimit { height: 6.0, angle: std::f64::consts::FRAC_PI_4 });
+        let front = |edge: &Shape| {
+            (edge.scope.axes.z_axis.y < -0.5)
+                .then_some(EnvelopeLimit { height: 6.0, angle: std::f64::consts::FRAC_PI_4 })
+        };
         let solid = lot.envelope(12.0, front).expect("an envelope");
         // A triangular prism of 6 m by 6 m is missing over the front.
         assert!((solid.volume() - (10.0 * 20.0 * 12.0 - 18.0 * 10.0)).abs() < 1e-6, "{}", solid.volume());

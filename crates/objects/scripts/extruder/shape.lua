@@ -1,0 +1,11 @@
+-- A gabled house as a shape, with a chimney in its own colour.
+local Part = module("Part")
+local parts = lsystem({ object = extruder({ color = "#d9c7a8" }) })
+parts:axiom(Part())
+parts:interpret("Part", function(this)
+  local walls = cuboid(8, 6, 5)
+  this:shape(walls)
+  this:shape(walls:faces("top")[1]:roof({ kind = "gable", overhang = 0.4 }):color("#8a4b3a"))
+  this:shape(cuboid(0.8, 0.8, 2.4):translate(vec(2, 2, 6.4)):color("#9a6a52"))
+end)
+parts:derive()

@@ -1,0 +1,105 @@
+//! Help for the methods of shapes.
+
+use burgeon_base::error::{Error, ErrorKind, Result};
+use burgeon_shapes::{EdgeKind, Selector, SolidOperation, SplitAxis, SplitParts};
+use glam::DVec3;
+
+use super::edge_distances::EdgeDistances;
+use super::object::{ShapeObject, warn};
+
+impl ShapeObject {
+    /// Divides a face by the distances of its edges.
+    pub(super) fn divide_border(
+        &self,
+        method: &str,
+        distances: &EdgeDistances,
+    ) -> Result<burgeon_shapes::Setback> {
+        let name = format!("shape:{method}");
+        if let EdgeDistances::Each(each) = distances {
+            let count = self.shape.mesh().faces.first().map_or(0, |face| face.edges().count());
+            if each.len() != count {
+                return Err(Error::argument(format!("{name}: {} distances for {count} edges", each.len()))
+                    .help("give one for each edge, or a table of selectors"));
+            }
+        }
+        let by_edge = distances.by_edge(self.shape.scope.axes).map_err(|error| error.about(&name))?;
+        self.shape.setback(by_edge).map_err(|error| error.about(&name))
+    }
+
+    /// Cuts off or rounds convex edges.
+    pub(super) fn bevel(
+        &self,
+        method: &str,
+        distance: f64,
+        segments: u32,
+        kind: Option<String>,
+    ) -> Result<Self> {
+        let name = format!("shape:{method}");
+        let kind = kind.map(|kind| EdgeKind::read(&kind)).transpose().map_err(|error| error.about(&name))?;
+        let kinds = kind.as_ref().map(std::slice::from_ref);
+        let (solid, failed) =
+            self.shape.beveled(distance, segments, kinds).map_err(|error| error.about(&name))?;
+        if failed > 0 {
+            let text = format!("{failed} edges could not be cut off");
+            warn(method, &text, "use a smaller distance, or cut off edges of one kind");
+        }
+        Ok(self.changed(solid))
+    }
+
+    /// Combines two solids; keeps this one with a warning if that fails.
+    pub(super) fn combine(
+        &self,
+        method: &str,
+        other: &Self,
+        operation: SolidOperation,
+    ) -> Result<Option<Self>> {
+        match self.shape.combined(&other.shape, operation) {
+            Ok(solid) => Ok(solid.map(|solid| self.changed(solid))),
+            Err(error) if *error.kind() != ErrorKind::Geometry => Err(error),
+            Err(error) => {
+                let text = format!("{}; the first shape is kept", error.message());
+                warn(method, &text, error.remedy().unwrap_or("use closed solids"));
+                Ok(Some(self.clone()))
+            }
+        }
+    }
+}
+
+/// Returns the unit vector; fails without a length.
+pub(super) fn unit(name: &str, vector: DVec3) -> Result<DVec3> {
+    vector
+        .try_normalize()
+        .ok_or_else(|| Error::argument(format!("{name} has no length")).help("use a vector that is not zero"))
+}
+
+/// Reads a selector; all faces without one.
+pub(super) fn selected(method: &str, selector: Option<String>) -> Result<Selector> {
+    let Some(name) = selector else { return Ok(Selector::All) };
+    Selector::read(&name).map_err(|error| error.about(&format!("shape:{method}")))
+}
+
+/// Reads the axis of a split.
+pub(super) fn split_axis(method: &str, axis: &str) -> Result<SplitAxis> {
+    match axis {
+        "x" => Ok(SplitAxis::X),
+        "y" => Ok(SplitAxis::Y),
+        "z" => Ok(SplitAxis::Z),
+        other => Err(Error::argument(format!("shape:{method}: unknown axis {other:?}"))
+            .help("use \"x\", \"y\" or \"z\"")),
+    }
+}
+
+/// Reports sizes that do not fit, and solids that are open after a cut.
+pub(super) fn warn_of_split(method: &str, unit: &str, split: &SplitParts) {
+    if split.missing > 0.0 {
+        let text =
+            format!("the sizes exceed the shape by {:.3} {unit}, so the last parts are cut", split.missing);
+        warn(method, &text, "use flexible sizes, such as \"~3\"");
+    } else if split.rest > 0.0 {
+        let text = format!("the sizes leave {:.3} {unit} at the end", split.rest);
+        warn(method, &text, "add a flexible size, such as \"~1\"");
+    }
+    if split.open {
+        warn(method, "a solid could not be closed where it was cut", "check the solid with shape:open_edges");
+    }
+}
