@@ -549,7 +549,7 @@ local function split(shape: any, axis: string, parts: { any }): any
   local sizes: { any }, makers: { any } = {}, {}
   for _, part in parts do
     if type(part) ~= "table" then
-      refuse(`split: a part is {describe(part)}`, 'write split(s, "z", {{ {{ 4, Ground }}, {{ "~3*", Floor }} }})')
+      refuse(`split: a part is {describe(part)}`, 'write split(s, "z", { { 4, Ground }, { "~3*", Floor } })')
     elseif type(part[1]) == "table" then
       local group = {}
       for _, inner in part do

@@ -39,6 +39,7 @@ mod returned_modules;
 mod scripts;
 mod sequences;
 mod series;
+mod shapes;
 mod steps;
 mod stochastic;
 mod streams;

@@ -1,6 +1,7 @@
 //! Construction of shapes from plans, primitives and triangles.
 
 use burgeon_base::error::{Error, Result};
+use burgeon_geometry::overlay::{Fill, fill};
 use burgeon_geometry::{Polygon, Rings};
 use burgeon_scene::Part;
 use glam::{DMat3, DVec2, DVec3};
@@ -18,6 +19,7 @@ impl Shape {
     /// Fails if a ring is not valid.
     pub fn plan(rings: &[Vec<DVec2>], height: f64) -> Result<Self> {
         let polygon = Polygon::turned(Rings(rings.to_vec()))?;
+        check_crossings(&polygon)?;
         let longest = polygon.edges().max_by(|a, b| {
             let length = |[from, to]: &[DVec2; 2]| from.distance_squared(*to);
             // Rounding does not decide between equal edges; the first wins.
@@ -152,6 +154,18 @@ impl Shape {
         (!welded.faces.is_empty())
             .then(|| Self::of_mesh(crate::operations::merge_coplanar(&welded), DMat3::IDENTITY))
     }
+}
+
+/// Fails if rings cross or touch themselves or each other, so that they enclose another area.
+fn check_crossings(polygon: &Polygon) -> Result<()> {
+    let valid = fill(&[Rings::from(polygon)], Fill::NonZero)?;
+    let holes = valid.first().map_or(0, |rings| rings.len() - 1);
+    let area: f64 = valid.into_iter().filter_map(|rings| Polygon::turned(rings).ok()).map(|part| part.area()).sum();
+    if holes == polygon.holes().len() && (area - polygon.area()).abs() <= 1e-6 * area {
+        return Ok(());
+    }
+    Err(Error::geometry("the outline crosses itself, or a hole is not inside of it")
+        .help("use geometry(...):make_valid(), or order the points along the outline"))
 }
 
 /// Returns the corners of a regular polygon around the origin.

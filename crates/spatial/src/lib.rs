@@ -52,7 +52,9 @@ pub use overlay::union_all;
 pub use reach::{BoundingBox, near_selection, representative_point};
 pub use records::{Record, RecordTable};
 pub use relation::Relation;
-pub use scripting::{GeometryList, GeometryObject, Lines, Path, PolygonArgument, Shape, constructors, rings};
+pub use scripting::{
+    GeometryArgument, GeometryList, GeometryObject, Lines, Path, PolygonArgument, constructors, rings,
+};
 pub use topology::PreparedGeometry;
 
 /// Maximum nesting depth of collections.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use burgeon_base::error::{Error, Result};
 use burgeon_data::{Attribute, Feature, Layer};
 use burgeon_kit::{Parameter, Table, TableKey, Value};
-use burgeon_spatial::Shape;
+use burgeon_spatial::GeometryArgument;
 
 /// List of features of a script, in metres around the origin of the run.
 #[derive(Debug, Default, Clone)]
@@ -28,8 +28,8 @@ impl ScriptList {
             };
             let Value::Table(feature) = feature else { return Err(refuse("is no table")) };
             let geometry = feature.get("geometry").ok_or_else(|| refuse("has no geometry"))?;
-            let shape =
-                Shape::read_value(geometry).map_err(|_| refuse("has no geometry that can be read"))?;
+            let shape = GeometryArgument::read_value(geometry)
+                .map_err(|_| refuse("has no geometry that can be read"))?;
             let id = match feature.get("id") {
                 Some(Value::Text(id)) => id.to_string(),
                 Some(Value::Nil) | None => (number + 1).to_string(),

@@ -1,16 +1,16 @@
 //! Geometries as scripts hold them: their type, constructors, arguments and methods.
 
 mod construct;
+mod geometry_argument;
 mod lines;
 mod list;
 mod methods;
 mod object;
 mod polygon;
-mod shape;
 
 pub use construct::constructors;
+pub use geometry_argument::{GeometryArgument, Path};
 pub use lines::Lines;
 pub use list::GeometryList;
 pub use object::GeometryObject;
 pub use polygon::{PolygonArgument, rings};
-pub use shape::{Path, Shape};

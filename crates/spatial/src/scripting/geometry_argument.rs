@@ -11,9 +11,9 @@ use super::polygon::PolygonArgument;
 use crate::{Geometry, PreparedGeometry};
 
 /// A geometry as an argument: a geometry object, a feature's geometry, or a position.
-pub struct Shape(Arc<GeometryObject>);
+pub struct GeometryArgument(Arc<GeometryObject>);
 
-impl Shape {
+impl GeometryArgument {
     /// Returns the geometry.
     pub fn geometry(&self) -> &Geometry {
         self.0.geometry()
@@ -25,7 +25,7 @@ impl Shape {
     }
 }
 
-impl Parameter for Shape {
+impl Parameter for GeometryArgument {
     fn luau() -> String {
         "Geometry | { any }".into()
     }

@@ -1,0 +1,95 @@
+//! Shapes in modules: splits, components and claims of volumes.
+
+use super::scripts::{chain, error, run};
+
+const PARTS: &str = r#"
+local Mass, Floor, Wall, Roof = module("Mass", "s"), module("Floor", "n"), module("Wall", "w"), module("Roof", "a")
+local building = lsystem({ object = extruder() })
+building:axiom(Mass(cuboid(6, 4, 10)))
+"#;
+
+#[test]
+fn parts_of_a_split_become_modules_in_ascending_order() {
+    let script = format!(
+        r#"{PARTS}
+        local function floor(s) return Floor(s:size().z) end
+        building:rule("Mass(s)", function(this, s)
+          return split(s, "z", {{ {{ 4, floor }}, {{ 1, false }}, {{ "~2*", floor }}, {{ 1, function(s) return Roof(s:index()) end }} }})
+        end)
+        building:derive(1)"#
+    );
+    assert_eq!(chain(&script), "Floor(4) Floor(2) Floor(2) Roof(5)");
+}
+
+#[test]
+fn a_component_becomes_the_first_module_whose_selector_it_matches() {
+    let script = format!(
+        r#"{PARTS}
+        building:rule("Mass(s)", function(this, s)
+          return components(s, "faces", {{
+            {{ "front", function(f) return Wall(f:size().x) end }},
+            {{ function(f) return f:area() > 50 end, function(f) return Wall(0) end }},
+            {{ "side", function(f) return Wall(f:size().x) end }},
+            {{ "top", function(f) return Roof(f:area()) end }},
+          }})
+        end)
+        building:derive(1)"#
+    );
+    assert_eq!(chain(&script), "Wall(6) Wall(4) Wall(0) Wall(4) Roof(24)");
+}
+
+#[test]
+fn the_first_of_two_shapes_that_exclude_each_other_stays_for_any_number_of_threads() {
+    let script = r#"
+        local Box, Kept = module("Box", "s"), module("Kept", "x")
+        local space = volumes()
+        local boxes = lsystem({ object = extruder(), environment = { space } })
+        local list = {}
+        for number = 0, 9 do list[number + 1] = Box(cuboid(3, 3, 3):translate(vec(2 * number, 0, 0))) end
+        boxes:axiom(sequence(list))
+        boxes:interpret("Box(s)", function(this, s) space:claim(s, "box") end)
+        boxes:rule("Box(s)", function(this, s) if space:has(s) then return Kept(s:position().x) end return nil end)
+        boxes:derive(1)"#;
+    assert_eq!(chain(script), "Kept(0) Kept(4) Kept(8) Kept(12) Kept(16)");
+}
+
+#[test]
+fn an_error_in_a_predicate_has_its_line() {
+    let script = format!(
+        "{PARTS}
+        building:rule('Mass(s)', function(this, s)
+          return components(s, 'faces', {{ {{ function(f) return f:sise().x > 1 end, Wall }} }})
+        end)
+        building:derive(1)"
+    );
+    let told = error(&script);
+    assert!(told.contains("unknown method or field `sise` of shape") && told.contains("Mass"), "{told}");
+}
+
+#[test]
+fn measures_of_operations_are_exact() {
+    run(r#"
+        local function near(found: any, wanted: number) expect(math.abs(found - wanted) < 1e-6, true) end
+        local lot = rectangle(30, 20)
+        near(lot:setback({ front = 5, side = 3 })[1]:area(), 24 * 12)
+        near(lot:wings({ front = 8, left = 6 })[1]:area(), 30 * 8 + 12 * 6)
+        near(lot:offset(2)[1]:area(), 34 * 24)
+        near(lot:setback_to_area(300)[1]:area(), 300)
+        near(lot:envelope(20, { front = { 9, 45 } }):volume(), 30 * 20 * 20 - 30 * 11 * 11 / 2)
+        near(lot:roof({ kind = "hip", height = 4 }):volume(), 4 * (20 * 10 / 2 + 20 * 20 / 3))
+        near(lot:taper(6):volume(), 30 * 20 * 6 / 3)
+        near(lot:molding({ { 0, 0 }, { 1, 0 }, { 1, 2 }, { 0, 2 } }):volume(), (32 * 22 - 600) * 2)
+        local block, hole = cuboid(4, 4, 4), cuboid(2, 2, 6):translate(vec(1, 1, -1))
+        local ring, both, all = block:subtract(hole), block:intersect(hole), block:union(hole)
+        assert(ring and both and all)
+        near(ring:volume(), 48)
+        near(both:volume(), 16)
+        near(all:volume(), 72)
+        expect(ring:is_solid() and both:is_solid() and all:is_solid(), true)
+        near(shape(block:split("x", { "1*" })):recompose():face_count(), 6)
+        expect(block:chamfer(0.5, "corner"):face_count(), 10)
+        expect(block:overlaps(hole), true)
+        expect(block:touches(block:translate(vec(4, 0, 0))), true)
+        near(block:distance(block:translate(vec(7, 8, 0))), 5)
+    "#);
+}
