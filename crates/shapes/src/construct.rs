@@ -160,7 +160,8 @@ impl Shape {
 fn check_crossings(polygon: &Polygon) -> Result<()> {
     let valid = fill(&[Rings::from(polygon)], Fill::NonZero)?;
     let holes = valid.first().map_or(0, |rings| rings.len() - 1);
-    let area: f64 = valid.into_iter().filter_map(|rings| Polygon::turned(rings).ok()).map(|part| part.area()).sum();
+    let area: f64 =
+        valid.into_iter().filter_map(|rings| Polygon::turned(rings).ok()).map(|part| part.area()).sum();
     if holes == polygon.holes().len() && (area - polygon.area()).abs() <= 1e-6 * area {
         return Ok(());
     }

@@ -53,10 +53,8 @@ impl Shape {
             }
         }
         if self.is_apart(other) {
-            let [one, two] = [(self, "bool.a"), (other, "bool.b")].map(|(shape, tag)| {
-                let tag = tag.into();
-                shape.with_styles(|style| FaceStyle::with_tag(style, &tag))
-            });
+            let [one, two] = [(self, "bool.a"), (other, "bool.b")]
+                .map(|(shape, tag)| shape.with_styles(|style| FaceStyle::with_automatic_tag(style, tag)));
             return match operation {
                 SolidOperation::Union => Self::joined(&[&one, &two]),
                 SolidOperation::Difference => Ok(Some(one)),
@@ -164,7 +162,7 @@ fn triangles(shape: &Shape, center: DVec3, tag: &str, styles: &mut Vec<SharedSty
         #[allow(clippy::cast_precision_loss, reason = "fewer than 2^52 faces")]
         faces.extend(std::iter::repeat_n(styles.len() as f64, 3 * own.len()));
         corners.extend(own.iter().flatten().map(|point| *point as usize));
-        styles.push(FaceStyle::with_tag(&face.style, &tag.into()));
+        styles.push(FaceStyle::with_automatic_tag(&face.style, tag));
     }
     Ok((points, corners, faces))
 }

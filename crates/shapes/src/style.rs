@@ -15,11 +15,6 @@ pub struct FaceStyle {
 pub type SharedStyle = Option<Arc<FaceStyle>>;
 
 impl FaceStyle {
-    /// Returns a style with one tag.
-    pub(crate) fn tagged(tag: &str) -> SharedStyle {
-        Some(Arc::new(Self { tags: vec![tag.into()], color: None }))
-    }
-
     /// Returns `style` with another tag.
     pub fn with_tag(style: &SharedStyle, tag: &Arc<str>) -> SharedStyle {
         let mut own = style.as_deref().cloned().unwrap_or_default();
@@ -27,6 +22,17 @@ impl FaceStyle {
             own.tags.insert(at, Arc::clone(tag));
         }
         Some(Arc::new(own))
+    }
+
+    /// Returns `style` with an automatic tag, such as "extrude.side", which replaces those of earlier operations of the same
+    /// kind.
+    pub(crate) fn with_automatic_tag(style: &SharedStyle, tag: &str) -> SharedStyle {
+        let kind = tag.split('.').next().unwrap_or(tag);
+        let is_earlier = |own: &Arc<str>| own.split('.').next() == Some(kind);
+        if style.as_deref().is_some_and(|own| own.tags.iter().any(is_earlier)) {
+            return Self::with_tag(&Self::without_tags(style, kind), &tag.into());
+        }
+        Self::with_tag(style, &tag.into())
     }
 
     /// Returns `style` without the tags that `pattern` matches.

@@ -37,9 +37,16 @@ impl Shape {
             if distance < 0.0 {
                 scope.origin += scope.axes.z_axis * distance;
             }
-            let mut styles: [SharedStyle; 6] = std::array::from_fn(|_| tagged(style, "extrude.side"));
-            styles[0] = tagged(style, if distance > 0.0 { "extrude.bottom" } else { "extrude.top" });
-            styles[5] = tagged(style, if distance > 0.0 { "extrude.top" } else { "extrude.bottom" });
+            let mut styles: [SharedStyle; 6] =
+                std::array::from_fn(|_| FaceStyle::with_automatic_tag(style, "extrude.side"));
+            styles[0] = FaceStyle::with_automatic_tag(
+                style,
+                if distance > 0.0 { "extrude.bottom" } else { "extrude.top" },
+            );
+            styles[5] = FaceStyle::with_automatic_tag(
+                style,
+                if distance > 0.0 { "extrude.top" } else { "extrude.bottom" },
+            );
             return Ok(Self { scope, body: Body::Box(Some(Arc::new(styles))) });
         }
         let mesh = self.mesh();
@@ -103,11 +110,6 @@ fn closed(operation: &str) -> Error {
         .help("use one of its faces: shape:faces(\"top\")")
 }
 
-/// Returns a style with one more tag.
-fn tagged(style: &SharedStyle, tag: &str) -> SharedStyle {
-    if style.is_none() { FaceStyle::tagged(tag) } else { FaceStyle::with_tag(style, &tag.into()) }
-}
-
 /// Returns the solid between faces and their copies at an offset (m); `backwards` if the copies are behind the faces.
 fn loft(mesh: &PolygonMesh, offset: DVec3, backwards: bool) -> PolygonMesh {
     if !backwards {
@@ -128,15 +130,18 @@ fn sides(mesh: &PolygonMesh, above: impl Fn(DVec3) -> DVec3, tag: &str) -> Polyg
     let mut rim = EdgeSums::default();
     for face in &mesh.faces {
         let reversed = face.rings.iter().map(|ring| ring.iter().rev().copied().collect()).collect();
-        faces.push(PolygonFace { rings: reversed, style: tagged(&face.style, &bottom) });
+        faces.push(PolygonFace {
+            rings: reversed,
+            style: FaceStyle::with_automatic_tag(&face.style, &bottom),
+        });
         face.edges().for_each(|edge| rim.add(edge));
     }
     let style = mesh.faces.first().and_then(|face| face.style.clone());
-    let side = tagged(&style, &side);
+    let side = FaceStyle::with_automatic_tag(&style, &side);
     faces.extend(rim.rest().map(|[from, to]| PolygonFace::of(&[from, to, to + count, from + count], &side)));
     for face in &mesh.faces {
         let raised = face.rings.iter().map(|ring| ring.iter().map(|point| point + count).collect()).collect();
-        faces.push(PolygonFace { rings: raised, style: tagged(&face.style, &top) });
+        faces.push(PolygonFace { rings: raised, style: FaceStyle::with_automatic_tag(&face.style, &top) });
     }
     PolygonMesh::new(points, faces)
 }

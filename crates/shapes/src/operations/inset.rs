@@ -4,6 +4,7 @@ use burgeon_base::error::{Error, Result};
 use burgeon_geometry::overlay::{BufferSource, BufferStyle, Cap, Join, buffer};
 use burgeon_geometry::skeleton::{Pace, Skeleton};
 use burgeon_geometry::{Polygon, Rings};
+use glam::DVec2;
 
 use super::strips::{Strips, divide};
 use crate::{Scope, Selector, Shape};
@@ -81,7 +82,10 @@ impl Shape {
         let source = BufferSource { areas: &own, ..BufferSource::default() };
         let areas = buffer(source, -distance, style)?;
         let own_style = self.styles().into_iter().next().flatten();
-        let polygons = areas.into_iter().filter_map(|rings| Polygon::turned(rings).ok());
+        let polygons = areas.into_iter().filter_map(|rings| {
+            let corners = rings.iter().map(|ring| without_straight_points(ring)).collect();
+            Polygon::turned(Rings(corners)).ok()
+        });
         Ok(polygons.map(|polygon| Self::of_polygon(&polygon, &frame, &own_style)).collect())
     }
 
@@ -129,7 +133,7 @@ impl Shape {
     /// Returns the strips and the rest as shapes.
     fn setback_parts(&self, strips: &Strips, frame: &Scope) -> Setback {
         let style = self.styles().into_iter().next().flatten();
-        let tagged = |tag: &str| crate::FaceStyle::with_tag(&style, &tag.into());
+        let tagged = |tag: &str| crate::FaceStyle::with_automatic_tag(&style, tag);
         let (border, inner) = (tagged("setback.border"), tagged("setback.inner"));
         Setback {
             border: strips
@@ -142,6 +146,17 @@ impl Shape {
             inner: strips.inner.iter().map(|rest| Self::of_polygon(rest, frame, &inner)).collect(),
         }
     }
+}
+
+/// Returns a ring without the points that lie on a straight line between their neighbours, which mitred corners leave.
+fn without_straight_points(ring: &[DVec2]) -> Vec<DVec2> {
+    let count = ring.len();
+    let is_corner = |index: &usize| {
+        let [before, at, after] = [index + count - 1, *index, index + 1].map(|index| ring[index % count]);
+        let (back, forth) = (before - at, after - at);
+        back.perp_dot(forth).abs() > 1e-9 * back.length() * forth.length() || back.dot(forth) > 0.0
+    };
+    (0..count).filter(is_corner).map(|index| ring[index]).collect()
 }
 
 impl Selector {

@@ -29,7 +29,7 @@ impl Shape {
             profile.reverse();
         }
         let own = self.styles().into_iter().next().flatten();
-        let style = FaceStyle::with_tag(&own, &"molding".into());
+        let style = FaceStyle::with_automatic_tag(&own, "molding");
         let mut builder = MeshBuilder::default();
         for ring in &polygon {
             let count = ring.len();
@@ -75,7 +75,7 @@ impl Shape {
             )
             .help("turn a face with shape:reverse(), or swap the faces"));
         }
-        let style = |tag: &str| FaceStyle::with_tag(&one.style, &tag.into());
+        let style = |tag: &str| FaceStyle::with_automatic_tag(&one.style, tag);
         let [bottom, side, top] = ["loft.bottom", "loft.side", "loft.top"].map(style);
         let mut builder = MeshBuilder::default();
         let places = |ring: &Vec<u32>, mesh: &crate::PolygonMesh| -> Vec<DVec3> {

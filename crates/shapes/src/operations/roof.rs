@@ -22,7 +22,7 @@ impl Shape {
         }
         let cover = shape.cover_on(&Support::new(&polygon, 0.0))?;
         let own = self.styles().into_iter().next().flatten();
-        let style = |tag: &str| FaceStyle::with_tag(&own, &tag.into());
+        let style = |tag: &str| FaceStyle::with_automatic_tag(&own, tag);
         let [slope, gable, side, bottom] =
             ["slope", "gable", "side", "bottom"].map(|name| style(&format!("roof.{name}")));
         let place = |ring: &[DVec3]| -> Vec<DVec3> { ring.iter().map(|at| frame.point(*at)).collect() };

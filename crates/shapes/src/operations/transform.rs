@@ -81,7 +81,13 @@ impl Shape {
     /// Returns the shape with reversed faces.
     #[must_use]
     pub fn reversed(&self) -> Self {
-        Self::of_mesh(self.mesh().moved(|at| at, true), self.scope.axes)
+        let mesh = self.mesh().moved(|at| at, true);
+        // The z axis of a face stays outwards.
+        let axes = match mesh.faces.as_slice() {
+            [face] => Scope::face_axes(mesh.normal(face), self.scope.axes),
+            _ => self.scope.axes,
+        };
+        Self::of_mesh(mesh, axes)
     }
 
     /// Returns the shape with a scope of other axes around it.
