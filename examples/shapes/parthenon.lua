@@ -95,4 +95,4 @@ temple:interpret("Column(foot)", function(this, foot: Vector)
 end)
 temple:derive()
 
-camera({ from = vec(-34, -46, 9), to = vec(14, 16, 6), fov = 44 })
+camera({ from = vec(-24, -38, 7), to = vec(13, 14, 6), fov = 46 })

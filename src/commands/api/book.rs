@@ -14,11 +14,12 @@ const AXES: [&str; 2] = ["extruder", "turtle"];
 pub(super) type Page = (String, String);
 
 /// Chapters that are written by hand: their titles and files.
-const CHAPTERS: [(&str, &str); 27] = [
+const CHAPTERS: [(&str, &str); 28] = [
     ("Contexts and features", "rules"),
     ("Phases, hooks and variables", "phases"),
     ("Environments", "environments"),
     ("Curves and surfaces", "curves"),
+    ("Shapes", "shapes"),
     ("Coming from other programs", "coming_from"),
     ("Burgeon for those who know lpfg, L-Py, XL or Houdini", "comparison"),
     ("Drawing, time and files compared", "drawing"),
