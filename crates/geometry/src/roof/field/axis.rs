@@ -48,9 +48,10 @@ impl RidgeFrame {
         };
         let down = -along.perp();
         let extent = |way: DVec2| {
-            walls.points().map(|at| way.dot(at)).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| {
-                (low.min(at), high.max(at))
-            })
+            walls
+                .points()
+                .map(|at| way.dot(at))
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)))
         };
         let [(left, right), (back, front)] = [along, down].map(extent);
         let middle = along * left.midpoint(right) + down * back.midpoint(front);

@@ -2,13 +2,16 @@
 
 use glam::DVec2;
 
+use super::faces::FaceGraph;
 use super::heights::HeightField;
 use crate::overlay::{LayerWay, Subdivision, WayKind};
-use crate::planar::{Polygon, contains, edges, twice_area};
+use crate::planar::{Polygon, edges};
 use burgeon_base::error::Result;
 
-/// Distance (m) from an edge at which its sides are examined.
-const BESIDE: f64 = 1e-6;
+/// Length (m) below which edges are omitted.
+const SHORT: f64 = 1e-4;
+/// Maximum sine of the turn at a node that is omitted.
+const STRAIGHT: f64 = 1e-6;
 
 /// Position of a place relative to the walls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -75,150 +78,181 @@ impl CellMap {
         let [low, high] = outer.bounds().unwrap_or_default();
         let reach = 2.0 * low.distance(high) + 1.0;
         let rings = |layer: usize, polygon: &Polygon| -> Vec<LayerWay> {
-            polygon.iter().map(|ring| LayerWay { layer, kind: WayKind::Ring, places: ring.to_vec() }).collect()
+            polygon
+                .iter()
+                .map(|ring| LayerWay { layer, kind: WayKind::Ring, places: ring.to_vec() })
+                .collect()
         };
         let mut ways = rings(0, walls);
         ways.extend(rings(1, outer));
         let lines = field.breaks(low.midpoint(high), reach).into_iter();
         ways.extend(lines.map(|places| LayerWay { layer: 0, kind: WayKind::Line, places }));
         let division = Subdivision::new(&ways)?;
-        let mut map = Self { places: division.places.clone(), edges: Vec::new(), cells: Vec::new(), undersides: Vec::new(), walls: Vec::new() };
-        // Numbers of the edges that remain.
-        let mut numbers = vec![None; division.edges.len()];
-        for (index, edge) in division.edges.iter().enumerate() {
-            let [from, to] = edge.ends.map(|node| map.places[node as usize]);
-            let (middle, way) = (from.midpoint(to), to - from);
-            let beside = way.perp().normalize_or_zero() * BESIDE.min(1e-3 * way.length());
-            let side = |winding: [i32; 2], at: DVec2| match winding.map(|count| count != 0) {
-                [true, _] => CellSide { zone: Zone::Inside, plane: field.plane_at(at) },
-                [false, true] => CellSide { zone: Zone::Eaves, plane: field.plane_at(at) },
-                [false, false] => CellSide { zone: Zone::Outside, plane: 0 },
-            };
-            let sides = [side(edge.above, middle + beside), side(edge.below, middle - beside)];
-            if sides[0] != sides[1] {
-                numbers[index] = Some(map.edges.len());
-                map.edges.push(CellEdge { ends: edge.ends, sides });
-            }
-        }
-        for (number, ring) in walls.iter().enumerate() {
-            map.walls.extend(wall_nodes(&division.way(number), ring, &map.places));
-        }
-        map.cells = map.trace(&division, &numbers, keeps_walls);
-        if map.edges.iter().any(|edge| edge.sides.iter().any(|side| side.zone == Zone::Eaves)) {
-            map.undersides = map.trace(&division, &numbers, true);
-            map.undersides.retain(|cell| cell.side.zone == Zone::Eaves);
-        }
-        Ok(map)
-    }
+        let graph = FaceGraph::new(&division);
+        let sides = graph.sides(&division, field);
+        let differs = |edge: usize| sides[2 * edge] != sides[2 * edge + 1];
+        let is_wall = |edge: usize| {
+            let [left, right] = [sides[2 * edge], sides[2 * edge + 1]];
+            let is_outside = left.zone == Zone::Outside || right.zone == Zone::Outside;
+            left.plane == right.plane && !is_outside
+        };
+        let kept: Vec<CellEdge> = (0..division.edges.len())
+            .filter(|&edge| differs(edge))
+            .map(|edge| CellEdge {
+                ends: division.edges[edge].ends,
+                sides: [sides[2 * edge], sides[2 * edge + 1]],
+            })
+            .collect();
 
-    /// Returns true if a half-edge exists for the purpose of tracing cells.
-    fn divides(&self, edge: usize, keeps_walls: bool) -> bool {
-        let [left, right] = self.edges[edge].sides;
-        let is_wall = left.zone != right.zone && left.zone != Zone::Outside && right.zone != Zone::Outside;
-        keeps_walls || !is_wall || left.plane != right.plane
-    }
-
-    /// Follows the borders of all cells.
-    fn trace(&self, division: &Subdivision, numbers: &[Option<usize>], keeps_walls: bool) -> Vec<Cell> {
-        // A half-edge has twice the number of its edge, plus 1 if it runs from the right end to the left end. `next` is the
-        // half-edge that follows along the cell to its left.
-        let mut next = vec![usize::MAX; 2 * self.edges.len()];
-        for (_, star) in division.stars() {
-            let out: Vec<usize> = star
-                .iter()
-                .filter_map(|&(edge, is_end)| Some((numbers[edge as usize]?, is_end)))
-                .filter(|(edge, _)| self.divides(*edge, keeps_walls))
-                .map(|(edge, is_end)| 2 * edge + usize::from(is_end))
-                .collect();
-            for (index, half) in out.iter().enumerate() {
-                let twin = half ^ 1;
-                next[twin] = out[(index + out.len() - 1) % out.len()];
-            }
-        }
-        let mut seen = vec![false; next.len()];
-        let mut cells: Vec<Cell> = Vec::new();
-        let mut holes: Vec<(usize, Vec<u32>)> = Vec::new();
-        let mut parts: Vec<usize> = Vec::new();
-        let components = self.components(&next);
-        for start in 0..next.len() {
-            if seen[start] || next[start] == usize::MAX {
-                continue;
-            }
-            let (mut ring, mut longest) = (Vec::new(), (-1.0, self.side(start)));
-            let mut half = start;
-            while !seen[half] {
-                seen[half] = true;
-                let [from, to] = self.ends(half);
-                let length = self.places[from as usize].distance_squared(self.places[to as usize]);
-                if length > longest.0 {
-                    longest = (length, self.side(half));
+        let mut corners = vec![false; division.places.len()];
+        let mut wall_lines = Vec::with_capacity(walls.size());
+        for (number, ring) in walls.iter().chain(outer.iter()).enumerate() {
+            for nodes in wall_nodes(&division.way(number), ring, &division.places) {
+                nodes.first().into_iter().chain(nodes.last()).for_each(|node| corners[*node as usize] = true);
+                if number < walls.len() {
+                    wall_lines.push(nodes);
                 }
-                ring.push(from);
-                half = next[half];
-            }
-            let side = longest.1;
-            if side.zone == Zone::Outside {
-                continue;
-            }
-            let component = components[ring[0] as usize];
-            if self.twice_area(&ring) > 0.0 {
-                cells.push(Cell { side, rings: vec![ring] });
-                parts.push(component);
-            } else {
-                holes.push((component, ring));
             }
         }
-        for (component, hole) in holes {
-            let at = self.places[hole[0] as usize];
-            let around = (0..cells.len())
-                .filter(|&cell| parts[cell] != component)
-                .filter(|&cell| contains(&self.corners(&cells[cell].rings[0]), at))
-                .min_by(|&one, &other| {
-                    let area = |cell: usize| self.twice_area(&cells[cell].rings[0]);
-                    area(one).total_cmp(&area(other))
-                });
-            if let Some(cell) = around {
-                cells[cell].rings.push(hole);
-            }
+        let nodes = NodeMap::new(&division.places, &kept, &corners);
+        let cells = |keeps_walls: bool| -> Vec<Cell> {
+            let faces = graph.rings(&division, |edge| differs(edge) && (keeps_walls || !is_wall(edge)));
+            let cell = |(half, rings): (usize, Vec<Vec<u32>>)| {
+                let rings: Vec<Vec<u32>> = rings.iter().filter_map(|ring| nodes.ring(ring)).collect();
+                (!rings.is_empty()).then(|| Cell { side: sides[half], rings })
+            };
+            faces.into_iter().filter_map(cell).filter(|cell| cell.side.zone != Zone::Outside).collect()
+        };
+        let mut undersides = Vec::new();
+        if sides.iter().any(|side| side.zone == Zone::Eaves) {
+            undersides = cells(true);
+            undersides.retain(|cell| cell.side.zone == Zone::Eaves);
         }
-        cells
+        Ok(Self {
+            cells: cells(keeps_walls),
+            undersides,
+            walls: wall_lines.iter().map(|line| nodes.line(line)).collect(),
+            edges: nodes.edges(&kept),
+            places: division.places.clone(),
+        })
     }
+}
 
-    /// Returns the number of the connected component of each node.
-    fn components(&self, next: &[usize]) -> Vec<usize> {
-        fn root(parents: &mut [usize], mut index: usize) -> usize {
-            while parents[index] != index {
-                parents[index] = parents[parents[index]];
-                index = parents[index];
+/// Nodes without those of short edges and those in the middle of straight edges.
+struct NodeMap {
+    /// Node that represents each node.
+    names: Vec<u32>,
+    /// Edges at nodes that are omitted.
+    passes: Vec<Option<[usize; 2]>>,
+}
+
+impl NodeMap {
+    #[allow(clippy::cast_possible_truncation, reason = "a subdivision has fewer than 2^32 nodes")]
+    fn new(places: &[DVec2], edges: &[CellEdge], corners: &[bool]) -> Self {
+        fn root(parents: &mut [u32], mut index: u32) -> u32 {
+            while parents[index as usize] != index {
+                parents[index as usize] = parents[parents[index as usize] as usize];
+                index = parents[index as usize];
             }
             index
         }
-        let mut parents: Vec<usize> = (0..self.places.len()).collect();
-        for (index, edge) in self.edges.iter().enumerate() {
-            if next[2 * index] != usize::MAX {
-                let [a, b] = edge.ends.map(|node| root(&mut parents, node as usize));
-                parents[a.max(b)] = a.min(b);
+        let mut parents: Vec<u32> = (0..places.len() as u32).collect();
+        for edge in edges {
+            let [a, b] = edge.ends.map(|node| root(&mut parents, node));
+            let ends = edge.ends.map(|node| places[node as usize]);
+            let are_corners = [a, b].map(|node| corners[node as usize]);
+            if a == b || ends[0].distance(ends[1]) >= SHORT || are_corners == [true; 2] {
+                continue;
+            }
+            // A corner represents the nodes near it.
+            let (kept, lost) = if are_corners[1] || (!are_corners[0] && b < a) { (b, a) } else { (a, b) };
+            parents[lost as usize] = kept;
+        }
+        let names: Vec<u32> = (0..parents.len() as u32).map(|node| root(&mut parents, node)).collect();
+        let mut around: Vec<Vec<usize>> = vec![Vec::new(); places.len()];
+        for (index, edge) in edges.iter().enumerate() {
+            let [a, b] = edge.ends.map(|node| names[node as usize]);
+            if a != b {
+                around[a as usize].push(index);
+                around[b as usize].push(index);
             }
         }
-        (0..parents.len()).map(|index| root(&mut parents, index)).collect()
+        let pass = |(node, around): (usize, &Vec<usize>)| {
+            let &[one, other] = around.as_slice() else { return None };
+            let far = |edge: usize| {
+                let [a, b] = edges[edge].ends.map(|end| names[end as usize]);
+                places[if a as usize == node { b } else { a } as usize] - places[node]
+            };
+            let (to, from) = (far(one).normalize_or_zero(), -far(other).normalize_or_zero());
+            let is_straight = to.dot(from) > 0.0 && to.perp_dot(from).abs() < STRAIGHT;
+            (is_straight && !corners[node]).then_some([one, other])
+        };
+        let passes = around.iter().enumerate().map(pass).collect();
+        Self { names, passes }
     }
 
-    fn ends(&self, half: usize) -> [u32; 2] {
-        let [from, to] = self.edges[half / 2].ends;
-        if half.is_multiple_of(2) { [from, to] } else { [to, from] }
+    /// Returns the remaining nodes of a line.
+    fn line(&self, nodes: &[u32]) -> Vec<u32> {
+        let mut line: Vec<u32> = nodes
+            .iter()
+            .map(|node| self.names[*node as usize])
+            .filter(|node| self.passes[*node as usize].is_none())
+            .collect();
+        line.dedup();
+        line
     }
 
-    fn side(&self, half: usize) -> CellSide {
-        self.edges[half / 2].sides[half % 2]
+    /// Returns the remaining nodes of a ring, without parts that run back on themselves; `None` if fewer than three remain.
+    fn ring(&self, nodes: &[u32]) -> Option<Vec<u32>> {
+        let mut ring: Vec<u32> = Vec::with_capacity(nodes.len());
+        for node in self.line(nodes) {
+            ring.push(node);
+            while ring.len() > 2 && ring[ring.len() - 1] == ring[ring.len() - 3] {
+                ring.truncate(ring.len() - 2);
+            }
+        }
+        while ring.len() > 2 {
+            if ring[0] == ring[ring.len() - 1] {
+                ring.pop();
+            } else if ring[1] == ring[ring.len() - 1] {
+                ring.remove(0);
+                ring.pop();
+            } else if ring[0] == ring[ring.len() - 2] {
+                ring.truncate(ring.len() - 2);
+            } else {
+                break;
+            }
+        }
+        (ring.len() > 2).then_some(ring)
     }
 
-    fn corners(&self, ring: &[u32]) -> Vec<DVec2> {
-        ring.iter().map(|node| self.places[*node as usize]).collect()
-    }
-
-    fn twice_area(&self, ring: &[u32]) -> f64 {
-        let from = self.places[ring[0] as usize];
-        twice_area(ring.iter().map(|node| self.places[*node as usize] - from))
+    /// Returns the edges between remaining nodes.
+    fn edges(&self, edges: &[CellEdge]) -> Vec<CellEdge> {
+        let mut seen = vec![false; edges.len()];
+        let mut joined = Vec::new();
+        let name = |node: u32| self.names[node as usize];
+        for (index, edge) in edges.iter().enumerate() {
+            let [a, b] = edge.ends.map(name);
+            let is_begin = |node: u32| self.passes[node as usize].is_none();
+            if seen[index] || a == b || !(is_begin(a) || is_begin(b)) {
+                continue;
+            }
+            let (begin, mut end) = if is_begin(a) { (a, b) } else { (b, a) };
+            let sides = if begin == a { edge.sides } else { [edge.sides[1], edge.sides[0]] };
+            let mut at = index;
+            seen[at] = true;
+            while let Some([one, other]) = self.passes[end as usize] {
+                at = if at == one { other } else { one };
+                if seen[at] {
+                    break;
+                }
+                seen[at] = true;
+                let [c, d] = edges[at].ends.map(name);
+                end = if c == end { d } else { c };
+            }
+            joined.push(CellEdge { ends: [begin, end], sides });
+        }
+        joined
     }
 }
 

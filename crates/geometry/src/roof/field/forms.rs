@@ -2,12 +2,12 @@
 
 use glam::DVec2;
 
-use crate::skeleton::{Pace, Skeleton};
 use super::super::{Rise, RoofCover, RoofShape, Support};
 use super::axis::{RidgeAxis, RidgeFrame};
 use super::heights::{HeightField, HeightPlane, PlaneRule};
 use super::radial::{Apex, RadialGauge};
 use super::{onion, profiles, raise};
+use crate::skeleton::{Pace, Skeleton};
 use burgeon_base::error::Result;
 
 /// Form of a roof whose height is a function of the place.
@@ -77,7 +77,8 @@ impl FieldRoof {
         } else {
             let apex = Apex::new(support.walls)?;
             if apex.is_hull {
-                remark = Some("its slopes begin at the convex hull, as no place sees all corners of the outline");
+                remark =
+                    Some("its slopes begin at the convex hull, as no place sees all corners of the outline");
             }
             self.radial(shape, &apex)
         };
@@ -133,7 +134,10 @@ impl FieldRoof {
                 profiles::teeth(2.0 * half.y, width, |tooth| high.unwrap_or_else(|| rise(tooth)))
             }
             Self::Gable(bends) => profiles::mirrored(bends, rise(half.y)),
-            _ => return self.planes(&frame, rise(if self == Self::CrossGable { half.min_element() } else { half.y })),
+            _ => {
+                return self
+                    .planes(&frame, rise(if self == Self::CrossGable { half.min_element() } else { half.y }));
+            }
         };
         profiles::field(&frame, &profile)
     }

@@ -64,7 +64,11 @@ impl HeightField {
                 if one.1 >= other.1 { one.0 } else { other.0 }
             }
             PlaneRule::Gablets { height } => {
-                if lowest(2, 4).1 < *height { lowest(0, 4).0 } else { lowest(0, 2).0 }
+                if lowest(2, 4).1 < *height {
+                    lowest(0, 4).0
+                } else {
+                    lowest(0, 2).0
+                }
             }
             PlaneRule::Radial(gauge) => gauge.index(place),
         }

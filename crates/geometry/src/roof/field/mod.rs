@@ -6,6 +6,7 @@
 
 mod axis;
 mod cells;
+mod faces;
 mod forms;
 mod heights;
 mod onion;

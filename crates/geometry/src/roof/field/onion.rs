@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::super::{Patch, PatchKind, Rise, RoofCover, RoofShape, Support};
 use super::forms::largest_circle;
 use super::radial::Apex;
-use crate::planar::{edges, Ring};
+use crate::planar::{Ring, edges};
 use burgeon_base::error::Result;
 
 /// Outline of the bulb: the share of the height and the scale of the foot.
@@ -50,9 +50,8 @@ pub(super) fn cover(shape: &RoofShape, support: &Support<'_>) -> Result<RoofCove
         patches.extend(Ring::without_repeats(below).map(|ring| level(PatchKind::Underside, vec![ring])));
         (at, foot)
     };
-    let radius = edges(&foot)
-        .map(|[a, b]| (b - a).normalize_or_zero().perp_dot(at - a))
-        .fold(f64::INFINITY, f64::min);
+    let radius =
+        edges(&foot).map(|[a, b]| (b - a).normalize_or_zero().perp_dot(at - a)).fold(f64::INFINITY, f64::min);
     let rise = match shape.rise {
         Rise::Height(height) => height,
         Rise::Slope(slope) => slope * radius,

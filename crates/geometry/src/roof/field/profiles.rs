@@ -14,11 +14,8 @@ pub(super) type CrossProfile = Vec<(f64, f64)>;
 
 /// Returns the section of a gable roof with bends.
 pub(super) fn mirrored(bends: &[(f64, f64)], rise: f64) -> CrossProfile {
-    let half: CrossProfile = [(0.0, 0.0)]
-        .iter()
-        .chain(bends)
-        .map(|&(share, height)| (0.5 * share, rise * height))
-        .collect();
+    let half: CrossProfile =
+        [(0.0, 0.0)].iter().chain(bends).map(|&(share, height)| (0.5 * share, rise * height)).collect();
     let other = half.iter().rev().map(|&(share, height)| (1.0 - share, height));
     half.iter().copied().chain([(0.5, rise)]).chain(other).collect()
 }

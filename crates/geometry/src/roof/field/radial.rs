@@ -24,7 +24,8 @@ impl Apex {
     /// Finds an apex of a plan: the centroid of its outer outline if all corners are visible from it, otherwise the centroid of
     /// the area from which they are, otherwise that of the convex hull. Holes have no influence.
     pub(super) fn new(walls: &Polygon) -> Result<Self> {
-        let empty = || Error::argument("a roof around an apex needs an outline").help("give at least 3 corners");
+        let empty =
+            || Error::argument("a roof around an apex needs an outline").help("give at least 3 corners");
         let outer = walls.outer().ok_or_else(empty)?.to_vec();
         let centroid = centroid(&outer);
         if sees(&outer, centroid) {

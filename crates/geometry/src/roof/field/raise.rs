@@ -41,7 +41,13 @@ struct RaisedCells<'a> {
 }
 
 impl<'a> RaisedCells<'a> {
-    fn new(map: &'a CellMap, field: &'a HeightField, support: &Support<'_>, slab: f64, overhang: f64) -> Self {
+    fn new(
+        map: &'a CellMap,
+        field: &'a HeightField,
+        support: &Support<'_>,
+        slab: f64,
+        overhang: f64,
+    ) -> Self {
         let count = map.places.len();
         // Position of each node: a corner of the walls, elsewhere on the walls, or beyond them.
         let (mut corner, mut between) = (vec![false; count], vec![false; count]);
@@ -62,7 +68,9 @@ impl<'a> RaisedCells<'a> {
         for edge in &map.edges {
             for (node, side) in edge.ends.into_iter().flat_map(|node| edge.sides.map(|side| (node, side))) {
                 let index = node as usize;
-                if side.zone != Zone::Outside && !made.heights[index].iter().any(|known| known.0 == side.plane) {
+                if side.zone != Zone::Outside
+                    && !made.heights[index].iter().any(|known| known.0 == side.plane)
+                {
                     let mut height = field.planes[side.plane].height_at(map.places[index]);
                     if height.abs() < LEVEL {
                         height = 0.0;
@@ -102,7 +110,10 @@ impl<'a> RaisedCells<'a> {
     /// Returns the height (m) of a plane at a node.
     fn height(&self, node: u32, plane: usize) -> f64 {
         let known = self.heights[node as usize].iter().find(|known| known.0 == plane);
-        known.map_or_else(|| self.field.planes[plane].height_at(self.map.places[node as usize]), |known| known.1)
+        known.map_or_else(
+            || self.field.planes[plane].height_at(self.map.places[node as usize]),
+            |known| known.1,
+        )
     }
 
     /// Returns the height (m) of the upper side at a node.
@@ -139,7 +150,8 @@ impl<'a> RaisedCells<'a> {
             // The left of an edge is uphill.
             let along = -gradient.perp().normalize_or(DVec2::NEG_X);
             let raised = |ring: &Vec<u32>| {
-                let height = |node| if is_top { self.top(node, cell.side) } else { self.bottom(node, cell.side) };
+                let height =
+                    |node| if is_top { self.top(node, cell.side) } else { self.bottom(node, cell.side) };
                 let corners = ring.iter().map(|node| self.place(*node, height(*node)));
                 Ring::without_repeats(if is_top { corners.collect() } else { corners.rev().collect() })
             };
@@ -156,7 +168,8 @@ impl<'a> RaisedCells<'a> {
     fn add_walls(&self, patches: &mut Vec<Patch>) {
         for (edge, nodes) in self.map.walls.iter().enumerate() {
             let (Some(&first), Some(&last)) = (nodes.first(), nodes.last()) else { continue };
-            let along = (self.map.places[last as usize] - self.map.places[first as usize]).normalize_or_zero();
+            let along =
+                (self.map.places[last as usize] - self.map.places[first as usize]).normalize_or_zero();
             let mut corners = vec![self.place(first, self.base), self.place(last, self.base)];
             let mut height = (last, self.base);
             for pair in nodes.windows(2).rev() {
@@ -177,7 +190,11 @@ impl<'a> RaisedCells<'a> {
 
     /// Returns the side on which the roof rests on a part of a wall: outside if it has an overhang there.
     fn wall_side(&self, pair: &[u32]) -> Option<CellSide> {
-        let edge = self.map.edges.iter().find(|edge| edge.ends == [pair[0], pair[1]] || edge.ends == [pair[1], pair[0]])?;
+        let edge = self
+            .map
+            .edges
+            .iter()
+            .find(|edge| edge.ends == [pair[0], pair[1]] || edge.ends == [pair[1], pair[0]])?;
         let outside = edge.sides.iter().find(|side| side.zone == Zone::Eaves);
         outside.or_else(|| edge.sides.iter().find(|side| side.zone == Zone::Inside)).copied()
     }
@@ -187,15 +204,20 @@ impl<'a> RaisedCells<'a> {
         for edge in &self.map.edges {
             let [left, right] = edge.sides;
             // Each face is seen from the side that has no roof at its height.
-            for (ends, own, other) in
-                [(edge.ends, left, right), ([edge.ends[1], edge.ends[0]], right, left)]
+            for (ends, own, other) in [(edge.ends, left, right), ([edge.ends[1], edge.ends[0]], right, left)]
             {
                 if own.zone == Zone::Outside {
                     continue;
                 }
                 let tops = ends.map(|node| self.top(node, own));
                 if other.zone == Zone::Outside {
-                    self.add_face(patches, PatchKind::Fascia, ends, ends.map(|node| self.bottom(node, own)), tops);
+                    self.add_face(
+                        patches,
+                        PatchKind::Fascia,
+                        ends,
+                        ends.map(|node| self.bottom(node, own)),
+                        tops,
+                    );
                     continue;
                 }
                 let other_tops = ends.map(|node| self.top(node, other));
@@ -203,7 +225,8 @@ impl<'a> RaisedCells<'a> {
                     self.add_face(patches, PatchKind::Gable, ends, other_tops, tops);
                 }
                 if own.zone == Zone::Eaves && other.zone == Zone::Eaves {
-                    let [bottoms, other_bottoms] = [own, other].map(|side| ends.map(|node| self.bottom(node, side)));
+                    let [bottoms, other_bottoms] =
+                        [own, other].map(|side| ends.map(|node| self.bottom(node, side)));
                     if bottoms[0] + bottoms[1] < other_bottoms[0] + other_bottoms[1] {
                         self.add_face(patches, PatchKind::Gable, ends, bottoms, other_bottoms);
                     }
@@ -213,7 +236,14 @@ impl<'a> RaisedCells<'a> {
     }
 
     /// Adds an upright face over an edge, between two heights (m) at both ends, seen from the right of the edge.
-    fn add_face(&self, patches: &mut Vec<Patch>, kind: PatchKind, [a, b]: [u32; 2], low: [f64; 2], high: [f64; 2]) {
+    fn add_face(
+        &self,
+        patches: &mut Vec<Patch>,
+        kind: PatchKind,
+        [a, b]: [u32; 2],
+        low: [f64; 2],
+        high: [f64; 2],
+    ) {
         let mut corners = vec![self.place(a, low[0]), self.place(b, low[1])];
         corners.extend(self.between(b, low[1], high[1]));
         corners.extend([self.place(b, high[1]), self.place(a, high[0])]);

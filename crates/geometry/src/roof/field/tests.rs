@@ -88,8 +88,9 @@ fn every_form_closes_random_plans_with_holes_below_its_height() {
             let most = walls.hull().expect("a hull").area() * 4.0 * 1.2;
             assert!(above > -1e-3 && above < most, "{round}: {form:?} {above} m³, at most {most} m³");
         }
-        let top = highest(&cover) - HEIGHT - shape.slab;
-        assert!(top < 4.0 + 1.0, "{round}: {form:?} is {top} m high");
+        // Slopes that rise continue to rise beyond the walls.
+        let top = highest(&cover) - HEIGHT;
+        assert!(shape.overhang > 0.0 || top < 4.0 + 1e-9, "{round}: {form:?} is {top} m high");
         count += 1;
     }
     assert!(count > 1500 && holes > 200, "{count}, {holes} with holes");
@@ -159,16 +160,8 @@ fn an_apex_sees_its_outline_or_says_that_it_begins_at_the_hull() {
     let corner = around(&[(0., 0.), (12., 0.), (12., 5.), (5., 5.), (5., 12.), (0., 12.)]);
     let pyramid = roof(FieldRoof::Pyramid, RidgeAxis::Along, 0.0);
     assert_eq!(pyramid.cover(&corner, HEIGHT).expect("a roof").remark, None);
-    let steps = around(&[
-        (0., 0.),
-        (18., 0.),
-        (18., 12.),
-        (13., 12.),
-        (13., 5.),
-        (5., 5.),
-        (5., 12.),
-        (0., 12.),
-    ]);
+    let steps =
+        around(&[(0., 0.), (18., 0.), (18., 12.), (13., 12.), (13., 5.), (5., 5.), (5., 12.), (0., 12.)]);
     let cover = pyramid.cover(&steps, HEIGHT).expect("a roof");
     assert!(cover.remark.is_some_and(|remark| remark.contains("hull")));
     assert!(solid::check([&building(&steps, &cover)]).is_solid());
