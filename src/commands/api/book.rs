@@ -14,7 +14,7 @@ const AXES: [&str; 2] = ["extruder", "turtle"];
 pub(super) type Page = (String, String);
 
 /// Chapters that are written by hand: their titles and files.
-const CHAPTERS: [(&str, &str); 27] = [
+const CHAPTERS: [(&str, &str); 28] = [
     ("Contexts and features", "rules"),
     ("Phases, hooks and variables", "phases"),
     ("Environments", "environments"),
@@ -24,6 +24,7 @@ const CHAPTERS: [(&str, &str); 27] = [
     ("Drawing, time and files compared", "drawing"),
     ("Porting an lpfg model", "porting"),
     ("Data and heights", "data"),
+    ("OpenStreetMap as tagged", "osm"),
     ("SQL queries", "queries"),
     ("SQL", "sql"),
     ("Terrain and planets", "terrain"),
