@@ -142,12 +142,13 @@ table.insert(plates, Plate(
   -0.05,
   "#a5a093"
 ))
-for layer, look in { green = { 0.04, "#84965a" }, water = { 0.02, "#5f8b99" }, squares = { 0.06, "#b9b3a6" } } :: any do
-  local is_there, areas = pcall(source, `{extract}:{layer}`)
+local LAYERS: { any } = { { "water", 0.02, "#5f8b99" }, { "green", 0.04, "#84965a" }, { "squares", 0.06, "#b9b3a6" } }
+for _, look in LAYERS do
+  local is_there, areas = pcall(source, `{extract}:{look[1]}`)
   if is_there then
     for _, area in areas do
       for _, plan in polygons(area) do
-        table.insert(plates, Plate(plan, -0.05, look[1], look[2]))
+        table.insert(plates, Plate(plan, -0.05, look[2], look[3]))
       end
     end
   end

@@ -20,8 +20,8 @@ function fronts.of(material: any, is_wide: boolean): Facade
     right = 0.6,
     bottom = { 0.75, "max" },
     top = 0.4,
-    width = if is_wide then { 2.9, 3.3, 5 } else { 2.3, 2.8, 4.4 },
-    height = { 2.65, 3.1, 4.4 },
+    width = if is_wide then { 2.9, 3.3, 6 } else { 2.3, 2.8, 4.7 },
+    height = { 2.65, 3.1, 5.4 },
   })
   return facade({
     template(panel({}), { material = material, weight = 0 }),

@@ -103,7 +103,7 @@ function tags.report()
   for _, key in order do
     local it = unknown[key]
     local what = if it.count == 1 then "1 feature" else `{it.count} features`
-    warn(`unknown value {it.tag} = {it.value} on {what}, the first is {it.first}`, "the usual value is used")
+    warn(`cannot draw {it.tag} = {it.value} on {what}, the first is {it.first}`, "the usual value is drawn instead")
   end
 end
 
@@ -163,12 +163,16 @@ function tags.volume(feature: any, plan: any, building: any?, number: number): a
   local outline = building or feature
   local kind = kind_of(feature)
   local rise = rise_of(feature, kind, plan)
-  local usual = LEVELS[feature.kind] or 2
+  local usual = LEVELS[feature.kind] or if plan:area() > 350 then 5 else 2
   local own = feature.height or (feature.levels and feature.levels * LEVEL + rise)
   local top = own or outline.height or (outline.levels or usual) * LEVEL + rise
   local bottom = feature.min_height or (feature.min_level or 0) * LEVEL
   if feature.kind == "roof" and bottom == 0 then
     bottom = top - rise - 0.3
+  end
+  if bottom >= top and not feature.height then
+    -- The storeys of a raised part are counted from its bottom.
+    top = bottom + (feature.levels or 1) * LEVEL + rise
   end
   if bottom >= top then
     miss(feature, "min_height", `{bottom}`)
