@@ -135,8 +135,10 @@ impl FieldRoof {
             }
             Self::Gable(bends) => profiles::mirrored(bends, rise(half.y)),
             _ => {
-                return self
-                    .planes(&frame, rise(if self == Self::CrossGable { half.min_element() } else { half.y }));
+                return self.planes(
+                    &frame,
+                    rise(if self == Self::CrossGable { half.min_element() } else { half.y }),
+                );
             }
         };
         profiles::field(&frame, &profile)

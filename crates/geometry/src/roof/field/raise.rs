@@ -210,26 +210,25 @@ impl<'a> RaisedCells<'a> {
                     continue;
                 }
                 let tops = ends.map(|node| self.top(node, own));
+                let bottoms = ends.map(|node| self.bottom(node, own));
                 if other.zone == Zone::Outside {
-                    self.add_face(
-                        patches,
-                        PatchKind::Fascia,
-                        ends,
-                        ends.map(|node| self.bottom(node, own)),
-                        tops,
-                    );
+                    self.add_face(patches, PatchKind::Fascia, ends, bottoms, tops);
                     continue;
                 }
                 let other_tops = ends.map(|node| self.top(node, other));
+                let is_plate = own.zone == Zone::Eaves && other.zone == Zone::Eaves;
+                let other_bottoms = ends.map(|node| self.bottom(node, other));
+                let is_above = |low: [f64; 2], high: [f64; 2]| low[0] <= high[0] && low[1] <= high[1];
+                if is_plate && (is_above(tops, other_bottoms) || is_above(other_tops, bottoms)) {
+                    // One plate is above the other one, so each has an end of its own.
+                    self.add_face(patches, PatchKind::Fascia, ends, bottoms, tops);
+                    continue;
+                }
                 if tops[0] + tops[1] > other_tops[0] + other_tops[1] {
                     self.add_face(patches, PatchKind::Gable, ends, other_tops, tops);
                 }
-                if own.zone == Zone::Eaves && other.zone == Zone::Eaves {
-                    let [bottoms, other_bottoms] =
-                        [own, other].map(|side| ends.map(|node| self.bottom(node, side)));
-                    if bottoms[0] + bottoms[1] < other_bottoms[0] + other_bottoms[1] {
-                        self.add_face(patches, PatchKind::Gable, ends, bottoms, other_bottoms);
-                    }
+                if is_plate && bottoms[0] + bottoms[1] < other_bottoms[0] + other_bottoms[1] {
+                    self.add_face(patches, PatchKind::Gable, ends, bottoms, other_bottoms);
                 }
             }
         }

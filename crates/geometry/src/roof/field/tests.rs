@@ -166,3 +166,15 @@ fn an_apex_sees_its_outline_or_says_that_it_begins_at_the_hull() {
     assert!(cover.remark.is_some_and(|remark| remark.contains("hull")));
     assert!(solid::check([&building(&steps, &cover)]).is_solid());
 }
+
+#[test]
+fn plates_at_an_upright_step_neither_overlap_nor_share_an_edge_with_four_faces() {
+    let walls = around(&[(0., 0.), (12., 0.), (12., 8.), (0., 8.)]);
+    for form in [FieldRoof::Clerestory, FieldRoof::Sawtooth { slope: 1.0 }] {
+        let cover = roof(form, RidgeAxis::Along, 0.5).cover(&walls, HEIGHT).expect("a roof");
+        let part = building(&walls, &cover);
+        assert!(solid::check([&part]).is_solid(), "{form:?}");
+        let clashes = solid::clashes([&part], 1e-3);
+        assert!(clashes.is_empty(), "{form:?}: {clashes:?}");
+    }
+}

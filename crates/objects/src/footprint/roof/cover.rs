@@ -47,7 +47,7 @@ impl Footprint {
             note(what, why);
         }
         if let Some(remark) = made.cover.remark {
-            note(format!("a {} roof that is adapted to its plan", options.kind), remark.into());
+            note(format!("the {} roof is adapted to its plan", options.kind), remark.into());
         }
         if made.cover.hipped {
             note(format!("hips instead of gables of a {} roof", options.kind), String::new());
