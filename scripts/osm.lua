@@ -51,7 +51,15 @@ end
 
 local volumes: { any } = {}
 local facades: { [string]: Facade } = {}
-local PLAIN = { garage = true, garages = true, shed = true, hut = true, roof = true, column = true, greenhouse = true }
+local PLAIN = {
+  garage = true,
+  garages = true,
+  shed = true,
+  hut = true,
+  roof = true,
+  column = true,
+  greenhouse = true,
+} :: { [string]: boolean }
 local function add(feature: any, plan: any, number: number, building: any?)
   local volume = tags.volume(feature, plan, building, #volumes)
   volume.id = if number == 1 then feature.id else `{feature.id}.{number}`
@@ -104,8 +112,9 @@ end
 local Walls, Roof = module("Walls", "height", "surface", "look"), module("Roof", "volume")
 local town = lsystem({ object = footprint, interpret = "last" })
 town:axiom(source(volumes), function(volume)
-  local plan = footprint(lifted(volume.geometry, volume.bottom), { attributes = volume })
-  return plan, Walls(volume.walls, volume.surface, volume.look), Roof(volume)
+  return footprint(lifted(volume.geometry, volume.bottom)),
+    Walls(volume.walls, volume.surface, volume.look),
+    Roof(volume)
 end)
 town:interpret("Walls(height, surface, look)", function(this, height, surface, look)
   if height > 0.01 then
@@ -131,18 +140,18 @@ local low, high = buildings.bounds.min, buildings.bounds.max
 local Plate = module("Plate", "shape", "from", "to", "color")
 local plates = {}
 local border = 25
-table.insert(plates, Plate(
-  polygon(
-    { low[1] - border, low[2] - border },
-    { high[1] + border, low[2] - border },
-    { high[1] + border, high[2] + border },
-    { low[1] - border, high[2] + border }
-  ),
-  -2,
-  -0.05,
-  "#a5a093"
-))
-local LAYERS: { any } = { { "water", 0.02, "#5f8b99" }, { "green", 0.04, "#84965a" }, { "squares", 0.06, "#b9b3a6" } }
+local base = polygon(
+  { low[1] - border, low[2] - border },
+  { high[1] + border, low[2] - border },
+  { high[1] + border, high[2] + border },
+  { low[1] - border, high[2] + border }
+)
+table.insert(plates, Plate(base, -2, -0.05, "#a5a093"))
+local LAYERS: { any } = {
+  { "water", 0.02, "#5f8b99" },
+  { "green", 0.04, "#84965a" },
+  { "squares", 0.06, "#b9b3a6" },
+}
 for _, look in LAYERS do
   local is_there, areas = pcall(source, `{extract}:{look[1]}`)
   if is_there then

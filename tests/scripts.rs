@@ -212,7 +212,7 @@ fn an_extract_is_as_high_as_tagged_and_each_unknown_value_is_named_once() {
     let run = burgeon::run(&script, options).unwrap();
     let texts: Vec<String> = run.warnings.iter().map(|warning| warning.message().to_owned()).collect();
     let [text] = texts.as_slice() else { panic!("{texts:?}") };
-    assert!(text.contains("roof:shape = tented on 3 features, the first is way/"), "{text}");
+    assert!(text.contains("cannot draw roof:shape = tented on 3 features, the first is way/"), "{text}");
 }
 
 /// Returns the file names in a model at `path`, each between `before` and `after`.

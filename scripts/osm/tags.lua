@@ -80,7 +80,18 @@ local LEVEL = 3
 local ROOF_RISE, ROOF_SLOPE = 5, 35
 
 -- Usual numbers of storeys, if the map has neither height nor storeys.
-local LEVELS = { garage = 1, garages = 1, shed = 1, hut = 1, roof = 1, kiosk = 1, greenhouse = 1, apartments = 5, office = 5, hotel = 6 }
+local LEVELS = {
+  garage = 1,
+  garages = 1,
+  shed = 1,
+  hut = 1,
+  roof = 1,
+  kiosk = 1,
+  greenhouse = 1,
+  apartments = 5,
+  office = 5,
+  hotel = 6,
+} :: { [string]: number }
 
 -- Values that are not known, with their number and the first feature.
 local unknown: { [string]: { count: number, first: string, tag: string, value: string } } = {}
@@ -103,7 +114,8 @@ function tags.report()
   for _, key in order do
     local it = unknown[key]
     local what = if it.count == 1 then "1 feature" else `{it.count} features`
-    warn(`cannot draw {it.tag} = {it.value} on {what}, the first is {it.first}`, "the usual value is drawn instead")
+    local text = `cannot draw {it.tag} = {it.value} on {what}, the first is {it.first}`
+    warn(text, "the usual value is drawn instead")
   end
 end
 
@@ -157,8 +169,8 @@ local function rise_of(feature: any, kind: string, plan: any): number
   return math.min(ROOF_RISE, run * math.tan(math.rad(ROOF_SLOPE)))
 end
 
--- The volume over one polygon of a feature: from `bottom` to `top`, with a roof of `rise` in it. Values that a part lacks
--- come from its `building`.
+-- The volume over one polygon of a feature: from `bottom` to `top`, with a roof of `rise` in it. Values that a part
+-- lacks come from its `building`.
 function tags.volume(feature: any, plan: any, building: any?, number: number): any
   local outline = building or feature
   local kind = kind_of(feature)
@@ -203,7 +215,13 @@ function tags.volume(feature: any, plan: any, building: any?, number: number): a
     angle = math.clamp(feature.roof_angle or ROOF_SLOPE, 1, 80),
     direction = direction,
     orientation = orientation,
-    surface = surface(feature, feature.colour or outline.colour, feature.material or outline.material, colour, "building"),
+    surface = surface(
+      feature,
+      feature.colour or outline.colour,
+      feature.material or outline.material,
+      colour,
+      "building"
+    ),
     cover = surface(feature, feature.roof_colour, feature.roof_material, roof, "roof"),
   }
 end
