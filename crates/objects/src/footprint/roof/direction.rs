@@ -90,7 +90,7 @@ mod tests {
         let (south, snap) = down(Value::Number(180.0)).expect("south");
         assert!(south.distance(DVec2::NEG_Y) < 1e-9 && (snap - 10.0).abs() < 1e-9);
         assert!((down(Value::Number(12.3)).expect("a direction").1 - 0.5).abs() < 1e-9);
-        assert!(down(text("north")).is_none() && down(Value::Bool(true)).is_none());
+        assert!(down(text("north")).is_none() && down(Value::Nil).is_none());
         assert!(axis(None, Some("diagonal")).is_err());
     }
 }
