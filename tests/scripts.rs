@@ -67,7 +67,7 @@ fn named(text: &str, before: &str, after: &str) -> BTreeSet<String> {
 fn the_gallery_shows_every_script_and_no_other() {
     let shipped: BTreeSet<String> =
         scripts().iter().map(|path| path.file_stem().unwrap().to_string_lossy().into_owned()).collect();
-    assert_eq!(shipped.len(), 25);
+    assert_eq!(shipped.len(), 26);
     assert_eq!(named(README, "](scripts/", ".lua)"), shipped);
     let mut shown = named(&guide(), "](docs/pictures/", ".png)");
     assert!(shown.remove("quay"));
@@ -186,6 +186,33 @@ fn every_script_gives_a_finite_model_that_reads_back_whole() {
         };
         assert_eq!(triangles, drawn, "{shown}");
     }
+}
+
+#[test]
+fn an_extract_is_as_high_as_tagged_and_each_unknown_value_is_named_once() {
+    let script = root().join("scripts/osm.lua");
+    let highest = |run: &Run| {
+        let instances = run.scene.instances.iter();
+        let heights = instances.flat_map(|instance| {
+            let positions = run.scene.meshes[instance.mesh].parts.iter().flat_map(|part| &part.positions);
+            positions.map(|at| instance.transform.transform_point3(at.as_dvec3()).z)
+        });
+        heights.fold(f64::NEG_INFINITY, f64::max)
+    };
+    let tagged = run(&script, 2);
+    assert!(tagged.warnings.is_empty(), "{}", tagged.warnings[0]);
+    // The onion of the tower, which is a building part, reaches 34 m.
+    assert!((highest(&tagged) - 34.0).abs() < 0.01, "{} m", highest(&tagged));
+
+    let folder = tempfile::tempdir().unwrap();
+    let text = fs::read_to_string(root().join("examples/data/roofs.osm")).unwrap();
+    fs::write(folder.path().join("roofs.osm"), text.replace("\"pyramidal\"", "\"tented\"")).unwrap();
+    let inputs = RunInputs { data: vec![folder.path().to_path_buf()], ..RunInputs::default() };
+    let options = RunOptions { threads: Some(2), inputs, ..burgeon::options() };
+    let run = burgeon::run(&script, options).unwrap();
+    let texts: Vec<String> = run.warnings.iter().map(|warning| warning.message().to_owned()).collect();
+    let [text] = texts.as_slice() else { panic!("{texts:?}") };
+    assert!(text.contains("cannot draw roof:shape = tented on 3 features, the first is way/"), "{text}");
 }
 
 /// Returns the file names in a model at `path`, each between `before` and `after`.

@@ -25,6 +25,7 @@ const CHAPTERS: [(&str, &str); 28] = [
     ("Drawing, time and files compared", "drawing"),
     ("Porting an lpfg model", "porting"),
     ("Data and heights", "data"),
+    ("OpenStreetMap as tagged", "osm"),
     ("SQL queries", "queries"),
     ("SQL", "sql"),
     ("Terrain and planets", "terrain"),

@@ -92,7 +92,7 @@ impl Subdivision {
 
     /// Iterates over the nodes with edges from left to right, with the edges around each, counter-clockwise;
     /// `true` for an edge that ends there.
-    pub(super) fn stars(&self) -> impl Iterator<Item = (u32, &[(u32, bool)])> {
+    pub(crate) fn stars(&self) -> impl Iterator<Item = (u32, &[(u32, bool)])> {
         let mut begin = 0;
         self.spokes.iter().map(move |(node, end)| {
             let star = &self.around[begin..*end as usize];

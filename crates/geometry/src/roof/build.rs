@@ -25,6 +25,8 @@ pub struct RoofCover {
     pub tight: Vec<usize>,
     /// Set if a requested gable, other than along a neighbour, could not be built.
     pub hipped: bool,
+    /// Difference from the requested form, if the plan requires one.
+    pub remark: Option<&'static str>,
 }
 
 /// Type of the roof over an edge.
@@ -90,6 +92,7 @@ impl RoofShape {
     fn cover_walls(&self, support: &Support<'_>) -> Result<RoofCover> {
         match self.surface {
             RoofSurface::Shed => Ok(self.shed(support)),
+            RoofSurface::Field(form, axis) => form.cover(self, axis, support),
             RoofSurface::Flat(None) => Ok(self.level(support)),
             RoofSurface::Flat(_) => self.sloped_cover(&Support { party: &[], ..*support }, Ends::Hips),
             RoofSurface::Sloped(ends, _) => self.sloped_cover(support, ends),
@@ -113,7 +116,7 @@ impl RoofShape {
     ) -> RoofCover {
         let wanted = self.wanted_overhangs(&support.within_reach(self.overhang), over);
         let tight = (0..wanted.len()).filter(|&edge| outset.distances[edge] < wanted[edge]).collect();
-        RoofCover { patches, overhangs: outset.distances, tight, hipped }
+        RoofCover { patches, overhangs: outset.distances, tight, hipped, remark: None }
     }
 
     /// Creates a level roof.

@@ -3,6 +3,7 @@
 //! Input: the walls as a [`Support`], and a [`RoofShape`]. Output: flat patches. This module draws nothing.
 
 mod build;
+mod field;
 mod fill;
 mod levels;
 mod lines;
@@ -26,6 +27,7 @@ mod tests;
 
 pub use build::RoofCover;
 pub use build::floor;
+pub use field::{FieldRoof, RidgeAxis};
 pub use fill::fill;
 pub use lines::{RoofLine, RoofLineKind, lines, normal};
 pub use patch::{Patch, PatchKind};

@@ -1,5 +1,6 @@
 //! Parameters of a roof's shape.
 
+use super::field::{FieldRoof, RidgeAxis};
 use glam::DVec2;
 
 /// Type of the roof's ends over the short edges of wings.
@@ -52,6 +53,8 @@ pub enum RoofSurface {
     /// A slope over each edge, with bends of its profile as fractions of the width and of the height, from
     /// the eaves up.
     Sloped(Ends, &'static [(f64, f64)]),
+    /// Heights that are a function of the place, over any plan, with the direction of the ridge.
+    Field(FieldRoof, RidgeAxis),
 }
 
 /// Shape of a roof.
@@ -99,7 +102,7 @@ impl Profile {
                 }
                 corners.push(DVec2::new(wide, shape.slab));
             }
-            RoofSurface::Shed | RoofSurface::Sloped(..) => {
+            RoofSurface::Shed | RoofSurface::Sloped(..) | RoofSurface::Field(..) => {
                 let bends: &[(f64, f64)] =
                     if let RoofSurface::Sloped(_, bends) = shape.surface { bends } else { &[] };
                 let plate = shape.eaves == Eaves::Open && overhang > 0.0;

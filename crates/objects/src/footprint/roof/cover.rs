@@ -1,6 +1,7 @@
 //! The construction of a roof on a footprint.
 
 use super::options::Roof;
+use super::smooth::smooth;
 use super::{kinds, replace};
 use crate::footprint::object::Footprint;
 use burgeon_base::error::{Error, Result};
@@ -44,6 +45,9 @@ impl Footprint {
             |what: String, why: String| self.notes.push(Warning::simplification(what).with_cause(why));
         if let Some((what, why)) = made.replaced {
             note(what, why);
+        }
+        if let Some(remark) = made.cover.remark {
+            note(format!("the {} roof is adapted to its plan", options.kind), remark.into());
         }
         if made.cover.hipped {
             note(format!("hips instead of gables of a {} roof", options.kind), String::new());
@@ -90,6 +94,8 @@ impl Footprint {
         let gable = options.gable.as_ref().map(|gable| self.part(None, Some(gable))).transpose()?;
         let fascia = self.part(options.color, trim)?;
         let underside = self.part(options.color, options.underside.as_ref().or(trim))?;
+        let is_curved = kinds::is_curved(&options.kind);
+        let first = self.drawing.surface(slope, SurfaceMeaning::Roof).positions.len();
         for patch in patches {
             let part = match (patch.kind, gable) {
                 (PatchKind::Slope, _) => slope,
@@ -107,6 +113,9 @@ impl Footprint {
             let meaning =
                 if patch.kind == PatchKind::Gable { SurfaceMeaning::Wall } else { SurfaceMeaning::Roof };
             fill(self.drawing.surface(part, meaning), &patch.rings, right, origin)?;
+        }
+        if is_curved {
+            smooth(self.drawing.surface(slope, SurfaceMeaning::Roof), first);
         }
         Ok(())
     }

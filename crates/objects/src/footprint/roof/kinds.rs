@@ -1,10 +1,11 @@
 //! The types of roof that scripts can name.
 
+use super::direction::axis;
 use super::options::Roof;
 use crate::footprint::checks::{check_height, unknown_kind};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
-use burgeon_geometry::roof::{Border, Eaves, Ends, Rise, RoofShape, RoofSurface};
+use burgeon_geometry::roof::{Border, Eaves, Ends, FieldRoof, RidgeAxis, Rise, RoofShape, RoofSurface};
 
 /// A type of roof: the shape of the ends of wings, and the bends of the slopes between eaves and ridge, as fractions of
 /// the width and of the height.
@@ -14,10 +15,11 @@ struct RoofKind {
     bends: &'static [(f64, f64)],
 }
 
-const SLOPED: [RoofKind; 8] = [
+const SLOPED: [RoofKind; 9] = [
     RoofKind { name: "gable", ends: Ends::Gables, bends: &[] },
     RoofKind { name: "gambrel", ends: Ends::Gables, bends: &[(0.36, 0.64)] },
     RoofKind { name: "shed_gambrel", ends: Ends::Gables, bends: &[(0.26, 0.06), (0.56, 0.66)] },
+    RoofKind { name: "bellcast", ends: Ends::Gables, bends: &[(0.16, 0.08), (0.3, 0.2)] },
     RoofKind { name: "hip", ends: Ends::Hips, bends: &[] },
     RoofKind { name: "mansard", ends: Ends::Hips, bends: &[(0.25, 0.7)] },
     RoofKind { name: "pagoda", ends: Ends::Hips, bends: &[(0.35, 0.12), (0.7, 0.42)] },
@@ -25,8 +27,52 @@ const SLOPED: [RoofKind; 8] = [
     RoofKind { name: "dutch_hip", ends: Ends::DutchHips, bends: &[] },
 ];
 
-const KINDS: [&str; 10] =
-    ["flat", "shed", "gable", "gambrel", "shed_gambrel", "hip", "mansard", "pagoda", "porch", "dutch_hip"];
+/// Types with one ridge over the whole plan, or with one apex.
+const FIELDS: [(&str, FieldRoof); 12] = [
+    ("saltbox", FieldRoof::Saltbox),
+    ("clerestory", FieldRoof::Clerestory),
+    ("round", FieldRoof::Round),
+    ("butterfly", FieldRoof::Butterfly),
+    ("cross_gable", FieldRoof::CrossGable),
+    ("side_hip", FieldRoof::SideHip),
+    ("side_dutch_hip", FieldRoof::SideHalfHip),
+    ("gablet", FieldRoof::Gablet),
+    ("pyramid", FieldRoof::Pyramid),
+    ("cone", FieldRoof::Pyramid),
+    ("dome", FieldRoof::Dome),
+    ("onion", FieldRoof::Onion),
+];
+
+/// All types of roof.
+const KINDS: [&str; 24] = [
+    "flat",
+    "shed",
+    "gable",
+    "gambrel",
+    "shed_gambrel",
+    "bellcast",
+    "saltbox",
+    "clerestory",
+    "sawtooth",
+    "butterfly",
+    "round",
+    "cross_gable",
+    "gablet",
+    "hip",
+    "dutch_hip",
+    "side_hip",
+    "side_dutch_hip",
+    "mansard",
+    "pagoda",
+    "porch",
+    "pyramid",
+    "cone",
+    "dome",
+    "onion",
+];
+
+/// Types whose slopes approximate curves.
+const CURVED: [&str; 4] = ["round", "cone", "dome", "onion"];
 
 const EAVES: [&str; 3] = ["closed", "open", "slab"];
 
@@ -38,18 +84,13 @@ pub(crate) fn shape(options: &Roof) -> Result<RoofShape> {
     check(options)?;
     let kind = options.kind.as_str();
     let border = Border { height: options.border, width: options.border_width };
-    let surface = match kind {
-        "flat" => RoofSurface::Flat((border.height > 0.0).then_some(border)),
-        "shed" => RoofSurface::Shed,
-        _ => match SLOPED.iter().find(|known| known.name == kind) {
-            Some(RoofKind { ends, bends, .. }) => RoofSurface::Sloped(*ends, bends),
-            None => return Err(unknown_kind("footprint:roof", kind, &KINDS)),
-        },
-    };
+    let surface = surface(options, border)?;
+    let is_field = matches!(surface, RoofSurface::Field(..));
     let eaves = match options.eaves.as_deref() {
         Some("closed") => Eaves::Closed,
         Some("open") => Eaves::Open,
         Some("slab") => Eaves::Slab,
+        None if is_field && options.overhang > 0.0 => Eaves::Open,
         None if options.slab > 0.0 => Eaves::Slab,
         None => Eaves::Closed,
         Some(eaves) => {
@@ -64,6 +105,14 @@ pub(crate) fn shape(options: &Roof) -> Result<RoofShape> {
         );
     }
     let juts_out = options.overhang > 0.0;
+    if is_field && juts_out && eaves != Eaves::Open {
+        let message =
+            format!("footprint:roof: the overhang of a {kind} roof with one ridge or apex is a plate");
+        return Err(Error::argument(message).help("use eaves = \"open\""));
+    }
+    if juts_out && matches!(surface, RoofSurface::Field(FieldRoof::Onion, _)) {
+        return Err(Error::argument("footprint:roof: an onion roof has no overhang").help("omit overhang"));
+    }
     // Eaves without thickness would be as thin as paper, so they get a default thickness.
     let needed = match eaves {
         Eaves::Slab => true,
@@ -73,6 +122,51 @@ pub(crate) fn shape(options: &Roof) -> Result<RoofShape> {
     let slab = if needed && options.slab == 0.0 { THICKNESS } else { options.slab };
     let rise = options.height.map_or(Rise::Slope(options.slope.to_radians().tan()), Rise::Height);
     Ok(RoofShape { surface, rise, overhang: options.overhang, eaves, slab })
+}
+
+/// Returns true if the slopes of a type approximate curves.
+pub(super) fn is_curved(kind: &str) -> bool {
+    CURVED.contains(&kind)
+}
+
+/// Returns the surface for the options of the script. Fails if the type is unknown or has no direction.
+fn surface(options: &Roof, border: Border) -> Result<RoofSurface> {
+    let kind = options.kind.as_str();
+    let axis = axis(options.direction, options.orientation.as_deref())?;
+    let sloped = SLOPED.iter().find(|known| known.name == kind);
+    let form = match (kind, sloped) {
+        ("shed", _) => axis.map(|_| FieldRoof::Shed),
+        ("sawtooth", _) => Some(FieldRoof::Sawtooth { slope: options.slope.to_radians().tan() }),
+        (_, Some(RoofKind { ends: Ends::Gables, bends, .. })) => axis.map(|_| FieldRoof::Gable(bends)),
+        _ => FIELDS.iter().find(|(name, _)| *name == kind).map(|(_, form)| *form),
+    };
+    if let Some(form) = form
+        && (form.has_axis() || axis.is_none())
+    {
+        return Ok(RoofSurface::Field(form, axis.unwrap_or(RidgeAxis::Along)));
+    }
+    if !KINDS.contains(&kind) {
+        return Err(unknown_kind("footprint:roof", kind, &KINDS));
+    }
+    if axis.is_some() {
+        let with: Vec<&str> = KINDS.into_iter().filter(|kind| has_direction(kind)).collect();
+        return Err(Error::argument(format!("footprint:roof: a {kind} roof has no direction"))
+            .help(format!("omit direction and orientation, or use {}", with.join(", "))));
+    }
+    Ok(match (kind, sloped) {
+        (_, Some(RoofKind { ends, bends, .. })) => RoofSurface::Sloped(*ends, bends),
+        ("shed", _) => RoofSurface::Shed,
+        _ => RoofSurface::Flat((border.height > 0.0).then_some(border)),
+    })
+}
+
+/// Returns true if a type of roof has a direction.
+fn has_direction(kind: &str) -> bool {
+    let is_gabled = |known: &RoofKind| known.name == kind && known.ends == Ends::Gables;
+    kind == "shed"
+        || kind == "sawtooth"
+        || SLOPED.iter().any(is_gabled)
+        || FIELDS.iter().any(|(name, form)| *name == kind && form.has_axis())
 }
 
 fn check(options: &Roof) -> Result<()> {
@@ -117,5 +211,28 @@ mod tests {
         assert!(error.to_string().contains("closed, open, slab"), "{error}");
         let both = Roof { eaves: Some("closed".into()), slab: 0.2, ..Roof::default() };
         assert!(shape(&both).is_err());
+    }
+
+    #[test]
+    fn a_direction_selects_one_ridge_and_is_refused_for_types_without_one() {
+        let with = |kind: &str| {
+            shape(&Roof { kind: kind.into(), orientation: Some("across".into()), ..Roof::default() })
+        };
+        for kind in KINDS {
+            match with(kind) {
+                Ok(shape) => assert!(
+                    matches!(shape.surface, RoofSurface::Field(_, RidgeAxis::Across)) && has_direction(kind),
+                    "{kind}"
+                ),
+                Err(error) => {
+                    assert!(!has_direction(kind) && error.to_string().contains("no direction"), "{error}");
+                }
+            }
+        }
+        assert_eq!(KINDS.into_iter().filter(|kind| has_direction(kind)).count(), 14);
+        let gable = shape(&Roof { kind: "gable".into(), ..Roof::default() }).expect("a roof");
+        assert!(matches!(gable.surface, RoofSurface::Sloped(..)));
+        let onion = Roof { kind: "onion".into(), overhang: 0.3, ..Roof::default() };
+        assert!(shape(&onion).is_err());
     }
 }

@@ -5,9 +5,11 @@
 
 mod cover;
 mod detail;
+mod direction;
 mod kinds;
 mod options;
 mod replace;
+mod smooth;
 #[cfg(test)]
 mod tests;
 

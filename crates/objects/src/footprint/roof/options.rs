@@ -1,14 +1,16 @@
 //! The options of roofs.
 
 use super::detail::RoofDetail;
+use super::direction::CompassDirection;
 use crate::MaterialOptions;
 use burgeon_kit::{Color, fields};
 
 /// Options of `footprint:roof { ... }`.
 #[fields("footprint:roof")]
 pub struct Roof {
-    /// Roof type: "flat", "shed", "gable", "gambrel", "shed_gambrel", "hip", "mansard", "pagoda", "porch" or
-    /// "dutch_hip".
+    /// Roof type: "flat", "shed", "gable", "gambrel", "shed_gambrel", "bellcast", "saltbox", "clerestory", "sawtooth",
+    /// "butterfly", "round", "cross_gable", "gablet", "hip", "dutch_hip", "side_hip", "side_dutch_hip", "mansard", "pagoda",
+    /// "porch", "pyramid", "cone", "dome" or "onion".
     #[default("hip".into())]
     pub kind: String,
     /// Height of the highest ridge above the eaves (m). If omitted, it follows from `slope`.
@@ -16,6 +18,12 @@ pub struct Roof {
     /// Slope (degrees) from the eaves to the highest ridge, if no height is given.
     #[default(35.0)]
     pub slope: f64,
+    /// Direction in which water runs (degrees clockwise from north), or a point of the compass, "N" to "NNW". One ridge then
+    /// crosses the whole plan. The direction is turned to the nearest wall within 45 degrees for a point of the compass, 10 for
+    /// whole degrees and 0.5 for others.
+    pub direction: Option<CompassDirection>,
+    /// Orientation of the one ridge, instead of `direction`: "along" or "across" the longer side of the plan.
+    pub orientation: Option<String>,
     /// Overhang beyond the outermost walls (m), where there is room.
     #[default(0.0)]
     pub overhang: f64,
