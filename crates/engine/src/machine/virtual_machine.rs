@@ -125,6 +125,16 @@ impl Machine {
         }
     }
 
+    /// Adds a warning about values of the script at the line that is being run.
+    ///
+    /// A check derives nothing, so after the first derivation it has no warnings about values: they can depend on a model that
+    /// it does not make. A run has them.
+    pub(crate) fn warn_of_values(&self, warning: Warning) {
+        if !self.session.options.check || self.driver.derived().is_empty() {
+            self.warn(warning);
+        }
+    }
+
     /// Suppresses the output of the script, because another machine also runs it.
     pub(crate) fn silence(&self) {
         self.lua.set_app_data(SilentMark);
