@@ -64,6 +64,40 @@ fn a_branch_without_a_smooth_joint_is_counted() {
 }
 
 #[test]
+fn a_check_is_silent_about_values_that_depend_on_a_derivation() {
+    let network = "local Grow = module(\"Grow\")\nlocal s = lsystem({ object = network() })\ns:axiom(Grow())\n\
+        s:interpret(\"Grow\", function(this)\n  this:add({ { 0, 0 }, { 60, 0 }, { 60, 60 }, { 0, 60 }, { 0, 0 } })\nend)\n\
+        local streets = s:derive(0).objects[1]\n";
+    silent(&[
+        &format!("{network}local sites = streets:sites({{ sizes = {{ {{ 8, 8 }} }} }})\nassert(sites)\n"),
+        &format!(
+            "{network}if #streets:blocks() == 0 then\n  warn(\"no blocks\")\n  print(\"no blocks\")\nend\n"
+        ),
+    ]);
+    let late = Folder::new().with("s.lua", &format!("{network}print(#streets:blocks())\n"));
+    assert_eq!(late.burgeon(&["check", "--quick", "s.lua"]).done().stderr, "s.lua: no problems\n");
+    let early = Folder::new().with("s.lua", &format!("print(\"early\")\nwarn(\"early\")\n{network}"));
+    let said = early.burgeon(&["check", "--quick", "s.lua"]).done().stderr;
+    assert_eq!(said.matches("early").count(), 3, "{said}");
+}
+
+#[test]
+fn calls_in_lists_that_lose_values() {
+    let parts = "local parts = { B(), B() }\n";
+    insta::assert_snapshot!(warned(&[
+        &with(&format!("{parts}s:rule(\"A(x)\", function() return table.unpack(parts), F(1) end)\ns:derive(1)")),
+        &with("s:rule(\"A(x)\", [[ local list = { F(1), F(1) } return table.unpack(list), F(1) ]])\ns:derive(1)"),
+        "local s = lsystem({ object = turtle() })\ns:axiom({ F(1), F(1) })\ns:derive(0)",
+    ]), @"");
+    silent(&[
+        &with(&format!(
+            "{parts}s:rule(\"A(x)\", function() return F(1), table.unpack(parts) end)\ns:ignore(\"B\")\ns:interpret(\"B\", function(this) this:forward(1) end) s:derive(1)"
+        )),
+        "local s = lsystem({ object = turtle() })\ns:axiom(sequence({ F(1), F(1) }))\ns:derive(0)",
+    ]);
+}
+
+#[test]
 fn modules_that_an_interpretation_returns_are_drawn_without_a_warning() {
     silent(&[
         &with(

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use full_moon::ast::punctuated::Punctuated;
 use full_moon::ast::{
-    Ast, Block, Call, Expression, Field, FunctionArgs, FunctionBody, FunctionCall, Index, LastStmt, LocalAssignment,
-    LocalFunction, Parameter, Prefix, Return, Stmt, Suffix, TableConstructor,
+    Ast, Block, Call, Expression, Field, FunctionArgs, FunctionBody, FunctionCall, Index, LastStmt,
+    LocalAssignment, LocalFunction, Parameter, Prefix, Return, Stmt, Suffix, TableConstructor,
 };
 use full_moon::node::Node;
 use full_moon::visitors::Visitor;
@@ -113,7 +113,9 @@ fn is_module(expression: &Expression) -> bool {
         Expression::FunctionCall(call) => {
             matches!(call.prefix(), Prefix::Name(name) if text_of(name).starts_with(|letter: char| letter.is_ascii_uppercase()))
         }
-        Expression::TableConstructor(table) => items_of(table).is_some_and(|items| items.into_iter().any(is_module)),
+        Expression::TableConstructor(table) => {
+            items_of(table).is_some_and(|items| items.into_iter().any(is_module))
+        }
         _ => false,
     }
 }
@@ -205,13 +207,14 @@ impl TruncationWalk<'_> {
                 let name = text_of(name);
                 let shown = value.to_string().trim().to_owned();
                 match suffixes[..] {
-                    [Suffix::Index(Index::Dot { name: function, .. }), Suffix::Call(Call::AnonymousCall(args))]
-                        if name == "table" && text_of(function) == "unpack" =>
-                    {
-                        unpacked(&shown, args)
-                    }
+                    [
+                        Suffix::Index(Index::Dot { name: function, .. }),
+                        Suffix::Call(Call::AnonymousCall(args)),
+                    ] if name == "table" && text_of(function) == "unpack" => unpacked(&shown, args),
                     [Suffix::Call(Call::AnonymousCall(args))] if name == "unpack" => unpacked(&shown, args),
-                    [Suffix::Call(Call::AnonymousCall(_))] if is_modules && self.functions.contains_key(&name) => {
+                    [Suffix::Call(Call::AnonymousCall(_))]
+                        if is_modules && self.functions.contains_key(&name) =>
+                    {
                         Some((shown.clone(), format!("{{ {shown} }}")))
                     }
                     _ => None,
@@ -258,7 +261,10 @@ mod tests {
     fn a_call_that_loses_values_is_told_with_a_remedy() {
         for (script, remedy) in [
             ("s:rule(\"A\", function() return table.unpack(parts), B() end)", "write sequence(parts)"),
-            ("s:rule(\"A\", function() return { table.unpack(parts, 2), B() } end)", "write sequence({ table.unpack(parts, 2) })"),
+            (
+                "s:rule(\"A\", function() return { table.unpack(parts, 2), B() } end)",
+                "write sequence({ table.unpack(parts, 2) })",
+            ),
             ("s:rule(\"A\", function() return unpack(parts), parts end)", "write sequence(parts)"),
             ("local function all(...) return ..., B() end", "write sequence({ ... })"),
             ("s:axiom(table.unpack(parts), B())", "write sequence(parts)"),
