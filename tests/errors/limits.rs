@@ -35,7 +35,12 @@ fn runaway_growth_names_the_rule_that_grew_most() {
 #[test]
 fn a_derivation_without_a_number_of_steps_that_does_not_end_names_the_rule() {
     let script = format!("{HEAD}s:rule(\"A(x)\", function(this, x) return A(x + 1) end)\ns:derive()\n");
-    assert_snapshot!(refused_with(&script, &[]), @"");
+    assert_snapshot!(refused_with(&script, &[]), @r#"
+    error: s.lua:3:1: rule A(x) (applied most, 200,000 times): the derivation has not ended after 200,000 steps (modules in the chain: 1)
+      | s:rule("A(x)", function(this, x) return A(x + 1) end)
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+      help: end the rule with a guard or a counter, or write the number of steps: system:derive(1000000)
+    "#);
     let given = script.replace("derive()", "derive(200001)");
     Folder::new().with("s.lua", &given).burgeon(&["run", "s.lua"]).done();
 }

@@ -97,7 +97,7 @@ impl Phase<DerivationState<'_>> for RefuseEndless {
         let steps = grouped(MOST_OPEN_STEPS);
         let modules = grouped(chain.symbols.len().saturating_sub(1));
         let text =
-            format!("the derivation has not ended after {steps} steps, with {modules} modules in the chain");
+            format!("the derivation has not ended after {steps} steps (modules in the chain: {modules})");
         let error = Error::limit(Limit::Size, text).help(
             "end the rule with a guard or a counter, or write the number of steps: system:derive(1000000)",
         );
