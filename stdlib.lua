@@ -4,6 +4,8 @@
 local describe_plain: (value: any) -> string, refuse_plain: (message: string) -> never = __describe, __refuse
 -- The letters in patterns and strings that are no modules: their names with parameters.
 local undeclared_letters: (patterns: { string }, strings: { string }) -> { { string } } = __letters
+-- The channels of a colour as text, from 0 to 1: red, green, blue and opacity. Otherwise the nearest name, or nothing.
+local read_color: (text: string) -> ({ number }?, string?) = __color
 
 -- Raises an error at the line of the script that caused it. The cause can be in the data.
 local function refuse(message: string, remedy: string?)
@@ -327,27 +329,49 @@ local function hsv(hue: number, saturation: number, value: number): { number }
   return { channel(5), channel(3), channel(1) }
 end
 
---- Creates a colour from "#rrggbb".
-local function rgb(hex: string): { number }
-  local digits = if type(hex) == "string" then string.match(hex, "^#(%x%x%x%x%x%x)$") else nil
-  if not digits then
-    refuse(`rgb takes a colour such as "#336699", not {describe(hex)}`)
+--- Returns the channels of a colour as text for the function `name`.
+local function channels_of(name: string, text: any): { number }
+  local digits = if type(text) == "string" then string.match(text, "^#(%x%x%x%x%x%x)$") else nil
+  if digits then
+    local number = tonumber(digits, 16) :: number
+    return { (number // 65536) / 255, (number // 256 % 256) / 255, (number % 256) / 255 }
   end
-  local number = tonumber(digits, 16) :: number
-  return { (number // 65536) / 255, (number // 256 % 256) / 255, (number % 256) / 255 }
+  local found: { number }?, near: string? = nil, nil
+  if type(text) == "string" then
+    found, near = read_color(text)
+  end
+  if not found then
+    local remedy = if near then `write "{near}"` else ""
+    refuse(`{name} takes a colour such as "#336699" or "orange", not {describe(text)}`, remedy)
+  end
+  local known = found :: { number }
+  if known[4] ~= 1 then
+    refuse(`{name} takes a colour without opacity, not {describe(text)}`, "leave out the last digits")
+  end
+  return { known[1], known[2], known[3] }
 end
 
---- Mixes two colours, each "#rrggbb" or a list.
+--- Creates a colour from "#rrggbb" or a name such as "orange".
+local function rgb(text: string): { number }
+  return channels_of("rgb", text)
+end
+
+--- Mixes two colours, each "#rrggbb", a name such as "orange", or a list. Below 0 and above 1, `t` gives the nearer colour.
 local function mix(a: any, b: any, t: number): { number }
   local function color(value: any): { number }
     if type(value) == "table" then
       check_numbers("mix of colours", value[1], value[2], value[3])
       return value
     end
-    return rgb(value)
+    return channels_of("mix", value)
   end
   local from, to = color(a), color(b)
-  return { lerp(from[1], to[1], t), lerp(from[2], to[2], t), lerp(from[3], to[3], t) }
+  check_numbers("mix", 0, 0, t)
+  if t ~= t then
+    refuse("mix takes an amount from 0 to 1, not nan")
+  end
+  local amount = math.clamp(t, 0, 1)
+  return { lerp(from[1], to[1], amount), lerp(from[2], to[2], amount), lerp(from[3], to[3], amount) }
 end
 
 -- Models.

@@ -1,5 +1,5 @@
 --!strict
--- Six plans with roofs of every kind: footprints with groundwork, walls, a straight skeleton, and chimneys.
+-- Six plans on a slope with roofs of every kind: footprints with groundwork, walls, a straight skeleton, and chimneys.
 local kinds = {
   "flat",
   "shed",
@@ -28,12 +28,17 @@ local overhang =
   param("overhang", { default = 0.6, min = 0, max = 2, unit = "m", doc = "Width of the eaves" })
 local furnished = param("furnished", { default = true, doc = "Whether chimneys and gutters are shown" })
 
--- A ring is written as "x y, x y, ...". The ground rises to the east.
+-- The ground rises to the east.
+local function rise(east: number): number
+  return 0.06 * east
+end
+
+-- A ring is written as "x y, x y, ...".
 local function ring(text: string, east: number, north: number)
   local points = {}
   for x, y in string.gmatch(text, "(%-?%d+)%s+(%-?%d+)") do
     local place = { tonumber(x) :: number, tonumber(y) :: number }
-    table.insert(points, { east + place[1], north + place[2], 0.06 * place[1] })
+    table.insert(points, { east + place[1], north + place[2], rise(east + place[1]) })
   end
   return points
 end
@@ -60,6 +65,32 @@ for index, plan in plans do
   end
   table.insert(features, { id = tostring(index), rings = rings, roof = plan.roof, color = plan.color })
 end
+
+-- The slope on which the houses stand, as a closed solid.
+local Slope = module("Slope")
+local land = lsystem({ object = extruder({ color = "#7f9160", roughness = 1 }) })
+land:axiom(Slope())
+land:interpret("Slope()", function(this)
+  local west, east, south, north, base = -6, 75, -7, 45, -1
+  this:mesh({
+    { west, south, base },
+    { east, south, base },
+    { east, north, base },
+    { west, north, base },
+    { west, south, rise(west) },
+    { east, south, rise(east) },
+    { east, north, rise(east) },
+    { west, north, rise(west) },
+  }, {
+    { 4, 3, 2, 1 },
+    { 5, 6, 7, 8 },
+    { 1, 2, 6, 5 },
+    { 2, 3, 7, 6 },
+    { 3, 4, 8, 7 },
+    { 4, 1, 5, 8 },
+  })
+end)
+land:derive()
 
 -- Models on the roofs: a chimney of 0.6 m width, and a gutter of 1 m.
 local Stack = module("Stack")

@@ -89,8 +89,8 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
           module scales lengths and widths.
       derive(steps: number?, group: string?) -> Derived
       derive(options: { ... }) -> Derived
-          Applies the rules step by step; without a number of steps, until no rule applies. With a
-          group, the rules of this group and those without a group apply.
+          Applies the rules step by step; without a number of steps, until no rule applies, and it fails
+          after 200,000 steps. With a group, the rules of this group and those without a group apply.
           Its fields: burgeon api system:derive
 
     Example

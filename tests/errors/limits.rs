@@ -33,6 +33,19 @@ fn runaway_growth_names_the_rule_that_grew_most() {
 }
 
 #[test]
+fn a_derivation_without_a_number_of_steps_that_does_not_end_names_the_rule() {
+    let script = format!("{HEAD}s:rule(\"A(x)\", function(this, x) return A(x + 1) end)\ns:derive()\n");
+    assert_snapshot!(refused_with(&script, &[]), @r#"
+    error: s.lua:3:1: rule A(x) (applied most, 200,000 times): the derivation has not ended after 200,000 steps (modules in the chain: 1)
+      | s:rule("A(x)", function(this, x) return A(x + 1) end)
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+      help: end the rule with a guard or a counter, or write the number of steps: system:derive(1000000)
+    "#);
+    let given = script.replace("derive()", "derive(200001)");
+    Folder::new().with("s.lua", &given).burgeon(&["run", "s.lua"]).done();
+}
+
+#[test]
 fn runaway_within_one_application_of_a_rule_is_stopped() {
     let limit = ["--module-limit", "100000"];
     let script = |body: &str| {
@@ -118,7 +131,7 @@ fn an_endless_loop_in_a_required_file_is_stopped() {
 
 #[test]
 fn derivation_without_end_is_stopped() {
-    let said = endless("s:rule(\"A(x)\", function(this, x) return A(x + 1) end)\ns:derive()");
+    let said = endless("s:rule(\"A(x)\", function(this, x) return A(x + 1) end)\ns:derive(1000000000)");
     assert!(said.contains("the run exceeded the time limit of 1 s\n") && said.contains("help: "), "{said}");
 }
 

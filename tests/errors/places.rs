@@ -120,11 +120,16 @@ fn a_mistake_with_the_library_is_told_in_the_line_of_the_script() {
         ("noise()", "noise takes numbers, but argument 1 is nothing"),
         ("noise(1, \"a\")", "noise takes numbers, but argument 2 is the string \"a\""),
         ("hsv(1, 2)", "hsv takes numbers, but argument 3 is nothing"),
-        ("rgb(\"red\")", "rgb takes a colour such as \"#336699\", not the string \"red\""),
-        ("rgb(nil)", "rgb takes a colour such as \"#336699\", not nothing"),
-        ("mix(\"#ffffff\", 5, 1)", "rgb takes a colour such as \"#336699\", not the number 5"),
+        (
+            "rgb(\"ribbon\")",
+            "rgb takes a colour such as \"#336699\" or \"orange\", not the string \"ribbon\"",
+        ),
+        ("rgb(\"#33669980\")", "rgb takes a colour without opacity, not the string \"#33669980\""),
+        ("rgb(nil)", "rgb takes a colour such as \"#336699\" or \"orange\", not nothing"),
+        ("mix(\"#ffffff\", 5, 1)", "mix takes a colour such as \"#336699\" or \"orange\", not the number 5"),
+        ("mix(\"red\", \"blue\", 0 / 0)", "mix takes an amount from 0 to 1, not nan"),
         ("mix(\"#ffffff\", { 1, 2 }, 1)", "mix of colours takes numbers, but argument 3 is nothing"),
-        ("mix(\"#ffffff\", \"#000000\")", "lerp takes numbers, but argument 3 is nothing"),
+        ("mix(\"#ffffff\", \"#000000\")", "mix takes numbers, but argument 3 is nothing"),
     ] {
         let at_top = format!("{HEAD}\nlocal function f()\n  return {mistake}\nend\n\nf()\n");
         assert_eq!(told(&at_top), (5, what.to_owned()), "{mistake}");

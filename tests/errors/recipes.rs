@@ -133,6 +133,23 @@ fn missing_and_changed_parts_are_named() {
     assert!(changed.contains("data/lots.geojson has changed since the model was made"), "{changed}");
     let error = folder.burgeon(&[&arguments[..], &["--strict"]].concat());
     assert_eq!(error.status, 1);
+    let folder = folder.with("mods/castle/mod.toml", castle.replace("1.2.0", "1.3.0"));
+    let newer = folder.burgeon(&arguments).done().stderr;
+    assert!(newer.contains("the package castle has version 1.3.0, not 1.2.0"), "{newer}");
+    assert!(newer.contains("install that version"), "{newer}");
+}
+
+#[test]
+fn a_script_of_a_recipe_without_its_package_names_the_package() {
+    let castle = "name = \"castle\"\nversion = \"1.2.0\"\napi = \"1.0\"\n";
+    let folder = folder()
+        .with("mods/castle/mod.toml", castle)
+        .with("mods/castle/size.lua", "return 2")
+        .with("in/s.lua", SCRIPT.replace("local A", "local wide = require(\"@castle/size\")\nlocal A"));
+    folder.burgeon(&[&RUN[..], &["--mods", "mods", "-o", "a.glb"]].concat()).done();
+    folder.burgeon(&["open", "a.glb", "--no-live", "--data", "data"]).done();
+    let error = folder.burgeon(&["run", "a-recipe/s.lua", "--data", "data"]).failed();
+    assert!(error.contains("castle") && error.contains("a-recipe/s.lua:2:"), "{error}");
 }
 
 #[test]

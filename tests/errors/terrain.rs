@@ -541,3 +541,36 @@ fn a_script_that_asks_the_ground_can_be_checked() {
     folder.burgeon(&["check", "s.lua"]).done();
     assert!(folder.burgeon(&["run", "s.lua"]).done().stderr.starts_with("175\tA\n"));
 }
+
+#[test]
+fn an_automatic_underside_is_below_the_lowest_ground() {
+    let script = "\
+local function cell(low)
+  local change = { 0, 0, 0, 0 }
+  change[low] = -40
+  return { \"E\", \"E\", \"E\", \"E\", change = change, decay = 0.5 }
+end
+local rules = { S = { \"A\", \"B\", \"C\", \"D\" }, A = cell(4), B = cell(3), C = cell(2), D = cell(1), E = { \"E\", \"E\", \"E\", \"E\" } }
+local land = lsystem({
+  object = terrain({ size = 100, levels = 5, decay = 1, start = \"S\", rules = rules, base = \"auto\" }),
+})
+land:derive()
+";
+    let folder = Folder::new().with("s.lua", script);
+    folder.burgeon(&["run", "s.lua", "--strict", "-o", "s.obj"]).done();
+    let model = std::fs::read_to_string(folder.0.path().join("s.obj")).unwrap();
+    // The first object is the ground, the second its sides and its underside.
+    let lowest: Vec<f64> = model
+        .split("\no ")
+        .skip(1)
+        .map(|object| {
+            let heights =
+                object.lines().filter_map(|line| line.strip_prefix("v ")?.split(' ').nth(1)?.parse().ok());
+            heights.fold(f64::INFINITY, f64::min)
+        })
+        .collect();
+    let [ground, sides] = lowest[..] else { panic!("{lowest:?}") };
+    // The edge of the bowl is level, and its middle is deep.
+    assert!(ground < -10.0 && (sides - (ground - 2.0)).abs() < 1e-3, "{lowest:?}");
+    assert!(refused(&script.replace("\"auto\"", "\"deep\"")).contains("a height (m) or \"auto\""));
+}

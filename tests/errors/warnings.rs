@@ -64,6 +64,68 @@ fn a_branch_without_a_smooth_joint_is_counted() {
 }
 
 #[test]
+fn a_check_is_silent_about_values_that_depend_on_a_derivation() {
+    let network = "local Ring = module(\"Ring\")\nlocal roads = lsystem({ object = network() })\nroads:axiom(Ring())\n\
+        roads:interpret(\"Ring\", function(this)\n  \
+        this:move_to(1, 0):walk(90):turn(90):walk(90):turn(90):walk(90):turn(90):walk(90)\nend)\n\
+        local town = roads:derive().objects[1]\n";
+    silent(&[
+        &format!("{network}local sites = town:sites()\nassert(sites)\n"),
+        &format!("{network}if #town:blocks() == 0 then\n  warn(\"no blocks\")\nend\n"),
+    ]);
+    let quick = ["check", "--quick", "s.lua"];
+    let late = format!("{network}if #town:blocks() == 0 then\n  print(\"no blocks\")\nend\n");
+    assert_eq!(Folder::new().with("s.lua", &late).burgeon(&quick).done().stderr, "s.lua: no problems\n");
+    let early = Folder::new().with("s.lua", format!("print(\"one\")\nwarn(\"two\")\n{network}"));
+    let said = early.burgeon(&quick).done().stderr;
+    assert!(said.contains("one\n") && said.contains("warning: s.lua:2:1: two\n"), "{said}");
+}
+
+#[test]
+fn calls_in_lists_that_lose_values() {
+    let parts = "local parts = { B(), B() }\n";
+    insta::assert_snapshot!(warned(&[
+        &with(&format!(
+            "{parts}s:rule(\"A(x)\", function() return table.unpack(parts), F(1) end)\ns:ignore(\"B\")\ns:derive(1)"
+        )),
+        &with(
+            "s:rule(\"A(x)\", [[ local list = { F(1), F(1) } return table.unpack(list), F(1) ]])\ns:derive(1)",
+        ),
+        "local s = lsystem({ object = turtle() })\ns:axiom({ F(1), F(1) })\ns:derive(0)",
+    ]), @r#"
+    local parts = { B(), B() }
+    s:rule("A(x)", function() return table.unpack(parts), F(1) end)
+    s:ignore("B")
+    s:derive(1)
+    warning: s.lua:4:34: only the first value of table.unpack(parts) is used here, because Lua keeps the others only at the end of a list
+      | s:rule("A(x)", function() return table.unpack(parts), F(1) end)
+      |                                  ^^^^^^^^^^^^^^^^^^^
+      help: write sequence(parts), or put it last; write (table.unpack(parts)) if only the first is meant
+
+    s:rule("A(x)", [[ local list = { F(1), F(1) } return table.unpack(list), F(1) ]])
+    s:derive(1)
+    warning: s.lua:3:60: only the first value of table.unpack(list) is used here, because Lua keeps the others only at the end of a list
+      | s:rule("A(x)", [[ local list = { F(1), F(1) } return table.unpack(list), F(1) ]])
+      |                                                            ^^^^^^
+      help: write sequence(list), or put it last; write (table.unpack(list)) if only the first is meant
+
+    local s = lsystem({ object = turtle() })
+    s:axiom({ F(1), F(1) })
+    s:derive(0)
+    warning: s.lua:2:3: a table is one branch, so this axiom is a single branch
+      | s:axiom({ F(1), F(1) })
+      |   ^^^^^
+      help: write the modules of a list as system:axiom(sequence(list))
+    "#);
+    silent(&[
+        &with(&format!(
+            "{parts}s:rule(\"A(x)\", function() return F(1), table.unpack(parts) end)\ns:ignore(\"B\") s:derive(1)"
+        )),
+        "local s = lsystem({ object = turtle() })\ns:axiom(sequence({ F(1), F(1) }))\ns:derive(0)",
+    ]);
+}
+
+#[test]
 fn modules_that_an_interpretation_returns_are_drawn_without_a_warning() {
     silent(&[
         &with(

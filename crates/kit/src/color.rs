@@ -27,7 +27,7 @@ impl Parameter for Color {
             )
         };
         let channels: Vec<f64> = match value {
-            Value::Text(text) => match colors::read(&text) {
+            Value::Text(text) => match colors::color_bytes(&text) {
                 Ok(channels) => channels.iter().map(|channel| f64::from(*channel) / 255.0).collect(),
                 Err(Some(near)) => return Err(Expectation::new(format!("a colour, such as \"{near}\""))),
                 Err(None) => return Err(what()),

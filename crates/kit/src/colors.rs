@@ -9,7 +9,7 @@ use burgeon_base::error::nearest;
 /// Accepts `#rgb`, `#rgba`, `#rrggbb` and `#rrggbbaa`, in upper or lower case and with or without the `#`; CSS names,
 /// also with separated words (`light_blue`); and lists of colours, of which the first counts (`red;white`). On failure
 /// returns the nearest name, if one is similar.
-pub(super) fn read(text: &str) -> Result<[u8; 4], Option<&'static str>> {
+pub fn color_bytes(text: &str) -> Result<[u8; 4], Option<&'static str>> {
     let first = text.split([';', ',', '/']).next().unwrap_or_default().trim();
     if let Some(channels) = hexadecimal(first.strip_prefix('#').unwrap_or(first)) {
         return Ok(channels);
@@ -205,26 +205,26 @@ mod tests {
         assert!(NAMES.is_sorted_by_key(|(name, _)| name));
         for (name, value) in NAMES {
             let [_, red, green, blue] = value.to_be_bytes();
-            assert_eq!(read(name), Ok([red, green, blue, 255]), "{name}");
-            assert_eq!(read(&name.to_uppercase()), read(name));
-            assert_eq!(read(&format!("#{value:06X}")), read(name));
+            assert_eq!(color_bytes(name), Ok([red, green, blue, 255]), "{name}");
+            assert_eq!(color_bytes(&name.to_uppercase()), color_bytes(name));
+            assert_eq!(color_bytes(&format!("#{value:06X}")), color_bytes(name));
         }
         let blue = Ok([0xad, 0xd8, 0xe6, 255]);
         for text in ["light_blue", " Light Blue ", "light-blue;red", "lightblue/white", "ADD8E6"] {
-            assert_eq!(read(text), blue, "{text}");
+            assert_eq!(color_bytes(text), blue, "{text}");
         }
-        assert_eq!(read("#1a2"), Ok([0x11, 0xaa, 0x22, 255]));
-        assert_eq!(read("#1A28"), Ok([0x11, 0xaa, 0x22, 0x88]));
-        assert_eq!(read("#01020304"), Ok([1, 2, 3, 4]));
-        assert_eq!(read("transparent"), Ok([0; 4]));
+        assert_eq!(color_bytes("#1a2"), Ok([0x11, 0xaa, 0x22, 255]));
+        assert_eq!(color_bytes("#1A28"), Ok([0x11, 0xaa, 0x22, 0x88]));
+        assert_eq!(color_bytes("#01020304"), Ok([1, 2, 3, 4]));
+        assert_eq!(color_bytes("transparent"), Ok([0; 4]));
     }
 
     #[test]
     fn what_is_no_colour_is_refused_with_the_nearest_name() {
-        assert_eq!(read("lightblu"), Err(Some("lightblue")));
+        assert_eq!(color_bytes("lightblu"), Err(Some("lightblue")));
         for text in ["", "#", "#12345", "#1234567", "multicolour", ";;", "\u{1b}", "éééééé"] {
-            assert_eq!(read(text), Err(None), "{text}");
+            assert_eq!(color_bytes(text), Err(None), "{text}");
         }
-        assert!(read(&"a".repeat(1_000_000)).is_err());
+        assert!(color_bytes(&"a".repeat(1_000_000)).is_err());
     }
 }

@@ -21,6 +21,7 @@ mod sources;
 
 pub use buffer_bytes::BufferBytes;
 pub use color::Color;
+pub use colors::color_bytes;
 pub use contract::declare;
 pub use contract::{
     Answer, Argument, AxisScale, BeginPrefetch, Call, Capabilities, Capability, Construct, Constructor,

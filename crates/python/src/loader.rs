@@ -13,7 +13,8 @@ use pyo3::types::{PyDict, PyString};
 pub(crate) type RaisedException = Arc<Mutex<Option<PyErr>>>;
 
 /// Creates a loader from a dictionary of texts and bytes, or from a function that returns one of them, or `None`, for a
-/// name. Exceptions of the function are kept in `raised`.
+/// name. If the function has an attribute `names`, it lists files, which are loaded before the run begins. Exceptions of the
+/// function are kept in `raised`.
 pub(crate) fn file_loader(from: &Bound<'_, PyAny>, raised: &RaisedException) -> PyResult<FileLoader> {
     if let Ok(files) = from.cast::<PyDict>() {
         let mut content = BTreeMap::new();
@@ -22,8 +23,12 @@ pub(crate) fn file_loader(from: &Bound<'_, PyAny>, raised: &RaisedException) -> 
         }
         return Ok(FileLoader::of_files(content));
     }
+    let names = match from.getattr_opt("names")? {
+        Some(names) => names.try_iter()?.map(|name| name?.extract()).collect::<PyResult<Vec<String>>>()?,
+        None => Vec::new(),
+    };
     let (function, raised) = (from.clone().unbind(), Arc::clone(raised));
-    Ok(FileLoader::new(move |name| {
+    let loader = FileLoader::new(move |name| {
         let loaded = Python::attach(|py| {
             let value = function.bind(py).call1((name,))?;
             if value.is_none() { Ok(None) } else { bytes_of(&value).map(Some) }
@@ -33,7 +38,8 @@ pub(crate) fn file_loader(from: &Bound<'_, PyAny>, raised: &RaisedException) -> 
             raised.lock().recover().get_or_insert(error);
             Error::other(message).help("let it return None for files that it does not have")
         })
-    }))
+    });
+    Ok(loader.with_names(names))
 }
 
 /// Returns a text as UTF-8, or bytes as they are.

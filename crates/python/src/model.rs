@@ -7,6 +7,7 @@ use burgeon::Stop;
 use burgeon::export::{FORMATS, Need};
 use burgeon::kit::Attribute;
 use burgeon::results::layers;
+use burgeon::scene::{Material, SceneCounts, SceneDifference, ShownFeature};
 use burgeon::sources::ReferenceFrame;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
@@ -47,6 +48,11 @@ impl ScriptModel {
             );
             tables.collect::<Value>().to_string()
         })
+    }
+
+    /// Returns the differences between the model and a later one as JSON.
+    fn difference(&self, py: Python<'_>, after: &Self) -> String {
+        py.detach(|| difference_json(&self.0.run.scene.difference(&after.0.run.scene)).to_string())
     }
 
     /// Returns the feature and the name of each instance, and the index of its mesh, as JSON.
@@ -123,18 +129,7 @@ fn facts_json(data: &ModelData) -> Value {
         });
         json!({ "name": mesh.name, "parts": parts.collect::<Value>() })
     });
-    let materials = run.scene.materials.iter().map(|material| {
-        json!({
-            "name": material.name,
-            "color": material.base_color,
-            "metallic": material.metallic,
-            "roughness": material.roughness,
-            "emissive": material.emissive,
-            "double_sided": material.double_sided,
-            "texture": material.texture.as_ref().map(|texture| texture.path.to_string_lossy()),
-            "texture_size": material.texture.as_ref().map(|texture| texture.size),
-        })
-    });
+    let materials = run.scene.materials.iter().map(material_json);
     let mut report = run.report().counts_json();
     let mut remarks = Vec::new();
     // Writing to memory does not fail.
@@ -163,6 +158,48 @@ fn facts_json(data: &ModelData) -> Value {
             "interpretation": run.times.derivation.interpretation.as_secs_f64(),
             "scene": run.times.scene.as_secs_f64(),
         },
+    })
+}
+
+fn material_json(material: &Material) -> Value {
+    json!({
+        "name": material.name,
+        "color": material.base_color,
+        "metallic": material.metallic,
+        "roughness": material.roughness,
+        "emissive": material.emissive,
+        "double_sided": material.double_sided,
+        "texture": material.texture.as_ref().map(|texture| texture.path.to_string_lossy()),
+        "texture_size": material.texture.as_ref().map(|texture| texture.size),
+    })
+}
+
+fn difference_json(difference: &SceneDifference) -> Value {
+    let features = |features: &[ShownFeature]| {
+        features.iter().map(|feature| json!([feature.system, feature.id])).collect::<Value>()
+    };
+    let materials = |materials: &[Material]| materials.iter().map(material_json).collect::<Value>();
+    let counts = |counts: SceneCounts| {
+        json!({
+            "triangles": counts.triangles,
+            "instances": counts.instances,
+            "meshes": counts.meshes,
+            "materials": counts.materials,
+        })
+    };
+    let bounds = difference.bounds.map(|bounds| bounds.map(|(low, high)| [low.to_array(), high.to_array()]));
+    json!({
+        "is_empty": difference.is_empty(),
+        "added": features(&difference.added),
+        "removed": features(&difference.removed),
+        "changed": features(&difference.changed),
+        "unchanged": difference.unchanged,
+        "others_changed": difference.others_changed,
+        "materials_added": materials(&difference.materials.added),
+        "materials_removed": materials(&difference.materials.removed),
+        "materials_changed": difference.materials.changed.iter().map(|pair| materials(pair)).collect::<Value>(),
+        "counts": difference.counts.map(counts),
+        "bounds": bounds,
     })
 }
 

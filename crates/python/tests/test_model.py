@@ -169,3 +169,48 @@ def test_a_million_triangles_reach_numpy_at_once():
     begin = time.perf_counter()
     count = sum(len(part.positions) for mesh in model.meshes for part in mesh.parts)
     assert time.perf_counter() - begin < 0.5 and count > 500_000
+
+
+LOTS = """
+local height = param("height", { default = 3 })
+local lots = lsystem({ object = footprint })
+local House = module("House", "height")
+lots:axiom(source("plots"), function(feature)
+  return footprint(feature.geometry, { color = if feature.use == "shop" then "red" else "white" }), House(if feature.use == "shop" then height else 3)
+end)
+lots:interpret("House(height)", function(this, height) this:walls({ height = height }):roof({ kind = "flat" }) end)
+lots:derive(0)
+"""
+
+
+def test_a_difference_lists_features_materials_numbers_and_bounds():
+    def model(**values):
+        return burgeon.run("lots.lua", loader={"lots.lua": LOTS}, sources={"plots": plots()}, values=values)
+
+    before, after = model(), model(height=6)
+    assert not before.difference(model())
+    found = before.difference(after)
+    assert found and [feature.id for feature in found.changed] == ["10"]
+    assert (found.added, found.removed, found.unchanged, found.others_changed) == ([], [], 1, False)
+    assert found.counts.before.triangles == before.triangle_count
+    assert found.bounds.after[1][2] - found.bounds.before[1][2] == pytest.approx(3)
+    with pytest.raises(TypeError, match="not int"):
+        before.difference(3)
+
+
+def test_a_loader_function_can_list_names():
+    files = {
+        "use.lua": 'print(require("@castle/size"))',
+        "mods/castle/mod.toml": 'name = "castle"\nversion = "1.0.0"\napi = "1.0"\n',
+        "mods/castle/size.lua": "return 7",
+    }
+
+    def load(name):
+        return files.get(name)
+
+    with pytest.raises(burgeon.Error, match="castle"):
+        burgeon.run("use.lua", loader=load)
+    load.names = list(files)
+    printed = []
+    burgeon.run("use.lua", loader=load, print=printed.append)
+    assert "".join(printed).strip() == "7"

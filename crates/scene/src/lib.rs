@@ -5,6 +5,7 @@
 
 mod camera;
 mod city;
+mod difference;
 pub mod image;
 mod material;
 mod mesh;
@@ -18,6 +19,7 @@ mod upright;
 
 pub use camera::{CameraView, SceneCamera};
 pub use city::CityClass;
+pub use difference::{MaterialDifference, SceneCounts, SceneDifference, ShownFeature};
 pub use material::{Material, Texture};
 pub use mesh::{Mesh, Part};
 pub use nearest::nearest_on_triangle;

@@ -27,9 +27,28 @@ impl FileLoader {
     /// any thread. `load` returns `None` if there is no such file.
     ///
     /// Names of folders, patterns of names, packages and the files that models refer to need
-    /// [`of_files`](Self::of_files), because such a loader cannot list its files.
+    /// [`of_files`](Self::of_files) or [`with_names`](Self::with_names), because such a loader cannot list its files.
     pub fn new(load: impl Fn(&str) -> Result<Option<Vec<u8>>> + Send + Sync + 'static) -> Self {
         Self { load: Arc::new(load), names: Arc::default() }
+    }
+
+    /// Adds names of files, which a run loads before it begins. The loader can have others too.
+    ///
+    /// ```
+    /// use burgeon_engine::script::FileLoader;
+    ///
+    /// let loader = FileLoader::new(|name| Ok(name.ends_with(".lua").then(|| b"return 3".to_vec())));
+    /// let loader = loader.with_names(["mods/castle/size.lua".to_owned()]);
+    /// assert_eq!(loader.names(), ["mods/castle/size.lua"]);
+    /// ```
+    #[must_use]
+    pub fn with_names(self, names: impl IntoIterator<Item = String>) -> Self {
+        Self { names: self.names.iter().cloned().chain(names).collect(), ..self }
+    }
+
+    /// Returns the names of the files that a run loads before it begins.
+    pub fn names(&self) -> &[String] {
+        &self.names
     }
 
     /// Creates a loader of these files, by their names.
@@ -155,6 +174,21 @@ mod tests {
         assert_eq!(*calls.lock().unwrap(), ["a/b \"🌳\".lua", "missing"]);
         drop(folder);
         assert!(!path.exists());
+    }
+
+    #[test]
+    fn files_that_a_loader_lists_are_in_the_folder_before_the_run() {
+        let loader =
+            FileLoader::new(|name| Ok((!name.starts_with("gone")).then(|| name.as_bytes().to_vec())));
+        let loader = loader.with_names(["a/x.csv", "a/y.csv", "gone.csv"].map(str::to_owned));
+        let folder = LoadedFolder::new(&loader).unwrap();
+        let listed = std::fs::read_dir(folder.path.join("a")).unwrap();
+        assert_eq!(listed.count(), 2);
+        assert!(!folder.path.join("gone.csv").exists());
+        folder.provide(&folder.path.join("z.csv")).unwrap();
+        assert_eq!(std::fs::read(folder.path.join("z.csv")).unwrap(), b"z.csv");
+        let outside = loader.with_names(["../b.csv".to_owned()]);
+        assert!(LoadedFolder::new(&outside).is_err());
     }
 
     #[test]

@@ -10,7 +10,7 @@ use super::hooks::RunHooks;
 use super::interpret::{PassMemory, PassOutcome};
 use super::passes::{ExpandObjects, Interpret};
 use super::plan::{Derivation, DerivationPlan};
-use super::rewrite::{CutBranches, Decompose, Resolve, Rewrite};
+use super::rewrite::{CutBranches, Decompose, RefuseEndless, Resolve, Rewrite};
 use super::rewriter::SystemRewriter;
 use super::state::DerivationState;
 use super::threads::LeadingMachine;
@@ -152,6 +152,9 @@ fn phases<'a>(state: &DerivationState<'a>, begin: usize) -> Phases<'static, Deri
             phases.each.push(Box::new(Interpret));
         }
         (false, _) => {}
+    }
+    if derivation.is_open() {
+        phases.each.insert(0, Box::new(RefuseEndless));
     }
     for (moment, hooks) in &derivation.hooks {
         let hook = Box::new(RunHooks(*moment, hooks.clone()));

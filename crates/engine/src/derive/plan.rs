@@ -170,6 +170,11 @@ pub(super) struct Derivation {
 }
 
 impl Derivation {
+    /// Returns true if the derivation ends only by itself: it has neither a number of steps nor a time.
+    pub(super) fn is_open(&self) -> bool {
+        !self.plan.bounded && self.until == f64::INFINITY
+    }
+
     /// Plans the derivation of system `index`: initial chains, rules and objects.
     pub(super) fn plan(machine: &Machine, index: usize, request: DerivationRequest<'_>) -> Result<Self> {
         let DerivationRequest { steps, group, time } = request;

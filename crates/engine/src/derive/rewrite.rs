@@ -11,7 +11,8 @@ use super::state::DerivationState;
 use super::step::{perform, perform_events, step};
 use crate::machine::stops_at_depth;
 use crate::results::Step;
-use burgeon_base::error::Result;
+use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::text::grouped;
 use burgeon_rewriting::{
     Chain, CutChain, EventSeries, PLACEHOLDERS, Phase, PhaseOutcome, PlaceFollower, SeriesChain, StepSeries,
     Stepper, cut, module_brief, placeholder,
@@ -82,6 +83,39 @@ impl Phase<DerivationState<'_>> for Rewrite {
     }
 }
 
+/// Refuses further steps of a derivation without a number of steps that has not ended by itself.
+pub(super) struct RefuseEndless;
+
+/// Maximum number of steps of a derivation without a number of steps.
+const MOST_OPEN_STEPS: usize = 200_000;
+
+impl Phase<DerivationState<'_>> for RefuseEndless {
+    fn run(&self, state: &mut DerivationState<'_>, chain: Arc<Chain>, number: usize) -> Result<PhaseOutcome> {
+        if number <= MOST_OPEN_STEPS {
+            return Ok(PhaseOutcome::next(chain));
+        }
+        let steps = grouped(MOST_OPEN_STEPS);
+        let modules = grouped(chain.symbols.len().saturating_sub(1));
+        let text =
+            format!("the derivation has not ended after {steps} steps (modules in the chain: {modules})");
+        let error = Error::limit(Limit::Size, text).help(
+            "end the rule with a guard or a counter, or write the number of steps: system:derive(1000000)",
+        );
+        let rules = state.derivation.plan.steps.grammar.rules();
+        let uses = state.uses();
+        let most = rules.iter().zip(&uses).rev().max_by_key(|(_, of_rule)| of_rule.applied);
+        Err(match most {
+            Some((rule, of_rule)) => {
+                let often = grouped(of_rule.applied);
+                error
+                    .at_place(rule.place.as_ref())
+                    .rule(format!("{} (applied most, {often} times)", rule.pattern.text))
+            }
+            None => error.at_place(state.derivation.place.as_ref()),
+        })
+    }
+}
+
 /// Maximum number of steps between two stored chains.
 const STORED_STEPS: usize = 64;
 
@@ -94,6 +128,7 @@ fn perform_series(
     follows: bool,
 ) -> Result<PhaseOutcome> {
     let Derivation { plan, declared, limit, .. } = state.derivation;
+    let end = if state.derivation.is_open() { (*limit).min(MOST_OPEN_STEPS.max(number)) } else { *limit };
     let machine = state.leader.machine;
     let session = &machine.session;
     let begin = Instant::now();
@@ -122,8 +157,8 @@ fn perform_series(
         &mut StepSeries {
             first: number,
             last: match state.checkpoints {
-                Some(_) => (*limit).min(number + STORED_STEPS - 1),
-                None => *limit,
+                Some(_) => end.min(number + STORED_STEPS - 1),
+                None => end,
             },
             ends_unchanged,
             ends_at: &ends_at,

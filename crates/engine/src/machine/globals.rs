@@ -29,7 +29,7 @@ impl Library {
             lua.create_function(move |_, (text, help): (LuaValue, LuaValue)| {
                 library.outside_rules("warn").map_err(mlua::Error::external)?;
                 let warning = script_warning(&text, &help).map_err(mlua::Error::external)?;
-                library.machine().map_err(mlua::Error::external)?.warn(warning);
+                library.machine().map_err(mlua::Error::external)?.warn_of_values(warning);
                 Ok(())
             })?,
         )?;

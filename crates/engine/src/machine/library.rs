@@ -17,7 +17,7 @@ use crate::declare::{Param, Session, Setting};
 use crate::placeholders::{self, FRAGMENT, QUERY};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_kit::{Construct, Kind, ObjectContent, Registry};
+use burgeon_kit::{Construct, Kind, ObjectContent, Registry, color_bytes};
 use burgeon_language::LOCKED;
 use burgeon_language::analysis::Globals;
 use burgeon_packages::Package;
@@ -260,7 +260,8 @@ impl Library {
             globals.raw_set(name, value).map_err(|error| machine.translate(error))?;
         }
         self.standard_chunk.replace(Some(chunk));
-        for name in ["__interpretation", "__cut", "__class", "__letters", "__refuse", "__describe"] {
+        for name in ["__interpretation", "__cut", "__class", "__letters", "__refuse", "__describe", "__color"]
+        {
             globals.raw_set(name, LuaValue::Nil).map_err(|error| machine.translate(error))?;
         }
         self.note_names(machine.lua());
@@ -399,6 +400,7 @@ impl Library {
                 Ok(lists.collect::<Vec<_>>())
             })?,
         )?;
+        globals.raw_set("__color", lua.create_function(|_, text: String| Ok(read_color(&text)))?)?;
         globals.raw_set(
             "__class",
             lua.create_function(
@@ -408,5 +410,14 @@ impl Library {
                 },
             )?,
         )
+    }
+}
+
+/// Returns the channels of a colour as text, from 0 to 1: red, green, blue and opacity. Otherwise returns the nearest name, if one
+/// is similar.
+fn read_color(text: &str) -> (Option<Vec<f64>>, Option<&'static str>) {
+    match color_bytes(text) {
+        Ok(bytes) => (Some(bytes.iter().map(|byte| f64::from(*byte) / 255.0).collect()), None),
+        Err(near) => (None, near),
     }
 }

@@ -29,6 +29,10 @@ pub(super) fn print(lua: &Lua, library: &Library, values: &MultiValue, hook: &Pr
     if lua.app_data_ref::<SilentMark>().is_some() && is_at_top_level(lua) {
         return Ok(());
     }
+    // A check derives nothing, so values after a derivation are not those of a run.
+    if library.machine().is_ok_and(|machine| machine.has_skipped_derivation()) {
+        return Ok(());
+    }
     let texts = values.iter().map(|value| shown_value(lua, library, value));
     let texts: Vec<String> = texts.collect::<mlua::Result<_>>()?;
     hook.take(&texts.join("\t"));

@@ -107,7 +107,7 @@ impl ObjectMethod {
                 };
                 let answer = answer.map_err(mlua::Error::external)?;
                 for warning in take_deferred() {
-                    self.library.machine().map_err(mlua::Error::external)?.warn(warning);
+                    self.library.machine().map_err(mlua::Error::external)?.warn_of_values(warning);
                 }
                 let place = guard.and_then(|guard| self.state.noted_place(guard));
                 if let Some(place) = place.filter(|_| kind.has_capability::<dyn ObjectContent>()) {

@@ -125,6 +125,21 @@ impl Machine {
         }
     }
 
+    /// Adds a warning about values of the script at the line that is being run.
+    ///
+    /// A check derives nothing, so after the first derivation it has no warnings about values: they can depend on a model that
+    /// it does not make. A run has them.
+    pub(crate) fn warn_of_values(&self, warning: Warning) {
+        if !self.has_skipped_derivation() {
+            self.warn(warning);
+        }
+    }
+
+    /// Returns true if the script has derived a system in a check, which derives nothing.
+    pub(crate) fn has_skipped_derivation(&self) -> bool {
+        self.session.options.check && self.driver.count() > 0
+    }
+
     /// Suppresses the output of the script, because another machine also runs it.
     pub(crate) fn silence(&self) {
         self.lua.set_app_data(SilentMark);

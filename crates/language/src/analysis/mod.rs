@@ -27,6 +27,7 @@ mod queries;
 mod results;
 mod script;
 mod syntax;
+mod truncated;
 mod walk;
 
 pub use files::{CheckedFile, call_problems};

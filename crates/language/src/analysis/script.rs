@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use super::doubtful::doubtful_calls;
 use super::globals::Globals;
+use super::truncated::truncated_calls;
 use super::walk::{Facts, QueryCall, Walk};
 use crate::CallForm;
 use burgeon_base::error::{Error, Limit, SourcePlace};
@@ -56,7 +57,7 @@ pub struct Analysis {
     pub signatures: BTreeMap<usize, CallForm>,
     /// Syntax tree, if calls are to be checked.
     pub ast: Option<Arc<Ast>>,
-    /// Warnings about calls that are probably not intended.
+    /// Warnings about calls that are probably not intended, and about calls whose values are lost.
     pub doubtful: Vec<Warning>,
     /// String literals that may name files of packages, with their lines.
     pub packages: Vec<(String, usize)>,
@@ -227,7 +228,8 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
     }
     out.push_str(&text[at..]);
     let packages = package_names(&ast);
-    let doubtful = doubtful_calls(file, text, &ast);
+    let mut doubtful = doubtful_calls(file, text, &ast);
+    doubtful.extend(truncated_calls(file, text, &ast));
     let guards = guards.into_iter().filter_map(|(line, text)| Some((line, text?))).collect();
     let signatures = signatures.into_iter().filter_map(|(line, form)| Some((line, form?))).collect();
     let ast = globals.checks_calls.then(|| Arc::new(ast));

@@ -104,8 +104,8 @@ pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
         .form([argument("module", "string"), argument("system", "System<T>")], "System<T>"),
         Name::function(
             "derive",
-            "Applies the rules step by step; without a number of steps, until no rule applies. With a group, the rules of this \
-             group and those without a group apply.",
+            "Applies the rules step by step; without a number of steps, until no rule applies, and it fails after 200,000 \
+             steps. With a group, the rules of this group and those without a group apply.",
         )
         .form([argument("steps", "number?"), argument("group", "string?")], "Derived")
         .form([options("{ ... }", DERIVE.fields.clone())], "Derived"),

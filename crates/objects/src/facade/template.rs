@@ -16,8 +16,8 @@ pub struct TemplateOptions {
     pub wall: Option<Wall>,
     /// Keywords of the frontages that the template is for, such as "entry door" or "blind".
     pub keywords: Vec<String>,
-    /// Default material of the walls.
-    pub material: MaterialOptions,
+    /// Default material of the walls. If omitted, the material or colour of `walls`, or the colour of the building.
+    pub material: Option<MaterialOptions>,
     /// Relative frequency among templates that suit equally well.
     #[default(1.0)]
     pub weight: f64,
@@ -45,7 +45,7 @@ pub struct Template(Arc<TemplateData>);
 struct TemplateData {
     wall: Wall,
     keywords: Vec<String>,
-    material: Material,
+    material: Option<Material>,
     weight: f64,
 }
 
@@ -67,7 +67,7 @@ impl Template {
             return Err(Error::argument(format!("template: weight is {}", options.weight))
                 .help("use a number of at least 0"));
         }
-        let material = options.material.material()?;
+        let material = options.material.as_ref().map(MaterialOptions::material).transpose()?;
         let inner = TemplateData { wall, keywords: options.keywords, material, weight: options.weight };
         Ok(Self(Arc::new(inner)))
     }
@@ -77,9 +77,9 @@ impl Template {
         &self.0.wall
     }
 
-    /// Returns the default material of the walls.
-    pub fn material(&self) -> &Material {
-        &self.0.material
+    /// Returns the default material of the walls, if the template has one of its own.
+    pub fn material(&self) -> Option<&Material> {
+        self.0.material.as_ref()
     }
 }
 

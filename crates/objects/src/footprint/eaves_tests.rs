@@ -7,8 +7,8 @@ use crate::MaterialOptions;
 use crate::facade;
 use burgeon_base::random::Stream;
 use burgeon_geometry::Rings;
-use burgeon_kit::Parameter;
 use burgeon_kit::TableKey;
+use burgeon_kit::{Color, Parameter};
 use burgeon_kit::{Kind, Object, Table, Value};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
@@ -123,6 +123,34 @@ fn a_gable_goes_on_as_the_wall_below_it_unless_it_is_given_a_material() {
     let own =
         MaterialOptions::from_value(material("#102030")).expect("a colour").material().expect("a material");
     assert_eq!(color(&red, &[("gable", material("#102030"))]), own.base_color);
+}
+
+#[test]
+fn walls_of_a_template_without_a_material_have_the_colour_of_the_building() {
+    let own = Color::of_bytes([10, 20, 30, 255]);
+    let bare = make(facade::Template::kind(), &[("wall", make(facade::panel::kind(), &[]))]);
+    let colors = |walls: &[(&str, Value)], detail: u8| {
+        let geometry = rectangle(DVec2::ZERO, DVec2::new(10.0, 6.0), DVec2::X).into();
+        let options = FootprintOptions { geometry, color: own, ..FootprintOptions::default() };
+        let mut house = Footprint::new(options).expect("a footprint");
+        house.detail = detail;
+        house.begin();
+        house.walls(Some(Arc::new(table(walls)).into())).expect("walls");
+        house.finish_walls().expect("walls");
+        let drawn = house.drawing.parts().iter().filter(|part| !part.triangles.is_empty());
+        drawn.map(|part| house.drawing.material_of(part.material).base_color).collect::<Vec<_>>()
+    };
+    let given =
+        MaterialOptions::from_value(material("#a03020")).expect("a colour").material().expect("a material");
+    for detail in [2, 3] {
+        let walls = [("height", number(3.0)), ("templates", bare.clone())];
+        let found = colors(&walls, detail);
+        assert!(!found.is_empty() && found.iter().all(|color| *color == own.0), "{detail}: {found:?}");
+        let red = [&walls[..], &[("color", text("#a03020"))]].concat();
+        let found = colors(&red, detail);
+        let is_known = |color: &[f32; 4]| *color == own.0 || *color == given.base_color;
+        assert!(found.contains(&given.base_color) && found.iter().all(is_known), "{detail}: {found:?}");
+    }
 }
 
 /// Returns a row of adjacent houses, each with its height (m).

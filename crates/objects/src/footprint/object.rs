@@ -131,11 +131,20 @@ impl Footprint {
 
     /// Returns the part of the drawing with this material, this colour, or the footprint's colour, in this order.
     pub(super) fn part(&mut self, color: Option<Color>, material: Option<&MaterialOptions>) -> Result<usize> {
-        let material = match material {
-            Some(surface) => surface.material()?,
-            None => Material { base_color: color.unwrap_or(self.options.color).0, ..Material::default() },
-        };
+        let material = self.material(color, material)?;
         Ok(self.drawing.material(&material))
+    }
+
+    /// Returns this material, or one with this colour or the footprint's colour, in this order.
+    pub(super) fn material(
+        &self,
+        color: Option<Color>,
+        material: Option<&MaterialOptions>,
+    ) -> Result<Material> {
+        match material {
+            Some(surface) => surface.material(),
+            None => Ok(Material { base_color: color.unwrap_or(self.options.color).0, ..Material::default() }),
+        }
     }
 
     /// Fails if keywords are given to an edge that does not exist.

@@ -30,9 +30,9 @@ pub struct Walls {
     /// Width and height (m) of one bay of the photo. The photo then repeats in the number of whole bays that fits a
     /// frontage best. Parts of walls that neighbours cover stay plain.
     pub bay: Vec<f64>,
-    /// Colour of plain walls.
+    /// Colour of plain walls, and of templates without a material.
     pub color: Option<Color>,
-    /// Material of plain walls, instead of the colour.
+    /// Material of plain walls, and of templates without a material, instead of the colour.
     pub material: Option<MaterialOptions>,
     /// Convert models on the walls to faces of the building, instead of instances.
     pub expand: bool,
@@ -101,9 +101,9 @@ impl Footprint {
             return Ok(());
         }
         let bay = options.bay()?;
-        let template = options.templates.as_ref().and_then(Templates::first);
-        let plain = match (&options.material, options.color, template) {
-            (None, None, Some(template)) => self.drawing.material(template.material()),
+        let of_template = options.templates.as_ref().and_then(Templates::first).and_then(Template::material);
+        let plain = match (&options.material, options.color, of_template) {
+            (None, None, Some(material)) => self.drawing.material(material),
             (material, color, _) => self.part(color, material.as_ref())?,
         };
         (0..self.plan.polygon().size()).for_each(|edge| self.note_part(edge, plain));
@@ -117,7 +117,10 @@ impl Footprint {
         match (&options.templates, &options.photo) {
             (None, None) => self.draw_plain(plain, from, to),
             (None, Some(photo)) => self.draw_photo(&photo.material()?, bay, plain, from, to),
-            (Some(templates), None) => self.draw_facades(templates, plain, options.expand, from, to),
+            (Some(templates), None) => {
+                let bare = self.material(options.color, options.material.as_ref())?;
+                self.draw_facades(templates, (&bare, plain), options.expand, from, to)
+            }
             (Some(_), Some(_)) => Err(Error::argument("footprint:walls: templates and photo are both set")
                 .help("remove one of them")),
         }
@@ -182,10 +185,11 @@ impl Footprint {
         Ok(())
     }
 
+    /// Draws templates. `bare` is the material of templates without one, `plain` the part of walls without a template.
     fn draw_facades(
         &mut self,
         templates: &Templates,
-        plain: usize,
+        (bare, plain): (&Material, usize),
         expand: bool,
         from: f64,
         to: f64,
@@ -242,8 +246,9 @@ impl Footprint {
                 frontages.push(below);
             }
             let edge = frontage.edge;
-            self.draw_laid(&laid, template, &frontage, &mut parts, &mut joiner);
-            let material: *const Material = material_of(&laid, template.material());
+            let of_template = template.material().unwrap_or(bare);
+            self.draw_laid(&laid, of_template, &frontage, &mut parts, &mut joiner);
+            let material: *const Material = material_of(&laid, of_template);
             // A gable continues the free part of the wall below it.
             if (!frontage.is_blind() || !has_free[edge])
                 && let Some((_, part)) = parts.iter().find(|(known, _)| *known == material)
@@ -287,12 +292,12 @@ impl Footprint {
     fn draw_laid<'a>(
         &mut self,
         laid: &FacadeLayout<'a>,
-        template: &'a Template,
+        template: &'a Material,
         frontage: &Frontage,
         parts: &mut Vec<(*const Material, usize)>,
         joiner: &mut Joiner,
     ) {
-        let material_of = |face: &FacadeFace<'a>| face.material.unwrap_or_else(|| template.material());
+        let material_of = |face: &FacadeFace<'a>| face.material.unwrap_or(template);
         let part_of = |face: &FacadeFace<'a>| {
             let material = material_of(face);
             let address: *const Material = material;

@@ -6,6 +6,7 @@ use super::edits::EditFile;
 use super::looks::GroundCover;
 use super::plants::Plants;
 use super::rules::RuleLayers;
+use super::sides::Underside;
 use super::streets::StreetsOnGround;
 use super::water::Water;
 use crate::Elevation;
@@ -53,8 +54,9 @@ pub struct TerrainOptions {
     pub visible: bool,
     /// Ground covers, from bottom to top.
     pub covers: Vec<GroundCover>,
-    /// Height (m) of the underside. If given, the terrain is a closed solid with sides.
-    pub base: Option<f64>,
+    /// Height (m) of the underside, or "auto" for a height below the lowest ground. If given, the terrain is a closed solid
+    /// with sides.
+    pub base: Option<Underside>,
     /// Colour of the sides.
     #[default(Color([0.16, 0.12, 0.09, 1.0]))]
     pub sides: Color,

@@ -39,6 +39,7 @@ impl Terrain {
         for mask in masks.chain(self.options.plants.iter().map(|plants| &plants.on)) {
             mask.check("terrain", ground.world())?;
         }
+        let mut lowest = f64::INFINITY;
         for (number, tile) in ground.tiles().iter().enumerate() {
             let (corner, size) = tile.bounds(ground.world());
             let origin = (corner + size / 2.0).extend(0.0);
@@ -58,6 +59,7 @@ impl Terrain {
                 let material = looks::material(of.clone(), &bytes, across, size, 0.95)?;
                 part.material = scene.material(&material);
             }
+            lowest = part.positions.iter().map(|at| f64::from(at.z)).fold(lowest, f64::min);
             parts.push(part);
             let water = self.options.water.as_ref();
             if let Some((part, bytes, across)) = water.and_then(|water| water.surface(ground, tile, origin)) {
@@ -80,6 +82,7 @@ impl Terrain {
             let material =
                 Material { base_color: self.options.sides.0, roughness: 1.0, ..Material::default() };
             let part = drawing.material(&material);
+            let base = base.height(lowest, self.options.size);
             sides::draw(&mesh.rim(), base, drawing.part(part))?;
         }
         if let Some(water) = &self.options.water {

@@ -3,7 +3,52 @@
 use glam::{DVec3, Vec2, Vec3};
 
 use burgeon_base::error::{Error, Result};
+use burgeon_kit::{Expectation, Parameter, Value};
 use burgeon_scene::Part;
+
+/// Depth of an automatic underside below the lowest ground, as a part of the length of the sides.
+const AUTOMATIC_DEPTH: f64 = 0.02;
+
+/// Height of the underside of a terrain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Underside {
+    /// Height (m).
+    Height(f64),
+    /// Height below the lowest ground, by a fiftieth of the length of the sides.
+    Automatic,
+}
+
+impl Underside {
+    /// Returns the height (m) for a terrain whose lowest ground has the height `lowest` (m) and whose sides have the length
+    /// `size` (m).
+    pub(super) fn height(self, lowest: f64, size: f64) -> f64 {
+        match self {
+            Self::Height(height) => height,
+            Self::Automatic => lowest - size * AUTOMATIC_DEPTH,
+        }
+    }
+}
+
+impl Parameter for Underside {
+    fn luau() -> String {
+        "number | string".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        match value {
+            Value::Number(height) if height.is_finite() => Ok(Self::Height(height)),
+            Value::Text(text) if &*text == "auto" => Ok(Self::Automatic),
+            _ => Err(Expectation::new("a height (m) or \"auto\"")),
+        }
+    }
+
+    fn into_value(self) -> Value {
+        match self {
+            Self::Height(height) => Value::Number(height),
+            Self::Automatic => Value::Text("auto".into()),
+        }
+    }
+}
 
 /// Draws upright faces from the edges of `rim` (m), which have the ground on their left, down to the height `base` (m),
 /// and an underside.
@@ -11,7 +56,7 @@ pub(super) fn draw(rim: &[[DVec3; 2]], base: f64, part: &mut Part) -> Result<()>
     let lowest = rim.iter().flatten().map(|at| at.z).fold(f64::INFINITY, f64::min);
     if lowest <= base {
         return Err(Error::argument(format!("terrain: base is {base} m, above the ground at its edge"))
-            .help(format!("use a height below {lowest:.1} m")));
+            .help(format!("use a height below {lowest:.1} m, or base = \"auto\"")));
     }
     let middle = rim.iter().flatten().sum::<DVec3>() / (rim.len().max(1) * 2) as f64;
     for [from, to] in rim {

@@ -5,6 +5,7 @@ installed. ``parameters`` lists what a script lets users change.
 """
 
 from ._burgeon import VERSION as __version__
+from ._difference import Change, Counts, Feature, ModelDifference
 from ._errors import BurgeonWarning, Error, Problem
 from ._model import Format, Instance, Layer, Material, Mesh, Model, Part, formats
 from ._parameters import Parameter, parameters
@@ -13,13 +14,17 @@ from ._tables import Table
 
 __all__ = [
     "BurgeonWarning",
+    "Change",
+    "Counts",
     "Error",
+    "Feature",
     "Format",
     "Instance",
     "Layer",
     "Material",
     "Mesh",
     "Model",
+    "ModelDifference",
     "Parameter",
     "Part",
     "Problem",

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _burgeon
 from ._arguments import PathLike
+from ._difference import ModelDifference, difference_of
 from ._display import html_of
 from ._errors import BurgeonWarning, show
 
@@ -250,6 +251,12 @@ class Model:
         """Layers: lists of the script, layers of objects, and modules that have a geometry."""
         rows = json.loads(self._raw.layers())
         return [Layer(it["name"], tuple(it["columns"]), it["count"]) for it in rows]
+
+    def difference(self, after: Model) -> ModelDifference:
+        """Returns what changes from this model to ``after``, a later one: features, materials, numbers and bounds."""
+        if not isinstance(after, Model):
+            raise TypeError(f"difference takes a model, not {type(after).__name__}")
+        return difference_of(json.loads(self._raw.difference(after._raw)), lambda fields: Material(**fields))
 
     def save(self, path: PathLike, *, metadata: bool = False, layer: str | None = None, recipe: bool = True, **picture: Any) -> None:
         """Writes the model in the format of the extension of ``path``; ``formats()`` lists them.

@@ -52,6 +52,13 @@ impl SystemDeclaration {
             let modules = string_axiom(library, lua, &text.to_string_lossy())?;
             self.axiom = Some(DeclaredAxiom::Modules(modules));
         } else {
+            if let [LuaValue::Table(only)] = arguments.as_slice()
+                && is_branch(library, only)?
+            {
+                let text = "a table is one branch, so this axiom is a single branch";
+                let help = "write the modules of a list as system:axiom(sequence(list))";
+                library.machine()?.warn(Warning::new(WarningKind::ReturnedList, text).help(help));
+            }
             self.axiom = Some(DeclaredAxiom::Modules(arguments));
         }
         Ok(())
@@ -259,6 +266,17 @@ impl SystemDeclaration {
         self.interpretations.push(DeclaredInterpretation { rule, guard, ignored, function });
         Ok(())
     }
+}
+
+/// Returns true if a table is a branch, not a module or a sequence.
+fn is_branch(library: &Library, table: &Table) -> Result<bool> {
+    let machine = library.machine()?;
+    let prelude = machine.prelude();
+    let elements = prelude.elements.call::<Option<Table>>(table);
+    if elements.map_err(|error| machine.translate(error))?.is_some() {
+        return Ok(false);
+    }
+    Ok(!prelude.is_module.call::<bool>(table).map_err(|error| machine.translate(error))?)
 }
 
 /// Returns the warning for a rule that returns a table that it has filled, instead of the modules in it.

@@ -13,6 +13,7 @@ use crate::declare::bytecode::compile;
 use crate::machine::Machine;
 use crate::machine::library::Library;
 use burgeon_base::error::{Error, ErrorKind, Result, SourcePlace};
+use burgeon_base::warning::Warning;
 use burgeon_language::analysis::{QueryCall, analyse, split_line};
 use burgeon_rewriting::{NameScope, Pattern, Symbol, Symbols};
 
@@ -80,6 +81,14 @@ pub(super) fn compile_successor(
             true => problems.map(without_locals).collect(),
             false => problems.collect(),
         }));
+    }
+    if machine.driver.leads() {
+        for warning in &analysis.doubtful {
+            // The columns are those of the compiled text.
+            let shown = Warning::new(warning.kind(), warning.message());
+            let shown = warning.remedy().into_iter().fold(shown, Warning::help);
+            machine.session.warn(shown.at(warning.place().cloned()));
+        }
     }
     let queries: Vec<QueryCall> = analysis.queries.into_values().flatten().collect();
     check_open(&queries, file, pattern, &library.symbols.borrow())?;

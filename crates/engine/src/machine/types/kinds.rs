@@ -87,7 +87,7 @@ pub(in crate::machine) fn constructor(machine: &Machine, kind: &Arc<Kind>) -> ml
                 // A faulty value of one feature may be correct in another.
                 let mut object = kind.make(&table).map_err(|error| mlua::Error::external(error.of_data()))?;
                 for warning in object.take_warnings() {
-                    library.machine().map_err(mlua::Error::external)?.warn(warning);
+                    library.machine().map_err(mlua::Error::external)?.warn_of_values(warning);
                 }
                 Ok(ObjectHandle(Arc::from(object)))
             })?
@@ -117,7 +117,7 @@ pub(in crate::machine) fn constructor(machine: &Machine, kind: &Arc<Kind>) -> ml
                     let loaded =
                         session.data.object(&session, asker, (&kind.name, &loader), &names, &fields)?;
                     let machine = library.machine()?;
-                    loaded.warnings.into_iter().for_each(|warning| machine.warn(warning));
+                    loaded.warnings.into_iter().for_each(|warning| machine.warn_of_values(warning));
                     Ok(ObjectHandle(loaded.object))
                 };
                 load().map_err(mlua::Error::external)
