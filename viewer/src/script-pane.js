@@ -42,6 +42,17 @@ export class ScriptPane {
     this.show(this.#file ?? this.files()[0]);
   }
 
+  /** Opens the pane at a line of a file. */
+  go(file, line) {
+    if (!this.open) {
+      document.body.classList.add('has-script');
+      this.#pane.hidden = false;
+      this.#button.setAttribute('aria-expanded', 'true');
+    }
+    if (this.#editor && this.#file === file) return this.#editor.line(line);
+    this.#leave(() => this.show(file, line));
+  }
+
   /** Shows a file, and a line of it. */
   async show(file, line = null) {
     try {
@@ -87,7 +98,7 @@ export class ScriptPane {
     });
   }
 
-  /** Marks the problems `{file, line, column, severity, message}` of the last run. */
+  /** Marks the problems `{file, line, column, end_column, severity, message}` of the last run. */
   mark(problems) {
     this.#problems = problems;
     this.#editor?.mark(problems.filter(({ file }) => file && (file === this.#file || file.endsWith(`/${this.#file}`))));
