@@ -92,8 +92,8 @@ test("prints of a run that fails come with its error", () =>
   open(BLOCKS.replace("if n == 0", "print('at', n) if n == 1 then error('too low') end if n == 0"), async ({ page }) => {
     await seen(page, "error").waitFor();
     await openConsole(page);
-    assert.match(await seen(page, "console-print").first().textContent(), /at\t3blocks\.lua:8/);
-    assert.match(await seen(page, "console-error").textContent(), /too low.*blocks\.lua:8/s);
+    assert.match(await seen(page, "console-print").first().textContent(), /at\t3blocks\.lua:9/);
+    assert.match(await seen(page, "console-error").textContent(), /too low.*blocks\.lua:9/s);
     assert.match(await seen(page, "console-toggle").textContent(), /^1 error, 3 prints$/);
   }));
 

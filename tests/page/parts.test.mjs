@@ -26,7 +26,7 @@ local houses = lsystem({ object = turtle() })
 houses:axiom(source({ { id = "north" }, { id = "south" }, { id = "<i>west</i>" } }), function(feature)
   return turtle(), House(#feature.id)
 end)
-houses:interpret("House(n)", function(this, n) this:forward(n, 0.5) end)
+houses:interpret("House(n)", function(this, n) this:forward(n) end)
 houses:derive()
 `;
 
@@ -163,22 +163,36 @@ test("a strip of pictures shows what a slider does, and a click takes a value", 
     await page.waitForFunction(() => document.querySelectorAll("[data-testid=param-hollow-strip-list] img").length === 2);
   }));
 
-test("a derivation is played faster", () =>
-  open(BLOCKS.replace("max = 12", "max = 60").replace("default = 3", "default = 24"), async ({ page }) => {
+test("at full speed the next step is asked for while the one before is drawn, and each step is drawn", () =>
+  open(BLOCKS.replace("default = 3", "default = 9"), async ({ page }) => {
     await drawn(page);
+    await page.evaluate(() => {
+      window.events = [];
+      const { send } = WebSocket.prototype;
+      WebSocket.prototype.send = function (text) {
+        const { type, steps } = JSON.parse(text);
+        if (type === "steps") window.events.push(`ask ${steps}`);
+        return send.call(this, text);
+      };
+      addEventListener("burgeon:drawn", () => window.events.push(`drawn ${window.burgeon.model.steps}`));
+    });
     const play = async () => {
-      const begin = Date.now();
-      const before = await run(page);
+      await page.evaluate(() => (window.events.length = 0));
       await seen(page, "play").click();
-      await page.waitForFunction(
-        (before) => Number(document.documentElement.dataset.run) > before && /^25 \/ 25$/.test(document.querySelector("#steps-text").textContent) && document.querySelector("#all-steps").disabled,
-        before,
-      );
-      return Date.now() - begin;
+      await page.waitForFunction(() => window.events.at(-1) === "drawn 10" && document.querySelector("#all-steps").disabled);
+      return page.evaluate(() => window.events);
     };
     const slow = await play();
-    for (let i = 0; i < 3; i += 1) await seen(page, "speed").click();
-    assert.equal(await seen(page, "speed").textContent(), "max");
+    assert.ok(slow.indexOf("ask 4") > slow.indexOf("drawn 3"), slow.join());
+    for (const text of ["2×", "4×", "max"]) {
+      await seen(page, "speed").click();
+      assert.equal(await seen(page, "speed").textContent(), text);
+    }
     const fast = await play();
-    assert.ok(fast < slow * 0.75, `${fast} ms and ${slow} ms`);
+    for (let step = 1; step < 9; step += 1) {
+      assert.ok(fast.includes(`drawn ${step}`), fast.join());
+      assert.ok(fast.indexOf(`ask ${step + 1}`) < fast.indexOf(`drawn ${step}`), fast.join());
+    }
+    await seen(page, "speed").click();
+    assert.equal(await seen(page, "speed").textContent(), "1×");
   }));

@@ -6,6 +6,7 @@ import { Card } from './card.js';
 import { Changes } from './changes.js';
 import { Cut } from './cut.js';
 import { Compare } from './view/compare.js';
+import { panelButton } from './view/page-keys.js';
 import { NamedViews } from './view/named-views.js';
 import { Sky } from './view/sky.js';
 import { find, make, say } from './dom.js';
@@ -279,11 +280,7 @@ menu(find('#export'), find('#exports'), {
 });
 find('#screenshot').addEventListener('click', () => stage && exports_.screenshot(stage, state.hello.script));
 
-function togglePanel() {
-  const closed = document.body.classList.toggle('no-panel');
-  find('#toggle-panel').setAttribute('aria-expanded', String(!closed));
-}
-find('#toggle-panel').addEventListener('click', togglePanel);
+const togglePanel = panelButton();
 
 if (stage) {
   const axes = new Axes(find('#axes'), stage.camera);

@@ -128,6 +128,7 @@ export class ScriptPane {
     this.#editor.replace(this.#saved);
     this.#saved = this.#editor.text();
     this.#tell();
+    this.mark(this.#problems);
   }
 
   #conflict(answer) {

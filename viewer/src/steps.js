@@ -44,12 +44,18 @@ export class Steps {
     say(this.#text, `${steps} / ${this.last}`);
     this.#slider.setAttribute('aria-valuetext', `step ${steps} of ${this.last}`);
     this.#all.disabled = !this.limited;
+    this.#ahead();
     this.#slider.disabled = this.#play.disabled = this.#speed.disabled = this.last === 0;
+  }
+
+  /** The model of a step has come; at full speed, the server makes the next while this one is drawn. */
+  #ahead() {
+    if (this.playing && !this.#times && this.at < this.last) this.#want(this.at + 1);
   }
 
   /** The model of a step has been drawn, so the next may come. */
   drawn() {
-    if (!this.playing) return;
+    if (!this.playing || (!this.#times && this.at < this.last)) return;
     if (this.at >= this.last) {
       this.pause();
       return this.all();

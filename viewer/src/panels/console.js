@@ -55,6 +55,7 @@ export class Console {
   toggle(open = !this.open) {
     this.#sheet.hidden = !open;
     this.#button.setAttribute('aria-expanded', String(open));
+    document.body.classList.toggle('has-console', open);
     if (open) {
       this.#draw();
       this.#list.scrollTop = this.#list.scrollHeight;

@@ -30,7 +30,9 @@ export class Sky {
   constructor(stage) {
     this.stage = stage;
     const { hour, latitude, azimuth, elevation, light, haze, background, color, reset } = this.#parts;
-    this.toggle = menu(find('#sky'), find('#sky-sheet'));
+    const button = find('#sky');
+    menu(button, find('#sky-sheet'));
+    this.toggle = () => button.click();
     const sun = () => (this.#state.sun = [azimuth.valueAsNumber, elevation.valueAsNumber]);
     const day = () => {
       if (!Number.isFinite(latitude.valueAsNumber)) latitude.value = this.#state.latitude;

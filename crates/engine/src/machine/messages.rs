@@ -2,8 +2,8 @@
 
 use mlua::{Function, Lua, MultiValue, Value as LuaValue};
 
-use super::convert::to_value;
 use super::Machine;
+use super::convert::to_value;
 use super::library::Library;
 use super::shown_values::shown_value;
 use crate::declare::Print;

@@ -63,13 +63,14 @@ fn of_system(state: &ServerState, system: usize, chain: Option<usize>) -> Result
     }
     let scene = &shown.run.scene;
     let is_part = |origin: Option<Origin>| {
-        origin.is_some_and(|origin| {
-            origin.system == system && chain.is_none_or(|chain| origin.chain == chain)
-        })
+        origin
+            .is_some_and(|origin| origin.system == system && chain.is_none_or(|chain| origin.chain == chain))
     };
-    let instances = scene.instances.iter().enumerate().filter(|(_, instance)| {
-        is_part(instance.origin) || is_part(scene.meshes[instance.mesh].origin)
-    });
+    let instances = scene
+        .instances
+        .iter()
+        .enumerate()
+        .filter(|(_, instance)| is_part(instance.origin) || is_part(scene.meshes[instance.mesh].origin));
     let instances: Vec<usize> = instances.map(|(index, _)| index).collect();
     Ok(Indices { scene, layout: &shown.layout }.instance_ranges(&instances))
 }

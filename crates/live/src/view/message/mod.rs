@@ -15,8 +15,8 @@ pub use cause::Cause;
 pub use command::{PageCommand, PickCommand, read};
 pub use event::{Event, FormatMessage, Hello, PartMessage, PrintMessage};
 pub use model::{
-    Bounds, CameraMessage, ControlMessage, CountMessage, ModelMessage, ParamMessage, RuleMessage, SystemMessage,
-    TimesMessage,
+    Bounds, CameraMessage, ControlMessage, CountMessage, ModelMessage, ParamMessage, RuleMessage,
+    SystemMessage, TimesMessage,
 };
 pub use origin::{
     AroundMessage, HighlightMessage, ModuleMessage, NamedValue, OriginMessage, PickMessage, Range, RulePlace,
