@@ -103,7 +103,7 @@ fn a_part_has_the_triangles_of_its_system_chain_or_symbol() {
 
 #[test]
 fn parts_and_cameras_of_an_empty_model_are_refused_or_empty() {
-    let server = Server::new(Some("print(1)\n"));
+    let server = Server::new(Some("local one = 1\n"));
     let mut page = server.page();
     page.next("model");
     assert_eq!(ask(&mut page, &json!({ "type": "parts", "id": 1, "search": "" }))["matching"], 0);

@@ -1,8 +1,19 @@
 //! Texts that scripts print, as pages receive them.
 
-use serde_json::json;
+use serde_json::{Value, json};
 
-use crate::support::{Server, script};
+use crate::support::{Page, Server, script};
+
+/// Receives messages until one has the type `kind` and `lines`, if the latter matter.
+fn until(page: &mut Page, kind: &str, lines: Option<usize>) -> Value {
+    loop {
+        let message = page.any();
+        let count = message["lines"].as_array().map(Vec::len);
+        if message["type"] == kind && (lines.is_none() || count == lines) {
+            return message;
+        }
+    }
+}
 
 #[test]
 fn printed_texts_come_before_the_model_with_their_lines_and_counts() {
@@ -15,7 +26,7 @@ fn printed_texts_come_before_the_model_with_their_lines_and_counts() {
     std::fs::write(folder.path().join("part.lua"), "\nprint(\"from a part\")\n").unwrap();
     let server = Server::start(folder, &[]);
     let mut page = server.page();
-    let printed = page.next("printed");
+    let printed = until(&mut page, "printed", Some(3));
     assert_eq!(
         printed["lines"],
         json!([
@@ -27,18 +38,18 @@ fn printed_texts_come_before_the_model_with_their_lines_and_counts() {
     assert_eq!((&printed["gap"], &printed["left_out"]), (&json!(3), &json!(0)));
     // A page that comes later receives them too, and a run without prints empties the list.
     let mut later = server.page();
-    assert_eq!(later.next("printed")["lines"], printed["lines"]);
+    assert_eq!(until(&mut later, "printed", None)["lines"], printed["lines"]);
+    until(&mut page, "model", None);
     server.write("s.lua", script(1));
-    assert_eq!(page.next("printed")["lines"], json!([]));
+    assert_eq!(until(&mut page, "printed", Some(0))["left_out"], 0);
 }
 
 #[test]
 fn prints_of_a_run_that_fails_come_before_its_error() {
     let server = Server::new(Some("for i = 1, 1000 do print(i) end\nerror(\"over\")\n"));
     let mut page = server.page();
-    let printed = page.next("printed");
-    assert_eq!(printed["lines"].as_array().unwrap().len(), 500);
+    let printed = until(&mut page, "printed", Some(500));
     assert_eq!((&printed["gap"], &printed["left_out"]), (&json!(300), &json!(500)));
     assert_eq!(printed["lines"][300]["text"], "801");
-    assert!(page.next("error")["text"].as_str().unwrap().contains("over"));
+    assert!(until(&mut page, "error", None)["text"].as_str().unwrap().contains("over"));
 }

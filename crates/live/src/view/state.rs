@@ -257,10 +257,10 @@ impl ServerState {
         let inner = self.lock();
         let mut texts: Vec<Utf8Bytes> =
             vec![self.to_text(&Event::Hello(self.hello(presets.clone(), &inner)))];
+        texts.extend(inner.printed.iter().map(|event| self.to_text(event)));
         if let Some(model) = inner.present() {
             texts.push(self.to_text(&Event::Model(Box::new(model))));
         }
-        texts.extend(inner.printed.iter().map(|event| self.to_text(event)));
         texts.extend(inner.trouble.iter().chain(&inner.cancelled).map(|event| self.to_text(event)));
         if let Some(running) = inner.running.as_ref().filter(|running| !running.background) {
             let (run, cause, files) = (running.run, running.cause, running.files.clone());
