@@ -78,7 +78,12 @@ const trouble = new Trouble(places);
 const working = new Working(socket, stage?.slow ?? false);
 const profile = new Profile({ places, highlight });
 const files = () => [state.hello.script, ...(state.model?.files ?? [])].filter(Boolean);
-const pane = new ScriptPane({ socket, files });
+const pane = new ScriptPane({
+  socket,
+  files,
+  // On a phone there is room for one of them.
+  opened: () => log.open && matchMedia('(max-width: 760px)').matches && log.toggle(false),
+});
 const variations = new Variations({ socket, changes, seed });
 const parts = new PartList({ stage, socket, marked: () => (card.open ? card.close() : clearMark()) });
 const card = new Card({ stage, socket, places, parts, picking: clearMark, closed: clearMark });

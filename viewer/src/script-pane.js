@@ -17,8 +17,9 @@ export class ScriptPane {
   #problems = [];
   #modules = null;
 
-  constructor({ socket, files }) {
-    Object.assign(this, { socket, files });
+  /** `opened()` is called when the pane opens. */
+  constructor({ socket, files, opened }) {
+    Object.assign(this, { socket, files, opened });
     this.#button.addEventListener('click', () => this.toggle());
     this.#save.addEventListener('click', () => this.save());
     find('#pane-close').addEventListener('click', () => this.toggle(false));
@@ -36,19 +37,13 @@ export class ScriptPane {
 
   toggle(open = !this.open) {
     if (!open) return this.#leave(() => this.#hide());
-    document.body.classList.add('has-script');
-    this.#pane.hidden = false;
-    this.#button.setAttribute('aria-expanded', 'true');
+    this.#open();
     this.show(this.#file ?? this.files()[0]);
   }
 
   /** Opens the pane at a line of a file. */
   go(file, line) {
-    if (!this.open) {
-      document.body.classList.add('has-script');
-      this.#pane.hidden = false;
-      this.#button.setAttribute('aria-expanded', 'true');
-    }
+    this.#open();
     if (this.#editor && this.#file === file) return this.#editor.line(line);
     this.#leave(() => this.show(file, line));
   }
@@ -102,6 +97,13 @@ export class ScriptPane {
   mark(problems) {
     this.#problems = problems;
     this.#editor?.mark(problems.filter(({ file }) => file && (file === this.#file || file.endsWith(`/${this.#file}`))));
+  }
+
+  #open() {
+    document.body.classList.add('has-script');
+    this.#pane.hidden = false;
+    this.#button.setAttribute('aria-expanded', 'true');
+    this.opened();
   }
 
   #put(answer) {
