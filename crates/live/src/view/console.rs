@@ -108,7 +108,8 @@ impl PrintedText {
     /// Creates an entry for `text` that reuses `storage`.
     fn new(mut storage: String, text: &str, place: Option<SourcePlace>) -> Self {
         storage.clear();
-        let end = text.floor_char_boundary(LONGEST);
+        let most = text.len().min(LONGEST);
+        let end = (0..=most).rev().find(|end| text.is_char_boundary(*end)).unwrap_or(0);
         storage.push_str(&text[..end]);
         if end < text.len() {
             storage.push_str(&format!("… ({} bytes more)", text.len() - end));
