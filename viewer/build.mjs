@@ -18,8 +18,16 @@ const scripts = {
   logLevel: 'warning',
 };
 const styles = { minify: true, target: scripts.target, logLevel: 'warning' };
+// The page is painted once before its script runs, because shaders take their time. A hidden page is not painted.
+const painted = {
+  banner: {
+    js: '((start)=>{let once=()=>{once=()=>{};start()};requestAnimationFrame(()=>setTimeout(()=>once()));setTimeout(()=>once(),300)})(()=>{',
+  },
+  footer: { js: '});' },
+};
 await build({
   ...scripts,
+  ...painted,
   entryPoints: { viewer: path('src/main.js'), tileset: path('src/tileset/main.js') },
   outdir: path('dist'),
 });

@@ -128,6 +128,7 @@ fn param_json(param: &Param) -> Value {
         "package": param.package,
         "value": param.value.to_json(),
         "default": param.default.to_json(),
+        "group": param.group,
         "unit": param.unit,
         "text": param.doc,
     });

@@ -7,6 +7,8 @@ mod connections;
 mod curves;
 mod packages;
 mod params;
+mod parts;
+mod printed;
 mod requests;
 mod saves;
 mod support;

@@ -6,7 +6,8 @@
 import { Matrix4, OrthographicCamera, PerspectiveCamera, Vector3 } from 'three';
 
 const DEGREE = Math.PI / 180;
-const FIELD = 32 * DEGREE;
+/** Vertical field of view (rad) without a camera of the script. */
+export const FIELD = 32 * DEGREE;
 const MARGIN = 0.88;
 const BARS = 120; // pixels above and below that the tools cover
 const TURN_TIME = 260;
@@ -34,6 +35,8 @@ export class Camera {
   azimuth = 150 * DEGREE;
   elevation = 22 * DEGREE;
   distance = 24;
+  /** Vertical field of view (rad). */
+  field = FIELD;
   flat = false;
   /** Moves keep the height of the target, as over a map. */
   level = false;
@@ -56,7 +59,7 @@ export class Camera {
 
   /** Half the height (m) of what is seen at the target. */
   get reach() {
-    return this.distance * Math.tan(FIELD / 2);
+    return this.distance * Math.tan(this.field / 2);
   }
 
   orient() {
@@ -78,6 +81,7 @@ export class Camera {
       [camera.bottom, camera.top] = [-this.reach, this.reach];
     } else {
       camera.aspect = this.aspect;
+      camera.fov = this.field / DEGREE;
     }
     camera.updateProjectionMatrix();
     camera.updateMatrixWorld();
@@ -119,7 +123,7 @@ export class Camera {
     }
     [this.azimuth, this.elevation] = [kept, keptUp];
     this.orient();
-    return { target: center, distance, azimuth, elevation };
+    return { target: center, distance, azimuth, elevation, field: FIELD };
   }
 
   rotate(azimuth, elevation) {
@@ -159,7 +163,7 @@ export class Camera {
 
   /** The point under (x, y) as high as the target; null above the horizon or far behind the target. */
   #under(x, y) {
-    const slope = Math.tan(FIELD / 2);
+    const slope = Math.tan(this.field / 2);
     const across = this.right.clone().multiplyScalar(x * slope * this.aspect).addScaledVector(this.up, y * slope);
     const from = this.back.clone().multiplyScalar(this.distance);
     const way = this.back.clone().negate();
@@ -182,6 +186,7 @@ export class Camera {
       this.azimuth = from.azimuth + (to.azimuth - from.azimuth) * t;
       this.elevation = from.elevation + (to.elevation - from.elevation) * t;
       this.distance = from.distance * (to.distance / from.distance) ** t;
+      this.field = from.field + (to.field - from.field) * t;
       this.changed();
     };
     if (at_once || document.hidden || matchMedia('(prefers-reduced-motion: reduce)').matches) return put(1);
@@ -214,8 +219,8 @@ export class Camera {
   }
 
   state() {
-    const { azimuth, elevation, distance } = this;
-    return { target: this.target.clone(), azimuth, elevation, distance };
+    const { azimuth, elevation, distance, field } = this;
+    return { target: this.target.clone(), azimuth, elevation, distance, field };
   }
 }
 

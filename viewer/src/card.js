@@ -13,9 +13,12 @@ export class Card {
   #card = find('#card');
   #dot = find('#dot');
   #point = null;
+  /** Ranges of the picked module's triangles, and its name. */
+  #picked = null;
 
-  constructor({ stage, socket, places, picking, closed }) {
-    Object.assign(this, { stage, socket, places, picking, closed });
+  /** `parts` isolates, hides and frames what is picked. */
+  constructor({ stage, socket, places, parts, picking, closed }) {
+    Object.assign(this, { stage, socket, places, parts, picking, closed });
     stage?.onDraw(() => this.#follow());
   }
 
@@ -45,6 +48,7 @@ export class Card {
 
   close() {
     this.#card.hidden = true;
+    this.#picked = null;
     this.#point = null;
     this.#follow();
     this.closed();
@@ -60,16 +64,15 @@ export class Card {
         .map((it) => ({ mesh, primitive: it.userData.primitive, from: 0, count: Infinity }));
     const wanted = placed ? whole() : (ranges ?? []);
     if (wanted.length === 0) return;
-    mark.show(
-      model,
-      wanted.map((range) => ({ ...range, node, instances: instance === null ? null : [instance] })),
-    );
+    this.#picked = wanted.map((range) => ({ ...range, node, instances: instance === null ? null : [instance] }));
+    mark.show(model, this.#picked);
     this.stage.invalidate();
   }
 
   /** The module that placed what is seen comes first, since it is what one thinks to have clicked. */
   #show({ placed, ...drawn }) {
-    if (!placed) return this.#fill(...this.#describe(drawn));
+    const name = (placed ?? drawn).module.symbol ?? (placed ?? drawn).module.text;
+    if (!placed) return this.#fill(...this.#describe(drawn), this.#tools(name));
     this.#fill(
       ...this.#describe(placed),
       make(
@@ -78,6 +81,30 @@ export class Card {
         make('span', { class: 'caption', text: 'it places a model; this triangle of it is of' }),
         ...this.#describe(drawn),
       ),
+      this.#tools(name),
+    );
+  }
+
+  /** Hides what is picked. Returns whether something is. */
+  hide(only = false) {
+    const ranges = this.#picked;
+    if (!ranges) return false;
+    const name = find('.module', this.#card)?.textContent ?? 'module';
+    this.close();
+    this.parts[only ? 'isolate' : 'hide'](`picked ${JSON.stringify(ranges)}`, name, null, ranges);
+    return true;
+  }
+
+  #tools(name) {
+    if (!this.#picked || !this.parts) return null;
+    const tool = (id, title, act) =>
+      make('button', { class: 'small', 'data-testid': `picked-${id}`, 'aria-label': `${title} ${name}`, text: title, onclick: act });
+    return make(
+      'p',
+      { class: 'picked-tools' },
+      tool('frame', 'Go there', () => this.parts.frame(this.#picked)),
+      tool('isolate', 'Isolate', () => this.hide(true)),
+      tool('hide', 'Hide', () => this.hide()),
     );
   }
 

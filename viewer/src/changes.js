@@ -28,7 +28,7 @@ export class Changes {
 
   /** Asks the server for something that makes no model. */
   ask(message, answer) {
-    this.#socket.ask(message, answer);
+    return this.#socket.ask(message, answer);
   }
 
   /** Goes back to values and to a seed, if they are given, with one model. */

@@ -18,6 +18,10 @@ export class Loading {
     this.progress = progress;
   }
 
+  /** Materials of the model that is shown, and of the one before it that is kept. */
+  #used = null;
+  #usedBefore = null;
+
   /** Whether the model that is shown has all its texture coordinates, which take a third of a file. */
   measured = false;
 
@@ -28,22 +32,24 @@ export class Loading {
     this.#abort?.abort();
     this.#abort = new AbortController();
     const start = performance.now();
-    let [model, keep] = [new Model(), null];
+    let [model, materials] = [new Model(), null];
     const measured = this.stage.mode === 'uv';
     if (message.url) {
       const url = measured ? message.url.replace(/\.\w+$/, '.uv$&') : message.url;
       const file = await this.#fetch(url, this.#abort.signal);
       if (mine !== this.#newest) return null;
       const glb = new Glb(file);
-      const materials = await this.#materials.of(glb);
+      materials = await this.#materials.of(glb);
       if (mine !== this.#newest) return null;
-      keep = materials.keep;
       model = build(glb, materials.made, this.#materials.plain);
     }
     const load = performance.now() - start;
-    const draw = this.stage.swap(model, meanwhile);
+    const [before, saved] = [this.stage.model, message.cause === 'save'];
+    const draw = this.stage.swap(model, meanwhile, saved);
     this.measured = measured;
-    keep?.();
+    if (this.stage.before === before) this.#usedBefore = this.#used;
+    materials?.keep(this.stage.before ? this.#usedBefore : null);
+    this.#used = materials;
     return { load, draw, total: load + draw };
   }
 

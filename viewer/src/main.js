@@ -5,6 +5,10 @@ import { firstView } from './camera.js';
 import { Card } from './card.js';
 import { Changes } from './changes.js';
 import { Cut } from './cut.js';
+import { Compare } from './view/compare.js';
+import { panelButton } from './view/page-keys.js';
+import { NamedViews } from './view/named-views.js';
+import { Sky } from './view/sky.js';
 import { find, make, say } from './dom.js';
 import * as exports_ from './exports.js';
 import { addIcons } from './icons.js';
@@ -14,6 +18,8 @@ import { Loading } from './loading.js';
 import { Measure } from './measure.js';
 import { closeMenu, menu } from './menu.js';
 import { Offer } from './offer.js';
+import { Console } from './panels/console.js';
+import { PartList } from './panels/part-list.js';
 import { Params } from './params.js';
 import { Places } from './places.js';
 import { listen as listenToPointer } from './pointer.js';
@@ -48,7 +54,7 @@ try {
   stage = new Stage(canvas);
 } catch {
   find('#stage').classList.add('blind');
-  for (const id of ['#screenshot', '#scale', '#measure', '#cut']) find(id).hidden = true;
+  for (const id of ['#screenshot', '#scale', '#measure', '#cut', '#sky']) find(id).hidden = true;
   find('#stage').append(
     make('p', {
       class: 'no-webgl',
@@ -72,13 +78,23 @@ const trouble = new Trouble(places);
 const working = new Working(socket, stage?.slow ?? false);
 const profile = new Profile({ places, highlight });
 const files = () => [state.hello.script, ...(state.model?.files ?? [])].filter(Boolean);
-const pane = new ScriptPane({ socket, files });
+const pane = new ScriptPane({
+  socket,
+  files,
+  // On a phone there is room for one of them.
+  opened: () => log.open && matchMedia('(max-width: 760px)').matches && log.toggle(false),
+});
 const variations = new Variations({ socket, changes, seed });
-const card = new Card({ stage, socket, places, picking: clearMark, closed: clearMark });
+const parts = new PartList({ stage, socket, marked: () => (card.open ? card.close() : clearMark()) });
+const card = new Card({ stage, socket, places, parts, picking: clearMark, closed: clearMark });
+const log = new Console({ go: (file, line) => pane.go(file, line) });
 const view = tools(stage, (mode) => {
   // Texture coordinates come only when they are shown.
   if (mode === 'uv' && state.model?.url && !loading.measured) show(state.model);
 });
+const named = new NamedViews({ stage, socket, project: view.project });
+const sky = new Sky(stage);
+const compare = stage && new Compare(stage);
 const measure = stage && new Measure(stage);
 const cut = stage && new Cut(stage);
 const offer = stage && new Offer(stage, () => view.fit());
@@ -137,6 +153,9 @@ async function show(message) {
     if (card.open) card.close();
     if (marked) highlight(marked.file, marked.line, true);
     view.showGrid();
+    compare.shown();
+    parts.show(message, true);
+    sky.renew();
     cut.shown();
     measure.clear();
     if (state.fitted) offer.look(framed);
@@ -168,7 +187,7 @@ function hear(message) {
 /** Shows the values of a model, or those that led to an error after it. */
 function tellRequested(message) {
   if (message === state.failed && message.params.length === 0) return;
-  params.show(message.params);
+  params.show(message.params, message.seed);
   seed.show(message.seed);
   history.note(message);
 }
@@ -180,6 +199,8 @@ function tell(message) {
   steps.show(message);
   readouts.model(message);
   profile.show(message);
+  parts.show(message, false);
+  named.show(message.cameras ?? []);
   presets.choose(message.preset);
   trouble.warnings(message.warnings ?? [], message.notes ?? []);
   trouble.nothing(message.nothing);
@@ -213,6 +234,7 @@ socket.on('hello', (hello) => {
   find('.wordmark').title = `burgeon ${hello.version}`;
   profile.script = hello.script;
   presets.show(hello.presets ?? []);
+  sky.restore(hello.path);
   trouble.aged(hello.stale);
 });
 socket.on('model', hear);
@@ -222,8 +244,11 @@ for (const type of ['model', 'error'])
     const warnings = (message.warnings ?? []).map((it) => ({ ...it, severity: 'warning' }));
     const told = (it) => ({ ...it, message: [it.message ?? it.text, it.help].filter(Boolean).join('\n') });
     pane.mark([...errors, ...warnings].map(told));
+    const notes = (message.notes ?? []).map((it) => ({ ...it, severity: 'warning' }));
+    log.problems([...errors, ...warnings, ...notes]);
     if (message.cause === 'save') pane.refresh();
   });
+socket.on('printed', (message) => log.printed(message));
 socket.on('working', (message) => {
   stage?.wait(true);
   trouble.again();
@@ -260,11 +285,7 @@ menu(find('#export'), find('#exports'), {
 });
 find('#screenshot').addEventListener('click', () => stage && exports_.screenshot(stage, state.hello.script));
 
-function togglePanel() {
-  const closed = document.body.classList.toggle('no-panel');
-  find('#toggle-panel').setAttribute('aria-expanded', String(!closed));
-}
-find('#toggle-panel').addEventListener('click', togglePanel);
+const togglePanel = panelButton();
 
 if (stage) {
   const axes = new Axes(find('#axes'), stage.camera);
@@ -276,6 +297,7 @@ if (stage) {
     if (state.fitted) keep(stage, state.hello.path);
   });
   listenToPointer(canvas, stage.camera, {
+    area: (x) => stage.area(x),
     clicked: (x, y) => (measure.active ? measure.add(x, y) : card.pick(x, y)),
     doubled: (x, y) => {
       const hit = stage.at(x, y);
@@ -284,7 +306,10 @@ if (stage) {
   });
 }
 
-theme.listen(find('#theme'), () => stage?.theme(theme.dark()));
+theme.listen(find('#theme'), () => {
+  stage?.theme(theme.dark());
+  sky.renew();
+});
 
 // Keys
 
@@ -294,14 +319,17 @@ function escape() {
     if (card.open) card.close();
     else if (measure?.active) measure.toggle(false);
     else if (cut?.active) cut.toggle(false);
+    else if (compare?.active) compare.toggle(false);
+    else if (log.open && find('#console').contains(document.activeElement)) log.toggle(false);
     else if (variations.open && find('#tray').contains(document.activeElement)) variations.toggle(false);
     else if (!find('#line-result').hidden) clearMark();
     else if (variations.open) variations.toggle(false);
+    else if (log.open) log.toggle(false);
     else if (document.activeElement !== canvas) canvas.focus();
   }
 }
 
-shortcuts({ stage, view, steps, seed, variations, measure, cut, pane, togglePanel, escape });
+shortcuts({ stage, view, steps, seed, variations, measure, cut, pane, sky, compare, parts, card, log, togglePanel, escape });
 
 /** For tests: to look, not to touch. */
 window.burgeon = Object.freeze({
@@ -316,6 +344,12 @@ window.burgeon = Object.freeze({
   },
   get memory() {
     return stage && { ...stage.renderer.info.memory, programs: stage.renderer.info.programs.length };
+  },
+  /** What is seen: the model of `now`, the one `before` the last save, or `both`; and the triangles that are not hidden. */
+  get shown() {
+    if (!stage) return null;
+    const triangles = stage.model.shown.reduce((sum, it) => sum + (it.geometry.index.count / 3) * (it.isInstancedMesh ? it.count : 1), 0);
+    return { seen: stage.seen, triangles };
   },
   /** How many meshes the last frame drew, those of shadows among them. */
   get draws() {

@@ -21,7 +21,8 @@ export class Materials {
     this.dull = dull;
   }
 
-  /** The materials of a file; `keep` lets go of what this call has not used, and `add` of nothing. */
+  /** The materials of a file; `keep` lets go of what neither this call nor `also`, an earlier one, has used, and `add` of
+   *  nothing. */
   async of(glb) {
     const { materials = [], textures = [] } = glb.json;
     const pictures = await Promise.all(textures.map((texture) => this.#texture(glb.image(texture.source))));
@@ -33,7 +34,10 @@ export class Materials {
       return used.get(key);
     });
     const add = () => used.forEach((it, key) => this.#materials.set(key, it));
-    return { made, add, keep: () => this.#keep(used, new Set(pictures)) };
+    const own = { used, pictures: new Set(pictures) };
+    const keep = (also) =>
+      this.#keep(new Map([...(also?.used ?? []), ...used]), new Set([...(also?.pictures ?? []), ...pictures]));
+    return { ...own, made, add, keep };
   }
 
   /** A grey of the exporter's own for primitives without a material. */

@@ -21,7 +21,8 @@ export function menu(button, sheet, { fill } = {}) {
     const items = [...sheet.querySelectorAll('a, button')];
     const at = items.indexOf(document.activeElement);
     const move = { ArrowDown: 1, ArrowUp: -1 }[event.key];
-    if (!move || items.length === 0) return;
+    // In a sheet with fields, these keys are theirs.
+    if (!move || items.length === 0 || event.target.matches('input, select')) return;
     event.preventDefault();
     event.stopPropagation();
     items[(at + move + items.length) % items.length].focus();
@@ -34,7 +35,7 @@ export function menu(button, sheet, { fill } = {}) {
     first();
   });
   sheet.addEventListener('click', (event) => {
-    if (event.target.closest('a, button')) {
+    if (sheet.getAttribute('role') === 'menu' && event.target.closest('a, button')) {
       set(false);
       button.focus();
     }

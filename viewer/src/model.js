@@ -77,6 +77,9 @@ export class Model {
   /** What the file places, as meshes that are asked and marked, each with `userData` of `{node, mesh, primitive, flat,
    *  material}`. */
   parts = [];
+  /** What is seen of the parts: these, or what is cut from them. `userData` then has the numbers of the `triangles` and of
+   *  the `instances` that are left. */
+  shown = [];
   /** What is drawn of them: the meshes of the group, each with `userData` of `{flat, material}`. */
   meshes = [];
   geometries = new Set();
@@ -110,9 +113,19 @@ export class Model {
     this.parts.push(part);
   }
 
-  /** Puts what is to be drawn of the parts into the group. */
-  draw() {
-    this.meshes = merge(this.parts);
+  /** Puts what is to be drawn of the parts into the group; `shown` are parts that are cut from them. */
+  draw(shown = this.parts) {
+    for (const mesh of this.meshes) this.group.remove(mesh);
+    const own = new Set(this.parts.map((it) => it.geometry));
+    for (const geometry of this.geometries) {
+      if (own.has(geometry)) continue;
+      geometry.dispose();
+      this.geometries.delete(geometry);
+    }
+    // Another shading may have put its own material there.
+    for (const part of shown) part.material = part.userData.material;
+    this.shown = shown;
+    this.meshes = merge(shown);
     for (const mesh of this.meshes) {
       Object.assign(mesh, { castShadow: true, receiveShadow: true, matrixAutoUpdate: false });
       mesh.customDepthMaterial = depth(mesh.material);
@@ -122,7 +135,7 @@ export class Model {
   }
 
   dispose() {
-    for (const part of this.parts) if (part.isInstancedMesh) part.dispose();
+    for (const part of new Set([...this.parts, ...this.shown])) if (part.isInstancedMesh) part.dispose();
     for (const geometry of this.geometries) geometry.dispose();
     this.group.clear();
   }

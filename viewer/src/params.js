@@ -4,6 +4,8 @@ import { CurveEditor } from './curve.js';
 import { find, make, say } from './dom.js';
 import { icon } from './icons.js';
 import { nearest, plain } from './format.js';
+import { ParamGroups } from './panels/param-groups.js';
+import { ParamStrip } from './panels/param-strip.js';
 import { toast } from './toast.js';
 
 const SEGMENTS = 4;
@@ -12,6 +14,7 @@ const MANY = 8; // parameters without a search
 export class Params {
   #rows = new Map();
   #place = find('#params');
+  #groups = new ParamGroups(find('#params'));
   #all = find('#reset-all');
   #search = find('#params-search');
   #none = make('p', { class: 'none', 'data-testid': 'params-none', text: 'No parameter has that in its name or description.', hidden: true });
@@ -35,14 +38,15 @@ export class Params {
     });
   }
 
-  show(params) {
+  show(params, seed) {
     const known = new Set(params.map((param) => param.name));
     for (const [name, row] of this.#rows) {
       if (known.has(name)) continue;
       row.element.remove();
       this.#rows.delete(name);
     }
-    let before = null;
+    const values = params.map((it) => [it.name, it.value]);
+    this.#groups.begin(params);
     for (const param of params) {
       let row = this.#rows.get(param.name);
       if (!row || row.kind !== kind(param)) {
@@ -51,11 +55,11 @@ export class Params {
         row = made;
         this.#rows.set(param.name, row);
       }
-      const next = before ? before.nextSibling : this.#place.firstChild;
-      if (next !== row.element) this.#place.insertBefore(row.element, next);
-      before = row.element;
+      this.#groups.place(row.element, param.group);
       row.update(param);
+      row.strip.update(param, JSON.stringify([seed, values.filter(([name]) => name !== param.name)]));
     }
+    this.#groups.end();
     if (params.length === 0)
       this.#place.replaceChildren(
         make(
@@ -81,6 +85,7 @@ export class Params {
       row.element.hidden = !matches(row.param, words);
       if (!row.element.hidden) shown += 1;
     }
+    this.#groups.filter(words.length > 0);
     this.#none.hidden = shown > 0 || this.#rows.size === 0;
     this.#place.after(this.#none);
   }
@@ -136,6 +141,7 @@ class Row {
       },
       icon('reset'),
     );
+    this.strip = new ParamStrip(this.id, changes);
     this.element = make(
       'div',
       { class: `param param-${param.control.type}` },
@@ -143,10 +149,12 @@ class Row {
         'div',
         { class: 'param-head' },
         labelled(param, this.id),
+        this.strip.button,
         this.resetter,
         make('span', { class: 'value' }, this.input.field, this.unit),
       ),
       this.input.below ?? null,
+      this.strip.element,
       this.help,
       this.note,
     );

@@ -1,8 +1,7 @@
 // Surfaces of frames that must come soon on machines without a graphics card: light is found for each vertex, not for
 // each pixel, and there are no shadows and highlights. Otherwise they look like the materials they stand for.
 
-import { Color, ShaderMaterial, Vector3 } from 'three';
-import { SUN } from './light.js';
+import { Color, ShaderMaterial, UniformsLib, UniformsUtils, Vector3 } from 'three';
 
 const VARYINGS = /* glsl */ `
 #ifdef FACETED
@@ -18,6 +17,7 @@ EACH vec3 back;
 const VERTEX = /* glsl */ `
 #include <common>
 #include <clipping_planes_pars_vertex>
+#include <fog_pars_vertex>
 #include <tonemapping_pars_fragment>
 uniform vec3 sun, up, bright, middle, above;
 ${VARYINGS}
@@ -46,6 +46,7 @@ void main() {
   #include <begin_vertex>
   #include <project_vertex>
   #include <clipping_planes_vertex>
+  #include <fog_vertex>
   vec3 facing = normalize(transformedNormal);
   front = seen(facing);
 #ifdef DOUBLE_SIDED
@@ -59,6 +60,7 @@ void main() {
 const FRAGMENT = /* glsl */ `
 #include <common>
 #include <clipping_planes_pars_fragment>
+#include <fog_pars_fragment>
 uniform float opacity;
 ${VARYINGS}
 #ifdef PICTURE
@@ -83,11 +85,13 @@ void main() {
 #else
   gl_FragColor = color;
 #endif
+  #include <fog_fragment>
 }`;
 
 export class Plain {
   #light;
   #made = new WeakMap();
+  #alive = new Set();
   /** Towards the sun and up, as the camera sees them. */
   #seen = { sun: { value: new Vector3() }, up: { value: new Vector3() } };
 
@@ -98,7 +102,7 @@ export class Plain {
 
   /** Looks from where `camera` is. */
   follow(camera) {
-    this.#seen.sun.value.copy(SUN).transformDirection(camera.matrixWorldInverse);
+    this.#seen.sun.value.copy(this.#light.toSun).transformDirection(camera.matrixWorldInverse);
     this.#seen.up.value.set(0, 1, 0).transformDirection(camera.matrixWorldInverse);
   }
 
@@ -106,10 +110,21 @@ export class Plain {
   of(material) {
     if (!this.#made.has(material)) {
       const made = plain(material, this.#light, this.#seen);
-      material.addEventListener('dispose', () => made.dispose());
+      this.#alive.add(made);
+      material.addEventListener('dispose', () => {
+        made.dispose();
+        this.#alive.delete(made);
+      });
       this.#made.set(material, made);
     }
     return this.#made.get(material);
+  }
+
+  /** Lets go of all, since the light has changed that is in them. */
+  renew() {
+    for (const made of this.#alive) made.dispose();
+    this.#alive.clear();
+    this.#made = new WeakMap();
   }
 }
 
@@ -127,6 +142,7 @@ function plain(material, { sky, sun }, seen) {
     fragmentShader: FRAGMENT,
     defines: { ...defines, ...(map && { PICTURE: '' }) },
     uniforms: {
+      ...UniformsUtils.clone(UniformsLib.fog),
       ...seen,
       bright: { value: lit(sun, sun.color) },
       middle: { value: map ? middle : middle.add(emissive) },
@@ -140,6 +156,7 @@ function plain(material, { sky, sun }, seen) {
     transparent,
     depthWrite,
     clipping: true,
+    fog: true,
     toneMapped: Boolean(map),
   });
 }

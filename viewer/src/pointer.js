@@ -3,14 +3,15 @@
 const STILL = 4; // pixels that a click may wander
 const ORBIT = 0.0075; // radians for each pixel
 
-/** `clicked(x, y)` and `doubled(x, y)` get pixels of the window. */
-export function listen(canvas, camera, { clicked, doubled }) {
+/** `clicked(x, y)` and `doubled(x, y)` get pixels of the window; `area` gives the part of the window with the picture under a
+ *  pixel. */
+export function listen(canvas, camera, { clicked, doubled, area = () => canvas.getBoundingClientRect() }) {
   const down = new Map();
   let wandered = 0;
   let spread = 0;
 
   const ndc = (x, y) => {
-    const box = canvas.getBoundingClientRect();
+    const box = area(x);
     return [((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2];
   };
 

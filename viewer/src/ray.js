@@ -9,7 +9,7 @@ export function nearest(model, ray, backs = false) {
   const hit = { distance: Infinity, part: null, triangle: 0, instance: null };
   const [matrix, inverse, inside] = [new Matrix4(), new Matrix4(), new Ray()];
   const meet = new Vector3();
-  for (const part of model.parts) {
+  for (const part of model.shown) {
     const count = part.isInstancedMesh ? part.count : 1;
     for (let instance = 0; instance < count; instance++) {
       matrix.copy(part.matrix);
@@ -37,6 +37,10 @@ export function nearest(model, ray, backs = false) {
     }
   }
   if (!hit.part) return null;
+  // A part that is cut from another counts as that does.
+  const { triangles, instances } = hit.part.userData;
+  if (triangles) hit.triangle = triangles[hit.triangle];
+  if (instances && hit.instance !== null) hit.instance = instances[hit.instance];
   return { ...hit, point: ray.at(hit.distance, new Vector3()) };
 }
 

@@ -17,8 +17,9 @@ export class ScriptPane {
   #problems = [];
   #modules = null;
 
-  constructor({ socket, files }) {
-    Object.assign(this, { socket, files });
+  /** `opened()` is called when the pane opens. */
+  constructor({ socket, files, opened }) {
+    Object.assign(this, { socket, files, opened });
     this.#button.addEventListener('click', () => this.toggle());
     this.#save.addEventListener('click', () => this.save());
     find('#pane-close').addEventListener('click', () => this.toggle(false));
@@ -36,10 +37,15 @@ export class ScriptPane {
 
   toggle(open = !this.open) {
     if (!open) return this.#leave(() => this.#hide());
-    document.body.classList.add('has-script');
-    this.#pane.hidden = false;
-    this.#button.setAttribute('aria-expanded', 'true');
+    this.#open();
     this.show(this.#file ?? this.files()[0]);
+  }
+
+  /** Opens the pane at a line of a file. */
+  go(file, line) {
+    this.#open();
+    if (this.#editor && this.#file === file) return this.#editor.line(line);
+    this.#leave(() => this.show(file, line));
   }
 
   /** Shows a file, and a line of it. */
@@ -87,10 +93,17 @@ export class ScriptPane {
     });
   }
 
-  /** Marks the problems `{file, line, column, severity, message}` of the last run. */
+  /** Marks the problems `{file, line, column, end_column, severity, message}` of the last run. */
   mark(problems) {
     this.#problems = problems;
     this.#editor?.mark(problems.filter(({ file }) => file && (file === this.#file || file.endsWith(`/${this.#file}`))));
+  }
+
+  #open() {
+    document.body.classList.add('has-script');
+    this.#pane.hidden = false;
+    this.#button.setAttribute('aria-expanded', 'true');
+    this.opened();
   }
 
   #put(answer) {
@@ -117,6 +130,7 @@ export class ScriptPane {
     this.#editor.replace(this.#saved);
     this.#saved = this.#editor.text();
     this.#tell();
+    this.mark(this.#problems);
   }
 
   #conflict(answer) {

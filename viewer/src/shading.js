@@ -37,14 +37,15 @@ export class Shading {
     this.#line.color.set(dark ? 0xbfd8cc : 0x24463a);
   }
 
-  /** Shows `model` in the mode of now. */
-  apply(model) {
+  /** Shows models in the mode of now. */
+  apply(...models) {
     this.clear();
     if (this.mode === 'uv') this.#checker.map ??= checker();
-    for (const part of model.meshes) {
-      part.material = this.#of(part);
-      if (this.mode === 'wire') this.#addWire(model, part);
-    }
+    for (const model of models)
+      for (const part of model.meshes) {
+        part.material = this.#of(part);
+        if (this.mode === 'wire') this.#addWire(model, part);
+      }
   }
 
   /** Shows lit surfaces by `plain`'s materials, or by their own if that is null. */

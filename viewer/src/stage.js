@@ -8,6 +8,7 @@ import {
   BufferAttribute,
   BufferGeometry,
   DoubleSide,
+  FogExp2,
   FrontSide,
   Group,
   InstancedMesh,
@@ -37,6 +38,7 @@ const FEW = 10_000; // triangles below which a new model's first frame is a fine
 const SLOW = 40; // ms for a frame above which moving frames are plainer
 const SMOOTH = 22; // ms for a plain frame below which the finer one may have more pixels than the page
 const STILL = 400; // ms after the finer frame until one with smooth edges follows, if its own are not
+const LARGE = 3_000_000; // triangles from which a model is not kept for a comparison
 const MANY = 150_000; // triangles from which none follows without a graphics card
 
 export class Stage {
@@ -44,6 +46,10 @@ export class Stage {
   scene = new Scene();
   mark = new Mark();
   shading = new Shading();
+  /** The model before the last save; null before the first. */
+  before = null;
+  /** What is seen of the two: `now`, `before`, or `both` side by side. */
+  #seen = 'now';
   /** The plane of the cut, whose normal points to what is kept; null without a cut. */
   cut = null;
   #frame = 0;
@@ -100,15 +106,15 @@ export class Stage {
 
   /** Parts of the model have come or gone: without a graphics card a finer frame may take longer than before. */
   grown() {
-    this.shading.apply(this.model);
+    this.#shade();
     this.#grew = this.slow && this.model.triangles >= FEW;
     if (this.#grew) this.#fineCost = Infinity;
   }
 
   /** Fits the ground and the shadow to `box`, which may be a part of the model, and draws what has changed in it. */
-  refit(box) {
+  refit(box = this.model.box) {
     this.ground.under(box, this.model.origin);
-    this.light.fit(box, this.ground.height);
+    this.#fitLight(box);
     this.#shadowDue = true;
     this.invalidate();
   }
@@ -118,24 +124,92 @@ export class Stage {
     this.invalidate();
   }
 
+  /** Shows only these parts of the model, which are cut from its own. */
+  show(parts) {
+    this.mark.clear();
+    this.shading.clear();
+    this.model.draw(parts);
+    this.#shade();
+    this.#shadowDue = true;
+    this.invalidate();
+  }
+
+  /** Puts the sun, or takes `null` for the usual one; `sky` tells whether the sky gives light. */
+  lighten(sun, sky) {
+    if (sun) this.light.set(sun.azimuth, sun.elevation, sky);
+    else this.light.reset();
+    this.plain.renew();
+    this.refit();
+  }
+
+  /** Puts haze of a colour before what is far away; at a `density` of 1, half of the model is in it. */
+  haze(density, color) {
+    const size = this.model.box.isEmpty() ? 1 : this.model.box.getSize(new Vector3()).length();
+    this.scene.fog = density > 0 ? new FogExp2(color, (0.4 * density) / size) : null;
+    this.invalidate();
+  }
+
+  get seen() {
+    return this.#seen;
+  }
+
+  /** Shows the model of `now`, the one `before` the last save, or `both`. */
+  set seen(seen) {
+    this.#seen = this.before ? seen : 'now';
+    this.#fitLight(this.model.box);
+    this.#shadowDue = true;
+    this.#aspect();
+    this.invalidate();
+  }
+
+  /** The part of the window with the picture of the present model under the pixel column `x`, or of the other. */
+  area(x = Infinity) {
+    const { left, top, width, height } = this.canvas.getBoundingClientRect();
+    if (this.#seen !== 'both') return { left, top, width, height };
+    const half = width / 2;
+    return { left: x < left + half ? left : left + half, top, width: half, height };
+  }
+
+  #aspect() {
+    this.camera.aspect = this.size[0] / this.size[1] / (this.#seen === 'both' ? 2 : 1);
+  }
+
+  #shade() {
+    this.shading.apply(...[this.model, this.before].filter(Boolean));
+  }
+
+  #fitLight(box) {
+    const whole = box.clone();
+    if (this.before && this.#seen !== 'now')
+      whole.union(this.before.box.clone().translate(this.before.group.position));
+    this.light.fit(whole, this.ground.height);
+  }
+
   /** Puts `model` in the place of the one before and draws it at once; `meanwhile` is called while the graphics card
-   *  works. Returns the milliseconds. */
-  swap(model, meanwhile) {
+   *  works; with `keep` the one before stays for a comparison. Returns the milliseconds. */
+  swap(model, meanwhile, keep = false) {
     const start = performance.now();
     const old = this.model;
     this.mark.clear();
     this.shading.clear();
-    this.scene.remove(old.group);
     this.model = model;
+    if (keep && !old.box.isEmpty()) {
+      if (this.before) this.scene.remove(this.before.group);
+      this.before?.dispose();
+      this.before = old.triangles < LARGE ? old : null;
+    }
+    if (this.before !== old) this.scene.remove(old.group);
+    if (!this.before) this.#seen = 'now';
     // The camera stays where it is in the scene, also if the page's own zero moves.
     if (model.box.isEmpty()) model.origin.copy(old.origin);
     this.camera.target.add(old.origin).sub(model.origin);
+    this.before?.group.position.copy(this.before.origin).sub(model.origin);
     this.scene.add(model.group);
-    this.shading.apply(model);
+    this.#shade();
     this.ground.under(model.box, model.origin);
-    this.light.fit(model.box, this.ground.height);
+    this.#fitLight(model.box);
     this.#shadowDue = true;
-    old.dispose();
+    if (this.before !== old) old.dispose();
     const fine = !this.slow || model.triangles < FEW;
     this.#draw(fine);
     meanwhile();
@@ -159,7 +233,7 @@ export class Stage {
 
   set mode(mode) {
     this.shading.mode = mode;
-    this.shading.apply(this.model);
+    this.#shade();
     this.invalidate();
   }
 
@@ -213,14 +287,39 @@ export class Stage {
       this.#shadowDue = false;
     }
     // Only a uniform of the same shaders, or those of plain materials, so that nothing has to be compiled.
-    for (const part of model.meshes) part.receiveShadow = shadows;
-    if (this.slow) this.shading.plainly(model, shadows ? null : this.plain);
+    for (const it of [model, this.before].filter(Boolean)) {
+      for (const part of it.meshes) part.receiveShadow = shadows;
+      if (this.slow) this.shading.plainly(it, shadows ? null : this.plain);
+    }
     this.ground.shaded(shadows);
     this.plain.follow(from);
-    renderer.render(this.scene, from);
+    this.#render(from);
     // What follows takes its time while the graphics card works.
     renderer.getContext().flush();
     for (const listener of this.#drawn) listener();
+  }
+
+  /** Draws the model, the one before, or both beside each other. */
+  #render(from) {
+    const { renderer, model, before } = this;
+    const [width, height] = this.size;
+    const draw = (seen) => {
+      model.group.visible = seen === model;
+      if (before) before.group.visible = seen === before;
+      renderer.render(this.scene, from);
+    };
+    if (this.#seen !== 'both') return draw(this.#seen === 'before' ? before : model);
+    renderer.setScissorTest(true);
+    const { needsUpdate } = this.light.sun.shadow;
+    for (const [i, seen] of [before, model].entries()) {
+      renderer.setViewport((i * width) / 2, 0, width / 2, height);
+      renderer.setScissor((i * width) / 2, 0, width / 2, height);
+      // Each throws its own shadow.
+      this.light.sun.shadow.needsUpdate = needsUpdate || this.ground.shade.visible || seen.meshes[0]?.receiveShadow === true;
+      draw(seen);
+    }
+    renderer.setScissorTest(false);
+    renderer.setViewport(0, 0, width, height);
   }
 
   /** What the clip planes must leave in. */
@@ -257,7 +356,7 @@ export class Stage {
     this.size = [clientWidth, clientHeight];
     if (clientWidth === 0 || clientHeight === 0) return;
     this.renderer.setSize(clientWidth, clientHeight, false);
-    this.camera.aspect = clientWidth / clientHeight;
+    this.#aspect();
     this.camera.height = clientHeight;
     cancelAnimationFrame(this.#frame);
     this.#frame = 0;
@@ -311,6 +410,8 @@ export class Stage {
 
   /** The triangle under a pixel of the window, or null. */
   at(x, y) {
+    // Of the model before, the server knows nothing any more.
+    if (this.#seen === 'before' || x < this.area().left) return null;
     const ray = this.#ray(x, y);
     const { cut } = this;
     if (cut && cut.distanceToPoint(ray.origin) < 0) {
@@ -324,7 +425,7 @@ export class Stage {
   }
 
   #ray(x, y) {
-    const box = this.canvas.getBoundingClientRect();
+    const box = this.area(x);
     const caster = new Raycaster();
     caster.setFromCamera(
       new Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2),
@@ -335,7 +436,7 @@ export class Stage {
 
   /** The pixel of the window where a point in the page's own coordinates is; null behind the camera. */
   pixel(point) {
-    const box = this.canvas.getBoundingClientRect();
+    const box = this.area();
     const seen = point.clone().project(this.camera.active);
     if (seen.z > 1 || seen.z < -1) return null;
     return [box.left + ((seen.x + 1) / 2) * box.width, box.top + ((1 - seen.y) / 2) * box.height];

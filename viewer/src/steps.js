@@ -4,6 +4,7 @@ import { find, say } from './dom.js';
 import { changeIcon } from './icons.js';
 
 const PACE = 140; // ms that each step stays at least
+const SPEEDS = [1, 2, 4, 0]; // times as fast; 0 as fast as models come
 
 export class Steps {
   #slider = find('#steps');
@@ -12,6 +13,9 @@ export class Steps {
   #all = find('#all-steps');
   #held = false;
   #timer = 0;
+  #speed = find('#speed');
+  #times = 1;
+  #wanted = 0;
   playing = false;
   last = 0;
 
@@ -25,6 +29,7 @@ export class Steps {
     for (const end of ['pointerup', 'pointercancel']) this.#slider.addEventListener(end, () => (this.#held = false));
     this.#play.addEventListener('click', () => this.toggle());
     this.#all.addEventListener('click', () => this.all());
+    this.#speed.addEventListener('click', () => this.faster());
   }
 
   show({ steps, last_step: last, step_limit: limit }) {
@@ -39,18 +44,34 @@ export class Steps {
     say(this.#text, `${steps} / ${this.last}`);
     this.#slider.setAttribute('aria-valuetext', `step ${steps} of ${this.last}`);
     this.#all.disabled = !this.limited;
-    this.#slider.disabled = this.#play.disabled = this.last === 0;
+    this.#ahead();
+    this.#slider.disabled = this.#play.disabled = this.#speed.disabled = this.last === 0;
+  }
+
+  /** The model of a step has come; at full speed, the server makes the next while this one is drawn. */
+  #ahead() {
+    if (this.playing && !this.#times && this.at < this.last) this.#want(this.at + 1);
   }
 
   /** The model of a step has been drawn, so the next may come. */
   drawn() {
-    if (!this.playing) return;
+    if (!this.playing || (!this.#times && this.at < this.last)) return;
     if (this.at >= this.last) {
       this.pause();
       return this.all();
     }
     clearTimeout(this.#timer);
-    this.#timer = setTimeout(() => this.playing && this.#want(this.at + 1), PACE);
+    // The time that the model took counts, so that slow ones are not slower still.
+    const pace = this.#times ? PACE / this.#times : 0;
+    const rest = Math.max(pace - (performance.now() - this.#wanted), 0);
+    this.#timer = setTimeout(() => this.playing && this.#want(this.at + 1), rest);
+  }
+
+  /** Takes the next speed of playing. */
+  faster() {
+    this.#times = SPEEDS[(SPEEDS.indexOf(this.#times) + 1) % SPEEDS.length];
+    say(this.#speed, this.#times ? `${this.#times}×` : 'max');
+    this.#speed.setAttribute('aria-label', this.#times ? `Speed of playing: ${this.#times} times` : 'Speed of playing: fastest');
   }
 
   toggle() {
@@ -81,6 +102,7 @@ export class Steps {
   }
 
   #want(steps) {
+    this.#wanted = performance.now();
     this.#slider.value = steps ?? this.last;
     this.#fill();
     // The end of the slider is all steps, so that a script that grows longer shows all of them again.

@@ -34,6 +34,8 @@ export class Ticks {
     const cell = low || !ground.visible ? 0 : this.#cell();
     if (cell) {
       const box = stage.canvas.getBoundingClientRect();
+      // Beside the model before a save there are none.
+      const left = stage.area().left - box.left;
       const cover = this.#cover();
       const bars = this.#bars.map((bar) => bar.getBoundingClientRect());
       for (const axis of ['x', 'z']) {
@@ -52,7 +54,7 @@ export class Ticks {
           const [x, y] = [pixel[0] - box.left, pixel[1] - box.top];
           if (cover?.(at)) continue;
           if (bars.some((bar) => meets(bar, pixel))) continue;
-          if (x < 8 || y < 8 || x + BESIDE[0] + LABEL > box.width || y + BESIDE[1] + LINE > box.height) continue;
+          if (x < left + 8 || y < 8 || x + BESIDE[0] + LABEL > box.width || y + BESIDE[1] + LINE > box.height) continue;
           if (shown.some((other) => Math.abs(other.x - x) < APART && Math.abs(other.y - y) < 18)) continue;
           shown.push({ x, y, text: label(Math.abs(i * cell)), axis });
         }

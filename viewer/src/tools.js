@@ -50,9 +50,9 @@ export function tools(stage, changed, own = {}) {
     );
   }
 
-  function project() {
-    if (!stage) return;
-    stage.camera.flat = !stage.camera.flat;
+  function project(flat = !stage?.camera.flat) {
+    if (!stage || stage.camera.flat === flat) return;
+    stage.camera.flat = flat;
     find('#projection').setAttribute('aria-pressed', String(stage.camera.flat));
     changeIcon(find('#projection'), stage.camera.flat ? 'orthographic' : 'perspective');
     stage.invalidate();
@@ -71,9 +71,9 @@ export function tools(stage, changed, own = {}) {
   const nextMode = () => setMode(MODES[(MODES.indexOf(find('[name=mode]:checked').value) + 1) % MODES.length]);
 
   find('#fit').addEventListener('click', fit);
-  find('#projection').addEventListener('click', project);
+  find('#projection').addEventListener('click', () => project());
   find('#grid').addEventListener('click', toggleGrid);
-  find('#views-menu').append(
+  find('#views-menu').prepend(
     ...Object.keys(VIEWS).map((name, i) =>
       make(
         'button',

@@ -20,7 +20,7 @@ export function viewKeys(stage, view) {
         [`${i + 1}`],
         () => view.look(name),
       ]),
-      ['O', 'Perspective or parallel', ['o'], view.project],
+      ['O', 'Perspective or parallel', ['o'], () => view.project()],
       ['W', 'Next shading', ['w'], view.nextMode],
       ['G', 'Grid', ['g'], view.toggleGrid],
       ['← → ↑ ↓', 'Turn', ['ArrowLeft'], arrow(1, 0, -1, 0)],

@@ -124,25 +124,48 @@ pub fn highlight(
         if !found.what.iter().any(|known| known == name) {
             found.what.push(name.to_owned());
         }
+        found.add(scene, &trace, system, &made);
+    }
+    Ok(found)
+}
+
+/// Finds everything in `scene` that the modules of a symbol have made.
+///
+/// Derives all chains of the system again, with their lineage.
+pub fn highlight_symbol(
+    script: &Path,
+    options: &RunOptions,
+    scene: &Scene,
+    system: usize,
+    symbol: &str,
+) -> Result<LineProducts> {
+    let trace = trace(script, options, TraceRequest { system, chain: None })?;
+    let mut found = LineProducts::default();
+    found.add(scene, &trace, system, &trace.named(symbol));
+    Ok(found)
+}
+
+impl LineProducts {
+    /// Adds what the `made` symbols of the final chain have made in `scene`.
+    fn add(&mut self, scene: &Scene, trace: &Trace, system: usize, made: &[bool]) {
         let starts = trace.starts();
-        found.modules += (0..trace.len()).filter(|index| made[*index] && trace.is_module(*index)).count();
+        let is_made = |index: usize| made.get(index).copied().unwrap_or(false);
+        self.modules += (0..trace.len()).filter(|index| is_made(*index) && trace.is_module(*index)).count();
         for (chain, makers) in trace.makers().iter().enumerate() {
             let (Some(makers), true) = (makers, chain + 1 < starts.len()) else { continue };
-            let wanted = |index: usize| made.get(index).copied().unwrap_or(false);
             let origin = Some(Origin { system, chain, record: Some(chain) });
             for (mesh, _) in scene.meshes.iter().enumerate().filter(|(_, mesh)| mesh.origin == origin) {
-                let runs = makers.runs(wanted).into_iter();
-                found.runs.extend(runs.map(|(part, from, count)| TriangleRun { mesh, part, from, count }));
+                let runs = makers.runs(is_made).into_iter();
+                self.runs.extend(runs.map(|(part, from, count)| TriangleRun { mesh, part, from, count }));
             }
-            let placements = makers.placements(wanted);
+            let placements = makers.placements(is_made);
             let instances = scene.instances.iter().enumerate().filter(|(_, instance)| {
                 instance.origin == origin
                     && instance.placement.is_some_and(|number| placements.binary_search(&number).is_ok())
             });
-            found.instances.extend(instances.map(|(index, _)| index));
+            self.instances.extend(instances.map(|(index, _)| index));
         }
     }
-    Ok(found)
 }
 
 /// Returns the text of chain `chain` of a derived system around symbol `index`: the chain before it, the

@@ -38,6 +38,7 @@ fn param_json(param: &Param) -> Value {
         "name": param.name,
         "value": param.value.to_json(),
         "default": param.default.to_json(),
+        "group": param.group,
         "unit": param.unit,
         "doc": param.doc,
         "package": param.package,

@@ -89,6 +89,17 @@ impl CameraView {
         }
     }
 
+    /// Returns the name of the kind of view, as scripts write it.
+    #[must_use]
+    pub fn kind_name(&self) -> &'static str {
+        match self {
+            Self::Perspective { .. } => "perspective",
+            Self::Orthographic { .. } => "orthographic",
+            Self::Plan => "plan",
+            Self::EyeLevel { .. } => "eye",
+        }
+    }
+
     /// Returns the position (m) of a camera that is not fitted to the model.
     #[must_use]
     pub fn position(&self) -> Option<DVec3> {

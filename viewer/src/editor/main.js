@@ -6,8 +6,8 @@ import { HighlightStyle, StreamLanguage, bracketMatching, indentOnInput, indentU
 import { lua } from '@codemirror/legacy-modes/mode/lua';
 import { lintGutter, setDiagnostics } from '@codemirror/lint';
 import { highlightSelectionMatches, search, searchKeymap } from '@codemirror/search';
-import { EditorState } from '@codemirror/state';
-import { EditorView, drawSelection, highlightActiveLine, hoverTooltip, keymap, lineNumbers } from '@codemirror/view';
+import { EditorState, StateEffect, StateField } from '@codemirror/state';
+import { Decoration, EditorView, WidgetType, drawSelection, highlightActiveLine, hoverTooltip, keymap, lineNumbers } from '@codemirror/view';
 import { tags } from '@lezer/highlight';
 
 const COLORS = HighlightStyle.define([
@@ -45,9 +45,63 @@ const THEME = EditorView.theme({
     backgroundImage: 'none',
     color: 'var(--ink)',
   },
+  '.carets': { whiteSpace: 'pre', overflow: 'hidden', textOverflow: 'ellipsis', paddingLeft: '6px' },
+  '.carets.error': { color: 'var(--bad)' },
+  '.carets.warning': { color: 'var(--warn)' },
   '.code-help': { maxWidth: '380px', padding: '4px 8px' },
   '.code-help code': { whiteSpace: 'pre-wrap', font: '12px/1.5 var(--code)' },
   '.code-help p': { margin: '4px 0 0', fontFamily: 'system-ui, sans-serif' },
+});
+
+/** Carets under the part of a line that a problem is about, and the problem. */
+class Carets extends WidgetType {
+  constructor(text, severity) {
+    super();
+    Object.assign(this, { text, severity });
+  }
+
+  eq({ text, severity }) {
+    return text === this.text && severity === this.severity;
+  }
+
+  toDOM() {
+    const place = document.createElement('div');
+    place.className = `carets ${this.severity}`;
+    place.textContent = this.text;
+    return place;
+  }
+}
+
+const setCarets = StateEffect.define();
+
+/** The carets, which go with the first change of their line. */
+const CARETS = StateField.define({
+  create: () => Decoration.none,
+  update(known, transaction) {
+    for (const effect of transaction.effects) {
+      if (!effect.is(setCarets)) continue;
+      const { doc } = transaction.state;
+      return Decoration.set(
+        effect.value.map(({ line, from, to, severity, message }) => {
+          const { from: begin, to: end, text } = doc.line(line);
+          // Tabs stay tabs, so that the carets stand under their letters.
+          const space = text.slice(0, from - begin).replace(/[^\t]/g, ' ');
+          const carets = '^'.repeat(Math.max(to - from, 1));
+          const widget = new Carets(`${space}${carets} ${message.split('\n')[0]}`, severity);
+          return Decoration.widget({ widget, block: true, side: 1 }).range(end);
+        }),
+      );
+    }
+    if (!transaction.docChanged) return known;
+    const moved = known.map(transaction.changes);
+    const touched = [];
+    transaction.changes.iterChangedRanges((fromA, toA, from, to) => touched.push([from, to]));
+    const { doc } = transaction.state;
+    return moved.update({
+      filter: (at) => !touched.some(([from, to]) => to >= doc.lineAt(at).from && from <= doc.lineAt(at).to),
+    });
+  },
+  provide: (field) => EditorView.decorations.from(field),
 });
 
 /** Opens an editor in `place`. `names` is the scripting API, `[{name, owner, usage, doc}]`; `changed` is called with each edit, and
@@ -73,6 +127,7 @@ export function open({ place, text, names, changed, save }) {
         highlightSelectionMatches(),
         search({ top: true }),
         lintGutter(),
+        CARETS,
         StreamLanguage.define(lua),
         syntaxHighlighting(COLORS),
         THEME,
@@ -110,17 +165,21 @@ export function open({ place, text, names, changed, save }) {
       view.dispatch({ selection: { anchor: from }, effects: EditorView.scrollIntoView(from, { y: 'center' }) });
       view.focus();
     },
-    /** Marks problems `{line, column, severity, message}`. */
+    /** Marks problems `{line, column, end_column, severity, message}`, and puts carets under those with a column. */
     mark(problems) {
       const shown = problems
         .filter(({ line }) => line >= 1 && line <= view.state.doc.lines)
-        .map(({ line, column, severity, message }) => {
+        .map(({ line, column, end_column: end, severity, message }) => {
           const { from, to, text } = view.state.doc.line(line);
           const first = column ? from + column - 1 : from + text.search(/\S|$/);
           const word = /^[\w.:]+/.exec(text.slice(first - from))?.[0].length ?? 1;
-          return { from: Math.min(first, to), to: column ? Math.min(first + word, to) : to, severity, message };
+          const last = end > column ? from + end - 1 : first + word;
+          return { from: Math.min(first, to), to: column ? Math.min(last, to) : to, severity, message, column, line };
         });
-      view.dispatch(setDiagnostics(view.state, shown));
+      const carets = shown.filter((it) => it.column && it.from < it.to);
+      const lines = [...new Map(carets.map((it) => [it.line, it])).values()].sort((a, b) => a.line - b.line);
+      const transaction = setDiagnostics(view.state, shown);
+      view.dispatch({ ...transaction, effects: [transaction.effects ?? [], setCarets.of(lines)].flat() });
     },
   };
 }

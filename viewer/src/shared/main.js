@@ -6,9 +6,7 @@ import { find, make, say } from '../dom.js';
 import * as exports_ from '../exports.js';
 import { Glb } from '../glb.js';
 import { addIcons } from '../icons.js';
-import { listen as listenToKeys, typing } from '../keys.js';
 import { Materials } from '../materials.js';
-import { closeMenu } from '../menu.js';
 import { Model, build } from '../model.js';
 import { listen as listenToPointer } from '../pointer.js';
 import * as readouts from '../readouts.js';
@@ -17,8 +15,8 @@ import * as theme from '../theme.js';
 import { Ticks } from '../ticks.js';
 import { toast } from '../toast.js';
 import { tools } from '../tools.js';
+import { pageKeys } from '../view/page-keys.js';
 import { unpack } from '../unpack.js';
-import { viewKeys } from '../view-keys.js';
 import { PickedCard } from './card.js';
 import * as content from './content.js';
 import * as recipe from './recipe.js';
@@ -78,12 +76,6 @@ load().catch((error) => {
 
 find('#screenshot').addEventListener('click', () => stage && exports_.screenshot(stage, facts.name));
 
-function togglePanel() {
-  const closed = document.body.classList.toggle('no-panel');
-  find('#toggle-panel').setAttribute('aria-expanded', String(!closed));
-}
-find('#toggle-panel').addEventListener('click', togglePanel);
-
 if (stage) {
   const axes = new Axes(find('#axes'), stage.camera);
   const ticks = new Ticks(find('#ticks'), stage);
@@ -103,42 +95,18 @@ if (stage) {
 
 theme.listen(find('#theme'), () => stage?.theme(theme.dark()));
 
-function escape() {
-  if (find('#sheet').open) find('#sheet').close();
-  else if (!closeMenu()) {
-    if (card?.open) card.close();
-    else if (document.activeElement !== canvas) canvas.focus();
-  }
-}
-
-const { rows, more } = viewKeys(stage, view);
-const showSheet = listenToKeys(
-  [
-    ['View', rows],
-    [
-      'Mouse',
-      [
-        ['drag', 'Turn'],
-        ['right drag', 'Move; also with Shift'],
-        ['wheel', 'Zoom to the pointer'],
-        ['click', 'What is this?'],
-        ['double click', 'Turn around this point'],
-      ],
-    ],
-    [
-      'Page',
-      [
-        ['P', 'Panel', ['p'], togglePanel],
-        ['S', 'Save a picture of the view', ['s'], () => find('#screenshot').click()],
-        ['L', 'Light or dark', ['l'], () => find('#theme').click()],
-        ['Esc', 'Close, clear', ['Escape'], escape],
-        ['?', 'These keys', ['?'], () => showSheet()],
-      ],
-    ],
+pageKeys({
+  stage,
+  view,
+  card,
+  mouse: [
+    ['drag', 'Turn'],
+    ['right drag', 'Move; also with Shift'],
+    ['wheel', 'Zoom to the pointer'],
+    ['click', 'What is this?'],
+    ['double click', 'Turn around this point'],
   ],
-  typing,
-  more,
-);
+});
 
 addEventListener('unhandledrejection', ({ reason }) => toast(String(reason?.message ?? reason)));
 

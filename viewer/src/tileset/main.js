@@ -4,8 +4,6 @@ import { Axes } from '../axes.js';
 import { find, make, say } from '../dom.js';
 import * as exports_ from '../exports.js';
 import { addIcons } from '../icons.js';
-import { listen as listenToKeys, typing } from '../keys.js';
-import { closeMenu } from '../menu.js';
 import { listen as listenToPointer } from '../pointer.js';
 import * as readouts from '../readouts.js';
 import { Socket } from '../socket.js';
@@ -13,8 +11,8 @@ import { Stage } from '../stage.js';
 import * as theme from '../theme.js';
 import { toast } from '../toast.js';
 import { tools } from '../tools.js';
+import { pageKeys } from '../view/page-keys.js';
 import { connection } from '../trouble.js';
-import { viewKeys } from '../view-keys.js';
 import { FeatureCard } from './card.js';
 import * as list from './missing.js';
 import * as panel from './panel.js';
@@ -126,12 +124,6 @@ for (const type of ['note', 'refused']) socket.on(type, ({ text }) => toast(text
 
 find('#screenshot').addEventListener('click', () => stage && exports_.screenshot(stage, state.hello?.tileset ?? 'tileset'));
 
-function togglePanel() {
-  const closed = document.body.classList.toggle('no-panel');
-  find('#toggle-panel').setAttribute('aria-expanded', String(!closed));
-}
-find('#toggle-panel').addEventListener('click', togglePanel);
-
 /** Flies down to what is under a pixel. */
 function approach(x, y) {
   const leaf = shown.leafAt(x, y);
@@ -157,44 +149,18 @@ theme.listen(find('#theme'), () => {
   shown?.marks.theme(theme.dark());
 });
 
-// Keys
-
-function escape() {
-  if (find('#sheet').open) find('#sheet').close();
-  else if (!closeMenu()) {
-    if (card?.open) card.close();
-    else if (document.activeElement !== canvas) canvas.focus();
-  }
-}
-
-const { rows, more } = viewKeys(stage, view);
-const showSheet = listenToKeys(
-  [
-    ['View', rows],
-    [
-      'Mouse',
-      [
-        ['drag', 'Turn'],
-        ['right drag', 'Move over the ground; also with Shift'],
-        ['wheel', 'Fly to the pointer, and back'],
-        ['click', 'Which feature is this?'],
-        ['double click', 'Fly there'],
-      ],
-    ],
-    [
-      'Page',
-      [
-        ['P', 'Panel', ['p'], togglePanel],
-        ['S', 'Save a picture of the view', ['s'], () => find('#screenshot').click()],
-        ['L', 'Light or dark', ['l'], () => find('#theme').click()],
-        ['Esc', 'Close, clear', ['Escape'], escape],
-        ['?', 'These keys', ['?'], () => showSheet()],
-      ],
-    ],
+pageKeys({
+  stage,
+  view,
+  card,
+  mouse: [
+    ['drag', 'Turn'],
+    ['right drag', 'Move over the ground; also with Shift'],
+    ['wheel', 'Fly to the pointer, and back'],
+    ['click', 'Which feature is this?'],
+    ['double click', 'Fly there'],
   ],
-  typing,
-  more,
-);
+});
 
 /** For tests: to look, not to touch. */
 window.burgeon = Object.freeze({

@@ -8,6 +8,7 @@ use std::time::Duration;
 use super::{FeatureChoice, FeaturePart, FileLoader, Preset};
 use crate::checkpoints::DerivationStore;
 use crate::queries::RowSource;
+use burgeon_base::error::SourcePlace;
 use burgeon_base::stop::Stop;
 use burgeon_kit::Registry;
 
@@ -42,16 +43,50 @@ impl Default for Limits {
 
 /// Receiver of the texts that scripts print, called from any thread.
 #[derive(Clone)]
-pub struct Print(Arc<dyn Fn(&str) + Send + Sync>);
+pub struct Print(PrintReceiver);
+
+type TakePlaced = dyn Fn(&str, Option<SourcePlace>) + Send + Sync;
+
+#[derive(Clone)]
+enum PrintReceiver {
+    Texts(Arc<dyn Fn(&str) + Send + Sync>),
+    Places(Arc<TakePlaced>),
+}
 
 impl Print {
     /// Creates a receiver that passes each printed text to `take`, without a final line break.
     pub fn new(take: impl Fn(&str) + Send + Sync + 'static) -> Self {
-        Self(Arc::new(take))
+        Self(PrintReceiver::Texts(Arc::new(take)))
     }
 
-    pub(crate) fn take(&self, text: &str) {
-        (self.0)(text);
+    /// Creates a receiver that passes each printed text to `take`, with the line of the script that prints it.
+    ///
+    /// ```
+    /// use std::sync::{Arc, Mutex};
+    /// use burgeon_engine::run::run;
+    /// use burgeon_engine::script::{FileLoader, Print, RunOptions};
+    ///
+    /// let lines: Arc<Mutex<Vec<usize>>> = Arc::default();
+    /// let into = Arc::clone(&lines);
+    /// let mut options = RunOptions::default();
+    /// options.inputs.loader = Some(FileLoader::new(|_| Ok(Some(b"\nprint(1)".to_vec()))));
+    /// options.reports.print = Some(Print::with_places(move |_, place| {
+    ///     into.lock().unwrap().extend(place.map(|place| place.line));
+    /// }));
+    /// run("a.lua".as_ref(), options)?;
+    /// assert_eq!(*lines.lock().unwrap(), [2]);
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
+    pub fn with_places(take: impl Fn(&str, Option<SourcePlace>) + Send + Sync + 'static) -> Self {
+        Self(PrintReceiver::Places(Arc::new(take)))
+    }
+
+    /// Passes a text to the receiver; `place` finds the line, if the receiver wants it.
+    pub fn take(&self, text: &str, place: impl FnOnce() -> Option<SourcePlace>) {
+        match &self.0 {
+            PrintReceiver::Texts(take) => take(text),
+            PrintReceiver::Places(take) => take(text, place()),
+        }
     }
 }
 

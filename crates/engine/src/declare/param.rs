@@ -23,6 +23,8 @@ pub struct Param {
     pub stored: Option<Setting>,
     /// Allowed values.
     pub control: Control,
+    /// Heading under which pages show it, shared with other parameters; may be empty.
+    pub group: String,
     /// Display unit; may be empty.
     pub unit: String,
     /// Description for users; may be empty.
@@ -230,6 +232,7 @@ impl Param {
             default,
             stored: None,
             control,
+            group: text("group")?.trim().to_owned(),
             unit: text("unit")?,
             doc: text("doc")?,
             own: true,

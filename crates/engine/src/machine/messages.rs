@@ -2,6 +2,7 @@
 
 use mlua::{Function, Lua, MultiValue, Value as LuaValue};
 
+use super::Machine;
 use super::convert::to_value;
 use super::library::Library;
 use super::shown_values::shown_value;
@@ -35,7 +36,7 @@ pub(super) fn print(lua: &Lua, library: &Library, values: &MultiValue, hook: &Pr
     }
     let texts = values.iter().map(|value| shown_value(lua, library, value));
     let texts: Vec<String> = texts.collect::<mlua::Result<_>>()?;
-    hook.take(&texts.join("\t"));
+    hook.take(&texts.join("\t"), || Machine::place(lua));
     Ok(())
 }
 

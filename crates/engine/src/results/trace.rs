@@ -276,6 +276,12 @@ impl Trace {
         Some(RuleProducts { name, line, made })
     }
 
+    /// Returns for each symbol of the final chain if it is a module with this name.
+    pub fn named(&self, name: &str) -> Vec<bool> {
+        let is_named = |symbol: &Symbol| *symbol > END && self.symbols.display_name(*symbol) == name;
+        self.chain.symbols.iter().map(is_named).collect()
+    }
+
     /// Returns the index of the first symbol of each traced chain in the final chain.
     pub fn starts(&self) -> Vec<usize> {
         self.chain.starts(&self.symbols.arities()).iter().map(|mark| mark.module).collect()

@@ -231,6 +231,12 @@ pub static PARAM: LazyLock<Name> = LazyLock::new(|| {
                     field("max", "number?", "nil", "Maximum value."),
                     field("step", "number?", "nil", "Step between values, from the minimum."),
                     field("choices", "{ string }?", "nil", "Allowed strings."),
+                    field(
+                        "group",
+                        "string",
+                        "\"\"",
+                        "Heading in the live page, shared with other parameters. Parameters without one come first.",
+                    ),
                     field("unit", "string", "\"\"", "Display unit."),
                     field("doc", "string", "\"\"", "Description for users.").renamed_from("text", "1.1"),
                 ],

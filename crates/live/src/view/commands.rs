@@ -12,7 +12,7 @@ use super::message::{self, Cause, Event, PageCommand};
 use super::request::seed;
 use super::socket::PageState;
 use super::state::{DueRun, LiveState, ServerState};
-use super::{curves, source, tools, trace};
+use super::{cameras, curves, parts, source, tools, trace};
 use burgeon_base::error::{Error, Result};
 use burgeon_engine::script::CurvesFile;
 
@@ -37,6 +37,14 @@ impl ServerState {
             Ok(PageCommand::Highlight { id, file, line }) => Some(trace::highlight(self, id, &file, line)),
             Ok(PageCommand::Chain { id, system, chain, module }) => {
                 Some(trace::chain(self, id, system, chain, module))
+            }
+            Ok(PageCommand::Camera { id, name, view, azimuth, aspect }) => {
+                let wanted = cameras::WantedCamera { name, view, azimuth, aspect };
+                Some(cameras::find(self, id, &wanted))
+            }
+            Ok(PageCommand::Parts { id, search }) => Some(parts::list(self, id, &search)),
+            Ok(PageCommand::Part { id, system, chain, symbol }) => {
+                Some(parts::find(self, id, system, chain, symbol.as_deref()))
             }
             Ok(PageCommand::Variations { id, seeds, param, values }) => {
                 tools::variations(self, id, tools::parse_axis(seeds.as_deref(), param, values), page.clone())

@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::job::{PROBLEMS, RunJob};
 use super::message::{Bounds, ModelMessage, SystemMessage, TimesMessage};
 use super::state::ServerState;
-use super::trace;
+use super::{cameras, trace};
 use burgeon_engine::run::Run;
 use burgeon_engine::script::Session;
 use serde_json::json;
@@ -47,6 +47,7 @@ pub(super) fn describe(state: &ServerState, job: &RunJob, session: &Session, run
         preset: None,
         nothing: (run.scene.triangles() == 0).then(|| nothing(run, job.inputs.steps)),
         params: Vec::new(),
+        cameras: cameras::declared(state, run),
         systems: systems.collect(),
         rules: trace::rules(state, run),
         times: TimesMessage {

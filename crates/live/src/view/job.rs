@@ -1,5 +1,8 @@
 //! Runs to execute, with their requests and options.
 
+use std::sync::Arc;
+
+use super::console::Console;
 use super::request::{Inputs, Request};
 use super::state::{DueRun, ServerState};
 use burgeon_engine::script::{ParamValues, RunOptions, RunReports};
@@ -13,6 +16,8 @@ pub(super) struct RunJob {
     pub due: DueRun,
     pub request: Request,
     pub inputs: Inputs,
+    /// Texts that the run prints.
+    pub console: Arc<Console>,
 }
 
 /// Returns the options to run the script with these inputs.

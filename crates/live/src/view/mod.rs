@@ -16,9 +16,11 @@
 //! A folder with a tileset is served by [`LiveTileset`], without a script and without commands (`tileset`).
 
 mod address;
+mod cameras;
 mod changes;
 mod commands;
 mod connections;
+mod console;
 mod curves;
 mod describe;
 mod endpoint;
@@ -29,6 +31,7 @@ mod live;
 pub mod message;
 mod open;
 mod page;
+mod parts;
 mod request;
 mod server;
 mod settings;

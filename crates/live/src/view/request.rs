@@ -248,6 +248,7 @@ mod tests {
             default: Setting::Number(default),
             stored: None,
             control: Control::Number { min: Some(1.0), max: Some(max), step: Some(1.0) },
+            group: String::new(),
             unit: String::new(),
             doc: String::new(),
             own: true,

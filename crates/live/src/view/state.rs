@@ -11,6 +11,7 @@ use axum::body::Bytes;
 use axum::extract::ws::Utf8Bytes;
 use tokio::sync::broadcast;
 
+use super::console::Console;
 use super::message::{Cause, Event, Hello, ModelMessage};
 use super::open::Editor;
 use super::request::{Inputs, Request};
@@ -87,6 +88,8 @@ pub(super) struct LiveState {
     pub trouble: Option<Event>,
     /// Cancellation event, if a page cancelled the last run, so that the shown model is older than the request.
     pub cancelled: Option<Event>,
+    /// Texts that the last run printed, if it printed any.
+    pub printed: Option<Event>,
     /// Time since which the shown model has been out of date.
     pub stale: Option<Instant>,
     /// Time since which failures have been withheld because files are changing.
@@ -136,6 +139,8 @@ pub(super) struct ActiveRun {
     pub cancelled: Arc<AtomicBool>,
     /// Set if pages are not informed about the run.
     pub background: bool,
+    /// Texts that the run prints.
+    pub console: Arc<Console>,
 }
 
 /// Present model.
@@ -171,6 +176,7 @@ impl ServerState {
             shown: None,
             trouble: None,
             cancelled: None,
+            printed: None,
             stale: None,
             doubts: None,
             finished: None,
@@ -251,6 +257,7 @@ impl ServerState {
         let inner = self.lock();
         let mut texts: Vec<Utf8Bytes> =
             vec![self.to_text(&Event::Hello(self.hello(presets.clone(), &inner)))];
+        texts.extend(inner.printed.iter().map(|event| self.to_text(event)));
         if let Some(model) = inner.present() {
             texts.push(self.to_text(&Event::Model(Box::new(model))));
         }

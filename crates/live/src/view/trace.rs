@@ -112,7 +112,7 @@ pub(super) fn chain(state: &ServerState, id: u64, system: usize, chain: usize, m
 }
 
 /// Returns the present model, and the options with which its script was run. Fails if the script has changed since.
-fn present(state: &ServerState) -> Result<(Arc<PresentModel>, RunOptions)> {
+pub(super) fn present(state: &ServerState) -> Result<(Arc<PresentModel>, RunOptions)> {
     let inner = state.lock();
     let Some(shown) = inner.shown.clone() else { return Err(Error::unavailable("no model yet")) };
     if inner.generation != shown.inputs.generation {

@@ -9,6 +9,7 @@ use std::time::{Duration, Instant, SystemTime};
 
 use axum::body::Bytes;
 
+use super::console::Console;
 use super::job::{PROBLEMS, RunJob, options};
 use super::message::{Cause, Event, ModelMessage, ParamMessage};
 use super::request::Inputs;
@@ -153,6 +154,9 @@ pub(super) fn report(state: &ServerState) {
         if let Some(running) =
             inner.running.as_ref().filter(|it| !it.background && it.begin.elapsed() >= TICK)
         {
+            if let Some(printed) = running.console.news(state, running.run) {
+                state.send(&printed);
+            }
             let (step, steps, modules) = running.session.progress.counts();
             let message = running.session.progress.message(running.begin.elapsed());
             state.send(&Event::Progress { run: running.run, message, step, steps, modules });
@@ -178,7 +182,7 @@ fn next(state: &ServerState) -> Option<RunJob> {
             state.send(&Event::Working { run, cause: due.cause, files: due.files.clone() });
             let request = inner.request.clone();
             let inputs = request.inputs(inner.generation);
-            return Some(RunJob { run, due, request, inputs });
+            return Some(RunJob { run, due, request, inputs, console: Arc::default() });
         }
         inner = state.wake.wait(inner).recover();
     }
@@ -200,6 +204,7 @@ fn register(state: &ServerState, job: Option<&RunJob>, session: &Arc<Session>) -
         begin: Instant::now(),
         cancelled: Arc::clone(&cancelled),
         background: job.is_none(),
+        console: job.map(|job| Arc::clone(&job.console)).unwrap_or_default(),
     });
     state.wake.notify_all();
     cancelled
@@ -209,7 +214,9 @@ fn attempt(state: &ServerState, job: &RunJob, kept: &mut Option<Arc<Session>>) -
     if std::fs::metadata(&state.script).is_err_and(|error| error.kind() == std::io::ErrorKind::NotFound) {
         return RunOutcome::Missing;
     }
-    let session = match Session::new(&state.script, options(state, &job.inputs)) {
+    let mut options = options(state, &job.inputs);
+    options.reports.print = Some(Console::receiver(&job.console, options.reports.print.take()));
+    let session = match Session::new(&state.script, options) {
         Ok(session) => session,
         Err(error) => return RunOutcome::Failed(error),
     };
@@ -279,6 +286,14 @@ fn finish(state: &ServerState, job: RunJob, session: Option<&Session>, outcome: 
     let outcome = if stopped && inner.due.is_none() { RunOutcome::Cancelled } else { outcome };
     if let Some(session) = session.filter(|_| !matches!(outcome, RunOutcome::Cancelled)) {
         inner.files = session.files();
+    }
+    if !matches!(outcome, RunOutcome::Cancelled) || inner.due.is_none() {
+        let printed = job.console.message(state, job.run);
+        // Most scripts print nothing, and then pages are told only if another run has.
+        if !job.console.is_empty() || inner.printed.is_some() {
+            state.send(&printed);
+        }
+        inner.printed = (!job.console.is_empty()).then_some(printed);
     }
     let mut notices = Vec::new();
     let mut gone = None;

@@ -30,6 +30,8 @@ class Parameter:
     step: float | None = None
     #: Choices of a choice.
     choices: tuple[str, ...] = ()
+    #: Heading that it shares with other parameters; may be empty.
+    group: str = ""
     #: Unit for display; may be empty.
     unit: str = ""
     #: Description; may be empty.

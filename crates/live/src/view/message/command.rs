@@ -67,6 +67,37 @@ pub enum PageCommand {
         /// Line, from 1.
         line: usize,
     },
+    /// Queries the place of a camera of the script, or of a view that is fitted to the model.
+    Camera {
+        /// Id to return with the answer.
+        id: u64,
+        /// Name of a camera of the script.
+        name: Option<String>,
+        /// View without a name: `plan` or `eye`.
+        view: Option<String>,
+        /// Azimuth from north, clockwise (degrees), of the view `eye`.
+        azimuth: Option<f64>,
+        /// Ratio of the page's width to its height.
+        aspect: f64,
+    },
+    /// Queries the chains of a model whose feature or number matches a search.
+    Parts {
+        /// Id to return with the answer.
+        id: u64,
+        /// Words, all of which the id of a feature contains; empty for all chains.
+        search: String,
+    },
+    /// Queries the triangles of a system, of one of its chains, or of the modules of a symbol.
+    Part {
+        /// Id to return with the answer.
+        id: u64,
+        /// Index of the system in the script, from 0.
+        system: usize,
+        /// Index of a chain.
+        chain: Option<usize>,
+        /// Symbol of the modules.
+        symbol: Option<String>,
+    },
     /// Queries a part of a chain.
     Chain {
         /// Id to return with the answer.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::cause::Cause;
-use super::{AroundMessage, HighlightMessage, ModelMessage, ParamMessage, PickMessage, bounded};
+use super::{AroundMessage, HighlightMessage, ModelMessage, ParamMessage, PickMessage, Range, bounded};
 use burgeon_base::error::Error;
 use serde::Serialize;
 use serde_json::Value;
@@ -62,6 +62,17 @@ pub enum Event {
         /// Seed that caused the error.
         seed: String,
     },
+    /// Texts that the scripts of a run have printed so far.
+    Printed {
+        /// Number of the run.
+        run: u64,
+        /// First texts, and then the last ones.
+        lines: Vec<PrintMessage>,
+        /// Index in `lines` of the first text after those that are left out.
+        gap: usize,
+        /// Number of texts that are left out.
+        left_out: u64,
+    },
     /// Cancellation of a run, by a page or by a newer run.
     Cancelled {
         /// Number of the run.
@@ -88,6 +99,37 @@ pub enum Event {
         /// Part of the chain as text.
         #[serde(flatten)]
         text: AroundMessage,
+    },
+    /// Place of a camera.
+    Camera {
+        /// Id of the query.
+        id: u64,
+        /// Position (m, z up).
+        eye: [f64; 3],
+        /// Point in the middle of the picture (m, z up).
+        target: [f64; 3],
+        /// Set for a parallel projection.
+        parallel: bool,
+        /// Vertical field of view (degrees), or the height (m) that a parallel projection shows.
+        shown: f64,
+    },
+    /// Chains of the systems with drawn features, as far as they match a search.
+    Parts {
+        /// Id of the query.
+        id: u64,
+        /// First matching chains.
+        parts: Vec<PartMessage>,
+        /// Number of matching chains.
+        matching: usize,
+    },
+    /// Triangles of a part of the model.
+    Part {
+        /// Id of the query.
+        id: u64,
+        /// Number of modules of the part, if a symbol selects it.
+        modules: usize,
+        /// Triangles of the part.
+        ranges: Vec<Range>,
     },
     /// Change of the names of presets.
     Presets {
@@ -174,6 +216,30 @@ pub enum Event {
         /// Reason and remedy.
         text: String,
     },
+}
+
+/// Text that a script printed.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct PrintMessage {
+    /// Text as printed; the end of a long text is cut.
+    pub text: String,
+    /// File of the line that printed it; empty if unknown.
+    pub file: String,
+    /// Line that printed it; 0 if unknown.
+    pub line: usize,
+    /// Number of times in a row that the line printed this text.
+    pub count: u64,
+}
+
+/// Chain of a system, for the list of the model's parts.
+#[derive(Debug, Clone, Serialize)]
+pub struct PartMessage {
+    /// Index of the system in the script, from 0.
+    pub system: usize,
+    /// Index of the chain.
+    pub chain: usize,
+    /// Id of the chain's feature.
+    pub feature: Option<String>,
 }
 
 /// Properties of the server.

@@ -13,10 +13,10 @@ mod origin;
 
 pub use cause::Cause;
 pub use command::{PageCommand, PickCommand, read};
-pub use event::{Event, FormatMessage, Hello};
+pub use event::{Event, FormatMessage, Hello, PartMessage, PrintMessage};
 pub use model::{
-    Bounds, ControlMessage, CountMessage, ModelMessage, ParamMessage, RuleMessage, SystemMessage,
-    TimesMessage,
+    Bounds, CameraMessage, ControlMessage, CountMessage, ModelMessage, ParamMessage, RuleMessage,
+    SystemMessage, TimesMessage,
 };
 pub use origin::{
     AroundMessage, HighlightMessage, ModuleMessage, NamedValue, OriginMessage, PickMessage, Range, RulePlace,

@@ -39,6 +39,8 @@ pub struct ModelMessage {
     pub nothing: Option<String>,
     /// Parameters in the script's order, with the parameters of required files last.
     pub params: Vec<ParamMessage>,
+    /// Cameras that the script declares, in its order.
+    pub cameras: Vec<CameraMessage>,
     /// Systems in the order of their derivation.
     pub systems: Vec<SystemMessage>,
     /// Rules, with their costs.
@@ -62,6 +64,19 @@ pub struct Bounds {
     pub high: [f64; 3],
 }
 
+/// Camera that the script declares.
+#[derive(Debug, Clone, Serialize)]
+pub struct CameraMessage {
+    /// Name.
+    pub name: String,
+    /// Kind of its view: `perspective`, `orthographic`, `plan` or `eye`.
+    pub view: &'static str,
+    /// File of the declaration; empty if unknown.
+    pub file: String,
+    /// Line of the declaration.
+    pub line: usize,
+}
+
 /// Parameter with its control.
 #[derive(Debug, Clone, Serialize)]
 pub struct ParamMessage {
@@ -81,6 +96,8 @@ pub struct ParamMessage {
     pub changed: bool,
     /// Control for the allowed values.
     pub control: ControlMessage,
+    /// Heading that it shares with other parameters; may be empty.
+    pub group: String,
     /// Unit; may be empty.
     pub unit: String,
     /// Description; may be empty.
@@ -220,6 +237,7 @@ impl ParamMessage {
                     },
                 },
             },
+            group: param.group.clone(),
             unit: param.unit.clone(),
             text: param.doc.clone(),
         }
