@@ -165,7 +165,7 @@ fn what_a_library_catches_is_raised_again_in_the_line_of_its_caller() {
       help: did you mean sides?
     ");
     assert_snapshot!(of("rgb", "error(made, 2)"), @r##"
-    error: s.lua:10:3: rgb takes a colour such as "#336699", not a table
+    error: s.lua:10:3: rgb takes a colour such as "#336699" or "orange", not a table
       | return make({ sidess = 3 })
       | ^^^^^^^^^^^^^^^^^^^^^^^^^^^
     "##);

@@ -149,7 +149,7 @@ fn a_script_of_a_recipe_without_its_package_names_the_package() {
     folder.burgeon(&[&RUN[..], &["--mods", "mods", "-o", "a.glb"]].concat()).done();
     folder.burgeon(&["open", "a.glb", "--no-live", "--data", "data"]).done();
     let error = folder.burgeon(&["run", "a-recipe/s.lua", "--data", "data"]).failed();
-    assert!(error.contains("castle") && error.contains("a-recipe/s.lua:2:"), "{error}");
+    assert!(error.contains("castle") && error.contains("a-recipe/s.lua:5:"), "{error}");
 }
 
 #[test]

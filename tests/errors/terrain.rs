@@ -558,7 +558,7 @@ land:derive()
 ";
     let folder = Folder::new().with("s.lua", script);
     folder.burgeon(&["run", "s.lua", "--strict", "-o", "s.obj"]).done();
-    let model = std::fs::read_to_string(folder.0.path().join("s.obj")).unwrap();
+    let model = String::from_utf8(folder.read_bytes("s.obj")).unwrap();
     // The first object is the ground, the second its sides and its underside.
     let lowest: Vec<f64> = model
         .split("\no ")

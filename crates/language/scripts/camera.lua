@@ -7,7 +7,7 @@ local chain = {}
 for number = 1, 10 do
   chain[number] = Pole(number * 4)
 end
-poles:axiom(chain)
+poles:axiom(sequence(chain))
 poles:interpret("Pole(y)", function(this, y)
   this:jump({ 0, y, 0 }):scale(0.2):extrude(4)
 end)

@@ -5,5 +5,5 @@ local chain = {}
 for number = 1, leaves do
   chain[number] = { Turn(number * 360 / leaves), F(1) }
 end
-bush:axiom(chain)
+bush:axiom(sequence(chain))
 bush:derive()

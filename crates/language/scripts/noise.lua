@@ -5,7 +5,7 @@ local chain = {}
 for x = 1, 20 do
   chain[x] = { Bar(x) }
 end
-bars:axiom(chain)
+bars:axiom(sequence(chain))
 bars:interpret("Bar(x)", function(this, x)
   this:jump({ x, 0, 0 }):scale(0.5):extrude(2 + noise(x / 5))
 end)
