@@ -2,7 +2,8 @@
 -- A simple building, as in CGA's first tutorial: a mass on a lot, storeys, tiles with windows, and a door in the front.
 local facade = require("elements/facade")
 local Mass, Storey = module("Mass", "shape"), module("Storey", "shape")
-local Wall, Front, Tile = module("Wall", "shape"), module("Front", "shape"), module("Tile", "shape")
+local Wall, Front = module("Wall", "shape"), module("Front", "shape")
+local Tile, Opening = module("Tile", "shape"), module("Opening", "shape")
 
 local lot = shape({ { 0, 0 }, { 18, 0 }, { 18, 12 }, { 0, 12 } })
 local mass = lot:setback(1)[1]:extrude(13)
@@ -32,16 +33,16 @@ house:rule("Wall(s)", function(this, s: Shape)
   return split(s, "x", { { { "~2.6", Tile } } })
 end)
 house:rule("Tile(s)", function(this, s: Shape)
-  local function window(opening: Shape)
-    local modules = {}
-    for at, part in facade.window(opening, 0.2, 0.07) do
-      modules[at] = Shape(part)
-    end
-    return table.unpack(modules)
-  end
   local function column(part: Shape)
-    return split(part, "y", { { 0.9, Shape }, { "~1", window }, { 0.6, Shape } })
+    return split(part, "y", { { 0.9, Shape }, { "~1", Opening }, { 0.6, Shape } })
   end
   return split(s, "x", { { "~1", Shape }, { 1.2, column }, { "~1", Shape } })
+end)
+house:rule("Opening(s)", function(this, s: Shape)
+  local modules = {}
+  for at, part in facade.window(s, 0.2, 0.07) do
+    modules[at] = Shape(part)
+  end
+  return table.unpack(modules)
 end)
 house:derive()

@@ -14,7 +14,8 @@ end
 
 -- A pane behind a reveal of `depth` (m), with a frame of `width` (m) around it.
 function facade.window(face: Shape, depth: number, width: number): { Shape }
-  local pane = face:shift(vec(0, 0, -depth))
+  -- Without the tags of the wall, which can come from an extrusion too.
+  local pane = face:untag("extrude"):shift(vec(0, 0, -depth))
   local reveal = pane:extrude(depth):joined_faces("tag:extrude.side") :: Shape
   local shapes = { reveal:reverse(), pane:color("#3f4f5c") }
   for _, strip in pane:border(width) do
