@@ -45,19 +45,4 @@ function facade.balustrade(face: Shape, height: number, distance: number): { Sha
   return shapes
 end
 
--- A cornice at the top of a face: steps, each a height and a projection (m), from the lowest.
-function facade.cornice(face: Shape, steps: { { number } }): { Shape }
-  local shapes: { Shape } = {}
-  local size = face:size()
-  local y = size.y
-  for at = #steps, 1, -1 do
-    local part = facade.part(face, 0, size.x, y - steps[at][1], y)
-    if part then
-      table.insert(shapes, part:extrude(steps[at][2]))
-    end
-    y -= steps[at][1]
-  end
-  return shapes
-end
-
 return facade
