@@ -554,15 +554,14 @@ names.Shape = module("Shape", "shape")
 __interpretation("turtle", "Shape", "shape")
 __interpretation("extruder", "Shape", "shape")
 
---- Adds what a part becomes: a module with the part, what a function returns for it, or nothing for false.
+--- Adds what a part becomes: a module with the part, all that a function returns for it, or nothing for false.
 local function add_part(list: { any }, maker: any, part: any, owner: string)
   if maker == false then
     return
   elseif maker == nil then
     refuse(`{owner}: an entry has no module`, "write { 3, Floor }, or { 3, false } to leave the part empty")
   end
-  local item = maker(part)
-  if item ~= nil then
+  for _, item in { maker(part) } do
     table.insert(list, item)
   end
 end

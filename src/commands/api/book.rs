@@ -14,7 +14,7 @@ const AXES: [&str; 2] = ["extruder", "turtle"];
 pub(super) type Page = (String, String);
 
 /// Chapters that are written by hand: their titles and files.
-const CHAPTERS: [(&str, &str); 28] = [
+const CHAPTERS: [(&str, &str); 29] = [
     ("Contexts and features", "rules"),
     ("Phases, hooks and variables", "phases"),
     ("Environments", "environments"),
