@@ -47,6 +47,8 @@ fn no_shipped_script_has_an_error_in_strict_mode() {
         "examples/models/classics",
         "examples/models/lpy",
         "examples/models/vlab",
+        "examples/shapes",
+        "examples/shapes/elements",
         "examples/translated",
         "crates/objects/scripts",
     ] {
