@@ -553,6 +553,7 @@ __interpretation("turtle", "Place", "place")
 names.Shape = module("Shape", "shape")
 __interpretation("turtle", "Shape", "shape")
 __interpretation("extruder", "Shape", "shape")
+__interpretation("footprint", "Shape", "shape")
 
 --- Adds what a part becomes: a module with the part, all that a function returns for it, or nothing for false.
 local function add_part(list: { any }, maker: any, part: any, owner: string)

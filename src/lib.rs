@@ -20,12 +20,13 @@
 //! scene      uses ──► base
 //! kit        uses ──► base, macros, rewriting, scene
 //! geometry   uses ──► base, scene
+//! shapes     uses ──► base, geometry, scene
 //! streets    uses ──► base, geometry
 //! spatial    uses ──► base, geometry, kit
 //! data       uses ──► base, kit, spatial
 //! sources    uses ──► base, data, kit, spatial
 //! terrain    uses ──► base, geometry, scene
-//! objects    uses ──► base, data, geometry, kit, rewriting, scene, spatial, streets, terrain
+//! objects    uses ──► base, data, geometry, kit, rewriting, scene, shapes, spatial, streets, terrain
 //! packages   uses ──► base
 //! language   uses ──► base, kit, rewriting
 //! engine     uses ──► base, kit, language, packages, rewriting, scene, spatial

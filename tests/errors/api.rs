@@ -249,7 +249,7 @@ fn a_name_that_there_is_not_is_likely_another() {
     ");
     assert_snapshot!(failed("roof"), @r"
     error: unknown name `roof`
-      help: there is footprint:roof
+      help: there is footprint:roof, shape:roof
     ");
     assert_snapshot!(failed("window"), @r"
     error: unknown name `window`

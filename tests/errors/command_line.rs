@@ -170,7 +170,7 @@ fn a_check_finds_what_only_a_run_meets_and_a_quick_one_derives_nothing() {
     let document = folder.burgeon(&["check", "s.lua", "--quick", "--json", "--set", "n=4"]).done().json();
     assert_eq!(
         document.to_string(),
-        r#"{"ok":true,"params":[{"name":"n","package":null,"value":4.0,"default":3.0,"unit":"m","text":"how far","type":"number"}],"warnings":[]}"#
+        r#"{"ok":true,"params":[{"name":"n","package":null,"value":4.0,"default":3.0,"group":"","unit":"m","text":"how far","type":"number"}],"warnings":[]}"#
     );
     assert_eq!(folder.files().len(), 1);
 }

@@ -44,7 +44,7 @@ s:rule("Building(h, n, c)", {
     return n > 0 and h ~= nil
   end,
 }, function(this, h, n, c)
-  return Walls(h * n / 2, c), Roof(n == 7 and "onion" or "flat")
+  return Walls(h * n / 2, c), Roof(n == 7 and "oniun" or "flat")
 end)
 s:interpret("Walls(h, c)", function(this, h, c)
   this:walls({ height = h + 1, color = c })
@@ -77,7 +77,7 @@ fn bad() -> Vec<(Value, &'static str)> {
         (with(json!({ "height": null })), "height is missing"),
         (with(json!({ "levels": "many" })), "attempt to compare"),
         (with(json!({ "levels": { "a": 1 } })), "attempt to compare"),
-        (with(json!({ "levels": 7 })), "unknown kind \"onion\""),
+        (with(json!({ "levels": 7 })), "unknown kind \"oniun\""),
         (with(json!({ "colour": "no such" })), "color must be a colour"),
         (with(json!({ "colour": "lightblu" })), "such as \"lightblue\""),
         (with(json!({ "colour": 7 })), "color must be a colour"),

@@ -48,7 +48,7 @@ fn the_summary_and_the_document_have_the_totals() {
     let document = folder.burgeon(&["run", "s.lua", "--json"]).done().json();
     assert_eq!(
         document["reports"],
-        json!({ "length, m": { "sum": 12.0, "chains": 3 }, "long": { "sum": 4.0, "chains": 1 } })
+        json!({ "length, m": { "sum": 12.0, "count": 12, "chains": 3 }, "long": { "sum": 4.0, "count": 4, "chains": 1 } })
     );
     let part = folder.burgeon(&["run", "s.lua", "--part", "3/3", "--reach", "10", "--json"]).done().json();
     assert_eq!(part["reports"]["length, m"], json!({ "sum": 6.0, "chains": 1 }));

@@ -15,6 +15,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "Pitch" shows "Pitch" "Down" "Up";
     "Place" shows "Place";
     "Roll" shows "Roll" "RollLeft" "RollRight";
+    "Shape" shows "Shape";
     "Sphere" shows "Sphere";
     "Turn" shows "Turn" "Left" "Right";
     "TurnAround" shows "TurnAround";
@@ -26,7 +27,9 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "camera" shows "camera";
     "choose" shows "choose";
     "color" shows "color";
+    "components" shows "components";
     "consider" shows "system:consider";
+    "cuboid" shows "cuboid" "rectangle" "disk" "cylinder" "cone" "ball";
     "decompose" shows "system:decompose";
     "derived" shows "derived" "derived:chain";
     "ease" shows "ease" "ease.in" "ease.out" "ease.inout" "ease.smooth" "ease.sine" "ease.back";
@@ -59,7 +62,9 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "rgb" shows "rgb";
     "rule" shows "rule" "system:rule";
     "sequence" shows "sequence";
+    "shape" shows "shape";
     "source" shows "source";
+    "split" shows "split";
     "step" shows "step";
     "stop" shows "stop" "system:after_step" "now";
     "stream" shows "stream";

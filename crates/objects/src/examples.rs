@@ -43,6 +43,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "extruder/twist" shows "extruder:twist";
     "footprint/groundwork" shows "footprint:groundwork";
     "footprint/roof" shows "footprint:roof";
+    "footprint/shape" shows "footprint:shape" "footprint:plan";
     "footprint/walls" shows "footprint:walls";
     "terrain/cut" shows "terrain:cut";
     "terrain/dig" shows "terrain:dig";
@@ -136,7 +137,7 @@ pub const PLAIN_EXAMPLES: &[ScriptExample] = examples! {
     "shape/relations" shows "shape:contains" "shape:overlaps" "shape:touches" "shape:distance";
     "shape/sets" shows "shape:union" "shape:subtract" "shape:intersect" "shape:trim";
     "shape/solids" shows "shape:extrude" "shape:taper" "shape:molding" "shape:loft" "shape:chamfer"
-        "shape:fillet";
+        "shape:fillet" "shape:crop" "shape:recess";
     "shape/tags" shows "shape:tag" "shape:untag" "shape:tags" "shape:has_tag" "shape:recompose";
     "volumes/distance" shows "volumes:has" "volumes:count" "volumes:is_free" "volumes:distance";
     "soil/total" shows "soil:add" "soil:diffuse" "soil:amount" "soil:total";

@@ -11,7 +11,7 @@ use crate::style::SharedStyle;
 
 /// Geometry of a shape. Boxes and rectangles that fill their scope need no mesh, so that a million of them fit in memory.
 #[derive(Debug, Clone)]
-pub enum Body {
+pub enum ShapeBody {
     /// The solid of the scope, with the styles of its faces: bottom, front, right, back, left and top.
     Box(Option<Arc<[SharedStyle; 6]>>),
     /// The rectangle of the scope's x and y axes, which faces along z.
@@ -31,7 +31,7 @@ pub(crate) const TOP: usize = 5;
 /// A mesh without faces.
 static EMPTY: LazyLock<PolygonMesh> = LazyLock::new(PolygonMesh::default);
 
-impl Body {
+impl ShapeBody {
     /// Returns the faces as a mesh; empty for an edge.
     pub(crate) fn mesh(&self, scope: &Scope) -> Cow<'_, PolygonMesh> {
         match self {

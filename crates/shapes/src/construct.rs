@@ -6,7 +6,7 @@ use burgeon_geometry::{Polygon, Rings};
 use burgeon_scene::Part;
 use glam::{DMat3, DVec2, DVec3};
 
-use crate::mesh::{MeshBuilder, PolygonFace, PolygonMesh};
+use crate::mesh::{PolygonFace, PolygonMesh, PolygonMeshBuilder};
 use crate::{Scope, Shape};
 
 /// Range of the number of sides of round primitives.
@@ -31,7 +31,7 @@ impl Shape {
         let along = if along.x < -1e-9 || (along.x.abs() <= 1e-9 && along.y < 0.0) { -along } else { along };
         let x = along.extend(0.0);
         let axes = DMat3::from_cols(x, DVec3::Z.cross(x), DVec3::Z);
-        let mut builder = MeshBuilder::default();
+        let mut builder = PolygonMeshBuilder::default();
         let lifted: Vec<Vec<DVec3>> =
             polygon.iter().map(|ring| ring.iter().map(|at| at.extend(height)).collect()).collect();
         builder.face(lifted.iter().map(Vec::as_slice), &None);
@@ -41,13 +41,13 @@ impl Shape {
     /// Creates a rectangle with a corner at the origin that looks upwards.
     pub fn rectangle(size: DVec2) -> Self {
         let scope = Scope { size: size.extend(0.0), ..Scope::default() };
-        Self { scope, body: crate::Body::Rectangle(None) }
+        Self { scope, body: crate::ShapeBody::Rectangle(None) }
     }
 
     /// Creates a regular polygon around the origin that looks upwards; fails unless it has 3 to 1024 sides.
     pub fn disk(radius: f64, sides: u32) -> Result<Self> {
         let ring = circle(radius, sides)?;
-        let mut builder = MeshBuilder::default();
+        let mut builder = PolygonMeshBuilder::default();
         builder.face([ring.as_slice()], &None);
         Ok(Self::of_mesh(builder.build(), DMat3::IDENTITY))
     }
@@ -71,7 +71,7 @@ impl Shape {
             let (sin, cos) = (std::f64::consts::PI * f64::from(number) / f64::from(rows)).sin_cos();
             ring.iter().map(|at| DVec3::new(at.x * sin, at.y * sin, -cos) * radius).collect()
         };
-        let mut builder = MeshBuilder::default();
+        let mut builder = PolygonMeshBuilder::default();
         let poles = [DVec3::NEG_Z * radius, DVec3::Z * radius];
         for number in 0..rows {
             let (low, high) = (row(number), row(number + 1));

@@ -17,7 +17,7 @@ mod solids;
 mod split;
 mod style;
 
-pub use body::Body;
+pub use body::ShapeBody;
 pub use components::edges::EdgeKind;
 pub use components::selector::Selector;
 pub use cut::plane::CutPlane;

@@ -6,20 +6,20 @@ use burgeon_geometry::ClosedMesh;
 use burgeon_scene::nearest_on_triangle;
 use glam::DVec3;
 
-use crate::{Body, Shape};
+use crate::{Shape, ShapeBody};
 
 /// Distance (m) within which shapes touch, and above which they overlap.
 const CONTACT: f64 = 1e-5;
 /// Number of pairs of triangles between two checks for cancellation.
 const STRETCH: usize = 1 << 16;
 
-/// Triangles of a shape with their bounding boxes.
-struct Triangles(Vec<([DVec3; 3], [DVec3; 2])>);
+/// BoundedTriangles of a shape with their bounding boxes.
+struct BoundedTriangles(Vec<([DVec3; 3], [DVec3; 2])>);
 
 impl Shape {
     /// Returns true if a position (m) is inside the solid. Fails if the shape is open.
     pub fn contains(&self, place: DVec3) -> Result<bool> {
-        if let Body::Box(_) = self.body {
+        if let ShapeBody::Box(_) = self.body {
             let local = self.scope.local(place);
             return Ok(local.cmpge(DVec3::ZERO).all() && local.cmple(self.scope.size).all());
         }
@@ -28,7 +28,7 @@ impl Shape {
 
     /// Returns the distance (m) from a position to the nearest point of the faces, or of the edge; 0 inside a solid.
     pub fn distance_to_place(&self, place: DVec3) -> Result<f64> {
-        if let Body::Edge(..) = self.body {
+        if let ShapeBody::Edge(..) = self.body {
             let along = self.scope.local(place).x.clamp(0.0, self.scope.size.x);
             return Ok(place.distance(self.scope.point(DVec3::X * along)));
         }
@@ -70,7 +70,7 @@ impl Shape {
         if self.is_apart(other) {
             return Ok(false);
         }
-        if let (Body::Box(_), Body::Box(_)) = (&self.body, &other.body) {
+        if let (ShapeBody::Box(_), ShapeBody::Box(_)) = (&self.body, &other.body) {
             return Ok(boxes_overlap(self, other));
         }
         let (own, others) = (self.triangle_list()?, other.triangle_list()?);
@@ -112,7 +112,7 @@ impl Shape {
         ClosedMesh::new(self.triangle_list()?.0.into_iter().map(|(corners, _)| corners).collect())
     }
 
-    fn triangle_list(&self) -> Result<Triangles> {
+    fn triangle_list(&self) -> Result<BoundedTriangles> {
         let mesh = self.mesh();
         let mut all = Vec::new();
         for face in &mesh.faces {
@@ -121,7 +121,7 @@ impl Shape {
                 ([a, b, c], [a.min(b).min(c), a.max(b).max(c)])
             }));
         }
-        Ok(Triangles(all))
+        Ok(BoundedTriangles(all))
     }
 }
 

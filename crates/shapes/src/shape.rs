@@ -9,7 +9,7 @@ use glam::{DMat3, DVec3};
 use crate::body::TOP;
 use crate::mesh::PolygonMesh;
 use crate::style::{FaceStyle, SharedStyle};
-use crate::{Body, Scope};
+use crate::{Scope, ShapeBody};
 
 /// A solid, faces or an edge, with a scope. A shape never changes.
 ///
@@ -25,7 +25,7 @@ pub struct Shape {
     /// Coordinate system.
     pub scope: Scope,
     /// Geometry.
-    pub body: Body,
+    pub body: ShapeBody,
 }
 
 /// Smallest extent (m) along an axis that is not 0.
@@ -34,7 +34,7 @@ const THINNEST: f64 = 1e-6;
 impl Shape {
     /// Creates a box with a corner at the origin.
     pub fn cuboid(size: DVec3) -> Self {
-        Self { scope: Scope { size, ..Scope::default() }, body: Body::Box(None) }
+        Self { scope: Scope { size, ..Scope::default() }, body: ShapeBody::Box(None) }
     }
 
     /// Creates a shape of faces, with a scope of these axes around them. Boxes and rectangles that fill it are recognised.
@@ -46,16 +46,16 @@ impl Shape {
             }
         }
         if let Some(style) = rectangle_style(&mesh, &scope) {
-            return Self { scope, body: Body::Rectangle(style) };
+            return Self { scope, body: ShapeBody::Rectangle(style) };
         }
-        Self { scope, body: Body::Mesh(Arc::new(mesh)) }
+        Self { scope, body: ShapeBody::Mesh(Arc::new(mesh)) }
     }
 
     /// Creates the face of a polygon in the plane of a scope's x and y axes, with a scope around it.
     pub fn of_polygon(polygon: &Polygon, frame: &Scope, style: &SharedStyle) -> Self {
         let rings: Vec<Vec<DVec3>> =
             polygon.iter().map(|ring| ring.iter().map(|at| frame.point(at.extend(0.0))).collect()).collect();
-        let mut builder = crate::mesh::MeshBuilder::default();
+        let mut builder = crate::mesh::PolygonMeshBuilder::default();
         builder.face(rings.iter().map(Vec::as_slice), style);
         Self::of_mesh(builder.build(), frame.axes)
     }
@@ -68,17 +68,17 @@ impl Shape {
     /// Returns true if every edge has the same number of faces in both directions.
     pub fn is_closed(&self) -> bool {
         match &self.body {
-            Body::Box(_) => true,
-            Body::Rectangle(_) | Body::Edge(..) => false,
-            Body::Mesh(mesh) => mesh.is_closed(),
+            ShapeBody::Box(_) => true,
+            ShapeBody::Rectangle(_) | ShapeBody::Edge(..) => false,
+            ShapeBody::Mesh(mesh) => mesh.is_closed(),
         }
     }
 
     /// Returns the enclosed volume (m³); 0 if the shape is open.
     pub fn volume(&self) -> f64 {
         match &self.body {
-            Body::Box(_) => self.scope.size.element_product(),
-            Body::Mesh(mesh) if mesh.is_closed() => mesh.volume(),
+            ShapeBody::Box(_) => self.scope.size.element_product(),
+            ShapeBody::Mesh(mesh) if mesh.is_closed() => mesh.volume(),
             _ => 0.0,
         }
     }
@@ -87,25 +87,25 @@ impl Shape {
     pub fn area(&self) -> f64 {
         let size = self.scope.size;
         match &self.body {
-            Body::Box(_) => 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x),
-            Body::Rectangle(_) => size.x * size.y,
-            Body::Edge(..) => 0.0,
-            Body::Mesh(mesh) => mesh.area(),
+            ShapeBody::Box(_) => 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x),
+            ShapeBody::Rectangle(_) => size.x * size.y,
+            ShapeBody::Edge(..) => 0.0,
+            ShapeBody::Mesh(mesh) => mesh.area(),
         }
     }
 
     /// Returns the normal of the first face; the z axis of an edge.
     pub fn normal(&self) -> DVec3 {
         match &self.body {
-            Body::Mesh(mesh) => mesh.faces.first().map_or(DVec3::ZERO, |face| mesh.normal(face)),
-            Body::Box(_) => -self.scope.axes.z_axis,
-            Body::Rectangle(_) | Body::Edge(..) => self.scope.axes.z_axis,
+            ShapeBody::Mesh(mesh) => mesh.faces.first().map_or(DVec3::ZERO, |face| mesh.normal(face)),
+            ShapeBody::Box(_) => -self.scope.axes.z_axis,
+            ShapeBody::Rectangle(_) | ShapeBody::Edge(..) => self.scope.axes.z_axis,
         }
     }
 
     /// Returns the mean of the faces' centroids (m), weighted by area; the middle of the scope if there is none.
     pub fn centroid(&self) -> DVec3 {
-        let Body::Mesh(mesh) = &self.body else { return self.scope.center() };
+        let ShapeBody::Mesh(mesh) = &self.body else { return self.scope.center() };
         let (mut sum, mut area) = (DVec3::ZERO, 0.0);
         for (center, own) in mesh.faces.iter().map(|face| mesh.centroid(face)) {
             sum += center * own;
@@ -117,11 +117,11 @@ impl Shape {
     /// Returns the styles of all faces.
     pub fn styles(&self) -> Vec<Option<Arc<FaceStyle>>> {
         match &self.body {
-            Body::Box(styles) => {
+            ShapeBody::Box(styles) => {
                 styles.as_deref().map_or_else(|| vec![None; TOP + 1], |styles| styles.to_vec())
             }
-            Body::Rectangle(style) | Body::Edge(_, style) => vec![style.clone()],
-            Body::Mesh(mesh) => mesh.faces.iter().map(|face| face.style.clone()).collect(),
+            ShapeBody::Rectangle(style) | ShapeBody::Edge(_, style) => vec![style.clone()],
+            ShapeBody::Mesh(mesh) => mesh.faces.iter().map(|face| face.style.clone()).collect(),
         }
     }
 
@@ -129,17 +129,17 @@ impl Shape {
     #[must_use]
     pub fn with_styles(&self, change: impl Fn(&Option<Arc<FaceStyle>>) -> Option<Arc<FaceStyle>>) -> Self {
         let body = match &self.body {
-            Body::Box(styles) => {
+            ShapeBody::Box(styles) => {
                 let of = |face: usize| change(&styles.as_deref().and_then(|styles| styles[face].clone()));
                 let new: [SharedStyle; 6] = std::array::from_fn(of);
-                Body::Box(new.iter().any(Option::is_some).then(|| Arc::new(new)))
+                ShapeBody::Box(new.iter().any(Option::is_some).then(|| Arc::new(new)))
             }
-            Body::Rectangle(style) => Body::Rectangle(change(style)),
-            Body::Edge(kind, style) => Body::Edge(*kind, change(style)),
-            Body::Mesh(mesh) => {
+            ShapeBody::Rectangle(style) => ShapeBody::Rectangle(change(style)),
+            ShapeBody::Edge(kind, style) => ShapeBody::Edge(*kind, change(style)),
+            ShapeBody::Mesh(mesh) => {
                 let mut new = (**mesh).clone();
                 new.faces.iter_mut().for_each(|face| face.style = change(&face.style));
-                Body::Mesh(Arc::new(new))
+                ShapeBody::Mesh(Arc::new(new))
             }
         };
         Self { scope: self.scope, body }
@@ -147,7 +147,7 @@ impl Shape {
 
     /// Returns the approximate memory (bytes).
     pub fn memory(&self) -> usize {
-        let mesh = if let Body::Mesh(mesh) = &self.body { mesh.memory() } else { 0 };
+        let mesh = if let ShapeBody::Mesh(mesh) = &self.body { mesh.memory() } else { 0 };
         size_of::<Self>() + mesh
     }
 

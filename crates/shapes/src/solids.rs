@@ -143,17 +143,22 @@ impl Shape {
             points.iter().fold([first; 2], |[low, high], at| [low.min(*at), high.max(*at)])
         };
         match &self.body {
-            crate::Body::Mesh(mesh) => around(&mesh.points),
+            crate::ShapeBody::Mesh(mesh) => around(&mesh.points),
             _ => around(&self.scope.corners()),
         }
     }
 }
 
 /// Points, corners and the style number of each corner, as the crate `boolmesh` takes them.
-type Triangles = (Vec<f64>, Vec<usize>, Vec<f64>);
+type TriangleColumns = (Vec<f64>, Vec<usize>, Vec<f64>);
 
 /// Returns the triangles of a solid relative to `center` (m), and adds the styles of its faces with another tag.
-fn triangles(shape: &Shape, center: DVec3, tag: &str, styles: &mut Vec<SharedStyle>) -> Result<Triangles> {
+fn triangles(
+    shape: &Shape,
+    center: DVec3,
+    tag: &str,
+    styles: &mut Vec<SharedStyle>,
+) -> Result<TriangleColumns> {
     let mesh = shape.mesh();
     let points = mesh.points.iter().flat_map(|at| (*at - center).to_array()).collect();
     let (mut corners, mut faces) = (Vec::new(), Vec::new());

@@ -8,7 +8,7 @@ use burgeon_base::{MemoryOwner, Stop};
 use crate::cut::plane::CutPlane;
 use crate::sizes::DividedParts;
 use crate::style::SharedStyle;
-use crate::{Body, PartSizes, Scope, Shape};
+use crate::{PartSizes, Scope, Shape, ShapeBody};
 
 /// Axis of a split.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,7 +65,7 @@ impl Shape {
         MemoryOwner::ensure_room(parts.len() * size_of::<(usize, Shape)>())?;
         let mut split = SplitParts { rest, missing, ..SplitParts::default() };
         match &self.body {
-            Body::Box(styles) => {
+            ShapeBody::Box(styles) => {
                 let styles = BoxStyles::new(styles, axis);
                 split.parts.reserve(parts.len());
                 for (number, part) in parts.iter().enumerate() {
@@ -73,11 +73,11 @@ impl Shape {
                         Stop::check_current()?;
                     }
                     let scope = self.scope.slab(axis, [part.from, part.to]);
-                    let body = Body::Box(styles.of(part.from <= 0.0, part.to >= whole));
+                    let body = ShapeBody::Box(styles.of(part.from <= 0.0, part.to >= whole));
                     split.parts.push((part.entry, Self { scope, body }));
                 }
             }
-            Body::Rectangle(_) | Body::Edge(..) if axis < 2 => {
+            ShapeBody::Rectangle(_) | ShapeBody::Edge(..) if axis < 2 => {
                 split.parts.extend(parts.iter().map(|part| {
                     let scope = self.scope.slab(axis, [part.from, part.to]);
                     (part.entry, Self { scope, body: self.body.clone() })

@@ -50,7 +50,7 @@ impl FaceStyle {
     }
 
     /// Returns true if a tag matches `pattern`.
-    pub(crate) fn has_tag(style: &SharedStyle, pattern: &str) -> bool {
+    pub fn has_tag(style: &SharedStyle, pattern: &str) -> bool {
         style.as_deref().is_some_and(|own| own.tags.iter().any(|tag| matches_tag(pattern, tag)))
     }
 }

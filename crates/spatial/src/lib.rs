@@ -53,7 +53,7 @@ pub use reach::{BoundingBox, near_selection, representative_point};
 pub use records::{Record, RecordTable};
 pub use relation::Relation;
 pub use scripting::{
-    GeometryArgument, GeometryList, GeometryObject, Lines, Path, PolygonArgument, constructors, rings,
+    GeometryInput, GeometryList, GeometryObject, Lines, Path, PolygonArgument, constructors, rings,
 };
 pub use topology::PreparedGeometry;
 

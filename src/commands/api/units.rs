@@ -6,7 +6,7 @@ use super::entry::{Entry, EntryGroup, Member, MemberKind};
 use burgeon::language::CallForm;
 
 /// Counts.
-const COUNTS: [&str; 39] = [
+const COUNTS: [&str; 42] = [
     "derive.steps",
     "derived.modules",
     "derived.steps",
@@ -37,6 +37,9 @@ const COUNTS: [&str; 39] = [
     "now.step",
     "planet.levels",
     "shadow_voxels.depth",
+    "shape:array count",
+    "shape:fillet segments",
+    "shape:scatter count",
     "source.limit",
     "surface.degree",
     "surface.divisions",
@@ -49,7 +52,7 @@ const COUNTS: [&str; 39] = [
 ];
 
 /// Fractions, probabilities, weights and factors.
-const FACTORS: [&str; 68] = [
+const FACTORS: [&str; 69] = [
     ".amount",
     ".metallic",
     ".noise",
@@ -100,6 +103,7 @@ const FACTORS: [&str; 68] = [
     "rule.weight",
     "shadow_voxels.decay",
     "shadow_voxels.strength",
+    "shape:taper scale",
     "surface.weights",
     "surface:mix t",
     "surface:normal u",
@@ -164,7 +168,7 @@ const NUMBERS: [&str; 39] = [
 ];
 
 /// Values in any unit that the script or the file uses.
-const ANY: [&str; 41] = [
+const ANY: [&str; 43] = [
     ".time",
     "beta a",
     "beta b",
@@ -176,6 +180,7 @@ const ANY: [&str; 41] = [
     "choose weights",
     "elevation.bounds",
     "expect tolerance",
+    "footprint:roof.direction",
     "lerp a",
     "lerp b",
     "normal deviation",
@@ -199,6 +204,7 @@ const ANY: [&str; 41] = [
     "remap to",
     "remap x",
     "report value",
+    "shape:envelope limits",
     "soil.amount",
     "soil:add amount",
     "soil:take amount",

@@ -45,12 +45,12 @@ impl Default for Limits {
 #[derive(Clone)]
 pub struct Print(PrintReceiver);
 
-type TakePlaced = dyn Fn(&str, Option<SourcePlace>) + Send + Sync;
+type PlacedPrintReceiver = dyn Fn(&str, Option<SourcePlace>) + Send + Sync;
 
 #[derive(Clone)]
 enum PrintReceiver {
     Texts(Arc<dyn Fn(&str) + Send + Sync>),
-    Places(Arc<TakePlaced>),
+    Places(Arc<PlacedPrintReceiver>),
 }
 
 impl Print {

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use super::checks::Height;
 use super::options::FootprintOptions;
 use super::*;
 use crate::facade;
+use crate::roofs::Height;
 use burgeon_base::error::Result;
 use burgeon_geometry::Rings;
 use burgeon_kit::declare::as_mut;

@@ -1,10 +1,10 @@
 //! Tests of roofs and their surroundings: projecting storeys, neighbours, and the materials of walls.
 
-use super::checks::Height;
 use super::options::FootprintOptions;
 use super::*;
 use crate::MaterialOptions;
 use crate::facade;
+use crate::roofs::Height;
 use burgeon_base::random::Stream;
 use burgeon_geometry::Rings;
 use burgeon_kit::TableKey;

@@ -1,14 +1,17 @@
 //! The read and write methods of footprints, and the work before and after a pass.
 
-use glam::DVec3;
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec2, DVec3};
 
 use super::object::Footprint;
-use super::roof::Roof;
 use super::state::Shell;
 use super::walls::Walls;
 use crate::MaterialOptions;
+use crate::roofs::Roof;
+use crate::shapes::{ShapeObject, draw_building};
 use burgeon_base::error::Result;
-use burgeon_base::warning::Warning;
+use burgeon_base::warning::{Warning, defer_warning};
 use burgeon_kit::{TableOf, Value, Vector, methods};
 
 #[methods("footprint")]
@@ -29,6 +32,30 @@ impl Footprint {
     pub fn roof(&mut self, options: Option<TableOf<Roof>>) -> Result<()> {
         let options = options.unwrap_or_default().read()?;
         self.cover(&options)
+    }
+
+    /// Draws the faces of a shape in the coordinates of the world, in their own colours or in the colour of the footprint.
+    ///
+    /// For formats with meanings, faces with the tag "roof" are roofs, with "extrude.bottom" ground, with "window" or "door" openings,
+    /// and all others walls.
+    pub fn shape(&mut self, shape: Arc<ShapeObject>) -> Result<()> {
+        let material = self.material(None, None)?;
+        let transform = DAffine3::from_translation(-self.origin());
+        let warning = draw_building((&mut self.drawing, &material), &transform, &shape)?;
+        warning.into_iter().for_each(defer_warning);
+        Ok(())
+    }
+
+    /// Returns the plan as a face at the lowest height of the ground, in the coordinates of the world (m).
+    pub fn plan(&self) -> Result<ShapeObject> {
+        let origin = self.origin();
+        let rings: Vec<Vec<DVec2>> = self
+            .plan
+            .polygon()
+            .iter()
+            .map(|ring| ring.iter().map(|at| (*at + origin).truncate()).collect())
+            .collect();
+        Ok(ShapeObject::new(burgeon_shapes::Shape::plan(&rings, origin.z + self.plan.ground().0)?))
     }
 
     /// Returns the area (m²) without the holes.

@@ -3,7 +3,6 @@
 //! Input: a polygon, its neighbours and the ground. Output: a closed building, with a [`Warning`](burgeon_base::Warning) for
 //! each deviation from the script. A building is never skipped without a report.
 
-mod checks;
 mod cover;
 #[cfg(test)]
 mod cover_tests;
@@ -25,6 +24,4 @@ mod walls;
 
 pub use object::Footprint;
 pub use options::EdgeKeywords;
-pub(crate) use roof::roof_shape;
-pub use roof::{Roof, RoofDetail};
 pub use walls::Walls;

@@ -2,12 +2,12 @@
 
 use std::sync::{Arc, OnceLock};
 
-use super::checks::{Height, check_height};
 use super::neighbors::Neighborhood;
 use super::options::FootprintOptions;
 use super::prefetch::{LocalPlan, PlanPrefetch};
 use super::state::{Edges, Plain, Shell, Side};
 use crate::MaterialOptions;
+use crate::roofs::{Height, check_height};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
 use burgeon_geometry::Plan;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::checks::Height;
+use crate::roofs::Height;
 use crate::{LineIndex, Terrain};
 use burgeon_kit::{Color, Expectation, Parameter, Table, TableKey, Value, fields};
 use burgeon_spatial::PolygonArgument;

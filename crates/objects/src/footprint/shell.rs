@@ -3,10 +3,10 @@
 use crate::MaterialOptions;
 use glam::DVec3;
 
-use super::checks::unknown_kind;
 use super::object::Footprint;
 use super::sides::horizontal_direction;
 use super::state::Shell;
+use crate::roofs::unknown_kind;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Ring, fill};
 use burgeon_scene::SurfaceMeaning;

@@ -2,7 +2,6 @@
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
-use super::checks::{Height, check_height};
 use super::cover::WallSpan;
 use super::object::Footprint;
 use super::sides::{horizontal_direction, material_of};
@@ -11,6 +10,7 @@ use crate::MaterialOptions;
 use crate::facade::lay::MOST;
 use crate::facade::template::BLIND;
 use crate::facade::{FacadeFace, FacadeLayout, FaceMesh, Joiner, Rectangle, Template, Templates};
+use crate::roofs::{Height, check_height};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::random::Stream;
 use burgeon_base::warning::Warning;

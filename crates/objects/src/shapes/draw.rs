@@ -4,8 +4,8 @@ use burgeon_base::Stop;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::Drawing;
-use burgeon_scene::{Material, Part};
-use burgeon_shapes::{Body, PolygonFace, PolygonMesh, Scope};
+use burgeon_scene::{Material, Part, SurfaceMeaning};
+use burgeon_shapes::{FaceStyle, PolygonFace, PolygonMesh, Scope, ShapeBody, SharedStyle};
 use glam::{DAffine3, DVec3};
 
 use super::object::ShapeObject;
@@ -13,17 +13,49 @@ use super::object::ShapeObject;
 /// Number of faces between two checks for cancellation.
 const STRETCH: usize = 4096;
 
+/// Draws the faces of a shape like [`draw_shape`], with the meanings of surfaces of a building by their tags.
+pub(crate) fn draw_building(
+    to: (&mut Drawing, &Material),
+    transform: &DAffine3,
+    shape: &ShapeObject,
+) -> Result<Option<Warning>> {
+    draw(to, transform, shape, |style| {
+        let has = |pattern: &str| FaceStyle::has_tag(style, pattern);
+        Some(if has("roof") {
+            SurfaceMeaning::Roof
+        } else if has("window") {
+            SurfaceMeaning::Window
+        } else if has("door") {
+            SurfaceMeaning::Door
+        } else if has("extrude.bottom") {
+            SurfaceMeaning::Ground
+        } else {
+            SurfaceMeaning::Wall
+        })
+    })
+}
+
 /// Draws the faces of a shape at `transform`, in their colours or with the material `base`. Texture coordinates are
 /// metres in the plane of each face, x to the right seen from outside and y upwards.
 ///
 /// Returns a warning if the shape draws nothing.
 pub(crate) fn draw_shape(
-    (drawing, base): (&mut Drawing, &Material),
+    to: (&mut Drawing, &Material),
     transform: &DAffine3,
     shape: &ShapeObject,
 ) -> Result<Option<Warning>> {
+    draw(to, transform, shape, |_| None)
+}
+
+/// Draws the faces of a shape with a meaning of each.
+fn draw(
+    (drawing, base): (&mut Drawing, &Material),
+    transform: &DAffine3,
+    shape: &ShapeObject,
+    meaning: impl Fn(&SharedStyle) -> Option<SurfaceMeaning>,
+) -> Result<Option<Warning>> {
     let shape = shape.shape();
-    if matches!(shape.body, Body::Edge(..)) {
+    if matches!(shape.body, ShapeBody::Edge(..)) {
         let text = "an edge has no faces, so it draws nothing";
         let help = "sweep a section along it: an extruder at its position, with its length";
         return Ok(Some(Warning::new(WarningKind::DrawsNothing, text).help(help)));
@@ -40,7 +72,11 @@ pub(crate) fn draw_shape(
             let material = |color| Material { base_color: color, ..base.clone() };
             last = (color, color.map_or(plain, |color| drawing.material(&material(color))));
         }
-        draw_face(drawing.part(last.1), &mesh, face, transform)?;
+        let part = match meaning(&face.style) {
+            Some(meaning) => drawing.surface(last.1, meaning),
+            None => drawing.part(last.1),
+        };
+        draw_face(part, &mesh, face, transform)?;
     }
     Ok(None)
 }

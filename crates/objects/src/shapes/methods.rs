@@ -5,9 +5,9 @@ use std::sync::Arc;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::Rings;
 use burgeon_kit::{Color, TableOf, Value, Vector, methods};
-use burgeon_shapes::{Body, CutPlane, EdgeKind, FaceStyle, Selector, Shape, SolidOperation};
+use burgeon_shapes::{CutPlane, EdgeKind, FaceStyle, Selector, Shape, ShapeBody, SolidOperation};
 use burgeon_spatial::Geometry;
-use glam::{DAffine3, DMat3, DVec3};
+use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use super::edge_distances::{EdgeDistances, EnvelopeLimits};
 use super::object::{ShapeObject, warn};
@@ -60,7 +60,7 @@ impl ShapeObject {
     /// other shapes.
     pub fn edge_kind(&self) -> Option<String> {
         match &self.shape.body {
-            Body::Edge(kind, _) => Some(kind.name().into()),
+            ShapeBody::Edge(kind, _) => Some(kind.name().into()),
             _ => None,
         }
     }
@@ -77,7 +77,7 @@ impl ShapeObject {
 
     /// Returns the length of an edge, or of the outlines of open faces (m); 0 for a solid.
     pub fn length(&self) -> f64 {
-        if let Body::Edge(..) = self.shape.body {
+        if let ShapeBody::Edge(..) = self.shape.body {
             return self.shape.scope.size.x;
         }
         let mesh = self.shape.mesh();
@@ -102,7 +102,7 @@ impl ShapeObject {
 
     /// Returns the corners (m) in the order of the faces.
     pub fn points(&self) -> Vec<Vector> {
-        if let Body::Edge(..) = self.shape.body {
+        if let ShapeBody::Edge(..) = self.shape.body {
             let scope = &self.shape.scope;
             return vec![Vector(scope.origin), Vector(scope.point(scope.size))];
         }
@@ -207,6 +207,13 @@ impl ShapeObject {
         Ok(below.map(|part| self.changed(part)))
     }
 
+    /// Returns the part of faces within a rectangle along the axes of the scope, from `x` and `y` (m) with a width and a
+    /// height (m); nil if there is none.
+    pub fn crop(&self, x: f64, y: f64, width: f64, height: f64) -> Result<Option<Self>> {
+        let low = DVec2::new(x, y);
+        Ok(self.shape.crop(low, low + DVec2::new(width, height))?.map(|part| self.changed(part)))
+    }
+
     /// Returns the faces, each as a shape: all, or those that `selector` matches.
     ///
     /// Selectors are "front", "back", "left", "right", "side", "top" and "bottom" by the scope; "north", "east",
@@ -224,7 +231,7 @@ impl ShapeObject {
     /// Returns true if `selector` selects this face among the faces of the shape that it comes from, or this edge by its
     /// kind.
     pub fn matches(&self, selector: String) -> Result<bool> {
-        if let Body::Edge(kind, _) = &self.shape.body
+        if let ShapeBody::Edge(kind, _) = &self.shape.body
             && let Ok(wanted) = EdgeKind::read(&selector)
         {
             return Ok(*kind == wanted);
@@ -274,6 +281,12 @@ impl ShapeObject {
         Ok(self.changed(solid))
     }
 
+    /// Returns the back and the sides of a recess of `depth` (m) behind the faces, such as that of a window. Faces have the
+    /// tags "recess.back" and "recess.side".
+    pub fn recess(&self, depth: f64) -> Result<Self> {
+        Ok(self.changed(self.shape.recess(depth).map_err(|error| error.about("shape:recess"))?))
+    }
+
     /// Returns the solid between a face and its copy at `height` (m), scaled by `scale` (0 unless given, a pyramid).
     pub fn taper(&self, height: f64, scale: Option<f64>) -> Result<Self> {
         let solid =
@@ -286,7 +299,7 @@ impl ShapeObject {
     pub fn roof(&self, options: Option<TableOf<ShapeRoofOptions>>) -> Result<Self> {
         let ShapeRoofOptions { kind, height, slope, overhang } = options.unwrap_or_default().read()?;
         let roof = crate::Roof { kind, height, slope, overhang, ..crate::Roof::default() };
-        let shape = crate::footprint::roof_shape(&roof).map_err(|error| error.about("shape:roof"))?;
+        let shape = crate::roofs::roof_shape(&roof).map_err(|error| error.about("shape:roof"))?;
         let (solid, hipped) = self.shape.roof(&shape).map_err(|error| error.about("shape:roof"))?;
         if hipped {
             warn(
@@ -342,20 +355,20 @@ impl ShapeObject {
         Ok(self.parts(self.shape.offset(-distance).map_err(|error| error.about("shape:offset"))?))
     }
 
-    /// Returns the rest of a face after its edges moved inwards: by one distance (m), by a list with one for each edge,
-    /// or by a table of selectors, such as { front = 3, side = 1 }.
+    /// Returns the rest of a face after its edges moved inwards by `distances` (m): one for all, a list with one for each
+    /// edge, or a table of selectors, such as { front = 3, side = 1 }.
     pub fn setback(&self, distances: EdgeDistances) -> Result<Vec<Arc<Self>>> {
         Ok(self.parts(self.divide_border("setback", &distances)?.inner))
     }
 
-    /// Returns the strips along the edges of a face, in the order of the edges, with distances as of `setback`. Strips
-    /// of neighbouring edges meet on the line between them.
+    /// Returns the strips along the edges of a face, in the order of the edges, with `distances` (m) as of `setback`.
+    /// Strips of neighbouring edges meet on the line between them.
     pub fn border(&self, distances: EdgeDistances) -> Result<Vec<Arc<Self>>> {
         Ok(self.parts(self.divide_border("border", &distances)?.border))
     }
 
-    /// Returns the strips along the edges of a face, with distances as of `setback`, joined to an L, a U, an O or parts
-    /// of them.
+    /// Returns the strips along the edges of a face, with `distances` (m) as of `setback`, joined to an L, a U, an O or
+    /// parts of them.
     pub fn wings(&self, distances: EdgeDistances) -> Result<Vec<Arc<Self>>> {
         let border = self.divide_border("wings", &distances)?.border;
         let strips: Vec<&Shape> = border.iter().collect();

@@ -11,6 +11,6 @@ mod relations;
 mod support;
 mod volumes;
 
-pub(crate) use draw::draw_shape;
+pub(crate) use draw::{draw_building, draw_shape};
 pub use object::ShapeObject;
 pub use volumes::Volumes;

@@ -7,7 +7,7 @@ use burgeon_base::error::Result;
 use burgeon_base::warning::{Warning, WarningKind, defer_warning};
 use burgeon_kit::declare::as_ref;
 use burgeon_kit::{Answer, Object, ObjectContent, ObjectParameter, Table, TableKey, Value, object};
-use burgeon_shapes::{Body, Shape};
+use burgeon_shapes::{Shape, ShapeBody};
 use glam::DVec3;
 
 use super::construct::constructors;
@@ -105,10 +105,10 @@ impl ObjectContent for ShapeObject {
             && self.place == other.place
             && self.matching == other.matching
             && match (&self.shape.body, &other.shape.body) {
-                (Body::Box(a), Body::Box(b)) => a == b,
-                (Body::Rectangle(a), Body::Rectangle(b)) => a == b,
-                (Body::Edge(kind, a), Body::Edge(other, b)) => kind == other && a == b,
-                (Body::Mesh(a), Body::Mesh(b)) => Arc::ptr_eq(a, b),
+                (ShapeBody::Box(a), ShapeBody::Box(b)) => a == b,
+                (ShapeBody::Rectangle(a), ShapeBody::Rectangle(b)) => a == b,
+                (ShapeBody::Edge(kind, a), ShapeBody::Edge(other, b)) => kind == other && a == b,
+                (ShapeBody::Mesh(a), ShapeBody::Mesh(b)) => Arc::ptr_eq(a, b),
                 _ => false,
             }
     }
@@ -128,10 +128,10 @@ impl ObjectContent for ShapeObject {
         let round = |length: f64| (length * 1000.0).round() / 1000.0;
         let [x, y, z] = size.to_array().map(round);
         match &self.shape.body {
-            Body::Box(_) => format!("box of {x} x {y} x {z} m"),
-            Body::Rectangle(_) => format!("rectangle of {x} x {y} m"),
-            Body::Edge(kind, _) => format!("{} of {x} m", kind.name()),
-            Body::Mesh(mesh) => {
+            ShapeBody::Box(_) => format!("box of {x} x {y} x {z} m"),
+            ShapeBody::Rectangle(_) => format!("rectangle of {x} x {y} m"),
+            ShapeBody::Edge(kind, _) => format!("{} of {x} m", kind.name()),
+            ShapeBody::Mesh(mesh) => {
                 let faces = mesh.faces.len();
                 let what = if mesh.is_closed() { "solid" } else { "surface" };
                 format!("{what} of {faces} faces, {x} x {y} x {z} m")

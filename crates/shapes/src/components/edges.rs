@@ -6,7 +6,7 @@ use glam::{DMat3, DVec3};
 use rustc_hash::FxHashMap;
 
 use crate::mesh::PolygonMesh;
-use crate::{Body, Scope, Shape};
+use crate::{Scope, Shape, ShapeBody};
 
 /// Kind of an edge by its faces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -99,7 +99,7 @@ impl Shape {
                 size: DVec3::new(a.distance(b), 0.0, 0.0),
             };
             let style = edge.faces[0].and_then(|face| mesh.faces[face].style.clone());
-            edges.push(Self { scope, body: Body::Edge(kind, style) });
+            edges.push(Self { scope, body: ShapeBody::Edge(kind, style) });
         }
         edges
     }

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use crate::body::BOX_FACES;
 use crate::mesh::PolygonMesh;
-use crate::{Body, Scope, Selector, Shape};
+use crate::{Scope, Selector, Shape, ShapeBody};
 
 impl Shape {
     /// Returns the faces that a selector matches, in their order, each as a shape of its own.
@@ -26,11 +26,11 @@ impl Shape {
     pub fn faces(&self, selector: &Selector) -> Result<Vec<Self>> {
         let axes = &self.scope.axes;
         match &self.body {
-            Body::Edge(..) => Ok(Vec::new()),
-            Body::Rectangle(style) => {
+            ShapeBody::Edge(..) => Ok(Vec::new()),
+            ShapeBody::Rectangle(style) => {
                 Ok(if selector.matches(axes.z_axis, style, axes) { vec![self.clone()] } else { Vec::new() })
             }
-            Body::Box(styles) => {
+            ShapeBody::Box(styles) => {
                 let corners = self.scope.corners();
                 let normals =
                     [-axes.z_axis, -axes.y_axis, axes.x_axis, axes.y_axis, -axes.x_axis, axes.z_axis];
@@ -46,7 +46,7 @@ impl Shape {
                             .abs()
                             <= 1e-9 * (1.0 + scope.size.x * scope.size.y);
                         faces.push(if is_upright {
-                            Self { scope, body: Body::Rectangle(style) }
+                            Self { scope, body: ShapeBody::Rectangle(style) }
                         } else {
                             Self::of_mesh(self.mesh().selected([number]), own)
                         });
@@ -54,7 +54,7 @@ impl Shape {
                 }
                 Ok(faces)
             }
-            Body::Mesh(mesh) => {
+            ShapeBody::Mesh(mesh) => {
                 let normals: Vec<DVec3> = mesh.faces.iter().map(|face| mesh.normal(face)).collect();
                 let selected = (0..mesh.faces.len())
                     .filter(|&face| selector.matches(normals[face], &mesh.faces[face].style, axes));
@@ -81,12 +81,12 @@ impl Shape {
 
     /// Returns the holes of all faces as faces that fill them.
     pub fn holes(&self) -> Vec<Self> {
-        let Body::Mesh(mesh) = &self.body else { return Vec::new() };
+        let ShapeBody::Mesh(mesh) = &self.body else { return Vec::new() };
         let mut holes = Vec::new();
         for face in &mesh.faces {
             for hole in face.rings.iter().skip(1) {
                 let ring: Vec<DVec3> = hole.iter().rev().map(|point| mesh.at(*point)).collect();
-                let mut builder = crate::mesh::MeshBuilder::default();
+                let mut builder = crate::mesh::PolygonMeshBuilder::default();
                 builder.face([ring.as_slice()], &face.style);
                 holes.push(Self::of_mesh(
                     builder.build(),
@@ -100,12 +100,12 @@ impl Shape {
     /// Returns the faces without their holes.
     #[must_use]
     pub fn without_holes(&self) -> Self {
-        let Body::Mesh(mesh) = &self.body else { return self.clone() };
+        let ShapeBody::Mesh(mesh) = &self.body else { return self.clone() };
         let mut filled = (**mesh).clone();
         filled.faces.iter_mut().for_each(|face| face.rings.truncate(1));
         let count = filled.faces.len();
         let filled = PolygonMesh::new(filled.points, filled.faces).selected(0..count);
-        Self { scope: self.scope, body: Body::Mesh(Arc::new(filled)) }
+        Self { scope: self.scope, body: ShapeBody::Mesh(Arc::new(filled)) }
     }
 }
 

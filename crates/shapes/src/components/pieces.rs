@@ -2,12 +2,12 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::{Body, Shape};
+use crate::{Shape, ShapeBody};
 
 impl Shape {
     /// Returns the connected pieces in the order of their first face; faces are connected by a common edge.
     pub fn pieces(&self) -> Vec<Self> {
-        let Body::Mesh(mesh) = &self.body else { return vec![self.clone()] };
+        let ShapeBody::Mesh(mesh) = &self.body else { return vec![self.clone()] };
         let mut parents: Vec<usize> = (0..mesh.faces.len()).collect();
         let mut owners: FxHashMap<[u32; 2], usize> = FxHashMap::default();
         for (number, face) in mesh.faces.iter().enumerate() {

@@ -10,13 +10,13 @@ use crate::mesh::{EdgeSums, PolygonFace, PolygonMesh};
 
 /// Position of a point relative to a plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Side {
+pub(super) enum PlaneSide {
     Below,
     On,
     Above,
 }
 
-impl Side {
+impl PlaneSide {
     /// Returns the side at a signed distance (m); within `tolerance` (m) a point lies on the plane.
     pub(crate) fn of(distance: f64, tolerance: f64) -> Self {
         if distance > tolerance {
@@ -33,9 +33,9 @@ impl Side {
 pub(super) struct FaceCutter<'a> {
     pub plane: &'a CutPlane,
     pub mesh: &'a PolygonMesh,
-    pub sides: &'a [Side],
+    pub sides: &'a [PlaneSide],
     /// The side to keep. Points on the plane count as points of the other side.
-    pub side: Side,
+    pub side: PlaneSide,
     /// Points of the mesh, and new ones.
     pub points: Vec<DVec3>,
     /// New point on each edge.
@@ -43,7 +43,7 @@ pub(super) struct FaceCutter<'a> {
 }
 
 /// Consecutive kept points of a ring, between two points on the plane.
-struct Run {
+struct KeptRun {
     points: Vec<u32>,
     /// Positions of the first and the last point along the plane.
     ends: [f64; 2],
@@ -53,9 +53,9 @@ impl FaceCutter<'_> {
     /// Adds the kept parts of a face to `faces`, and their edges on the plane, reversed, to `rim`.
     pub(crate) fn cut(&mut self, face: &PolygonFace, faces: &mut Vec<PolygonFace>, rim: &mut EdgeSums) {
         let normal = self.mesh.normal(face);
-        let inward = if self.side == Side::Above { self.plane.normal } else { -self.plane.normal };
+        let inward = if self.side == PlaneSide::Above { self.plane.normal } else { -self.plane.normal };
         let along = inward.cross(normal).normalize_or_zero();
-        let (mut runs, mut whole): (Vec<Run>, Vec<Vec<u32>>) = (Vec::new(), Vec::new());
+        let (mut runs, mut whole): (Vec<KeptRun>, Vec<Vec<u32>>) = (Vec::new(), Vec::new());
         for ring in &face.rings {
             if ring.iter().all(|point| self.keeps(*point)) {
                 whole.push(ring.clone());
@@ -64,7 +64,7 @@ impl FaceCutter<'_> {
             }
         }
         // A point on the plane between two crossings stays a corner, since other faces may have it.
-        let on = face.rings.iter().flatten().filter(|point| self.sides[**point as usize] == Side::On);
+        let on = face.rings.iter().flatten().filter(|point| self.sides[**point as usize] == PlaneSide::On);
         let mut on: Vec<(f64, u32)> =
             on.map(|&point| (self.points[point as usize].dot(along), point)).collect();
         on.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -87,7 +87,7 @@ impl FaceCutter<'_> {
     }
 
     /// Adds the runs of kept points of a ring.
-    fn add_runs(&mut self, ring: &[u32], along: DVec3, runs: &mut Vec<Run>) {
+    fn add_runs(&mut self, ring: &[u32], along: DVec3, runs: &mut Vec<KeptRun>) {
         let count = ring.len();
         let starts: Vec<usize> = (0..count)
             .filter(|&index| self.keeps(ring[index]) && !self.keeps(ring[(index + count - 1) % count]))
@@ -102,13 +102,13 @@ impl FaceCutter<'_> {
             points.push(self.crossing([ring[(index + count - 1) % count], ring[index % count]]));
             let place = |point: &u32| self.points[*point as usize].dot(along);
             let ends = [place(&points[0]), place(&points[points.len() - 1])];
-            runs.push(Run { points, ends });
+            runs.push(KeptRun { points, ends });
         }
     }
 
     /// Returns the point where an edge crosses the plane: an end on the plane, or a new point.
     fn crossing(&mut self, [from, to]: [u32; 2]) -> u32 {
-        if let Some(on) = [from, to].into_iter().find(|point| self.sides[*point as usize] == Side::On) {
+        if let Some(on) = [from, to].into_iter().find(|point| self.sides[*point as usize] == PlaneSide::On) {
             return on;
         }
         let key = [from.min(to), from.max(to)];
@@ -161,7 +161,7 @@ impl FaceCutter<'_> {
 ///
 /// Along the plane, with the kept side on the left, the border of the face alternately leaves the kept side, where a
 /// run ends, and enters it, where a run begins.
-fn join_runs(runs: &[Run], on: &[(f64, u32)], rim: &mut EdgeSums) -> Vec<Vec<u32>> {
+fn join_runs(runs: &[KeptRun], on: &[(f64, u32)], rim: &mut EdgeSums) -> Vec<Vec<u32>> {
     let mut leaves: Vec<usize> = (0..runs.len()).collect();
     let mut enters = leaves.clone();
     leaves.sort_by(|&a, &b| runs[a].ends[1].total_cmp(&runs[b].ends[1]));

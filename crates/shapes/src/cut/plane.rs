@@ -6,7 +6,7 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
-use super::crossing::{FaceCutter, Side};
+use super::crossing::{FaceCutter, PlaneSide};
 use crate::Scope;
 use crate::mesh::{EdgeSums, PolygonFace, PolygonMesh, trace_loops};
 use crate::style::SharedStyle;
@@ -52,10 +52,10 @@ impl CutPlane {
     ///
     /// Points are classified once, so the topology of both parts is exact.
     pub(crate) fn cut(&self, mesh: &PolygonMesh, style: &SharedStyle) -> Result<Halves> {
-        let sides: Vec<Side> =
-            mesh.points.iter().map(|point| Side::of(self.distance(*point), ON_PLANE)).collect();
-        let above = sides.contains(&Side::Above);
-        let below = sides.contains(&Side::Below);
+        let sides: Vec<PlaneSide> =
+            mesh.points.iter().map(|point| PlaneSide::of(self.distance(*point), ON_PLANE)).collect();
+        let above = sides.contains(&PlaneSide::Above);
+        let below = sides.contains(&PlaneSide::Below);
         if !above || !below {
             let whole = || Some(mesh.clone());
             return Ok(match (below, above) {
@@ -64,10 +64,10 @@ impl CutPlane {
             });
         }
         let mut halves = Halves::default();
-        for side in [Side::Below, Side::Above] {
+        for side in [PlaneSide::Below, PlaneSide::Above] {
             let (part, open) = self.part(mesh, &sides, side, style)?;
             halves.open |= open;
-            *if side == Side::Above { &mut halves.above } else { &mut halves.below } = part;
+            *if side == PlaneSide::Above { &mut halves.above } else { &mut halves.below } = part;
         }
         Ok(halves)
     }
@@ -76,11 +76,11 @@ impl CutPlane {
     fn part(
         &self,
         mesh: &PolygonMesh,
-        sides: &[Side],
-        side: Side,
+        sides: &[PlaneSide],
+        side: PlaneSide,
         style: &SharedStyle,
     ) -> Result<(Option<PolygonMesh>, bool)> {
-        let outward = if side == Side::Above { -self.normal } else { self.normal };
+        let outward = if side == PlaneSide::Above { -self.normal } else { self.normal };
         let mut cutter = FaceCutter {
             plane: self,
             mesh,
@@ -95,10 +95,10 @@ impl CutPlane {
                 Stop::check_current()?;
             }
             let all =
-                |wanted: Side| face.rings.iter().flatten().all(|point| sides[*point as usize] == wanted);
+                |wanted: PlaneSide| face.rings.iter().flatten().all(|point| sides[*point as usize] == wanted);
             if all(side) {
                 faces.push(face.clone());
-            } else if all(Side::On) {
+            } else if all(PlaneSide::On) {
                 // The face lies on the plane: it belongs to the part that it closes.
                 if mesh.area_vector(face).dot(outward) > 0.0 {
                     face.edges().for_each(|[from, to]| rim.add([to, from]));

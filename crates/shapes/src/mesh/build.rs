@@ -9,12 +9,12 @@ use crate::style::SharedStyle;
 
 /// Points, welded if they are equal to the last bit, and faces.
 #[derive(Debug, Default)]
-pub(crate) struct MeshBuilder {
+pub(crate) struct PolygonMeshBuilder {
     mesh: PolygonMesh,
     known: FxHashMap<[u64; 3], u32>,
 }
 
-impl MeshBuilder {
+impl PolygonMeshBuilder {
     /// Returns the number of a point (m).
     pub(crate) fn point(&mut self, at: DVec3) -> u32 {
         // Turns -0 into 0.

@@ -6,7 +6,7 @@ mod loops;
 mod polygon_mesh;
 mod triangles;
 
-pub(crate) use build::MeshBuilder;
+pub(crate) use build::PolygonMeshBuilder;
 pub(crate) use closed::EdgeSums;
 pub(crate) use loops::trace_loops;
 pub use polygon_mesh::{PolygonFace, PolygonMesh};

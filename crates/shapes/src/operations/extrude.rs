@@ -7,7 +7,11 @@ use glam::DVec3;
 
 use crate::mesh::{EdgeSums, PolygonFace, PolygonMesh};
 use crate::style::{FaceStyle, SharedStyle};
-use crate::{Body, Scope, Shape};
+use crate::{Scope, Shape, ShapeBody};
+
+/// Tags of the faces, the sides and the copies.
+const EXTRUDED: [&str; 3] = ["extrude.bottom", "extrude.side", "extrude.top"];
+const TAPERED: [&str; 3] = ["taper.bottom", "taper.side", "taper.top"];
 
 impl Shape {
     /// Returns the solid between the faces and their copies at `distance` (m) along `direction`, the mean normal of the
@@ -31,7 +35,7 @@ impl Shape {
             return Err(Error::argument(format!("the distance of an extrusion is {distance} m"))
                 .help("use a distance other than 0"));
         }
-        if let (Body::Rectangle(style), None) = (&self.body, direction) {
+        if let (ShapeBody::Rectangle(style), None) = (&self.body, direction) {
             let mut scope = self.scope;
             scope.size.z = distance.abs();
             if distance < 0.0 {
@@ -47,7 +51,7 @@ impl Shape {
                 style,
                 if distance > 0.0 { "extrude.top" } else { "extrude.bottom" },
             );
-            return Ok(Self { scope, body: Body::Box(Some(Arc::new(styles))) });
+            return Ok(Self { scope, body: ShapeBody::Box(Some(Arc::new(styles))) });
         }
         let mesh = self.mesh();
         let normal: DVec3 = mesh.faces.iter().map(|face| mesh.area_vector(face)).sum();
@@ -84,22 +88,43 @@ impl Shape {
         let center = self.centroid();
         let above = |at: DVec3| center + (at - center) * scale + normal * height;
         let solid = if scale > 0.0 {
-            sides(&mesh, above, "taper")
+            sides(&mesh, above, TAPERED)
         } else {
-            let mut solid = sides(&mesh, above, "taper");
+            let mut solid = sides(&mesh, above, TAPERED);
             collapse_top(&mut solid, mesh.points.len());
             solid
         };
         Ok(Self::of_mesh(solid, self.scope.axes))
     }
 
+    /// Returns the inside of a recess of `depth` (m) behind the faces: the back and the sides, which look outwards, without
+    /// the opening.
+    ///
+    /// Faces have the tags "recess.back" and "recess.side". Fails as [`Shape::extrude`].
+    pub fn recess(&self, depth: f64) -> Result<Self> {
+        if depth <= 0.0 {
+            return Err(
+                Error::argument(format!("the depth of a recess is {depth} m")).help("use a depth above 0")
+            );
+        }
+        let solid = self.extrude(-depth, None)?;
+        let mesh = solid.mesh();
+        let inside =
+            (0..mesh.faces.len()).filter(|&face| !FaceStyle::has_tag(&mesh.faces[face].style, EXTRUDED[0]));
+        let inside = Self::of_mesh(mesh.selected(inside), self.scope.axes).reversed();
+        Ok(inside.with_styles(|style| {
+            let tag = if FaceStyle::has_tag(style, EXTRUDED[1]) { "recess.side" } else { "recess.back" };
+            FaceStyle::with_automatic_tag(&FaceStyle::without_tags(style, "extrude"), tag)
+        }))
+    }
+
     /// Fails unless the shape has faces and is open.
     fn check_open(&self, operation: &str) -> Result<()> {
         match &self.body {
-            Body::Edge(..) => Err(Error::argument(format!("an edge has no face to {operation}"))
+            ShapeBody::Edge(..) => Err(Error::argument(format!("an edge has no face to {operation}"))
                 .help("use a face: shape:faces(\"top\")")),
-            Body::Box(_) => Err(closed(operation)),
-            Body::Mesh(mesh) if mesh.is_closed() => Err(closed(operation)),
+            ShapeBody::Box(_) => Err(closed(operation)),
+            ShapeBody::Mesh(mesh) if mesh.is_closed() => Err(closed(operation)),
             _ => Ok(()),
         }
     }
@@ -113,35 +138,33 @@ fn closed(operation: &str) -> Error {
 /// Returns the solid between faces and their copies at an offset (m); `backwards` if the copies are behind the faces.
 fn loft(mesh: &PolygonMesh, offset: DVec3, backwards: bool) -> PolygonMesh {
     if !backwards {
-        return sides(mesh, |at| at + offset, "extrude");
+        return sides(mesh, |at| at + offset, EXTRUDED);
     }
     // Seen from the copies, the faces are in front.
-    sides(&mesh.moved(|at| at + offset, false), |at| at - offset, "extrude")
+    let [bottom, side, top] = EXTRUDED;
+    sides(&mesh.moved(|at| at + offset, false), |at| at - offset, [top, side, bottom])
 }
 
 /// Returns the closed mesh of reversed faces, copies at other positions, and sides over the open edges.
-fn sides(mesh: &PolygonMesh, above: impl Fn(DVec3) -> DVec3, tag: &str) -> PolygonMesh {
+fn sides(mesh: &PolygonMesh, above: impl Fn(DVec3) -> DVec3, [bottom, side, top]: [&str; 3]) -> PolygonMesh {
     #[allow(clippy::cast_possible_truncation, reason = "a mesh has fewer than 2^31 points")]
     let count = mesh.points.len() as u32;
     let mut points = mesh.points.clone();
     points.extend(mesh.points.iter().map(|at| above(*at)));
     let mut faces = Vec::with_capacity(3 * mesh.faces.len() + points.len());
-    let [bottom, side, top] = ["bottom", "side", "top"].map(|name| format!("{tag}.{name}"));
     let mut rim = EdgeSums::default();
     for face in &mesh.faces {
         let reversed = face.rings.iter().map(|ring| ring.iter().rev().copied().collect()).collect();
-        faces.push(PolygonFace {
-            rings: reversed,
-            style: FaceStyle::with_automatic_tag(&face.style, &bottom),
-        });
+        faces
+            .push(PolygonFace { rings: reversed, style: FaceStyle::with_automatic_tag(&face.style, bottom) });
         face.edges().for_each(|edge| rim.add(edge));
     }
     let style = mesh.faces.first().and_then(|face| face.style.clone());
-    let side = FaceStyle::with_automatic_tag(&style, &side);
+    let side = FaceStyle::with_automatic_tag(&style, side);
     faces.extend(rim.rest().map(|[from, to]| PolygonFace::of(&[from, to, to + count, from + count], &side)));
     for face in &mesh.faces {
         let raised = face.rings.iter().map(|ring| ring.iter().map(|point| point + count).collect()).collect();
-        faces.push(PolygonFace { rings: raised, style: FaceStyle::with_automatic_tag(&face.style, &top) });
+        faces.push(PolygonFace { rings: raised, style: FaceStyle::with_automatic_tag(&face.style, top) });
     }
     PolygonMesh::new(points, faces)
 }

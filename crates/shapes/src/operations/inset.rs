@@ -125,7 +125,7 @@ impl Shape {
                 axes: glam::DMat3::from_cols(along, out.cross(along), out),
                 size: glam::DVec3::new(a.distance(b), 0.0, 0.0),
             };
-            Self { scope, body: crate::Body::Edge(crate::EdgeKind::Border, style.clone()) }
+            Self { scope, body: crate::ShapeBody::Edge(crate::EdgeKind::Border, style.clone()) }
         });
         edges.collect()
     }

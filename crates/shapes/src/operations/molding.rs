@@ -5,7 +5,7 @@ use burgeon_geometry::planar::twice_area;
 use glam::{DVec2, DVec3};
 
 use crate::Shape;
-use crate::mesh::MeshBuilder;
+use crate::mesh::PolygonMeshBuilder;
 use crate::style::FaceStyle;
 
 /// Largest extension of a mitred corner, as a multiple of the distance from the outline.
@@ -30,7 +30,7 @@ impl Shape {
         }
         let own = self.styles().into_iter().next().flatten();
         let style = FaceStyle::with_automatic_tag(&own, "molding");
-        let mut builder = MeshBuilder::default();
+        let mut builder = PolygonMeshBuilder::default();
         for ring in &polygon {
             let count = ring.len();
             let corner = |index: usize| -> Vec<DVec3> {
@@ -77,7 +77,7 @@ impl Shape {
         }
         let style = |tag: &str| FaceStyle::with_automatic_tag(&one.style, tag);
         let [bottom, side, top] = ["loft.bottom", "loft.side", "loft.top"].map(style);
-        let mut builder = MeshBuilder::default();
+        let mut builder = PolygonMeshBuilder::default();
         let places = |ring: &Vec<u32>, mesh: &crate::PolygonMesh| -> Vec<DVec3> {
             ring.iter().map(|point| mesh.at(*point)).collect()
         };

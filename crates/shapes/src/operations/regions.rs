@@ -133,6 +133,21 @@ impl Shape {
         Ok(Some(Self::of_polygon(&rectangle, &frame, &style)))
     }
 
+    /// Returns the part of faces within a rectangle of the scope's x and y axes (m), measured from the scope's position;
+    /// `None` if there is none.
+    pub fn crop(&self, low: DVec2, high: DVec2) -> Result<Option<Self>> {
+        let mut rest = self.clone();
+        for (axis, at, sign) in [(0, low.x, -1.0), (0, high.x, 1.0), (1, low.y, -1.0), (1, high.y, 1.0)] {
+            let normal = self.scope.axes.col(axis);
+            let plane =
+                CutPlane { normal: normal * sign, offset: sign * (self.scope.origin.dot(normal) + at) };
+            let ([below, _], _) = rest.cut(&plane)?;
+            let Some(below) = below else { return Ok(None) };
+            rest = below;
+        }
+        Ok(Some(rest))
+    }
+
     /// Returns the shape with a scope whose x axis runs along a direction in the plane of its z axis.
     pub(super) fn along(&self, x: DVec3) -> Self {
         let z = self.scope.axes.z_axis;
@@ -211,7 +226,7 @@ fn grow(polygon: &Polygon, [low, high]: [&mut DVec2; 2], axis: usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{PartSize, SizedParts};
+    use crate::{PartSize, Selector, SizedParts};
 
     fn corner_lot() -> Shape {
         let ring =
@@ -239,6 +254,17 @@ mod tests {
     fn the_inner_rectangle_of_an_angle_fills_one_wing() {
         let inner = corner_lot().inner_rectangle().expect("a face").expect("a rectangle");
         assert!((inner.area() - 160.0).abs() < 1e-6, "{}", inner.area());
+    }
+
+    #[test]
+    fn a_cropped_face_is_a_rectangle_and_a_recess_opens_outwards() {
+        let wall = &Shape::cuboid(DVec3::new(6.0, 1.0, 3.0)).faces(&Selector::All).expect("faces")[1];
+        let hole = wall.crop(DVec2::new(1.0, 0.5), DVec2::new(2.5, 2.5)).expect("a cut").expect("a part");
+        assert!((hole.area() - 3.0).abs() < 1e-9 && matches!(hole.body, crate::ShapeBody::Rectangle(_)));
+        let inside = hole.recess(0.2).expect("a recess");
+        assert!((inside.area() - (3.0 + 2.0 * 3.5 * 0.2)).abs() < 1e-9 && !inside.is_closed());
+        let back = &inside.faces(&Selector::Tagged("recess.back".into())).expect("faces")[0];
+        assert!(back.normal().abs_diff_eq(wall.normal(), 1e-9) && (back.centroid().y - 0.2).abs() < 1e-9);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use burgeon_geometry::roof::{PatchKind, RoofShape, Support};
 use glam::DVec3;
 
 use crate::Shape;
-use crate::mesh::MeshBuilder;
+use crate::mesh::PolygonMeshBuilder;
 use crate::style::FaceStyle;
 
 impl Shape {
@@ -26,7 +26,7 @@ impl Shape {
         let [slope, gable, side, bottom] =
             ["slope", "gable", "side", "bottom"].map(|name| style(&format!("roof.{name}")));
         let place = |ring: &[DVec3]| -> Vec<DVec3> { ring.iter().map(|at| frame.point(*at)).collect() };
-        let mut builder = MeshBuilder::default();
+        let mut builder = PolygonMeshBuilder::default();
         for patch in &cover.patches {
             let rings: Vec<Vec<DVec3>> = patch.rings.iter().map(|ring| place(ring)).collect();
             let style = match patch.kind {

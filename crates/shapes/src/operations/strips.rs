@@ -7,7 +7,7 @@ use burgeon_geometry::{Ring, Rings};
 use glam::{DVec2, DVec3};
 
 use crate::CutPlane;
-use crate::mesh::{EdgeSums, MeshBuilder, PolygonFace, PolygonMesh, trace_loops};
+use crate::mesh::{EdgeSums, PolygonFace, PolygonMesh, PolygonMeshBuilder, trace_loops};
 
 /// Parts of a polygon at a moment of its wavefront.
 #[derive(Debug, Default)]
@@ -22,7 +22,7 @@ pub(super) struct Strips {
 pub(super) fn divide(polygon: &Polygon, skeleton: &Skeleton, time: f64) -> Result<Strips> {
     let points: Vec<DVec3> = skeleton.peaks.iter().map(|peak| peak.at.extend(peak.time)).collect();
     let plane = CutPlane { normal: DVec3::Z, offset: time };
-    let mut strips = MeshBuilder::default();
+    let mut strips = PolygonMeshBuilder::default();
     let mut border = Vec::new();
     for corners in &skeleton.faces {
         let mut ring = Vec::with_capacity(corners.len());

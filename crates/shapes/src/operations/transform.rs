@@ -5,7 +5,7 @@ use std::sync::Arc;
 use burgeon_base::error::{Error, Result};
 use glam::{DAffine3, DMat3, DVec3};
 
-use crate::{Body, Scope, Shape};
+use crate::{Scope, Shape, ShapeBody};
 
 impl Shape {
     /// Returns the shape moved by `offset` (m).
@@ -13,7 +13,7 @@ impl Shape {
     pub fn moved(&self, offset: DVec3) -> Self {
         let scope = Scope { origin: self.scope.origin + offset, ..self.scope };
         let body = match &self.body {
-            Body::Mesh(mesh) => Body::Mesh(Arc::new(mesh.moved(|at| at + offset, false))),
+            ShapeBody::Mesh(mesh) => ShapeBody::Mesh(Arc::new(mesh.moved(|at| at + offset, false))),
             other => other.clone(),
         };
         Self { scope, body }
@@ -27,7 +27,7 @@ impl Shape {
         let scope =
             Scope { origin: place(self.scope.origin), axes: turn * self.scope.axes, size: self.scope.size };
         let body = match &self.body {
-            Body::Mesh(mesh) => Body::Mesh(Arc::new(mesh.moved(place, false))),
+            ShapeBody::Mesh(mesh) => ShapeBody::Mesh(Arc::new(mesh.moved(place, false))),
             other => other.clone(),
         };
         Self { scope, body }
@@ -51,9 +51,9 @@ impl Shape {
         }
         let scope = self.scope.sized(old * factor);
         let body = match &self.body {
-            Body::Mesh(mesh) => {
+            ShapeBody::Mesh(mesh) => {
                 let scaled = mesh.moved(|at| self.scope.point(self.scope.local(at) * factor), false);
-                Body::Mesh(Arc::new(scaled))
+                ShapeBody::Mesh(Arc::new(scaled))
             }
             other => other.clone(),
         };
@@ -73,7 +73,7 @@ impl Shape {
     pub fn mirrored(&self, point: DVec3, normal: DVec3) -> Self {
         let place = |at: DVec3| at - normal * (2.0 * normal.dot(at - point));
         match &self.body {
-            Body::Mesh(mesh) => Self::of_mesh(mesh.moved(place, true), self.scope.axes),
+            ShapeBody::Mesh(mesh) => Self::of_mesh(mesh.moved(place, true), self.scope.axes),
             _ => Self::of_mesh(self.mesh().moved(place, true), self.scope.axes),
         }
     }
@@ -94,7 +94,7 @@ impl Shape {
     #[must_use]
     pub fn aligned(&self, axes: DMat3) -> Self {
         match &self.body {
-            Body::Edge(..) => self.clone(),
+            ShapeBody::Edge(..) => self.clone(),
             _ => Self::of_mesh(self.mesh().into_owned(), axes),
         }
     }

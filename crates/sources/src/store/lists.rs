@@ -5,7 +5,7 @@ use std::sync::Arc;
 use burgeon_base::error::{Error, Result};
 use burgeon_data::{Attribute, Feature, Layer};
 use burgeon_kit::{Parameter, Table, TableKey, Value};
-use burgeon_spatial::GeometryArgument;
+use burgeon_spatial::GeometryInput;
 
 /// List of features of a script, in metres around the origin of the run.
 #[derive(Debug, Default, Clone)]
@@ -28,7 +28,7 @@ impl ScriptList {
             };
             let Value::Table(feature) = feature else { return Err(refuse("is no table")) };
             let geometry = feature.get("geometry").ok_or_else(|| refuse("has no geometry"))?;
-            let shape = GeometryArgument::read_value(geometry)
+            let shape = GeometryInput::read_value(geometry)
                 .map_err(|_| refuse("has no geometry that can be read"))?;
             let id = match feature.get("id") {
                 Some(Value::Text(id)) => id.to_string(),

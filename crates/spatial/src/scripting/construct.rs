@@ -8,7 +8,7 @@ use burgeon_geometry::Rings;
 use burgeon_kit::{Answer, Constructor, Expectation, Parameter, Value, Vector};
 use glam::DVec3;
 
-use super::geometry_argument::GeometryArgument;
+use super::geometry_input::GeometryInput;
 use super::object::GeometryObject;
 use super::polygon::PolygonArgument;
 use crate::Geometry;
@@ -29,7 +29,7 @@ fn geometry(given: &[Value]) -> Result<Value> {
     match given {
         [Value::Text(text)] => Geometry::from_wkt(text).map_err(|error| error.about("geometry"))?.answer(),
         [value @ (Value::Object(_) | Value::Table(_))] => {
-            let shape = GeometryArgument::read_value(value);
+            let shape = GeometryInput::read_value(value);
             let shape =
                 shape.map_err(|_| Expectation::new(what).refuse("geometry", "what it is given", value))?;
             shape.geometry().check().map_err(|error| error.about("geometry"))?;

@@ -5,7 +5,7 @@ use burgeon_base::text::listed;
 use burgeon_kit::{ObjectContent as _, TableOf, Value, fields, methods};
 use glam::DVec3;
 
-use super::geometry_argument::GeometryArgument;
+use super::geometry_input::GeometryInput;
 use super::object::GeometryObject;
 use crate::{BufferCap, BufferJoin, BufferOptions, Geometry};
 
@@ -169,23 +169,23 @@ impl GeometryObject {
     }
 
     /// Returns the union with another geometry.
-    pub fn union(&self, other: GeometryArgument) -> Geometry {
+    pub fn union(&self, other: GeometryInput) -> Geometry {
         self.geometry().union(other.geometry())
     }
 
     /// Returns the intersection with another geometry: common areas, lines and points. Empty if they have nothing in
     /// common.
-    pub fn intersection(&self, other: GeometryArgument) -> Geometry {
+    pub fn intersection(&self, other: GeometryInput) -> Geometry {
         self.geometry().intersection(other.geometry())
     }
 
     /// Returns the set difference: this geometry without the other.
-    pub fn difference(&self, other: GeometryArgument) -> Geometry {
+    pub fn difference(&self, other: GeometryInput) -> Geometry {
         self.geometry().difference(other.geometry())
     }
 
     /// Returns the symmetric difference: the parts that belong to only one of the two geometries.
-    pub fn sym_difference(&self, other: GeometryArgument) -> Geometry {
+    pub fn sym_difference(&self, other: GeometryInput) -> Geometry {
         self.geometry().sym_difference(other.geometry())
     }
 
@@ -201,63 +201,63 @@ impl GeometryObject {
     }
 
     /// Returns the horizontal distance (m); 0 if the geometries intersect, nil if either is empty.
-    pub fn distance(&self, other: GeometryArgument) -> Option<f64> {
+    pub fn distance(&self, other: GeometryInput) -> Option<f64> {
         self.geometry().distance(other.geometry())
     }
 
     /// Returns the point of this geometry that is nearest to the other; empty if either is empty.
-    pub fn nearest_point(&self, other: GeometryArgument) -> Geometry {
+    pub fn nearest_point(&self, other: GeometryInput) -> Geometry {
         self.geometry().nearest_point(other.geometry())
     }
 
     /// Returns true if both geometries consist of the same points, in any order.
-    pub fn equals(&self, other: GeometryArgument) -> bool {
+    pub fn equals(&self, other: GeometryInput) -> bool {
         self.prepared().equals(other.prepared())
     }
 
     /// Returns true if the geometries have no point in common.
-    pub fn disjoint(&self, other: GeometryArgument) -> bool {
+    pub fn disjoint(&self, other: GeometryInput) -> bool {
         self.geometry().disjoint(other.geometry())
     }
 
     /// Returns true if the geometries have a point in common.
-    pub fn intersects(&self, other: GeometryArgument) -> bool {
+    pub fn intersects(&self, other: GeometryInput) -> bool {
         self.geometry().intersects(other.geometry())
     }
 
     /// Returns true if the geometries intersect only at their boundaries or line ends.
-    pub fn touches(&self, other: GeometryArgument) -> bool {
+    pub fn touches(&self, other: GeometryInput) -> bool {
         self.prepared().touches(other.prepared())
     }
 
     /// Returns true if a line passes through an area, or if lines cross in points.
-    pub fn crosses(&self, other: GeometryArgument) -> bool {
+    pub fn crosses(&self, other: GeometryInput) -> bool {
         self.prepared().crosses(other.prepared())
     }
 
     /// Returns true if this geometry is inside the other; a geometry that is only on the other's boundary is not.
-    pub fn within(&self, other: GeometryArgument) -> bool {
+    pub fn within(&self, other: GeometryInput) -> bool {
         self.prepared().within(other.prepared())
     }
 
     /// Returns true if the other geometry is inside this one; a geometry that is only on this one's boundary is not.
-    pub fn contains(&self, other: GeometryArgument) -> bool {
+    pub fn contains(&self, other: GeometryInput) -> bool {
         self.prepared().contains(other.prepared())
     }
 
     /// Returns true if no point of the other geometry is outside this one; the boundary belongs to the geometry.
-    pub fn covers(&self, other: GeometryArgument) -> bool {
+    pub fn covers(&self, other: GeometryInput) -> bool {
         self.prepared().covers(other.prepared())
     }
 
     /// Returns true if both geometries are areas, or both lines, that share a part and each have a part of their own.
-    pub fn overlaps(&self, other: GeometryArgument) -> bool {
+    pub fn overlaps(&self, other: GeometryInput) -> bool {
         self.prepared().overlaps(other.prepared())
     }
 
     /// Returns the DE-9IM relation of the two geometries as nine characters. With a pattern, such as "F***1****",
     /// returns true if the relation matches it.
-    pub fn relate(&self, other: GeometryArgument, pattern: Option<String>) -> Result<Value> {
+    pub fn relate(&self, other: GeometryInput, pattern: Option<String>) -> Result<Value> {
         let relation = self.prepared().relate(other.prepared());
         Ok(match pattern {
             None => Value::Text(relation.text().into()),
@@ -278,7 +278,7 @@ impl GeometryObject {
     }
 
     /// Returns the fraction of a line's length, from 0 to 1, at its point nearest to the other geometry.
-    pub fn line_locate(&self, other: GeometryArgument) -> Result<Option<f64>> {
+    pub fn line_locate(&self, other: GeometryInput) -> Result<Option<f64>> {
         self.geometry().line_locate(other.geometry())
     }
 

@@ -1,7 +1,7 @@
 //! Geometries as scripts hold them: their type, constructors, arguments and methods.
 
 mod construct;
-mod geometry_argument;
+mod geometry_input;
 mod lines;
 mod list;
 mod methods;
@@ -9,7 +9,7 @@ mod object;
 mod polygon;
 
 pub use construct::constructors;
-pub use geometry_argument::{GeometryArgument, Path};
+pub use geometry_input::{GeometryInput, Path};
 pub use lines::Lines;
 pub use list::GeometryList;
 pub use object::GeometryObject;

@@ -148,7 +148,7 @@ impl Parameter for Geometry {
     }
 
     fn from_value(value: Value) -> Result<Self, Expectation> {
-        super::geometry_argument::GeometryArgument::from_value(value).map(|shape| shape.geometry().clone())
+        super::geometry_input::GeometryInput::from_value(value).map(|shape| shape.geometry().clone())
     }
 
     fn into_value(self) -> Value {

@@ -9,7 +9,7 @@ use crate::machine::Machine;
 use crate::machine::convert::to_value;
 use burgeon_base::error::Result;
 use burgeon_kit::{Parameter, Value};
-use burgeon_spatial::{BoundingBox, GeometryArgument, GeometryObject, near_selection};
+use burgeon_spatial::{BoundingBox, GeometryInput, GeometryObject, near_selection};
 
 /// Role of a feature in a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -81,7 +81,7 @@ fn bounds(machine: &Machine, source: &AnyUserData) -> Result<Vec<Option<Bounding
     let mut bounds = Vec::new();
     let each = |_: usize, feature: LuaValue, _: Option<&str>| {
         let geometry = match to_value(&feature, true) {
-            Ok(value @ Value::Table(_)) => GeometryArgument::from_value(value).ok(),
+            Ok(value @ Value::Table(_)) => GeometryInput::from_value(value).ok(),
             _ => None,
         };
         bounds.push(geometry.and_then(|shape| shape.geometry().bounds()));

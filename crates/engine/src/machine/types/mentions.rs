@@ -21,15 +21,17 @@ pub(in crate::machine) fn extended_kind(registry: &Registry) -> Option<&str> {
     measured.map(|kind| &*kind.name).or_else(|| drawing_kind(registry))
 }
 
-/// Returns an example of the option `object` of a system, preferably with a type that draws modules of the
-/// standard library.
+/// Returns an example of the option `object` of a system, with the type that draws most modules of the standard library.
 pub(in crate::machine) fn object_of_system(registry: &Registry) -> Option<String> {
-    let drawn_with = |kind: &&Kind| {
-        let mut sorts = names().iter().map(|name| name.sort);
-        sorts.any(|sort| matches!(sort, NameKind::Module { kind: known, .. } if kind.name == known))
+    let drawn_modules = |kind: &Kind| {
+        let sorts = names().iter().map(|name| name.sort);
+        sorts
+            .filter(|sort| matches!(sort, NameKind::Module { kind: known, .. } if kind.name == *known))
+            .count()
     };
-    let name =
-        drawing(registry).find(drawn_with).map(|kind| &*kind.name).or_else(|| drawing_kind(registry))?;
+    // The first of equal ones.
+    let kinds = drawing(registry).map(|kind| (drawn_modules(kind), &*kind.name));
+    let (_, name) = kinds.reduce(|best, next| if next.0 > best.0 { next } else { best })?;
     Some(format!("object = {name}()"))
 }
 

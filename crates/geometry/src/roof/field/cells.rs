@@ -44,7 +44,7 @@ pub(super) struct CellEdge {
 
 /// A part of the roof with one plane.
 #[derive(Debug, Clone)]
-pub(super) struct Cell {
+pub(super) struct RoofCell {
     /// Position and plane.
     pub side: CellSide,
     /// Nodes of its rings, counter-clockwise, holes clockwise.
@@ -53,20 +53,20 @@ pub(super) struct Cell {
 
 /// Parts of a roof.
 #[derive(Debug)]
-pub(super) struct CellMap {
+pub(super) struct RoofCellMap {
     /// Places of the nodes.
     pub places: Vec<DVec2>,
     /// Edges of the cells.
     pub edges: Vec<CellEdge>,
     /// Cells of the upper side.
-    pub cells: Vec<Cell>,
+    pub cells: Vec<RoofCell>,
     /// Cells of the underside, beyond the walls.
-    pub undersides: Vec<Cell>,
+    pub undersides: Vec<RoofCell>,
     /// Nodes along each edge of the walls, in the order of the edges.
     pub walls: Vec<Vec<u32>>,
 }
 
-impl CellMap {
+impl RoofCellMap {
     /// Divides the area inside `outer`, which contains `walls`. If `keeps_walls` is set, cells end at the walls. Fails if the
     /// work of this thread is cancelled.
     pub(super) fn new(
@@ -115,11 +115,11 @@ impl CellMap {
             }
         }
         let nodes = NodeMap::new(&division.places, &kept, &corners);
-        let cells = |keeps_walls: bool| -> Vec<Cell> {
+        let cells = |keeps_walls: bool| -> Vec<RoofCell> {
             let faces = graph.rings(&division, |edge| differs(edge) && (keeps_walls || !is_wall(edge)));
             let cell = |(half, rings): (usize, Vec<Vec<u32>>)| {
                 let rings: Vec<Vec<u32>> = rings.iter().filter_map(|ring| nodes.ring(ring)).collect();
-                (!rings.is_empty()).then(|| Cell { side: sides[half], rings })
+                (!rings.is_empty()).then(|| RoofCell { side: sides[half], rings })
             };
             faces.into_iter().filter_map(cell).filter(|cell| cell.side.zone != Zone::Outside).collect()
         };

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::cells::{CellMap, CellSide, Zone};
+use super::cells::{CellSide, RoofCellMap, Zone};
 use super::heights::HeightField;
 use crate::planar::Ring;
 use crate::roof::outset::Outset;
@@ -20,7 +20,7 @@ pub(super) fn cover(shape: &RoofShape, field: &HeightField, support: &Support<'_
     let outset = Outset::new(support.walls, wanted.clone(), |_| false);
     let tight = (0..wanted.len()).filter(|&edge| outset.distances[edge] < wanted[edge]).collect();
     let is_steep = field.steepest() > STEEPEST_EAVES;
-    let map = CellMap::new(support.walls, &outset.polygon, field, is_steep && outset.most() > 0.0)?;
+    let map = RoofCellMap::new(support.walls, &outset.polygon, field, is_steep && outset.most() > 0.0)?;
     let raised = RaisedCells::new(&map, field, support, shape.slab, outset.most());
     let mut patches = raised.slopes();
     raised.add_walls(&mut patches);
@@ -30,7 +30,7 @@ pub(super) fn cover(shape: &RoofShape, field: &HeightField, support: &Support<'_
 
 /// Cells with the heights of their corners.
 struct RaisedCells<'a> {
-    map: &'a CellMap,
+    map: &'a RoofCellMap,
     field: &'a HeightField,
     base: f64,
     slab: f64,
@@ -42,7 +42,7 @@ struct RaisedCells<'a> {
 
 impl<'a> RaisedCells<'a> {
     fn new(
-        map: &'a CellMap,
+        map: &'a RoofCellMap,
         field: &'a HeightField,
         support: &Support<'_>,
         slab: f64,

@@ -1,9 +1,10 @@
 //! The construction of a roof on a footprint.
 
-use super::options::Roof;
+use super::replace;
 use super::smooth::smooth;
-use super::{kinds, replace};
 use crate::footprint::object::Footprint;
+use crate::roofs::Roof;
+use crate::roofs::{is_curved, roof_shape};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
 use burgeon_geometry::roof::{
@@ -16,7 +17,7 @@ use glam::DVec3;
 impl Footprint {
     pub(crate) fn cover(&mut self, options: &Roof) -> Result<()> {
         self.check_open("roof")?;
-        let shape = kinds::shape(options)?;
+        let shape = roof_shape(options)?;
         for detail in &options.details {
             detail.check()?;
         }
@@ -94,7 +95,7 @@ impl Footprint {
         let gable = options.gable.as_ref().map(|gable| self.part(None, Some(gable))).transpose()?;
         let fascia = self.part(options.color, trim)?;
         let underside = self.part(options.color, options.underside.as_ref().or(trim))?;
-        let is_curved = kinds::is_curved(&options.kind);
+        let is_curved = is_curved(&options.kind);
         let first = self.drawing.surface(slope, SurfaceMeaning::Roof).positions.len();
         for patch in patches {
             let part = match (patch.kind, gable) {

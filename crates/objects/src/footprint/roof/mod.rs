@@ -4,15 +4,7 @@
 //! of a roof is computed in the geometry crate, never here.
 
 mod cover;
-mod detail;
-mod direction;
-mod kinds;
-mod options;
 mod replace;
 mod smooth;
 #[cfg(test)]
 mod tests;
-
-pub use detail::RoofDetail;
-pub(crate) use kinds::shape as roof_shape;
-pub use options::Roof;

@@ -1,5 +1,6 @@
 //! Tests of roof replacements and of objects on roofs.
 
+use crate::roofs::RoofDetail;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, DVec3};

@@ -25,7 +25,7 @@ impl Parameter for Height {
 }
 
 /// Fails if a height (m) is not above 0 or exceeds the maximum.
-pub(super) fn check_height(what: &str, height: f64) -> Result<()> {
+pub(crate) fn check_height(what: &str, height: f64) -> Result<()> {
     if height > 0.0 && height <= HIGHEST {
         return Ok(());
     }
@@ -34,7 +34,7 @@ pub(super) fn check_height(what: &str, height: f64) -> Result<()> {
 }
 
 /// Creates the error for an unknown kind.
-pub(super) fn unknown_kind(what: &str, kind: &str, known: &[&'static str]) -> Error {
+pub(crate) fn unknown_kind(what: &str, kind: &str, known: &[&'static str]) -> Error {
     Error::not_found("kind", kind, known.iter().copied(), format!("{what}: unknown kind {kind:?}"))
         .help(format!("use {}", known.join(", ")))
 }

@@ -11,9 +11,9 @@ use super::polygon::PolygonArgument;
 use crate::{Geometry, PreparedGeometry};
 
 /// A geometry as an argument: a geometry object, a feature's geometry, or a position.
-pub struct GeometryArgument(Arc<GeometryObject>);
+pub struct GeometryInput(Arc<GeometryObject>);
 
-impl GeometryArgument {
+impl GeometryInput {
     /// Returns the geometry.
     pub fn geometry(&self) -> &Geometry {
         self.0.geometry()
@@ -25,7 +25,7 @@ impl GeometryArgument {
     }
 }
 
-impl Parameter for GeometryArgument {
+impl Parameter for GeometryInput {
     fn luau() -> String {
         "Geometry | { any }".into()
     }

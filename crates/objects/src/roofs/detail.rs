@@ -93,7 +93,7 @@ struct Track {
 
 impl RoofDetail {
     /// Fails if a field is out of its range.
-    pub(super) fn check(&self) -> Result<()> {
+    pub(crate) fn check(&self) -> Result<()> {
         let what = "a detail of footprint:roof";
         if self.model.is_none() {
             return Err(
@@ -124,7 +124,7 @@ impl RoofDetail {
     }
 
     /// Returns the model at each of its positions on a roof. Random choices depend on `seed`.
-    pub(super) fn frames(&self, patches: &[Patch], seed: u64) -> Vec<(Arc<Model>, DAffine3)> {
+    pub(crate) fn frames(&self, patches: &[Patch], seed: u64) -> Vec<(Arc<Model>, DAffine3)> {
         let Some(model) = &self.model else { return Vec::new() };
         let mut random = Stream::new(seed);
         let mut frames: Vec<DAffine3> = Vec::new();

@@ -1,8 +1,8 @@
 //! The types of roof that scripts can name.
 
+use super::checks::{check_height, unknown_kind};
 use super::direction::axis;
 use super::options::Roof;
-use crate::footprint::checks::{check_height, unknown_kind};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
 use burgeon_geometry::roof::{Border, Eaves, Ends, FieldRoof, RidgeAxis, Rise, RoofShape, RoofSurface};
@@ -80,7 +80,7 @@ const EAVES: [&str; 3] = ["closed", "open", "slab"];
 const THICKNESS: f64 = 0.15;
 
 /// Returns the roof shape for the options of the script. Fails if an option is unknown or out of range.
-pub(crate) fn shape(options: &Roof) -> Result<RoofShape> {
+pub(crate) fn roof_shape(options: &Roof) -> Result<RoofShape> {
     check(options)?;
     let kind = options.kind.as_str();
     let border = Border { height: options.border, width: options.border_width };
@@ -125,7 +125,7 @@ pub(crate) fn shape(options: &Roof) -> Result<RoofShape> {
 }
 
 /// Returns true if the slopes of a type approximate curves.
-pub(super) fn is_curved(kind: &str) -> bool {
+pub(crate) fn is_curved(kind: &str) -> bool {
     CURVED.contains(&kind)
 }
 
@@ -202,21 +202,22 @@ mod tests {
     #[test]
     fn every_kind_has_a_shape_and_others_are_refused_with_the_nearest() {
         for kind in KINDS {
-            assert!(shape(&Roof { kind: kind.into(), ..Roof::default() }).is_ok(), "{kind}");
+            assert!(roof_shape(&Roof { kind: kind.into(), ..Roof::default() }).is_ok(), "{kind}");
         }
-        let error = shape(&Roof { kind: "mansarde".into(), ..Roof::default() }).expect_err("no such kind");
+        let error =
+            roof_shape(&Roof { kind: "mansarde".into(), ..Roof::default() }).expect_err("no such kind");
         assert!(error.to_string().contains("mansard"), "{error}");
         let error =
-            shape(&Roof { eaves: Some("shut".into()), ..Roof::default() }).expect_err("no such eaves");
+            roof_shape(&Roof { eaves: Some("shut".into()), ..Roof::default() }).expect_err("no such eaves");
         assert!(error.to_string().contains("closed, open, slab"), "{error}");
         let both = Roof { eaves: Some("closed".into()), slab: 0.2, ..Roof::default() };
-        assert!(shape(&both).is_err());
+        assert!(roof_shape(&both).is_err());
     }
 
     #[test]
     fn a_direction_selects_one_ridge_and_is_refused_for_types_without_one() {
         let with = |kind: &str| {
-            shape(&Roof { kind: kind.into(), orientation: Some("across".into()), ..Roof::default() })
+            roof_shape(&Roof { kind: kind.into(), orientation: Some("across".into()), ..Roof::default() })
         };
         for kind in KINDS {
             match with(kind) {
@@ -230,9 +231,9 @@ mod tests {
             }
         }
         assert_eq!(KINDS.into_iter().filter(|kind| has_direction(kind)).count(), 14);
-        let gable = shape(&Roof { kind: "gable".into(), ..Roof::default() }).expect("a roof");
+        let gable = roof_shape(&Roof { kind: "gable".into(), ..Roof::default() }).expect("a roof");
         assert!(matches!(gable.surface, RoofSurface::Sloped(..)));
         let onion = Roof { kind: "onion".into(), overhang: 0.3, ..Roof::default() };
-        assert!(shape(&onion).is_err());
+        assert!(roof_shape(&onion).is_err());
     }
 }

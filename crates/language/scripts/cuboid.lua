@@ -1,0 +1,3 @@
+-- The simple shapes, and their volumes or areas.
+print(cuboid(4, 3, 2):volume(), cylinder(1, 2):volume(), cone(1, 2, 64):volume(), ball(1):volume())
+print(rectangle(4, 3):area(), disk(1, 6):area())

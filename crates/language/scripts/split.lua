@@ -1,0 +1,11 @@
+-- A tower of a ground floor and storeys that share the rest, each with two slabs.
+local Mass, Storey = module("Mass", "shape"), module("Storey", "shape")
+local tower = lsystem({ object = extruder({ color = "#cdbb98" }) })
+tower:axiom(Mass(cuboid(6, 5, 16)))
+tower:rule("Mass(s)", function(this, s: Shape)
+  return split(s, "z", { { 4, Shape }, { "~3*", Storey } })
+end)
+tower:rule("Storey(s)", function(this, s: Shape)
+  return split(s, "z", { { 0.3, false }, { "~1", Shape } })
+end)
+tower:derive()

@@ -1,0 +1,14 @@
+//! Options of roofs: their kinds, directions and objects on them, for footprints and shapes.
+//!
+//! Input: tables of scripts. Output: shapes of roofs for the geometry crate. Never draws.
+
+mod checks;
+mod detail;
+mod direction;
+mod kinds;
+mod options;
+
+pub(crate) use checks::{Height, check_height, unknown_kind};
+pub use detail::RoofDetail;
+pub(crate) use kinds::{is_curved, roof_shape};
+pub use options::Roof;
