@@ -28,7 +28,7 @@ fn a_method_that_there_is_not_is_found() {
     error: s.lua:5:8: rule A(x) (interpretation): unknown method or field `window` of extruder
       | this:window()
       |      ^^^^^^
-      help: it has regular, star, rectangle, polygon, direction, resolution, scale, taper, bend, twist, caps, smooth, extrude, advance, shift, jump, turn, pitch, roll, color, material, mesh, place, position, heading, distance, open_edges
+      help: it has regular, star, rectangle, polygon, direction, resolution, scale, taper, bend, twist, caps, smooth, extrude, advance, shift, jump, turn, pitch, roll, color, material, mesh, shape, place, position, heading, distance, open_edges
     ");
     assert_snapshot!(check("s:derve()"), @r"
     error: s.lua:4:3: unknown method `derve` of a system

@@ -51,7 +51,7 @@ fn the_summary_and_the_document_have_the_totals() {
         json!({ "length, m": { "sum": 12.0, "count": 12, "chains": 3 }, "long": { "sum": 4.0, "count": 4, "chains": 1 } })
     );
     let part = folder.burgeon(&["run", "s.lua", "--part", "3/3", "--reach", "10", "--json"]).done().json();
-    assert_eq!(part["reports"]["length, m"], json!({ "sum": 6.0, "chains": 1 }));
+    assert_eq!(part["reports"]["length, m"], json!({ "sum": 6.0, "count": 4, "chains": 1 }));
 }
 
 #[test]

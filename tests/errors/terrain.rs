@@ -131,7 +131,7 @@ fn sizes_and_views_are_checked_with_their_numbers() {
     error: s.lua:1:33: terrain: base is 10 m, above the ground at its edge
       | local land = lsystem({ object = terrain({ levels = 3, base = 10, rules = { A = { "A", "A", "A", "A" } } }) })
       |                                 ^^^^^^^
-      help: use a height below 0.0 m
+      help: use a height below 0.0 m, or base = "auto"
 
     levels = 3, covers = { { colour = "#ffffff" } }, rules = { A = { "A", "A", "A", "A" } }
     error: s.lua:1:68: terrain: covers must be a list whose item 1 is a cover (unknown field `colour` in cover), not {colour="#ffffff"}

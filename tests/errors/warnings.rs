@@ -542,7 +542,11 @@ fn a_model_without_triangles() {
     warning: s.lua:4:1: the model is empty: this system draws nothing
       | local t = lsystem({ object = extruder() })
       | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
-      help: a system that another one places is not shown separately: check that it is placed
+      help: another warning shows the reason
+    warning: s.lua:4:1: the standard library draws Place only with a turtle
+      | local t = lsystem({ object = extruder() })
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+      help: system:interpret("Place(model, scale)", function(this, model, scale) ... end)
     "#);
     insta::assert_snapshot!(file("local A = module(\"A\")\nlocal s = lsystem()\ns:axiom(A())\ns:derive(0)"), @r"
     warning: s.lua:2:1: the model is empty: no system has an object that draws

@@ -6,6 +6,7 @@ use std::sync::{Arc, LazyLock};
 use glam::DVec3;
 
 use crate::Scope;
+use crate::edge_kind::EdgeKind;
 use crate::mesh::{PolygonFace, PolygonMesh};
 use crate::style::SharedStyle;
 
@@ -17,7 +18,7 @@ pub enum ShapeBody {
     /// The rectangle of the scope's x and y axes, which faces along z.
     Rectangle(SharedStyle),
     /// The line along the scope's x axis.
-    Edge(crate::EdgeKind, SharedStyle),
+    Edge(EdgeKind, SharedStyle),
     /// Any faces.
     Mesh(Arc<PolygonMesh>),
 }

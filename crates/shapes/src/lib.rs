@@ -7,6 +7,7 @@ mod body;
 mod components;
 mod construct;
 mod cut;
+mod edge_kind;
 mod mesh;
 mod operations;
 mod relations;
@@ -18,9 +19,9 @@ mod split;
 mod style;
 
 pub use body::ShapeBody;
-pub use components::edges::EdgeKind;
 pub use components::selector::Selector;
 pub use cut::plane::CutPlane;
+pub use edge_kind::EdgeKind;
 pub use mesh::{PolygonFace, PolygonMesh};
 pub use operations::{EnvelopeLimit, Setback};
 pub use scope::Scope;

@@ -6,10 +6,14 @@ use super::entry::{Entry, EntryGroup, Member, MemberKind};
 use burgeon::language::CallForm;
 
 /// Counts.
-const COUNTS: [&str; 42] = [
+const COUNTS: [&str; 46] = [
+    "ball sides",
+    "cone sides",
+    "cylinder sides",
     "derive.steps",
     "derived.modules",
     "derived.steps",
+    "disk sides",
     "extruder.along",
     "extruder.around",
     "extruder.sides",

@@ -207,8 +207,8 @@ impl ShapeObject {
         Ok(below.map(|part| self.changed(part)))
     }
 
-    /// Returns the part of faces within a rectangle along the axes of the scope, from `x` and `y` (m) with a width and a
-    /// height (m); nil if there is none.
+    /// Returns the part of faces within a rectangle along the axes of the scope, from `x` (m) and `y` (m) with `width` (m) and
+    /// `height` (m); nil if there is none.
     pub fn crop(&self, x: f64, y: f64, width: f64, height: f64) -> Result<Option<Self>> {
         let low = DVec2::new(x, y);
         Ok(self.shape.crop(low, low + DVec2::new(width, height))?.map(|part| self.changed(part)))

@@ -1,67 +1,15 @@
 //! Edges as shapes, by their kind.
 
-use burgeon_base::error::{Error, Result};
-use burgeon_base::text::listed;
 use glam::{DMat3, DVec3};
 use rustc_hash::FxHashMap;
 
 use crate::mesh::PolygonMesh;
-use crate::{Scope, Shape, ShapeBody};
-
-/// Kind of an edge by its faces.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum EdgeKind {
-    /// Border of an open surface.
-    Border,
-    /// Level top of two slopes.
-    Ridge,
-    /// Inclined convex edge of two slopes.
-    Hip,
-    /// Concave edge of two upward faces, of which one slopes.
-    Valley,
-    /// Level bottom of a slope.
-    Eave,
-    /// Inclined edge between a slope and a wall.
-    Rake,
-    /// Upright edge.
-    Corner,
-    /// Any other edge.
-    Plain,
-}
-
-/// Kinds with their names.
-const KINDS: [(&str, EdgeKind); 8] = [
-    ("border", EdgeKind::Border),
-    ("ridge", EdgeKind::Ridge),
-    ("hip", EdgeKind::Hip),
-    ("valley", EdgeKind::Valley),
-    ("eave", EdgeKind::Eave),
-    ("rake", EdgeKind::Rake),
-    ("corner", EdgeKind::Corner),
-    ("plain", EdgeKind::Plain),
-];
+use crate::{EdgeKind, Scope, Shape, ShapeBody};
 
 /// Least upward part of the unit normal of a slope.
 const SLOPE: f64 = 0.05;
 /// Largest upward part of the unit normal of a slope; above, a face is level.
 const LEVEL: f64 = 0.999;
-
-impl EdgeKind {
-    /// Returns the name.
-    pub fn name(self) -> &'static str {
-        KINDS.iter().find(|(_, kind)| *kind == self).map_or("plain", |(name, _)| name)
-    }
-
-    /// Reads a name.
-    pub fn read(name: &str) -> Result<Self> {
-        let found = KINDS.iter().find(|(known, _)| *known == name);
-        found.map(|(_, kind)| *kind).ok_or_else(|| {
-            let names = || KINDS.iter().map(|(name, _)| *name);
-            Error::not_found("edge", name, names(), format!("unknown kind of edge {name:?}"))
-                .help(format!("use one of {}", listed(names())))
-        })
-    }
-}
 
 /// An edge between two points, with the faces on its sides.
 struct MeshEdge {

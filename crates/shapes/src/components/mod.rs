@@ -1,6 +1,6 @@
 //! Components of shapes: faces, edges, holes and connected pieces.
 
-pub(crate) mod edges;
+mod edges;
 mod faces;
 mod pieces;
 pub(crate) mod selector;
