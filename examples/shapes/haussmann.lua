@@ -1,12 +1,18 @@
 --!strict
 -- A Parisian block around a courtyard: storeys, bays with French windows, balconies, cornices, a mansard roof with dormers.
-local storeys = param("storeys", { default = 5, min = 3, max = 8, step = 1, doc = "Number of storeys above the shops." })
+local storeys =
+  param("storeys", { default = 5, min = 3, max = 8, step = 1, doc = "Number of storeys above the shops." })
 local bay_width = param("bay_width", { default = 2.7, min = 2, max = 5, unit = "m" })
 
 local STONE, TRIM, ZINC, GLASS, IRON, SHOP = "#d8cbb0", "#e6dcc6", "#727a82", "#39444d", "#23272b", "#3a4a44"
 local GROUND, STOREY, ATTIC = 4.4, 3.3, 3.4
 
-local Block, Storey, Front, Bay, Roof = module("Block", "plan"), module("Storey", "mass"), module("Front", "face"), module("Bay", "face"), module("Roof", "plan")
+local Block, Storey, Front, Bay, Roof =
+  module("Block", "plan"),
+  module("Storey", "mass"),
+  module("Front", "face"),
+  module("Bay", "face"),
+  module("Roof", "plan")
 local block = lsystem({ object = extruder({ color = STONE }), seed = 4 })
 
 block:axiom(Block(shape({
@@ -29,7 +35,10 @@ block:rule("Storey(mass)", function(this, mass: Shape)
     table.insert(parts, Front(face))
   end
   local band = mass:faces("up")[1]
-  table.insert(parts, Shape(band:molding({ { -0.1, -0.28 }, { 0.12, -0.2 }, { 0.16, 0 }, { -0.1, 0 } }):color(TRIM)))
+  table.insert(
+    parts,
+    Shape(band:molding({ { -0.1, -0.28 }, { 0.12, -0.2 }, { 0.16, 0 }, { -0.1, 0 } }):color(TRIM))
+  )
   return sequence(parts)
 end)
 block:rule("Front(face)", function(this, face: Shape)

@@ -1,10 +1,16 @@
 --!strict
 -- A Doric temple as a shape grammar: steps, a colonnade around a cella, an entablature and a gabled roof. After the
 -- measures of the Parthenon: 8 by 17 columns on a base of 31 m by 70 m.
-local columns = param("columns", { default = 8, min = 4, max = 12, step = 1, doc = "Number of columns on a front." })
+local columns =
+  param("columns", { default = 8, min = 4, max = 12, step = 1, doc = "Number of columns on a front." })
 local column_height = param("column_height", { default = 10.4, min = 4, max = 16, unit = "m" })
 
-local Temple, Steps, Hall, Colonnade, Top = module("Temple", "plan"), module("Steps", "plan"), module("Hall", "plan"), module("Colonnade", "plan"), module("Top", "plan")
+local Temple, Steps, Hall, Colonnade, Top =
+  module("Temple", "plan"),
+  module("Steps", "plan"),
+  module("Hall", "plan"),
+  module("Colonnade", "plan"),
+  module("Top", "plan")
 local Column = module("Column", "foot")
 
 local STONE, SHADE, ROOF = "#dccdac", "#bfae8c", "#a8663f"
@@ -26,7 +32,10 @@ local temple = lsystem({ object = extruder({ color = STONE }) })
 temple:axiom(Temple(rectangle(30.9, spacing * (2 * columns + 0.45))))
 
 temple:rule("Temple(plan)", function(this, plan: Shape)
-  return Steps(plan), Colonnade(plan), Hall(plan:setback(4.6)[1]), Top(plan:translate(vec(0, 0, column_height)))
+  return Steps(plan),
+    Colonnade(plan),
+    Hall(plan:setback(4.6)[1]),
+    Top(plan:translate(vec(0, 0, column_height)))
 end)
 -- Three steps, each wider than the one above.
 temple:rule("Steps(plan)", function(this, plan: Shape)

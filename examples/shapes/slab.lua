@@ -31,7 +31,9 @@ slab:rule("Loggia(s)", function(this, s: Shape)
   local back = s:shift(vec(0, 0, -1.6))
   local room = back:extrude(1.6):joined_faces("tag:extrude.side") :: Shape
   local shapes = facade.balustrade(s:shift(vec(0, 0, -0.1)), 1.05, 0.12)
-  return Shape(room:reverse()), split(back, "x", { { "~1", Shape }, { 3, Opening }, { "~1", Shape } }), draw(shapes)
+  return Shape(room:reverse()),
+    split(back, "x", { { "~1", Shape }, { 3, Opening }, { "~1", Shape } }),
+    draw(shapes)
 end)
 slab:rule("Wall(s)", function(this, s: Shape)
   local function bay(part: Shape)

@@ -1,10 +1,18 @@
 --!strict
 -- Blocks of a city under a zoning law: lots by area, envelopes that step back from the street, and towers that fill them.
-local height = param("height", { default = 46, min = 10, max = 120, unit = "m", doc = "Greatest height of an envelope." })
-local street_wall = param("street_wall", { default = 18, min = 3, max = 60, unit = "m", doc = "Height of the wall along a street." })
-local angle = param("angle", { default = 68, min = 20, max = 89, unit = "deg", doc = "Slope of the envelope above the wall." })
+local height =
+  param("height", { default = 46, min = 10, max = 120, unit = "m", doc = "Greatest height of an envelope." })
+local street_wall = param(
+  "street_wall",
+  { default = 18, min = 3, max = 60, unit = "m", doc = "Height of the wall along a street." }
+)
+local angle = param(
+  "angle",
+  { default = 68, min = 20, max = 89, unit = "deg", doc = "Slope of the envelope above the wall." }
+)
 
-local District, Block, Lot, Tower = module("District", "plan"), module("Block", "plan"), module("Lot", "plan"), module("Tower", "mass")
+local District, Block, Lot, Tower =
+  module("District", "plan"), module("Block", "plan"), module("Lot", "plan"), module("Tower", "mass")
 local city = lsystem({ object = extruder(), seed = 7 })
 local COLORS = { "#c9b79a", "#b8a488", "#d6cbb8", "#a8a29a", "#bfa58c" }
 
