@@ -550,10 +550,10 @@ __interpretation("turtle", "Place", "place")
 -- Shapes ----------------------------------------------------------------------------------------------------
 
 -- Draws the faces of a shape.
-names.Shape = module("Shape", "shape")
-__interpretation("turtle", "Shape", "shape")
-__interpretation("extruder", "Shape", "shape")
-__interpretation("footprint", "Shape", "shape")
+names.Draw = module("Draw", "shape")
+__interpretation("turtle", "Draw", "shape")
+__interpretation("extruder", "Draw", "shape")
+__interpretation("footprint", "Draw", "shape")
 
 --- Adds what a part becomes: a module with the part, all that a function returns for it, or nothing for false.
 local function add_part(list: { any }, maker: any, part: any, owner: string)

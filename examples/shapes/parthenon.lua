@@ -42,7 +42,7 @@ temple:rule("Steps(plan)", function(this, plan: Shape)
   local steps: { any } = {}
   for step = 1, 3 do
     local slab = plan:offset(0.7 * step)[1]:translate(vec(0, 0, -0.5 * (step - 1)))
-    steps[step] = Shape(slab:extrude(-0.5))
+    steps[step] = Draw(slab:extrude(-0.5))
   end
   return sequence(steps)
 end)
@@ -71,31 +71,31 @@ temple:rule("Hall(plan)", function(this, plan: Shape)
   local size, at = plan:size(), plan:position()
   local door = cuboid(4.6, 3, 8.2):translate(at + vec(size.x / 2 - 2.3, -1, 0))
   local hollow = walls:subtract(room)
-  return if hollow then Shape((hollow:subtract(door) or hollow):color("#cdbd9a")) else nil
+  return if hollow then Draw((hollow:subtract(door) or hollow):color("#cdbd9a")) else nil
 end)
 -- The entablature in two bands, the frieze with triglyphs, and the roof with its pediments.
 temple:rule("Top(plan)", function(this, plan: Shape)
   local beam = plan:extrude(1.35)
   local frieze = plan:translate(vec(0, 0, 1.35)):extrude(1.35)
-  local parts: { any } = { Shape(beam), Shape(frieze:color(SHADE)) }
+  local parts: { any } = { Draw(beam), Draw(frieze:color(SHADE)) }
   for _, face in frieze:faces("side") do
     for _, part in face:split("x", { { "~0.85", 0.9, "~0.85" } }) do
       if part:entry() == 2 then
-        table.insert(parts, Shape(part:extrude(0.12):color(STONE)))
+        table.insert(parts, Draw(part:extrude(0.12):color(STONE)))
       end
     end
   end
   local eaves = plan:translate(vec(0, 0, 2.7))
-  table.insert(parts, Shape(eaves:offset(0.75)[1]:extrude(0.5)))
+  table.insert(parts, Draw(eaves:offset(0.75)[1]:extrude(0.5)))
   local base = eaves:offset(0.75)[1]:translate(vec(0, 0, 0.5))
   local roof = base:roof({ kind = "gable", slope = 14 })
   for _, face in roof:faces() do
-    table.insert(parts, Shape(face:color(if face:has_tag("roof.slope") then ROOF else SHADE)))
+    table.insert(parts, Draw(face:color(if face:has_tag("roof.slope") then ROOF else SHADE)))
   end
   -- A raking cornice frames each pediment.
   for _, gable in roof:faces("tag:roof.gable") do
     local frame = gable:molding({ { -0.45, 0 }, { 0.05, 0 }, { 0.05, 0.35 }, { -0.45, 0.35 } })
-    table.insert(parts, Shape(frame))
+    table.insert(parts, Draw(frame))
   end
   return sequence(parts)
 end)

@@ -11,10 +11,10 @@ expect(math.round(mass:volume() * 1000) / 1000, 16 * 10 * 13)
 expect(mass:open_edges(), 0)
 
 local house = lsystem({ object = extruder({ color = "#c9b18c" }) })
-house:axiom(Shape(lot:color("#8b9a72")), Mass(mass))
+house:axiom(Draw(lot:color("#8b9a72")), Mass(mass))
 house:rule("Mass(s)", function(this, s: Shape)
   local roof = s:faces("top")[1]:roof({ kind = "hip", overhang = 0.4 }):color("#7c4436")
-  return Shape(roof), split(s, "z", { { 4, Storey }, { { "~3", Storey } } })
+  return Draw(roof), split(s, "z", { { 4, Storey }, { { "~3", Storey } } })
 end)
 house:rule("Storey(s)", function(this, s: Shape)
   local front = if s:index() == 1 then Front else Wall
@@ -23,9 +23,9 @@ end)
 house:rule("Front(s)", function(this, s: Shape)
   local function door(part: Shape)
     local function leaf(opening: Shape)
-      return Shape(opening:shift(vec(0, 0, -0.1)):color("#4a3426"))
+      return Draw(opening:shift(vec(0, 0, -0.1)):color("#4a3426"))
     end
-    return split(part, "y", { { 2.6, leaf }, { "~1", Shape } })
+    return split(part, "y", { { 2.6, leaf }, { "~1", Draw } })
   end
   return split(s, "x", { { "~1", Wall }, { 2, door }, { "~1", Wall } })
 end)
@@ -34,14 +34,14 @@ house:rule("Wall(s)", function(this, s: Shape)
 end)
 house:rule("Tile(s)", function(this, s: Shape)
   local function column(part: Shape)
-    return split(part, "y", { { 0.9, Shape }, { "~1", Opening }, { 0.6, Shape } })
+    return split(part, "y", { { 0.9, Draw }, { "~1", Opening }, { 0.6, Draw } })
   end
-  return split(s, "x", { { "~1", Shape }, { 1.2, column }, { "~1", Shape } })
+  return split(s, "x", { { "~1", Draw }, { 1.2, column }, { "~1", Draw } })
 end)
 house:rule("Opening(s)", function(this, s: Shape)
   local modules = {}
   for at, part in facade.window(s, 0.2, 0.07) do
-    modules[at] = Shape(part)
+    modules[at] = Draw(part)
   end
   return table.unpack(modules)
 end)

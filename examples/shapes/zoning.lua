@@ -19,7 +19,7 @@ local COLORS = { "#c9b79a", "#b8a488", "#d6cbb8", "#a8a29a", "#bfa58c" }
 city:axiom(District(rectangle(330, 240)))
 -- Streets of two widths between the blocks.
 city:rule("District(plan)", function(this, plan: Shape)
-  local parts: { any } = { Shape(plan:extrude(-0.4):color("#6e7276")) }
+  local parts: { any } = { Draw(plan:extrude(-0.4):color("#6e7276")) }
   for _, column in plan:split("x", { { "~66", 16 }, "~66" }) do
     if column:entry() ~= 2 then
       for _, block in column:split("y", { { "~90", 12 }, "~90" }) do
@@ -33,7 +33,7 @@ city:rule("District(plan)", function(this, plan: Shape)
 end)
 -- A pavement, and two rows of lots.
 city:rule("Block(plan)", function(this, plan: Shape)
-  local parts: { any } = { Shape(plan:extrude(0.15):color("#a9a9a4")) }
+  local parts: { any } = { Draw(plan:extrude(0.15):color("#a9a9a4")) }
   local inner = plan:setback(3)[1]
   for _, row in inner:split("x", { "~1", "~1" }) do
     for _, lot in row:split_area("y", { "~620*" }) do
@@ -55,11 +55,11 @@ city:rule("Tower(mass)", function(this, mass: Shape)
   for _, part in mass:split("z", { 4.2, { 0.9, "~2.4" }, 0.9 }) do
     local sides = part:joined_faces("side")
     if part:entry() == 3 and sides then
-      table.insert(parts, Shape(sides:color("#46545f")))
+      table.insert(parts, Draw(sides:color("#46545f")))
     elseif part:entry() == 1 and sides then
-      table.insert(parts, Shape(sides:color("#5a554c")))
+      table.insert(parts, Draw(sides:color("#5a554c")))
     else
-      table.insert(parts, Shape(part))
+      table.insert(parts, Draw(part))
     end
   end
   return sequence(parts)

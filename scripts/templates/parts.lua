@@ -13,10 +13,10 @@ local parts: { [string]: (...any) -> any } = table.clone(pieces)
 local box, plate, model = parts.box, parts.plate, parts.model
 
 type Material = { [string]: any }
-type Shape = { [string]: any }
+type Piece = { [string]: any }
 
 -- The pieces of a casement: a frame, `columns` by `rows` panes and glass. Its front is at the depth `y`.
-local function casement(o: any): { Shape }
+local function casement(o: any): { Piece }
   local w, h, f, y = o.width / 2, o.height, o.frame or 0.07, o.y or 0
   local low, x0 = o.low or 0, o.x or 0
   local bar = o.bar or 0.035
@@ -143,7 +143,7 @@ function parts.portal(o: any)
 end
 
 -- An open shutter with slats, centred on x, folded back on the wall.
-function parts.shutter(x: number, width: number, height: number, color): { Shape }
+function parts.shutter(x: number, width: number, height: number, color): { Piece }
   local paint, x0, x1 = parts.painted(color), x - width / 2, x + width / 2
   if not fine then
     return { box(paint, x0, x1, -0.04, 0, 0, height) }
@@ -173,7 +173,7 @@ local function railing(
   z1: number,
   step: number?,
   material: Material?
-): { Shape }
+): { Piece }
   local iron = material or parts.iron
   local shapes = {
     box(iron, x0, x1, y - 0.03, y + 0.03, z1 - 0.04, z1),
@@ -192,7 +192,7 @@ end
 parts.railing = railing :: any
 
 -- An iron railing perpendicular to the wall at x, from the depth y0 to the wall.
-local function side_railing(x: number, y0: number, z0: number, z1: number, material: Material?): { Shape }
+local function side_railing(x: number, y0: number, z0: number, z1: number, material: Material?): { Piece }
   local iron = material or parts.iron
   local shapes = {
     box(iron, x - 0.03, x + 0.03, y0, 0, z1 - 0.04, z1),

@@ -4,7 +4,7 @@
 local shapes = {}
 
 type Material = { [string]: any }
-type Shape = { [string]: any }
+type Piece = { [string]: any }
 
 -- Materials that many buildings use.
 function shapes.matt(color: string): Material
@@ -32,13 +32,13 @@ end
 local Shapes = module("Shapes", "list")
 
 -- A block between two corners.
-local function box(material: Material, x0, x1, y0, y1, z0, z1): Shape
+local function box(material: Material, x0, x1, y0, y1, z0, z1): Piece
   return { kind = "box", material = material, x = { x0, x1 }, y = { y0, y1 }, z = { z0, z1 } }
 end
 shapes.box = box
 
 -- A plate with an outline of points { x, z }, from the depth y0 to y1.
-local function plate(material: Material, outline: any, y0, y1): Shape
+local function plate(material: Material, outline: any, y0, y1): Piece
   local points = {}
   for _, point in outline do
     table.insert(points, { point[1], -point[2] })
@@ -48,13 +48,13 @@ end
 shapes.plate = plate
 
 -- A block with an outline on the ground of points { x, y }, from z0 to z1.
-local function prism(material: Material, outline, z0, z1): Shape
+local function prism(material: Material, outline, z0, z1): Piece
   return { kind = "prism", material = material, outline = outline, z = { z0, z1 } }
 end
 shapes.prism = prism
 
 -- A beam as wide as `width` from { x, z } to { x, z }, from the depth y0 to y1.
-local function beam(material: Material, from: any, to: any, width, y0, y1): Shape
+local function beam(material: Material, from: any, to: any, width, y0, y1): Piece
   local dx, dz = to[1] - from[1], to[2] - from[2]
   local length = math.sqrt(dx * dx + dz * dz)
   local x, z = -dz / length * width / 2, dx / length * width / 2
@@ -69,7 +69,7 @@ end
 shapes.beam = beam
 
 -- A plate of the width 2 `w`, from the height and depth { y, z } down to another, `thick` high.
-function shapes.leaning(material: Material, w: number, from, to, thick: number): Shape
+function shapes.leaning(material: Material, w: number, from, to, thick: number): Piece
   return { kind = "leaning", material = material, w = w, from = from, to = to, thick = thick }
 end
 

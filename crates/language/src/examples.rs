@@ -7,6 +7,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "BeginPolygon" shows "BeginPolygon" "Point" "EndPolygon";
     "Color" shows "Color";
     "Cut" shows "Cut";
+    "Draw" shows "Draw";
     "Elasticity" shows "Elasticity";
     "F" shows "F" "G";
     "Level" shows "Level";
@@ -15,7 +16,6 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "Pitch" shows "Pitch" "Down" "Up";
     "Place" shows "Place";
     "Roll" shows "Roll" "RollLeft" "RollRight";
-    "Shape" shows "Shape";
     "Sphere" shows "Sphere";
     "Turn" shows "Turn" "Left" "Right";
     "TurnAround" shows "TurnAround";

@@ -12,7 +12,7 @@ for number = 1, 60 do
 end
 boxes:axiom(sequence(places))
 boxes:rule("Block(s)", function(this, s: Shape)
-  return if space:has(s) then Shape(s) else nil
+  return if space:has(s) then Draw(s) else nil
 end)
 boxes:interpret("Block(s)", function(this, s: Shape)
   space:claim(s)

@@ -14,7 +14,7 @@ town:rule("Lot(s)", function(this, s: Shape)
     space:is_free(s:translate(vec(0, 30, 0))),
     space:distance(s, "house")
   )
-  return Shape(s)
+  return Draw(s)
 end)
 town:interpret("Lot(s)", function(this, s: Shape)
   space:claim(s, "house")

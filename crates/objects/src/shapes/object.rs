@@ -14,7 +14,7 @@ use super::construct::constructors;
 
 /// A solid, faces or an edge with a scope, an oriented box, which rules divide into parts.
 ///
-/// It never changes. Its methods return new shapes, and modules carry them. The module Shape draws one.
+/// It never changes. Its methods return new shapes, and modules carry them. The module Draw draws one.
 #[object("shape", given, can(ObjectContent), functions = constructors(), example = include_str!("../../scripts/shape.lua"))]
 pub struct ShapeObject {
     pub(super) shape: Shape,

@@ -12,9 +12,9 @@ const PLAN: f64 = 0.02;
 /// Maximum relative thickness of a model that is shown as a plan, such as a map.
 const FLAT: f64 = 0.002;
 
-/// Turns of the camera (degrees) among which the one that fills the image is found. They keep it 20 degrees away from a view
+/// Turns of the camera (degrees) among which the one that fills the image is found. They keep it 15 degrees away from a view
 /// along an axis, in which a building shows one side only.
-const AZIMUTHS: [f64; 6] = [0.0, -10.0, 10.0, -20.0, -30.0, -40.0];
+const AZIMUTHS: [f64; 8] = [0.0, -10.0, 10.0, 15.0, -20.0, -30.0, -40.0, -45.0];
 /// Lifts of the camera (degrees).
 const ELEVATIONS: [f64; 5] = [0.0, -5.0, 5.0, 10.0, 15.0];
 /// Parts of the image that a degree of turn and of lift are worth.

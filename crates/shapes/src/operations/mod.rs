@@ -9,10 +9,11 @@ mod merge;
 mod molding;
 mod regions;
 mod roof;
+mod solids;
 mod strips;
 mod transform;
 
-pub(crate) use flat_faces::remove_flat_triangles;
 pub use inset::Setback;
 pub(crate) use merge::{merge_coplanar, weld};
 pub use regions::EnvelopeLimit;
+pub use solids::SolidOperation;

@@ -7,9 +7,10 @@ use burgeon_base::Stop;
 use burgeon_base::error::{Error, Limit, Result};
 use glam::DVec3;
 
+use super::flat_faces::remove_flat_triangles;
+use super::merge::merge_coplanar;
 use crate::Shape;
 use crate::mesh::{PolygonFace, PolygonMesh};
-use crate::operations::{merge_coplanar, remove_flat_triangles};
 use crate::style::{FaceStyle, SharedStyle};
 
 /// Set operation of two solids.
