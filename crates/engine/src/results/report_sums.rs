@@ -92,12 +92,15 @@ impl ReportSums {
     }
 }
 
+/// Index of a name, its sum in a chain, and the number of its reports there.
+type ReportCell = (usize, f64, usize);
+
 /// Sums as a table.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct ReportTable {
     names: Vec<String>,
     /// Chains, with the sums of some names and the numbers of their reports.
-    rows: Vec<(usize, Vec<(usize, f64, usize)>)>,
+    rows: Vec<(usize, Vec<ReportCell>)>,
 }
 
 impl ReportTable {

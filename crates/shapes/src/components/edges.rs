@@ -98,7 +98,7 @@ fn kind(mesh: &PolygonMesh, edge: &MeshEdge, normals: &[DVec3], along: DVec3) ->
         (true, _) | (_, true) if !is_convex && rises(one) && rises(other) => EdgeKind::Valley,
         (true, false) if is_level && goes_up(first, one) => EdgeKind::Eave,
         (false, true) if is_level && goes_up(second, other) => EdgeKind::Eave,
-        (true, false) | (false, true) if !is_level && !(rises(one) && rises(other)) => EdgeKind::Rake,
+        (true, false) | (false, true) if !(is_level || rises(one) && rises(other)) => EdgeKind::Rake,
         _ => EdgeKind::Plain,
     }
 }
