@@ -85,6 +85,12 @@ fn module(line: &'static str) -> Option<Name> {
         (name, kind, method, texts.next())
     } else if line.starts_with("__interpretation(") {
         let (kind, name, method) = (texts.next()?, texts.next()?, texts.next()?);
+        // Later lines are for other object types, which interpret the module alike.
+        let is_of =
+            |other: &&str| other.starts_with("__interpretation(") && other.split('"').nth(3) == Some(name);
+        if TEXT.lines().find(is_of) != Some(line) {
+            return None;
+        }
         (name, kind, method, None)
     } else {
         return None;
