@@ -97,10 +97,10 @@ end
 tags.report()
 
 -- A polygon at a height (m).
-local function lifted(plan: any, height: number): { { { number } } }
-  local rings = {}
+local function lifted(plan: any, height: number): { any }
+  local rings: { any } = {}
   for index, ring in plan.rings do
-    local corners = {}
+    local corners: { any } = {}
     for _, corner in ring do
       table.insert(corners, { corner[1], corner[2], height })
     end

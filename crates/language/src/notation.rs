@@ -64,7 +64,7 @@ pub(crate) fn with_parameters(luau: &str) -> String {
 /// Merges several signatures into one. Arguments that not all of them have are optional.
 ///
 /// Luau infers the parameters of a function expression only if there is one signature and the argument's type is not a
-/// union. In a union, the parameters of a function type are `never`, so that every function is accepted.
+/// union. The alternative type `string` is therefore removed from arguments that only some signatures have.
 pub(crate) fn merge(forms: &[CallForm]) -> CallForm {
     let Some((first, others)) = forms.split_first() else { return CallForm::default() };
     let mut form = first.clone();
@@ -85,10 +85,7 @@ pub(crate) fn merge(forms: &[CallForm]) -> CallForm {
                     *known = Argument { luau, ..argument.clone() };
                 }
                 None => {
-                    let luau = match argument.luau.ends_with(" | string") {
-                        true => Cow::Owned(argument.luau.replace("...any)", "...never)")),
-                        false => Cow::Borrowed(&*argument.luau),
-                    };
+                    let luau = argument.luau.trim_end_matches(" | string");
                     form.arguments.push(Argument { luau: format!("({luau})?"), ..argument.clone() });
                 }
             }
@@ -112,15 +109,6 @@ fn in_place(argument: &Argument) -> Cow<'_, str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn an_argument_that_only_some_forms_have_keeps_the_alternative_of_a_string() {
-        let forms =
-            ["(a: string, b: string) -> T", "(a: string, b: number, c: ((...any) -> any) | string) -> T"];
-        let forms: Vec<CallForm> = forms.iter().filter_map(|form| CallForm::read(form)).collect();
-        let form = merge(&forms).to_string();
-        assert_eq!(form, "(a: string, b: string | number, c: (((...never) -> any) | string)?) -> T");
-    }
 
     #[test]
     fn one_form_takes_what_any_of_several_takes() {

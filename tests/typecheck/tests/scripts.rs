@@ -96,7 +96,6 @@ fn what_luau_cannot_know_is_allowed() {
     let mut checker = checker();
     for script in [
         "local s = lsystem() s:rule(\"A\", \"return B()\") s:derive(3)",
-        "local s = lsystem() s:rule(\"A\", { weight = 2 }, \"A A\") s:decompose(\"B\", { weight = 2 }, \"A A\")",
         "local s = lsystem({ object = footprint }) s:interpret(\"A\", function(this) this:walls():roof({ kind = \"hip\" }) end)",
         "local s = lsystem({ object = turtle(), interpret = \"last\" }) s:axiom(F(1), { Turn(3), F() })",
         "local s = lsystem({ seed = 3 }) s:rule(\"A(x)\", { weight = 2 }, function(this, x) return F(x - 1), { F(x) } end)",
