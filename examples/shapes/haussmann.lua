@@ -13,7 +13,7 @@ local Block, Storey, Front, Bay, Roof =
   module("Front", "face"),
   module("Bay", "face"),
   module("Roof", "plan")
-local block = lsystem({ object = extruder({ color = STONE }), seed = 4 })
+local block = lsystem({ object = extruder({ color = STONE }) })
 
 block:axiom(Block(shape({
   { { 0, 0 }, { 46, 0 }, { 52, 26 }, { 4, 34 } },

@@ -13,7 +13,7 @@ local angle = param(
 
 local District, Block, Lot, Tower =
   module("District", "plan"), module("Block", "plan"), module("Lot", "plan"), module("Tower", "mass")
-local city = lsystem({ object = extruder(), seed = 7 })
+local city = lsystem({ object = extruder() })
 local COLORS = { "#c9b79a", "#b8a488", "#d6cbb8", "#a8a29a", "#bfa58c" }
 
 city:axiom(District(rectangle(330, 240)))
