@@ -595,7 +595,8 @@ local function split(shape: any, axis: string, parts: { any }): any
 end
 
 --- Divides a shape into modules for its components, "faces", "edges", "holes" or "pieces": each of `parts` is
---- { selector, Module }, and a component becomes the first whose selector it matches. A selector is a name or a function.
+--- { selector, Module }, and a component becomes the first whose selector it matches. Components without a match are left
+--- out. A selector is a name or a function.
 local function components(shape: any, kind: string, parts: { any }): any
   local all = if kind == "faces"
     then shape:faces()

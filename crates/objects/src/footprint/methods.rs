@@ -11,7 +11,7 @@ use crate::MaterialOptions;
 use crate::roofs::Roof;
 use crate::shapes::{ShapeObject, draw_building};
 use burgeon_base::error::Result;
-use burgeon_base::warning::{Warning, defer_warning};
+use burgeon_base::warning::Warning;
 use burgeon_kit::{TableOf, Value, Vector, methods};
 
 #[methods("footprint")]
@@ -42,7 +42,10 @@ impl Footprint {
         let material = self.material(None, None)?;
         let transform = DAffine3::from_translation(-self.origin());
         let warning = draw_building((&mut self.drawing, &material), &transform, &shape)?;
-        warning.into_iter().for_each(defer_warning);
+        if warning.is_some() {
+            let remark = Warning::simplification("an edge of a shape draws nothing");
+            self.notes.push(remark.with_cause("it has no faces"));
+        }
         Ok(())
     }
 

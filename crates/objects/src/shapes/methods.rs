@@ -269,8 +269,8 @@ impl ShapeObject {
     }
 
     /// Returns the connected pieces.
-    pub fn pieces(&self) -> Vec<Arc<Self>> {
-        self.parts(self.shape.pieces())
+    pub fn pieces(&self) -> Result<Vec<Arc<Self>>> {
+        Ok(self.parts(self.shape.pieces()?))
     }
 
     /// Returns the solid between the faces and their copies at `distance` (m) along `direction`, their normal unless
@@ -300,13 +300,10 @@ impl ShapeObject {
         let ShapeRoofOptions { kind, height, slope, overhang } = options.unwrap_or_default().read()?;
         let roof = crate::Roof { kind, height, slope, overhang, ..crate::Roof::default() };
         let shape = crate::roofs::roof_shape(&roof).map_err(|error| error.about("shape:roof"))?;
-        let (solid, hipped) = self.shape.roof(&shape).map_err(|error| error.about("shape:roof"))?;
-        if hipped {
-            warn(
-                "roof",
-                "a gable was not possible, so there are hips",
-                "use a plan with an end for each gable",
-            );
+        let (solid, remarks) = self.shape.roof(&shape).map_err(|error| error.about("shape:roof"))?;
+        for remark in remarks {
+            let text = format!("the {} roof differs: {remark}", roof.kind);
+            warn("roof", &text, "use a plan that suits the kind");
         }
         Ok(self.changed(solid))
     }

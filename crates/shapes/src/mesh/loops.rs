@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 
 /// Joins directed edges, with the area on their left, to faces: an outer ring and its holes.
 ///
-/// Where several rings touch at a point, each turns as far to the left as possible, so that no ring crosses itself.
+/// At a point that several rings touch, each turns as far to the left as possible, so that no ring crosses itself.
 /// Returns `None` if the edges do not form rings.
 pub(crate) fn trace_loops(
     edges: &[[u32; 2]],

@@ -1,6 +1,6 @@
 //! Chamfers and fillets along convex edges.
 
-use burgeon_base::error::{Error, Result};
+use burgeon_base::error::{Error, ErrorKind, Result};
 use glam::{DMat3, DVec2, DVec3};
 
 use crate::{EdgeKind, Scope, Selector, Shape, SolidOperation};
@@ -34,7 +34,9 @@ impl Shape {
             let Some(wedge) = wedge(edge, &faces, self, distance, segments)? else { continue };
             match solid.combined(&wedge, SolidOperation::Difference) {
                 Ok(Some(cut)) => solid = cut,
-                Ok(None) | Err(_) => failed += 1,
+                Ok(None) => failed += 1,
+                Err(error) if *error.kind() == ErrorKind::Geometry => failed += 1,
+                Err(error) => return Err(error),
             }
         }
         let style = |style: &crate::SharedStyle| crate::FaceStyle::without_tags(style, "bool");

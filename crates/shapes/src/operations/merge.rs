@@ -5,7 +5,7 @@ use burgeon_base::error::Result;
 use glam::{DMat3, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::mesh::{EdgeSums, PolygonFace, PolygonMesh, trace_loops};
+use crate::mesh::{EdgeSums, FaceSets, PolygonFace, PolygonMesh, trace_loops};
 use crate::{Scope, Shape};
 
 /// Distance (m) within which points are equal.
@@ -172,7 +172,7 @@ pub(crate) fn merge_coplanar(mesh: &PolygonMesh) -> PolygonMesh {
             }
         }
     }
-    let mut parents: Vec<usize> = (0..mesh.faces.len()).collect();
+    let mut sets = FaceSets::new(mesh.faces.len());
     for (number, face) in mesh.faces.iter().enumerate() {
         for [from, to] in face.edges() {
             let Some(&other) = sides.get(&[to, from]) else { continue };
@@ -182,17 +182,12 @@ pub(crate) fn merge_coplanar(mesh: &PolygonMesh) -> PolygonMesh {
                 && !doubled.contains(&[from, to])
                 && !doubled.contains(&[to, from]);
             if same {
-                let (a, b) = (root(&mut parents, number), root(&mut parents, other));
-                parents[a.max(b)] = a.min(b);
+                sets.join(number, other);
             }
         }
     }
-    let mut groups: Vec<Vec<usize>> = vec![Vec::new(); mesh.faces.len()];
-    for number in 0..mesh.faces.len() {
-        groups[root(&mut parents, number)].push(number);
-    }
     let mut faces = Vec::new();
-    for group in groups.iter().filter(|group| !group.is_empty()) {
+    for group in &sets.groups() {
         if let [only] = group.as_slice() {
             faces.push(mesh.faces[*only].clone());
             continue;
@@ -247,13 +242,4 @@ fn remove_straight_points(mesh: &mut PolygonMesh) {
             ring.retain(|point| !is_straight(*point));
         }
     }
-}
-
-/// Returns the representative of a set, and shortens the path to it.
-fn root(parents: &mut [usize], mut at: usize) -> usize {
-    while parents[at] != at {
-        parents[at] = parents[parents[at]];
-        at = parents[at];
-    }
-    at
 }

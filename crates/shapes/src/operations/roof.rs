@@ -9,12 +9,11 @@ use crate::mesh::PolygonMeshBuilder;
 use crate::style::FaceStyle;
 
 impl Shape {
-    /// Returns a roof over a face that looks upwards, closed from below, and true if a requested gable could not be
-    /// built.
+    /// Returns a roof over a face that looks upwards, closed from below, and how it differs from the request.
     ///
     /// Faces have the tags "roof.slope", "roof.gable", "roof.bottom" and "roof.side". Fails unless the shape is one
     /// horizontal face.
-    pub fn roof(&self, shape: &RoofShape) -> Result<(Self, bool)> {
+    pub fn roof(&self, shape: &RoofShape) -> Result<(Self, Vec<&'static str>)> {
         let (polygon, frame) = self.single_face("roof")?;
         if frame.axes.z_axis.z < 1.0 - 1e-6 {
             return Err(Error::argument("the face under the roof is not horizontal")
@@ -39,6 +38,8 @@ impl Shape {
         let below: Vec<Vec<DVec3>> =
             polygon.from_below().iter().map(|ring| place(&ring.at_height(0.0))).collect();
         builder.face(below.iter().map(Vec::as_slice), &bottom);
-        Ok((Self::of_mesh(builder.build(), self.scope.axes), cover.hipped))
+        let hips = cover.hipped.then_some("hips replace a gable that was not possible");
+        let remarks = hips.into_iter().chain(cover.remark).collect();
+        Ok((Self::of_mesh(builder.build(), self.scope.axes), remarks))
     }
 }

@@ -1,5 +1,6 @@
 //! Division of polygons by their straight skeletons.
 
+use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::Polygon;
 use burgeon_geometry::skeleton::Skeleton;
@@ -25,10 +26,15 @@ pub(super) fn divide(polygon: &Polygon, skeleton: &Skeleton, time: f64) -> Resul
     let mut strips = PolygonMeshBuilder::default();
     let mut border = Vec::new();
     for corners in &skeleton.faces {
-        let mut ring = Vec::with_capacity(corners.len());
-        ring.extend(corners.iter().filter_map(|point| u32::try_from(*point).ok()));
-        // All faces share their points, so that the cuts of neighbours have the same ends.
-        let lifted = PolygonMesh::new(points.clone(), vec![PolygonFace::of(&ring, &None)]);
+        Stop::check_current()?;
+        // The points keep their order, on which the rounding of cuts depends, so that neighbours have the same ends.
+        let mut used = corners.clone();
+        used.sort_unstable();
+        used.dedup();
+        let number = |point: &usize| u32::try_from(used.partition_point(|known| known < point)).ok();
+        let ring: Vec<u32> = corners.iter().filter_map(number).collect();
+        let own = used.iter().map(|point| points[*point]).collect();
+        let lifted = PolygonMesh::new(own, vec![PolygonFace::of(&ring, &None)]);
         let Some(below) = plane.cut(&lifted, &None)?.below else { continue };
         for face in &below.faces {
             let ring: Vec<DVec3> =
