@@ -53,7 +53,7 @@ fn main() {
         format!("{count} shapes")
     });
     let ball = Shape::sphere(1.0, 100).unwrap();
-    let other = ball.moved(DVec3::new(0.5, 0.3, 0.2));
+    let other = ball.translate(DVec3::new(0.5, 0.3, 0.2));
     let triangles: usize =
         ball.mesh().faces.iter().map(|face| ball.mesh().triangles(face).unwrap().len()).sum();
     for (name, operation) in [
@@ -62,7 +62,7 @@ fn main() {
         ("intersection", SolidOperation::Intersection),
     ] {
         measure(name, || {
-            let solid = ball.combined(&other, operation).unwrap().unwrap();
+            let solid = ball.combine(&other, operation).unwrap().unwrap();
             format!("{triangles} triangles each, volume {:.4} m³", solid.volume())
         });
     }

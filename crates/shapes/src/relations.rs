@@ -215,7 +215,7 @@ mod tests {
             (DVec3::new(5.0, 6.0, 0.0), false, false, 5.0),
             (DVec3::ZERO, true, false, 0.0),
         ] {
-            let two = one.moved(offset);
+            let two = one.translate(offset);
             // The same box as a mesh.
             let mesh = Shape::of_mesh(two.mesh().into_owned(), glam::DMat3::IDENTITY);
             for two in [two, mesh] {
@@ -232,7 +232,7 @@ mod tests {
         let outer = Shape::sphere(4.0, 16).expect("a sphere");
         let inner = Shape::sphere(1.0, 12).expect("a sphere");
         assert!(outer.overlaps(&inner).expect("solids") && inner.overlaps(&outer).expect("solids"));
-        assert!(!outer.overlaps(&inner.moved(DVec3::X * 6.0)).expect("solids"));
+        assert!(!outer.overlaps(&inner.translate(DVec3::X * 6.0)).expect("solids"));
         assert!(
             outer.contains(DVec3::X).expect("closed") && !outer.contains(DVec3::X * 5.0).expect("closed")
         );

@@ -112,7 +112,7 @@ proptest! {
             prop_assert!((sum - solid.volume()).abs() < 1e-4 * solid.volume(), "{sum} {}", solid.volume());
         }
         let parts: Vec<&Shape> = split.parts.iter().map(|(_, part)| part).collect();
-        let whole = Shape::joined(&parts).expect("joined").expect("parts").recomposed().expect("recomposed");
+        let whole = Shape::join(&parts).expect("joined").expect("parts").recompose().expect("recomposed");
         prop_assert!((whole.volume() - sum).abs() < 1e-4 * sum.max(1.0), "{} {sum}", whole.volume());
         check(&whole)?;
     }
@@ -147,9 +147,9 @@ proptest! {
     fn set_operations_have_consistent_volumes(one in solids(), two in solids(), shift in (-4.0..4.0f64, -4.0..4.0f64, -2.0..2.0f64), lattice in any::<bool>()) {
         // On a lattice, faces and edges often coincide.
         let shift = DVec3::from(shift);
-        let two = two.moved(if lattice { shift.round() } else { shift });
+        let two = two.translate(if lattice { shift.round() } else { shift });
         let volume = |operation| -> Result<f64, TestCaseError> {
-            match one.combined(&two, operation) {
+            match one.combine(&two, operation) {
                 Ok(Some(solid)) => {
                     let mesh = solid.mesh();
                     for face in &mesh.faces {

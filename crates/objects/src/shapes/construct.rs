@@ -78,8 +78,8 @@ fn joined(parts: &[&Value]) -> Result<Value> {
         shapes.push(read.map_err(|error| error.refuse("shape", "an item of the list", part))?);
     }
     let own: Vec<&Shape> = shapes.iter().map(|part| part.shape()).collect();
-    match Shape::joined(&own).map_err(|error| error.about("shape"))? {
-        Some(whole) => Ok(Value::Object(Arc::new(shapes[0].changed(whole)))),
+    match Shape::join(&own).map_err(|error| error.about("shape"))? {
+        Some(whole) => Ok(Value::Object(Arc::new(shapes[0].with_shape(whole)))),
         None => Err(Error::argument("shape: the list is empty").help("give at least one shape")),
     }
 }

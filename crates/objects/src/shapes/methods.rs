@@ -14,7 +14,7 @@ use super::object::{ShapeObject, warn};
 use super::options::{ScatterOptions, ShapeRoofOptions};
 use super::part_sizes::SplitSizes;
 use super::relations::ShapeOrPlace;
-use super::support::{selected, split_axis, unit, warn_of_split};
+use super::support::{read_selector, split_axis, unit, warn_of_split};
 
 #[methods("shape")]
 impl ShapeObject {
@@ -161,17 +161,17 @@ impl ShapeObject {
                 .help("use names with dots between them, such as \"facade.front\""));
         }
         let name: Arc<str> = name.as_str().into();
-        Ok(self.changed(self.shape.with_styles(|style| FaceStyle::with_tag(style, &name))))
+        Ok(self.with_shape(self.shape.with_styles(|style| FaceStyle::with_tag(style, &name))))
     }
 
     /// Returns the shape without the tags that match `pattern`.
     pub fn untag(&self, pattern: String) -> Self {
-        self.changed(self.shape.with_styles(|style| FaceStyle::without_tags(style, &pattern)))
+        self.with_shape(self.shape.with_styles(|style| FaceStyle::without_tags(style, &pattern)))
     }
 
     /// Returns the shape with faces of this colour, which override the colour of the drawing object.
     pub fn color(&self, color: Color) -> Self {
-        self.changed(self.shape.with_styles(|style| FaceStyle::with_color(style, color.0)))
+        self.with_shape(self.shape.with_styles(|style| FaceStyle::with_color(style, color.0)))
     }
 
     /// Returns the parts along an axis of the scope, "x", "y" or "z", in ascending order.
@@ -182,7 +182,7 @@ impl ShapeObject {
         let split = self.shape.split(split_axis("split", &axis)?, &sizes.0);
         let split = split.map_err(|error| error.about("shape:split"))?;
         warn_of_split("split", "m", &split);
-        Ok(self.numbered(split.parts))
+        Ok(self.number_parts(split.parts))
     }
 
     /// Returns the parts of a face along an axis of the scope by area: sizes as of `split`, in m².
@@ -190,7 +190,7 @@ impl ShapeObject {
         let split = self.shape.split_area(split_axis("split_area", &axis)?, &areas.0);
         let split = split.map_err(|error| error.about("shape:split_area"))?;
         warn_of_split("split_area", "m²", &split);
-        Ok(self.numbered(split.parts))
+        Ok(self.number_parts(split.parts))
     }
 
     /// Returns the part behind the plane through a point (m), against its `normal`; nil if there is none.
@@ -204,14 +204,14 @@ impl ShapeObject {
                 "check the solid with shape:open_edges",
             );
         }
-        Ok(below.map(|part| self.changed(part)))
+        Ok(below.map(|part| self.with_shape(part)))
     }
 
     /// Returns the part of faces within a rectangle along the axes of the scope, from `x` (m) and `y` (m) with `width` (m) and
     /// `height` (m); nil if there is none.
     pub fn crop(&self, x: f64, y: f64, width: f64, height: f64) -> Result<Option<Self>> {
         let low = DVec2::new(x, y);
-        Ok(self.shape.crop(low, low + DVec2::new(width, height))?.map(|part| self.changed(part)))
+        Ok(self.shape.crop(low, low + DVec2::new(width, height))?.map(|part| self.with_shape(part)))
     }
 
     /// Returns the faces, each as a shape: all, or those that `selector` matches.
@@ -220,7 +220,7 @@ impl ShapeObject {
     /// "south", "west", "up" and "down"; "vertical", "horizontal", "slanted" and "overhanging"; and "tag:" with a
     /// pattern.
     pub fn faces(&self, selector: Option<String>) -> Result<Vec<Arc<Self>>> {
-        let mut faces = self.parts(self.shape.faces(&selected("faces", selector)?)?);
+        let mut faces = self.parts(self.shape.faces(&read_selector("faces", selector)?)?);
         for face in faces.iter_mut().filter_map(Arc::get_mut) {
             let style = face.shape.styles().into_iter().next().flatten();
             face.matching = Selector::matching(face.shape.normal(), &style, &self.shape.scope.axes);
@@ -246,8 +246,8 @@ impl ShapeObject {
 
     /// Returns the faces that `selector` matches as one shape; nil if there are none.
     pub fn joined_faces(&self, selector: Option<String>) -> Result<Option<Self>> {
-        let joined = self.shape.faces_joined(&selected("joined_faces", selector)?);
-        Ok(joined.map(|faces| self.changed(faces)))
+        let joined = self.shape.join_faces(&read_selector("joined_faces", selector)?);
+        Ok(joined.map(|faces| self.with_shape(faces)))
     }
 
     /// Returns the edges, each as a shape along its x axis: all, or those of a kind such as "ridge". Edges between
@@ -265,7 +265,7 @@ impl ShapeObject {
 
     /// Returns the faces without holes.
     pub fn without_holes(&self) -> Self {
-        self.changed(self.shape.without_holes())
+        self.with_shape(self.shape.without_holes())
     }
 
     /// Returns the connected pieces.
@@ -278,20 +278,20 @@ impl ShapeObject {
     pub fn extrude(&self, distance: f64, direction: Option<Vector>) -> Result<Self> {
         let direction = direction.map(|to| unit("shape:extrude: the direction", to.0)).transpose()?;
         let solid = self.shape.extrude(distance, direction).map_err(|error| error.about("shape:extrude"))?;
-        Ok(self.changed(solid))
+        Ok(self.with_shape(solid))
     }
 
     /// Returns the back and the sides of a recess of `depth` (m) behind the faces, such as that of a window. Faces have the
     /// tags "recess.back" and "recess.side".
     pub fn recess(&self, depth: f64) -> Result<Self> {
-        Ok(self.changed(self.shape.recess(depth).map_err(|error| error.about("shape:recess"))?))
+        Ok(self.with_shape(self.shape.recess(depth).map_err(|error| error.about("shape:recess"))?))
     }
 
     /// Returns the solid between a face and its copy at `height` (m), scaled by `scale` (0 unless given, a pyramid).
     pub fn taper(&self, height: f64, scale: Option<f64>) -> Result<Self> {
         let solid =
             self.shape.taper(height, scale.unwrap_or(0.0)).map_err(|error| error.about("shape:taper"))?;
-        Ok(self.changed(solid))
+        Ok(self.with_shape(solid))
     }
 
     /// Returns a roof over a horizontal face, closed from below. Faces have the tags "roof.slope", "roof.gable",
@@ -305,19 +305,19 @@ impl ShapeObject {
             let text = format!("the {} roof differs: {remark}", roof.kind);
             warn("roof", &text, "use a plan that suits the kind");
         }
-        Ok(self.changed(solid))
+        Ok(self.with_shape(solid))
     }
 
     /// Returns the solid that a closed profile sweeps around the outline of a face, with mitred corners: a cornice or a
     /// frame. `profile` is a list of points { outwards, up } (m) from the outline.
     pub fn molding(&self, profile: Vec<Vector>) -> Result<Self> {
         let profile: Vec<_> = profile.into_iter().map(|at| at.0.truncate()).collect();
-        Ok(self.changed(self.shape.molding(&profile).map_err(|error| error.about("shape:molding"))?))
+        Ok(self.with_shape(self.shape.molding(&profile).map_err(|error| error.about("shape:molding"))?))
     }
 
     /// Returns the solid between a face and another one with as many corners.
     pub fn loft(&self, other: Arc<Self>) -> Result<Self> {
-        Ok(self.changed(self.shape.loft(&other.shape).map_err(|error| error.about("shape:loft"))?))
+        Ok(self.with_shape(self.shape.loft(&other.shape).map_err(|error| error.about("shape:loft"))?))
     }
 
     /// Returns a solid with convex edges cut off by planes, `distance` (m) from the edge on both faces: all, or those of
@@ -337,13 +337,13 @@ impl ShapeObject {
     pub fn envelope(&self, height: f64, limits: EnvelopeLimits) -> Result<Self> {
         let by_edge = limits.by_edge(self.shape.scope.axes).map_err(|error| error.about("shape:envelope"))?;
         let solid = self.shape.envelope(height, by_edge).map_err(|error| error.about("shape:envelope"))?;
-        Ok(self.changed(solid))
+        Ok(self.with_shape(solid))
     }
 
     /// Returns a large rectangle inside a face, along the axes of its scope; nil if the face is too narrow.
     pub fn inner_rectangle(&self) -> Result<Option<Self>> {
         let inner = self.shape.inner_rectangle().map_err(|error| error.about("shape:inner_rectangle"))?;
-        Ok(inner.map(|inner| self.changed(inner)))
+        Ok(inner.map(|inner| self.with_shape(inner)))
     }
 
     /// Returns the faces after all edges of a face moved outwards by `distance` (m), or inwards if it is negative; an
@@ -369,8 +369,8 @@ impl ShapeObject {
     pub fn wings(&self, distances: EdgeDistances) -> Result<Vec<Arc<Self>>> {
         let border = self.divide_border("wings", &distances)?.border;
         let strips: Vec<&Shape> = border.iter().collect();
-        let Some(joined) = Shape::joined(&strips)? else { return Ok(Vec::new()) };
-        Ok(self.parts(joined.recomposed()?.faces(&Selector::All)?))
+        let Some(joined) = Shape::join(&strips)? else { return Ok(Vec::new()) };
+        Ok(self.parts(joined.recompose()?.faces(&Selector::All)?))
     }
 
     /// Returns the rest of a face with this `area` (m²) after all edges moved inwards by the same distance.
@@ -382,12 +382,12 @@ impl ShapeObject {
 
     /// Returns the shape moved by an offset (m).
     pub fn translate(&self, offset: Vector) -> Self {
-        self.changed(self.shape.moved(offset.0))
+        self.with_shape(self.shape.translate(offset.0))
     }
 
     /// Returns the shape moved by an offset (m) along the axes of its scope.
     pub fn shift(&self, offset: Vector) -> Self {
-        self.changed(self.shape.moved(self.shape.scope.axes * offset.0))
+        self.with_shape(self.shape.translate(self.shape.scope.axes * offset.0))
     }
 
     /// Returns the shape rotated by `angle` (degrees) around an axis through the centre of its scope: the z axis of the
@@ -395,24 +395,24 @@ impl ShapeObject {
     pub fn rotate(&self, angle: f64, axis: Option<Vector>) -> Result<Self> {
         let axis =
             axis.map_or(Ok(self.shape.scope.axes.z_axis), |axis| unit("shape:rotate: the axis", axis.0))?;
-        Ok(self.changed(self.shape.rotated(self.shape.scope.center(), axis, angle.to_radians())))
+        Ok(self.with_shape(self.shape.rotate(self.shape.scope.center(), axis, angle.to_radians())))
     }
 
     /// Returns the shape with a scope of this size (m), scaled from the scope's position.
     pub fn resize(&self, size: Vector) -> Result<Self> {
-        Ok(self.changed(self.shape.resized(size.0).map_err(|error| error.about("shape:resize"))?))
+        Ok(self.with_shape(self.shape.resize(size.0).map_err(|error| error.about("shape:resize"))?))
     }
 
     /// Returns the shape mirrored at the plane through `point` (m, the centre of the scope unless given) with a normal.
     pub fn mirror(&self, normal: Vector, point: Option<Vector>) -> Result<Self> {
         let normal = unit("shape:mirror: the normal", normal.0)?;
         let point = point.map_or_else(|| self.shape.scope.center(), |point| point.0);
-        Ok(self.changed(self.shape.mirrored(point, normal)))
+        Ok(self.with_shape(self.shape.mirror(point, normal)))
     }
 
     /// Returns the shape with its faces turned inside out.
     pub fn reverse(&self) -> Self {
-        self.changed(self.shape.reversed())
+        self.with_shape(self.shape.reverse())
     }
 
     /// Returns the shape with another scope around it: z along `up` (the world's z axis unless given), and x close to
@@ -421,7 +421,7 @@ impl ShapeObject {
         let up = unit("shape:align: up", up.map_or(DVec3::Z, |up| up.0))?;
         let right = right.map_or(DVec3::X, |right| right.0);
         let x = unit("shape:align: the part of right across up", right - up * up.dot(right))?;
-        Ok(self.changed(self.shape.aligned(DMat3::from_cols(x, up.cross(x), up))))
+        Ok(self.with_shape(self.shape.align(DMat3::from_cols(x, up.cross(x), up))))
     }
 
     /// Returns another shape, moved, turned and scaled so that its scope fills the scope of this one. An extent of 0
@@ -431,16 +431,16 @@ impl ShapeObject {
         let size = DVec3::from_array(
             [0, 1, 2].map(|axis| if own.size[axis] > 0.0 { own.size[axis] } else { others.size[axis] }),
         );
-        let sized = other.shape.resized(size).map_err(|error| error.about("shape:fit"))?;
+        let sized = other.shape.resize(size).map_err(|error| error.about("shape:fit"))?;
         let turn = own.axes * sized.scope.axes.transpose();
         let frame = DAffine3::from_mat3_translation(turn, own.origin - turn * sized.scope.origin);
-        Ok(other.changed(sized.placed(&frame)))
+        Ok(other.with_shape(sized.transform(&frame)))
     }
 
     /// Returns `count` copies of the shape, each moved by `offset` (m) from the one before; the first is in place.
     pub fn array(&self, count: u32, offset: Vector) -> Result<Vec<Arc<Self>>> {
         burgeon_base::MemoryOwner::ensure_room((count as usize).saturating_mul(self.shape.memory()))?;
-        Ok(self.parts((0..count).map(|number| self.shape.moved(offset.0 * f64::from(number)))))
+        Ok(self.parts((0..count).map(|number| self.shape.translate(offset.0 * f64::from(number)))))
     }
 
     /// Returns `count` positions (m) on the faces, uniformly distributed.
@@ -471,7 +471,7 @@ impl ShapeObject {
     /// Returns the shape with coplanar neighbouring faces of the same tags and colour joined, and without opposite equal
     /// faces inside: the joined parts of a split become the whole.
     pub fn recompose(&self) -> Result<Self> {
-        Ok(self.changed(self.shape.recomposed()?))
+        Ok(self.with_shape(self.shape.recompose()?))
     }
 
     /// Returns true if a position (m), or a whole shape, is inside this solid.
@@ -479,7 +479,7 @@ impl ShapeObject {
         let place = match other {
             ShapeOrPlace::Place(place) => place,
             ShapeOrPlace::Shape(other) => {
-                let rest = other.shape.combined(&self.shape, SolidOperation::Difference);
+                let rest = other.shape.combine(&self.shape, SolidOperation::Difference);
                 return Ok(rest
                     .map_err(|error| error.about("shape:contains"))?
                     .is_none_or(|rest| rest.volume() < 1e-9));

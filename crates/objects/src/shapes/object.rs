@@ -54,18 +54,18 @@ impl ShapeObject {
     }
 
     /// Returns another shape with the values and the place of this one.
-    pub(super) fn changed(&self, shape: Shape) -> Self {
+    pub(super) fn with_shape(&self, shape: Shape) -> Self {
         Self { shape, values: self.values.clone(), place: self.place, matching: self.matching }
     }
 
     /// Returns parts of this shape with its values, numbered in their order.
     pub(super) fn parts(&self, shapes: impl IntoIterator<Item = Shape>) -> Vec<Arc<Self>> {
-        self.numbered(shapes.into_iter().map(|shape| (0, shape)).collect())
+        self.number_parts(shapes.into_iter().map(|shape| (0, shape)).collect())
     }
 
     /// Returns parts of this shape with its values, numbered in their order, with the numbers of their sizes.
     #[allow(clippy::cast_possible_truncation, reason = "an operation makes fewer than 2^32 parts")]
-    pub(super) fn numbered(&self, shapes: Vec<(usize, Shape)>) -> Vec<Arc<Self>> {
+    pub(super) fn number_parts(&self, shapes: Vec<(usize, Shape)>) -> Vec<Arc<Self>> {
         let count = shapes.len() as u32;
         let numbered = shapes.into_iter().enumerate().map(|(index, (entry, shape))| {
             let place = PartPlace { index: index as u32, count, entry: entry as u32 };

@@ -38,12 +38,12 @@ impl ShapeObject {
         let kind = kind.map(|kind| EdgeKind::read(&kind)).transpose().map_err(|error| error.about(&name))?;
         let kinds = kind.as_ref().map(std::slice::from_ref);
         let (solid, failed) =
-            self.shape.beveled(distance, segments, kinds).map_err(|error| error.about(&name))?;
+            self.shape.bevel(distance, segments, kinds).map_err(|error| error.about(&name))?;
         if failed > 0 {
             let text = format!("{failed} edges could not be cut off");
             warn(method, &text, "use a smaller distance, or cut off edges of one kind");
         }
-        Ok(self.changed(solid))
+        Ok(self.with_shape(solid))
     }
 
     /// Combines two solids; keeps this one with a warning if that fails.
@@ -53,8 +53,8 @@ impl ShapeObject {
         other: &Self,
         operation: SolidOperation,
     ) -> Result<Option<Self>> {
-        match self.shape.combined(&other.shape, operation) {
-            Ok(solid) => Ok(solid.map(|solid| self.changed(solid))),
+        match self.shape.combine(&other.shape, operation) {
+            Ok(solid) => Ok(solid.map(|solid| self.with_shape(solid))),
             Err(error) if *error.kind() != ErrorKind::Geometry => Err(error),
             Err(error) => {
                 let text = format!("{}; the first shape is kept", error.message());
@@ -73,7 +73,7 @@ pub(super) fn unit(name: &str, vector: DVec3) -> Result<DVec3> {
 }
 
 /// Reads a selector; all faces without one.
-pub(super) fn selected(method: &str, selector: Option<String>) -> Result<Selector> {
+pub(super) fn read_selector(method: &str, selector: Option<String>) -> Result<Selector> {
     let Some(name) = selector else { return Ok(Selector::All) };
     Selector::read(&name).map_err(|error| error.about(&format!("shape:{method}")))
 }

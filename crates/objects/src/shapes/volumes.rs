@@ -82,7 +82,7 @@ impl Volumes {
     ) -> Result<Option<f64>> {
         let most = most.unwrap_or(100.0);
         let own = match &from {
-            ShapeOrPlace::Place(place) => Shape::cuboid(DVec3::splat(1e-9)).moved(*place),
+            ShapeOrPlace::Place(place) => Shape::cuboid(DVec3::splat(1e-9)).translate(*place),
             ShapeOrPlace::Shape(shape) => shape.shape().clone(),
         };
         let mut least: Option<f64> = None;

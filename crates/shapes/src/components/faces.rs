@@ -48,7 +48,7 @@ impl Shape {
                         faces.push(if is_upright {
                             Self { scope, body: ShapeBody::Rectangle(style) }
                         } else {
-                            Self::of_mesh(self.mesh().selected([number]), own)
+                            Self::of_mesh(self.mesh().select([number]), own)
                         });
                     }
                 }
@@ -60,7 +60,7 @@ impl Shape {
                     .filter(|&face| selector.matches(normals[face], &mesh.faces[face].style, axes));
                 let mut faces = Vec::new();
                 for number in selected {
-                    let part = mesh.selected([number]);
+                    let part = mesh.select([number]);
                     MemoryOwner::ensure_room(part.memory())?;
                     faces.push(Self::of_mesh(part, Scope::face_axes(normals[number], *axes)));
                 }
@@ -70,12 +70,12 @@ impl Shape {
     }
 
     /// Returns all faces that a selector matches as one shape with the same axes; `None` if there are none.
-    pub fn faces_joined(&self, selector: &Selector) -> Option<Self> {
+    pub fn join_faces(&self, selector: &Selector) -> Option<Self> {
         let mesh = self.mesh();
         let axes = &self.scope.axes;
         let matching =
             |&face: &usize| selector.matches(mesh.normal(&mesh.faces[face]), &mesh.faces[face].style, axes);
-        let part = mesh.selected((0..mesh.faces.len()).filter(matching));
+        let part = mesh.select((0..mesh.faces.len()).filter(matching));
         (!part.faces.is_empty()).then(|| Self::of_mesh(part, *axes))
     }
 
@@ -104,7 +104,7 @@ impl Shape {
         let mut filled = (**mesh).clone();
         filled.faces.iter_mut().for_each(|face| face.rings.truncate(1));
         let count = filled.faces.len();
-        let filled = PolygonMesh::new(filled.points, filled.faces).selected(0..count);
+        let filled = PolygonMesh::new(filled.points, filled.faces).select(0..count);
         Self { scope: self.scope, body: ShapeBody::Mesh(Arc::new(filled)) }
     }
 }

@@ -129,7 +129,7 @@ impl CutPlane {
         }
         let part = PolygonMesh::new(cutter.points, faces);
         let count = part.faces.len();
-        let part = part.selected(0..count);
+        let part = part.select(0..count);
         open |= mesh.is_closed() && !part.is_closed();
         Ok((Some(part), open))
     }

@@ -122,7 +122,7 @@ impl PolygonMesh {
 
     /// Returns the mesh after moving every point. If `transform` mirrors, faces are reversed.
     #[must_use]
-    pub fn moved(&self, transform: impl Fn(DVec3) -> DVec3, mirrors: bool) -> Self {
+    pub fn translate(&self, transform: impl Fn(DVec3) -> DVec3, mirrors: bool) -> Self {
         let points = self.points.iter().map(|point| transform(*point)).collect();
         let mut faces = self.faces.clone();
         if mirrors {
@@ -133,7 +133,7 @@ impl PolygonMesh {
 
     /// Returns the faces with these numbers, with the points that they use.
     #[must_use]
-    pub(crate) fn selected(&self, numbers: impl IntoIterator<Item = usize>) -> Self {
+    pub(crate) fn select(&self, numbers: impl IntoIterator<Item = usize>) -> Self {
         let mut renumbered: FxHashMap<u32, u32> = FxHashMap::default();
         let mut part = Self::default();
         for number in numbers {

@@ -14,7 +14,7 @@ impl Shape {
     /// of edges that could not be cut.
     ///
     /// `kinds` selects edges; all convex edges unless given. Fails if the shape is open.
-    pub fn beveled(&self, distance: f64, segments: u32, kinds: Option<&[EdgeKind]>) -> Result<(Self, usize)> {
+    pub fn bevel(&self, distance: f64, segments: u32, kinds: Option<&[EdgeKind]>) -> Result<(Self, usize)> {
         if !(distance > 0.0 && distance.is_finite()) || segments > 64 {
             return Err(Error::argument(format!("a bevel of {distance} m with {segments} segments"))
                 .help("use a distance above 0, and at most 64 segments"));
@@ -32,7 +32,7 @@ impl Shape {
         let (mut solid, mut failed) = (self.clone(), 0);
         for edge in &edges {
             let Some(wedge) = wedge(edge, &faces, self, distance, segments)? else { continue };
-            match solid.combined(&wedge, SolidOperation::Difference) {
+            match solid.combine(&wedge, SolidOperation::Difference) {
                 Ok(Some(cut)) => solid = cut,
                 Ok(None) => failed += 1,
                 Err(error) if *error.kind() == ErrorKind::Geometry => failed += 1,
@@ -40,7 +40,7 @@ impl Shape {
             }
         }
         let style = |style: &crate::SharedStyle| crate::FaceStyle::without_tags(style, "bool");
-        Ok((solid.with_styles(style).recomposed()?, failed))
+        Ok((solid.with_styles(style).recompose()?, failed))
     }
 }
 
@@ -119,7 +119,7 @@ mod tests {
     #[test]
     fn a_chamfered_upright_edge_loses_a_triangular_prism() {
         let block = Shape::cuboid(DVec3::new(4.0, 3.0, 5.0));
-        let (cut, failed) = block.beveled(0.5, 0, Some(&[EdgeKind::Corner])).expect("a solid");
+        let (cut, failed) = block.bevel(0.5, 0, Some(&[EdgeKind::Corner])).expect("a solid");
         assert_eq!(failed, 0);
         assert!((cut.volume() - (60.0 - 4.0 * 0.125 * 5.0)).abs() < 1e-6, "{}", cut.volume());
         assert!(cut.is_closed() && cut.body.faces() == 10, "{}", cut.body.faces());
@@ -128,7 +128,7 @@ mod tests {
     #[test]
     fn all_edges_of_a_box_can_be_rounded() {
         let block = Shape::cuboid(DVec3::splat(2.0));
-        let (round, failed) = block.beveled(0.3, 4, None).expect("a solid");
+        let (round, failed) = block.bevel(0.3, 4, None).expect("a solid");
         assert_eq!(failed, 0);
         assert!(round.is_closed() && round.volume() < 8.0 && round.volume() > 7.2, "{}", round.volume());
     }

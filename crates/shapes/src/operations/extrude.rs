@@ -111,7 +111,7 @@ impl Shape {
         let mesh = solid.mesh();
         let inside =
             (0..mesh.faces.len()).filter(|&face| !FaceStyle::has_tag(&mesh.faces[face].style, EXTRUDED[0]));
-        let inside = Self::of_mesh(mesh.selected(inside), self.scope.axes).reversed();
+        let inside = Self::of_mesh(mesh.select(inside), self.scope.axes).reverse();
         Ok(inside.with_styles(|style| {
             let tag = if FaceStyle::has_tag(style, EXTRUDED[1]) { "recess.side" } else { "recess.back" };
             FaceStyle::with_automatic_tag(&FaceStyle::without_tags(style, "extrude"), tag)
@@ -142,7 +142,7 @@ fn loft(mesh: &PolygonMesh, offset: DVec3, backwards: bool) -> PolygonMesh {
     }
     // Seen from the copies, the faces are in front.
     let [bottom, side, top] = EXTRUDED;
-    sides(&mesh.moved(|at| at + offset, false), |at| at - offset, [top, side, bottom])
+    sides(&mesh.translate(|at| at + offset, false), |at| at - offset, [top, side, bottom])
 }
 
 /// Returns the closed mesh of reversed faces, copies at other positions, and sides over the open edges.
@@ -186,7 +186,7 @@ fn collapse_top(mesh: &mut PolygonMesh, first: usize) {
 impl Scope {
     /// Returns the scope with another size (m).
     #[must_use]
-    pub fn sized(&self, size: DVec3) -> Self {
+    pub fn with_size(&self, size: DVec3) -> Self {
         Self { size, ..*self }
     }
 }

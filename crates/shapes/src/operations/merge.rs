@@ -17,7 +17,7 @@ impl Shape {
     /// Returns one shape with the faces of all `parts`, in their order, and the axes of the first; `None` without parts.
     ///
     /// Points within 1 µm are joined.
-    pub fn joined(parts: &[&Self]) -> Result<Option<Self>> {
+    pub fn join(parts: &[&Self]) -> Result<Option<Self>> {
         let Some(first) = parts.first() else { return Ok(None) };
         let mut mesh = PolygonMesh::default();
         for part in parts {
@@ -36,7 +36,7 @@ impl Shape {
 
     /// Returns the shape with coplanar neighbouring faces of the same style joined, points on edges inserted there, and
     /// pairs of opposite equal faces removed. So the parts of a split become the whole again.
-    pub fn recomposed(&self) -> Result<Self> {
+    pub fn recompose(&self) -> Result<Self> {
         let mut mesh = weld(&self.mesh());
         insert_points_on_edges(&mut mesh)?;
         remove_opposite_faces(&mut mesh);
@@ -208,7 +208,7 @@ pub(crate) fn merge_coplanar(mesh: &PolygonMesh) -> PolygonMesh {
     let mut merged = PolygonMesh::new(mesh.points.clone(), faces);
     remove_straight_points(&mut merged);
     let count = merged.faces.len();
-    merged.selected(0..count)
+    merged.select(0..count)
 }
 
 /// Removes points that lie on a straight line between their only two neighbours.

@@ -127,10 +127,10 @@ mod tests {
     #[test]
     fn a_loft_between_a_square_and_a_turned_square_is_closed() {
         let face = Shape::rectangle(DVec2::new(2.0, 2.0));
-        let other = face.rotated(face.scope.center(), DVec3::Z, 0.4).moved(DVec3::Z * 3.0);
+        let other = face.rotate(face.scope.center(), DVec3::Z, 0.4).translate(DVec3::Z * 3.0);
         let solid = face.loft(&other).expect("a loft");
         assert!(solid.is_closed() && solid.body.faces() == 10, "{}", solid.body.faces());
-        let straight = face.loft(&face.moved(DVec3::Z * 3.0)).expect("a loft");
+        let straight = face.loft(&face.translate(DVec3::Z * 3.0)).expect("a loft");
         assert!((straight.volume() - 12.0).abs() < 1e-9);
         assert!(other.loft(&face).is_err());
     }

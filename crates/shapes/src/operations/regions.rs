@@ -151,7 +151,7 @@ impl Shape {
     /// Returns the shape with a scope whose x axis runs along a direction in the plane of its z axis.
     pub(super) fn along(&self, x: DVec3) -> Self {
         let z = self.scope.axes.z_axis;
-        self.aligned(DMat3::from_cols(x, z.cross(x), z))
+        self.align(DMat3::from_cols(x, z.cross(x), z))
     }
 }
 

@@ -40,12 +40,12 @@ impl Shape {
     /// use glam::DVec3;
     ///
     /// let block = Shape::cuboid(DVec3::splat(2.0));
-    /// let cut = block.combined(&block.moved(DVec3::ONE), SolidOperation::Difference)?.expect("7 of 8 parts");
+    /// let cut = block.combine(&block.translate(DVec3::ONE), SolidOperation::Difference)?.expect("7 of 8 parts");
     /// assert!(cut.is_closed() && (cut.volume() - 7.0).abs() < 1e-9);
     /// assert_eq!(cut.body.faces(), 9);
     /// # Ok::<(), burgeon_base::Error>(())
     /// ```
-    pub fn combined(&self, other: &Self, operation: SolidOperation) -> Result<Option<Self>> {
+    pub fn combine(&self, other: &Self, operation: SolidOperation) -> Result<Option<Self>> {
         for shape in [self, other] {
             if !shape.is_closed() {
                 let open = shape.mesh().open_edges().count();
@@ -57,7 +57,7 @@ impl Shape {
             let [one, two] = [(self, "bool.a"), (other, "bool.b")]
                 .map(|(shape, tag)| shape.with_styles(|style| FaceStyle::with_automatic_tag(style, tag)));
             return match operation {
-                SolidOperation::Union => Self::joined(&[&one, &two]),
+                SolidOperation::Union => Self::join(&[&one, &two]),
                 SolidOperation::Difference => Ok(Some(one)),
                 SolidOperation::Intersection => Ok(None),
             };
@@ -125,7 +125,7 @@ impl Shape {
             SolidOperation::Intersection => Ok(!self.overlaps(other)?),
             SolidOperation::Difference => {
                 let both =
-                    self.combined(other, SolidOperation::Intersection)?.map_or(0.0, |both| both.volume());
+                    self.combine(other, SolidOperation::Intersection)?.map_or(0.0, |both| both.volume());
                 Ok(both >= self.volume() * (1.0 - 1e-9))
             }
         }

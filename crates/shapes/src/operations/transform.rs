@@ -10,10 +10,10 @@ use crate::{Scope, Shape, ShapeBody};
 impl Shape {
     /// Returns the shape moved by `offset` (m).
     #[must_use]
-    pub fn moved(&self, offset: DVec3) -> Self {
+    pub fn translate(&self, offset: DVec3) -> Self {
         let scope = Scope { origin: self.scope.origin + offset, ..self.scope };
         let body = match &self.body {
-            ShapeBody::Mesh(mesh) => ShapeBody::Mesh(Arc::new(mesh.moved(|at| at + offset, false))),
+            ShapeBody::Mesh(mesh) => ShapeBody::Mesh(Arc::new(mesh.translate(|at| at + offset, false))),
             other => other.clone(),
         };
         Self { scope, body }
@@ -21,13 +21,13 @@ impl Shape {
 
     /// Returns the shape rotated by `angle` (radians) around an axis through `center` (m).
     #[must_use]
-    pub fn rotated(&self, center: DVec3, axis: DVec3, angle: f64) -> Self {
+    pub fn rotate(&self, center: DVec3, axis: DVec3, angle: f64) -> Self {
         let turn = DMat3::from_axis_angle(axis, angle);
         let place = |at: DVec3| center + turn * (at - center);
         let scope =
             Scope { origin: place(self.scope.origin), axes: turn * self.scope.axes, size: self.scope.size };
         let body = match &self.body {
-            ShapeBody::Mesh(mesh) => ShapeBody::Mesh(Arc::new(mesh.moved(place, false))),
+            ShapeBody::Mesh(mesh) => ShapeBody::Mesh(Arc::new(mesh.translate(place, false))),
             other => other.clone(),
         };
         Self { scope, body }
@@ -36,7 +36,7 @@ impl Shape {
     /// Returns the shape with a scope of another size (m), scaled from the scope's origin. An extent of 0 stays 0.
     ///
     /// Fails if a size is not above 0.
-    pub fn resized(&self, size: DVec3) -> Result<Self> {
+    pub fn resize(&self, size: DVec3) -> Result<Self> {
         let old = self.scope.size;
         let mut factor = DVec3::ONE;
         for axis in 0..3 {
@@ -49,10 +49,10 @@ impl Shape {
                 factor[axis] = size[axis] / old[axis];
             }
         }
-        let scope = self.scope.sized(old * factor);
+        let scope = self.scope.with_size(old * factor);
         let body = match &self.body {
             ShapeBody::Mesh(mesh) => {
-                let scaled = mesh.moved(|at| self.scope.point(self.scope.local(at) * factor), false);
+                let scaled = mesh.translate(|at| self.scope.point(self.scope.local(at) * factor), false);
                 ShapeBody::Mesh(Arc::new(scaled))
             }
             other => other.clone(),
@@ -62,26 +62,26 @@ impl Shape {
 
     /// Returns the shape moved by a transformation that keeps angles and lengths.
     #[must_use]
-    pub fn placed(&self, frame: &DAffine3) -> Self {
+    pub fn transform(&self, frame: &DAffine3) -> Self {
         let mirrors = frame.matrix3.determinant() < 0.0;
-        let mesh = self.mesh().moved(|at| frame.transform_point3(at), mirrors);
+        let mesh = self.mesh().translate(|at| frame.transform_point3(at), mirrors);
         Self::of_mesh(mesh, if mirrors { self.scope.axes } else { frame.matrix3 * self.scope.axes })
     }
 
     /// Returns the shape mirrored at the plane through `point` (m) with a unit normal.
     #[must_use]
-    pub fn mirrored(&self, point: DVec3, normal: DVec3) -> Self {
+    pub fn mirror(&self, point: DVec3, normal: DVec3) -> Self {
         let place = |at: DVec3| at - normal * (2.0 * normal.dot(at - point));
         match &self.body {
-            ShapeBody::Mesh(mesh) => Self::of_mesh(mesh.moved(place, true), self.scope.axes),
-            _ => Self::of_mesh(self.mesh().moved(place, true), self.scope.axes),
+            ShapeBody::Mesh(mesh) => Self::of_mesh(mesh.translate(place, true), self.scope.axes),
+            _ => Self::of_mesh(self.mesh().translate(place, true), self.scope.axes),
         }
     }
 
     /// Returns the shape with reversed faces.
     #[must_use]
-    pub fn reversed(&self) -> Self {
-        let mesh = self.mesh().moved(|at| at, true);
+    pub fn reverse(&self) -> Self {
+        let mesh = self.mesh().translate(|at| at, true);
         // The z axis of a face stays outwards.
         let axes = match mesh.faces.as_slice() {
             [face] => Scope::face_axes(mesh.normal(face), self.scope.axes),
@@ -92,7 +92,7 @@ impl Shape {
 
     /// Returns the shape with a scope of other axes around it.
     #[must_use]
-    pub fn aligned(&self, axes: DMat3) -> Self {
+    pub fn align(&self, axes: DMat3) -> Self {
         match &self.body {
             ShapeBody::Edge(..) => self.clone(),
             _ => Self::of_mesh(self.mesh().into_owned(), axes),
