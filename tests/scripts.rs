@@ -60,7 +60,8 @@ fn glb(run: &Run, folder: &Path) -> Vec<u8> {
 
 /// Returns the parts of `text` between `before` and `after`.
 fn named(text: &str, before: &str, after: &str) -> BTreeSet<String> {
-    text.split(before).skip(1).filter_map(|rest| Some(rest.split_once(after)?.0.to_owned())).collect()
+    let links = text.split(before).skip(1).filter_map(|rest| rest.split_inclusive(')').next());
+    links.filter_map(|link| Some(link.strip_suffix(after)?.to_owned())).collect()
 }
 
 #[test]
