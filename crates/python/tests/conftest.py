@@ -40,5 +40,5 @@ local endless = lsystem({ object = extruder({}) })
 endless:axiom(A(0))
 endless:rule("A(n)", function(this, n) return A(n + 1) end)
 endless:interpret("A(n)", function(this, n) end)
-endless:derive()
+endless:derive(1e8)
 """
