@@ -69,7 +69,9 @@ impl Print {
     /// let lines: Arc<Mutex<Vec<usize>>> = Arc::default();
     /// let into = Arc::clone(&lines);
     /// let mut options = RunOptions::default();
-    /// options.inputs.loader = Some(FileLoader::new(|_| Ok(Some(b"\nprint(1)".to_vec()))));
+    /// options.inputs.loader = Some(FileLoader::new(|name| {
+    ///     Ok((name == "a.lua").then(|| b"\nprint(1)".to_vec()))
+    /// }));
     /// options.reports.print = Some(Print::with_places(move |_, place| {
     ///     into.lock().unwrap().extend(place.map(|place| place.line));
     /// }));
