@@ -549,70 +549,97 @@ __interpretation("turtle", "Place", "place")
 
 -- Shapes ----------------------------------------------------------------------------------------------------
 
--- Draws the faces of a shape.
-names.Draw = module("Draw", "shape")
+-- Draws the faces of a shape, in a colour unless they have their own.
+names.Draw = module("Draw", "shape", "color?")
 __interpretation("turtle", "Draw", "shape")
 __interpretation("extruder", "Draw", "shape")
 __interpretation("footprint", "Draw", "shape")
 
---- Adds what a part becomes: a module with the part, all that a function returns for it, or nothing for false.
-local function add_part(list: { any }, maker: any, part: any, owner: string)
+local NO_VALUES: { any } = table.freeze({})
+
+-- Entries of a split or a choice of components: the module or function of each, and its further values.
+type Entries = { makers: { any }, values: { { any } } }
+
+local modules_of_parts: (makers: { any }, values: { { any } }, method: string, shape: any, ...any) -> any =
+  __modules_of_parts
+
+--- Adds an entry, { size or selector, Module, values... }, and returns its first value.
+local function add_entry(to: Entries, owner: string, part: any): any
+  local usage = if owner == "split"
+    then "write { 3, Floor }, or { 3, false } to leave the part empty"
+    else 'write { "side", Wall }, or { "side", false } to leave these out'
+  if type(part) ~= "table" or part[1] == nil then
+    refuse(`{owner}: a part is {describe(part)}`, usage)
+  elseif part[2] == nil then
+    refuse(`{owner}: an entry has no module`, usage)
+  end
+  table.insert(to.makers, part[2])
+  table.insert(to.values, if part[3] == nil then NO_VALUES else { table.unpack(part, 3) })
+  return part[1]
+end
+
+--- Adds what a part becomes: a module with the part and further values, all that a function returns, or nothing.
+local function add_part(list: { any }, entries: Entries, number: number, part: any)
+  local maker = entries.makers[number]
   if maker == false then
     return
-  elseif maker == nil then
-    refuse(`{owner}: an entry has no module`, "write { 3, Floor }, or { 3, false } to leave the part empty")
   end
-  for _, item in { maker(part) } do
+  for _, item in { maker(part, table.unpack(entries.values[number])) } do
     table.insert(list, item)
   end
 end
 
---- Divides a shape along an axis of its scope into modules: each part is { size, Module }, a list of such parts is
---- repeated, and false instead of the module leaves the part empty.
-local function split(shape: any, axis: string, parts: { any }): any
-  local sizes: { any }, makers: { any } = {}, {}
-  for _, part in parts do
-    if type(part) ~= "table" then
-      refuse(`split: a part is {describe(part)}`, 'write split(s, "z", { { 4, Ground }, { "~3*", Floor } })')
-    elseif type(part[1]) == "table" then
-      local group = {}
-      for _, inner in part do
-        table.insert(group, inner[1])
-        table.insert(makers, if inner[2] == nil then 0 else inner[2])
-      end
-      table.insert(sizes, group)
-    else
-      table.insert(sizes, part[1])
-      table.insert(makers, if part[2] == nil then 0 else part[2])
-    end
+--- Makes the modules of the parts that a method of a shape returns: entry number `i` becomes a module of maker `i`.
+local function modules_of(entries: Entries, method: string, shape: any, ...: any): any
+  local made = modules_of_parts(entries.makers, entries.values, `shape:{method}`, shape, ...)
+  if made ~= nil then
+    return made
   end
   local list: { any } = {}
-  for _, part in shape:split(axis, sizes) do
-    local maker = makers[if makers[2] == nil then 1 else part:entry()]
-    add_part(list, if maker == 0 then nil else maker, part, "split")
+  for _, part in shape[method](shape, ...) do
+    add_part(list, entries, part:entry(), part)
   end
   return sequence(list)
 end
 
+--- Divides a shape along an axis of its scope into modules: each part is { size, Module }, a list of such parts is
+--- repeated, and false instead of the module leaves the part empty. Further values of a part, as in { 2, Draw, "red" },
+--- become further parameters.
+local function split(shape: any, axis: string, parts: { any }): any
+  local entries: Entries, sizes: { any } = { makers = {}, values = {} }, {}
+  for _, part in parts do
+    if type(part) == "table" and type(part[1]) == "table" then
+      local group = {}
+      for _, inner in part do
+        table.insert(group, add_entry(entries, "split", inner))
+      end
+      table.insert(sizes, group)
+    else
+      table.insert(sizes, add_entry(entries, "split", part))
+    end
+  end
+  return modules_of(entries, "split", shape, axis, sizes)
+end
+
 --- Divides a shape into modules for its components, "faces", "edges", "holes" or "pieces": each of `parts` is
 --- { selector, Module }, and a component becomes the first whose selector it matches. Components without a match are left
---- out. A selector is a name or a function.
+--- out. A selector is a name or a function. Further values become further parameters, as for `split`.
 local function components(shape: any, kind: string, parts: { any }): any
-  local all = if kind == "faces"
-    then shape:faces()
-    elseif kind == "edges" then shape:edges()
-    elseif kind == "holes" then shape:holes()
-    elseif kind == "pieces" then shape:pieces()
-    else refuse(`components: unknown kind {describe(kind)}`, 'use "faces", "edges", "holes" or "pieces"')
+  local entries: Entries, selectors: { any }, are_names = { makers = {}, values = {} }, {}, true
+  for _, part in parts do
+    local selector = add_entry(entries, "components", part)
+    table.insert(selectors, selector)
+    are_names = are_names and type(selector) ~= "function"
+  end
+  if are_names then
+    return modules_of(entries, "components", shape, kind, selectors)
+  end
   local list: { any } = {}
-  for _, component in all do
-    for _, part in parts do
-      local selector = part[1]
-      local matches = if type(selector) == "function"
-        then selector(component)
-        else selector == "all" or component:matches(selector)
+  for _, component in shape:components(kind, { "all" }) do
+    for number, selector in selectors do
+      local matches = if type(selector) == "function" then selector(component) else component:matches(selector)
       if matches then
-        add_part(list, part[2], component, "components")
+        add_part(list, entries, number, component)
         break
       end
     end

@@ -39,6 +39,43 @@ fn a_component_becomes_the_first_module_whose_selector_it_matches() {
 }
 
 #[test]
+fn further_values_of_a_part_become_further_parameters() {
+    let script = |rest: &str| {
+        format!(
+            r#"
+        local Mass, Part, Name = module("Mass", "s"), module("Part", "s", "a?", "b?"), module("Name", "text")
+        local building = lsystem({{ object = extruder() }})
+        building:axiom(Mass(cuboid(6, 4, 10)))
+        local function same(...) return Part(...) end
+        building:rule("Mass(s)", function(this, s)
+          return Name("first"), {{ split(s, "z", {{ {{ 4, Part, 7 }}, {{ 1, false }}, {{ "~2.4*", {rest}, "x", true }} }}) }},
+            components(s, "faces", {{ {{ "side", Part, 1.5 }}, {{ "top", Part }} }}), Name("last")
+        end)
+        building:derive(1)"#
+        )
+    };
+    let wanted = r#"Name("first") [ Part(box of 6 x 4 x 4 m,7) Part(box of 6 x 4 x 2.5 m,"x",true) Part(box of 6 x 4 x 2.5 m,"x",true) ] Part(rectangle of 6 x 10 m,1.5) Part(rectangle of 4 x 10 m,1.5) Part(rectangle of 6 x 10 m,1.5) Part(rectangle of 4 x 10 m,1.5) Part(rectangle of 6 x 4 m) Name("last")"#;
+    assert_eq!(chain(&script("Part")), wanted);
+    assert_eq!(chain(&script("same")), wanted, "by functions");
+}
+
+#[test]
+fn modules_of_parts_have_the_required_parameters() {
+    let script = format!(
+        "{PARTS}
+        local Two = module('Two', 's', 'n')
+        building:rule('Mass(s)', function(this, s) return split(s, 'z', {{ {{ '~4*', Two }} }}) end)
+        building:derive(1)"
+    );
+    let told = error(&script);
+    assert!(told.contains("Two has 2 parameters; n is missing"), "{told}");
+    let told = error(&script.replace("Two }", "Two, 1, 2 }"));
+    assert!(told.contains("Two has 2 parameters, not 3"), "{told}");
+    let told = error(&script.replace("'~4*', Two", "nil, Two"));
+    assert!(told.contains("split: a part is a table"), "{told}");
+}
+
+#[test]
 fn the_first_of_two_shapes_that_exclude_each_other_stays_for_any_number_of_threads() {
     let script = r#"
         local Box, Kept = module("Box", "s"), module("Kept", "x")

@@ -1,5 +1,7 @@
 //! Colours of fields and arguments.
 
+use std::sync::LazyLock;
+
 use super::{Expectation, Parameter, Value, colors};
 
 /// A linear colour with opacity; scripts give it as sRGB.
@@ -15,6 +17,16 @@ use super::{Expectation, Parameter, Value, colors};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Color(pub [f32; 4]);
 
+/// Linear value of each byte of sRGB.
+static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
+    let mut byte = 0.0;
+    std::array::from_fn(|_| {
+        let value = narrow(linear(byte / 255.0));
+        byte += 1.0;
+        value
+    })
+});
+
 impl Parameter for Color {
     fn luau() -> String {
         "Color".into()
@@ -28,7 +40,7 @@ impl Parameter for Color {
         };
         let channels: Vec<f64> = match value {
             Value::Text(text) => match colors::color_bytes(&text) {
-                Ok(channels) => channels.iter().map(|channel| f64::from(*channel) / 255.0).collect(),
+                Ok(bytes) => return Ok(Self::of_bytes(bytes)),
                 Err(Some(near)) => return Err(Expectation::new(format!("a colour, such as \"{near}\""))),
                 Err(None) => return Err(what()),
             },
@@ -65,8 +77,8 @@ impl Parameter for Color {
 impl Color {
     /// Converts bytes to a colour: red, green and blue in sRGB, then opacity.
     pub fn of_bytes([red, green, blue, opacity]: [u8; 4]) -> Self {
-        let channel = |byte: u8| narrow(linear(f64::from(byte) / 255.0));
-        Self([channel(red), channel(green), channel(blue), f32::from(opacity) / 255.0])
+        let channel = |byte: u8| LINEAR[usize::from(byte)];
+        Self([channel(red), channel(green), channel(blue), narrow(f64::from(opacity) / 255.0)])
     }
 }
 

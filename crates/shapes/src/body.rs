@@ -52,6 +52,24 @@ impl ShapeBody {
         }
     }
 
+    /// Returns the corners (m) and the style of each face of a box or a rectangle, counter-clockwise seen from outside; `None` for
+    /// others.
+    pub fn quads<'a>(
+        &'a self,
+        scope: &Scope,
+    ) -> Option<impl Iterator<Item = ([DVec3; 4], &'a SharedStyle)> + use<'a>> {
+        const PLAIN: &SharedStyle = &None;
+        let (rings, styles): (&[[u32; 4]], &[SharedStyle]) = match self {
+            Self::Box(styles) => (&BOX_FACES, styles.as_deref().map_or(&[], <[SharedStyle; 6]>::as_slice)),
+            Self::Rectangle(style) => (&[[0, 1, 3, 2]], std::slice::from_ref(style)),
+            Self::Edge(..) | Self::Mesh(_) => return None,
+        };
+        let corners = scope.corners();
+        Some(rings.iter().enumerate().map(move |(number, ring)| {
+            (ring.map(|corner| corners[corner as usize]), styles.get(number).unwrap_or(PLAIN))
+        }))
+    }
+
     /// Returns the number of faces.
     pub fn faces(&self) -> usize {
         match self {

@@ -260,8 +260,16 @@ impl Library {
             globals.raw_set(name, value).map_err(|error| machine.translate(error))?;
         }
         self.standard_chunk.replace(Some(chunk));
-        for name in ["__interpretation", "__cut", "__class", "__letters", "__refuse", "__describe", "__color"]
-        {
+        for name in [
+            "__interpretation",
+            "__cut",
+            "__class",
+            "__letters",
+            "__refuse",
+            "__describe",
+            "__color",
+            "__modules_of_parts",
+        ] {
             globals.raw_set(name, LuaValue::Nil).map_err(|error| machine.translate(error))?;
         }
         self.note_names(machine.lua());

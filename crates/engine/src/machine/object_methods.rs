@@ -1,6 +1,7 @@
 //! Methods of objects that are not the drawn one, such as environments and features.
 
 use std::rc::Rc;
+use std::sync::Arc;
 
 use mlua::{Lua, MultiValue, Table, Value as LuaValue};
 
@@ -12,7 +13,7 @@ use super::types::ObjectHandle;
 use burgeon_base::error::Error;
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::take_deferred;
-use burgeon_kit::{Call, Environment, ObjectContent, Parameter, Value, Vector};
+use burgeon_kit::{Call, Environment, Object, ObjectContent, Parameter, Value, Vector};
 
 /// Number of entries from which the conversion of a result pauses garbage collection.
 const LONG: usize = 256;
@@ -56,6 +57,17 @@ pub(super) fn add_object_methods(
             })
         })?,
     )?;
+    let (owner, state) = (Rc::clone(library), Rc::clone(current));
+    host.set(
+        "parts_method",
+        lua.create_function(move |lua, name: String| {
+            let (library, state) = (Rc::clone(&owner), Rc::clone(&state));
+            let method = ObjectMethod { number: usize::MAX, name, state, library };
+            lua.create_function(move |lua, (object, arguments): (LuaValue, MultiValue)| {
+                method.store_parts(lua, &object, &arguments)
+            })
+        })?,
+    )?;
     host.set("vector_class", lua.create_function(|lua, ()| Ok(metatable_of(lua, "vec")))?)
 }
 
@@ -78,6 +90,51 @@ impl ObjectMethod {
         guard: Option<usize>,
         arguments: impl FnOnce() -> mlua::Result<Vec<Value>>,
     ) -> mlua::Result<LuaValue> {
+        let answer = self.answer(object, guard, arguments)?;
+        // The complete result stays alive, so a collection would free nothing of it.
+        let is_long = matches!(&answer, Value::Table(table) if table.entries.len() > LONG);
+        let pauses = is_long && lua.gc_is_running();
+        if pauses {
+            lua.gc_stop();
+        }
+        let made = to_lua(lua, &answer, false);
+        if pauses {
+            lua.gc_restart();
+        }
+        made
+    }
+
+    /// Calls the method, and stores the objects that it returns as parameters of modules. Returns a buffer with the handle and the
+    /// number of the entry of each (4 bytes).
+    fn store_parts(
+        &self,
+        lua: &Lua,
+        object: &LuaValue,
+        arguments: &MultiValue,
+    ) -> mlua::Result<mlua::Buffer> {
+        let answer = self.answer(object, None, || values(lua, arguments))?;
+        let objects: Vec<Arc<dyn Object>> = match answer {
+            Value::Table(table) => table.list().into_iter().filter_map(object_of).collect(),
+            _ => Vec::new(),
+        };
+        let entry = |part: &Arc<dyn Object>| {
+            part.capability::<dyn ObjectContent>().map_or(0, |content| content.entry())
+        };
+        let entries: Vec<u32> = objects.iter().map(entry).collect();
+        let handles = self.state.session.values.store_objects(objects);
+        let words = handles.into_iter().zip(entries);
+        let bytes: Vec<u8> =
+            words.flat_map(|(handle, entry)| [handle, entry]).flat_map(u32::to_le_bytes).collect();
+        lua.create_buffer(bytes)
+    }
+
+    /// Returns what the method answers.
+    fn answer(
+        &self,
+        object: &LuaValue,
+        guard: Option<usize>,
+        arguments: impl FnOnce() -> mlua::Result<Vec<Value>>,
+    ) -> mlua::Result<Value> {
         let (_, own_name) = self.name.split_once(':').unwrap_or(("", &self.name));
         let LuaValue::UserData(data) = object else {
             return Err(mlua::Error::external(
@@ -116,31 +173,28 @@ impl ObjectMethod {
                     let text = format!("{this}:{}({}): {answer}", method.name, given.join(", "));
                     self.state.session.rows.note_answer(place, text);
                 }
-                // The complete result stays alive, so a collection would free nothing of it.
-                let is_long = matches!(&answer, Value::Table(table) if table.entries.len() > LONG);
-                let pauses = is_long && lua.gc_is_running();
-                if pauses {
-                    lua.gc_stop();
-                }
-                let made = to_lua(lua, &answer, false);
-                if pauses {
-                    lua.gc_restart();
-                }
-                made
+                Ok(answer)
             }
             Call::Write { values: write, .. } if kind.has_capability::<dyn Environment>() => {
                 let Some(environment) = environment else {
                     return Err(mlua::Error::external(no_environment(&self.name)));
                 };
                 let given = arguments()?;
-                let answer = write(&mut **environment.write().recover(), &given);
-                to_lua(lua, &answer.map_err(mlua::Error::external)?, false)
+                let mut state = environment.write().recover();
+                write(&mut **state, &given).map_err(mlua::Error::external)
             }
             Call::Write { .. } | Call::Script { .. } => Err(mlua::Error::external(Error::scope(format!(
                 "{} is a write method, so only interpretation rules can call it",
                 self.name
             )))),
         }
+    }
+}
+
+fn object_of(value: &Value) -> Option<Arc<dyn Object>> {
+    match value {
+        Value::Object(object) => Some(Arc::clone(object)),
+        _ => None,
     }
 }
 

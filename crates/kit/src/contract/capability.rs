@@ -171,4 +171,9 @@ pub trait ObjectContent {
 
     /// Returns the parts that `fragment` replaces a module by; `None` if the object has no parts.
     fn fragments(&self) -> Option<Vec<Value>>;
+
+    /// Returns the number of the entry, such as the size of a split, that made this part; 0 for other objects.
+    fn entry(&self) -> u32 {
+        0
+    }
 }

@@ -1,12 +1,12 @@
 //! Parameters of modules that are not numbers, with each value stored once.
 
 use std::hash::{BuildHasher as _, Hash, Hasher};
-use std::sync::RwLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, RwLock};
 
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
-use crate::Value;
+use crate::{Object, Value};
 use burgeon_base::locks::LockRecovery;
 use burgeon_rewriting::{ColumnValue, ShowParameters};
 
@@ -35,6 +35,18 @@ struct Slots {
     list: Vec<Option<Value>>,
     handles: FxHashMap<HashedValue, u32>,
     free: Vec<u32>,
+}
+
+impl Slots {
+    /// Puts a value into a free slot, and returns its handle.
+    fn store(&mut self, value: Value) -> u32 {
+        if let Some(handle) = self.free.pop() {
+            self.list[handle as usize] = Some(value);
+            return handle;
+        }
+        self.list.push(Some(value));
+        u32::try_from(self.list.len() - 1).unwrap_or(u32::MAX)
+    }
 }
 
 /// A value with its hash, so that growing the map does not recompute hashes.
@@ -66,6 +78,13 @@ impl Values {
             other => ColumnValue::Handle(self.handle(other)),
         };
         boxed.pack()
+    }
+
+    /// Stores new objects, and returns a handle for each. Equal objects that are stored already are not looked for, since parts of
+    /// an operation are seldom equal.
+    pub fn store_objects(&self, objects: impl IntoIterator<Item = Arc<dyn Object>>) -> Vec<u32> {
+        let mut slots = self.slots.write().recover();
+        objects.into_iter().map(|object| slots.store(Value::Object(object))).collect()
     }
 
     /// Returns the value that a column's number represents.
@@ -154,17 +173,7 @@ impl Values {
         if let Some(handle) = slots.handles.get(&value) {
             return *handle;
         }
-        let stored = Some(value.value.clone());
-        let handle = match slots.free.pop() {
-            Some(handle) => {
-                slots.list[handle as usize] = stored;
-                handle
-            }
-            None => {
-                slots.list.push(stored);
-                u32::try_from(slots.list.len() - 1).unwrap_or(u32::MAX)
-            }
-        };
+        let handle = slots.store(value.value.clone());
         slots.handles.insert(value, handle);
         handle
     }
@@ -187,8 +196,6 @@ impl ShowParameters for Values {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
     use super::*;
     use crate::{Table, TableKey};
 

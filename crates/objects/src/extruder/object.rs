@@ -9,7 +9,7 @@ use super::state::{ExtruderState, SolidRun};
 use crate::MaterialOptions;
 use crate::frame_stack::{FrameStack, FrameStackMark};
 use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
-use crate::shapes::{ShapeObject, draw_shape};
+use crate::shapes::{ShapeObject, ShapeTarget, draw_shape};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{Frame, Rings, Section, Segment, Station, SweepOptions, sweep};
@@ -228,10 +228,12 @@ impl Extruder {
         draw_mesh(to, &self.state.frame.transform(), &points, &faces, &options.unwrap_or_default())
     }
 
-    /// Draws the faces of a shape in the extruder's frame, in their own colours or in the colour of the extruder.
-    pub fn shape(&mut self, shape: Arc<ShapeObject>) -> Result<()> {
+    /// Draws the faces of a shape in the extruder's frame, in their own colours, or else in `color`, that of the extruder unless
+    /// given.
+    pub fn shape(&mut self, shape: Arc<ShapeObject>, color: Option<Color>) -> Result<()> {
         let transform = self.state.frame.transform();
-        let warning = draw_shape((&mut self.drawing, &self.state.material), &transform, &shape)?;
+        let to = ShapeTarget { drawing: &mut self.drawing, base: &self.state.material, color };
+        let warning = draw_shape(to, &transform, &shape)?;
         self.warnings.extend(warning);
         Ok(())
     }

@@ -9,10 +9,10 @@ use super::state::Shell;
 use super::walls::Walls;
 use crate::MaterialOptions;
 use crate::roofs::Roof;
-use crate::shapes::{ShapeObject, draw_building};
+use crate::shapes::{ShapeObject, ShapeTarget, draw_building};
 use burgeon_base::error::Result;
 use burgeon_base::warning::Warning;
-use burgeon_kit::{TableOf, Value, Vector, methods};
+use burgeon_kit::{Color, TableOf, Value, Vector, methods};
 
 #[methods("footprint")]
 impl Footprint {
@@ -34,14 +34,16 @@ impl Footprint {
         self.cover(&options)
     }
 
-    /// Draws the faces of a shape in the coordinates of the world, in their own colours or in the colour of the footprint.
+    /// Draws the faces of a shape in the coordinates of the world, in their own colours, or else in `color`, that of the footprint
+    /// unless given.
     ///
     /// For formats with meanings, faces with the tag "roof" are roofs, with "extrude.bottom" ground, with "window" or "door" openings,
     /// and all others walls.
-    pub fn shape(&mut self, shape: Arc<ShapeObject>) -> Result<()> {
+    pub fn shape(&mut self, shape: Arc<ShapeObject>, color: Option<Color>) -> Result<()> {
         let material = self.material(None, None)?;
         let transform = DAffine3::from_translation(-self.origin());
-        let warning = draw_building((&mut self.drawing, &material), &transform, &shape)?;
+        let to = ShapeTarget { drawing: &mut self.drawing, base: &material, color };
+        let warning = draw_building(to, &transform, &shape)?;
         if warning.is_some() {
             let remark = Warning::simplification("an edge of a shape draws nothing");
             self.notes.push(remark.with_cause("it has no faces"));

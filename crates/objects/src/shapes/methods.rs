@@ -9,6 +9,7 @@ use burgeon_shapes::{CutPlane, EdgeKind, FaceStyle, Selector, Shape, ShapeBody, 
 use burgeon_spatial::Geometry;
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
+use super::component_selector::ComponentSelector;
 use super::edge_distances::{EdgeDistances, EnvelopeLimits};
 use super::object::{ShapeObject, warn};
 use super::options::{ScatterOptions, ShapeRoofOptions};
@@ -119,7 +120,8 @@ impl ShapeObject {
         f64::from(self.place.count)
     }
 
-    /// Returns the number of the size that made the part of a split, from 1. Sizes in repeated lists count separately.
+    /// Returns the number of the size that made the part of a split, or of the selector that chose the component, from 1. Sizes
+    /// in repeated lists count separately.
     pub fn entry(&self) -> f64 {
         f64::from(self.place.entry + 1)
     }
@@ -231,17 +233,9 @@ impl ShapeObject {
     /// Returns true if `selector` selects this face among the faces of the shape that it comes from, or this edge by its
     /// kind.
     pub fn matches(&self, selector: String) -> Result<bool> {
-        if let ShapeBody::Edge(kind, _) = &self.shape.body
-            && let Ok(wanted) = EdgeKind::read(&selector)
-        {
-            return Ok(*kind == wanted);
-        }
-        let selector = Selector::read(&selector).map_err(|error| error.about("shape:matches"))?;
-        let (normal, axes) = (self.shape.normal(), &self.shape.scope.axes);
-        Ok(match selector.bit() {
-            Some(bit) if self.matching != 0 => self.matching & bit != 0,
-            _ => self.shape.styles().iter().any(|style| selector.matches(normal, style, axes)),
-        })
+        let selector = ComponentSelector::read(&selector, self.is_edge())
+            .map_err(|error| error.about("shape:matches"))?;
+        Ok(self.is_selected(&selector))
     }
 
     /// Returns the faces that `selector` matches as one shape; nil if there are none.
@@ -256,6 +250,12 @@ impl ShapeObject {
         let kind = kind.map(|kind| EdgeKind::read(&kind)).transpose();
         let kind = kind.map_err(|error| error.about("shape:edges"))?;
         Ok(self.parts(self.shape.edges(kind.as_ref().map(std::slice::from_ref))))
+    }
+
+    /// Returns the "faces", "edges", "holes" or "pieces" that one of `selectors` matches; the method `entry` gives the number of
+    /// the first that does. The selector "all" matches all.
+    pub fn components(&self, kind: String, selectors: Vec<String>) -> Result<Vec<Arc<Self>>> {
+        self.select_components(&kind, &selectors)
     }
 
     /// Returns the holes of the faces, filled.

@@ -1,5 +1,6 @@
 //! Shapes as values: solids, faces and edges that rules divide.
 
+mod component_selector;
 mod construct;
 mod draw;
 mod edge_distances;
@@ -11,6 +12,6 @@ mod relations;
 mod support;
 mod volumes;
 
-pub(crate) use draw::{draw_building, draw_shape};
+pub(crate) use draw::{ShapeTarget, draw_building, draw_shape};
 pub use object::ShapeObject;
 pub use volumes::Volumes;

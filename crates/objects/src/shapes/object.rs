@@ -150,6 +150,10 @@ impl ObjectContent for ShapeObject {
     fn fragments(&self) -> Option<Vec<Value>> {
         None
     }
+
+    fn entry(&self) -> u32 {
+        self.place.entry
+    }
 }
 
 impl ObjectParameter for ShapeObject {

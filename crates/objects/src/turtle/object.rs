@@ -14,7 +14,7 @@ use crate::curves::curve::CurveObject;
 use crate::curves::surface::SurfaceObject;
 use crate::frame_stack::FrameStack;
 use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
-use crate::shapes::{ShapeObject, draw_shape};
+use crate::shapes::{ShapeObject, ShapeTarget, draw_shape};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
 use burgeon_geometry::{Frame, Strand, face, sphere};
@@ -266,11 +266,12 @@ impl Turtle {
         sphere(self.drawing.part(self.state.part), self.state.frame.position, radius, sides)
     }
 
-    /// Draws the faces of a shape in the turtle's frame, in their own colours or in the colour of the turtle.
-    pub fn shape(&mut self, shape: Arc<ShapeObject>) -> Result<()> {
+    /// Draws the faces of a shape in the turtle's frame, in their own colours, or else in `color`, that of the turtle unless given.
+    pub fn shape(&mut self, shape: Arc<ShapeObject>, color: Option<Color>) -> Result<()> {
         let base = self.drawing.material_of(self.state.part);
         let transform = self.state.transform();
-        let warning = draw_shape((&mut self.drawing, &base), &transform, &shape)?;
+        let to = ShapeTarget { drawing: &mut self.drawing, base: &base, color };
+        let warning = draw_shape(to, &transform, &shape)?;
         self.warnings.extend(warning);
         Ok(())
     }

@@ -1,0 +1,77 @@
+//! Selectors of the components of a shape.
+
+use std::sync::Arc;
+
+use burgeon_base::error::{Error, Result};
+use burgeon_shapes::{EdgeKind, Selector, ShapeBody};
+
+use super::object::ShapeObject;
+
+/// Selector of an edge by its kind, or of any component by its direction, inclination or tags.
+pub(super) enum ComponentSelector {
+    /// Edges of a kind.
+    Edge(EdgeKind),
+    /// Components that a selector of faces matches.
+    Face(Selector),
+}
+
+impl ComponentSelector {
+    /// Reads the name of a selector, of edges or of other components.
+    pub(super) fn read(name: &str, of_edges: bool) -> Result<Self> {
+        match EdgeKind::read(name) {
+            Ok(kind) if of_edges => Ok(Self::Edge(kind)),
+            _ => Selector::read(name).map(Self::Face),
+        }
+    }
+}
+
+impl ShapeObject {
+    /// Returns true if the shape is an edge.
+    pub(super) fn is_edge(&self) -> bool {
+        matches!(self.shape.body, ShapeBody::Edge(..))
+    }
+
+    /// Returns true if `selector` selects this component among those of the shape that it comes from.
+    pub(super) fn is_selected(&self, selector: &ComponentSelector) -> bool {
+        let selector = match (selector, &self.shape.body) {
+            (ComponentSelector::Edge(wanted), ShapeBody::Edge(kind, _)) => return kind == wanted,
+            (ComponentSelector::Edge(_), _) => return false,
+            (ComponentSelector::Face(selector), _) => selector,
+        };
+        match selector.bit() {
+            Some(bit) if self.matching != 0 => self.matching & bit != 0,
+            _ => {
+                let (normal, axes) = (self.shape.normal(), &self.shape.scope.axes);
+                self.shape.styles().iter().any(|style| selector.matches(normal, style, axes))
+            }
+        }
+    }
+
+    /// Returns the components of a kind that a selector matches, with the number of the first that does.
+    pub(super) fn select_components(&self, kind: &str, selectors: &[String]) -> Result<Vec<Arc<Self>>> {
+        let mut components = match kind {
+            "faces" => self.faces(None)?,
+            "edges" => self.edges(None)?,
+            "holes" => self.holes(),
+            "pieces" => self.pieces()?,
+            other => {
+                return Err(Error::argument(format!("shape:components: unknown kind {other:?}"))
+                    .help("use \"faces\", \"edges\", \"holes\" or \"pieces\""));
+            }
+        };
+        let read = |name: &String| ComponentSelector::read(name, kind == "edges");
+        let selectors: Vec<ComponentSelector> = selectors
+            .iter()
+            .map(read)
+            .collect::<Result<_>>()
+            .map_err(|error| error.about("shape:components"))?;
+        components.retain_mut(|component| {
+            let found = selectors.iter().position(|selector| component.is_selected(selector));
+            if let (Some(number), Some(component)) = (found, Arc::get_mut(component)) {
+                component.place.entry = u32::try_from(number).unwrap_or(u32::MAX);
+            }
+            found.is_some()
+        });
+        Ok(components)
+    }
+}
