@@ -43,7 +43,7 @@ impl Shape {
         if paces.iter().all(|pace| !pace.moves()) {
             return Ok(Setback { inner: vec![self.clone()], border: Vec::new() });
         }
-        let strips = divide(&polygon, &Skeleton::for_mesh(&polygon, &paces)?, 1.0)?;
+        let strips = divide(&polygon, &Skeleton::new(&polygon, &paces)?, 1.0)?;
         Ok(self.setback_parts(&strips, &frame))
     }
 
@@ -58,7 +58,7 @@ impl Shape {
             return Err(Error::argument(format!("a face of {whole:.3} m² has no rest of {area} m²"))
                 .help("use an area above 0 and below that of the face"));
         }
-        let skeleton = Skeleton::for_mesh(&polygon, &vec![Pace::default(); polygon.size()])?;
+        let skeleton = Skeleton::new(&polygon, &vec![Pace::default(); polygon.size()])?;
         let (mut low, mut high) = (0.0, skeleton.duration());
         for _ in 0..60 {
             let middle = f64::midpoint(low, high);

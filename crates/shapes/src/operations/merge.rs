@@ -40,8 +40,7 @@ impl Shape {
         let mut mesh = weld(&self.mesh());
         insert_points_on_edges(&mut mesh)?;
         remove_opposite_faces(&mut mesh);
-        let merged = merge_coplanar(&mesh);
-        Ok(Self::of_mesh(merged, self.scope.axes))
+        Ok(Self::of_mesh(merge_coplanar(&mesh), self.scope.axes))
     }
 }
 
@@ -133,8 +132,8 @@ fn insert_points_on_edges(mesh: &mut PolygonMesh) -> Result<()> {
     Ok(())
 }
 
-/// Removes pairs of faces with the same outline and opposite directions.
-fn remove_opposite_faces(mesh: &mut PolygonMesh) {
+/// Removes pairs of faces with the same outline and opposite directions, between which there is nothing.
+pub(crate) fn remove_opposite_faces(mesh: &mut PolygonMesh) {
     // The same outline from its smallest point on, and in which direction it runs there.
     let outline = |face: &PolygonFace, reversed: bool| -> Vec<u32> {
         let mut ring: Vec<u32> = face.rings[0].clone();
@@ -146,18 +145,18 @@ fn remove_opposite_faces(mesh: &mut PolygonMesh) {
         ring
     };
     let mut known: FxHashMap<Vec<u32>, Vec<usize>> = FxHashMap::default();
-    let mut removed = vec![false; mesh.faces.len()];
+    let mut rest: Vec<bool> = vec![true; mesh.faces.len()];
     for (number, face) in mesh.faces.iter().enumerate().filter(|(_, face)| face.rings.len() == 1) {
         if let Some(other) = known.get_mut(&outline(face, true)).and_then(Vec::pop) {
-            removed[other] = true;
-            removed[number] = true;
+            rest[other] = false;
+            rest[number] = false;
         } else {
             known.entry(outline(face, false)).or_default().push(number);
         }
     }
-    let mut flags = removed.into_iter();
-    mesh.faces.retain(|_| !flags.next().unwrap_or(false));
-    *mesh = PolygonMesh::new(std::mem::take(&mut mesh.points), std::mem::take(&mut mesh.faces));
+    if rest.contains(&false) {
+        *mesh = mesh.select((0..rest.len()).filter(|number| rest[*number]));
+    }
 }
 
 /// Joins coplanar faces with a common edge and the same style.

@@ -8,7 +8,7 @@ use burgeon_base::error::{Error, Limit, Result};
 use glam::DVec3;
 
 use super::flat_faces::remove_flat_triangles;
-use super::merge::merge_coplanar;
+use super::merge::{merge_coplanar, remove_opposite_faces};
 use crate::Shape;
 use crate::mesh::{PolygonFace, PolygonMesh};
 use crate::style::{FaceStyle, SharedStyle};
@@ -111,7 +111,12 @@ impl Shape {
         }
         let mut mesh = PolygonMesh::new(points, faces);
         remove_flat_triangles(&mut mesh);
-        let mesh = merge_coplanar(&mesh);
+        let mut mesh = merge_coplanar(&mesh);
+        // Coincident faces of the solids can leave both sides of a face without thickness.
+        remove_opposite_faces(&mut mesh);
+        if mesh.faces.is_empty() {
+            return Ok(None);
+        }
         if !mesh.is_closed() {
             return Err(failed("the result is open"));
         }
