@@ -244,7 +244,10 @@ function openings.portal(face: Shape, given: any?): { Shape }
   for order = orders - 1, 0, -1 do
     local deep = step * (orders - order)
     local band = outlines.band(arch(order + 1), arch(order))
-    local front = if order % 2 == 0 then -deep + step * 0.55 else -deep + step * 0.9
+    local front = if order == orders - 1
+      then 0
+      elseif order % 2 == 0 then -deep + step * 0.55
+      else -deep + step * 0.9
     table.insert(
       list,
       outlines

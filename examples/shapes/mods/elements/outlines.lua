@@ -105,10 +105,10 @@ function outlines.arch(kind: string, width: number, height: number, rise: number
       )
     end
   end
-  -- An arch without a wall below begins at the corners.
+  -- The ends of an arch without a wall below are the feet.
   if spring < 1e-9 then
-    table.remove(points, 1)
-    table.remove(points, 1)
+    table.remove(points, 3)
+    table.remove(points)
   end
   return points
 end
@@ -196,7 +196,7 @@ function outlines.place(face: Shape, outline: { { number } }, holes: { any }?, z
     table.insert(rings, hole)
   end
   local frame = face:shift(vec(low[1], low[2], z or 0))
-  return frame:resize(vec(high[1] - low[1], high[2] - low[2], 0)):fit(shape(rings))
+  return frame:resize(vec(high[1] - low[1], high[2] - low[2], 0)):fit(shape(rings):align())
 end
 
 -- Returns the solid box from x0 to x1, y0 to y1 and z0 to z1 (m) in the frame of a face.
