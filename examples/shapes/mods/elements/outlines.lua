@@ -199,6 +199,15 @@ function outlines.place(face: Shape, outline: { { number } }, holes: { any }?, z
   return frame:resize(vec(high[1] - low[1], high[2] - low[2], 0)):fit(shape(rings):align())
 end
 
+-- Returns the upright face of corners from the lower left one, counter-clockwise seen from outside.
+function outlines.face(corners: { any }): Shape
+  local ring: { number } = {}
+  for at in corners do
+    ring[at] = at
+  end
+  return shape({ points = corners, faces = { ring } }):faces()[1]
+end
+
 -- Returns the solid box from x0 to x1, y0 to y1 and z0 to z1 (m) in the frame of a face.
 function outlines.box(face: Shape, x: { number }, y: { number }, z: { number }): Shape
   local outline = outlines.move(outlines.rectangle(x[2] - x[1], y[2] - y[1]), x[1], y[1])
