@@ -31,7 +31,7 @@ end
 local function within(width: number, height: number, make: any, options: any?)
   local front = wall(width, height)
   draw(make(front, options))
-  for _, face in front:extrude(-0.6):faces() do
+  for _, face in front:extrude(-1.8):faces() do
     if face:z_axis():dot(front:z_axis()) < 0.9 then
       draw({ face })
     end

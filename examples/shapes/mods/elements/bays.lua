@@ -74,14 +74,6 @@ function bays.bay(face: Shape, given: any?): { Shape }
       local next = side % 4 + 1
       table.insert(faces, { next, next + 4, side + 4, side })
     end
-    -- Plan points go from the left to the right, seen from outside, so faces turn around.
-    for number, ring in faces do
-      local turned: { number } = {}
-      for _, point in ring do
-        table.insert(turned, 1, point)
-      end
-      faces[number] = turned
-    end
     return shape({ points = points, faces = faces })
   end
   local low, high = options.sill, options.sill + options.height
