@@ -80,7 +80,10 @@ local support = model(
   })
 )
 local corner_support = model(
-  supports.buttress(wall(1, HIGH):translate(vec(-0.5, 0, 0)), { width = 1, height = HIGH - 1, depth = 1.5, stages = 3 })
+  supports.buttress(
+    wall(1, HIGH):translate(vec(-0.5, 0, 0)),
+    { width = 1, height = HIGH - 1, depth = 1.5, stages = 3 }
+  )
 )
 local apse_side = 2 * half * math.sin(math.pi / 10)
 local apse_wall = wall(apse_side, HIGH)
@@ -97,18 +100,34 @@ local apse = model(
 local church = lsystem({ object = extruder({ color = STONE }) })
 church:axiom(Church())
 church:rule("Church()", function(this)
-  local lawn = rectangle(4 * width + 30, length + width + 46):translate(vec(-2 * width - 15, -26, -0.3))
-  local square = rectangle(width + 12, 27):translate(vec(-half - 8, -26, 0.02))
-  local path = rectangle(2.4, length + width + 18):translate(vec(half + AISLE + 4, -16, 0.02))
-  return Draw(lawn:extrude(0.3):color(LAWN)),
-    Draw(square:extrude(0.04):color("#b9ae98")),
-    Draw(path:extrude(0.03):color("#b9ae98")),
-    Flank(1),
-    Flank(-1),
-    Apse(),
-    West(),
-    Tower(),
-    Roofs()
+  -- The ground: a lawn, a square, a path, and a low wall around the churchyard on the right.
+  local parts: { any } = {}
+  local function add(part: Shape, color: string)
+    table.insert(parts, Draw(part:color(color)))
+  end
+  add(disk(160, 64):translate(vec(0, 0, -0.3)):extrude(0.3), LAWN)
+  add(rectangle(width + 34, 60):translate(vec(-width - 18, -60.5, 0)):extrude(0.04), "#b9ae98")
+  add(rectangle(2.2, length + 30):translate(vec(half + AISLE + 3.4, -4, 0)):extrude(0.03), "#b9ae98")
+  local yard = rectangle(width + 20, length + 26):translate(vec(half + AISLE + 1.4, -3, 0))
+  for _, edge in yard:border({ 0.45, 0.45, 0.45, 0.45 }) do
+    local at = edge:center()
+    if edge:z_axis().z > 0 and at.x > half + AISLE + 2 then
+      add(edge:extrude(1.2), "#c4b898")
+      add(edge:translate(vec(0, 0, 1.2)):offset(0.06)[1]:extrude(0.14), TRIM)
+    end
+  end
+  for row = 0, 2 do
+    for number = 0, math.floor(length / 2.6) do
+      if random() < 0.8 then
+        local wide, high = random(0.45, 0.75), random(0.7, 1.3)
+        local kind = if random() < 0.5 then "round" else "segmental"
+        local stone = wall(wide, 2):translate(vec(half + AISLE + 8.5 + 4 * row, 2 + 2.6 * number, 0))
+        local slab = outlines.place(stone, outlines.arch(kind, wide, high)):extrude(-0.14)
+        add(slab:rotate(90 + random(-4, 4), vec(0, 0, 1)), if random() < 0.5 then "#b3a98f" else "#9c9a90")
+      end
+    end
+  end
+  return sequence(parts), Flank(1), Flank(-1), Apse(), West(), Tower(), Roofs()
 end)
 -- One side of the nave and its aisle, split into bays; on the left, the tower replaces the first bay.
 church:rule("Flank(sign)", function(this, sign: number)
@@ -148,6 +167,15 @@ church:rule("Flank(sign)", function(this, sign: number)
     table.insert(parts, Draw(shape({ points = points, faces = { ring } }):extrude(-long):color(color)))
   end
   slab(from, length - from, SLATE, section, 0)
+  if sign > 0 then
+    local front = wall(AISLE - 1.6, LOW - 0.6):translate(vec(half + 1, -0.32, 0))
+    for _, part in
+      tracery.window(front, { width = 1.3, lancets = 1, height = 4.2, sill = 2.1, wall = false, depth = 0.1 })
+    do
+      table.insert(parts, Draw(part:shift(vec(0, 0, 0.12))))
+    end
+    table.insert(parts, Draw(band(front, 1.6, 0.22, 0.14)))
+  end
   for _, y in ends do
     local outline = { { half, 0 }, { half + AISLE, 0 }, { half + AISLE, LOW + 0.9 }, { half, LEAN + 0.9 } }
     slab(if y == 0 then -0.3 else y - 0.3, 0.6, STONE, outline, 0)
@@ -183,7 +211,7 @@ church:rule("West()", function(this)
   local front = wall(width, HIGH):translate(vec(-half, -0.4, 0))
   local split_at = 8.6
   local rows = front:split("y", { split_at, "~1" })
-  add(openings.portal(rows[1], { width = 2.1, height = 4.8, step = 0.26, lintel = 2.7, gable = 0.9 }))
+  add(openings.portal(rows[1], { width = 2.4, height = 5, step = 0.3, lintel = 2.9, gable = 0.7 }))
   add(tracery.rose(rows[2], { radius = math.min(half - 1, (HIGH - split_at) / 2 - 0.6) }))
   add({ band(rows[1], split_at - 0.2, 0.4, 0.25), band(rows[2], HIGH - split_at - 0.4, 0.5, 0.3) })
   -- The gable hides the end of the roof; its coping carries a cross.
@@ -207,8 +235,9 @@ church:rule("West()", function(this)
   end
   -- Steps before the portal.
   for step = 0, 2 do
-    local slab = rectangle(5 + step, 1 + 0.4 * step):translate(vec(-2.5 - step / 2, -1.4 - 0.4 * step, -0.02))
-    add({ slab:extrude(0.36 - 0.12 * step):color(TRIM) })
+    local slab =
+      rectangle(5 + step, 3.4 + 0.4 * step):translate(vec(-2.5 - step / 2, -1.6 - 0.4 * step, -0.02))
+    add({ slab:extrude(0.42 - 0.14 * step):color(TRIM) })
   end
   for sign = -1, 1, 2 do
     local at = vec(sign * (half + 0.3), -0.4, 0)
@@ -314,5 +343,5 @@ church:interpret("At(model, place, out)", function(this, which: any, place: Vect
 end)
 church:derive()
 
-camera({ from = vec(30, -42, 5), to = vec(-1, 10, 16), fov = 52 })
-camera({ name = "above", from = vec(58, -30, 46), to = vec(0, length * 0.45, 9), fov = 42 })
+camera({ from = vec(43, -46, 2.4), to = vec(0.5, 8, 18.2), fov = 46 })
+camera({ name = "above", from = vec(64, -34, 46), to = vec(0, length * 0.42, 13), fov = 46 })
