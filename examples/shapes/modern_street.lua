@@ -50,7 +50,7 @@ local function tree(seed: number): Derived
     local up = 4.6 + 1.5 * noise(number * 1.7, seed + 9) + (1.4 - far) * 0.7
     local size = 0.95 + 0.25 * noise(seed, number * 2.3)
     local crown = ball(size, 9):translate(vec(far * math.cos(angle), far * math.sin(angle), up))
-    table.insert(parts, crown:color(mix("#5d7440", "#7f9352", 0.5 + 0.5 * noise(number, 3, seed))))
+    table.insert(parts, crown:color(({ "#7f9352", "#6b8347", "#5d7440" })[number % 3 + 1]))
   end
   return model(parts)
 end
@@ -99,12 +99,6 @@ local half = 4.6 + 0.25 + 1.7 + 2.2 + 3.2 * lanes
 street:axiom(Street(rectangle(2 * half, length)))
 -- The strips from the left to the right, the same on both sides of the middle.
 street:rule("Street(face)", function(this, face: Shape)
-  local drive = { { 0.12, Line }, { 3.08, Lane } }
-  local inner: { any } = {}
-  for lane = 1, lanes do
-    table.insert(inner, drive[2])
-    table.insert(inner, if lane < lanes then { 0.12, Dashes } else { 0.12, Line })
-  end
   local parts: { any } =
     { { 4.6, Pavement }, { 0.25, Kerb }, { 1.7, Track }, { 2.2, Parking }, { "~0.12", Line } }
   for lane = 1, 2 * lanes do
@@ -155,18 +149,14 @@ street:rule("Track(face)", function(this, face: Shape)
   return Draw(face:extrude(0.07):color(CYCLE))
 end)
 street:rule("Kerb(face)", function(this, face: Shape)
-  return split(
-    face,
-    "y",
+  return split(face, "y", {
     {
-      {
-        "~1*",
-        function(part: Shape)
-          return Draw(part:extrude(0.16):color(mix(KERB, "#a9a69e", random(0, 0.5))))
-        end,
-      },
-    }
-  )
+      "~1*",
+      function(part: Shape)
+        return Draw(part:extrude(0.16):color(mix(KERB, "#a9a69e", math.floor(random(0, 4)) / 8)))
+      end,
+    },
+  })
 end)
 -- Parking spaces between marks, with a car in most of them, and trees in beds.
 street:rule("Parking(face)", function(this, face: Shape)
@@ -206,7 +196,10 @@ street:rule("Pavement(face)", function(this, face: Shape)
   local parts: { any } = {}
   for _, row in face:split("y", { `~{spacing / 6}*` }) do
     for _, slab in row:split("x", { "~1.15*" }) do
-      table.insert(parts, Draw(slab:extrude(0.15):color(mix(PAVING, "#989186", random(0, 0.6)))))
+      table.insert(
+        parts,
+        Draw(slab:extrude(0.15):color(mix(PAVING, "#989186", math.floor(random(0, 5)) / 8)))
+      )
     end
   end
   for number, part in face:split("y", { 9.4, `~{spacing}*` }) do
@@ -286,4 +279,4 @@ street:interpret("At(model, place, turn)", function(this, which: any, place: Vec
 end)
 street:derive()
 
-camera({ from = vec(half + 1.5, -13, 6.2), to = vec(half - 0.5, 34, 2.6), fov = 50 })
+camera({ from = vec(half + 2.4, -7, 5.4), to = vec(half - 0.8, 34, 3.4), fov = 52 })

@@ -1,11 +1,11 @@
 --!strict
--- A block divided into lots by area, each with a house and a garden, as in CGA's examples of subdivision: a plan is halved across
--- its longer side until the parts are small enough.
+-- A block divided into lots, each with a house and a garden, as in CGA's examples of subdivision: two rows along the streets,
+-- which are halved until the parts are small enough.
 local elements = require("@elements")
 local openings, roofs = elements.openings, elements.roofs
 
 local most =
-  param("most", { default = 760, min = 250, max = 3000, unit = "m²", doc = "Largest area of a lot." })
+  param("most", { default = 820, min = 250, max = 3000, unit = "m²", doc = "Largest area of a lot." })
 local irregular =
   param("irregular", { default = 0.12, min = 0, max = 0.3, doc = "Random part of the place of a cut." })
 
@@ -24,21 +24,29 @@ town:axiom(Block(shape({ { 0, 0 }, { 124, -6 }, { 138, 62 }, { 70, 84 }, { -6, 7
 -- A street around the block, and a pavement along it.
 town:rule("Block(plan)", function(this, plan: Shape)
   return Draw(plan:offset(9)[1]:translate(vec(0, 0, -0.4)):extrude(0.25):color("#6b6e70")),
-    Draw(plan:offset(2.2)[1]:translate(vec(0, 0, -0.16)):extrude(0.16):color("#b5afa3")),
-    Plan(plan)
+    Draw(plan:offset(2.2)[1]:translate(vec(0, 0, -0.2)):extrude(0.17):color("#b5afa3")),
+    split(plan, "y", {
+      {
+        "~1",
+        function(row: Shape)
+          return Plan(row:with("street", "front"))
+        end,
+      },
+      {
+        "~1",
+        function(row: Shape)
+          return Plan(row:with("street", "back"))
+        end,
+      },
+    })
 end)
--- Cuts across the longer side, near the middle, until a part is a lot.
+-- Cuts a row across, near the middle, until a part is a lot.
 town:rule("Plan(plan)", function(this, plan: Shape)
   if plan:area() <= most then
     return Lot(plan)
   end
-  local size = plan:size()
   local share = 50 + 100 * irregular * random(-1, 1)
-  return split(
-    plan,
-    if size.x > size.y then "x" else "y",
-    { { `{share}%`, Plan }, { `{100 - share}%`, Plan } }
-  )
+  return split(plan, "x", { { `{share}%`, Plan }, { `{100 - share}%`, Plan } })
 end)
 -- A garden behind hedges, and a house on the largest rectangle that the law allows.
 town:rule("Lot(plan)", function(this, plan: Shape)
@@ -46,7 +54,10 @@ town:rule("Lot(plan)", function(this, plan: Shape)
   for _, hedge in plan:setback(0.3) do
     for _, strip in hedge:border(0.6) do
       if strip:area() > 3 and random() < 0.86 then
-        table.insert(parts, Draw(strip:extrude(random(0.8, 1.5)):color(mix("#4f6238", "#66793f", random()))))
+        table.insert(
+          parts,
+          Draw(strip:extrude(random(0.8, 1.5)):color(if random() < 0.5 then "#54683a" else "#61753f"))
+        )
       end
     end
   end
@@ -61,8 +72,8 @@ town:rule("Lot(plan)", function(this, plan: Shape)
   if house then
     table.insert(parts, House(house))
   end
-  for _, at in plan:setback(2)[1]:scatter(4, { seed = math.floor(random() * 1e6) }) do
-    if room:distance(at) > 1.5 then
+  for _, at in plan:setback(2)[1]:scatter(7, { seed = math.floor(random() * 1e6) }) do
+    if house and house:distance(at) > 3.2 then
       local high, radius = random(1.6, 2.6), random(1.2, 2)
       table.insert(parts, Draw(cylinder(0.16, high + 0.6, 8):translate(at):color("#6a5744")))
       for number = 0, 3 do
@@ -70,7 +81,7 @@ town:rule("Lot(plan)", function(this, plan: Shape)
         local crown = ball(radius * (0.9 - 0.1 * number), 9)
         local aside = vec(math.cos(angle), math.sin(angle), 0) * (radius * 0.35)
         crown = crown:translate(at + aside + vec(0, 0, high + radius * (0.5 + 0.2 * number)))
-        table.insert(parts, Draw(crown:color(mix("#5d7440", "#85975a", random()))))
+        table.insert(parts, Draw(crown:color(if number % 2 == 0 then "#67803f" else "#768d4a")))
       end
     end
   end
@@ -87,7 +98,7 @@ town:rule("House(plan)", function(this, plan: Shape)
   end
   local mass = plan:extrude(0.4 + 2.9 * storeys)
   for _, face in mass:faces("side") do
-    local front = face:matches("front")
+    local front = face:matches(plan:get("street"))
     for _, storey in face:split("y", { 0.4, "~2.9*" }) do
       if storey:index() == 1 then
         table.insert(parts, Draw(storey:extrude(0.05):color("#a89f8e")))
@@ -118,4 +129,4 @@ town:rule("House(plan)", function(this, plan: Shape)
 end)
 town:derive()
 
-camera({ from = vec(64, -92, 58), to = vec(66, 30, -2), fov = 40 })
+camera({ from = vec(16, -66, 44), to = vec(63, 30, -3), fov = 44 })
