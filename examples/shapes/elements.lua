@@ -15,6 +15,16 @@ local function draw(shapes: { Shape })
     table.insert(shown, Draw(part))
   end
 end
+-- Windows consist of glass and reveals too; all other elements are solids.
+local with_windows = { [bays.bay] = true, [bays.loggia] = true, [roofs.dormer] = true, [roofs.spire] = true }
+local function draw_solids(make: any, shapes: { Shape })
+  for number, part in shapes do
+    if not with_windows[make] then
+      expect(part:volume() > 0 or `part {number} is open or inside out`, true)
+    end
+  end
+  draw(shapes)
+end
 -- The front of a wall at the end of the row.
 local function wall(width: number, height: number): Shape
   local front = cuboid(width, 0.6, height):translate(vec(x, row, 0)):faces("front")[1]
@@ -25,7 +35,7 @@ end
 local function before(width: number, height: number, make: any, options: any?)
   local front = wall(width, height)
   draw({ front:extrude(-0.6) })
-  draw(make(front, options))
+  draw_solids(make, make(front, options))
 end
 -- An element that makes its own wall.
 local function within(width: number, height: number, make: any, options: any?)
@@ -39,7 +49,7 @@ local function within(width: number, height: number, make: any, options: any?)
 end
 -- A plan on the ground at the end of the row.
 local function on(width: number, depth: number, make: any, options: any?)
-  draw(make(rectangle(width, depth):translate(vec(x, row - depth / 2, 0)), options))
+  draw_solids(make, make(rectangle(width, depth):translate(vec(x, row - depth / 2, 0)), options))
   x += width + 1.2
 end
 local function next_row(distance: number)
@@ -56,7 +66,7 @@ on(1.4, 5, stairs.landing, { height = 2.2 })
 on(2.4, 2.4, stairs.spiral, { height = 2.6 })
 on(1.4, 3.4, stairs.ramp)
 on(2.4, 2.4, stairs.podium, { height = 0.6 })
-next_row(6)
+next_row(7)
 -- Columns, cornices and supports.
 on(1.2, 1.2, columns.column, { order = "tuscan", radius = 0.3 })
 on(1.2, 1.2, columns.column, { order = "doric", radius = 0.34, flute = 0.07, sides = 40 })
@@ -71,7 +81,7 @@ for _, profile in { "cavetto", "ovolo", "cyma", "classical" } do
 end
 before(2.4, 4.2, cornices.dentils)
 before(2.4, 4.2, cornices.brackets, { spacing = 0.7 })
-next_row(7)
+next_row(9)
 -- Windows and doors.
 for _, kind in { "rectangle", "segmental", "round", "pointed" } do
   within(2.2, 3.6, openings.window, { kind = kind, keystone = kind == "round" })
@@ -87,7 +97,7 @@ before(3.4, 4.2, bays.balcony, { sill = 1.2 })
 before(4, 4.2, bays.balcony, { sill = 1.2, railing = "stone", width = 3.2 })
 within(3.4, 3.4, bays.loggia)
 before(3, 5, roofs.turret)
-next_row(9)
+next_row(11)
 for _, kind in { "gable", "hip", "shed", "eyebrow" } do
   local front = wall(2.6, 1.4)
   local roof = front:extrude(-4)
@@ -106,7 +116,7 @@ before(2.2, 7, supports.buttress, { height = 6.4 })
 within(7, 4.4, supports.arcade, { depth = 0.6 })
 on(0.9, 0.9, supports.pinnacle)
 on(3, 3, roofs.spire, { height = 9 })
-next_row(12)
+next_row(13)
 -- Tracery.
 within(2.4, 7, tracery.window, { lancets = 1, width = 1.1 })
 within(3.6, 7, tracery.window)
@@ -121,4 +131,4 @@ draw(supports.buttress(high:translate(vec(0, -5, 0)), { height = 6.6, depth = 1 
 sheet:axiom(sequence(shown))
 sheet:derive()
 
-camera({ from = vec(15, -34, 26), to = vec(15, 16, 0), fov = 40 })
+camera({ from = vec(14.6, -31, 32), to = vec(14.6, 17.4, 0.2), fov = 38 })

@@ -40,9 +40,12 @@ end)
 -- Walls, and a band above each storey.
 house:rule("Storey(s)", function(this, s: Shape)
   local front = if s:index() == 2 then Front else Wall
+  local walls = components(s, "faces", { { "front", front }, { "side", Wall } })
+  if s:index() == s:count() then
+    return walls
+  end
   local top = s:faces("up")[1]:translate(vec(0, 0, -0.2))
-  return components(s, "faces", { { "front", front }, { "side", Wall } }),
-    draw(cornices.cornice(top, { profile = "string", height = 0.22, depth = 0.12 }))
+  return walls, draw(cornices.cornice(top, { profile = "string", height = 0.22, depth = 0.12 }))
 end)
 house:rule("Front(s)", function(this, s: Shape)
   local function door(part: Shape)
@@ -61,7 +64,7 @@ end)
 house:rule("Roof(plan)", function(this, plan: Shape)
   local eaves = plan:translate(vec(0, 0, 0.35))
   local size = plan:size()
-  local front = plan:extrude(2.2):faces("front")[1]:shift(vec(0, 0.8, -1.2))
+  local front = plan:extrude(2.2):faces("front")[1]:shift(vec(0, 1.35, -1.2))
   local shapes = { eaves:roof({ kind = "hip", slope = 40, overhang = 0.5 }):color("#7c4436") }
   for _, part in cornices.cornice(plan, { profile = "cyma", height = 0.35, depth = 0.4 }) do
     table.insert(shapes, part)

@@ -5,7 +5,7 @@ local elements = require("@elements")
 local openings, roofs = elements.openings, elements.roofs
 
 local most =
-  param("most", { default = 820, min = 250, max = 3000, unit = "m²", doc = "Largest area of a lot." })
+  param("most", { default = 900, min = 250, max = 3000, unit = "m²", doc = "Largest area of a lot." })
 local irregular =
   param("irregular", { default = 0.12, min = 0, max = 0.3, doc = "Random part of the place of a cut." })
 
@@ -61,19 +61,21 @@ town:rule("Lot(plan)", function(this, plan: Shape)
       end
     end
   end
-  local free = plan:setback(4)[1]
+  local free = plan:setback({ front = 5, back = 5, side = 2 })[1]
   local room = free and free:inner_rectangle()
-  if not room or room:size().x < 7 or room:size().y < 7 then
-    return sequence(parts)
-  end
-  local size = room:size()
-  local wide, deep = math.min(size.x, random(9, 13)), math.min(size.y, random(8, 11))
-  local house = room:crop((size.x - wide) / 2, (size.y - deep) / 2, wide, deep)
-  if house then
-    table.insert(parts, House(house))
+  local house: Shape? = nil
+  if room and room:size().x >= 6 and room:size().y >= 6 then
+    -- Houses stand towards their street.
+    local size = room:size()
+    local wide, deep = math.min(size.x, random(9, 13)), math.min(size.y, random(8, 11))
+    local y = if plan:get("street") == "front" then 0 else size.y - deep
+    house = room:crop((size.x - wide) / 2, y, wide, deep)
+    if house then
+      table.insert(parts, House(house))
+    end
   end
   for _, at in plan:setback(2)[1]:scatter(7, { seed = math.floor(random() * 1e6) }) do
-    if house and house:distance(at) > 3.2 then
+    if not house or house:distance(at) > 3.2 then
       local high, radius = random(1.6, 2.6), random(1.2, 2)
       table.insert(parts, Draw(cylinder(0.16, high + 0.6, 8):translate(at):color("#6a5744")))
       for number = 0, 3 do
@@ -129,4 +131,4 @@ town:rule("House(plan)", function(this, plan: Shape)
 end)
 town:derive()
 
-camera({ from = vec(16, -66, 44), to = vec(63, 30, -3), fov = 44 })
+camera({ from = vec(28, -62, 44), to = vec(67, 27, -6), fov = 42 })
