@@ -100,9 +100,7 @@ before(3, 5, roofs.turret)
 next_row(11)
 for _, kind in { "gable", "hip", "shed", "eyebrow" } do
   local front = wall(2.6, 1.4)
-  local roof = front:extrude(-4)
-  local slope = supports
-    and elements.outlines.across(front, { { 0.6, 0 }, { -4, 0 }, { -4, 3.4 } }, -0.4, 3.4)
+  local slope = elements.outlines.across(front, { { 0.6, 0 }, { -4, 3.4 }, { -4, 0 } }, -0.4, 3.4)
   draw({ slope:color("#8a5a48") })
   draw(roofs.dormer(front:translate(vec(0, 0.6, 0.5)), {
     kind = kind,
@@ -127,6 +125,18 @@ local high = wall(2, 10)
 draw({ high:extrude(-0.6) })
 draw(supports.flyer(high))
 draw(supports.buttress(high:translate(vec(0, -5, 0)), { height = 6.6, depth = 1 }))
+
+-- Elements refuse what does not fit.
+local narrow = cuboid(1, 1, 2):faces("front")[1]
+for _, refused in
+  { { openings.window }, { openings.door }, { tracery.window }, { tracery.rose }, { bays.bay } }
+do
+  expect((pcall(refused[1], narrow)), false)
+end
+expect((pcall(openings.window, narrow, { width = 0.5, height = 0 })), false)
+expect((pcall(openings.window, narrow, { width = 0.5, height = 1, sill = -1 })), false)
+expect((pcall(columns.column, rectangle(1, 1), { order = "gothic" })), false)
+expect((pcall(stairs.straight, rectangle(1, 1), { height = 3 })), false)
 
 sheet:axiom(sequence(shown))
 sheet:derive()
