@@ -21,10 +21,12 @@ function outlines.options(owner: string, defaults: { [string]: any }, given: any
       end
       table.sort(names)
       error(`{owner} has no option {name}: use {table.concat(names, ", ")}`, 3)
-    elseif type(default) == "number" and (type(value) ~= "number" or value ~= value) then
-      error(`{owner}: {name} is {tostring(value)}: use a number`, 3)
-    elseif type(default) == "number" and (value < 0 or (value == 0 and table.find(POSITIVE, name))) then
+    elseif type(value) ~= type(default) or value ~= value then
+      error(`{owner}: {name} is {tostring(value)}: use a {type(default)}`, 3)
+    elseif type(default) == "number" and value <= 0 and table.find(POSITIVE, name) then
       error(`{owner}: {name} is {value}: use a number above 0`, 3)
+    elseif type(default) == "number" and value < 0 then
+      error(`{owner}: {name} is {value}: use 0 or more`, 3)
     end
     options[name] = value
   end
