@@ -211,7 +211,7 @@ church:rule("West()", function(this)
   local front = wall(width, HIGH):translate(vec(-half, -0.4, 0))
   local split_at = 8.6
   local rows = front:split("y", { split_at, "~1" })
-  add(openings.portal(rows[1], { width = 2.4, height = 5, step = 0.3, lintel = 2.9, gable = 0.7 }))
+  add(openings.portal(rows[1], { width = 2.4, height = 4.8, step = 0.22, lintel = 2.9, gable = 0.3 }))
   add(tracery.rose(rows[2], { radius = math.min(half - 1, (HIGH - split_at) / 2 - 0.6) }))
   add({ band(rows[1], split_at - 0.2, 0.4, 0.25), band(rows[2], HIGH - split_at - 0.4, 0.5, 0.3) })
   -- The gable hides the end of the roof; its coping carries a cross.

@@ -38,13 +38,15 @@ local DOOR = {
   wood = "#5a3d2b",
   trim = "#e4dccb",
 }
+-- Slope of the gable of a portal.
+local STEEP = 1.9
 local PORTAL = {
   width = 1.8,
   height = 4.2,
   orders = 4, -- arches, each smaller and deeper than the one before
   step = 0.22, -- width and depth of an arch
   lintel = 2.4, -- height of the doors
-  gable = 1.2, -- height of a gable over the arch; 0 for none
+  gable = 0.26, -- width of the coping of a gable around the arches; 0 for none
   trim = "#d9cfb8",
   wood = "#4c3423",
   wall = true,
@@ -223,7 +225,15 @@ function openings.portal(face: Shape, given: any?): { Shape }
   outlines.require_slope("openings.portal", face, true)
   local size, step, orders = face:size(), options.step, options.orders
   outlines.require_room("openings.portal", "width", options.width + 2 * step * orders, size.x)
-  outlines.require_room("openings.portal", "height", options.height + step * orders, size.y)
+  local spring = options.height - outlines.rise("pointed", options.width)
+  -- Half of the width of the gable inside and outside of its coping; its slopes touch the outermost arch.
+  local widest_arch, secant = options.width + 2 * step * orders, math.sqrt(1 + STEEP * STEEP) / STEEP
+  local inside = widest_arch * (secant - 0.5) + 0.02
+  local outside = inside + options.gable * secant
+  if options.gable > 0 then
+    outlines.require_room("openings.portal", "width", 2 * outside, size.x)
+    outlines.require_room("openings.portal", "height", spring + STEEP * outside, size.y)
+  end
   if options.lintel >= options.height then
     error(`openings.portal: lintel is {options.lintel}: use less than the height, {options.height} m`, 2)
   end
@@ -257,7 +267,6 @@ function openings.portal(face: Shape, given: any?): { Shape }
     )
   end
   -- Shafts in the corners of the steps, with capitals.
-  local spring = options.height - outlines.rise("pointed", options.width)
   for order = 1, orders - 1 do
     local half = options.width / 2 + step * order
     for side = -1, 1, 2 do
@@ -313,18 +322,17 @@ function openings.portal(face: Shape, given: any?): { Shape }
     end
   end
   if options.gable > 0 then
-    local half, top = options.width / 2 + step * (orders + 0.6), outlines.place(face, widest):size().y
-    local x, low = size.x / 2, spring * 0.98
-    local thick = step * 1.1
-    local slope = (top + options.gable - low) / half
-    local outer = { { x - half, low }, { x, top + options.gable }, { x + half, low } }
-    local inner = {
-      { x - half + thick, low },
-      { x, low + slope * (half - thick) },
-      { x + half - thick, low },
-    }
-    local band = { outer[1], inner[1], inner[2], inner[3], outer[3], outer[2] }
-    table.insert(list, outlines.place(face, band):extrude(0.28):color(options.trim))
+    local x = size.x / 2
+    local function corner(half: number, at: number): { number }
+      return { x + half * at, spring + STEEP * half * (1 - math.abs(at)) }
+    end
+    local band =
+      { { -outside, -1 }, { -inside, -1 }, { -inside, 0 }, { inside, 1 }, { outside, 1 }, { outside, 0 } }
+    local outline: { { number } } = {}
+    for at, point in band do
+      outline[at] = corner(math.abs(point[1]), point[2])
+    end
+    table.insert(list, outlines.place(face, outline):extrude(0.28):color(options.trim))
   end
   return list
 end
