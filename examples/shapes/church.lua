@@ -330,7 +330,33 @@ church:rule("Roofs()", function(this)
     table.insert(faces, { number, number + 1, 4 })
   end
   local roof = shape({ points = points, faces = faces })
-  local parts: { any } = { Draw(roof:color(SLATE)) }
+  local crest = cuboid(0.22, length, 0.2):translate(vec(-0.11, 0, ridge - 0.08))
+  local parts: { any } = { Draw(roof:color(SLATE)), Draw(crest:color("#454c54")) }
+  -- Small dormers in every other bay of both slopes.
+  local x = half * 0.6
+  local low = ridge - x * math.tan(math.rad(steepness)) - 0.1
+  for number = 1, bays - 1, 2 do
+    for sign = -1, 1, 2 do
+      local at = vec(sign * x, (number + 0.5) * BAY, low)
+      local aside, up = vec(0, sign * 0.6, 0), vec(0, 0, 2)
+      local front = outlines.face({ at - aside, at + aside, at + aside + up, at - aside + up })
+      local window =
+        { kind = "pointed", width = 0.5, height = 0.75, sill = 0.15, depth = 0.08, columns = 1, rows = 1 }
+      local dormer = {
+        width = 0.9,
+        height = 1,
+        depth = 1.2,
+        roof = 0.8,
+        overhang = 0.1,
+        tiles = SLATE,
+        wall = TRIM,
+        window = window,
+      }
+      for _, part in roofs.dormer(front, dormer) do
+        table.insert(parts, Draw(part))
+      end
+    end
+  end
   local small = rectangle(1.5, 1.5):translate(vec(-0.75, length - BAY, ridge - 0.9)):extrude(2.2)
   table.insert(parts, Draw(small:color("#4c545c")))
   for _, part in roofs.spire(small:faces("up")[1], { height = 9, lucarnes = 0, tiles = SLATE, cross = 1 }) do
@@ -344,4 +370,4 @@ end)
 church:derive()
 
 camera({ from = vec(43, -46, 2.4), to = vec(0.5, 8, 18.2), fov = 46 })
-camera({ name = "above", from = vec(64, -34, 46), to = vec(0, length * 0.42, 13), fov = 46 })
+camera({ name = "above", from = vec(64, -34, 46), to = vec(0, length * 0.42, 16), fov = 50 })

@@ -20,8 +20,14 @@ local spacing = 30.9 / (columns - 0.55)
 
 -- A fluted column with its capital, made once.
 local foot = rectangle(2.1, 2.1):translate(vec(-1.05, -1.05, 0))
-local order =
-  { order = "doric", radius = 0.92, height = column_height, flute = 0.06, sides = 40, color = STONE }
+local order = {
+  order = "doric",
+  radius = math.min(0.92, column_height / 7),
+  height = column_height,
+  flute = 0.06,
+  sides = 40,
+  color = STONE,
+}
 local shaft = lsystem({ object = extruder() })
 local drums: { any } = {}
 for at, part in columns_of.column(foot, order) do

@@ -40,9 +40,9 @@ town:rule("Block(plan)", function(this, plan: Shape)
       },
     })
 end)
--- Cuts a row across, near the middle, until a part is a lot.
+-- Cuts a row across, near the middle, until a part is a lot. Each half has to be wide enough for a house.
 town:rule("Plan(plan)", function(this, plan: Shape)
-  if plan:area() <= most then
+  if plan:area() <= most or plan:size().x < 27 then
     return Lot(plan)
   end
   local share = 50 + 100 * irregular * random(-1, 1)
@@ -74,7 +74,9 @@ town:rule("Lot(plan)", function(this, plan: Shape)
       table.insert(parts, House(house))
     end
   end
-  for _, at in plan:setback(2)[1]:scatter(7, { seed = math.floor(random() * 1e6) }) do
+  local garden = plan:setback(2)[1]
+  local seed = math.floor(random() * 1e6)
+  for _, at in if garden then garden:scatter(7, { seed = seed }) else {} do
     if not house or house:distance(at) > 3.2 then
       local high, radius = random(1.6, 2.6), random(1.2, 2)
       table.insert(parts, Draw(cylinder(0.16, high + 0.6, 8):translate(at):color("#6a5744")))

@@ -82,7 +82,10 @@ function columns.column(face: Shape, given: any?): { Shape }
   local size = face:size()
   outlines.require_room("columns.column", "base", 2 * r, math.min(size.x, size.y))
   if height < 6 * r then
-    error(`columns.column: height is {height}: use at least 6 times the radius, {6 * r} m`, 2)
+    error(
+      `columns.column: height is {height}: use at least 6 times the radius, {math.ceil(600 * r) / 100} m`,
+      2
+    )
   end
   local foot = face:position() + face:x_axis() * (size.x / 2) + face:y_axis() * (size.y / 2)
   local function block(half: number, low: number, high: number): Shape
