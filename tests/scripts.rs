@@ -299,6 +299,13 @@ fn every_lua_block_of_the_guide_runs() {
     }
     let buildings = root().join("examples/data/quarter/buildings.geojson");
     fs::copy(buildings, folder.path().join("buildings.geojson")).unwrap();
+    let package = root().join("examples/shapes/mods/elements");
+    let copied = folder.path().join("mods/elements");
+    fs::create_dir_all(&copied).unwrap();
+    for file in fs::read_dir(package).unwrap() {
+        let path = file.unwrap().path();
+        fs::copy(&path, copied.join(path.file_name().unwrap())).unwrap();
+    }
     let guide = guide();
     let mut count = 0;
     for (index, rest) in guide.split("\n```lua\n").skip(1).enumerate() {
@@ -311,7 +318,7 @@ fn every_lua_block_of_the_guide_runs() {
         assert!(modules + run.scene.triangles() > 0, "{block}");
         count += 1;
     }
-    assert_eq!(count, 89);
+    assert_eq!(count, 90);
     assert_eq!(count, guide.matches("```lua").count(), "a fragment would go untested");
 }
 
@@ -399,6 +406,22 @@ fn the_castle_of_the_examples_is_built_with_two_packages() {
         let options = RunOptions { inputs, ..burgeon::options() };
         burgeon::check_package(&root().join("examples/mods").join(package), options).unwrap();
     }
+}
+
+#[test]
+fn every_shape_grammar_of_the_examples_draws_without_warnings() {
+    let mut count = 0;
+    for script in lua_files("examples/shapes") {
+        let made = run(&script, 2);
+        let shown = script.display();
+        assert!(made.warnings.is_empty(), "{shown}: {}", made.warnings[0]);
+        assert!(made.scene.triangles() > 10_000, "{shown}: {}", made.scene.triangles());
+        count += 1;
+    }
+    assert_eq!(count, 10);
+    let mods = root().join("examples/shapes/mods");
+    let inputs = RunInputs { mods: vec![mods.clone()], ..RunInputs::default() };
+    burgeon::check_package(&mods.join("elements"), RunOptions { inputs, ..burgeon::options() }).unwrap();
 }
 
 #[test]

@@ -1,6 +1,8 @@
 --!strict
 -- A Doric temple as a shape grammar: steps, a colonnade around a cella, an entablature and a gabled roof. After the
 -- measures of the Parthenon: 8 by 17 columns on a base of 31 m by 70 m.
+local columns_of = require("@elements/columns")
+
 local columns =
   param("columns", { default = 8, min = 4, max = 12, step = 1, doc = "Number of columns on a front." })
 local column_height = param("column_height", { default = 10.4, min = 4, max = 16, unit = "m" })
@@ -16,16 +18,22 @@ local Column = module("Column", "foot")
 local STONE, SHADE, ROOF = "#dccdac", "#bfae8c", "#a8663f"
 local spacing = 30.9 / (columns - 0.55)
 
--- A column: a tapering shaft, and a capital of a cushion and a slab.
-local shaft = lsystem({ object = extruder({ sides = 20, color = STONE }) })
-local Shaft = module("Shaft")
-shaft:axiom(Shaft())
-shaft:interpret("Shaft", function(this)
-  local height = column_height
-  this:shape(disk(0.95, 20):taper(height - 0.9, 0.78))
-  this:shape(disk(0.74, 20):translate(vec(0, 0, height - 0.9)):taper(0.45, 1.35))
-  this:shape(cuboid(2.1, 2.1, 0.45):translate(vec(-1.05, -1.05, height - 0.45)))
-end)
+-- A fluted column with its capital, made once.
+local foot = rectangle(2.1, 2.1):translate(vec(-1.05, -1.05, 0))
+local order = {
+  order = "doric",
+  radius = math.min(0.92, column_height / 7),
+  height = column_height,
+  flute = 0.06,
+  sides = 40,
+  color = STONE,
+}
+local shaft = lsystem({ object = extruder() })
+local drums: { any } = {}
+for at, part in columns_of.column(foot, order) do
+  drums[at] = Draw(part)
+end
+shaft:axiom(sequence(drums))
 local column = shaft:derive()
 
 local temple = lsystem({ object = extruder({ color = STONE }) })
@@ -104,4 +112,4 @@ temple:interpret("Column(foot)", function(this, foot: Vector)
 end)
 temple:derive()
 
-camera({ from = vec(-24, -38, 7), to = vec(13, 14, 6), fov = 46 })
+camera({ from = vec(-21, -37, 6), to = vec(13.5, 14, 7), fov = 38 })

@@ -46,7 +46,7 @@ fn no_shipped_script_has_an_error_in_strict_mode() {
         "examples/models/lpy",
         "examples/models/vlab",
         "examples/shapes",
-        "examples/shapes/elements",
+        "examples/shapes/mods/elements",
         "crates/objects/scripts",
     ] {
         for path in scripts(folder) {
