@@ -130,3 +130,27 @@ fn measures_of_operations_are_exact() {
         near(block:distance(block:translate(vec(7, 8, 0))), 5)
     "#);
 }
+
+#[test]
+fn claims_are_ranked_and_hide_what_is_behind_them() {
+    let script = r#"
+        local Box, Kept = module("Box", "s", "value"), module("Kept", "rank", "left", "right")
+        local space = volumes()
+        local boxes = lsystem({ object = extruder(), environment = { space } })
+        local list = {}
+        for number = 0, 4 do list[number + 1] = Box(cuboid(1, 1, 1):translate(vec(3 * number, 0, 0)), number * 7 % 5) end
+        boxes:axiom(sequence(list))
+        boxes:interpret("Box(s, value)", function(this, s, value) space:claim(s, if value > 2 then "tall" else "low", value) end)
+        boxes:rule("Box(s, value)", function(this, s, value)
+          local at = s:center()
+          local step = vec(0.6, 0, 0)
+          local function free(to) return space:is_visible(at + if to > at.x then step else -step, vec(to, 0.5, 0.5), "tall") end
+          return Kept(space:rank(value), free(-5), free(20))
+        end)
+        boxes:derive(1)"#;
+    // The values are 0, 2, 4, 1 and 3, of which the third and the last one are tall.
+    assert_eq!(
+        chain(script),
+        "Kept(5,true,false) Kept(3,true,false) Kept(1,true,false) Kept(4,false,false) Kept(2,false,true)"
+    );
+}

@@ -88,6 +88,16 @@ impl Shape {
         Ok(self.has_point_inside(other)? || other.has_point_inside(self)?)
     }
 
+    /// Returns true if the line between two positions (m) passes through the solid or a face of it, by more than 10 µm inside.
+    pub fn blocks(&self, from: DVec3, to: DVec3) -> Result<bool> {
+        if let ShapeBody::Box(_) = self.body {
+            return Ok(box_blocks(self, from, to));
+        }
+        let crosses = |(corners, _): &([DVec3; 3], [DVec3; 2])| passes(&[from, to, to], corners);
+        Ok(self.triangle_list()?.0.iter().any(crosses)
+            || (self.is_closed() && self.contains(from.midpoint(to))?))
+    }
+
     /// Returns true if a point just inside of a face of this solid is inside of the other.
     fn has_point_inside(&self, other: &Self) -> Result<bool> {
         if !self.is_closed() || !other.is_closed() {
@@ -147,6 +157,28 @@ fn boxes_overlap(one: &Shape, two: &Shape) -> bool {
         .chain(crossed)
         .filter_map(DVec3::try_normalize)
         .all(|along| offset.dot(along).abs() < half(one, &own, along) + half(two, &others, along) - CONTACT)
+}
+
+/// Returns true if the line between two positions is inside of a box for more than the contact distance.
+///
+/// Method: intersection of the parameter intervals between opposite planes.
+fn box_blocks(shape: &Shape, from: DVec3, to: DVec3) -> bool {
+    let (begin, end) = (shape.scope.local(from), shape.scope.local(to));
+    let along = end - begin;
+    let (mut first, mut last) = (0.0_f64, 1.0_f64);
+    for axis in 0..3 {
+        let (low, high) = (CONTACT, shape.scope.size[axis] - CONTACT);
+        if along[axis].abs() < 1e-12 {
+            if begin[axis] < low || begin[axis] > high {
+                return false;
+            }
+            continue;
+        }
+        let [one, two] = [low, high].map(|plane| (plane - begin[axis]) / along[axis]);
+        first = first.max(one.min(two));
+        last = last.min(one.max(two));
+    }
+    (last - first) * along.length() > 0.0
 }
 
 /// Returns true if an edge of `one` passes through `other` by more than the contact distance.
@@ -223,6 +255,25 @@ mod tests {
                 assert_eq!(one.touches(&two).expect("solids"), touches, "{offset}");
                 let found = one.distance(&two).expect("solids");
                 assert!((found - distance).abs() < 1e-9, "{offset}: {found}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_line_is_blocked_by_a_solid_that_it_passes_through() {
+        let one = Shape::cuboid(DVec3::splat(2.0));
+        let mesh = Shape::of_mesh(one.mesh().into_owned(), glam::DMat3::IDENTITY);
+        for shape in [one, mesh] {
+            for (from, to, blocked) in [
+                ([-1.0, 1.0, 0.9], [3.0, 1.0, 0.8], true),
+                ([-1.0, 1.0, 0.9], [0.0, 1.0, 0.8], false),
+                ([-1.0, 3.0, 1.0], [3.0, 3.0, 1.0], false),
+                ([-1.0, 0.5, 2.0], [3.0, 0.7, 2.0], false),
+                ([0.5, 0.5, 0.5], [1.5, 1.2, 1.5], true),
+                ([-1.0, -1.0, -1.0], [3.0, 2.9, 2.8], true),
+            ] {
+                let found = shape.blocks(from.into(), to.into()).expect("a solid");
+                assert_eq!(found, blocked, "{from:?} to {to:?}");
             }
         }
     }

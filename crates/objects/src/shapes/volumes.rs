@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use burgeon_base::error::Result;
 use burgeon_base::{MemoryOwner, Stop};
-use burgeon_kit::{Environment, ObjectContent as _, methods, object};
+use burgeon_kit::{Environment, ObjectContent as _, Vector, methods, object};
 use burgeon_shapes::Shape;
 use glam::DVec3;
 use rstar::primitives::{GeomWithData, Rectangle};
@@ -32,13 +32,20 @@ pub struct Volumes {
 struct Claim {
     shape: Arc<ShapeObject>,
     label: Option<String>,
+    /// Number by which shapes are ranked.
+    value: Option<f64>,
 }
 
 #[methods("volumes")]
 impl Volumes {
-    /// Claims the volume of a shape, with a label. It succeeds if the shape overlaps no shape that claimed before in this
-    /// pass.
-    pub fn claim(&mut self, shape: Arc<ShapeObject>, label: Option<String>) -> Result<()> {
+    /// Claims the volume of a shape, with a label and a `value` for ranks. It succeeds if the shape overlaps no shape that claimed
+    /// before in this pass.
+    pub fn claim(
+        &mut self,
+        shape: Arc<ShapeObject>,
+        label: Option<String>,
+        value: Option<f64>,
+    ) -> Result<()> {
         let is_free = self.is_free(Arc::clone(&shape), None)?;
         MemoryOwner::ensure_room(2 * self.claims.len() * size_of::<Claim>())?;
         let result = self.results.entry(ShapeKey(Arc::clone(&shape))).or_insert(false);
@@ -46,7 +53,7 @@ impl Volumes {
         if is_free {
             let [low, high] = shape.shape().bounds().map(|at| at.to_array());
             self.boxes.insert(GeomWithData::new(Rectangle::from_corners(low, high), self.claims.len()));
-            self.claims.push(Claim { shape, label });
+            self.claims.push(Claim { shape, label, value });
         }
         Ok(())
     }
@@ -70,6 +77,26 @@ impl Volumes {
     /// Returns the number of claimed shapes with a label, or of all.
     pub fn count(&self, label: Option<String>) -> f64 {
         self.claims.iter().filter(|claim| label.is_none() || claim.label == label).count() as f64
+    }
+
+    /// Returns the rank of a value among those of the claimed shapes with a label, or of all: 1 if none is greater.
+    pub fn rank(&self, value: f64, label: Option<String>) -> f64 {
+        let is_greater = |claim: &&Claim| {
+            (label.is_none() || claim.label == label) && claim.value.is_some_and(|other| other > value)
+        };
+        self.claims.iter().filter(is_greater).count() as f64 + 1.0
+    }
+
+    /// Returns true if no claimed shape with a label, or of all, is between two positions (m), which are outside of their own shapes.
+    pub fn is_visible(&self, from: Vector, to: Vector, label: Option<String>) -> Result<bool> {
+        let line = Shape::cuboid((to.0 - from.0).abs()).translate(from.0.min(to.0));
+        for claim in self.near(&line, 0.0, label.as_deref()) {
+            Stop::check_current()?;
+            if claim.shape.shape().blocks(from.0, to.0)? {
+                return Ok(false);
+            }
+        }
+        Ok(true)
     }
 
     /// Returns the distance (m) from a position or a shape to the nearest other claimed shape with a label, or of all, up
