@@ -4,6 +4,10 @@
 local outlines = require("./outlines")
 local cornices = {}
 
+-- With types, since those of required files are unknown.
+local make_box: (face: Shape, x: { number }, y: { number }, z: { number }) -> Shape = outlines.box
+local sweep_across: (face: Shape, profile: any, x: number, width: number) -> Shape = outlines.across
+
 local CORNICE = {
   profile = "classical", -- see `cornices.profile`
   height = 0.5,
@@ -99,7 +103,7 @@ function cornices.dentils(face: Shape, given: any?): { Shape }
   local list: { Shape } = {}
   for number = 0, count do
     local x = (size.x - options.width) * number / count
-    local box = outlines.box(
+    local box = make_box(
       face,
       { x, x + options.width },
       { size.y - options.height, size.y },
@@ -128,7 +132,7 @@ function cornices.brackets(face: Shape, given: any?): { Shape }
   local list: { Shape } = {}
   for number = 0, count do
     local x = (size.x - width) * number / count
-    table.insert(list, outlines.across(face, profile, x, width):color(options.color))
+    table.insert(list, sweep_across(face, profile, x, width):color(options.color))
   end
   return list
 end

@@ -5,6 +5,11 @@ local openings = require("./openings")
 local outlines = require("./outlines")
 local tracery = {}
 
+-- With types, since those of required files are unknown.
+local place_outline: (face: Shape, outline: any, holes: { any }?, z: number?) -> Shape = outlines.place
+local make_box: (face: Shape, x: { number }, y: { number }, z: { number }) -> Shape = outlines.box
+local sweep_across: (face: Shape, profile: any, x: number, width: number) -> Shape = outlines.across
+
 local WINDOW = {
   width = 2.4,
   height = 5.2,
@@ -80,7 +85,7 @@ function tracery.window(face: Shape, given: any?): { Shape }
   if options.wall then
     table.insert(list, openings.wall(face, { hole }))
   end
-  local pane = outlines.place(face, hole, nil, -depth)
+  local pane = place_outline(face, hole, nil, -depth)
   local reveal = pane:extrude(depth):joined_faces("tag:extrude.side")
   if reveal then
     table.insert(list, reveal:reverse():color(options.stone))
@@ -90,19 +95,19 @@ function tracery.window(face: Shape, given: any?): { Shape }
   local margin: number, lights: { any } = options.bar * 0.4, {}
   local spring = options.height - outlines.rise("pointed", width)
   add_lights(lights, margin, margin + options.bar / 2, spring, width - 2 * margin, options, options.lancets)
-  local plate = outlines.place(pane, outlines.of(pane), lights, 0.06)
+  local plate = place_outline(pane, outlines.of(pane), lights, 0.06)
   table.insert(list, plate:extrude(0.16):color(options.stone))
   for number = 1, options.bars do
     local y = spring * number / (options.bars + 1)
     table.insert(
       list,
-      outlines.box(pane, { margin, width - margin }, { y, y + 0.025 }, { 0.03, 0.055 }):color("#23272b")
+      make_box(pane, { margin, width - margin }, { y, y + 0.025 }, { 0.03, 0.055 }):color("#23272b")
     )
   end
   if options.slope > 0 then
     local profile = { { -depth, 0 }, { 0.08, -0.1 }, { 0.08, -0.04 }, { -depth + 0.06, options.slope } }
     local lower = face:shift(vec(0, options.sill, 0))
-    table.insert(list, outlines.across(lower, profile, (size.x - width) / 2, width):color(options.stone))
+    table.insert(list, sweep_across(lower, profile, (size.x - width) / 2, width):color(options.stone))
   end
   if options.label > 0 then
     local band = 0.14
@@ -113,8 +118,7 @@ function tracery.window(face: Shape, given: any?): { Shape }
     local hood = outlines.band(outer, inner)
     table.insert(
       list,
-      outlines
-        .place(face, outlines.move(hood, (size.x - width) / 2, options.sill))
+      place_outline(face, outlines.move(hood, (size.x - width) / 2, options.sill))
         :extrude(options.label)
         :color(options.stone)
     )
@@ -140,7 +144,7 @@ function tracery.rose(face: Shape, given: any?): { Shape }
   if options.wall then
     table.insert(list, openings.wall(face, { hole }))
   end
-  local pane = outlines.place(face, hole, nil, -options.depth)
+  local pane = place_outline(face, hole, nil, -options.depth)
   local reveal = pane:extrude(options.depth):joined_faces("tag:extrude.side")
   if reveal then
     table.insert(list, reveal:reverse():color(options.stone))
@@ -184,10 +188,10 @@ function tracery.rose(face: Shape, given: any?): { Shape }
       )
     end
   end
-  local plate = outlines.place(pane, outlines.circle(radius, radius, radius, 48), lights, 0.06)
+  local plate = place_outline(pane, outlines.circle(radius, radius, radius, 48), lights, 0.06)
   table.insert(list, plate:extrude(0.18):color(options.stone))
   if options.label > 0 then
-    local ring = outlines.place(face, outlines.circle(x, y, radius + 0.2, 48), { hole })
+    local ring = place_outline(face, outlines.circle(x, y, radius + 0.2, 48), { hole })
     table.insert(list, ring:extrude(options.label):color(options.stone))
   end
   return list
