@@ -78,7 +78,8 @@ end
 -- Returns a column of an order with base, shaft and capital: options as in COLUMN.
 function columns.column(face: Shape, given: any?): { Shape }
   local options = outlines.options("columns.column", COLUMN, given)
-  local r, height, order = options.radius, options.height, options.order
+  local r, height = options.radius, options.height
+  local order: string = options.order
   outlines.require_slope("columns.column", face, false)
   if not table.find(ORDERS, order) then
     error(`columns.column: unknown order {tostring(order)}: use {table.concat(ORDERS, ", ")}`, 2)

@@ -121,7 +121,7 @@ function cornices.brackets(face: Shape, given: any?): { Shape }
   local size, width, d, h = face:size(), options.width, options.depth, options.height
   outlines.require_room("cornices.brackets", "width", width, size.x)
   outlines.require_room("cornices.brackets", "height", h, size.y)
-  local profile: { { number } } = { { 0, size.y - h }, { d * 0.24, size.y - h } }
+  local profile: { any } = { { 0, size.y - h }, { d * 0.24, size.y - h } }
   for step = 1, 6 do
     local t = step / 6
     table.insert(profile, { d * (0.24 + 0.76 * t ^ 2), size.y - h + h * 0.8 * (1 - (1 - t) ^ 2) })

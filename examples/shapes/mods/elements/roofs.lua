@@ -55,7 +55,7 @@ function roofs.dormer(face: Shape, given: any?): { Shape }
   local options = outlines.options("roofs.dormer", DORMER, given)
   outlines.require_slope("roofs.dormer", face, true)
   local size, width, height, depth = face:size(), options.width, options.height, options.depth
-  local kind = options.kind
+  local kind: string = options.kind
   outlines.require_room("roofs.dormer", "width", width, size.x)
   if not table.find(KINDS, kind) then
     error(`roofs.dormer: unknown kind {tostring(kind)}: use {table.concat(KINDS, ", ")}`, 2)
@@ -70,18 +70,18 @@ function roofs.dormer(face: Shape, given: any?): { Shape }
   end
   if kind == "eyebrow" then
     -- A low curve that fades into the roof at both sides.
-    local lower: { { number } }, upper: { { number } } = {}, {}
+    local lower: { any }, upper: { any } = {}, {}
     for step = 0, 20 do
       local t = step / 20
       local y = height * (0.5 - 0.5 * math.cos(2 * math.pi * t)) * 0.9
       table.insert(lower, { width * t, y })
       table.insert(upper, { width * t, y + 0.12 })
     end
-    local window = { { width * 0.26, 0.02 }, { width * 0.74, 0.02 } }
+    local window: { any } = { { width * 0.26, 0.02 }, { width * 0.74, 0.02 } }
     for step = 14, 6, -1 do
       table.insert(window, { lower[step + 1][1], lower[step + 1][2] - 0.14 })
     end
-    local shell: { { number } } = {}
+    local shell: { any } = {}
     for at = 1, 21 do
       table.insert(shell, lower[at])
     end
@@ -89,7 +89,7 @@ function roofs.dormer(face: Shape, given: any?): { Shape }
       table.insert(shell, upper[at])
     end
     prism(shell, -depth, over, options.tiles)
-    local front: { { number } } = {}
+    local front: { any } = {}
     for at = 21, 1, -1 do
       table.insert(front, { lower[at][1], lower[at][2] + 0.01 })
     end
@@ -285,7 +285,7 @@ function roofs.turret(face: Shape, given: any?): { Shape }
   local foot = face:position() + face:x_axis() * (size.x / 2)
   local low, high = options.corbel, options.corbel + options.height
   local list: { Shape } = {}
-  local wall: { { number } } = {}
+  local wall: { any } = {}
   if low > 0 then
     for step = 0, 4 do
       local t = step / 4

@@ -57,7 +57,7 @@ function supports.buttress(face: Shape, given: any?): { Shape }
       2
     )
   end
-  local profile: { { number } } = { { -0.05, 0 }, { depth, 0 } }
+  local profile: { any } = { { -0.05, 0 }, { depth, 0 } }
   local list: { Shape } = {}
   local last = depth * options.top
   for stage = 1, stages do
@@ -98,7 +98,7 @@ function supports.flyer(face: Shape, given: any?): { Shape }
     error(`supports.flyer: foot is {options.foot}: use less than {crown} m, or a larger head`, 2)
   end
   -- The lower side is a quarter of an ellipse that rises from the pier to the wall.
-  local profile: { { number } } = { { -0.05, crown } }
+  local profile: { any } = { { -0.05, crown } }
   for step = 0, 12 do
     local angle = math.pi / 2 * step / 12
     table.insert(
@@ -207,7 +207,8 @@ function supports.arcade(face: Shape, given: any?): { Shape }
       end
     end
   end
-  table.insert(list, 1, openings.wall(face, holes):extrude(-options.depth):color(options.color))
+  local pierced: Shape = openings.wall(face, holes)
+  table.insert(list, pierced:extrude(-options.depth):color(options.color))
   return list
 end
 
