@@ -5,6 +5,8 @@ local elements = require("@elements")
 local openings, cornices, balustrades, outlines =
   elements.openings, elements.cornices, elements.balustrades, elements.outlines
 
+local make_box: (face: Shape, x: { number }, y: { number }, z: { number }) -> Shape = outlines.box
+
 local storeys = param("storeys", { default = 11, min = 3, max = 30, step = 1, doc = "Storeys of the shaft." })
 local bay_width = param("bay_width", { default = 2.9, min = 2, max = 5, unit = "m" })
 
@@ -134,9 +136,9 @@ building:rule("Bay(face)", function(this, face: Shape)
     trim = TRIM,
     glass = GLASS,
   })
-  table.insert(shapes, outlines.box(face, { 0, 0.2 }, { 0, size.y }, { 0, 0.16 }))
-  table.insert(shapes, outlines.box(face, { size.x - 0.2, size.x }, { 0, size.y }, { 0, 0.16 }))
-  local panel = outlines.box(face, { 0.6, size.x - 0.6 }, { 0.15, 0.62 }, { 0, 0.07 })
+  table.insert(shapes, make_box(face, { 0, 0.2 }, { 0, size.y }, { 0, 0.16 }))
+  table.insert(shapes, make_box(face, { size.x - 0.2, size.x }, { 0, size.y }, { 0, 0.16 }))
+  local panel = make_box(face, { 0.6, size.x - 0.6 }, { 0.15, 0.62 }, { 0, 0.07 })
   table.insert(shapes, panel:color(TRIM))
   return draw(shapes)
 end)
@@ -162,19 +164,14 @@ building:rule("Arch(face)", function(this, face: Shape)
   for storey = 1, 2 do
     local y = 0.5 + storey * FLOOR * 0.95
     local x = (size.x - width) / 2
-    table.insert(
-      shapes,
-      outlines.box(face, { x, x + width }, { y - 0.5, y + 0.4 }, { -0.5, -0.36 }):color(PANEL)
-    )
+    table.insert(shapes, make_box(face, { x, x + width }, { y - 0.5, y + 0.4 }, { -0.5, -0.36 }):color(PANEL))
   end
   table.insert(
     shapes,
-    outlines
-      .box(face, { size.x / 2 - 0.14, size.x / 2 + 0.14 }, { 0.5, TOP - 2.4 }, { -0.5, -0.3 })
-      :color(TRIM)
+    make_box(face, { size.x / 2 - 0.14, size.x / 2 + 0.14 }, { 0.5, TOP - 2.4 }, { -0.5, -0.3 }):color(TRIM)
   )
-  table.insert(shapes, outlines.box(face, { 0, 0.28 }, { 0, size.y }, { 0, 0.22 }))
-  table.insert(shapes, outlines.box(face, { size.x - 0.28, size.x }, { 0, size.y }, { 0, 0.22 }))
+  table.insert(shapes, make_box(face, { 0, 0.28 }, { 0, size.y }, { 0, 0.22 }))
+  table.insert(shapes, make_box(face, { size.x - 0.28, size.x }, { 0, size.y }, { 0, 0.22 }))
   return draw(shapes)
 end)
 -- A corner bay is solid, rusticated by grooves, with a narrow window in each storey.
@@ -200,12 +197,7 @@ building:rule("Corner(face)", function(this, face: Shape)
       for course = 0, math.floor(high / 0.6) - 1 do
         table.insert(
           shapes,
-          outlines.box(
-            storey,
-            { side, side + 0.72 },
-            { course * 0.6 + 0.05, course * 0.6 + 0.57 },
-            { 0, 0.12 }
-          )
+          make_box(storey, { side, side + 0.72 }, { course * 0.6 + 0.05, course * 0.6 + 0.57 }, { 0, 0.12 })
         )
       end
     end

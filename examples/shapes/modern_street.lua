@@ -4,6 +4,9 @@
 local elements = require("@elements")
 local outlines, openings = elements.outlines, elements.openings
 
+local place_outline: (face: Shape, outline: any, holes: { any }?, z: number?) -> Shape = outlines.place
+local turn_profile: (profile: any, sides: number, flute: number?) -> Shape = outlines.turned
+
 local length = param("length", { default = 96, min = 40, max = 300, unit = "m" })
 local lanes = param("lanes", { default = 1, min = 1, max = 3, step = 1, doc = "Lanes in each direction." })
 local spacing =
@@ -35,14 +38,14 @@ local function model(parts: { any }): Derived
 end
 -- A street lamp with an arm over the road, towards x.
 local lamp = model({
-  outlines.turned({ { 0.14, 0 }, { 0.14, 0.9 }, { 0.08, 1 }, { 0.06, 7.4 }, { 0, 7.5 } }, 10),
+  turn_profile({ { 0.14, 0 }, { 0.14, 0.9 }, { 0.08, 1 }, { 0.06, 7.4 }, { 0, 7.5 } }, 10),
   cuboid(1.7, 0.07, 0.07):translate(vec(-0.1, -0.035, 7.3)),
   cuboid(0.8, 0.26, 0.1):translate(vec(1.1, -0.13, 7.24)):color("#dfe3e4"),
 })
 -- A tree: a trunk, and a crown of balls around it.
 local function tree(seed: number): Derived
   local parts: { any } = {
-    outlines.turned({ { 0.2, 0 }, { 0.13, 0.6 }, { 0.1, 3.4 }, { 0.02, 5.4 } }, 8):color("#6a5744"),
+    turn_profile({ { 0.2, 0 }, { 0.13, 0.6 }, { 0.1, 3.4 }, { 0.02, 5.4 } }, 8):color("#6a5744"),
   }
   for number = 1, 13 do
     local angle = math.rad(number * 137.5 + seed * 50)
@@ -70,17 +73,17 @@ local function car(color: string): Derived
   local cabin = { { 0.35, 0.95 }, { 3.3, 0.95 }, { 2.45, 1.46 }, { 0.85, 1.46 } }
   local roof = { { 0.8, 1.44 }, { 2.5, 1.44 }, { 2.4, 1.5 }, { 0.95, 1.5 } }
   local parts: { any } = {
-    outlines.place(side, body):extrude(-1.76):color(color),
-    outlines.place(side, cabin, nil, -0.1):extrude(-1.56):color("#26313a"),
-    outlines.place(side, roof, nil, -0.16):extrude(-1.44):color(color),
+    place_outline(side, body):extrude(-1.76):color(color),
+    place_outline(side, cabin, nil, -0.1):extrude(-1.56):color("#26313a"),
+    place_outline(side, roof, nil, -0.16):extrude(-1.44):color(color),
   }
   for _, y in { 0.85, 3.45 } do
     for _, z in { 0.03, -1.57 } do
-      local wheel = outlines.place(side, outlines.circle(y, 0.32, 0.32, 16), nil, z)
+      local wheel = place_outline(side, outlines.circle(y, 0.32, 0.32, 16), nil, z)
       table.insert(parts, wheel:extrude(-0.22):color("#1d1f21"))
       table.insert(
         parts,
-        outlines.place(side, outlines.circle(y, 0.32, 0.18, 12), nil, z):extrude(0.02):color("#b9bcbe")
+        place_outline(side, outlines.circle(y, 0.32, 0.18, 12), nil, z):extrude(0.02):color("#b9bcbe")
       )
     end
   end

@@ -17,7 +17,7 @@ expect(math.round(mass:volume() * 1000) / 1000, 1664)
 expect(mass:open_edges(), 0)
 
 local house = lsystem({ object = extruder({ color = "#d9c8a6" }) })
-local function draw(shapes: { Shape }): any
+local function draw(shapes: { any }): any
   local parts: { any } = {}
   for at, part in shapes do
     parts[at] = Draw(part)
@@ -65,7 +65,7 @@ house:rule("Roof(plan)", function(this, plan: Shape)
   local eaves = plan:translate(vec(0, 0, 0.35))
   local size = plan:size()
   local front = plan:extrude(2.2):faces("front")[1]:shift(vec(0, 1.35, -1.2))
-  local shapes = { eaves:roof({ kind = "hip", slope = 40, overhang = 0.5 }):color("#7c4436") }
+  local shapes: { any } = { eaves:roof({ kind = "hip", slope = 40, overhang = 0.5 }):color("#7c4436") }
   for _, part in cornices.cornice(plan, { profile = "cyma", height = 0.35, depth = 0.4 }) do
     table.insert(shapes, part)
   end

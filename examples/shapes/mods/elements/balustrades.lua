@@ -3,6 +3,11 @@
 local outlines = require("./outlines")
 local balustrades = {}
 
+-- With types, since those of required files are unknown.
+local place_outline: (face: Shape, outline: any, holes: { any }?, z: number?) -> Shape = outlines.place
+local make_box: (face: Shape, x: { number }, y: { number }, z: { number }) -> Shape = outlines.box
+local turn_profile: (profile: any, sides: number, flute: number?) -> Shape = outlines.turned
+
 local STONE = {
   height = 1,
   spacing = 0.3, -- between the middles of balusters
@@ -54,7 +59,7 @@ function balustrades.baluster(height: number, radius: number, sides: number): Sh
   for at, share in shares do
     profile[at] = { share[1] * radius, share[2] * height }
   end
-  return outlines.turned(profile, sides)
+  return turn_profile(profile, sides)
 end
 
 -- Returns a balustrade of turned balusters between a plinth and a rail: options as in STONE.
@@ -66,7 +71,7 @@ function balustrades.stone(face: Shape, given: any?): { Shape }
   local list: { Shape } = {}
   local function add(x0: number, x1: number, y0: number, y1: number, more: number)
     local z = { -more, depth + more }
-    table.insert(list, outlines.box(face, { x0, x1 }, { y0, y1 }, z):color(options.color))
+    table.insert(list, make_box(face, { x0, x1 }, { y0, y1 }, z):color(options.color))
   end
   local base, rail = height * 0.14, height * 0.15
   add(0, width, 0, base, 0)
@@ -93,7 +98,7 @@ function balustrades.iron(face: Shape, given: any?): { Shape }
   outlines.require_room("balustrades.iron", "width", 3 * bar, width)
   local list: { Shape } = {}
   local function add(x0: number, x1: number, y0: number, y1: number, depth: number)
-    table.insert(list, outlines.box(face, { x0, x1 }, { y0, y1 }, { 0, depth }):color(options.color))
+    table.insert(list, make_box(face, { x0, x1 }, { y0, y1 }, { 0, depth }):color(options.color))
   end
   add(0, width, height - 0.05, height, bar * 2.5)
   add(0, width, 0.08, 0.08 + bar * 1.5, bar * 1.5)
@@ -109,7 +114,7 @@ function balustrades.iron(face: Shape, given: any?): { Shape }
     if options.rings and number < count then
       local radius = (width - bar) / count / 2
       local y = top + options.spacing / 2
-      local ring = outlines.place(
+      local ring = place_outline(
         face,
         outlines.circle(x + bar / 2 + radius, y, options.spacing / 2, 12),
         { outlines.circle(x + bar / 2 + radius, y, options.spacing / 2 - bar, 12) }
@@ -133,10 +138,10 @@ function balustrades.pierced(face: Shape, given: any?): { Shape }
   for number = 1, count do
     holes[number] = outlines.foil(step * (number - 0.5), height * 0.46, radius, options.foils)
   end
-  local plate = outlines.place(face, outlines.rectangle(width, height * 0.92), holes)
+  local plate = place_outline(face, outlines.rectangle(width, height * 0.92), holes)
   return {
     plate:extrude(depth):color(options.color),
-    outlines.box(face, { 0, width }, { height * 0.92, height }, { -0.04, depth + 0.04 }):color(options.color),
+    make_box(face, { 0, width }, { height * 0.92, height }, { -0.04, depth + 0.04 }):color(options.color),
   }
 end
 

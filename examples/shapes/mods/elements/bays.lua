@@ -6,6 +6,12 @@ local openings = require("./openings")
 local outlines = require("./outlines")
 local bays = {}
 
+-- With types, since those of required files are unknown.
+local place_outline: (face: Shape, outline: any, holes: { any }?, z: number?) -> Shape = outlines.place
+local make_box: (face: Shape, x: { number }, y: { number }, z: { number }) -> Shape = outlines.box
+local sweep_across: (face: Shape, profile: any, x: number, width: number) -> Shape = outlines.across
+local make_face: (corners: { any }) -> Shape = outlines.face
+
 local BAY = {
   width = 3,
   height = 3, -- of the walls
@@ -80,7 +86,7 @@ function bays.bay(face: Shape, given: any?): { Shape }
   local list: { Shape } = {}
   for side = 1, 3 do
     local a, b = plan[side], plan[side + 1]
-    local wall = outlines.face({ at(a, low), at(b, low), at(b, high), at(a, high) })
+    local wall = make_face({ at(a, low), at(b, low), at(b, high), at(a, high) })
     local window: { [string]: any } = {}
     for name, value in options.windows :: any do
       window[name] = value
@@ -125,7 +131,7 @@ local function add_railing(
     settings.radius = 0.07
   end
   local thick = if options.railing == "stone" then 0.2 else 0.06
-  local front = outlines.place(face, outlines.move(outlines.rectangle(x[2] - x[1], options.height), x[1], y))
+  local front = place_outline(face, outlines.move(outlines.rectangle(x[2] - x[1], options.height), x[1], y))
   outlines.add(list, make(front:shift(vec(0, 0, depth - thick)), settings))
   if options.railing == "stone" and depth < 1 then
     return
@@ -137,7 +143,7 @@ local function add_railing(
     local inwards = face:x_axis() * (if right then -thick else thick)
     local a, b = edge + inwards, edge + inwards + out
     local ring = if right then { b, a, a + up, b + up } else { a, b, b + up, a + up }
-    outlines.add(list, make(outlines.face(ring), settings))
+    outlines.add(list, make(make_face(ring), settings))
   end
 end
 
@@ -154,7 +160,7 @@ function bays.balcony(face: Shape, given: any?): { Shape }
   local x0 = (size.x - options.width) / 2
   local x = { x0, x0 + options.width }
   local list = {
-    outlines.box(face, x, { options.sill, options.sill + slab }, { 0, options.depth }):color(options.color),
+    make_box(face, x, { options.sill, options.sill + slab }, { 0, options.depth }):color(options.color),
   }
   local d, h = options.depth * 0.75, 0.5
   for number = 1, options.brackets do
@@ -170,7 +176,7 @@ function bays.balcony(face: Shape, given: any?): { Shape }
     local at = x0
       + options.width
         * (if options.brackets == 1 then 0.5 else 0.1 + 0.8 * (number - 1) / (options.brackets - 1))
-    table.insert(list, outlines.across(face, profile, at - 0.09, 0.18):color(options.color))
+    table.insert(list, sweep_across(face, profile, at - 0.09, 0.18):color(options.color))
   end
   add_railing(list, face, x, options.sill + slab, options.depth, options)
   return list
@@ -182,7 +188,7 @@ function bays.loggia(face: Shape, given: any?): { Shape }
   local options = outlines.options("bays.loggia", LOGGIA, given)
   outlines.require_slope("bays.loggia", face, true)
   local size = face:size()
-  local back = outlines.place(face, outlines.rectangle(size.x, size.y), nil, -options.depth)
+  local back = place_outline(face, outlines.rectangle(size.x, size.y), nil, -options.depth)
   local room = back:extrude(options.depth):joined_faces("tag:extrude.side")
   local list: { Shape } = {}
   if room then

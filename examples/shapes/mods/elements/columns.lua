@@ -4,6 +4,10 @@
 local outlines = require("./outlines")
 local columns = {}
 
+-- With types, since those of required files are unknown.
+local make_box: (face: Shape, x: { number }, y: { number }, z: { number }) -> Shape = outlines.box
+local turn_profile: (profile: any, sides: number, flute: number?) -> Shape = outlines.turned
+
 local COLUMN = {
   order = "tuscan", -- "tuscan", "doric" or "ionic"
   height = 4,
@@ -74,7 +78,8 @@ end
 -- Returns a column of an order with base, shaft and capital: options as in COLUMN.
 function columns.column(face: Shape, given: any?): { Shape }
   local options = outlines.options("columns.column", COLUMN, given)
-  local r, height, order = options.radius, options.height, options.order
+  local r, height = options.radius, options.height
+  local order: string = options.order
   outlines.require_slope("columns.column", face, false)
   if not table.find(ORDERS, order) then
     error(`columns.column: unknown order {tostring(order)}: use {table.concat(ORDERS, ", ")}`, 2)
@@ -108,7 +113,7 @@ function columns.column(face: Shape, given: any?): { Shape }
   for at = from, to do
     table.insert(shaft, profile[at])
   end
-  table.insert(list, outlines.turned(shaft, options.sides, options.flute):translate(foot + vec(0, 0, base)))
+  table.insert(list, turn_profile(shaft, options.sides, options.flute):translate(foot + vec(0, 0, base)))
   local lower: { { number } }, upper: { { number } } = {}, {}
   for at, point in profile do
     if at < from then
@@ -118,9 +123,9 @@ function columns.column(face: Shape, given: any?): { Shape }
     end
   end
   if #lower > 1 then
-    table.insert(list, outlines.turned(lower, 20):translate(foot + vec(0, 0, base)))
+    table.insert(list, turn_profile(lower, 20):translate(foot + vec(0, 0, base)))
   end
-  table.insert(list, outlines.turned(upper, 20):translate(foot + vec(0, 0, base)))
+  table.insert(list, turn_profile(upper, 20):translate(foot + vec(0, 0, base)))
   local cap = upper[#upper][2] + base
   if order == "ionic" then
     -- Volutes: two scrolls at either side of the echinus, along y.
@@ -155,7 +160,7 @@ function columns.pilaster(face: Shape, given: any?): { Shape }
   local function add(more: number, low: number, high: number)
     local half = width / 2 + more
     local x = { size.x / 2 - half, size.x / 2 + half }
-    table.insert(list, outlines.box(face, x, { low, high }, { 0, depth + more }):color(options.color))
+    table.insert(list, make_box(face, x, { low, high }, { 0, depth + more }):color(options.color))
   end
   local unit = width / 4
   add(unit * 0.35, 0, unit)

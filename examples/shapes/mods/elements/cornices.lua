@@ -4,6 +4,10 @@
 local outlines = require("./outlines")
 local cornices = {}
 
+-- With types, since those of required files are unknown.
+local make_box: (face: Shape, x: { number }, y: { number }, z: { number }) -> Shape = outlines.box
+local sweep_across: (face: Shape, profile: any, x: number, width: number) -> Shape = outlines.across
+
 local CORNICE = {
   profile = "classical", -- see `cornices.profile`
   height = 0.5,
@@ -99,7 +103,7 @@ function cornices.dentils(face: Shape, given: any?): { Shape }
   local list: { Shape } = {}
   for number = 0, count do
     local x = (size.x - options.width) * number / count
-    local box = outlines.box(
+    local box = make_box(
       face,
       { x, x + options.width },
       { size.y - options.height, size.y },
@@ -117,7 +121,7 @@ function cornices.brackets(face: Shape, given: any?): { Shape }
   local size, width, d, h = face:size(), options.width, options.depth, options.height
   outlines.require_room("cornices.brackets", "width", width, size.x)
   outlines.require_room("cornices.brackets", "height", h, size.y)
-  local profile: { { number } } = { { 0, size.y - h }, { d * 0.24, size.y - h } }
+  local profile: { any } = { { 0, size.y - h }, { d * 0.24, size.y - h } }
   for step = 1, 6 do
     local t = step / 6
     table.insert(profile, { d * (0.24 + 0.76 * t ^ 2), size.y - h + h * 0.8 * (1 - (1 - t) ^ 2) })
@@ -128,7 +132,7 @@ function cornices.brackets(face: Shape, given: any?): { Shape }
   local list: { Shape } = {}
   for number = 0, count do
     local x = (size.x - width) * number / count
-    table.insert(list, outlines.across(face, profile, x, width):color(options.color))
+    table.insert(list, sweep_across(face, profile, x, width):color(options.color))
   end
   return list
 end

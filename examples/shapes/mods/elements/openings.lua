@@ -4,6 +4,11 @@
 local outlines = require("./outlines")
 local openings = {}
 
+-- With types, since those of required files are unknown.
+local place_outline: (face: Shape, outline: any, holes: { any }?, z: number?) -> Shape = outlines.place
+local make_box: (face: Shape, x: { number }, y: { number }, z: { number }) -> Shape = outlines.box
+local turn_profile: (profile: any, sides: number, flute: number?) -> Shape = outlines.turned
+
 local WINDOW = {
   kind = "rectangle", -- "rectangle", "segmental", "round" or "pointed"
   width = 1.2,
@@ -68,7 +73,7 @@ function openings.wall(face: Shape, holes: { any }): Shape
     end
   end
   table.move(outline, 2, #outline, #ring + 1, ring)
-  return outlines.place(face, ring, inside)
+  return place_outline(face, ring, inside)
 end
 
 -- Adds the reveal behind an outline.
@@ -105,7 +110,7 @@ local function add_surround(list: { Shape }, face: Shape, hole: any, options: an
       else outlines.rise(options.kind, options.width) * (1 + 2 * band / options.width)
   )
   outer = outlines.move(outer, x - band, options.sill)
-  table.insert(list, outlines.place(face, outlines.band(outer, hole)):extrude(0.05):color(options.trim))
+  table.insert(list, place_outline(face, outlines.band(outer, hole)):extrude(0.05):color(options.trim))
   if options.keystone then
     local top = options.sill + options.height
     local stone = {
@@ -114,19 +119,19 @@ local function add_surround(list: { Shape }, face: Shape, hole: any, options: an
       { size.x / 2 + band * 0.8, top + band * 1.5 },
       { size.x / 2 - band * 0.8, top + band * 1.5 },
     }
-    table.insert(list, outlines.place(face, stone):extrude(0.11):color(options.trim))
+    table.insert(list, place_outline(face, stone):extrude(0.11):color(options.trim))
   end
 end
 
 -- Adds a pane with its frame and glazing bars, `depth` behind the face.
 local function add_panes(list: { Shape }, face: Shape, hole: any, options: any)
-  local pane = outlines.place(face, hole, nil, -options.depth)
+  local pane = place_outline(face, hole, nil, -options.depth)
   table.insert(list, pane:color(options.glass))
   local inner = pane:setback(options.frame)[1]
   if not inner then
     return
   end
-  local ring = outlines.place(pane, outlines.of(pane), { outlines.of(inner, pane) })
+  local ring = place_outline(pane, outlines.of(pane), { outlines.of(inner, pane) })
   table.insert(list, ring:extrude(0.06):color(options.wood))
   local size, bar = inner:size(), options.frame * 0.6
   local function add_bar(x: number, y: number, width: number, height: number)
@@ -151,12 +156,12 @@ function openings.window(face: Shape, given: any?): { Shape }
   if options.wall then
     table.insert(list, openings.wall(face, { hole }))
   end
-  add_reveal(list, outlines.place(face, hole, nil, -options.depth), options.depth)
+  add_reveal(list, place_outline(face, hole, nil, -options.depth), options.depth)
   add_panes(list, face, hole, options)
   add_surround(list, face, hole, options)
   if options.bench > 0 then
     local x, more = (face:size().x - options.width) / 2, options.surround + 0.04
-    local box = outlines.box(
+    local box = make_box(
       face,
       { x - more, x + options.width + more },
       { options.sill - 0.09, options.sill },
@@ -175,7 +180,7 @@ function openings.door(face: Shape, given: any?): { Shape }
   if options.wall then
     table.insert(list, openings.wall(face, { hole }))
   end
-  local pane = outlines.place(face, hole, nil, -options.depth)
+  local pane = place_outline(face, hole, nil, -options.depth)
   add_reveal(list, pane, options.depth)
   add_surround(list, face, hole, options)
   local size = pane:size()
@@ -186,29 +191,29 @@ function openings.door(face: Shape, given: any?): { Shape }
     local x = number * leaf
     table.insert(
       list,
-      outlines.box(pane, { x + 0.015, x + leaf - 0.015 }, { 0.01, high }, { 0, 0.05 }):color(options.wood)
+      make_box(pane, { x + 0.015, x + leaf - 0.015 }, { 0.01, high }, { 0, 0.05 }):color(options.wood)
     )
     for row = 0, 1 do
       local from, to = high * (0.08 + 0.42 * row), high * (0.44 + 0.5 * row)
       local panel =
-        outlines.place(pane, outlines.move(outlines.rectangle(leaf * 0.64, to - from), x + leaf * 0.18, from))
+        place_outline(pane, outlines.move(outlines.rectangle(leaf * 0.64, to - from), x + leaf * 0.18, from))
       table.insert(list, panel:shift(vec(0, 0, 0.05)):extrude(0.025):color(options.wood))
     end
   end
   local inner = pane:setback(options.frame)[1]
   if inner then
-    local ring = outlines.place(pane, outlines.of(pane), { outlines.of(inner, pane) })
+    local ring = place_outline(pane, outlines.of(pane), { outlines.of(inner, pane) })
     table.insert(list, ring:extrude(0.07):color(options.wood))
   end
   if high < size.y then
     table.insert(
       list,
-      outlines.box(pane, { 0.01, size.x - 0.01 }, { high, high + 0.09 }, { 0, 0.09 }):color(options.wood)
+      make_box(pane, { 0.01, size.x - 0.01 }, { high, high + 0.09 }, { 0, 0.09 }):color(options.wood)
     )
   end
   if options.step > 0 then
     local x = (face:size().x - options.width) / 2 - options.surround
-    local box = outlines.box(
+    local box = make_box(
       face,
       { x - 0.1, x + options.width + 2 * options.surround + 0.1 },
       { options.sill, options.sill + 0.12 },
@@ -246,7 +251,7 @@ function openings.portal(face: Shape, given: any?): { Shape }
   end
   local list: { Shape } = {}
   local widest = arch(orders)
-  outlines.require_room("openings.portal", "height", outlines.place(face, widest):size().y + 0.02, size.y)
+  outlines.require_room("openings.portal", "height", place_outline(face, widest):size().y + 0.02, size.y)
   if options.wall then
     table.insert(list, openings.wall(face, { widest }))
   end
@@ -260,8 +265,7 @@ function openings.portal(face: Shape, given: any?): { Shape }
       else -deep + step * 0.9
     table.insert(
       list,
-      outlines
-        .place(face, band, nil, -step * (orders + 1))
+      place_outline(face, band, nil, -step * (orders + 1))
         :extrude(step * (orders + 1) + front)
         :color(options.trim)
     )
@@ -280,44 +284,37 @@ function openings.portal(face: Shape, given: any?): { Shape }
       local at = face:position()
         + face:x_axis() * (size.x / 2 + side * half)
         + face:z_axis() * (-step * (orders - order) + step * 0.3)
-      table.insert(list, outlines.turned(profile, 8):translate(at):color(options.trim))
+      table.insert(list, turn_profile(profile, 8):translate(at):color(options.trim))
     end
   end
-  local back = outlines.place(face, arch(0), nil, -step * (orders + 1))
+  local back = place_outline(face, arch(0), nil, -step * (orders + 1))
   table.insert(list, back:color(options.trim))
   local width = options.width
   table.insert(
     list,
-    outlines
-      .box(back, { 0, width }, { options.lintel, options.lintel + 0.3 }, { 0, 0.16 })
-      :color(options.trim)
+    make_box(back, { 0, width }, { options.lintel, options.lintel + 0.3 }, { 0, 0.16 }):color(options.trim)
   )
   local foil =
     outlines.foil(width / 2, options.lintel + 0.3 + (options.height - options.lintel) * 0.34, width * 0.24, 3)
-  table.insert(
-    list,
-    outlines.place(back, outlines.circle(width / 2, foil[1][2], 0.01, 3)):color(options.trim)
-  )
-  table.insert(list, outlines.place(back, foil):extrude(0.06):color(options.trim))
+  table.insert(list, place_outline(back, outlines.circle(width / 2, foil[1][2], 0.01, 3)):color(options.trim))
+  table.insert(list, place_outline(back, foil):extrude(0.06):color(options.trim))
   for leaf = 0, 1 do
     local x = width / 2 * leaf
     table.insert(
       list,
-      outlines
-        .box(back, { x + 0.03, x + width / 2 - 0.03 }, { 0, options.lintel }, { 0, 0.1 })
-        :color(options.wood)
+      make_box(back, { x + 0.03, x + width / 2 - 0.03 }, { 0, options.lintel }, { 0, 0.1 }):color(
+        options.wood
+      )
     )
     for row = 0.2, 0.8, 0.3 do
       table.insert(
         list,
-        outlines
-          .box(
-            back,
-            { x + 0.03, x + width / 2 - 0.03 },
-            { options.lintel * row, options.lintel * row + 0.07 },
-            { 0.1, 0.12 }
-          )
-          :color("#2b2621")
+        make_box(
+          back,
+          { x + 0.03, x + width / 2 - 0.03 },
+          { options.lintel * row, options.lintel * row + 0.07 },
+          { 0.1, 0.12 }
+        ):color("#2b2621")
       )
     end
   end
@@ -332,7 +329,7 @@ function openings.portal(face: Shape, given: any?): { Shape }
     for at, point in band do
       outline[at] = corner(math.abs(point[1]), point[2])
     end
-    table.insert(list, outlines.place(face, outline):extrude(0.28):color(options.trim))
+    table.insert(list, place_outline(face, outline):extrude(0.28):color(options.trim))
   end
   return list
 end

@@ -4,6 +4,12 @@ local openings = require("./openings")
 local outlines = require("./outlines")
 local roofs = {}
 
+-- With types, since those of required files are unknown.
+local place_outline: (face: Shape, outline: any, holes: { any }?, z: number?) -> Shape = outlines.place
+local sweep_across: (face: Shape, profile: any, x: number, width: number) -> Shape = outlines.across
+local turn_profile: (profile: any, sides: number, flute: number?) -> Shape = outlines.turned
+local make_face: (corners: { any }) -> Shape = outlines.face
+
 local DORMER = {
   kind = "gable", -- "gable", "hip", "shed" or "eyebrow"
   width = 1.4,
@@ -49,7 +55,7 @@ function roofs.dormer(face: Shape, given: any?): { Shape }
   local options = outlines.options("roofs.dormer", DORMER, given)
   outlines.require_slope("roofs.dormer", face, true)
   local size, width, height, depth = face:size(), options.width, options.height, options.depth
-  local kind = options.kind
+  local kind: string = options.kind
   outlines.require_room("roofs.dormer", "width", width, size.x)
   if not table.find(KINDS, kind) then
     error(`roofs.dormer: unknown kind {tostring(kind)}: use {table.concat(KINDS, ", ")}`, 2)
@@ -59,23 +65,23 @@ function roofs.dormer(face: Shape, given: any?): { Shape }
   local function prism(points: { { number } }, z0: number, z1: number, color: string)
     table.insert(
       list,
-      outlines.place(face, outlines.move(points, x0, 0), nil, z0):extrude(z1 - z0):color(color)
+      place_outline(face, outlines.move(points, x0, 0), nil, z0):extrude(z1 - z0):color(color)
     )
   end
   if kind == "eyebrow" then
     -- A low curve that fades into the roof at both sides.
-    local lower: { { number } }, upper: { { number } } = {}, {}
+    local lower: { any }, upper: { any } = {}, {}
     for step = 0, 20 do
       local t = step / 20
       local y = height * (0.5 - 0.5 * math.cos(2 * math.pi * t)) * 0.9
       table.insert(lower, { width * t, y })
       table.insert(upper, { width * t, y + 0.12 })
     end
-    local window = { { width * 0.26, 0.02 }, { width * 0.74, 0.02 } }
+    local window: { any } = { { width * 0.26, 0.02 }, { width * 0.74, 0.02 } }
     for step = 14, 6, -1 do
       table.insert(window, { lower[step + 1][1], lower[step + 1][2] - 0.14 })
     end
-    local shell: { { number } } = {}
+    local shell: { any } = {}
     for at = 1, 21 do
       table.insert(shell, lower[at])
     end
@@ -83,24 +89,24 @@ function roofs.dormer(face: Shape, given: any?): { Shape }
       table.insert(shell, upper[at])
     end
     prism(shell, -depth, over, options.tiles)
-    local front: { { number } } = {}
+    local front: { any } = {}
     for at = 21, 1, -1 do
       table.insert(front, { lower[at][1], lower[at][2] + 0.01 })
     end
     prism(front, -depth, -0.16, options.wall)
-    local pane = outlines.place(face, outlines.move(window, x0, 0), nil, -0.14)
+    local pane = place_outline(face, outlines.move(window, x0, 0), nil, -0.14)
     table.insert(list, pane:color("#3a4956"))
     local inner = pane:setback(0.06)[1]
     if inner then
       table.insert(
         list,
-        outlines.place(pane, outlines.of(pane), { outlines.of(inner, pane) }):extrude(0.07):color("#e9e6df")
+        place_outline(pane, outlines.of(pane), { outlines.of(inner, pane) }):extrude(0.07):color("#e9e6df")
       )
     end
     return list
   end
   -- The front wall and the cheeks.
-  local wall = outlines.place(face, outlines.move(outlines.rectangle(width, height), x0, 0))
+  local wall = place_outline(face, outlines.move(outlines.rectangle(width, height), x0, 0))
   local parts = openings.window(wall, options.window)
   parts[1] = parts[1]:color(options.wall)
   outlines.add(list, parts)
@@ -129,7 +135,7 @@ function roofs.dormer(face: Shape, given: any?): { Shape }
       { -depth, height + rise + 0.1 },
       { -depth, height - 0.02 },
     }
-    table.insert(list, outlines.across(face, profile, x0 - over, width + 2 * over):color(options.tiles))
+    table.insert(list, sweep_across(face, profile, x0 - over, width + 2 * over):color(options.tiles))
   else
     local half, back = width / 2 + over, -depth
     local corner = face:position() + face:x_axis() * (size.x / 2)
@@ -172,7 +178,7 @@ function roofs.chimney(face: Shape, given: any?): { Shape }
   }
   for number = 1, options.pots do
     local at = face:center() + along * (long * ((number - 0.5) / options.pots - 0.5)) + vec(0, 0, height)
-    table.insert(list, outlines.turned(profile, 10):translate(at):color(options.color))
+    table.insert(list, turn_profile(profile, 10):translate(at):color(options.color))
   end
   return list
 end
@@ -230,7 +236,7 @@ function roofs.spire(face: Shape, given: any?): { Shape }
         low + aside * (wide / 2) + vec(0, 0, tall),
         low - aside * (wide / 2) + vec(0, 0, tall),
       }
-      local front_face = outlines.face(points)
+      local front_face = make_face(points)
       outlines.add(
         list,
         roofs.dormer(front_face, {
@@ -279,7 +285,7 @@ function roofs.turret(face: Shape, given: any?): { Shape }
   local foot = face:position() + face:x_axis() * (size.x / 2)
   local low, high = options.corbel, options.corbel + options.height
   local list: { Shape } = {}
-  local wall: { { number } } = {}
+  local wall: { any } = {}
   if low > 0 then
     for step = 0, 4 do
       local t = step / 4
@@ -291,10 +297,10 @@ function roofs.turret(face: Shape, given: any?): { Shape }
   table.insert(wall, { r, high - 0.3 })
   table.insert(wall, { r * 1.12, high - 0.15 })
   table.insert(wall, { r * 1.12, high })
-  table.insert(list, outlines.turned(wall, options.sides):translate(foot):color(options.wall))
+  table.insert(list, turn_profile(wall, options.sides):translate(foot):color(options.wall))
   local roof =
     { { r * 1.22, high - 0.02 }, { r * 0.96, high + options.roof * 0.16 }, { 0, high + options.roof } }
-  table.insert(list, outlines.turned(roof, options.sides):translate(foot):color(options.tiles))
+  table.insert(list, turn_profile(roof, options.sides):translate(foot):color(options.tiles))
   for number = 1, options.windows do
     local angle = math.pi * number / (options.windows + 1)
     local out = face:x_axis() * -math.cos(angle) + face:z_axis() * math.sin(angle)
@@ -309,9 +315,9 @@ function roofs.turret(face: Shape, given: any?): { Shape }
       at + aside * (wide / 2) + vec(0, 0, tall),
       at - aside * (wide / 2) + vec(0, 0, tall),
     }
-    local pane = outlines.face(points)
+    local pane = make_face(points)
     table.insert(list, pane:extrude(-0.3):color("#3a4956"))
-    local ring = outlines.place(
+    local ring = place_outline(
       pane,
       { { -0.08, -0.08 }, { wide + 0.08, -0.08 }, { wide + 0.08, tall + 0.08 }, { -0.08, tall + 0.08 } },
       { outlines.rectangle(wide, tall) }

@@ -112,7 +112,7 @@ function stairs.landing(face: Shape, given: any?): { Shape }
   check("stairs.landing", face, 2 * run, count)
   local rise, half = options.height / count, count / 2
   local level = half * rise
-  local slab = {
+  local slab: { any } = {
     { run, level - math.max(thick, 0.12) },
     { run, level },
     { run + options.landing, level },

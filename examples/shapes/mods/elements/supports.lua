@@ -4,6 +4,11 @@ local outlines = require("./outlines")
 local openings = require("./openings")
 local supports = {}
 
+-- With types, since those of required files are unknown.
+local make_box: (face: Shape, x: { number }, y: { number }, z: { number }) -> Shape = outlines.box
+local sweep_across: (face: Shape, profile: any, x: number, width: number) -> Shape = outlines.across
+local turn_profile: (profile: any, sides: number, flute: number?) -> Shape = outlines.turned
+
 local BUTTRESS = {
   width = 0.8,
   height = 8,
@@ -52,7 +57,7 @@ function supports.buttress(face: Shape, given: any?): { Shape }
       2
     )
   end
-  local profile: { { number } } = { { -0.05, 0 }, { depth, 0 } }
+  local profile: { any } = { { -0.05, 0 }, { depth, 0 } }
   local list: { Shape } = {}
   local last = depth * options.top
   for stage = 1, stages do
@@ -71,12 +76,12 @@ function supports.buttress(face: Shape, given: any?): { Shape }
   end
   profile[#profile][1] = -0.05
   local x = (size.x - options.width) / 2
-  table.insert(list, outlines.across(face, profile, x, options.width):color(options.color))
+  table.insert(list, sweep_across(face, profile, x, options.width):color(options.color))
   if options.plinth > 0 then
     local p = options.plinth
     local base =
       { { -0.04, 0 }, { depth + 0.12, 0 }, { depth + 0.12, p * 0.8 }, { depth + 0.02, p }, { -0.04, p } }
-    table.insert(list, outlines.across(face, base, x - 0.1, options.width + 0.2):color(options.color))
+    table.insert(list, sweep_across(face, base, x - 0.1, options.width + 0.2):color(options.color))
   end
   return list
 end
@@ -93,7 +98,7 @@ function supports.flyer(face: Shape, given: any?): { Shape }
     error(`supports.flyer: foot is {options.foot}: use less than {crown} m, or a larger head`, 2)
   end
   -- The lower side is a quarter of an ellipse that rises from the pier to the wall.
-  local profile: { { number } } = { { -0.05, crown } }
+  local profile: { any } = { { -0.05, crown } }
   for step = 0, 12 do
     local angle = math.pi / 2 * step / 12
     table.insert(
@@ -112,8 +117,8 @@ function supports.flyer(face: Shape, given: any?): { Shape }
     { 0, options.head + 0.18 },
   }
   return {
-    outlines.across(face, profile, x, options.width):color(options.color),
-    outlines.across(face, coping, x - 0.08, options.width + 0.16):color(options.color),
+    sweep_across(face, profile, x, options.width):color(options.color),
+    sweep_across(face, coping, x - 0.08, options.width + 0.16):color(options.color),
   }
 end
 
@@ -168,7 +173,7 @@ function supports.pinnacle(face: Shape, given: any?): { Shape }
     { knob * 0.7, knob * 1.7 },
     { 0, knob * 2.3 },
   }
-  table.insert(list, outlines.turned(finial, 8):translate(top))
+  table.insert(list, turn_profile(finial, 8):translate(top))
   for at, part in list do
     list[at] = part:color(options.color)
   end
@@ -192,7 +197,7 @@ function supports.arcade(face: Shape, given: any?): { Shape }
     if options.imposts and spring > 0.3 then
       for side = 0, 1 do
         local at = if side == 0 then x - (step - width) / 2 else x + width
-        local box = outlines.box(
+        local box = make_box(
           face,
           { at - 0.04 * side + 0.001, at + (step - width) / 2 + 0.04 * (1 - side) - 0.001 },
           { spring - 0.18, spring },
@@ -202,7 +207,8 @@ function supports.arcade(face: Shape, given: any?): { Shape }
       end
     end
   end
-  table.insert(list, 1, openings.wall(face, holes):extrude(-options.depth):color(options.color))
+  local pierced: Shape = openings.wall(face, holes)
+  table.insert(list, pierced:extrude(-options.depth):color(options.color))
   return list
 end
 

@@ -5,6 +5,14 @@ local openings = require("./openings")
 local outlines = require("./outlines")
 local tracery = {}
 
+-- With types, since those of required files are unknown.
+local foil: (x: number, y: number, radius: number, count: number, turn: number?) -> { any } = outlines.foil
+local move: (outline: any, x: number, y: number) -> { any } = outlines.move
+local make_wall: (face: Shape, holes: { any }) -> Shape = openings.wall
+local place_outline: (face: Shape, outline: any, holes: { any }?, z: number?) -> Shape = outlines.place
+local make_box: (face: Shape, x: { number }, y: { number }, z: { number }) -> Shape = outlines.box
+local sweep_across: (face: Shape, profile: any, x: number, width: number) -> Shape = outlines.across
+
 local WINDOW = {
   width = 2.4,
   height = 5.2,
@@ -45,7 +53,7 @@ local function add_lights(
   if count == 1 then
     local clear = width - bar
     local outline = outlines.arch("pointed", clear, spring - y + outlines.rise("pointed", clear))
-    table.insert(lights, outlines.move(outline, x + bar / 2, y))
+    table.insert(lights, move(outline, x + bar / 2, y))
     return
   end
   local half = width / 2
@@ -53,11 +61,11 @@ local function add_lights(
   add_lights(lights, x + half, y, spring, half, options, count / 2)
   -- The circle that touches both lower arches and the upper one: of a quarter of the width.
   local radius, up = width / 4, width * math.sqrt(5) / 4
-  table.insert(lights, outlines.foil(x + half, spring + up, radius - bar * 0.75, options.foils))
+  table.insert(lights, foil(x + half, spring + up, radius - bar * 0.75, options.foils))
   -- The spandrels beside the circle, and the one below it.
   local small = width * 0.038 - bar * 0.12
   if small > 0.03 then
-    table.insert(lights, outlines.foil(x + half, spring + width * 0.165, small, 3, 270))
+    table.insert(lights, foil(x + half, spring + width * 0.165, small, 3, 270))
   end
 end
 
@@ -75,12 +83,12 @@ function tracery.window(face: Shape, given: any?): { Shape }
     error(`{owner}: lights are too narrow: use a width above {2 * options.bar * options.lancets} m`, 2)
   end
   local hole = outlines.arch("pointed", width, options.height)
-  hole = outlines.move(hole, (size.x - width) / 2, options.sill)
+  hole = move(hole, (size.x - width) / 2, options.sill)
   local list: { Shape } = {}
   if options.wall then
-    table.insert(list, openings.wall(face, { hole }))
+    table.insert(list, make_wall(face, { hole }))
   end
-  local pane = outlines.place(face, hole, nil, -depth)
+  local pane = place_outline(face, hole, nil, -depth)
   local reveal = pane:extrude(depth):joined_faces("tag:extrude.side")
   if reveal then
     table.insert(list, reveal:reverse():color(options.stone))
@@ -90,31 +98,30 @@ function tracery.window(face: Shape, given: any?): { Shape }
   local margin: number, lights: { any } = options.bar * 0.4, {}
   local spring = options.height - outlines.rise("pointed", width)
   add_lights(lights, margin, margin + options.bar / 2, spring, width - 2 * margin, options, options.lancets)
-  local plate = outlines.place(pane, outlines.of(pane), lights, 0.06)
+  local plate = place_outline(pane, outlines.of(pane), lights, 0.06)
   table.insert(list, plate:extrude(0.16):color(options.stone))
   for number = 1, options.bars do
     local y = spring * number / (options.bars + 1)
     table.insert(
       list,
-      outlines.box(pane, { margin, width - margin }, { y, y + 0.025 }, { 0.03, 0.055 }):color("#23272b")
+      make_box(pane, { margin, width - margin }, { y, y + 0.025 }, { 0.03, 0.055 }):color("#23272b")
     )
   end
   if options.slope > 0 then
     local profile = { { -depth, 0 }, { 0.08, -0.1 }, { 0.08, -0.04 }, { -depth + 0.06, options.slope } }
     local lower = face:shift(vec(0, options.sill, 0))
-    table.insert(list, outlines.across(lower, profile, (size.x - width) / 2, width):color(options.stone))
+    table.insert(list, sweep_across(lower, profile, (size.x - width) / 2, width):color(options.stone))
   end
   if options.label > 0 then
     local band = 0.14
     local wide = width + 2 * band
     local rise = outlines.rise("pointed", wide)
-    local outer = outlines.move(outlines.arch("pointed", wide, rise), -band, spring)
-    local inner = outlines.move(outlines.arch("pointed", width, rise * width / wide), 0, spring)
+    local outer = move(outlines.arch("pointed", wide, rise), -band, spring)
+    local inner = move(outlines.arch("pointed", width, rise * width / wide), 0, spring)
     local hood = outlines.band(outer, inner)
     table.insert(
       list,
-      outlines
-        .place(face, outlines.move(hood, (size.x - width) / 2, options.sill))
+      place_outline(face, move(hood, (size.x - width) / 2, options.sill))
         :extrude(options.label)
         :color(options.stone)
     )
@@ -138,16 +145,16 @@ function tracery.rose(face: Shape, given: any?): { Shape }
   local hole = outlines.circle(x, y, radius, 48)
   local list: { Shape } = {}
   if options.wall then
-    table.insert(list, openings.wall(face, { hole }))
+    table.insert(list, make_wall(face, { hole }))
   end
-  local pane = outlines.place(face, hole, nil, -options.depth)
+  local pane = place_outline(face, hole, nil, -options.depth)
   local reveal = pane:extrude(options.depth):joined_faces("tag:extrude.side")
   if reveal then
     table.insert(list, reveal:reverse():color(options.stone))
   end
   table.insert(list, pane:shift(vec(0, 0, 0.02)):color(options.glass))
   -- The lights, around the middle of the pane.
-  local lights: { any } = { outlines.foil(radius, radius, radius * 0.2, math.min(petals, 8)) }
+  local lights: { any } = { foil(radius, radius, radius * 0.2, math.min(petals, 8)) }
   local from, to = radius * 0.29, radius * 0.7
   for number = 0, petals - 1 do
     local axis = 2 * math.pi * number / petals + math.pi / 2
@@ -174,7 +181,7 @@ function tracery.rose(face: Shape, given: any?): { Shape }
     if roundel > 0.03 then
       table.insert(
         lights,
-        outlines.foil(
+        foil(
           radius + far * math.cos(between),
           radius + far * math.sin(between),
           roundel,
@@ -184,10 +191,10 @@ function tracery.rose(face: Shape, given: any?): { Shape }
       )
     end
   end
-  local plate = outlines.place(pane, outlines.circle(radius, radius, radius, 48), lights, 0.06)
+  local plate = place_outline(pane, outlines.circle(radius, radius, radius, 48), lights, 0.06)
   table.insert(list, plate:extrude(0.18):color(options.stone))
   if options.label > 0 then
-    local ring = outlines.place(face, outlines.circle(x, y, radius + 0.2, 48), { hole })
+    local ring = place_outline(face, outlines.circle(x, y, radius + 0.2, 48), { hole })
     table.insert(list, ring:extrude(options.label):color(options.stone))
   end
   return list
