@@ -84,7 +84,10 @@ impl Camera {
         let eye = from.as_vec3a();
         let outside = (eye - eye.clamp(bounds.0, bounds.1)).length();
         let focal = (0.5 * f64::from(size[1]) / (0.5 * fov).tan()) as f32;
-        Self::along(eye, to - from, outside.max(CLOSEST), focal, size)
+        // At this distance, a point in a corner of the image is nearest along the view direction.
+        let half = size.map(|side| side as f32 / 2.0);
+        let corner = focal / Vec3A::new(half[0], half[1], focal).length();
+        Self::along(eye, to - from, (outside * corner * 0.99).max(CLOSEST), focal, size)
     }
 
     /// Fits a parallel projection that looks along `forward` to `points`. If `middle` is given, it is the point in the
@@ -298,6 +301,23 @@ mod tests {
         let top = parallel.project(parallel.view.transform_point3a(to.as_vec3a() + up * 0.25));
         assert!((shown - 0.5).abs() < 1e-6 && top.y.abs() < 0.01, "{shown} {top}");
         assert!((placed.axes().2 - 0.8).abs() < 1e-5);
+    }
+
+    #[test]
+    fn what_is_beside_a_placed_camera_is_behind_its_nearest_plane() {
+        let bounds = (Vec3A::new(-1.0, -0.1, -1.0), Vec3A::new(1.0, 0.1, 1.0));
+        let from = DVec3::new(0.0, -1.0, 0.0);
+        for turn in [-0.9_f64, -0.5, 0.0, 0.5, 0.9] {
+            let to = from + DVec3::new(turn.sin(), turn.cos(), 0.0);
+            let camera = Camera::between(from, to, 1.2, bounds, [320, 200]);
+            for step in -100_i8..=100 {
+                let point = camera.view.transform_point3a(Vec3A::new(f32::from(step) / 100.0, -0.1, 0.0));
+                let pixel = camera.project(point);
+                if point.z > 0.0 && (0.0..320.0).contains(&pixel.x) {
+                    assert!(point.z >= camera.near, "{point} at {turn}");
+                }
+            }
+        }
     }
 
     #[test]
