@@ -16,6 +16,7 @@ mod shape;
 mod sizes;
 mod split;
 mod style;
+mod text;
 
 pub use body::ShapeBody;
 pub use components::selector::Selector;
@@ -28,3 +29,4 @@ pub use shape::Shape;
 pub use sizes::{PartSize, PartSizes, SizedParts};
 pub use split::{SplitAxis, SplitParts};
 pub use style::{FaceStyle, SharedStyle};
+pub use text::{Font, TextAlign, TextLayout, TextRemarks};
