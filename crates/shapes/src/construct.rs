@@ -41,7 +41,7 @@ impl Shape {
     /// Creates a rectangle with a corner at the origin that looks upwards.
     pub fn rectangle(size: DVec2) -> Self {
         let scope = Scope { size: size.extend(0.0), ..Scope::default() };
-        Self { scope, body: crate::ShapeBody::Rectangle(None) }
+        Self::new(scope, crate::ShapeBody::Rectangle(None))
     }
 
     /// Creates a regular polygon around the origin that looks upwards; fails unless it has 3 to 1024 sides.
@@ -59,7 +59,7 @@ impl Shape {
         }
         let mut solid = Self::disk(radius, sides)?.taper(height, top / radius)?;
         solid = solid.with_styles(|_| None);
-        Ok(Self { scope: solid.scope, body: solid.body })
+        Ok(solid)
     }
 
     /// Creates a sphere around the origin, with `sides` meridians and half as many rows.

@@ -11,9 +11,11 @@ mod regions;
 mod roof;
 mod solids;
 mod strips;
+mod sweep;
 mod transform;
 
 pub use inset::Setback;
 pub(crate) use merge::{merge_coplanar, weld};
 pub use regions::EnvelopeLimit;
 pub use solids::SolidOperation;
+pub use sweep::SweepPath;
