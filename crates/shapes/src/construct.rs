@@ -140,8 +140,9 @@ impl Shape {
     pub fn of_parts<'a>(parts: impl IntoIterator<Item = (&'a Part, Option<[f32; 4]>)>) -> Option<Self> {
         let mut mesh = PolygonMesh::default();
         for (part, color) in parts {
-            let style = color
-                .map(|color| std::sync::Arc::new(crate::FaceStyle { tags: Vec::new(), color: Some(color) }));
+            let style = color.map(|color| {
+                std::sync::Arc::new(crate::FaceStyle { color: Some(color), ..crate::FaceStyle::default() })
+            });
             let base = u32::try_from(mesh.points.len()).unwrap_or(u32::MAX);
             mesh.points.extend(part.positions.iter().map(|at| at.as_dvec3()));
             mesh.faces.extend(

@@ -7,6 +7,7 @@ mod flat_faces;
 mod inset;
 mod merge;
 mod molding;
+mod plans;
 mod regions;
 mod roof;
 mod solids;
