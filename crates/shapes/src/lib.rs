@@ -18,6 +18,7 @@ mod split;
 mod style;
 mod text;
 mod trim_planes;
+mod uv_map;
 
 pub use body::ShapeBody;
 pub use components::selector::Selector;
@@ -32,3 +33,4 @@ pub use split::{SplitAxis, SplitParts};
 pub use style::{FaceStyle, SharedStyle};
 pub use text::{Font, TextAlign, TextLayout, TextRemarks};
 pub use trim_planes::TrimPlane;
+pub use uv_map::UvMap;

@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use burgeon_scene::Material;
 
+use crate::UvMap;
+
 /// Tags and appearance of a face.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct FaceStyle {
@@ -13,6 +15,8 @@ pub struct FaceStyle {
     pub color: Option<[f32; 4]>,
     /// Material, if the face has its own.
     pub material: Option<Arc<Material>>,
+    /// Projection of texture coordinates; metres in the plane of the face if `None`.
+    pub uv: Option<UvMap>,
     /// Largest angle (radians) to a neighbour across which the face is drawn smooth.
     pub smooth: Option<f64>,
 }

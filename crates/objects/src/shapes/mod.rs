@@ -9,8 +9,12 @@ mod object;
 mod options;
 mod part_sizes;
 mod relations;
+mod smooth_normals;
 mod support;
+mod sweep_path;
 mod text;
+mod tiles;
+mod trimming;
 mod volumes;
 
 pub(crate) use draw::{draw_building, draw_shape};

@@ -16,7 +16,8 @@ impl Shape {
             ShapeBody::Mesh(mesh) => ShapeBody::Mesh(Arc::new(mesh.translate(|at| at + offset, false))),
             other => other.clone(),
         };
-        Self::new(scope, body).with_trim_moved(self, &DAffine3::from_translation(offset))
+        let frame = DAffine3::from_translation(offset);
+        Self::new(scope, body).with_trim_moved(self, &frame).with_uv_moved(&frame)
     }
 
     /// Returns the shape rotated by `angle` (radians) around an axis through `center` (m).
@@ -31,7 +32,7 @@ impl Shape {
             other => other.clone(),
         };
         let frame = DAffine3::from_mat3_translation(turn, place(DVec3::ZERO));
-        Self::new(scope, body).with_trim_moved(self, &frame)
+        Self::new(scope, body).with_trim_moved(self, &frame).with_uv_moved(&frame)
     }
 
     /// Returns the shape with a scope of another size (m), scaled from the scope's origin. An extent of 0 stays 0.
@@ -60,7 +61,7 @@ impl Shape {
         };
         let stretch = self.scope.axes * DMat3::from_diagonal(factor) * self.scope.axes.transpose();
         let frame = DAffine3::from_mat3_translation(stretch, self.scope.origin - stretch * self.scope.origin);
-        Ok(Self::new(scope, body).with_trim_moved(self, &frame))
+        Ok(Self::new(scope, body).with_trim_moved(self, &frame).with_uv_moved(&frame))
     }
 
     /// Returns the shape moved by a transformation that keeps angles and lengths.
@@ -70,6 +71,7 @@ impl Shape {
         let mesh = self.mesh().translate(|at| frame.transform_point3(at), mirrors);
         Self::of_mesh(mesh, if mirrors { self.scope.axes } else { frame.matrix3 * self.scope.axes })
             .with_trim_moved(self, frame)
+            .with_uv_moved(frame)
     }
 
     /// Returns the shape mirrored at the plane through `point` (m) with a unit normal.
@@ -79,7 +81,9 @@ impl Shape {
         let turn = DMat3::from_cols(DVec3::X, DVec3::Y, DVec3::Z)
             - DMat3::from_cols(normal * normal.x, normal * normal.y, normal * normal.z) * 2.0;
         let frame = DAffine3::from_mat3_translation(turn, place(DVec3::ZERO));
-        Self::of_mesh(self.mesh().translate(place, true), self.scope.axes).with_trim_moved(self, &frame)
+        Self::of_mesh(self.mesh().translate(place, true), self.scope.axes)
+            .with_trim_moved(self, &frame)
+            .with_uv_moved(&frame)
     }
 
     /// Returns the shape with reversed faces.
