@@ -22,7 +22,7 @@ fn warnings(expressions: &[&str]) -> String {
         String::from("local A = module('A')\nlocal s = lsystem({ object = extruder() })\ns:axiom(A())\n");
     script.push_str("local square = rectangle(1, 1)\n");
     for expression in expressions {
-        let _ = writeln!(script, "print({expression})");
+        let _ = writeln!(script, "local _ = {expression}");
     }
     script.push_str("s:interpret('A', function(this) this:shape(square) end)\ns:derive()\n");
     let folder = Folder::new().with("s.lua", script);
@@ -41,7 +41,33 @@ fn texts_that_cannot_be_made_are_refused() {
         "text(\"a\", { font = \"serif.ttf\" })",
         "font(\"s.lua\")",
         "font(\"missing.ttf\")",
-    ]), @"");
+    ]), @r#"
+    text()
+    error: s.lua:2:14: text takes 1 or 2 arguments, not 0
+      help: write text("Bakery", { size = 0.4 })
+    text(4)
+    error: s.lua:2:14: text: letters must be a string, not 4
+    text("")
+    error: s.lua:2:14: the text has no letters
+      help: give a text with a letter, and ask before: if name ~= "" then
+    text("a", { sise = 2 })
+    error: s.lua:2:26: unknown field `sise` in text
+      help: did you mean size?
+    text("a", { size = 0 })
+    error: s.lua:2:14: text: size is 0 m
+      help: use a length above 0 and below 1e7 m
+    text("a", { align = "middle" })
+    error: s.lua:2:35: text: unknown alignment "middle"
+      help: use "left", "center" or "right"
+    text("a", { font = "serif.ttf" })
+    error: s.lua:2:34: text: font must be a font, loaded once before: font("sign.ttf"), not "serif.ttf"
+    font("s.lua")
+    error: s.lua:2:14: cannot read s.lua: the content is not a font: unknown magic
+      help: use a .ttf or .otf file
+    font("missing.ttf")
+    error: s.lua:2:14: font not found: missing.ttf
+      help: it is looked for from the script's folder; other folders are given with --data FOLDER
+    "#);
 }
 
 #[test]
@@ -60,7 +86,47 @@ fn sweeps_and_images_that_cannot_be_made_are_refused() {
         "square:smooth(-1)",
         "square:scatter(4, { within = \"volume\" })",
         "square:scatter(4, { within = \"inside\" })",
-    ]), @"");
+    ]), @r#"
+    square:sweep({ vec(0, 0, 0) })
+    error: s.lua:2:21: shape:sweep: the path of a sweep has 1 different points
+      help: give at least 2
+    square:sweep({ vec(0, 0, 0), vec(1, 0, 0), vec(0, 0, 0) })
+    error: s.lua:2:21: shape:sweep: the path of a sweep turns back at point 2
+      help: add points around the turn, or divide the path
+    square:sweep({ vec(0, 0, 0), vec(1, 0, 0) }, { joint = "round" })
+    error: s.lua:2:70: shape:sweep: unknown joint "round"
+      help: use "mitre" or "smooth"
+    square:sweep({ vec(0, 0, 0), vec(1, 0, 0), vec(1, 1, 0) }, { closed = true, twist = 90 })
+    error: s.lua:2:21: shape:sweep: a closed path begins and ends with the same section
+      help: use a twist of 0, 360 or -360 degrees and so on
+    square:sweep(square)
+    error: s.lua:2:21: shape:sweep: path must be a list of positions, such as { vec(0, 0, 1), vec(4, 0, 1) }, a curve or an edge, not a shape
+      help: write this:sweep(path: { Vector } | Curve | Shape, options: { [string]: any }?)
+    square:rotate(90, vec(1, 0, 0)):sweep({ vec(0, 0, 0), vec(1, 0, 0) })
+    error: s.lua:2:46: shape:sweep: the profile of a sweep is not horizontal
+      help: draw it around the origin: disk(0.1), or shape({ { 0, 0 }, { 0.2, 0 }, { 0, 0.1 } })
+    square:project(0, 1)
+    error: s.lua:2:21: shape:project: width must be a length above 0 (m), or "~2" for whole tiles of about 2 m, not 0
+      help: write this:project(width: number | string, height: number | string, options: { [string]: any }?)
+    square:project(1, "2*")
+    error: s.lua:2:33: shape:project: height must be a length above 0 (m), or "~2" for whole tiles of about 2 m, not "2*"
+      help: write this:project(width: number | string, height: number | string, options: { [string]: any }?)
+    square:project(1, 1, { axes = "zx" })
+    error: s.lua:2:45: shape:project: unknown axes "zx"
+      help: use "xy", "xz" or "yz"
+    square:material({ roughness = 2 })
+    error: s.lua:2:37: material: roughness must be from 0 to 1, not 2
+      help: write this:material(material: Material)
+    square:smooth(-1)
+    error: s.lua:2:21: shape:smooth: the angle is -1 degrees
+      help: use an angle from 0 to 180 degrees
+    square:scatter(4, { within = "volume" })
+    error: s.lua:2:21: shape:scatter: the shape is open, so it has no inside
+      help: extrude faces first
+    square:scatter(4, { within = "inside" })
+    error: s.lua:2:44: shape:scatter: unknown place "inside"
+      help: use within = "faces", "volume" or "scope"
+    "#);
 }
 
 #[test]
@@ -71,5 +137,6 @@ fn shapes_that_differ_from_the_request_are_warnings() {
         "square:sweep({ vec(0, 0, 0), vec(3, 0, 0), vec(3, 0.1, 0), vec(0, 0.1, 0) }):volume()",
         "cuboid(1, 1, 1):trim_to(square):volume()",
         "shape({ { 0, 0 }, { 9, 0.5 }, { 9, 1 } }):align():rectify(20):area()",
+        "cuboid(1, 1, 1):reduce(0.1)",
     ]), @"");
 }

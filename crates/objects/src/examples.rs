@@ -135,7 +135,7 @@ pub const PLAIN_EXAMPLES: &[ScriptExample] = examples! {
         "shape:get" "shape:with";
     "shape/plans" shows "shape:offset" "shape:setback" "shape:border" "shape:wings"
         "shape:setback_to_area" "shape:envelope" "shape:inner_rectangle" "shape:scatter";
-    "shape/repair" shows "shape:ground_plan" "shape:rectify" "shape:convexify";
+    "shape/repair" shows "shape:ground_plan" "shape:rectify" "shape:convexify" "shape:reduce";
     "shape/relations" shows "shape:contains" "shape:overlaps" "shape:touches" "shape:distance";
     "shape/sets" shows "shape:union" "shape:subtract" "shape:intersect" "shape:trim";
     "shape/solids" shows "shape:extrude" "shape:taper" "shape:molding" "shape:loft" "shape:chamfer"

@@ -56,7 +56,7 @@ const COUNTS: [&str; 46] = [
 ];
 
 /// Fractions, probabilities, weights and factors.
-const FACTORS: [&str; 71] = [
+const FACTORS: [&str; 72] = [
     ".amount",
     ".metallic",
     ".noise",
@@ -108,6 +108,7 @@ const FACTORS: [&str; 71] = [
     "shadow_voxels.decay",
     "shadow_voxels.strength",
     "shape:project.offset",
+    "shape:reduce share",
     "shape:sweep.scale",
     "shape:taper scale",
     "surface.weights",

@@ -181,7 +181,7 @@ impl ShapeObject {
     /// Returns the shape with faces of another material, such as { texture = "brick.png", texture_size = { 2, 1 } }. A later
     /// colour multiplies the texture.
     pub fn material(&self, material: MaterialOptions) -> Result<Self> {
-        let material = Arc::new(material.material().map_err(|error| error.about("shape:material"))?);
+        let material = Arc::new(material.material()?);
         Ok(self.with_shape(self.shape.with_styles(|style| FaceStyle::with_material(style, &material))))
     }
 
@@ -433,6 +433,18 @@ impl ShapeObject {
     /// Returns the shape with its faces divided into convex ones without holes. A solid stays a solid.
     pub fn convexify(&self) -> Result<Self> {
         Ok(self.with_shape(self.shape.convexify().map_err(|error| error.about("shape:convexify"))?))
+    }
+
+    /// Returns the shape with about `share` of its triangles, of the same points: distant models. Borders and edges between
+    /// colours keep their form as long as possible, and a solid stays a solid.
+    pub fn reduce(&self, share: f64) -> Result<Self> {
+        let (shape, rest) = self.shape.reduce(share).map_err(|error| error.about("shape:reduce"))?;
+        if rest > 1.1 * share {
+            let text =
+                format!("{rest:.3} of the triangles remain, not {share}, since no other can be removed");
+            warn("reduce", &text, "use a larger share, or a simpler shape");
+        }
+        Ok(self.with_shape(shape))
     }
 
     /// Returns a face with right angles: edges within `angle` (degrees, 10 unless given) of the axes of its scope become

@@ -8,6 +8,7 @@ mod inset;
 mod merge;
 mod molding;
 mod plans;
+mod reduce;
 mod regions;
 mod roof;
 mod solids;
