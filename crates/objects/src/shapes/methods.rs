@@ -15,7 +15,7 @@ use super::options::{ScatterOptions, ShapeRoofOptions};
 use super::part_sizes::SplitSizes;
 use super::relations::ShapeOrPlace;
 use super::support::{read_selector, split_axis, unit, warn_of_split};
-use super::sweep_path::{SweepOptions, SweepPoints};
+use super::sweep_path::{SweepPathOptions, SweepPoints};
 use super::tiles::{ProjectOptions, TileLength};
 use super::trimming::TrimOptions;
 use crate::MaterialOptions;
@@ -360,7 +360,7 @@ impl ShapeObject {
     /// Returns the solid that a profile sweeps along a path: a list of positions (m), a curve or an edge. The profile is a face
     /// around the origin of the ground plane, such as disk(0.1): x is to the right of the path, y upwards. Faces have the
     /// tags "sweep.start", "sweep.side" and "sweep.end".
-    pub fn sweep(&self, path: SweepPoints, options: Option<TableOf<SweepOptions>>) -> Result<Self> {
+    pub fn sweep(&self, path: SweepPoints, options: Option<TableOf<SweepPathOptions>>) -> Result<Self> {
         self.sweep_along(path, &options.unwrap_or_default().read()?)
     }
 

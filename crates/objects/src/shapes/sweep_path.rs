@@ -52,7 +52,7 @@ impl Parameter for SweepPoints {
 
 /// Options of `shape:sweep`.
 #[fields("shape:sweep")]
-pub struct SweepOptions {
+pub struct SweepPathOptions {
     /// Joints of a list of positions: "mitre", straight segments that meet in planes, or "smooth", a curve through the
     /// positions.
     #[default("mitre".into())]
@@ -72,7 +72,7 @@ pub struct SweepOptions {
 
 impl ShapeObject {
     /// Sweeps a profile along a path.
-    pub(super) fn sweep_along(&self, points: SweepPoints, options: &SweepOptions) -> Result<Self> {
+    pub(super) fn sweep_along(&self, points: SweepPoints, options: &SweepPathOptions) -> Result<Self> {
         let about = |error: Error| error.about("shape:sweep");
         if !(0.1..=90.0).contains(&options.step) {
             return Err(Error::argument(format!("shape:sweep: step is {} degrees", options.step))

@@ -8,6 +8,7 @@ mod inset;
 mod merge;
 mod molding;
 mod plans;
+mod project;
 mod reduce;
 mod regions;
 mod roof;
@@ -15,6 +16,7 @@ mod solids;
 mod strips;
 mod sweep;
 mod transform;
+mod trim;
 
 pub use inset::Setback;
 pub(crate) use merge::{merge_coplanar, weld};
