@@ -3,7 +3,8 @@
 -- a gutter swept around the eaves, and the name over the door.
 local name = param("name", { default = "São Bento", doc = "Name of the station." })
 local Mass, Wall, Course = module("Mass", "shape"), module("Wall", "shape"), module("Course", "face")
-local Roof, Slope, Cap, Sign = module("Roof", "shape"), module("Slope", "face"), module("Cap", "edge"), module("Sign", "wall")
+local Roof, Slope, Cap, Sign =
+  module("Roof", "shape"), module("Slope", "face"), module("Cap", "edge"), module("Sign", "wall")
 local station = lsystem({ object = extruder({ color = "#e9e2d0", roughness = 0.9 }) })
 local wide, deep, high = 15, 8, 4.6
 
@@ -21,9 +22,14 @@ station:rule("Wall(s)", function(this, s: Shape)
     return Draw(frame:color("#c2b69a")), Draw(whole:shift(vec(0, 0, 0.01)):color("#3d4f4a"))
   end
   local function bays(part: Shape)
-    return split(part, "x", { { "~1", false }, { { "~0.6", false }, { 1.2, opening }, { "~0.6", false } }, { "~1", false } })
+    return split(
+      part,
+      "x",
+      { { "~1", false }, { { "~0.6", false }, { 1.2, opening }, { "~0.6", false } }, { "~1", false } }
+    )
   end
-  local parts = split(s, "y", { { 0.8, Course }, { 0.2, false }, { 2, bays }, { "~1", false }, { 0.35, Course } })
+  local parts =
+    split(s, "y", { { 0.8, Course }, { 0.2, false }, { 2, bays }, { "~1", false }, { 0.35, Course } })
   if s:matches("front") then
     return Sign(s), parts
   end
@@ -55,7 +61,14 @@ station:rule("Roof(s)", function(this, s: Shape)
   for _, at in eaves do
     table.insert(gutter, at)
   end
-  local channel = shape({ { -0.08, 0.06 }, { -0.08, -0.02 }, { -0.05, -0.07 }, { 0.05, -0.07 }, { 0.08, -0.02 }, { 0.08, 0.06 } })
+  local channel = shape({
+    { -0.08, 0.06 },
+    { -0.08, -0.02 },
+    { -0.05, -0.07 },
+    { 0.05, -0.07 },
+    { 0.08, -0.02 },
+    { 0.08, 0.06 },
+  })
   return Draw(s:color("#d9d2c2")),
     components(s, "faces", { { "slanted", Slope } }),
     components(s, "edges", { { any, Cap } }),

@@ -3,6 +3,8 @@
 use glam::DVec2;
 use ttf_parser::OutlineBuilder;
 
+/// Maximum number of points of a letter.
+const MOST_POINTS: usize = 200_000;
 /// Maximum number of lines of a curve.
 const MOST_LINES: f64 = 256.0;
 
@@ -12,12 +14,14 @@ pub(super) struct OutlineRings {
     pub rings: Vec<Vec<DVec2>>,
     /// Maximum distance between a curve and its lines.
     tolerance: f64,
+    /// Number of points of all rings.
+    points: usize,
 }
 
 impl OutlineRings {
     /// Creates an outline without rings.
     pub(super) fn new(tolerance: f64) -> Self {
-        Self { rings: Vec::new(), tolerance }
+        Self { rings: Vec::new(), tolerance, points: 0 }
     }
 
     /// Returns the number of lines for a curve whose second differences are at most `bend` long, weighted for its degree.
@@ -30,15 +34,28 @@ impl OutlineRings {
         self.rings.last().and_then(|ring| ring.last()).copied().unwrap_or_default()
     }
 
+    /// Adds a point. Unwinds beyond the maximum, the only way to end the reading of an outline.
     fn push(&mut self, at: DVec2) {
+        self.count();
         if let Some(ring) = self.rings.last_mut() {
             ring.push(at);
         }
     }
 }
 
+impl OutlineRings {
+    /// Counts a point of the outline.
+    fn count(&mut self) {
+        self.points += 1;
+        if self.points > MOST_POINTS {
+            std::panic::resume_unwind(Box::new("too many points"));
+        }
+    }
+}
+
 impl OutlineBuilder for OutlineRings {
     fn move_to(&mut self, x: f32, y: f32) {
+        self.count();
         self.rings.push(vec![point(x, y)]);
     }
 
@@ -105,6 +122,18 @@ mod tests {
             assert!(gap < tolerance + 0.03, "{gap} {tolerance}");
             assert!(ring.len() > 4, "{}", ring.len());
         }
+    }
+
+    #[test]
+    fn an_outline_without_end_is_ended() {
+        let draw = || {
+            let mut outline = OutlineRings::new(1.0);
+            loop {
+                outline.move_to(0.0, 0.0);
+                outline.close();
+            }
+        };
+        assert!(std::panic::catch_unwind(draw).is_err());
     }
 
     #[test]

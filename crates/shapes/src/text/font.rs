@@ -1,8 +1,9 @@
 //! Fonts.
 
 use std::borrow::Cow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use burgeon_base::error::{Error, Result};
+use burgeon_base::error::{Error, Limit, Result};
 use burgeon_geometry::Rings;
 use burgeon_geometry::overlay::{Fill, PolygonArea, fill};
 use glam::DVec2;
@@ -137,7 +138,14 @@ impl SizedFont<'_> {
     /// Outlines that cross or overlap are united.
     pub(super) fn area(&self, glyph: GlyphId) -> Result<PolygonArea> {
         let mut outline = OutlineRings::new(self.tolerance / self.scale);
-        self.face.outline_glyph(glyph, &mut outline);
+        // A damaged font can have letters without end, which the outline unwinds.
+        let drawn = catch_unwind(AssertUnwindSafe(|| {
+            self.face.outline_glyph(glyph, &mut outline);
+        }));
+        if drawn.is_err() {
+            return Err(Error::limit(Limit::Size, "a letter of the font has too many points")
+                .help("use another font, or a larger tolerance"));
+        }
         let scaled = |ring: Vec<DVec2>| ring.into_iter().map(|at| at * self.scale).collect();
         let rings: Vec<Vec<DVec2>> = outline.rings.into_iter().map(scaled).collect();
         if rings.is_empty() {
