@@ -216,16 +216,30 @@ impl Reduction {
         all
     }
 
+    /// Returns true if triangles surround a point.
+    fn is_inner(&self, point: u32) -> bool {
+        self.corners(point).count() == self.neighbors(point).len()
+    }
+
     /// Returns true if the surface stays one after a collapse, and no triangle turns over.
     fn is_possible(&self, from: u32, to: u32) -> bool {
         let shared = self.corners(from).filter(|corners| corners.contains(&to)).count();
         let (own, others) = (self.neighbors(from), self.neighbors(to));
-        let common = own.iter().filter(|point| others.binary_search(point).is_ok()).count();
-        if shared == 0 || shared != common {
+        let common: Vec<u32> =
+            own.iter().copied().filter(|point| others.binary_search(point).is_ok()).collect();
+        if shared == 0 || shared != common.len() {
+            return false;
+        }
+        // A point inside of a surface has at least three triangles: a tetrahedron does not become flat.
+        if common.iter().any(|point| self.corners(*point).count() <= 3 && self.is_inner(*point)) {
+            return false;
+        }
+        // The last triangles of a piece stay.
+        if self.corners(to).count() <= shared {
             return false;
         }
         // A border point moves along the border only.
-        if self.corners(from).count() != own.len() && shared != 1 {
+        if !self.is_inner(from) && shared != 1 {
             return false;
         }
         let target = self.points[to as usize];
@@ -302,6 +316,14 @@ mod tests {
             reduced.area()
         );
         assert_eq!(reduced.scope.size.truncate(), glam::DVec2::new(4.0, 3.0));
+    }
+
+    #[test]
+    fn a_solid_never_becomes_flat() {
+        for solid in [Shape::cuboid(DVec3::ONE), Shape::sphere(1.0, 8).expect("a ball")] {
+            let (reduced, rest) = solid.reduce(0.01).expect("fewer triangles");
+            assert!(reduced.is_closed() && reduced.volume() > 0.1, "{rest} {}", reduced.volume());
+        }
     }
 
     #[test]
