@@ -46,6 +46,7 @@ mod reports;
 mod sandbox;
 mod scope;
 mod setup;
+mod shapes;
 mod shared_values;
 mod short_forms;
 mod slips;

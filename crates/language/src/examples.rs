@@ -70,6 +70,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "stream" shows "stream";
     "subsystem" shows "system:subsystem";
     "system" shows "system" "system:axiom" "system:ignore" "system:interpret" "system:derive";
+    "text" shows "text";
     "time" shows "time" "derive";
     "use_group" shows "use_group" "system:before_step";
     "variables" shows "variables" "system:at_start" "system:at_end";

@@ -42,7 +42,7 @@ pub use line_index::LineIndex;
 pub use network::Network;
 pub use planet::Planet;
 pub use roofs::{Roof, RoofDetail};
-pub use shapes::{ShapeObject, Volumes};
+pub use shapes::{FontObject, ShapeObject, Volumes};
 pub use surface::MaterialOptions;
 pub use terrain::{EditFile, Terrain};
 pub use turtle::Turtle;
@@ -74,6 +74,7 @@ pub fn registry() -> Registry {
         Footprint::kind(),
         GeometryObject::kind(),
         ShapeObject::kind(),
+        FontObject::kind(),
         Planet::kind(),
         LineIndex::kind(),
         Network::kind(),
@@ -103,6 +104,6 @@ mod tests {
     #[test]
     fn no_type_is_left_out_for_its_name() {
         super::registry().check().expect("each has a name of its own");
-        assert_eq!(super::registry().kinds().count(), 24 + super::facade::kinds().len());
+        assert_eq!(super::registry().kinds().count(), 25 + super::facade::kinds().len());
     }
 }

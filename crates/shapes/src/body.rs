@@ -57,7 +57,7 @@ impl ShapeBody {
     pub fn quads<'a>(
         &'a self,
         scope: &Scope,
-    ) -> Option<impl Iterator<Item = ([DVec3; 4], &'a SharedStyle)> + use<'a>> {
+    ) -> Option<impl Iterator<Item = ([DVec3; 4], &'a SharedStyle)> + Clone + use<'a>> {
         const PLAIN: &SharedStyle = &None;
         let (rings, styles): (&[[u32; 4]], &[SharedStyle]) = match self {
             Self::Box(styles) => (&BOX_FACES, styles.as_deref().map_or(&[], <[SharedStyle; 6]>::as_slice)),

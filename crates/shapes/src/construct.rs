@@ -41,7 +41,7 @@ impl Shape {
     /// Creates a rectangle with a corner at the origin that looks upwards.
     pub fn rectangle(size: DVec2) -> Self {
         let scope = Scope { size: size.extend(0.0), ..Scope::default() };
-        Self { scope, body: crate::ShapeBody::Rectangle(None) }
+        Self::new(scope, crate::ShapeBody::Rectangle(None))
     }
 
     /// Creates a regular polygon around the origin that looks upwards; fails unless it has 3 to 1024 sides.
@@ -59,7 +59,7 @@ impl Shape {
         }
         let mut solid = Self::disk(radius, sides)?.taper(height, top / radius)?;
         solid = solid.with_styles(|_| None);
-        Ok(Self { scope: solid.scope, body: solid.body })
+        Ok(solid)
     }
 
     /// Creates a sphere around the origin, with `sides` meridians and half as many rows.
@@ -140,8 +140,9 @@ impl Shape {
     pub fn of_parts<'a>(parts: impl IntoIterator<Item = (&'a Part, Option<[f32; 4]>)>) -> Option<Self> {
         let mut mesh = PolygonMesh::default();
         for (part, color) in parts {
-            let style = color
-                .map(|color| std::sync::Arc::new(crate::FaceStyle { tags: Vec::new(), color: Some(color) }));
+            let style = color.map(|color| {
+                std::sync::Arc::new(crate::FaceStyle { color: Some(color), ..crate::FaceStyle::default() })
+            });
             let base = u32::try_from(mesh.points.len()).unwrap_or(u32::MAX);
             mesh.points.extend(part.positions.iter().map(|at| at.as_dvec3()));
             mesh.faces.extend(

@@ -9,6 +9,7 @@ use glam::{DMat3, DVec3};
 use crate::body::TOP;
 use crate::mesh::PolygonMesh;
 use crate::style::{FaceStyle, SharedStyle};
+use crate::trim_planes::TrimFace;
 use crate::{Scope, ShapeBody};
 
 /// A solid, faces or an edge, with a scope. A shape never changes.
@@ -26,15 +27,22 @@ pub struct Shape {
     pub scope: Scope,
     /// Geometry.
     pub body: ShapeBody,
+    /// Face of a solid that this face or part of a face was.
+    pub(crate) trim: Option<Arc<TrimFace>>,
 }
 
 /// Smallest extent (m) along an axis that is not 0.
 const THINNEST: f64 = 1e-6;
 
 impl Shape {
+    /// Creates a shape of a body in a scope.
+    pub(crate) fn new(scope: Scope, body: ShapeBody) -> Self {
+        Self { scope, body, trim: None }
+    }
+
     /// Creates a box with a corner at the origin.
     pub fn cuboid(size: DVec3) -> Self {
-        Self { scope: Scope { size, ..Scope::default() }, body: ShapeBody::Box(None) }
+        Self::new(Scope { size, ..Scope::default() }, ShapeBody::Box(None))
     }
 
     /// Creates a shape of faces, with a scope of these axes around them. Boxes and rectangles that fill it are recognised.
@@ -46,9 +54,9 @@ impl Shape {
             }
         }
         if let Some(style) = rectangle_style(&mesh, &scope) {
-            return Self { scope, body: ShapeBody::Rectangle(style) };
+            return Self::new(scope, ShapeBody::Rectangle(style));
         }
-        Self { scope, body: ShapeBody::Mesh(Arc::new(mesh)) }
+        Self::new(scope, ShapeBody::Mesh(Arc::new(mesh)))
     }
 
     /// Creates the face of a polygon in the plane of a scope's x and y axes, with a scope around it.
@@ -142,7 +150,7 @@ impl Shape {
                 ShapeBody::Mesh(Arc::new(new))
             }
         };
-        Self { scope: self.scope, body }
+        Self { scope: self.scope, body, trim: self.trim.clone() }
     }
 
     /// Returns the approximate memory (bytes).

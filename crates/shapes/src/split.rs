@@ -74,13 +74,13 @@ impl Shape {
                     }
                     let scope = self.scope.slab(axis, [part.from, part.to]);
                     let body = ShapeBody::Box(styles.of(part.from <= 0.0, part.to >= whole));
-                    split.parts.push((part.entry, Self { scope, body }));
+                    split.parts.push((part.entry, Self::new(scope, body)));
                 }
             }
             ShapeBody::Rectangle(_) | ShapeBody::Edge(..) if axis < 2 => {
                 split.parts.extend(parts.iter().map(|part| {
                     let scope = self.scope.slab(axis, [part.from, part.to]);
-                    (part.entry, Self { scope, body: self.body.clone() })
+                    (part.entry, Self { scope, ..self.clone() })
                 }));
             }
             _ => self.split_mesh(axis, &parts, &mut split)?,
@@ -105,7 +105,7 @@ impl Shape {
             split.open |= halves.open;
             if let Some(mesh) = halves.below {
                 MemoryOwner::ensure_room(mesh.memory())?;
-                split.parts.push((part.entry, Self::of_mesh(mesh, self.scope.axes)));
+                split.parts.push((part.entry, Self::of_mesh(mesh, self.scope.axes).with_trim_of(self)));
             }
             let Some(above) = halves.above else { break };
             rest = above;
@@ -117,7 +117,7 @@ impl Shape {
     /// could not be closed.
     pub fn cut(&self, plane: &CutPlane) -> Result<([Option<Self>; 2], bool)> {
         let halves = plane.cut(&self.mesh(), &None)?;
-        let shape = |mesh| Self::of_mesh(mesh, self.scope.axes);
+        let shape = |mesh| Self::of_mesh(mesh, self.scope.axes).with_trim_of(self);
         Ok(([halves.below.map(shape), halves.above.map(shape)], halves.open))
     }
 

@@ -1,17 +1,27 @@
-//! Tags and colours of faces.
+//! Tags, colours and materials of faces.
 
 use std::sync::Arc;
 
-/// Tags and colour of a face.
+use burgeon_scene::Material;
+
+use crate::UvMap;
+
+/// Tags and appearance of a face.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct FaceStyle {
     /// Tags, such as "roof.slope", in alphabetical order.
     pub tags: Vec<Arc<str>>,
     /// Linear colour with opacity, if the face has its own.
     pub color: Option<[f32; 4]>,
+    /// Material, if the face has its own.
+    pub material: Option<Arc<Material>>,
+    /// Projection of texture coordinates; metres in the plane of the face if `None`.
+    pub uv: Option<UvMap>,
+    /// Largest angle (radians) to a neighbour across which the face is drawn smooth.
+    pub smooth: Option<f64>,
 }
 
-/// Style that several faces share; `None` without tags and colour.
+/// Style that several faces share; `None` without any.
 pub type SharedStyle = Option<Arc<FaceStyle>>;
 
 impl FaceStyle {
@@ -40,13 +50,27 @@ impl FaceStyle {
         let own = style.as_deref()?;
         let tags: Vec<Arc<str>> =
             own.tags.iter().filter(|tag| !matches_tag(pattern, tag)).map(Arc::clone).collect();
-        (!tags.is_empty() || own.color.is_some()).then(|| Arc::new(Self { tags, color: own.color }))
+        let rest = Self { tags, ..own.clone() };
+        (rest != Self::default()).then(|| Arc::new(rest))
     }
 
     /// Returns `style` in another colour.
     pub fn with_color(style: &SharedStyle, color: [f32; 4]) -> SharedStyle {
         let own = style.as_deref().cloned().unwrap_or_default();
         Some(Arc::new(Self { color: Some(color), ..own }))
+    }
+
+    /// Returns `style` with another material, in its colour.
+    pub fn with_material(style: &SharedStyle, material: &Arc<Material>) -> SharedStyle {
+        let own = style.as_deref().cloned().unwrap_or_default();
+        Some(Arc::new(Self { material: Some(Arc::clone(material)), color: None, ..own }))
+    }
+
+    /// Returns `style` that is smooth across edges up to an angle (radians), or flat with 0.
+    pub fn with_smooth(style: &SharedStyle, angle: f64) -> SharedStyle {
+        let own = style.as_deref().cloned().unwrap_or_default();
+        let smooth = (angle > 0.0).then_some(angle);
+        Some(Arc::new(Self { smooth, ..own }))
     }
 
     /// Returns true if a tag matches `pattern`.

@@ -56,7 +56,7 @@ const COUNTS: [&str; 46] = [
 ];
 
 /// Fractions, probabilities, weights and factors.
-const FACTORS: [&str; 69] = [
+const FACTORS: [&str; 72] = [
     ".amount",
     ".metallic",
     ".noise",
@@ -107,6 +107,9 @@ const FACTORS: [&str; 69] = [
     "rule.weight",
     "shadow_voxels.decay",
     "shadow_voxels.strength",
+    "shape:project.offset",
+    "shape:reduce share",
+    "shape:sweep.scale",
     "shape:taper scale",
     "surface.weights",
     "surface:mix t",

@@ -5,6 +5,7 @@ use std::sync::LazyLock;
 use burgeon_kit::{Argument, Field};
 
 use super::name::{Name, Operator, field, options};
+use super::shapes::shape_functions;
 use super::systems::{DERIVE, DERIVED, LSYSTEM, NOW, RULE, SYSTEM};
 use crate::form::argument;
 
@@ -186,41 +187,8 @@ pub(super) fn names() -> Vec<Name> {
         .form([argument("...", "Vector | Geometry")], "Geometry")
         .pure(),
     ]);
-    names.extend(shapes());
+    names.extend(shape_functions());
     names
-}
-
-/// Returns the functions that create shapes.
-fn shapes() -> [Name; 7] {
-    let length = |name: &'static str| argument(name, "number");
-    let sides = || argument("sides", "number?");
-    [
-        Name::global(
-            "shape",
-            "Creates a shape: a face of a polygon at a `height` (m, 0 unless given), the shape of a model, a mesh of { points = \
-             { vec(...) }, faces = { { 1, 2, 3 } } }, or one shape of a list of shapes; see the type shape.",
-        )
-        .form([argument("from", "any"), argument("height", "number?")], "Shape")
-        .pure(),
-        Name::global("cuboid", "Creates a solid box with a corner at the origin, of size `x` (m), `y` (m) and `z` (m).")
-            .form([length("x"), length("y"), length("z")], "Shape")
-            .pure(),
-        Name::global("rectangle", "Creates a face that looks upwards, with a corner at the origin, of size `x` (m) and `y` (m).")
-            .form([length("x"), length("y")], "Shape")
-            .pure(),
-        Name::global("disk", "Creates a face that looks upwards: a regular polygon with `radius` (m) and `sides`, 32 unless given.")
-            .form([length("radius"), sides()], "Shape")
-            .pure(),
-        Name::global("cylinder", "Creates an upright solid cylinder with `radius` (m), `height` (m) and `sides`, 32 unless given.")
-            .form([length("radius"), length("height"), sides()], "Shape")
-            .pure(),
-        Name::global("cone", "Creates an upright solid cone with `radius` (m), `height` (m) and `sides`, 32 unless given.")
-            .form([length("radius"), length("height"), sides()], "Shape")
-            .pure(),
-        Name::global("ball", "Creates a solid ball around the origin with `radius` (m) and `sides`, 32 unless given.")
-            .form([length("radius"), sides()], "Shape")
-            .pure(),
-    ]
 }
 
 /// Creates a random distribution with these arguments, and a random stream as the last argument.

@@ -7,6 +7,7 @@ mod burgeon;
 mod list;
 mod luau;
 mod name;
+mod shapes;
 mod standard;
 mod systems;
 

@@ -15,7 +15,7 @@ use super::object::ShapeObject;
 const SIDES: u32 = 32;
 
 /// Returns the functions.
-pub(super) fn constructors() -> [Constructor; 7] {
+pub(super) fn constructors() -> [Constructor; 8] {
     [
         Constructor { name: "shape", make: shape },
         Constructor { name: "cuboid", make: cuboid },
@@ -24,6 +24,7 @@ pub(super) fn constructors() -> [Constructor; 7] {
         Constructor { name: "cylinder", make: cylinder },
         Constructor { name: "cone", make: cone },
         Constructor { name: "ball", make: ball },
+        Constructor { name: "text", make: super::text::text },
     ]
 }
 

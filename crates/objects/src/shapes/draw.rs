@@ -1,14 +1,17 @@
 //! Drawing of shapes.
 
+use std::sync::Arc;
+
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::{Color, Drawing};
 use burgeon_scene::{Material, Part, SurfaceMeaning};
-use burgeon_shapes::{FaceStyle, PolygonFace, PolygonMesh, Scope, ShapeBody, SharedStyle};
-use glam::{DAffine3, DMat3, DVec3};
+use burgeon_shapes::{FaceStyle, PolygonMesh, Scope, ShapeBody, SharedStyle};
+use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use super::object::ShapeObject;
+use super::smooth_normals::SmoothNormals;
 
 /// Number of faces between two checks for cancellation.
 const STRETCH: usize = 4096;
@@ -16,9 +19,9 @@ const STRETCH: usize = 4096;
 /// Target of the faces of a shape.
 pub(crate) struct ShapeTarget<'a> {
     pub drawing: &'a mut Drawing,
-    /// Material of the faces.
+    /// Material of the faces without a material of their own.
     pub base: &'a Material,
-    /// Colour of faces without a colour of their own, if it differs from that of the material.
+    /// Colour of the faces without a colour or a material of their own, if it differs from that of the material.
     pub color: Option<Color>,
 }
 
@@ -44,8 +47,8 @@ pub(crate) fn draw_building(
     })
 }
 
-/// Draws the faces of a shape at `transform`. Texture coordinates are
-/// metres in the plane of each face, x to the right seen from outside and y upwards.
+/// Draws the faces of a shape at `transform`. Texture coordinates are metres in the plane of each face, x to the right seen
+/// from outside and y upwards, unless a projection gives others.
 ///
 /// Returns a warning if the shape draws nothing.
 pub(crate) fn draw_shape(
@@ -69,51 +72,70 @@ fn draw(
         let help = "sweep a section along it: an extruder at its position, with its length";
         return Ok(Some(Warning::new(WarningKind::DrawsNothing, text).help(help)));
     }
-    let mut parts = ColoredParts { to, last: None };
+    let mut parts = StyledParts { to, last: None };
     // Most shapes of a facade are rectangles and boxes, which need no mesh.
-    if let Some(quads) = shape.body.quads(&shape.scope) {
+    let is_plain = |style: &SharedStyle| {
+        style.as_deref().is_none_or(|style| style.uv.is_none() && style.smooth.is_none())
+    };
+    if let Some(quads) = shape.body.quads(&shape.scope)
+        && quads.clone().all(|(_, style)| is_plain(style))
+    {
         for (corners, style) in quads {
-            draw_quad(
-                parts.part(style, meaning(style)),
-                corners.map(|corner| transform.transform_point3(corner)),
-            )?;
+            let corners = corners.map(|corner| transform.transform_point3(corner));
+            draw_quad(parts.part(style, meaning(style)), corners)?;
         }
         return Ok(None);
     }
     let mesh = shape.mesh();
+    let smooth = SmoothNormals::of(&mesh);
     for (number, face) in mesh.faces.iter().enumerate() {
         if number.is_multiple_of(STRETCH) {
             Stop::check_current()?;
         }
-        draw_face(parts.part(&face.style, meaning(&face.style)), &mesh, face, transform)?;
+        let tile = parts.tile(&face.style);
+        let part = parts.part(&face.style, meaning(&face.style));
+        draw_face(part, (&mesh, number), transform, tile, smooth.as_ref())?;
     }
     Ok(None)
 }
 
-/// Parts of a drawing by the colours of faces.
-struct ColoredParts<'a> {
+/// Colour and material of a face, by the address of the material.
+type FaceLook = (Option<[f32; 4]>, Option<*const Material>);
+
+/// Parts of a drawing by the colours and materials of faces.
+struct StyledParts<'a> {
     to: ShapeTarget<'a>,
-    /// Colour of the last face, and the index of its part.
-    last: Option<(Option<[f32; 4]>, usize)>,
+    /// Look of the last face, and the index of its part: faces of the same look often follow each other.
+    last: Option<(FaceLook, usize)>,
 }
 
-impl ColoredParts<'_> {
+impl StyledParts<'_> {
     /// Returns the part for a face with this style, and marks its surface with the meaning.
     fn part(&mut self, style: &SharedStyle, meaning: Option<SurfaceMeaning>) -> &mut Part {
-        let color = style.as_deref().and_then(|style| style.color).or(self.to.color.map(|color| color.0));
-        let ShapeTarget { drawing, base, .. } = &mut self.to;
+        let ShapeTarget { drawing, base, color } = &mut self.to;
+        let own = style.as_deref().and_then(|style| style.material.as_ref());
+        let given = if own.is_none() { color.map(|color| color.0) } else { None };
+        let color = style.as_deref().and_then(|style| style.color).or(given);
+        let look = (color, own.map(Arc::as_ptr));
+        let material: &Material = own.map_or(*base, |own| own);
         let index = match self.last {
-            Some((last, index)) if last == color => index,
+            Some((last, index)) if last == look => index,
             _ => match color {
-                Some(color) => drawing.material(&Material { base_color: color, ..base.clone() }),
-                None => drawing.material(base),
+                Some(color) => drawing.material(&Material { base_color: color, ..material.clone() }),
+                None => drawing.material(material),
             },
         };
-        self.last = Some((color, index));
+        self.last = Some((look, index));
         match meaning {
             Some(meaning) => drawing.surface(index, meaning),
             None => drawing.part(index),
         }
+    }
+
+    /// Returns the size (m) of a repetition of the image on a face with this style.
+    fn tile(&self, style: &SharedStyle) -> DVec2 {
+        let own = style.as_deref().and_then(|style| style.material.as_deref());
+        own.unwrap_or(self.to.base).texture.as_ref().map_or(DVec2::ONE, |texture| texture.size.into())
     }
 }
 
@@ -128,10 +150,44 @@ fn draw_quad(part: &mut Part, corners: [DVec3; 4]) -> Result<()> {
     let base = first_vertex(part, 4)?;
     part.make_room(4, 2);
     for at in corners {
-        add_vertex(part, at, normal, &axes);
+        add_vertex(part, at, normal, in_plane(at, &axes));
     }
     add_triangle(part, [base, base + 1, base + 2]);
     add_triangle(part, [base, base + 2, base + 3]);
+    Ok(())
+}
+
+/// Adds the triangles of a face.
+fn draw_face(
+    part: &mut Part,
+    (mesh, number): (&PolygonMesh, usize),
+    transform: &DAffine3,
+    tile: DVec2,
+    smooth: Option<&SmoothNormals>,
+) -> Result<()> {
+    let face = &mesh.faces[number];
+    let own = mesh.normal(face);
+    let normal = transform.transform_vector3(own).normalize_or_zero();
+    if normal == DVec3::ZERO {
+        return Ok(());
+    }
+    let axes = Scope::face_axes(normal, DMat3::IDENTITY);
+    let map = face.style.as_deref().and_then(|style| style.uv).filter(|map| map.shows(own));
+    let count = face.rings.iter().map(Vec::len).sum();
+    let base = first_vertex(part, count)?;
+    let triangles = mesh.corner_triangles(face)?;
+    part.make_room(count, triangles.len());
+    for point in face.rings.iter().flatten() {
+        let at = transform.transform_point3(mesh.at(*point));
+        let turned = smooth.and_then(|smooth| smooth.at(mesh, number, *point));
+        let turned = turned.map_or(normal, |turned| transform.transform_vector3(turned).normalize_or(normal));
+        // Coordinates of a scene are metres on the image at its real size.
+        let uv = map.map_or_else(|| in_plane(at, &axes), |map| map.at(mesh.at(*point)) * tile);
+        add_vertex(part, at, turned, uv);
+    }
+    for corners in triangles {
+        add_triangle(part, corners.map(|corner| base + corner));
+    }
     Ok(())
 }
 
@@ -142,11 +198,16 @@ fn first_vertex(part: &Part, count: usize) -> Result<u32> {
         .map_err(|_| Error::limit(Limit::Size, "a mesh has too many vertices"))
 }
 
+/// Returns the coordinates (m) of a position along the x and the y axis.
+fn in_plane(at: DVec3, axes: &DMat3) -> DVec2 {
+    DVec2::new(at.dot(axes.x_axis), at.dot(axes.y_axis))
+}
+
 /// Adds a vertex of a face at `at` (m).
-fn add_vertex(part: &mut Part, at: DVec3, normal: DVec3, axes: &DMat3) {
+fn add_vertex(part: &mut Part, at: DVec3, normal: DVec3, uv: DVec2) {
     part.positions.push(at.as_vec3());
     part.normals.push(normal.into());
-    part.uvs.push(glam::DVec2::new(at.dot(axes.x_axis), at.dot(axes.y_axis)).as_vec2());
+    part.uvs.push(uv.as_vec2());
 }
 
 /// Adds a triangle, unless corners coincide at the precision of files.
@@ -155,24 +216,4 @@ fn add_triangle(part: &mut Part, [a, b, c]: [u32; 3]) {
     if at(a) != at(b) && at(b) != at(c) && at(c) != at(a) {
         part.triangles.push([a, b, c]);
     }
-}
-
-/// Adds the triangles of a face.
-fn draw_face(part: &mut Part, mesh: &PolygonMesh, face: &PolygonFace, transform: &DAffine3) -> Result<()> {
-    let normal = transform.transform_vector3(mesh.normal(face)).normalize_or_zero();
-    if normal == DVec3::ZERO {
-        return Ok(());
-    }
-    let axes = Scope::face_axes(normal, DMat3::IDENTITY);
-    let count = face.rings.iter().map(Vec::len).sum();
-    let base = first_vertex(part, count)?;
-    let triangles = mesh.corner_triangles(face)?;
-    part.make_room(count, triangles.len());
-    for point in face.rings.iter().flatten() {
-        add_vertex(part, transform.transform_point3(mesh.at(*point)), normal, &axes);
-    }
-    for corners in triangles {
-        add_triangle(part, corners.map(|corner| base + corner));
-    }
-    Ok(())
 }

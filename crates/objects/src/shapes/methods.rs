@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use burgeon_base::error::{Error, Result};
+use burgeon_base::error::{Error, ErrorKind, Result};
 use burgeon_geometry::Rings;
 use burgeon_kit::{Color, TableOf, Value, Vector, methods};
 use burgeon_shapes::{CutPlane, EdgeKind, FaceStyle, Selector, Shape, ShapeBody, SolidOperation};
@@ -16,6 +16,10 @@ use super::options::{ScatterOptions, ShapeRoofOptions};
 use super::part_sizes::SplitSizes;
 use super::relations::ShapeOrPlace;
 use super::support::{read_selector, split_axis, unit, warn_of_split};
+use super::sweep_path::{SweepPathOptions, SweepPoints};
+use super::tiles::{ProjectOptions, TileLength};
+use super::trimming::TrimOptions;
+use crate::MaterialOptions;
 
 #[methods("shape")]
 impl ShapeObject {
@@ -176,6 +180,37 @@ impl ShapeObject {
         self.with_shape(self.shape.with_styles(|style| FaceStyle::with_color(style, color.0)))
     }
 
+    /// Returns the shape with faces of another material, such as { texture = "brick.png", texture_size = { 2, 1 } }. A later
+    /// colour multiplies the texture.
+    pub fn material(&self, material: MaterialOptions) -> Result<Self> {
+        let material = Arc::new(material.material()?);
+        Ok(self.with_shape(self.shape.with_styles(|style| FaceStyle::with_material(style, &material))))
+    }
+
+    /// Returns the shape with the image of its material projected onto its faces: tiles of `width` (m) and `height` (m) along x
+    /// and y of the scope, from its corner; "~2" stands for whole tiles of about 2 m. Cuts and movements keep the
+    /// image in its place on the faces. Faces along the direction of projection keep tiles of the size of the material.
+    pub fn project(
+        &self,
+        width: TileLength,
+        height: TileLength,
+        options: Option<TableOf<ProjectOptions>>,
+    ) -> Result<Self> {
+        self.with_tiles([width, height], &options.unwrap_or_default().read()?)
+    }
+
+    /// Returns the shape drawn smooth across edges whose faces turn by at most `angle` (degrees, 40 unless given): round
+    /// columns and domes. 0 draws flat faces. Only the shading changes.
+    pub fn smooth(&self, angle: Option<f64>) -> Result<Self> {
+        let angle = angle.unwrap_or(40.0);
+        if !(0.0..=180.0).contains(&angle) {
+            return Err(Error::argument(format!("shape:smooth: the angle is {angle} degrees"))
+                .help("use an angle from 0 to 180 degrees"));
+        }
+        let angle = angle.to_radians();
+        Ok(self.with_shape(self.shape.with_styles(|style| FaceStyle::with_smooth(style, angle))))
+    }
+
     /// Returns the parts along an axis of the scope, "x", "y" or "z", in ascending order.
     ///
     /// `sizes` is a list: a number (m), "30%" of the whole, "~3" for a flexible size that shares the rest, "3*" or "~3*"
@@ -207,6 +242,13 @@ impl ShapeObject {
             );
         }
         Ok(below.map(|part| self.with_shape(part)))
+    }
+
+    /// Returns the shape, such as a brick on `face`, cut by the planes that bisect the angles between this face and its
+    /// neighbours in the solid that it was taken from; nil if nothing remains. So solids on neighbouring faces meet at corners
+    /// and hips. Parts of a face have the planes of the whole face, also after movements.
+    pub fn trim_to(&self, face: Arc<Self>, options: Option<TableOf<TrimOptions>>) -> Result<Option<Self>> {
+        self.trim_at(&face, &options.unwrap_or_default().read()?)
     }
 
     /// Returns the part of faces within a rectangle along the axes of the scope, from `x` (m) and `y` (m) with `width` (m) and
@@ -315,6 +357,13 @@ impl ShapeObject {
         Ok(self.with_shape(self.shape.molding(&profile).map_err(|error| error.about("shape:molding"))?))
     }
 
+    /// Returns the solid that a profile sweeps along a path: a list of positions (m), a curve or an edge. The profile is a face
+    /// around the origin of the ground plane, such as disk(0.1): x is to the right of the path, y upwards. Faces have the
+    /// tags "sweep.start", "sweep.side" and "sweep.end".
+    pub fn sweep(&self, path: SweepPoints, options: Option<TableOf<SweepPathOptions>>) -> Result<Self> {
+        self.sweep_along(path, &options.unwrap_or_default().read()?)
+    }
+
     /// Returns the solid between a face and another one with as many corners.
     pub fn loft(&self, other: Arc<Self>) -> Result<Self> {
         Ok(self.with_shape(self.shape.loft(&other.shape).map_err(|error| error.about("shape:loft"))?))
@@ -371,6 +420,46 @@ impl ShapeObject {
         let strips: Vec<&Shape> = border.iter().collect();
         let Some(joined) = Shape::join(&strips)? else { return Ok(Vec::new()) };
         Ok(self.parts(joined.recompose()?.faces(&Selector::All)?))
+    }
+
+    /// Returns the faces that the shape covers seen from above, at `height` (m, the bottom of the shape unless given); nil if
+    /// all faces are upright.
+    pub fn ground_plan(&self, height: Option<f64>) -> Result<Option<Self>> {
+        let height = height.unwrap_or_else(|| self.shape.bounds()[0].z);
+        let plan = self.shape.ground_plan(height).map_err(|error| error.about("shape:ground_plan"))?;
+        Ok(plan.map(|plan| self.with_shape(plan)))
+    }
+
+    /// Returns the shape with its faces divided into convex ones without holes. A solid stays a solid.
+    pub fn convexify(&self) -> Result<Self> {
+        Ok(self.with_shape(self.shape.convexify().map_err(|error| error.about("shape:convexify"))?))
+    }
+
+    /// Returns the shape with about `share` of its triangles, of the same points: distant models. Borders and edges between
+    /// colours keep their form as long as possible, and a solid stays a solid.
+    pub fn reduce(&self, share: f64) -> Result<Self> {
+        let (shape, rest) = self.shape.reduce(share).map_err(|error| error.about("shape:reduce"))?;
+        if rest > 1.1 * share {
+            let text =
+                format!("{rest:.3} of the triangles remain, not {share}, since no other can be removed");
+            warn("reduce", &text, "use a larger share, or a simpler shape");
+        }
+        Ok(self.with_shape(shape))
+    }
+
+    /// Returns a face with right angles: edges within `angle` (degrees, 10 unless given) of the axes of its scope become
+    /// parallel to them. If the face would cross itself or change by more than a quarter, a warning says so, and the face
+    /// is returned as it is.
+    pub fn rectify(&self, angle: Option<f64>) -> Result<Self> {
+        match self.shape.rectify(angle.unwrap_or(10.0).to_radians()) {
+            Ok(face) => Ok(self.with_shape(face)),
+            Err(error) if *error.kind() != ErrorKind::Geometry => Err(error.about("shape:rectify")),
+            Err(error) => {
+                let text = format!("{}; the face is kept", error.message());
+                warn("rectify", &text, error.remedy().unwrap_or("use a smaller angle"));
+                Ok(self.clone())
+            }
+        }
     }
 
     /// Returns the rest of a face with this `area` (m²) after all edges moved inwards by the same distance.
@@ -443,12 +532,19 @@ impl ShapeObject {
         Ok(self.parts((0..count).map(|number| self.shape.translate(offset.0 * f64::from(number)))))
     }
 
-    /// Returns `count` positions (m) on the faces, uniformly distributed.
+    /// Returns `count` positions (m) on the faces, in the volume or in the scope, uniformly distributed.
     pub fn scatter(&self, count: u32, options: Option<TableOf<ScatterOptions>>) -> Result<Vec<Vector>> {
-        let seed = options.unwrap_or_default().read()?.seed.to_bits();
-        let points =
-            self.shape.scatter(count as usize, seed).map_err(|error| error.about("shape:scatter"))?;
-        Ok(points.into_iter().map(|(at, _)| Vector(at)).collect())
+        let ScatterOptions { seed, within } = options.unwrap_or_default().read()?;
+        let (count, seed) = (count as usize, seed.to_bits());
+        let points = match within.as_str() {
+            "faces" => self.shape.scatter(count, seed).map(|all| all.into_iter().map(|(at, _)| at).collect()),
+            "volume" => self.shape.scatter_inside(count, seed),
+            "scope" => self.shape.scatter_in_scope(count, seed),
+            other => Err(Error::argument(format!("unknown place {other:?}"))
+                .help("use within = \"faces\", \"volume\" or \"scope\"")),
+        };
+        let points: Vec<DVec3> = points.map_err(|error| error.about("shape:scatter"))?;
+        Ok(points.into_iter().map(Vector).collect())
     }
 
     /// Returns the union with another solid. If the operation fails, a warning says so, and this solid is returned.

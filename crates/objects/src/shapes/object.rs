@@ -104,6 +104,7 @@ impl ObjectContent for ShapeObject {
             && self.values == other.values
             && self.place == other.place
             && self.matching == other.matching
+            && self.shape.has_trim_of(&other.shape)
             && match (&self.shape.body, &other.shape.body) {
                 (ShapeBody::Box(a), ShapeBody::Box(b)) => a == b,
                 (ShapeBody::Rectangle(a), ShapeBody::Rectangle(b)) => a == b,

@@ -47,7 +47,7 @@ impl Shape {
                 size: DVec3::new(a.distance(b), 0.0, 0.0),
             };
             let style = edge.faces[0].and_then(|face| mesh.faces[face].style.clone());
-            edges.push(Self { scope, body: ShapeBody::Edge(kind, style) });
+            edges.push(Self::new(scope, ShapeBody::Edge(kind, style)));
         }
         edges
     }

@@ -25,6 +25,7 @@ impl Shape {
     /// ```
     pub fn faces(&self, selector: &Selector) -> Result<Vec<Self>> {
         let axes = &self.scope.axes;
+        let source = self.trim_source();
         match &self.body {
             ShapeBody::Edge(..) => Ok(Vec::new()),
             ShapeBody::Rectangle(style) => {
@@ -46,9 +47,10 @@ impl Shape {
                             .abs()
                             <= 1e-9 * (1.0 + scope.size.x * scope.size.y);
                         faces.push(if is_upright {
-                            Self { scope, body: ShapeBody::Rectangle(style) }
+                            Self::new(scope, ShapeBody::Rectangle(style)).with_trim(source.as_ref(), number)
                         } else {
                             Self::of_mesh(self.mesh().select([number]), own)
+                                .with_trim(source.as_ref(), number)
                         });
                     }
                 }
@@ -62,7 +64,13 @@ impl Shape {
                 for number in selected {
                     let part = mesh.select([number]);
                     MemoryOwner::ensure_room(part.memory())?;
-                    faces.push(Self::of_mesh(part, Scope::face_axes(normals[number], *axes)));
+                    let face = Self::of_mesh(part, Scope::face_axes(normals[number], *axes));
+                    // The only face of a shape is the shape itself.
+                    faces.push(if source.is_some() {
+                        face.with_trim(source.as_ref(), number)
+                    } else {
+                        face.with_trim_of(self)
+                    });
                 }
                 Ok(faces)
             }
@@ -105,7 +113,7 @@ impl Shape {
         filled.faces.iter_mut().for_each(|face| face.rings.truncate(1));
         let count = filled.faces.len();
         let filled = PolygonMesh::new(filled.points, filled.faces).select(0..count);
-        Self { scope: self.scope, body: ShapeBody::Mesh(Arc::new(filled)) }
+        Self { scope: self.scope, body: ShapeBody::Mesh(Arc::new(filled)), trim: self.trim.clone() }
     }
 }
 

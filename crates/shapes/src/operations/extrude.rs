@@ -51,7 +51,7 @@ impl Shape {
                 style,
                 if distance > 0.0 { "extrude.top" } else { "extrude.bottom" },
             );
-            return Ok(Self { scope, body: ShapeBody::Box(Some(Arc::new(styles))) });
+            return Ok(Self::new(scope, ShapeBody::Box(Some(Arc::new(styles)))));
         }
         let mesh = self.mesh();
         let normal: DVec3 = mesh.faces.iter().map(|face| mesh.area_vector(face)).sum();

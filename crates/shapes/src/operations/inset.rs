@@ -86,7 +86,9 @@ impl Shape {
             let corners = rings.iter().map(|ring| without_straight_points(ring)).collect();
             Polygon::turned(Rings(corners)).ok()
         });
-        Ok(polygons.map(|polygon| Self::of_polygon(&polygon, &frame, &own_style)).collect())
+        Ok(polygons
+            .map(|polygon| Self::of_polygon(&polygon, &frame, &own_style).with_trim_of(self))
+            .collect())
     }
 
     /// Returns the only face as a polygon, with the frame of its plane.
@@ -125,7 +127,7 @@ impl Shape {
                 axes: glam::DMat3::from_cols(along, out.cross(along), out),
                 size: glam::DVec3::new(a.distance(b), 0.0, 0.0),
             };
-            Self { scope, body: crate::ShapeBody::Edge(crate::EdgeKind::Border, style.clone()) }
+            Self::new(scope, crate::ShapeBody::Edge(crate::EdgeKind::Border, style.clone()))
         });
         edges.collect()
     }
@@ -140,10 +142,16 @@ impl Shape {
                 .border
                 .iter()
                 .map(|(strip, along)| {
-                    Self::of_polygon(strip, frame, &border).along(frame.axes * along.extend(0.0))
+                    Self::of_polygon(strip, frame, &border)
+                        .along(frame.axes * along.extend(0.0))
+                        .with_trim_of(self)
                 })
                 .collect(),
-            inner: strips.inner.iter().map(|rest| Self::of_polygon(rest, frame, &inner)).collect(),
+            inner: strips
+                .inner
+                .iter()
+                .map(|rest| Self::of_polygon(rest, frame, &inner).with_trim_of(self))
+                .collect(),
         }
     }
 }

@@ -130,7 +130,7 @@ impl Shape {
         let style = self.styles().into_iter().next().flatten();
         let ring = vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
         let Ok(rectangle) = Polygon::turned(burgeon_geometry::Rings(vec![ring])) else { return Ok(None) };
-        Ok(Some(Self::of_polygon(&rectangle, &frame, &style)))
+        Ok(Some(Self::of_polygon(&rectangle, &frame, &style).with_trim_of(self)))
     }
 
     /// Returns the part of faces within a rectangle of the scope's x and y axes (m), measured from the scope's position;

@@ -16,7 +16,8 @@ impl Shape {
             ShapeBody::Mesh(mesh) => ShapeBody::Mesh(Arc::new(mesh.translate(|at| at + offset, false))),
             other => other.clone(),
         };
-        Self { scope, body }
+        let frame = DAffine3::from_translation(offset);
+        Self::new(scope, body).with_trim_moved(self, &frame).with_uv_moved(&frame)
     }
 
     /// Returns the shape rotated by `angle` (radians) around an axis through `center` (m).
@@ -30,7 +31,8 @@ impl Shape {
             ShapeBody::Mesh(mesh) => ShapeBody::Mesh(Arc::new(mesh.translate(place, false))),
             other => other.clone(),
         };
-        Self { scope, body }
+        let frame = DAffine3::from_mat3_translation(turn, place(DVec3::ZERO));
+        Self::new(scope, body).with_trim_moved(self, &frame).with_uv_moved(&frame)
     }
 
     /// Returns the shape with a scope of another size (m), scaled from the scope's origin. An extent of 0 stays 0.
@@ -57,7 +59,9 @@ impl Shape {
             }
             other => other.clone(),
         };
-        Ok(Self { scope, body })
+        let stretch = self.scope.axes * DMat3::from_diagonal(factor) * self.scope.axes.transpose();
+        let frame = DAffine3::from_mat3_translation(stretch, self.scope.origin - stretch * self.scope.origin);
+        Ok(Self::new(scope, body).with_trim_moved(self, &frame).with_uv_moved(&frame))
     }
 
     /// Returns the shape moved by a transformation that keeps angles and lengths.
@@ -66,16 +70,20 @@ impl Shape {
         let mirrors = frame.matrix3.determinant() < 0.0;
         let mesh = self.mesh().translate(|at| frame.transform_point3(at), mirrors);
         Self::of_mesh(mesh, if mirrors { self.scope.axes } else { frame.matrix3 * self.scope.axes })
+            .with_trim_moved(self, frame)
+            .with_uv_moved(frame)
     }
 
     /// Returns the shape mirrored at the plane through `point` (m) with a unit normal.
     #[must_use]
     pub fn mirror(&self, point: DVec3, normal: DVec3) -> Self {
         let place = |at: DVec3| at - normal * (2.0 * normal.dot(at - point));
-        match &self.body {
-            ShapeBody::Mesh(mesh) => Self::of_mesh(mesh.translate(place, true), self.scope.axes),
-            _ => Self::of_mesh(self.mesh().translate(place, true), self.scope.axes),
-        }
+        let turn = DMat3::from_cols(DVec3::X, DVec3::Y, DVec3::Z)
+            - DMat3::from_cols(normal * normal.x, normal * normal.y, normal * normal.z) * 2.0;
+        let frame = DAffine3::from_mat3_translation(turn, place(DVec3::ZERO));
+        Self::of_mesh(self.mesh().translate(place, true), self.scope.axes)
+            .with_trim_moved(self, &frame)
+            .with_uv_moved(&frame)
     }
 
     /// Returns the shape with reversed faces.
@@ -95,7 +103,7 @@ impl Shape {
     pub fn align(&self, axes: DMat3) -> Self {
         match &self.body {
             ShapeBody::Edge(..) => self.clone(),
-            _ => Self::of_mesh(self.mesh().into_owned(), axes),
+            _ => Self::of_mesh(self.mesh().into_owned(), axes).with_trim_of(self),
         }
     }
 }

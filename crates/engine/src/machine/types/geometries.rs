@@ -1,12 +1,14 @@
 //! Geometries in scripts: constructors and fields.
 
 use std::cell::RefCell;
+use std::rc::Rc;
 
 use mlua::{AnyUserData, Function, Lua, MultiValue, Table, Value as LuaValue};
 
 use super::ObjectHandle;
 use crate::machine::convert::{to_lua, to_value};
 use crate::machine::{Machine, native, write_column};
+use burgeon_base::warning::take_deferred;
 use burgeon_kit::{Constructor, Kind, Value};
 use burgeon_spatial::{Geometry, GeometryObject};
 
@@ -20,6 +22,7 @@ pub(in crate::machine) fn install_functions(
     globals: &Table,
 ) -> mlua::Result<()> {
     for Constructor { name, make } in kind.functions.iter().copied() {
+        let library = Rc::clone(&machine.library);
         let function = machine.lua().create_function(move |lua, given: MultiValue| {
             let mut values: Vec<Value> = given
                 .iter()
@@ -29,7 +32,12 @@ pub(in crate::machine) fn install_functions(
             while values.last() == Some(&Value::Nil) {
                 values.pop();
             }
-            to_lua(lua, &make(&values).map_err(mlua::Error::external)?, false)
+            take_deferred();
+            let made = make(&values).map_err(mlua::Error::external)?;
+            for warning in take_deferred() {
+                library.machine().map_err(mlua::Error::external)?.warn_of_values(warning);
+            }
+            to_lua(lua, &made, false)
         })?;
         globals.raw_set(name, function)?;
     }

@@ -1,0 +1,69 @@
+//! Functions that create shapes.
+
+use burgeon_kit::Argument;
+
+use super::name::{Name, field, options};
+use crate::form::argument;
+
+/// Returns the functions that create shapes.
+pub(super) fn shape_functions() -> [Name; 8] {
+    let length = |name: &'static str| argument(name, "number");
+    let sides = || argument("sides", "number?");
+    [
+        Name::global(
+            "shape",
+            "Creates a shape: a face of a polygon at a `height` (m, 0 unless given), the shape of a model, a mesh of { points = \
+             { vec(...) }, faces = { { 1, 2, 3 } } }, or one shape of a list of shapes; see the type shape.",
+        )
+        .form([argument("from", "any"), argument("height", "number?")], "Shape")
+        .pure(),
+        Name::global("cuboid", "Creates a solid box with a corner at the origin, of size `x` (m), `y` (m) and `z` (m).")
+            .form([length("x"), length("y"), length("z")], "Shape")
+            .pure(),
+        Name::global("rectangle", "Creates a face that looks upwards, with a corner at the origin, of size `x` (m) and `y` (m).")
+            .form([length("x"), length("y")], "Shape")
+            .pure(),
+        Name::global("disk", "Creates a face that looks upwards: a regular polygon with `radius` (m) and `sides`, 32 unless given.")
+            .form([length("radius"), sides()], "Shape")
+            .pure(),
+        Name::global("cylinder", "Creates an upright solid cylinder with `radius` (m), `height` (m) and `sides`, 32 unless given.")
+            .form([length("radius"), length("height"), sides()], "Shape")
+            .pure(),
+        Name::global("cone", "Creates an upright solid cone with `radius` (m), `height` (m) and `sides`, 32 unless given.")
+            .form([length("radius"), length("height"), sides()], "Shape")
+            .pure(),
+        Name::global("ball", "Creates a solid ball around the origin with `radius` (m) and `sides`, 32 unless given.")
+            .form([length("radius"), sides()], "Shape")
+            .pure(),
+        Name::global(
+            "text",
+            "Creates the letters of a text as faces that look upwards, x along the line and the first line on the x axis. Faces \
+             have the tags \"text.1\", \"text.2\" and so on, by their letter. Lines are separated by \"\\n\".",
+        )
+        .form([argument("letters", "string"), text_options()], "Shape")
+        .pure(),
+    ]
+}
+
+/// Returns the options of `text`.
+fn text_options() -> Argument {
+    let fields = [
+        field("size", "number", "1", "Height of capital letters (m)."),
+        field("font", "Font?", "nil", "Font of a file: font(\"sign.ttf\"); Noto Sans unless given."),
+        field(
+            "align",
+            "string",
+            "\"left\"",
+            "Part of a line that is at x = 0: \"left\", \"center\" or \"right\".",
+        ),
+        field("spacing", "number", "0", "Distance added between letters (m)."),
+        field("line_height", "number?", "nil", "Distance between lines (m); that of the font unless given."),
+        field(
+            "tolerance",
+            "number?",
+            "nil",
+            "Maximum distance of curves from their lines (m); a five hundredth of the size unless given.",
+        ),
+    ];
+    Argument { luau: "{ ... }?".into(), ..options("{ ... }?", fields) }
+}

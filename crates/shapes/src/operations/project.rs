@@ -1,0 +1,74 @@
+//! Projections of texture coordinates on shapes.
+
+use std::sync::Arc;
+
+use glam::DAffine3;
+
+use crate::style::{FaceStyle, SharedStyle};
+use crate::{Shape, ShapeBody, UvMap};
+
+impl Shape {
+    /// Returns the shape with a projection of texture coordinates on all faces.
+    #[must_use]
+    pub fn project(&self, map: UvMap) -> Self {
+        self.with_styles(|style| {
+            let own = style.as_deref().cloned().unwrap_or_default();
+            Some(Arc::new(FaceStyle { uv: Some(map), ..own }))
+        })
+    }
+
+    /// Returns the moved shape with its projections moved, too.
+    #[must_use]
+    pub(crate) fn with_uv_moved(self, frame: &DAffine3) -> Self {
+        let has_map = |style: &SharedStyle| style.as_deref().is_some_and(|own| own.uv.is_some());
+        let any = match &self.body {
+            ShapeBody::Box(styles) => styles.as_deref().is_some_and(|styles| styles.iter().any(has_map)),
+            ShapeBody::Rectangle(style) | ShapeBody::Edge(_, style) => has_map(style),
+            ShapeBody::Mesh(mesh) => mesh.faces.iter().any(|face| has_map(&face.style)),
+        };
+        if !any {
+            return self;
+        }
+        self.with_styles(|style| {
+            let own = style.as_deref()?;
+            let Some(map) = own.uv else { return style.clone() };
+            Some(Arc::new(FaceStyle { uv: Some(map.transform(frame)), ..own.clone() }))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec2, DVec3};
+
+    use super::*;
+    use crate::{PartSize, PartSizes, SizedParts, SplitAxis};
+
+    #[test]
+    fn coordinates_stay_on_a_face_that_is_cut_and_moved() {
+        let wall = Shape::rectangle(DVec2::new(6.0, 3.0));
+        let wall = wall.project(UvMap::of_plane(&wall.scope, [0, 1], DVec2::new(2.0, 1.5)).rotate(0.3));
+        let map = |shape: &Shape| shape.styles()[0].as_ref().and_then(|style| style.uv).expect("a map");
+        let corner = wall.scope.point(wall.scope.size);
+        let before = map(&wall).at(corner);
+        let sizes = PartSizes(vec![SizedParts::Repeated(vec![PartSize::Flexible(1.0)])]);
+        let part = &wall.split(SplitAxis::X, &sizes).expect("parts").parts[5].1;
+        let frame = DAffine3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 1.1);
+        let moved = part.translate(DVec3::new(1.0, 2.0, 3.0)).transform(&frame);
+        let there = moved.scope.point(moved.scope.size);
+        assert!((map(&moved).at(there) - before).length() < 1e-12);
+        let wide = part.resize(DVec3::new(2.0, 3.0, 0.0)).expect("wider");
+        let end = wide.scope.point(wide.scope.size);
+        assert!((map(&wide).at(end) - before).length() < 1e-12, "a stretched face stretches its image");
+    }
+
+    #[test]
+    fn a_rotated_image_keeps_the_size_of_its_tiles() {
+        let scope = Shape::rectangle(DVec2::ONE).scope;
+        let map = UvMap::of_plane(&scope, [0, 1], DVec2::new(2.0, 4.0)).rotate(std::f64::consts::FRAC_PI_2);
+        // After a quarter turn, u runs upwards in tiles of 2 m.
+        assert!((map.at(DVec3::new(0.0, 2.0, 0.0)) - DVec2::X).length() < 1e-12);
+        assert!((map.at(DVec3::new(-4.0, 0.0, 0.0)) - DVec2::Y).length() < 1e-12);
+        assert!(map.shows(DVec3::Z) && !map.shows(DVec3::X));
+    }
+}

@@ -1,0 +1,159 @@
+//! Errors and warnings of shapes: text, sweeps, trim planes, materials and repairs.
+
+use std::fmt::Write as _;
+
+use crate::support::{Folder, refused, without_columns};
+
+/// Returns the error messages for these expressions.
+fn refusals(expressions: &[&str]) -> String {
+    let mut text = String::new();
+    for expression in expressions {
+        let error =
+            refused(&format!("local square = rectangle(1, 1)\nlocal made = {expression}\nprint(made)\n"));
+        let lines: Vec<&str> = error.lines().filter(|line| !line.trim_start().starts_with('|')).collect();
+        let _ = writeln!(text, "{expression}\n{}", lines.join("\n"));
+    }
+    text
+}
+
+/// Returns the warnings of these expressions.
+fn warnings(expressions: &[&str]) -> String {
+    let mut script =
+        String::from("local A = module('A')\nlocal s = lsystem({ object = extruder() })\ns:axiom(A())\n");
+    script.push_str("local square = rectangle(1, 1)\n");
+    for expression in expressions {
+        let _ = writeln!(script, "local _ = {expression}");
+    }
+    script.push_str("s:interpret('A', function(this) this:shape(square) end)\ns:derive()\n");
+    let folder = Folder::new().with("s.lua", script);
+    without_columns(&folder.warned(&["run", "s.lua", "-o", "s.glb"]))
+}
+
+#[test]
+fn texts_that_cannot_be_made_are_refused() {
+    insta::assert_snapshot!(refusals(&[
+        "text()",
+        "text(4)",
+        "text(\"\")",
+        "text(\"a\", { sise = 2 })",
+        "text(\"a\", { size = 0 })",
+        "text(\"a\", { align = \"middle\" })",
+        "text(\"a\", { font = \"serif.ttf\" })",
+        "font(\"s.lua\")",
+        "font(\"missing.ttf\")",
+    ]), @r#"
+    text()
+    error: s.lua:2:14: text takes 1 or 2 arguments, not 0
+      help: write text("Bakery", { size = 0.4 })
+    text(4)
+    error: s.lua:2:14: text: letters must be a string, not 4
+    text("")
+    error: s.lua:2:14: the text has no letters
+      help: give a text with a letter, and ask before: if name ~= "" then
+    text("a", { sise = 2 })
+    error: s.lua:2:26: unknown field `sise` in text
+      help: did you mean size?
+    text("a", { size = 0 })
+    error: s.lua:2:14: text: size is 0 m
+      help: use a length above 0 and below 1e7 m
+    text("a", { align = "middle" })
+    error: s.lua:2:35: text: unknown alignment "middle"
+      help: use "left", "center" or "right"
+    text("a", { font = "serif.ttf" })
+    error: s.lua:2:34: text: font must be a font, loaded once before: font("sign.ttf"), not "serif.ttf"
+    font("s.lua")
+    error: s.lua:2:14: cannot read s.lua: the content is not a font: unknown magic
+      help: use a .ttf or .otf file
+    font("missing.ttf")
+    error: s.lua:2:14: font not found: missing.ttf
+      help: it is looked for from the script's folder; other folders are given with --data FOLDER
+    "#);
+}
+
+#[test]
+fn sweeps_and_images_that_cannot_be_made_are_refused() {
+    insta::assert_snapshot!(refusals(&[
+        "square:sweep({ vec(0, 0, 0) })",
+        "square:sweep({ vec(0, 0, 0), vec(1, 0, 0), vec(0, 0, 0) })",
+        "square:sweep({ vec(0, 0, 0), vec(1, 0, 0) }, { joint = \"round\" })",
+        "square:sweep({ vec(0, 0, 0), vec(1, 0, 0), vec(1, 1, 0) }, { closed = true, twist = 90 })",
+        "square:sweep(square)",
+        "square:rotate(90, vec(1, 0, 0)):sweep({ vec(0, 0, 0), vec(1, 0, 0) })",
+        "square:project(0, 1)",
+        "square:project(1, \"2*\")",
+        "square:project(1, 1, { axes = \"zx\" })",
+        "square:material({ roughness = 2 })",
+        "square:smooth(-1)",
+        "square:scatter(4, { within = \"volume\" })",
+        "square:scatter(4, { within = \"inside\" })",
+    ]), @r#"
+    square:sweep({ vec(0, 0, 0) })
+    error: s.lua:2:21: shape:sweep: the path of a sweep has 1 different points
+      help: give at least 2
+    square:sweep({ vec(0, 0, 0), vec(1, 0, 0), vec(0, 0, 0) })
+    error: s.lua:2:21: shape:sweep: the path of a sweep turns back at point 2
+      help: add points around the turn, or divide the path
+    square:sweep({ vec(0, 0, 0), vec(1, 0, 0) }, { joint = "round" })
+    error: s.lua:2:70: shape:sweep: unknown joint "round"
+      help: use "mitre" or "smooth"
+    square:sweep({ vec(0, 0, 0), vec(1, 0, 0), vec(1, 1, 0) }, { closed = true, twist = 90 })
+    error: s.lua:2:21: shape:sweep: a closed path begins and ends with the same section
+      help: use a twist of 0, 360 or -360 degrees and so on
+    square:sweep(square)
+    error: s.lua:2:21: shape:sweep: path must be a list of positions, such as { vec(0, 0, 1), vec(4, 0, 1) }, a curve or an edge, not a shape
+      help: write this:sweep(path: { Vector } | Curve | Shape, options: { [string]: any }?)
+    square:rotate(90, vec(1, 0, 0)):sweep({ vec(0, 0, 0), vec(1, 0, 0) })
+    error: s.lua:2:46: shape:sweep: the profile of a sweep is not horizontal
+      help: draw it around the origin: disk(0.1), or shape({ { 0, 0 }, { 0.2, 0 }, { 0, 0.1 } })
+    square:project(0, 1)
+    error: s.lua:2:21: shape:project: width must be a length above 0 (m), or "~2" for whole tiles of about 2 m, not 0
+      help: write this:project(width: number | string, height: number | string, options: { [string]: any }?)
+    square:project(1, "2*")
+    error: s.lua:2:33: shape:project: height must be a length above 0 (m), or "~2" for whole tiles of about 2 m, not "2*"
+      help: write this:project(width: number | string, height: number | string, options: { [string]: any }?)
+    square:project(1, 1, { axes = "zx" })
+    error: s.lua:2:45: shape:project: unknown axes "zx"
+      help: use "xy", "xz" or "yz"
+    square:material({ roughness = 2 })
+    error: s.lua:2:21: material: roughness must be from 0 to 1, not 2
+    square:smooth(-1)
+    error: s.lua:2:21: shape:smooth: the angle is -1 degrees
+      help: use an angle from 0 to 180 degrees
+    square:scatter(4, { within = "volume" })
+    error: s.lua:2:21: shape:scatter: the shape is open, so it has no inside
+      help: extrude faces first
+    square:scatter(4, { within = "inside" })
+    error: s.lua:2:44: shape:scatter: unknown place "inside"
+      help: use within = "faces", "volume" or "scope"
+    "#);
+}
+
+#[test]
+fn shapes_that_differ_from_the_request_are_warnings() {
+    insta::assert_snapshot!(warnings(&[
+        "text(\"a漢b\"):face_count()",
+        "text(\"ע\"):face_count()",
+        "square:sweep({ vec(0, 0, 0), vec(3, 0, 0), vec(3, -0.1, 0), vec(0, -0.1, 0) }):volume()",
+        "cuboid(1, 1, 1):trim_to(square):volume()",
+        "square:reduce(0.1)",
+    ]), @r#"
+    warning: s.lua:5: text: the font lacks '漢', so boxes stand for them
+      | local _ = text("a漢b"):face_count()
+      help: use a font that has these letters: font("file.ttf")
+    warning: s.lua:6: text: letters are placed from left to right without joining or reordering them
+      | local _ = text("ע"):face_count()
+      help: use letters of a script that needs neither, or import the text as a model
+    warning: s.lua:6: text: the font lacks 'ע', so boxes stand for them
+      | local _ = text("ע"):face_count()
+      help: use a font that has these letters: font("file.ttf")
+    warning: s.lua:7: shape:sweep: segment 2 of the path is too short for its joints, so the solid crosses itself
+      | local _ = square:sweep({ vec(0, 0, 0), vec(3, 0, 0), vec(3, -0.1, 0), vec(0, -0.1, 0) }):volume()
+      help: use a narrower profile, or a path that turns less sharply
+    warning: s.lua:8: shape:trim_to: the face has no neighbours, so nothing is cut
+      | local _ = cuboid(1, 1, 1):trim_to(square):volume()
+      help: use a face that shape:faces or components took from a solid, or a part of it
+    warning: s.lua:9: shape:reduce: 0.500 of the triangles remain, not 0.1, since no other can be removed
+      | local _ = square:reduce(0.1)
+      help: use a larger share, or a simpler shape
+    "#);
+}
