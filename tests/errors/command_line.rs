@@ -445,6 +445,7 @@ fn help_reads_well() {
           --instances <KIND>      Storage of repeated models in .glb and .gltf files [default: nodes up to 1000 instances, else extension] [possible values: nodes, extension, expanded]
           --no-recipe             Leaves the recipe out of models: the script, its values, and the hashes of its packages and data
           --compress              Compresses the arrays of .glb files, for viewers with EXT_meshopt_compression
+          --quantize              Writes the arrays of .glb and .gltf files as integers, for programs with KHR_mesh_quantization
           --chain <FILE>          Writes the final chains as text, one per line; - is standard output, or the JSON document with --json
           --heights <FILE>        Writes the heights of the terrain as a height map: HEIGHT FORMATS
           --edits <FILE>          Writes the terrain edits, for edits(FILE) in a script

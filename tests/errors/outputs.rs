@@ -291,3 +291,16 @@ fn a_reader_that_goes_away_is_told_nothing() {
     child.wait_with_output().unwrap();
     assert!(is_model(&folder.path().join("a.glb")));
 }
+
+#[test]
+fn integers_and_compression_are_refused_before_the_run_if_no_output_has_them() {
+    let folder = folder();
+    for (option, output) in [("--quantize", "a.obj"), ("--compress", "a.gltf")] {
+        let error = folder.burgeon(&["run", "s.lua", option, "-o", output]).fails(2);
+        assert!(error.contains(&format!("error: {option} applies to ")), "{error}");
+        assert!(!error.contains("it has run") && names(folder.path()) == ["s.lua"], "{error}");
+    }
+    folder.burgeon(&["run", "s.lua", "--quantize", "--compress", "-o", "a.glb", "-o", "b.gltf"]).done();
+    assert!(is_model(&folder.path().join("a.glb")));
+    folder.burgeon(&["run", "s.lua", "--quantize", "--turntable", "2", "-o", "b.glb"]).fails(2);
+}

@@ -71,8 +71,12 @@ pub(crate) struct RunCommand {
     pub(super) no_recipe: bool,
 
     /// Compresses arrays of models
-    #[arg(long, help = compress_help())]
+    #[arg(long, help = compress_help(), conflicts_with = "film")]
     pub(super) compress: bool,
+
+    /// Writes integers to models
+    #[arg(long, help = quantize_help(), conflicts_with = "film")]
+    pub(super) quantize: bool,
 
     /// Writes the final chains as text, one per line; - is standard output, or the JSON document with --json
     #[arg(long, value_name = "FILE")]
@@ -151,6 +155,12 @@ fn instances_help() -> String {
 
 fn compress_help() -> String {
     format!("Compresses the arrays of .{} files, for viewers with EXT_meshopt_compression", GLB.extension())
+}
+
+fn quantize_help() -> String {
+    let is_gltf = |format: &&Format| format.media_type.starts_with("model/gltf");
+    let formats = extension_list(FORMATS.iter().filter(is_gltf), "and");
+    format!("Writes the arrays of {formats} files as integers, for programs with KHR_mesh_quantization")
 }
 
 fn heights_help() -> String {
