@@ -57,6 +57,7 @@ pub use format::{FileFormat, Format, Need, extension_list};
 pub use formats::{FORMATS, GLB, PNG};
 pub use level_storage::LevelStorage;
 pub use levels::LevelModel;
+pub use page::{PAGE_TRIANGLES, refused_page};
 pub use recipe::read_recipe;
 pub use render::png;
 pub use temporary::abandon;
