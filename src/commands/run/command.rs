@@ -13,11 +13,13 @@ use crate::commands::report;
 use crate::commands::shared::{STANDARD, ScriptFlags, end_on_interrupt, shell_word, size};
 use burgeon::export::films::FilmFormat;
 use burgeon::export::heights::{HEIGHT_FORMATS, HeightFormat};
-use burgeon::export::{FORMATS, FileFormat, Format, GLB, InstanceStorage, Need, extension_list};
+use burgeon::export::{
+    FORMATS, FileFormat, Format, GLB, InstanceStorage, Need, PAGE_TRIANGLES, extension_list, refused_page,
+};
 use burgeon::picture::{CameraChoice, is_inside};
 use burgeon::presets::Presets;
 use burgeon::results::layers;
-use burgeon::script::{Param, Preset, RunOptions, Session};
+use burgeon::script::{FileLimit, Param, Preset, Print, RunOptions, Session};
 use burgeon::{Error, Result, Warning, WarningKind};
 use clap::builder::ArgPredicate;
 use clap::{Args, ValueEnum};
@@ -106,6 +108,10 @@ pub(crate) struct RunCommand {
     /// Runs and writes again on every save, until interrupted
     #[arg(long)]
     watch: bool,
+
+    /// Prints file and line before each text that the script prints
+    #[arg(long)]
+    places: bool,
 
     #[command(flatten)]
     pub(super) detail: LevelFlags,
@@ -266,8 +272,25 @@ impl RunCommand {
         let records = self.metadata.is_some() || self.writes(Need::Attributes);
         let mut options = self.script.options()?;
         options.reports.records = records;
+        self.place_prints(&mut options);
         options.limits.whole_program = true;
+        if self
+            .output
+            .iter()
+            .any(|output| Format::of(output).is_ok_and(|format| format.media_type == "text/html"))
+        {
+            let ((message, help), triangles) = (refused_page(), PAGE_TRIANGLES as usize);
+            options.limits.file = Some(Arc::new(FileLimit { triangles, message, help: help.into() }));
+        }
         Ok(options)
+    }
+
+    /// Lets the script print with places, if they are wanted.
+    pub(super) fn place_prints(&self, options: &mut RunOptions) {
+        if self.places {
+            options.reports.print =
+                Some(Print::with_places(|text, place| report::printed_at(text, place.as_ref())));
+        }
     }
 
     /// Runs `session`, writes all outputs and reports the result, unless the run is `stale` before anything is written.
