@@ -154,6 +154,7 @@ def read_usd(path):
 CLIENTS = [
     ("glb", ["--instances", "nodes"], "trimesh", read_trimesh, 1, True),
     ("glb", ["--instances", "expanded"], "trimesh", read_trimesh, 1, True),
+    ("glb", ["--instances", "nodes", "--quantize"], "trimesh", read_trimesh, 1, True),
     ("glb", ["--instances", "nodes"], "assimp_py", read_assimp, 1, True),
     ("glb", ["--instances", "expanded"], "assimp_py", read_assimp, 1, True),
     ("obj", [], "trimesh", read_trimesh, 1, True),
