@@ -133,7 +133,7 @@ pub(super) fn write<'a>(
         transform.translation -= checked.origin;
         let mut transform = y_up(&transform);
         if let (Some(grids), Some(rounding)) = (&grids, &mut rounding) {
-            transform = transform * grids[instance.mesh].transform();
+            transform *= grids[instance.mesh].transform();
             *rounding = grid_rounding(&transform).max(*rounding);
         }
         let at = group;
