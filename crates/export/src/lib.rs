@@ -54,7 +54,7 @@ pub use city::write_city_sequence;
 pub use facts::{Export, InstanceStorage, SceneFacts, SystemFacts};
 pub use files::{Files, OpenFile, Out, Stoppable};
 pub use format::{FileFormat, Format, Need, extension_list};
-pub use formats::{FORMATS, GLB, PNG};
+pub use formats::{FORMATS, GLB, PAGE, PNG};
 pub use level_storage::LevelStorage;
 pub use levels::LevelModel;
 pub use page::{PAGE_TRIANGLES, refused_page};

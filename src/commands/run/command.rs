@@ -14,7 +14,8 @@ use crate::commands::shared::{STANDARD, ScriptFlags, end_on_interrupt, shell_wor
 use burgeon::export::films::FilmFormat;
 use burgeon::export::heights::{HEIGHT_FORMATS, HeightFormat};
 use burgeon::export::{
-    FORMATS, FileFormat, Format, GLB, InstanceStorage, Need, PAGE_TRIANGLES, extension_list, refused_page,
+    FORMATS, FileFormat, Format, GLB, InstanceStorage, Need, PAGE, PAGE_TRIANGLES, extension_list,
+    refused_page,
 };
 use burgeon::picture::{CameraChoice, is_inside};
 use burgeon::presets::Presets;
@@ -163,9 +164,14 @@ fn compress_help() -> String {
     format!("Compresses the arrays of .{} files, for viewers with EXT_meshopt_compression", GLB.extension())
 }
 
-fn quantize_help() -> String {
+/// Lists the extensions of glTF files.
+pub(super) fn gltf_extensions() -> String {
     let is_gltf = |format: &&Format| format.media_type.starts_with("model/gltf");
-    let formats = extension_list(FORMATS.iter().filter(is_gltf), "and");
+    extension_list(FORMATS.iter().filter(is_gltf), "and")
+}
+
+fn quantize_help() -> String {
+    let formats = gltf_extensions();
     format!("Writes the arrays of {formats} files as integers, for programs with KHR_mesh_quantization")
 }
 
@@ -274,11 +280,7 @@ impl RunCommand {
         options.reports.records = records;
         self.place_prints(&mut options);
         options.limits.whole_program = true;
-        if self
-            .output
-            .iter()
-            .any(|output| Format::of(output).is_ok_and(|format| format.media_type == "text/html"))
-        {
+        if self.output.iter().any(|output| Format::of(output).is_ok_and(|format| format == &PAGE)) {
             let ((message, help), triangles) = (refused_page(), PAGE_TRIANGLES as usize);
             options.limits.file = Some(Arc::new(FileLimit { triangles, message, help: help.into() }));
         }

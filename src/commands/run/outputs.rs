@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use burgeon::export::heights::{self, HeightFormat, HeightMap};
-use burgeon::export::{Export, Files, Format, GLB, Need, SceneFacts, SystemFacts};
+use burgeon::export::{Export, Files, Format, GLB, Need, SceneFacts, SystemFacts, extension_list};
 use burgeon::kit::declare::as_ref;
 use burgeon::objects::Terrain;
 use burgeon::picture::Picture;
@@ -16,6 +16,7 @@ use burgeon::{Error, Result};
 use super::super::report;
 use super::super::shared::STANDARD;
 use super::RunCommand;
+use super::command::gltf_extensions;
 
 impl RunCommand {
     /// Fails, before any work, if an output file could not be written.
@@ -55,8 +56,8 @@ impl RunCommand {
             Err(Error::usage(format!("{option} applies to {formats} files, and no output is one")).help(help))
         };
         match (self.compress && !is_glb, self.quantize && !is_gltf) {
-            (true, _) => refuse("--compress", ".glb"),
-            (_, true) => refuse("--quantize", ".glb and .gltf"),
+            (true, _) => refuse("--compress", &extension_list([&GLB], "and")),
+            (_, true) => refuse("--quantize", &gltf_extensions()),
             _ => Ok(()),
         }
     }
