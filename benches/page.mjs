@@ -3,7 +3,8 @@
 //   cargo build --release && node benches/page.mjs [SAVES]
 //
 // The clock starts before the file is written and stops when the page has drawn the new model. The server's part, from
-// the file's event to the model's bytes, is what the page is told.
+// the file's event to the model's bytes, is what the page is told. The last line is about saves in the editor of the page;
+// the rest of its time is the write of the file, its event, and the messages.
 
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -62,8 +63,49 @@ async function measure(name, text, flags) {
   }
 }
 
+// From Ctrl+S in the page's editor to the picture, by the clock of the page, and where the time goes.
+async function measurePane(name, text) {
+  const path = join(folder(), "script.lua");
+  writeFileSync(path, text);
+  const server = await Server.start(path, "--port", "0");
+  const browser = await browse();
+  try {
+    const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
+    await page.goto(server.address);
+    let run = await drawn(page);
+    await page.evaluate(() => {
+      window.paneSaves = {};
+      let begin = 0;
+      addEventListener("keydown", (event) => event.ctrlKey && event.key === "s" && (begin = performance.now()), true);
+      addEventListener("burgeon:drawn", ({ detail }) => {
+        window.paneSaves[detail.run] = { ...detail, whole: performance.now() - begin };
+      });
+    });
+    await page.locator('[data-testid="edit"]').click();
+    await page.locator("#pane-code .cm-line").first().click();
+    await page.keyboard.press("End");
+    const parts = { whole: [], server: [], load: [], draw: [], rest: [] };
+    for (let save = 0; save < saves; save += 1) {
+      await page.keyboard.type(` ${save % 10}`);
+      await new Promise((done) => setTimeout(done, 1200));
+      await page.keyboard.press("Control+s");
+      run = await drawn(page, run);
+      const [took, model] = await page.evaluate((run) => [window.paneSaves[run], window.burgeon.model], run);
+      const found = { whole: took.whole, server: model.times.total, load: took.load, draw: took.draw };
+      const rest = found.whole - found.server - found.load - found.draw;
+      for (const [part, time] of Object.entries({ ...found, rest })) parts[part].push(time);
+    }
+    const shown = Object.entries(parts).map(([part, times]) => `${part} ${median(times).toFixed(1)}`);
+    console.log(`${name}, from Ctrl+S in the editor of the page to the picture (ms): ${shown.join(", ")}`);
+  } finally {
+    await browser.close();
+    await server.stop();
+  }
+}
+
 console.log("| script | triangles | save to picture | save to bytes | of that (ms) |");
 console.log("| --- | --- | --- | --- | --- |");
 await measure("tower.lua", tower, []);
 await measure("tower.lua with finer pillars", tower, ["--set", "detail=2", "--set", "floors=18"]);
 await measure("a bent tube", million, []);
+await measurePane("tower.lua", tower);

@@ -19,11 +19,15 @@ pub(crate) struct ProgressDisplay {
 }
 
 impl ProgressDisplay {
-    /// Shows the progress of `session`, unless stderr is not a terminal or `wanted` is false.
+    /// Shows the progress of `session` and of the renders of its model, unless stderr is not a terminal or `wanted` is false.
     pub(crate) fn show(session: &Arc<Session>, wanted: bool) -> Self {
         let session = Arc::clone(session);
         let begin = Instant::now();
-        Self::saying(move || session.progress.message(begin.elapsed()), wanted)
+        let message = move || {
+            let work = session.stop.progress().message();
+            work.unwrap_or_else(|| session.progress.message(begin.elapsed()))
+        };
+        Self::saying(message, wanted)
     }
 
     /// Shows `message` repeatedly, unless stderr is not a terminal or `wanted` is false.

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use burgeon::error::Excerpt;
+use burgeon::error::{Excerpt, SourcePlace};
 use burgeon::results::ReportTotal;
 use burgeon::script::Param;
 use burgeon::sources::ReferenceFrame;
@@ -286,6 +286,14 @@ pub(crate) fn print_all(
         }
         Err(error) => Err(Error::system(format!("cannot write to standard output: {error}"))
             .help("check whether the disk is full and the file can be written")),
+    }
+}
+
+/// Writes the output of a script's `print` after the place that prints it, as [`printed`] does.
+pub(crate) fn printed_at(text: &str, place: Option<&SourcePlace>) {
+    match place {
+        Some(place) => printed(&format!("{place}: {text}")),
+        None => printed(text),
     }
 }
 

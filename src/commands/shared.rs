@@ -273,6 +273,7 @@ impl ScriptFlags {
                 whole_program: false,
                 modules: self.module_limit as usize,
                 triangles: self.triangle_limit as usize,
+                file: None,
             },
             inputs: RunInputs {
                 data: self.data.clone(),

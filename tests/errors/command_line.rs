@@ -445,6 +445,7 @@ fn help_reads_well() {
           --instances <KIND>      Storage of repeated models in .glb and .gltf files [default: nodes up to 1000 instances, else extension] [possible values: nodes, extension, expanded]
           --no-recipe             Leaves the recipe out of models: the script, its values, and the hashes of its packages and data
           --compress              Compresses the arrays of .glb files, for viewers with EXT_meshopt_compression
+          --quantize              Writes the arrays of .glb and .gltf files as integers, for programs with KHR_mesh_quantization
           --chain <FILE>          Writes the final chains as text, one per line; - is standard output, or the JSON document with --json
           --heights <FILE>        Writes the heights of the terrain as a height map: HEIGHT FORMATS
           --edits <FILE>          Writes the terrain edits, for edits(FILE) in a script
@@ -452,6 +453,7 @@ fn help_reads_well() {
           --report <FILE>         Writes a JSON report of skipped and simplified features; - is standard output
           --parts <N>             Writes the model in N parts, one after another: FILE-1 to FILE-N. Memory is that of one part
           --watch                 Runs and writes again on every save, until interrupted
+          --places                Prints file and line before each text that the script prints
           --levels <LODS>         Writes several levels of detail, from the finest on, such as 3,2,1
           --level-storage <KIND>  Storage of the levels [default: names] [possible values: names, extension, files]
           --save-preset <NAME>    Saves the seed and the given values as a preset, if the run succeeds

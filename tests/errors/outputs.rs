@@ -291,3 +291,26 @@ fn a_reader_that_goes_away_is_told_nothing() {
     child.wait_with_output().unwrap();
     assert!(is_model(&folder.path().join("a.glb")));
 }
+
+#[test]
+fn integers_and_compression_are_refused_before_the_run_if_no_output_has_them() {
+    let folder = folder();
+    for (option, output) in [("--quantize", "a.obj"), ("--compress", "a.gltf")] {
+        let error = folder.refuses(&["run", "s.lua", option, "-o", output]);
+        assert!(error.contains(&format!("error: {option} applies to ")), "{error}");
+        assert!(!error.contains("it has run") && names(folder.path()) == ["s.lua"], "{error}");
+    }
+    folder.burgeon(&["run", "s.lua", "--quantize", "--compress", "-o", "a.glb", "-o", "b.gltf"]).done();
+    assert!(is_model(&folder.path().join("a.glb")));
+    let film = folder.burgeon(&["run", "s.lua", "--quantize", "--turntable", "2", "-o", "c.glb"]);
+    assert!(film.status == 2 && film.stderr.contains("cannot be used with"), "{}", film.stderr);
+}
+
+#[test]
+fn places_stand_before_printed_texts_if_they_are_wanted() {
+    let folder = folder();
+    let text = folder.burgeon(&["run", "s.lua", "--places"]).done().stderr;
+    assert!(text.starts_with("s.lua:6: it has run\n"), "{text}");
+    let text = folder.burgeon(&["run", "s.lua"]).done().stderr;
+    assert!(text.starts_with("it has run\n"), "{text}");
+}

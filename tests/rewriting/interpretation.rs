@@ -1,8 +1,8 @@
 //! Interpretation passes: law 6 of the design, and values that rules read from objects.
 
-use burgeon::script::Print;
+use burgeon::script::{FileLimit, Print};
 
-use super::scripts::{chain, divided, error, lines, run, run_with};
+use super::scripts::{chain, divided, error, lines, run, run_with, try_run};
 
 const HEAD: &str = r#"
     local F = module("F", "l"); local T = module("T", "a"); local Ask = module("Ask"); local Say = module("Say", "x", "y", "z")
@@ -373,4 +373,20 @@ fn a_decomposition_that_reads_an_object_without_a_place_adds_no_pass() {
     };
     assert_eq!(passes("true"), ["3", "1"]);
     assert_eq!(passes("this:area() > 1"), ["3", "1"]);
+}
+
+#[test]
+fn a_run_ends_while_it_draws_at_the_limit_of_its_file() {
+    let script = format!("{HEAD} s:axiom(sequence(table.create(400, F(1)))) s:derive(0)");
+    let limited = |triangles: usize| {
+        let mut options = divided(2, 16);
+        let limit = FileLimit { triangles, message: "the page is full".into(), help: "draw less".into() };
+        options.limits.file = Some(std::sync::Arc::new(limit));
+        try_run(&script, options)
+    };
+    let triangles = run(&script).scene.triangles();
+    assert!(triangles > 1000, "{triangles}");
+    let error = limited(triangles - 1).err().expect("a limit").to_string();
+    assert!(error.contains("the page is full") && error.contains("draw less"), "{error}");
+    assert_eq!(limited(triangles).expect("a model").scene.triangles(), triangles);
 }

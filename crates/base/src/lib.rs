@@ -20,6 +20,7 @@ pub mod text;
 pub mod warning;
 mod warning_kind;
 pub mod work;
+pub mod work_progress;
 
 pub use account::{MemoryAccount, MemoryOwner};
 pub use budget::{Budget, BudgetCharge, MemoryReservation};

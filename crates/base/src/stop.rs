@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex};
 use crate::account::{MemoryAccount, MemoryOwner, switch};
 use crate::error::{Error, Result};
 use crate::locks::LockRecovery;
+use crate::work_progress::WorkProgress;
 
 thread_local! {
     /// Stops of all runs that this thread works on, the most recent last.
@@ -32,12 +33,19 @@ pub struct Stop {
     memory: Option<MemoryAccount>,
     stopped: AtomicBool,
     reason: Mutex<Option<Error>>,
+    progress: WorkProgress,
 }
 
 impl Stop {
     /// Creates a stop that has not been requested.
     pub const fn new() -> Self {
-        Self { parent: None, memory: None, stopped: AtomicBool::new(false), reason: Mutex::new(None) }
+        Self {
+            parent: None,
+            memory: None,
+            stopped: AtomicBool::new(false),
+            reason: Mutex::new(None),
+            progress: WorkProgress::new(),
+        }
     }
 
     /// Creates a stop that is also requested whenever `parent` is.
@@ -49,6 +57,11 @@ impl Stop {
     #[must_use]
     pub fn with_memory_limit(self, limit: usize) -> Self {
         Self { memory: Some(MemoryAccount::new(limit)), ..self }
+    }
+
+    /// Returns the progress of long work on the results of the run, such as a render.
+    pub fn progress(&self) -> &WorkProgress {
+        &self.progress
     }
 
     /// Returns the memory account of the run, if it has a limit.

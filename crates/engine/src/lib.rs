@@ -20,9 +20,9 @@ pub mod trace;
 pub mod script {
     pub use crate::checkpoints::DerivationStore;
     pub use crate::declare::{
-        API_VERSION, Control, CurvesFile, FeatureChoice, FeaturePart, FileLoader, JsonMembers, JsonText,
-        Limits, Param, ParamValues, PlacedPoints, PointControl, Preset, Print, RunInputs, RunOptions,
-        RunProgress, RunReports, Session, Setting, TraceRequest, api_version, json_excerpt,
+        API_VERSION, Control, CurvesFile, FeatureChoice, FeaturePart, FileLimit, FileLoader, JsonMembers,
+        JsonText, Limits, Param, ParamValues, PlacedPoints, PointControl, Preset, Print, RunInputs,
+        RunOptions, RunProgress, RunReports, Session, Setting, TraceRequest, api_version, json_excerpt,
     };
     pub use crate::machine::{Machine, Watchdog, make_ready};
     pub use crate::queries::{RowSource, SqlQuery};

@@ -34,6 +34,8 @@ pub struct SceneFacts<'a> {
     pub instances: InstanceStorage,
     /// Set to compress the arrays of `.glb` files (`EXT_meshopt_compression`).
     pub is_compressed: bool,
+    /// Set to write the arrays of glTF models as integers (`KHR_mesh_quantization`).
+    pub is_quantized: bool,
     /// Sums that the interpretations of each system have reported, with the index of the system in the script.
     pub reports: &'a [(usize, RecordTable)],
     /// Recipe of the model, for formats that carry it.
@@ -84,6 +86,7 @@ impl Default for SceneFacts<'_> {
             metadata: None,
             instances: InstanceStorage::default(),
             is_compressed: false,
+            is_quantized: false,
             reports: &[],
             recipe: None,
         }

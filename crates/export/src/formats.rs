@@ -36,6 +36,21 @@ pub const PNG: Format = Format {
     write: render::write,
 };
 
+/// Page that needs no server.
+pub const PAGE: Format = Format {
+    file: FileFormat {
+        extensions: &["html"],
+        title: "page with the model and its script, for any browser",
+        companion: None,
+        check: always,
+    },
+    media_type: "text/html",
+    needs: &[Scene, Recipe],
+    has_metadata: true,
+    has_textures: false,
+    write: page::write,
+};
+
 /// All formats of a model, in the order in which messages list them.
 pub static FORMATS: [Format; 17] = [
     GLB,
@@ -52,20 +67,7 @@ pub static FORMATS: [Format; 17] = [
         has_textures: true,
         write: gltf::write_gltf,
     },
-    // A page that needs no server.
-    Format {
-        file: FileFormat {
-            extensions: &["html"],
-            title: "page with the model and its script, for any browser",
-            companion: None,
-            check: always,
-        },
-        media_type: "text/html",
-        needs: &[Scene, Recipe],
-        has_metadata: true,
-        has_textures: false,
-        write: page::write,
-    },
+    PAGE,
     // Instances become copies.
     Format {
         file: FileFormat {

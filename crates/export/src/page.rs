@@ -10,6 +10,7 @@ use std::path::Path;
 use base64::engine::general_purpose::STANDARD;
 use base64::write::EncoderWriter;
 use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::text::grouped;
 use burgeon_spatial::{Attribute, RecordTable};
 use serde_json::{Map, Value, json};
 
@@ -31,6 +32,27 @@ const LARGEST: u64 = 100_000_000;
 
 /// Factor by which compression reduces arrays at most, as a cautious estimate.
 const SMALLEST: u64 = 8;
+
+/// Approximate least size (bytes) of a triangle on a page. A triangle of a Menger sponge has 6 bytes, and of a tower 11.
+const TRIANGLE: u64 = 4;
+
+/// Largest number of triangles of a page, an instance counted as one. It is an estimate, known before the model is complete.
+pub const PAGE_TRIANGLES: u64 = LARGEST / TRIANGLE;
+
+/// Remedy for a page that is too large.
+const REMEDY: &str = "leave something out: less detail (--lod 2), one part of the features (--part 1/4), attributes, or textures; \
+                      or write a .glb file";
+
+/// Returns the message and the remedy for a system with more than [`PAGE_TRIANGLES`].
+pub fn refused_page() -> (String, &'static str) {
+    let text = format!(
+        "the page would have more than {} MB: the system draws more than {} triangles, which have about {TRIANGLE} bytes each or \
+         more",
+        LARGEST / 1_000_000,
+        grouped(PAGE_TRIANGLES as usize)
+    );
+    (text, REMEDY)
+}
 
 /// Axes of the model's coordinates on the page.
 const AXES: &str = "x east, y north, z up (m)";
@@ -151,10 +173,7 @@ fn too_large(size: u64, pictures: u64, rest: u64, about: &str) -> Error {
         mb(rest),
         LARGEST / 1_000_000
     );
-    Error::limit(Limit::Format, text).help(
-        "leave something out: less detail (--lod 2), one part of the features (--part 1/4), attributes, or textures; or write a \
-         .glb file",
-    )
+    Error::limit(Limit::Format, text).help(REMEDY)
 }
 
 #[cfg(test)]

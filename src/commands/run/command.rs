@@ -13,11 +13,14 @@ use crate::commands::report;
 use crate::commands::shared::{STANDARD, ScriptFlags, end_on_interrupt, shell_word, size};
 use burgeon::export::films::FilmFormat;
 use burgeon::export::heights::{HEIGHT_FORMATS, HeightFormat};
-use burgeon::export::{FORMATS, FileFormat, Format, GLB, InstanceStorage, Need, extension_list};
+use burgeon::export::{
+    FORMATS, FileFormat, Format, GLB, InstanceStorage, Need, PAGE, PAGE_TRIANGLES, extension_list,
+    refused_page,
+};
 use burgeon::picture::{CameraChoice, is_inside};
 use burgeon::presets::Presets;
 use burgeon::results::layers;
-use burgeon::script::{Param, Preset, RunOptions, Session};
+use burgeon::script::{FileLimit, Param, Preset, Print, RunOptions, Session};
 use burgeon::{Error, Result, Warning, WarningKind};
 use clap::builder::ArgPredicate;
 use clap::{Args, ValueEnum};
@@ -71,8 +74,12 @@ pub(crate) struct RunCommand {
     pub(super) no_recipe: bool,
 
     /// Compresses arrays of models
-    #[arg(long, help = compress_help())]
+    #[arg(long, help = compress_help(), conflicts_with = "film")]
     pub(super) compress: bool,
+
+    /// Writes integers to models
+    #[arg(long, help = quantize_help(), conflicts_with = "film")]
+    pub(super) quantize: bool,
 
     /// Writes the final chains as text, one per line; - is standard output, or the JSON document with --json
     #[arg(long, value_name = "FILE")]
@@ -102,6 +109,10 @@ pub(crate) struct RunCommand {
     /// Runs and writes again on every save, until interrupted
     #[arg(long)]
     watch: bool,
+
+    /// Prints file and line before each text that the script prints
+    #[arg(long)]
+    places: bool,
 
     #[command(flatten)]
     pub(super) detail: LevelFlags,
@@ -151,6 +162,17 @@ fn instances_help() -> String {
 
 fn compress_help() -> String {
     format!("Compresses the arrays of .{} files, for viewers with EXT_meshopt_compression", GLB.extension())
+}
+
+/// Lists the extensions of glTF files.
+pub(super) fn gltf_extensions() -> String {
+    let is_gltf = |format: &&Format| format.media_type.starts_with("model/gltf");
+    extension_list(FORMATS.iter().filter(is_gltf), "and")
+}
+
+fn quantize_help() -> String {
+    let formats = gltf_extensions();
+    format!("Writes the arrays of {formats} files as integers, for programs with KHR_mesh_quantization")
 }
 
 fn heights_help() -> String {
@@ -256,8 +278,21 @@ impl RunCommand {
         let records = self.metadata.is_some() || self.writes(Need::Attributes);
         let mut options = self.script.options()?;
         options.reports.records = records;
+        self.place_prints(&mut options);
         options.limits.whole_program = true;
+        if self.output.iter().any(|output| Format::of(output).is_ok_and(|format| format == &PAGE)) {
+            let ((message, help), triangles) = (refused_page(), PAGE_TRIANGLES as usize);
+            options.limits.file = Some(Arc::new(FileLimit { triangles, message, help: help.into() }));
+        }
         Ok(options)
+    }
+
+    /// Lets the script print with places, if they are wanted.
+    pub(super) fn place_prints(&self, options: &mut RunOptions) {
+        if self.places {
+            options.reports.print =
+                Some(Print::with_places(|text, place| report::printed_at(text, place.as_ref())));
+        }
     }
 
     /// Runs `session`, writes all outputs and reports the result, unless the run is `stale` before anything is written.

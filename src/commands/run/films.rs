@@ -103,7 +103,8 @@ impl RunCommand {
     pub(super) fn run_frames(&self, axis: &FrameAxis) -> Result<()> {
         end_on_interrupt()?;
         let begin = Instant::now();
-        let options = self.script.options()?;
+        let mut options = self.script.options()?;
+        self.place_prints(&mut options);
         if options.params.set.iter().any(|(name, _)| name == axis.name()) {
             let name = axis.name();
             return Err(Error::usage(format!("--set and --frames both use `{name}`; remove one"))

@@ -91,6 +91,7 @@ impl RunCommand {
                 frame: run.service(),
                 instances: self.instances.map(Into::into).unwrap_or_default(),
                 is_compressed: self.compress,
+                is_quantized: self.quantize,
                 recipe: recipe.as_ref(),
                 ..SceneFacts::default()
             };

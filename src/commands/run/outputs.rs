@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use burgeon::export::heights::{self, HeightFormat, HeightMap};
-use burgeon::export::{Export, Files, Format, GLB, Need, SceneFacts, SystemFacts};
+use burgeon::export::{Export, Files, Format, GLB, Need, SceneFacts, SystemFacts, extension_list};
 use burgeon::kit::declare::as_ref;
 use burgeon::objects::Terrain;
 use burgeon::picture::Picture;
@@ -16,11 +16,13 @@ use burgeon::{Error, Result};
 use super::super::report;
 use super::super::shared::STANDARD;
 use super::RunCommand;
+use super::command::gltf_extensions;
 
 impl RunCommand {
     /// Fails, before any work, if an output file could not be written.
     pub(super) fn check_files(&self) -> Result<()> {
         self.output.iter().try_for_each(|output| Format::of(output)?.file.check())?;
+        self.check_storage()?;
         self.check_text(self.chain.as_deref(), "chain", "the chains", "chains.txt")?;
         self.check_text(self.report.as_deref(), "report", "the report", "report.json")?;
         self.check_text(self.heights.as_deref(), "heights", "the heights", "heights.tif")?;
@@ -41,6 +43,23 @@ impl RunCommand {
         self.tiles.as_deref().map_or(Ok(()), |folder| files.folder(folder))?;
         let all = self.output.iter().chain(&beside).chain(&tile).map(|path| path.as_path());
         all.chain(self.named()).try_for_each(|path| files.write(path, |_| Ok(())))
+    }
+
+    /// Fails if an option on the arrays of models has no model to apply to.
+    fn check_storage(&self) -> Result<()> {
+        let types: Vec<_> =
+            self.output.iter().filter_map(|output| Some(Format::of(output).ok()?.media_type)).collect();
+        let (is_glb, is_gltf) =
+            (types.contains(&GLB.media_type), types.iter().any(|it| it.starts_with("model/gltf")));
+        let refuse = |option: &str, formats: &str| {
+            let help = format!("write such a file: -o model.{}", GLB.extension());
+            Err(Error::usage(format!("{option} applies to {formats} files, and no output is one")).help(help))
+        };
+        match (self.compress && !is_glb, self.quantize && !is_gltf) {
+            (true, _) => refuse("--compress", &extension_list([&GLB], "and")),
+            (_, true) => refuse("--quantize", &gltf_extensions()),
+            _ => Ok(()),
+        }
     }
 
     /// Returns the named files other than models.
@@ -129,6 +148,7 @@ impl RunCommand {
             metadata: metadata.as_deref(),
             instances: self.instances.map(Into::into).unwrap_or_default(),
             is_compressed: self.compress,
+            is_quantized: self.quantize,
             reports: &reports,
             recipe: recipe.as_ref(),
         };

@@ -34,7 +34,7 @@ pub(crate) use camera::declare_camera;
 pub use curves_file::CurvesFile;
 pub use file_loader::FileLoader;
 pub use json_text::{JsonMembers, JsonText, PlacedPoints, json_excerpt};
-pub use options::{Limits, ParamValues, Print, RunInputs, RunOptions, RunReports, TraceRequest};
+pub use options::{FileLimit, Limits, ParamValues, Print, RunInputs, RunOptions, RunReports, TraceRequest};
 pub use param::{Control, Param, Setting};
 pub use part::{FeatureChoice, FeaturePart};
 pub use point_control::PointControl;

@@ -27,6 +27,19 @@ pub struct Limits {
     pub modules: usize,
     /// Maximum number of triangles of all objects of a system.
     pub triangles: usize,
+    /// Limit of the file that the run is for.
+    pub file: Option<Arc<FileLimit>>,
+}
+
+/// Limit of the triangles of a system, beyond which a file is too large. A run ends at the limit while it draws.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FileLimit {
+    /// Maximum number of triangles; an instance counts as one.
+    pub triangles: usize,
+    /// Message of the error.
+    pub message: String,
+    /// Remedy of the error.
+    pub help: String,
 }
 
 impl Default for Limits {
@@ -37,6 +50,7 @@ impl Default for Limits {
             whole_program: false,
             modules: 50_000_000,
             triangles: 50_000_000,
+            file: None,
         }
     }
 }

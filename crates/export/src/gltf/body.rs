@@ -3,9 +3,10 @@
 use std::borrow::Cow;
 
 use super::super::check::proper_triangles;
-use super::coordinates::{byte_normal, short_normal, tex_coord, y_up};
+use super::coordinates::{TexCoordMap, byte_normal, short_normal, y_up};
 use super::corners::FaceCorners;
 use super::packing::{PackedView, pack_triangles, pack_vertices, unpacked_buffer};
+use super::quantize::IntegerArray;
 use super::weld::FlatPart;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::stop::Stop;
@@ -43,6 +44,8 @@ pub(super) enum ArrayKind {
     /// Normals as four i16; the last is padding.
     ShortNormals,
     TexCoords,
+    /// Texture coordinates as two u16.
+    ShortTexCoords,
     /// Feature numbers.
     Features,
     /// Indices as u16.
@@ -57,8 +60,9 @@ pub(super) enum BodyArray<'a> {
     Normals(&'a Part),
     ByteNormals(&'a Part),
     ShortNormals(&'a Part),
-    /// Texture coordinates of a part, with the width and height (m) of its texture.
-    TexCoords(&'a Part, [f64; 2]),
+    TexCoords(&'a Part, TexCoordMap),
+    /// Integers in place of an array of single-precision numbers.
+    Integers(Box<BodyArray<'a>>, IntegerArray),
     /// Indices of a part as u16, with the number of triangles to write and the number of its first vertex.
     Short(&'a Part, usize, u16),
     Long(&'a Part, usize),
@@ -357,7 +361,7 @@ impl BufferSection<'_> {
         match self.shared? {
             ArrayKind::Positions | ArrayKind::Normals => Some(12),
             ArrayKind::TexCoords | ArrayKind::ShortNormals | ArrayKind::ShortPositions => Some(8),
-            ArrayKind::ByteNormals | ArrayKind::Features => Some(4),
+            ArrayKind::ByteNormals | ArrayKind::ShortTexCoords | ArrayKind::Features => Some(4),
             ArrayKind::Short | ArrayKind::Long => None,
         }
     }
@@ -369,6 +373,7 @@ impl BodyArray<'_> {
             Self::Positions(part) | Self::Normals(part) => part.positions.len() * 12,
             Self::TexCoords(part, _) | Self::ShortNormals(part) => part.positions.len() * 8,
             Self::ByteNormals(part) => part.positions.len() * 4,
+            Self::Integers(array, kind) => array.items() * kind.stride(),
             Self::Short(_, triangles, _) => triangles * 6,
             Self::Long(_, triangles) => triangles * 12,
             Self::Places(welded) => welded.positions.len() * 12,
@@ -406,6 +411,7 @@ impl BodyArray<'_> {
             }
             Self::Floats(floats) => floats.len(),
             Self::Same(_, count) => *count,
+            Self::Integers(array, _) => array.items(),
             Self::Blob(bytes) => bytes.len(),
             Self::Shorts(shorts) => shorts.len(),
             Self::Bytes(bytes) => bytes.len(),
@@ -422,7 +428,12 @@ impl BodyArray<'_> {
             }
             Self::ByteNormals(part) => put(out, part.normals[range].iter().map(|it| byte_normal(*it))),
             Self::ShortNormals(part) => put(out, part.normals[range].iter().map(|it| short_normal(*it))),
-            Self::TexCoords(part, size) => put(out, part.uvs[range].iter().map(|uv| tex_coord(*uv, *size))),
+            Self::TexCoords(part, map) => put(out, part.uvs[range].iter().map(|uv| map.of(*uv))),
+            Self::Integers(array, kind) => {
+                let mut floats = Vec::new();
+                array.write(items, &mut floats);
+                kind.put(&floats, out);
+            }
             Self::Short(part, _, first) => {
                 let shown = proper_triangles(part.triangles.range(range));
                 put(out, shown.map(|corners| corners.map(|corner| corner as u16 + first)));

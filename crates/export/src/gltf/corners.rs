@@ -6,7 +6,7 @@
 //! vertices. The few faces of such parts whose normals differ from their planes are written separately, with normals.
 
 use super::super::check::{proper_triangles, triangles};
-use super::coordinates::{tex_coord, y_up};
+use super::coordinates::{TexCoordMap, y_up};
 use burgeon_base::locks::LockRecovery;
 use burgeon_scene::{Normal, Part};
 use bytemuck::cast;
@@ -30,8 +30,8 @@ const FLAT: f32 = 0.999_85;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PartFaces<'a> {
     pub(super) part: &'a Part,
-    /// Width and height (m) of the part's texture, if it has texture coordinates.
-    pub(super) texture: Option<[f64; 2]>,
+    /// Map of the part's texture coordinates, if it has any.
+    pub(super) texture: Option<TexCoordMap>,
     pub(super) which: FaceChoice,
 }
 
@@ -132,6 +132,11 @@ impl<'a> FaceCorners<'a> {
         if textured { self.textured } else { self.all }
     }
 
+    /// Returns true if all texture coordinates are multiples of 1/65535.
+    pub(super) fn are_tex_coords_rounded(&self) -> bool {
+        self.faces.iter().filter_map(|faces| faces.texture).all(|map| map.is_rounded)
+    }
+
     /// Returns true if there are parts with texture coordinates (`textured`), or without.
     pub(super) fn has_parts(&self, textured: bool) -> bool {
         self.faces.iter().any(|faces| faces.texture.is_some() == textured)
@@ -166,7 +171,7 @@ impl CornerList {
             for corner in faces.triangles(0..usize::MAX).flatten() {
                 let vertex = corner as usize;
                 if of[vertex] == NONE {
-                    let uv = texture.map(|size| tex_coord(part.uvs[vertex], size));
+                    let uv = texture.map(|map| map.of(part.uvs[vertex]));
                     let normal = (which == FaceChoice::Shaded).then(|| part.normals[vertex]);
                     of[vertex] = list.corner(y_up(part.positions[vertex]), uv, normal, &mut places);
                 }
@@ -262,8 +267,8 @@ mod tests {
         fn each_corner_is_there_once_and_is_what_the_vertices_were(
             textured in prop::collection::vec(part(), 0..3), plain in prop::collection::vec(part(), 0..3)
         ) {
-            let size = [2.0, 4.0];
-            let parts: Vec<_> = textured.iter().map(|part| (part, Some(size)))
+            let map = TexCoordMap::exact([2.0, 4.0]);
+            let parts: Vec<_> = textured.iter().map(|part| (part, Some(map)))
                 .chain(plain.iter().map(|part| (part, None))).collect();
             let which = FaceChoice::All;
             let corners = FaceCorners::of(parts.iter().map(|(part, texture)| {
@@ -275,7 +280,7 @@ mod tests {
                 for (vertex, corner) in of.iter().enumerate() {
                     prop_assert_eq!(list.positions[*corner as usize], y_up(part.positions[vertex]));
                     if texture.is_some() {
-                        prop_assert_eq!(list.tex_coords[*corner as usize], tex_coord(part.uvs[vertex], size));
+                        prop_assert_eq!(list.tex_coords[*corner as usize], map.of(part.uvs[vertex]));
                     }
                 }
             }

@@ -10,6 +10,7 @@ use super::material::Textures;
 use super::mesh::Arrays;
 use super::metadata::Metadata;
 use super::packing::MESHOPT;
+use super::quantize::{TEXTURE_TRANSFORM, tex_coord_ranges};
 use super::{InstancePlace, body, camera, film, material, mesh, place};
 use crate::check::{SceneCheck, check};
 use crate::decompose::{Y_UP_AXES, y_up};
@@ -36,6 +37,8 @@ pub(super) struct Document<'a> {
     layout: Layout,
     /// Number of repeated instances that have nodes of their own.
     separate: usize,
+    /// Largest error (m) of positions along an axis, if they are integers.
+    rounding: Option<f64>,
 }
 
 /// Mapping from the items of a scene to the nodes and meshes of a document.
@@ -71,13 +74,13 @@ pub fn glb(scene: &Scene) -> Result<Vec<u8>> {
 /// # Ok::<(), burgeon_base::Error>(())
 /// ```
 pub fn glb_for_viewer(scene: &Scene) -> Result<(Vec<u8>, Layout)> {
-    bytes(scene, Arrays { small: true, measured: false }, &Stop::default())
+    bytes(scene, Arrays { small: true, ..Arrays::default() }, &Stop::default())
 }
 
 /// Encodes `scene` as [`glb_for_viewer`] does, with the same layout, but all surfaces have texture coordinates: in
 /// metres if they have no texture. Also fails if `stop` requests cancellation.
 pub fn glb_with_texture_coordinates(scene: &Scene, stop: &Stop) -> Result<Vec<u8>> {
-    bytes(scene, Arrays { small: true, measured: true }, stop).map(|(bytes, _)| bytes)
+    bytes(scene, Arrays { small: true, measured: true, ..Arrays::default() }, stop).map(|(bytes, _)| bytes)
 }
 
 /// Encodes `scene` as [`glb_for_viewer`] does, with compressed arrays (`EXT_meshopt_compression`). `allow` may refuse the size
@@ -90,7 +93,7 @@ pub(crate) fn packed_glb_for_viewer(
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
     let pictures: usize = images.files.iter().map(|file| file.bytes.len()).sum();
-    let arrays = Arrays { small: true, measured: false };
+    let arrays = Arrays { small: true, ..Arrays::default() };
     let facts = SceneFacts::default();
     let mut document = Document::new(&checked, &facts, &images, &Textures::Embedded, (arrays, None), stop)?;
     allow(document.body.length().saturating_sub(pictures as u64), pictures as u64)?;
@@ -122,13 +125,13 @@ pub(crate) fn write_glb(export: &Export<'_>, path: &Path, files: &mut Files) -> 
     let checked = check(expanded.as_ref().unwrap_or(export.scene))?;
     let images = Images::load(&checked)?;
     let stop = files.stop();
-    let content = (Arrays::default(), None);
+    let content = (Arrays::of(&export.facts), None);
     let mut document = Document::new(&checked, &export.facts, &images, &Textures::Embedded, content, &stop)?;
     if export.facts.is_compressed {
         document.compress()?;
     }
     document.write(path, files, &stop)?;
-    files.note_all(document.note(path));
+    files.note_all(document.notes(path));
     Ok(())
 }
 
@@ -164,13 +167,13 @@ pub(crate) fn write_levels(
     let checked = check(&model.scene)?;
     let images = Images::load(&checked)?;
     let stop = files.stop();
-    let content = (Arrays::default(), Some((model, None)));
+    let content = (Arrays::of(facts), Some((model, None)));
     let mut document = Document::new(&checked, facts, &images, &Textures::Embedded, content, &stop)?;
     if facts.is_compressed {
         document.compress()?;
     }
     document.write(path, files, &stop)?;
-    files.note_all(document.note(path));
+    files.note_all(document.notes(path));
     Ok(())
 }
 
@@ -185,14 +188,14 @@ pub(crate) fn write_gltf(export: &Export<'_>, path: &Path, files: &mut Files) ->
     }
     let stop = files.stop();
     let textures = Textures::Beside(names);
-    let content = (Arrays::default(), None);
+    let content = (Arrays::of(&export.facts), None);
     let mut document = Document::new(&checked, &export.facts, &images, &textures, content, &stop)?;
     if let Some(buffer) = document.description.root.buffers.first_mut() {
         buffer.uri = Some(uri(&buffer_name(path)));
         files.write(&buffer_path(path), |out| document.body.write(Vec::new(), out, &stop))?;
     }
     files.write(path, |out| document.description.write_pretty(out))?;
-    files.note_all(document.note(path));
+    files.note_all(document.notes(path));
     Ok(())
 }
 
@@ -244,8 +247,10 @@ impl<'a> Document<'a> {
             metadata.use_extensions(&mut description.root);
         }
         let metadata = metadata.as_ref();
-        let materials = material::write(checked, images, textures, &mut description.root, &mut body);
-        let meshes = mesh::write(checked, metadata, arrays, &materials, &mut description, &mut body, stop);
+        let ranges = if arrays.quantized { tex_coord_ranges(checked) } else { Vec::new() };
+        let materials = material::write(checked, images, textures, &ranges, &mut description.root, &mut body);
+        let meshes =
+            mesh::write(checked, metadata, (arrays, &ranges), &materials, &mut description, &mut body, stop);
         stop.check()?;
         // The viewer reads the extension, and so does what plays films.
         let is_own = arrays.small || film.is_some_and(|(_, settings)| settings.is_some());
@@ -255,9 +260,13 @@ impl<'a> Document<'a> {
         if let Some((_, Some(settings))) = film {
             film::write(&placed.frames, settings, &mut description, &mut body);
         }
-        if arrays.small {
-            use_extension(&mut description.root, QUANTIZATION);
-            description.root.extensions_required.push(QUANTIZATION.into());
+        let root = &mut description.root;
+        if arrays.small || arrays.quantized {
+            use_extension(root, QUANTIZATION);
+            root.extensions_required.push(QUANTIZATION.into());
+        }
+        if root.extensions_used.iter().any(|used| used == TEXTURE_TRANSFORM) {
+            root.extensions_required.push(TEXTURE_TRANSFORM.into());
         }
         let mut roots = placed.nodes.clone();
         if !is_own {
@@ -268,7 +277,7 @@ impl<'a> Document<'a> {
         description.root.scenes.push(json::Scene { extensions: None, extras, name: None, nodes });
         body.describe(&mut description.root)?;
         let layout = Layout { places: placed.places, meshes };
-        Ok(Self { description, body, layout, separate: placed.separate })
+        Ok(Self { description, body, layout, separate: placed.separate, rounding: placed.rounding })
     }
 
     /// Returns the origin of a document, with the packages and the recipe of its scene.
@@ -284,7 +293,7 @@ impl<'a> Document<'a> {
     /// Creates a document from its complete description, except its buffer, and the data. Fails if the file exceeds 4 GiB.
     pub(super) fn of_parts(mut description: Description<'a>, body: Body<'a>) -> Result<Self> {
         body.describe(&mut description.root)?;
-        Ok(Self { description, body, layout: Layout::default(), separate: 0 })
+        Ok(Self { description, body, layout: Layout::default(), separate: 0, rounding: None })
     }
 
     /// Compresses the arrays of the document.
@@ -300,8 +309,17 @@ impl<'a> Document<'a> {
         Ok(())
     }
 
+    /// Returns notes on the file at `path`: the storage of repeated instances, and the error of integers.
+    fn notes(&self, path: &Path) -> impl Iterator<Item = String> {
+        let rounded = self.rounding.map(|error| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            format!("{name}: positions are rounded by at most {} mm", rounded_up(error * 1000.0))
+        });
+        self.instance_note(path).into_iter().chain(rounded)
+    }
+
     /// Returns a note on the storage of the repeated instances in the file at `path`, if there are any.
-    fn note(&self, path: &Path) -> Option<String> {
+    fn instance_note(&self, path: &Path) -> Option<String> {
         let places = self.layout.places.iter().flatten();
         let shared = places.filter(|place| place.shared.is_some()).count();
         let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -337,6 +355,15 @@ impl<'a> Document<'a> {
         }
         Ok(pieces)
     }
+}
+
+/// Returns a number above zero as text, rounded up to two digits.
+fn rounded_up(number: f64) -> String {
+    let decimals = 1.0 - number.max(1e-9).log10().floor();
+    let unit = 10.0_f64.powf(-decimals);
+    #[allow(clippy::cast_sign_loss, reason = "bounded")]
+    let shown = decimals.clamp(0.0, 10.0) as usize;
+    format!("{:.shown$}", (number / unit).ceil() * unit)
 }
 
 /// Returns the extras of the glTF scene: the feature ids of shared instances, and the up vector of the camera if it

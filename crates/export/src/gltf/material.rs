@@ -4,7 +4,9 @@ use super::super::check::SceneCheck;
 use super::super::color::fraction;
 use super::super::texture::Images;
 use super::body::{Body, BodyArray};
+use super::coordinates::TexCoordRange;
 use super::description::use_extension;
+use super::quantize::TEXTURE_TRANSFORM;
 use crate::uri;
 use burgeon_scene::Material;
 use gltf_json as json;
@@ -25,6 +27,7 @@ pub(super) fn write<'a>(
     checked: &SceneCheck<'_>,
     images: &'a Images,
     textures: &Textures,
+    ranges: &[Option<TexCoordRange>],
     root: &mut json::Root,
     body: &mut Body<'a>,
 ) -> Vec<Option<json::Index<json::Material>>> {
@@ -33,7 +36,8 @@ pub(super) fn write<'a>(
     materials
         .map(|(i, material)| {
             let file = images.of_material[i];
-            let texture = file.map(|file| written[file]);
+            let range = ranges.get(i).copied().flatten();
+            let texture = file.map(|file| texture(written[file], range, root));
             let has_alpha = file.is_some_and(|file| images.files[file].has_alpha);
             checked.materials[i].then(|| {
                 let described = describe(material, texture, has_alpha, root);
@@ -81,7 +85,7 @@ fn write_images<'a>(
 
 fn describe(
     material: &Material,
-    texture: Option<json::Index<json::Texture>>,
+    texture: Option<Info>,
     has_alpha: bool,
     root: &mut json::Root,
 ) -> json::Material {
@@ -99,12 +103,7 @@ fn describe(
         double_sided: material.double_sided,
         pbr_metallic_roughness: PbrMetallicRoughness {
             base_color_factor: PbrBaseColorFactor(base_color),
-            base_color_texture: texture.map(|index| Info {
-                index,
-                tex_coord: 0,
-                extensions: None,
-                extras: None,
-            }),
+            base_color_texture: texture,
             metallic_factor: StrengthFactor(fraction(material.metallic)),
             roughness_factor: StrengthFactor(fraction(material.roughness)),
             ..PbrMetallicRoughness::default()
@@ -119,6 +118,18 @@ fn describe(
         }),
         ..json::Material::default()
     }
+}
+
+/// Returns a reference to a texture whose coordinates are fractions of `range`.
+fn texture(index: json::Index<json::Texture>, range: Option<TexCoordRange>, root: &mut json::Root) -> Info {
+    let extensions = range.filter(|range| !range.is_identity()).map(|TexCoordRange { offset, scale }| {
+        use_extension(root, TEXTURE_TRANSFORM);
+        let mut extensions = json::extensions::texture::Info::default();
+        let described = serde_json::json!({ "offset": offset, "scale": scale });
+        extensions.others.insert(TEXTURE_TRANSFORM.into(), described);
+        extensions
+    });
+    Info { index, tex_coord: 0, extensions, extras: None }
 }
 
 /// Returns a display name, or `None` if it is empty.

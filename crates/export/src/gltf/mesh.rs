@@ -1,14 +1,15 @@
 //! Meshes and the accessors of their arrays.
 
 use super::super::check::{PartExtent, SceneCheck};
+use super::attribute::{AttributeType, with_extremes};
 use super::body::{ArrayKind, Body, BodyArray};
-use super::coordinates::y_up;
+use super::coordinates::{TexCoordMap, TexCoordRange, y_up};
 use super::corners::{self, CornerRange, FaceChoice, FaceCorners, PartFaces, flat_faces};
-use super::description::{
-    Accessor, Attributes, Description, Extreme, MeshDescription, Primitive, ShadingExtras,
-};
+use super::description::{Accessor, Attributes, Description, MeshDescription, Primitive, ShadingExtras};
 use super::metadata::{FeaturePlace, Metadata};
+use super::quantize::{PositionGrid, round_together};
 use super::weld::FlatPart;
+use crate::SceneFacts;
 use burgeon_base::stop::Stop;
 use burgeon_scene::Part;
 use glam::Vec3;
@@ -23,7 +24,7 @@ use std::sync::Arc;
 pub(super) fn write<'a>(
     checked: &SceneCheck<'a>,
     metadata: Option<&Metadata>,
-    arrays: Arrays,
+    (arrays, ranges): (Arrays, &[Option<TexCoordRange>]),
     materials: &[Option<json::Index<json::Material>>],
     description: &mut Description<'a>,
     body: &mut Body<'a>,
@@ -34,14 +35,22 @@ pub(super) fn write<'a>(
         let texture = scene.materials[part.material].texture.as_ref();
         let size = texture.map(|texture| texture.size).or(arrays.measured.then_some([1.0, 1.0]));
         let welded = (arrays.small && size.is_none()).then(|| FlatPart::of(part)).flatten().map(Arc::new);
-        PartView { part, texture: size, measured: *measured, welded, which: None, corners: None }
+        let range = ranges.get(part.material).copied().flatten();
+        let texture = size.map(|size| TexCoordMap { range, ..TexCoordMap::exact(size) });
+        PartView { part, texture, measured: *measured, welded, which: None, corners: None }
     };
     let shown = scene.meshes.par_iter().zip(&checked.parts).map(|(mesh, parts)| {
         let is_shown = |(_, measured): &(&Part, &PartExtent)| measured.triangles > 0;
         match arrays.small {
             _ if stop.is_stopped() => Vec::new(),
             true => mesh.parts.par_iter().zip(parts).filter(is_shown).map(measure).collect(),
-            false => divide(mesh.parts.iter().zip(parts).filter(is_shown).map(measure).collect()),
+            false => {
+                let mut shown: Vec<_> = mesh.parts.iter().zip(parts).filter(is_shown).map(measure).collect();
+                if arrays.quantized {
+                    round_together(shown.iter_mut().filter_map(|shown| shown.texture.as_mut()));
+                }
+                divide(shown)
+            }
         }
     });
     let shown: Vec<Vec<PartView<'a>>> = shown.collect();
@@ -52,7 +61,8 @@ pub(super) fn write<'a>(
     for (number, (mesh, parts)) in scene.meshes.iter().zip(&shown).enumerate() {
         body.begin_mesh();
         written.push((!parts.is_empty()).then(|| {
-            let mut vertices = Vertices::of(parts, arrays, description, body);
+            let grid = arrays.quantized.then(|| PositionGrid::of(&checked.parts[number]));
+            let mut vertices = Vertices::of(parts, (arrays, grid), description, body);
             let feature = metadata.and_then(|metadata| metadata.of_mesh(number));
             if let Some(feature) = feature {
                 Vertices::note(&mut vertices, feature, description, body);
@@ -81,12 +91,21 @@ pub(super) struct Arrays {
     /// with flat triangles become [`FlatPart`] unless they have texture coordinates. Rotations of instances are not
     /// quantised.
     pub(super) small: bool,
+    /// Set if positions, normals and texture coordinates are integers.
+    pub(super) quantized: bool,
 }
 
-/// Part, with the width and height (m) of its texture if it has texture coordinates.
+impl Arrays {
+    /// Returns the arrays that the facts of an export select.
+    pub(super) fn of(facts: &SceneFacts<'_>) -> Self {
+        Self { quantized: facts.is_quantized, ..Self::default() }
+    }
+}
+
+/// Part, with the map of its texture coordinates if it has any.
 struct PartView<'a> {
     part: &'a Part,
-    texture: Option<[f64; 2]>,
+    texture: Option<TexCoordMap>,
     measured: PartExtent,
     /// Welded part that is written instead.
     welded: Option<Arc<FlatPart>>,
@@ -173,7 +192,7 @@ impl Vertices {
     /// array takes as many bytes as four vertices, and cities have many small parts.
     fn of<'a>(
         parts: &[PartView<'a>],
-        arrays: Arrays,
+        (arrays, grid): (Arrays, Option<PositionGrid>),
         description: &mut Description<'a>,
         body: &mut Body<'a>,
     ) -> Vec<Self> {
@@ -183,7 +202,7 @@ impl Vertices {
             let Some((corners, _)) = &shown.corners else { continue };
             let place = known.iter().position(|(known, _)| Arc::ptr_eq(known, corners));
             let place = place.unwrap_or_else(|| {
-                known.push((corners, Self::at_corners(corners, description, body)));
+                known.push((corners, Self::at_corners(corners, grid, description, body)));
                 known.len() - 1
             });
             *found = known[place].1[usize::from(shown.texture.is_some())];
@@ -198,7 +217,7 @@ impl Vertices {
                 if sum <= SHORT { vec![alike.as_slice()] } else { alike.chunks(1).collect() };
             for group in groups.into_iter().filter(|group| !group.is_empty()) {
                 let members: Vec<&PartView<'a>> = group.iter().map(|index| &parts[*index]).collect();
-                let mut vertices = Self::join(&members, arrays, description, body);
+                let mut vertices = Self::join(&members, (arrays, grid), description, body);
                 for index in group {
                     found[*index] = Some(vertices);
                     vertices.first += parts[*index].vertices();
@@ -229,31 +248,24 @@ impl Vertices {
     /// coordinates also refer to the corners of the others.
     fn at_corners<'a>(
         corners: &Arc<FaceCorners<'a>>,
+        grid: Option<PositionGrid>,
         description: &mut Description<'a>,
         body: &mut Body<'a>,
     ) -> [Option<Self>; 2] {
         body.show(corners);
-        let places = body.share(ArrayKind::Positions, BodyArray::CornerPlaces(Arc::clone(corners)));
-        let normals = corners
-            .are_shaded()
-            .then(|| body.share(ArrayKind::Normals, BodyArray::CornerNormals(Arc::clone(corners))));
+        let (at, normal, tex_coord) = AttributeType::all(grid, corners.are_tex_coords_rounded());
+        let places = at.share(BodyArray::CornerPlaces(Arc::clone(corners)), body);
+        let normals =
+            corners.are_shaded().then(|| normal.share(BodyArray::CornerNormals(Arc::clone(corners)), body));
         [false, true].map(|textured| {
             let CornerRange { count, low, high } = corners.range(textured);
             corners.has_parts(textured).then(|| {
-                let positions = accessor(places, ComponentType::F32, Type::Vec3, count);
-                let positions = Accessor {
-                    min: Some(Extreme::Point(low.to_array())),
-                    max: Some(Extreme::Point(high.to_array())),
-                    ..positions
-                };
+                let positions = with_extremes(at.accessor(places, count), (low, high), grid);
                 let positions = description.accessor(positions);
-                let normals = normals.map(|place| {
-                    description.accessor(accessor(place, ComponentType::F32, Type::Vec3, count))
-                });
+                let normals = normals.map(|place| description.accessor(normal.accessor(place, count)));
                 let tex_coords = textured.then(|| {
-                    let place =
-                        body.share(ArrayKind::TexCoords, BodyArray::CornerTexCoords(Arc::clone(corners)));
-                    description.accessor(accessor(place, ComponentType::F32, Type::Vec2, count))
+                    let place = tex_coord.share(BodyArray::CornerTexCoords(Arc::clone(corners)), body);
+                    description.accessor(tex_coord.accessor(place, count))
                 });
                 let accessors = Attributes { positions, normals, tex_coords, features: None };
                 Self { accessors, first: 0, count }
@@ -264,7 +276,7 @@ impl Vertices {
     /// Adds the vertices of `parts`, one after another.
     fn join<'a>(
         parts: &[&PartView<'a>],
-        arrays: Arrays,
+        (arrays, grid): (Arrays, Option<PositionGrid>),
         description: &mut Description<'a>,
         body: &mut Body<'a>,
     ) -> Self {
@@ -274,47 +286,37 @@ impl Vertices {
         // The scene's z axis is glTF's y axis and its y axis is -z, so the corners of the box are sorted again.
         let (a, b) = (y_up(low), y_up(high));
         let (low, high) = (a.min(b), a.max(b));
-        let mut add = |shared: ArrayKind,
-                       (component, kind): (ComponentType, Type),
-                       block: &dyn Fn(&PartView<'a>) -> BodyArray<'a>| {
+        let mut add = |stored: AttributeType, block: &dyn Fn(&PartView<'a>) -> BodyArray<'a>| {
             let mut place = None;
             for shown in parts {
-                let added = body.share(shared, block(shown));
+                let added = stored.share(block(shown), body);
                 place.get_or_insert(added);
             }
-            accessor(place.unwrap_or_default(), component, kind, count)
+            stored.accessor(place.unwrap_or_default(), count)
         };
-        let vec3 = (ComponentType::F32, Type::Vec3);
-        let positions = add(ArrayKind::Positions, vec3, &|shown| match &shown.welded {
+        let are_rounded = parts.iter().filter_map(|shown| shown.texture).all(|map| map.is_rounded);
+        let (at, normal, tex_coord) = AttributeType::all(grid, are_rounded);
+        let positions = add(at, &|shown| match &shown.welded {
             Some(welded) => BodyArray::Places(Arc::clone(welded)),
             None => BodyArray::Positions(shown.part),
         });
         let normals = match arrays.small {
-            false => add(ArrayKind::Normals, vec3, &|shown| BodyArray::Normals(shown.part)),
+            false => add(normal, &|shown| BodyArray::Normals(shown.part)),
             true if parts.iter().all(|shown| shown.welded.is_some() || is_faceted(shown.part)) => {
-                let kind = (ComponentType::I8, Type::Vec3);
-                add(ArrayKind::ByteNormals, kind, &|shown| match &shown.welded {
+                add(AttributeType::BYTE_NORMALS, &|shown| match &shown.welded {
                     Some(welded) => BodyArray::FaceNormals(Arc::clone(welded)),
                     None => BodyArray::ByteNormals(shown.part),
                 })
             }
-            true => {
-                let kind = (ComponentType::I16, Type::Vec3);
-                add(ArrayKind::ShortNormals, kind, &|shown| BodyArray::ShortNormals(shown.part))
-            }
+            true => add(AttributeType::SHORT_NORMALS, &|shown| BodyArray::ShortNormals(shown.part)),
         };
-        let normals = Accessor { normalized: arrays.small, ..normals };
         let textured = parts.first().is_some_and(|shown| shown.texture.is_some());
         let tex_coords = textured.then(|| {
-            add(ArrayKind::TexCoords, (ComponentType::F32, Type::Vec2), &|shown| {
-                BodyArray::TexCoords(shown.part, shown.texture.unwrap_or([1.0, 1.0]))
+            add(tex_coord, &|shown| {
+                BodyArray::TexCoords(shown.part, shown.texture.unwrap_or(TexCoordMap::exact([1.0, 1.0])))
             })
         });
-        let positions = Accessor {
-            min: Some(Extreme::Point(low.to_array())),
-            max: Some(Extreme::Point(high.to_array())),
-            ..positions
-        };
+        let positions = with_extremes(positions, (low, high), grid);
         let accessors = Attributes {
             positions: description.accessor(positions),
             normals: Some(description.accessor(normals)),

@@ -6,6 +6,8 @@
 //!
 //! Specification: Khronos Group, "glTF 2.0 Specification", 2021.
 
+mod attribute;
+mod attribute_column;
 mod body;
 mod camera;
 mod coordinates;
@@ -21,6 +23,9 @@ mod metadata;
 mod metadata_tests;
 mod packing;
 mod place;
+mod quantize;
+#[cfg(test)]
+mod quantize_tests;
 #[cfg(test)]
 mod tests;
 mod tile;

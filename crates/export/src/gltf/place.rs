@@ -2,11 +2,12 @@
 
 use super::super::check::{PartExtent, SceneCheck};
 use super::super::decompose::{Steps, Trs, decompose, y_up};
+use super::attribute_column::{AttributeColumn, FeatureNumbers};
 use super::body::{Body, BodyArray};
-use super::coordinates::short;
 use super::description::{Accessor, Description, FeatureExtras, Node, use_extension};
 use super::mesh::{Arrays, accessor};
 use super::metadata::{FeaturePlace, INSTANCE_FEATURES, Metadata, instance_features};
+use super::quantize::{PositionGrid, rounding as grid_rounding};
 use crate::InstanceStorage;
 use crate::film_model::FilmModel;
 use crate::level_storage::LevelStorage;
@@ -46,12 +47,6 @@ pub(super) struct InstanceKind<'a> {
 /// the scene's extras, or -1.
 const FEATURE: &str = "_FEATURE_ID_0";
 
-/// Maximum error (radians, 0.0036 degrees) of a rotation whose quaternion is stored as multiples of 1/32767.
-const ROUNDING: f64 = 6.2e-5;
-
-/// Maximum displacement (m) of a point by rounding a rotation.
-const UNSEEN: f64 = 1e-3;
-
 #[derive(Default)]
 pub(super) struct InstanceGroup {
     count: usize,
@@ -62,13 +57,6 @@ pub(super) struct InstanceGroup {
     scales: Vec<f32>,
     /// Largest scale factor.
     largest: f64,
-}
-
-/// Values of an instance attribute, for one instance after another.
-enum AttributeColumn {
-    Floats(Vec<f32>),
-    /// Integers; if the flag is set, multiples of 1/32767.
-    Shorts(Vec<i16>, bool),
 }
 
 /// Location of an instance of the scene in a document.
@@ -93,6 +81,8 @@ pub(super) struct InstanceNodes<'a> {
     pub(super) frames: Vec<(u32, usize)>,
     /// Number of repeated instances that have nodes of their own.
     pub(super) separate: usize,
+    /// Largest error (m) of positions along an axis, if they are integers.
+    pub(super) rounding: Option<f64>,
 }
 
 /// Adds the instances.
@@ -130,6 +120,9 @@ pub(super) fn write<'a>(
         InstanceStorage::Nodes | InstanceStorage::Expanded => false,
     };
     let separate = if is_sharing { 0 } else { repeated };
+    let grids = arrays.quantized.then(|| checked.parts.iter().map(|parts| PositionGrid::of(parts)));
+    let grids: Option<Vec<PositionGrid>> = grids.map(|grids| grids.collect());
+    let mut rounding = grids.as_ref().map(|_| 0.0);
     let mut features = FeatureNumbers::default();
     let mut nodes = Vec::new();
     let mut places = vec![None; scene.instances.len()];
@@ -138,7 +131,11 @@ pub(super) fn write<'a>(
         let Some(mesh) = meshes[instance.mesh] else { continue };
         let mut transform = instance.transform;
         transform.translation -= checked.origin;
-        let transform = y_up(&transform);
+        let mut transform = y_up(&transform);
+        if let (Some(grids), Some(rounding)) = (&grids, &mut rounding) {
+            transform *= grids[instance.mesh].transform();
+            *rounding = grid_rounding(&transform).max(*rounding);
+        }
         let at = group;
         let shared = group
             .map(|group| &mut groups[group])
@@ -162,7 +159,11 @@ pub(super) fn write<'a>(
     }
     for ((kind, group), members) in groups.into_iter().zip(members) {
         if let Some(mesh) = meshes[kind.mesh].filter(|_| !group.translations.is_empty()) {
-            let reach = if arrays.small { f64::INFINITY } else { reach(checked, kind.mesh) };
+            let reach = match arrays {
+                Arrays { small: true, .. } => f64::INFINITY,
+                Arrays { quantized: true, .. } => PositionGrid::reach(),
+                _ => reach(checked, kind.mesh),
+            };
             let features = metadata.is_some().then_some(kind.table).flatten();
             let node = add_group(kind, group, features, (mesh, reach), description, body);
             nodes.push((kind.frame, node));
@@ -179,7 +180,7 @@ pub(super) fn write<'a>(
         None => nodes.into_iter().map(|(_, node)| node).collect(),
     };
     if checked.origin == DVec3::ZERO || nodes.is_empty() {
-        return InstanceNodes { nodes, places, features, frames, separate };
+        return InstanceNodes { nodes, places, features, frames, separate, rounding };
     }
     let origin = Node {
         name: "origin",
@@ -187,7 +188,7 @@ pub(super) fn write<'a>(
         children: Some(nodes),
         ..Node::default()
     };
-    InstanceNodes { nodes: vec![description.node(origin)], places, features, frames, separate }
+    InstanceNodes { nodes: vec![description.node(origin)], places, features, frames, separate, rounding }
 }
 
 impl<'a> InstanceKind<'a> {
@@ -236,25 +237,6 @@ impl<'a> InstanceKind<'a> {
     }
 }
 
-/// Features that are referred to by number.
-#[derive(Default)]
-struct FeatureNumbers<'a> {
-    list: Vec<&'a str>,
-    numbers: FxHashMap<&'a str, usize>,
-}
-
-impl<'a> FeatureNumbers<'a> {
-    /// Returns the number of a feature; -1 for `None`.
-    fn number(&mut self, feature: Option<&'a str>) -> f32 {
-        let Some(feature) = feature else { return -1.0 };
-        let number = *self.numbers.entry(feature).or_insert_with(|| {
-            self.list.push(feature);
-            self.list.len() - 1
-        });
-        number as f32
-    }
-}
-
 impl InstanceGroup {
     /// Adds an instance and returns true, unless its transform is sheared.
     pub(super) fn take(&mut self, transform: &DAffine3) -> bool {
@@ -271,26 +253,6 @@ impl InstanceGroup {
 pub(super) fn reach(checked: &SceneCheck<'_>, mesh: usize) -> f64 {
     let furthest = |part: &PartExtent| part.low.abs().max(part.high.abs()).as_dvec3().length();
     checked.parts[mesh].iter().map(furthest).fold(0.0, f64::max)
-}
-
-impl AttributeColumn {
-    /// Stores rotations of an object with the radius `reach` (m): as multiples of 1/32767 unless the error would be
-    /// visible.
-    fn rotations(floats: Vec<f32>, reach: f64) -> Self {
-        if reach * ROUNDING > UNSEEN {
-            return Self::Floats(floats);
-        }
-        Self::Shorts(floats.into_iter().map(short).collect(), true)
-    }
-
-    /// Stores integers in the smallest type that fits.
-    #[allow(clippy::cast_possible_truncation, reason = "bounded before")]
-    fn whole(floats: Vec<f32>) -> Self {
-        if floats.iter().any(|number| *number > f32::from(i16::MAX)) {
-            return Self::Floats(floats);
-        }
-        Self::Shorts(floats.into_iter().map(|number| number as i16).collect(), false)
-    }
 }
 
 /// Adds the nodes for one instance. Returns the outermost node and the node with the mesh. They are the same unless the
@@ -464,41 +426,7 @@ fn unless<const N: usize>(default: [f32; N], value: [f32; N]) -> Option<[f32; N]
 }
 
 /// Returns the quaternion of `rotation` with non-negative w, as x, y, z, w.
-fn quaternion(rotation: DQuat) -> [f32; 4] {
+pub(super) fn quaternion(rotation: DQuat) -> [f32; 4] {
     let rotation = if rotation.w < 0.0 { -rotation } else { rotation };
     rotation.as_quat().to_array().map(|number| number + 0.0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    proptest! {
-        #[test]
-        fn a_turn_in_short_numbers_is_off_by_less_than_five_thousandths_of_a_degree(
-            numbers in proptest::array::uniform4(-1.0_f64..1.0)
-        ) {
-            prop_assume!(DQuat::from_array(numbers).length() > 0.1);
-            let meant = DQuat::from_array(numbers).normalize();
-            let AttributeColumn::Shorts(shorts, true) = AttributeColumn::rotations(quaternion(meant).to_vec(), 1.0) else {
-                panic!("short numbers")
-            };
-            let read: Vec<f64> = shorts.iter().map(|number| f64::from(*number) / 32767.0).collect();
-            let off = (meant.inverse() * DQuat::from_slice(&read).normalize()).to_scaled_axis().length();
-            let off = off.min(std::f64::consts::TAU - off);
-            prop_assert!(off <= ROUNDING && off.to_degrees() < 0.005, "{off}");
-        }
-    }
-
-    #[test]
-    fn what_reaches_far_keeps_its_turn_and_what_has_a_high_number_keeps_it() {
-        let turn = quaternion(DQuat::from_rotation_y(0.7)).to_vec();
-        assert!(matches!(AttributeColumn::rotations(turn.clone(), 16.0), AttributeColumn::Shorts(..)));
-        assert!(matches!(AttributeColumn::rotations(turn, 17.0), AttributeColumn::Floats(_)));
-        assert!(
-            matches!(AttributeColumn::whole(vec![-1.0, 32767.0]), AttributeColumn::Shorts(shorts, false) if shorts == [-1, 32767])
-        );
-        assert!(matches!(AttributeColumn::whole(vec![-1.0, 32768.0]), AttributeColumn::Floats(_)));
-    }
 }

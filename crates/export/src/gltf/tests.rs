@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 const TURN: fn(DVec3) -> DVec3 = |p| DVec3::new(p.x, p.z, -p.y);
 
 /// Returns the triangles of every instance in the world, as a viewer draws them.
-fn drawn_triangles(bytes: &[u8]) -> Vec<[DVec3; 3]> {
+pub(super) fn drawn_triangles(bytes: &[u8]) -> Vec<[DVec3; 3]> {
     let file = Gltf::from_slice_without_validation(bytes).unwrap();
     let blob = file.blob.clone().unwrap_or_default();
     let mut triangles = Vec::new();
@@ -44,7 +44,7 @@ fn visit(node: &gltf::Node<'_>, parent: DMat4, file: &Gltf, blob: &[u8], out: &m
         };
         for primitive in mesh.primitives() {
             let reader = primitive.reader(|_| Some(blob));
-            let points: Vec<_> = reader.read_positions().unwrap().collect();
+            let points = positions(&primitive, blob);
             let corners: Vec<_> = reader.read_indices().unwrap().into_u32().collect();
             for place in &places {
                 let at = |corner: u32| {
@@ -64,6 +64,21 @@ fn visit(node: &gltf::Node<'_>, parent: DMat4, file: &Gltf, blob: &[u8], out: &m
     for child in node.children() {
         visit(&child, world, file, blob, out);
     }
+}
+
+/// Returns the positions of a primitive, which may be integers.
+fn positions(primitive: &gltf::Primitive<'_>, blob: &[u8]) -> Vec<[f32; 3]> {
+    let accessor = primitive.get(&gltf::Semantic::Positions).unwrap();
+    if accessor.data_type() == ComponentType::F32 {
+        return primitive.reader(|_| Some(blob)).read_positions().unwrap().collect();
+    }
+    let (view, mut places) = (accessor.view().unwrap(), Vec::new());
+    let start = view.offset() + accessor.offset();
+    for item in blob[start..].chunks(view.stride().unwrap()).take(accessor.count()) {
+        let shorts: Vec<u16> = bytemuck::pod_collect_to_vec(&item[..6]);
+        places.push([f32::from(shorts[0]), f32::from(shorts[1]), f32::from(shorts[2])]);
+    }
+    places
 }
 
 fn place_extension() -> &'static str {
@@ -99,7 +114,7 @@ fn instances(extension: &serde_json::Value, file: &Gltf, blob: &[u8]) -> Vec<DMa
 }
 
 /// Returns the triangles of every instance, directly from the scene.
-fn scene_triangles(scene: &Scene) -> Vec<[DVec3; 3]> {
+pub(super) fn scene_triangles(scene: &Scene) -> Vec<[DVec3; 3]> {
     let mut triangles = Vec::new();
     for instance in &scene.instances {
         for part in &scene.meshes[instance.mesh].parts {
@@ -132,7 +147,7 @@ fn distance(scene: &Scene) -> f64 {
 }
 
 /// Returns the largest distance (m) between triangles in the same order, which may begin at different corners.
-fn largest_distance(some: &[[DVec3; 3]], others: &[[DVec3; 3]]) -> f64 {
+pub(super) fn largest_distance(some: &[[DVec3; 3]], others: &[[DVec3; 3]]) -> f64 {
     assert_eq!(some.len(), others.len());
     let apart = |(a, b): (&[DVec3; 3], &[DVec3; 3])| {
         let turned = |by: usize| (0..3).map(|i| a[i].distance(b[(i + by) % 3])).fold(0.0, f64::max);

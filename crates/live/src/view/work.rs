@@ -45,6 +45,7 @@ const IDLE_LIMITS: Limits = Limits {
     whole_program: false,
     modules: 5_000_000,
     triangles: 10_000_000,
+    file: None,
 };
 
 /// Outcome of a run.

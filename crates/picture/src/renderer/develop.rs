@@ -33,6 +33,8 @@ struct FragmentShare {
 pub(super) fn develop(light: &Light, picture: &Picture, detail: &RenderDetail) -> Image {
     let (width, height) = (picture.width as usize, picture.height as usize);
     let mut pixels = vec![[0; 4]; width * height];
+    let progress = light.stage.stop.progress();
+    progress.begin("shading", "pixels", width * height);
     let band = (HELD / (width * detail.samples())).max(TILE[1]) / TILE[1] * TILE[1];
     for (index, rows) in pixels.chunks_mut(band * width).enumerate() {
         // A band takes time and memory even if nothing is drawn after cancellation, so stop here.
@@ -50,6 +52,7 @@ pub(super) fn develop(light: &Light, picture: &Picture, detail: &RenderDetail) -
                 }
                 let size = [TILE[0].min(width - left), rows.len() / width];
                 let tile = tile(light, picture, detail, &visible, [left, top], size);
+                progress.add(tile.len());
                 for (y, line) in tile.chunks(size[0]).enumerate() {
                     rows[y * width + left..][..line.len()].copy_from_slice(line);
                 }

@@ -76,6 +76,7 @@ impl Sky {
         let fit = |i: usize| LightProjection::fit(&stage.hull, direction(i, count).0, detail.sky_side);
         let frames: Vec<LightProjection> = (0..count).into_par_iter().map(fit).collect();
         let points = detail.sky_points.then(|| SkyPoints::new(stage, &frames)).flatten();
+        stage.stop.progress().begin("light of the sky", "maps", count);
         let maps: Vec<SkySample> = frames
             .into_par_iter()
             .enumerate()
@@ -89,6 +90,7 @@ impl Sky {
                     Some(points) => map.draw_points(stage, points, i),
                     None => map.draw(stage),
                 }
+                stage.stop.progress().add(1);
                 map
             })
             .collect();

@@ -8,6 +8,7 @@ use mlua::Buffer;
 use super::InterpretationPass;
 use super::memory::{PassMark, PassMemory};
 use super::notices::ObjectNotice;
+use crate::declare::FileLimit;
 use crate::machine::{CLOSE_CALL, Interpretations, Machine, OPEN_CALL, Objects, read_column};
 use crate::results::ReportSums;
 use burgeon_base::Stop;
@@ -25,6 +26,7 @@ pub(crate) struct Applier {
     values: Arc<Values>,
     stop: Arc<Stop>,
     triangle_limit: usize,
+    file_limit: Option<Arc<FileLimit>>,
     buffers: [Buffer; 3],
     /// Index of the next symbol to apply.
     pub(super) position: usize,
@@ -88,6 +90,7 @@ impl Applier {
             values: Arc::clone(&machine.session.values),
             stop: Arc::clone(&machine.session.stop),
             triangle_limit: machine.session.options.limits.triangles,
+            file_limit: machine.session.options.limits.file.clone(),
             pass,
             objects,
             warn: kind.capability::<dyn Warn>(),
@@ -404,7 +407,9 @@ impl Applier {
             return Ok(());
         }
         let triangles = self.objects.read(self.chain, |object| Ok(object.triangles()))?;
-        self.pass.count_triangles(self.triangle_limit, triangles.saturating_sub(self.counted))?;
+        let (limits, more) =
+            ((self.triangle_limit, self.file_limit.as_deref()), triangles.saturating_sub(self.counted));
+        self.pass.count_triangles(limits, more)?;
         self.counted = triangles;
         Ok(())
     }

@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use super::Applier;
 use super::memory::PassMemory;
 use super::notices::Notices;
+use crate::declare::FileLimit;
 use crate::derive::plan::DerivationPlan;
 use crate::derive::threads::{LeadingMachine, ThreadJob};
 use crate::machine::{Flusher, Machine, ModulePlaces, write_column};
@@ -468,9 +469,16 @@ impl InterpretationPass {
         self.undrawn.lock().recover().insert(symbol);
     }
 
-    /// Adds `more` triangles to the total, and fails if the total exceeds the limit.
-    pub(super) fn count_triangles(&self, machine_limit: usize, more: usize) -> Result<()> {
+    /// Adds `more` triangles to the total, and fails if the total exceeds the limit of a system or of the run's file.
+    pub(super) fn count_triangles(
+        &self,
+        (machine_limit, file): (usize, Option<&FileLimit>),
+        more: usize,
+    ) -> Result<()> {
         let total = self.triangles.fetch_add(more, Ordering::Relaxed) + more;
+        if let Some(file) = file.filter(|file| total > file.triangles) {
+            return Err(Error::limit(Limit::Format, file.message.clone()).help(file.help.clone()));
+        }
         if total > machine_limit {
             return Err(Error::limit(
                 Limit::Triangles,

@@ -73,7 +73,8 @@ fn describe<'a>(
         metadata.use_tables(&mut description.root);
     }
     let metadata = metadata.as_ref();
-    let materials = material::write(checked, images, &Textures::Embedded, &mut description.root, &mut body);
+    let materials =
+        material::write(checked, images, &Textures::Embedded, &[], &mut description.root, &mut body);
     let (repeated, others) = divide_repeated(checked, metadata, options.expand_instances);
     let (low, high) = checked.scene.bounds().unwrap_or_default();
     let (low, high) = (low - checked.origin, high - checked.origin);
