@@ -3,7 +3,8 @@
 local width = param("width", { default = 1.2, min = 0.5, max = 3, unit = "m", group = "Case" })
 local shelves = param("shelves", { default = 4, min = 1, max = 8, step = 1, group = "Case" })
 local wood = param("wood", { default = "#b98d5c", group = "Case", doc = "Colour of the boards" })
-local fill = param("fill", { default = 0.8, min = 0, max = 1, group = "Books", doc = "Filled part of a shelf" })
+local fill =
+  param("fill", { default = 0.8, min = 0, max = 1, group = "Books", doc = "Filled part of a shelf" })
 local tallest = param("tallest", { default = 0.27, min = 0.15, max = 0.3, unit = "m", group = "Books" })
 local palette = param("palette", { default = "old", choices = { "old", "bright" }, group = "Books" })
 

@@ -1,6 +1,6 @@
 //! Functions that create shapes.
 
-use burgeon_kit::Argument;
+use burgeon_kit::{Argument, Field};
 
 use super::name::{Name, field, options};
 use crate::form::argument;
@@ -47,8 +47,12 @@ pub(super) fn shape_functions() -> [Name; 8] {
 
 /// Returns the options of `text`.
 fn text_options() -> Argument {
+    let length = |name: &'static str, luau: &str, default: &str, doc: &'static str| Field {
+        unit: Some("m".into()),
+        ..field(name, luau, default, doc)
+    };
     let fields = [
-        field("size", "number", "1", "Height of capital letters (m)."),
+        length("size", "number", "1", "Height of capital letters (m)."),
         field("font", "Font?", "nil", "Font of a file: font(\"sign.ttf\"); Noto Sans unless given."),
         field(
             "align",
@@ -56,9 +60,9 @@ fn text_options() -> Argument {
             "\"left\"",
             "Part of a line that is at x = 0: \"left\", \"center\" or \"right\".",
         ),
-        field("spacing", "number", "0", "Distance added between letters (m)."),
-        field("line_height", "number?", "nil", "Distance between lines (m); that of the font unless given."),
-        field(
+        length("spacing", "number", "0", "Distance added between letters (m)."),
+        length("line_height", "number?", "nil", "Distance between lines (m); that of the font unless given."),
+        length(
             "tolerance",
             "number?",
             "nil",
