@@ -637,7 +637,9 @@ local function components(shape: any, kind: string, parts: { any }): any
   local list: { any } = {}
   for _, component in shape:components(kind, { "all" }) do
     for number, selector in selectors do
-      local matches = if type(selector) == "function" then selector(component) else component:matches(selector)
+      local matches = if type(selector) == "function"
+        then selector(component)
+        else component:matches(selector)
       if matches then
         add_part(list, entries, number, component)
         break
