@@ -77,7 +77,7 @@ fn the_gallery_shows_every_script_and_no_other() {
         assert!(guide().contains(&format!("| `{name}.lua` |")), "{name}");
         assert!(in_book.remove(&format!("geospatial/{name}")), "{name} has no picture");
     }
-    let rest = "castle environments events facade features films joints lantern leaf neighbours network phases pipes ported roofs subsystems terrain tileset tower tree variations village";
+    let rest = "environments events facade features films joints lantern leaf neighbours network phases pipes ported roofs subsystems terrain tileset tower tree variations";
     assert_eq!(in_book, rest.split(' ').map(str::to_owned).collect::<BTreeSet<_>>());
     let types: Vec<PathBuf> = lua_files("examples/types");
     assert!(

@@ -61,7 +61,9 @@ fn every_script_of_the_book_runs() {
             }
             let folder =
                 Folder::new().with_roads().with("buildings.geojson", buildings).with("s.lua", script);
-            let said = folder.burgeon(&["run", "s.lua", "--strict"]);
+            let mods = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/shapes/mods");
+            let said =
+                folder.burgeon(&["run", "s.lua", "--strict", "--mods", mods.to_str().expect("a path")]);
             assert_eq!(said.status, 0, "{name}: {}", said.stderr);
             count += 1;
         }

@@ -125,7 +125,7 @@ pub const PLAIN_EXAMPLES: &[ScriptExample] = examples! {
     "ramp/slope" shows "ramp:slope" "ramp:at" "ramp:integral" "ramp:mix";
     "shape/appearance" shows "shape:smooth" "shape:material" "shape:project";
     "shape/components" shows "shape:faces" "shape:matches" "shape:edges" "shape:edge_kind" "shape:holes"
-        "shape:without_holes" "shape:geometry" "shape:joined_faces" "shape:pieces";
+        "shape:without_holes" "shape:geometry" "shape:joined_faces" "shape:pieces" "shape:components";
     "shape/measures" shows "shape:size" "shape:position" "shape:center" "shape:x_axis" "shape:y_axis"
         "shape:z_axis" "shape:volume" "shape:area" "shape:length" "shape:slope" "shape:face_count"
         "shape:open_edges" "shape:points" "shape:is_solid";
@@ -143,7 +143,8 @@ pub const PLAIN_EXAMPLES: &[ScriptExample] = examples! {
     "shape/sweep" shows "shape:sweep";
     "shape/tags" shows "shape:tag" "shape:untag" "shape:tags" "shape:has_tag" "shape:recompose";
     "shape/trim_to" shows "shape:trim_to";
-    "volumes/distance" shows "volumes:has" "volumes:count" "volumes:is_free" "volumes:distance";
+    "volumes/distance" shows "volumes:has" "volumes:count" "volumes:is_free" "volumes:distance" "volumes:rank"
+        "volumes:is_visible";
     "soil/total" shows "soil:add" "soil:diffuse" "soil:amount" "soil:total";
     "streets/distance" shows "streets:distance";
     "surface/normal" shows "surface:normal" "surface:point" "surface:mix";

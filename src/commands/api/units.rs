@@ -175,7 +175,7 @@ const NUMBERS: [&str; 39] = [
 ];
 
 /// Values in any unit that the script or the file uses.
-const ANY: [&str; 43] = [
+const ANY: [&str; 45] = [
     ".time",
     "beta a",
     "beta b",
@@ -219,6 +219,8 @@ const ANY: [&str; 43] = [
     "stream ...",
     "surface.u_knots",
     "surface.v_knots",
+    "volumes:claim value",
+    "volumes:rank value",
 ];
 
 /// Returns true if a value of this type is a number or contains numbers.

@@ -3,6 +3,9 @@ local roof = rectangle(12, 8):roof({ kind = "hip", height = 3 })
 for _, face in roof:faces("slanted") do
   print(face:slope(), face:matches("south"), face:has_tag("roof.slope"))
 end
+for _, face in roof:components("faces", { "tag:roof.slope", "down" }) do
+  print(face:entry(), face:area())
+end
 print(#roof:edges("ridge"), #roof:edges("hip"), roof:edges("ridge")[1]:edge_kind())
 local yard =
   shape({ { { 0, 0 }, { 20, 0 }, { 20, 12 }, { 0, 12 } }, { { 5, 4 }, { 12, 4 }, { 12, 8 }, { 5, 8 } } })

@@ -1,4 +1,4 @@
--- Claims of shapes with labels, in an order, and distances to them.
+-- Claims of shapes with labels, in an order, and distances to them, their ranks by height, and lines of sight.
 local Lot = module("Lot", "shape")
 local space = volumes()
 local town = lsystem({ object = extruder(), environment = { space } })
@@ -12,11 +12,13 @@ town:rule("Lot(s)", function(this, s: Shape)
     space:has(s),
     space:count("house"),
     space:is_free(s:translate(vec(0, 30, 0))),
-    space:distance(s, "house")
+    space:distance(s, "house"),
+    space:rank(s:size().z, "house"),
+    space:is_visible(s:center() + vec(0, 0, 6), vec(60, 4, 4))
   )
   return Draw(s)
 end)
 town:interpret("Lot(s)", function(this, s: Shape)
-  space:claim(s, "house")
+  space:claim(s, "house", s:size().z)
 end)
 town:derive(1)
