@@ -1,6 +1,6 @@
 //! Vectors and texture coordinates as glTF stores them.
 
-use super::quantize::rounded;
+use super::quantize::round_to_step;
 use burgeon_scene::Normal;
 use glam::Vec3;
 
@@ -70,7 +70,7 @@ impl TexCoordMap {
     pub(super) fn of(&self, uv: glam::Vec2) -> [f32; 2] {
         let exact = tex_coord(uv, self.size);
         let fraction = self.range.map_or(exact, |range| range.fraction(exact));
-        if self.is_rounded { fraction.map(rounded) } else { fraction }
+        if self.is_rounded { fraction.map(round_to_step) } else { fraction }
     }
 }
 

@@ -114,7 +114,7 @@ fn integer(coordinate: f32) -> u16 {
 }
 
 /// Returns the nearest multiple of 1/65535 to a texture coordinate from 0 to 1.
-pub(super) fn rounded(coordinate: f32) -> f32 {
+pub(super) fn round_to_step(coordinate: f32) -> f32 {
     (f64::from(integer(coordinate)) / MOST) as f32
 }
 
@@ -184,7 +184,7 @@ mod tests {
             let high = low + size;
             let range = TexCoordRange::of([[low; 2], [high; 2]], 64.0).unwrap();
             let meant = (low + size * part).min(high);
-            let stored = rounded(range.fraction([meant; 2])[0]);
+            let stored = round_to_step(range.fraction([meant; 2])[0]);
             let read = f64::from(range.offset[0]) + f64::from(range.scale[0]) * f64::from(stored);
             let step = f64::from(range.scale[0]) / 65_535.0;
             prop_assert!((read - f64::from(meant)).abs() <= 0.5 * step + 2e-5, "{read} {meant}");

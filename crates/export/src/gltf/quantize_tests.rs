@@ -11,7 +11,7 @@ use gltf_json::accessor::ComponentType;
 use std::path::Path;
 
 /// Writes a scene with integers to a file and returns its bytes and notes.
-fn quantized(scene: &Scene, instances: InstanceStorage, path: &Path) -> (Vec<u8>, Vec<String>) {
+fn write_quantized(scene: &Scene, instances: InstanceStorage, path: &Path) -> (Vec<u8>, Vec<String>) {
     let facts = SceneFacts { is_quantized: true, instances, ..SceneFacts::default() };
     let picture = Picture::default();
     let mut files = Files::default();
@@ -43,7 +43,7 @@ fn every_sample_is_drawn_within_half_a_step_with_and_without_shared_nodes() {
     let mut count = 0;
     for (name, scene) in &scenes {
         for instances in [InstanceStorage::Nodes, InstanceStorage::Extension] {
-            let (bytes, notes) = quantized(scene, instances, &path);
+            let (bytes, notes) = write_quantized(scene, instances, &path);
             let exact_path = folder.path().join("exact.glb");
             let mut files = Files::default();
             let facts = SceneFacts { instances, ..SceneFacts::default() };
@@ -74,7 +74,7 @@ fn a_large_mesh_is_off_by_half_a_step_of_its_box_and_the_note_states_it() {
     let (low, high) = scene.bounds().unwrap();
     let size = (high - low).max_element();
     scene.meshes[0].parts[0].positions.iter_mut().for_each(|at| *at *= 1000.0 / size as f32);
-    let (bytes, notes) = quantized(&scene, InstanceStorage::Nodes, &folder.path().join("hill.glb"));
+    let (bytes, notes) = write_quantized(&scene, InstanceStorage::Nodes, &folder.path().join("hill.glb"));
     let off = largest_distance(&scene_triangles(&scene), &drawn_triangles(&bytes));
     // 1,000 m in 65,535 steps.
     assert!(off > 0.004 && off <= 0.007_63 * 3.0_f64.sqrt(), "{off}");
@@ -93,7 +93,7 @@ fn repeated_textures_have_short_coordinates_and_a_transform_that_restores_them()
         mesh.parts[0].uvs.iter_mut().for_each(|uv| *uv = *uv * 7.0 - Vec2::ONE);
     }
     let exact = super::glb(&scene).unwrap();
-    let (bytes, _) = quantized(&scene, InstanceStorage::Nodes, &folder.path().join("a.glb"));
+    let (bytes, _) = write_quantized(&scene, InstanceStorage::Nodes, &folder.path().join("a.glb"));
     let read = |bytes: &[u8]| -> Vec<(Vec<[f32; 2]>, ComponentType)> {
         let file = Gltf::from_slice_without_validation(bytes).unwrap();
         let blob = file.blob.clone().unwrap();
@@ -127,7 +127,7 @@ fn repeated_textures_have_short_coordinates_and_a_transform_that_restores_them()
     }
     // Too many repetitions stay exact.
     scene.meshes[0].parts[0].uvs[0] *= 1000.0;
-    let (bytes, _) = quantized(&scene, InstanceStorage::Nodes, &folder.path().join("b.glb"));
+    let (bytes, _) = write_quantized(&scene, InstanceStorage::Nodes, &folder.path().join("b.glb"));
     assert_eq!(read(&bytes)[0].1, ComponentType::F32);
 }
 

@@ -1,4 +1,4 @@
--- What a roof covers, right angles of a measured plan, convex faces, and points in a ball.
+-- The plan below a roof, right angles of a measured plan, convex faces, and points in a ball.
 local roof = rectangle(12, 8):roof({ kind = "hip", height = 3, overhang = 0.5 })
 local plan = roof:ground_plan(0)
 print(if plan then plan:area() else 0)

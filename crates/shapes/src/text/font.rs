@@ -68,7 +68,7 @@ impl Font {
     }
 
     /// Returns the font with the measures for a height of capital letters (m), and a tolerance of curves (m).
-    pub(super) fn sized(&self, size: f64, tolerance: f64) -> Result<SizedFont<'_>> {
+    pub(super) fn at_size(&self, size: f64, tolerance: f64) -> Result<SizedFont<'_>> {
         let face = self.face()?;
         let capital = f64::from(face.capital_height().unwrap_or(0));
         let drawn = || {
@@ -196,7 +196,7 @@ mod tests {
         // Every 97th byte behind the directory of tables is another one.
         content.iter_mut().skip(400).step_by(97).for_each(|byte| *byte = byte.wrapping_mul(31) ^ 0x5a);
         let Ok(font) = Font::read(content) else { return };
-        let sized = font.sized(1.0, 0.01).expect("measures");
+        let sized = font.at_size(1.0, 0.01).expect("measures");
         for letter in ' '..'~' {
             if let Some(glyph) = sized.glyph(letter) {
                 let _ = sized.area(glyph);
@@ -207,7 +207,7 @@ mod tests {
     #[test]
     fn a_and_v_are_closer_than_their_widths() {
         let font = Font::default();
-        let sized = font.sized(1.0, 0.01).expect("measures");
+        let sized = font.at_size(1.0, 0.01).expect("measures");
         let [a, v, h] = ['A', 'V', 'H'].map(|letter| sized.glyph(letter).expect("a letter"));
         assert!(sized.pair(a, v) < -0.02, "{}", sized.pair(a, v));
         assert_eq!(sized.pair(h, h), 0.0);

@@ -58,7 +58,7 @@ impl Shape {
             );
         }
         MemoryOwner::ensure_room(text.len().saturating_mul(size_of::<super::layout::PlacedLetter>()))?;
-        let sized = font.sized(layout.size, layout.tolerance)?;
+        let sized = font.at_size(layout.size, layout.tolerance)?;
         let (letters, missing) = place_letters(text, &sized, layout);
         let mut known: FxHashMap<GlyphId, Vec<Rings<DVec2>>> = FxHashMap::default();
         let mut builder = PolygonMeshBuilder::default();

@@ -1,5 +1,5 @@
 --!strict
--- What stands on roofs: dormers, chimneys, spires and turrets.
+-- Parts of roofs: dormers, chimneys, spires and turrets.
 local openings = require("./openings")
 local outlines = require("./outlines")
 local roofs = {}

@@ -1,5 +1,5 @@
 --!strict
--- What carries walls and vaults: buttresses, flying buttresses, arcades and pinnacles.
+-- Supports of walls and vaults: buttresses, flying buttresses, arcades and pinnacles.
 local outlines = require("./outlines")
 local openings = require("./openings")
 local supports = {}
