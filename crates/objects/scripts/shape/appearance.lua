@@ -2,3 +2,7 @@
 local column = cylinder(0.3, 3, 24):smooth():material({ roughness = 0.4, color = "ivory" })
 local wall = rectangle(5, 3):project("~0.5", 0.5, { angle = 45, offset = { 0.5, 0 } })
 print(column:is_solid(), wall:area())
+
+-- The image shows two windows side by side: half a tile each.
+local windows = rectangle(8, 3):project(4, 3):split("u", { "0.5*" })
+print(#windows, windows[1]:size())

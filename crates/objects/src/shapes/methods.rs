@@ -15,7 +15,7 @@ use super::object::{ShapeObject, warn};
 use super::options::{ScatterOptions, ShapeRoofOptions};
 use super::part_sizes::SplitSizes;
 use super::relations::ShapeOrPlace;
-use super::support::{read_selector, split_axis, unit, warn_of_split};
+use super::support::{image_axis, read_selector, split_axis, unit, warn_of_split};
 use super::sweep_path::{SweepPathOptions, SweepPoints};
 use super::tiles::{ProjectOptions, TileLength};
 use super::trimming::TrimOptions;
@@ -214,11 +214,15 @@ impl ShapeObject {
     /// Returns the parts along an axis of the scope, "x", "y" or "z", in ascending order.
     ///
     /// `sizes` is a list: a number (m), "30%" of the whole, "~3" for a flexible size that shares the rest, "3*" or "~3*"
-    /// for as many as fit, and a list of sizes for a repeated group. A solid's parts are solids.
+    /// for as many as fit, and a list of sizes for a repeated group. A solid's parts are solids. Along "u" and "v", the
+    /// directions of an image from `project`, sizes are in tiles: 0.25 cuts an image of four windows between them.
     pub fn split(&self, axis: String, sizes: SplitSizes) -> Result<Vec<Arc<Self>>> {
-        let split = self.shape.split(split_axis("split", &axis)?, &sizes.0);
+        let (split, unit) = match image_axis(&axis) {
+            Some(axis) => (self.shape.split_image(axis, &sizes.0), "tiles"),
+            None => (self.shape.split(split_axis("split", &axis)?, &sizes.0), "m"),
+        };
         let split = split.map_err(|error| error.about("shape:split"))?;
-        warn_of_split("split", "m", &split);
+        warn_of_split("split", unit, &split);
         Ok(self.number_parts(split.parts))
     }
 

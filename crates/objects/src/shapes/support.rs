@@ -1,7 +1,7 @@
 //! Help for the methods of shapes.
 
 use burgeon_base::error::{Error, ErrorKind, Result};
-use burgeon_shapes::{EdgeKind, Selector, SolidOperation, SplitAxis, SplitParts};
+use burgeon_shapes::{EdgeKind, ImageAxis, Selector, SolidOperation, SplitAxis, SplitParts};
 use glam::DVec3;
 
 use super::edge_distances::EdgeDistances;
@@ -78,6 +78,15 @@ pub(super) fn read_selector(method: &str, selector: Option<String>) -> Result<Se
     Selector::read(&name).map_err(|error| error.about(&format!("shape:{method}")))
 }
 
+/// Reads the direction of an image; `None` for another axis.
+pub(super) fn image_axis(axis: &str) -> Option<ImageAxis> {
+    match axis {
+        "u" => Some(ImageAxis::U),
+        "v" => Some(ImageAxis::V),
+        _ => None,
+    }
+}
+
 /// Reads the axis of a split.
 pub(super) fn split_axis(method: &str, axis: &str) -> Result<SplitAxis> {
     match axis {
@@ -85,7 +94,11 @@ pub(super) fn split_axis(method: &str, axis: &str) -> Result<SplitAxis> {
         "y" => Ok(SplitAxis::Y),
         "z" => Ok(SplitAxis::Z),
         other => Err(Error::argument(format!("shape:{method}: unknown axis {other:?}"))
-            .help("use \"x\", \"y\" or \"z\"")),
+            .help(if method == "split" {
+                "use \"x\", \"y\", \"z\", or \"u\" and \"v\" of a projected image"
+            } else {
+                "use \"x\", \"y\" or \"z\""
+            })),
     }
 }
 
