@@ -560,8 +560,8 @@ local NO_VALUES: { any } = table.freeze({})
 -- Entries of a split or a choice of components: the module or function of each, and its further values.
 type Entries = { makers: { any }, values: { { any } } }
 
-local modules_of_parts: (makers: { any }, values: { { any } }, method: string, shape: any, ...any) -> any =
-  __modules_of_parts
+-- Makes the modules of a split or a choice of components at once; nil outside rules and for entries with functions.
+local modules_of_parts: (method: string, shape: any, kind: string, parts: { any }) -> any = __modules_of_parts
 
 --- Adds an entry, { size or selector, Module, values... }, and returns its first value.
 local function add_entry(to: Entries, owner: string, part: any): any
@@ -591,10 +591,6 @@ end
 
 --- Makes the modules of the parts that a method of a shape returns: entry number `i` becomes a module of maker `i`.
 local function modules_of(entries: Entries, method: string, shape: any, ...: any): any
-  local made = modules_of_parts(entries.makers, entries.values, `shape:{method}`, shape, ...)
-  if made ~= nil then
-    return made
-  end
   local list: { any } = {}
   for _, part in shape[method](shape, ...) do
     add_part(list, entries, part:entry(), part)
@@ -606,6 +602,10 @@ end
 --- repeated, and false instead of the module leaves the part empty. Further values of a part, as in { 2, Draw, "red" },
 --- become further parameters.
 local function split(shape: any, axis: string, parts: { any }): any
+  local made = modules_of_parts("shape:split", shape, axis, parts)
+  if made ~= nil then
+    return made
+  end
   local entries: Entries, sizes: { any } = { makers = {}, values = {} }, {}
   for _, part in parts do
     if type(part) == "table" and type(part[1]) == "table" then
@@ -625,6 +625,10 @@ end
 --- { selector, Module }, and a component becomes the first whose selector it matches. Components without a match are left
 --- out. A selector is a name or a function. Further values become further parameters, as for `split`.
 local function components(shape: any, kind: string, parts: { any }): any
+  local made = modules_of_parts("shape:components", shape, kind, parts)
+  if made ~= nil then
+    return made
+  end
   local entries: Entries, selectors: { any }, are_names = { makers = {}, values = {} }, {}, true
   for _, part in parts do
     local selector = add_entry(entries, "components", part)

@@ -7,7 +7,7 @@ use burgeon_geometry::Polygon;
 use glam::{DMat3, DVec3};
 
 use crate::body::TOP;
-use crate::mesh::PolygonMesh;
+use crate::mesh::{PolygonFace, PolygonMesh};
 use crate::style::{FaceStyle, SharedStyle};
 use crate::trim_planes::TrimFace;
 use crate::{Scope, ShapeBody};
@@ -47,16 +47,24 @@ impl Shape {
 
     /// Creates a shape of faces, with a scope of these axes around them. Boxes and rectangles that fill it are recognised.
     pub fn of_mesh(mesh: PolygonMesh, axes: DMat3) -> Self {
-        let mut scope = Scope::around(axes, mesh.points.iter().copied());
-        for size in scope.size.as_mut() {
-            if *size < THINNEST {
-                *size = 0.0;
-            }
-        }
-        if let Some(style) = rectangle_style(&mesh, &scope) {
-            return Self::new(scope, ShapeBody::Rectangle(style));
+        let scope = scope_around(axes, mesh.points.iter().copied());
+        if let [face] = mesh.faces.as_slice()
+            && is_rectangle(&mesh, face, &scope)
+        {
+            return Self::new(scope, ShapeBody::Rectangle(face.style.clone()));
         }
         Self::new(scope, ShapeBody::Mesh(Arc::new(mesh)))
+    }
+
+    /// Creates the shape of a face of a mesh in a scope of these axes, if it is a rectangle along them.
+    pub(crate) fn of_rectangle(mesh: &PolygonMesh, face: usize, axes: DMat3) -> Option<Self> {
+        let face = &mesh.faces[face];
+        let [ring] = face.rings.as_slice() else { return None };
+        if ring.len() != 4 {
+            return None;
+        }
+        let scope = scope_around(axes, ring.iter().map(|point| mesh.at(*point)));
+        is_rectangle(mesh, face, &scope).then(|| Self::new(scope, ShapeBody::Rectangle(face.style.clone())))
     }
 
     /// Creates the face of a polygon in the plane of a scope's x and y axes, with a scope around it.
@@ -167,18 +175,27 @@ impl Shape {
     }
 }
 
-/// Returns the style of the only face, if it is the rectangle of the scope's x and y axes that faces along z.
-fn rectangle_style(mesh: &PolygonMesh, scope: &Scope) -> Option<SharedStyle> {
-    let [face] = mesh.faces.as_slice() else { return None };
-    let [ring] = face.rings.as_slice() else { return None };
+/// Returns the scope of these axes around points; extents of less than the thinnest are 0.
+fn scope_around(axes: DMat3, points: impl IntoIterator<Item = DVec3>) -> Scope {
+    let mut scope = Scope::around(axes, points);
+    for size in scope.size.as_mut() {
+        if *size < THINNEST {
+            *size = 0.0;
+        }
+    }
+    scope
+}
+
+/// Returns true if a face is the rectangle of the scope's x and y axes that faces along z.
+fn is_rectangle(mesh: &PolygonMesh, face: &PolygonFace, scope: &Scope) -> bool {
+    let [ring] = face.rings.as_slice() else { return false };
     if ring.len() != 4 || scope.size.z > 0.0 || scope.size.x <= 0.0 || scope.size.y <= 0.0 {
-        return None;
+        return false;
     }
     let near = |a: f64, b: f64| (a - b).abs() < 1e-9 * (1.0 + b.abs());
     let is_corner = |point: &u32| {
         let at = scope.local(mesh.at(*point));
         (near(at.x, 0.0) || near(at.x, scope.size.x)) && (near(at.y, 0.0) || near(at.y, scope.size.y))
     };
-    let faces_up = mesh.area_vector(face).dot(scope.axes.z_axis) > 0.0;
-    (ring.iter().all(is_corner) && faces_up).then(|| face.style.clone())
+    ring.iter().all(is_corner) && mesh.area_vector(face).dot(scope.axes.z_axis) > 0.0
 }

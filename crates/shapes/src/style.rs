@@ -1,5 +1,6 @@
 //! Tags, colours and materials of faces.
 
+use std::cell::RefCell;
 use std::sync::Arc;
 
 use burgeon_scene::Material;
@@ -36,13 +37,31 @@ impl FaceStyle {
 
     /// Returns `style` with an automatic tag, such as "extrude.side", which replaces those of earlier operations of the same
     /// kind.
-    pub(crate) fn with_automatic_tag(style: &SharedStyle, tag: &str) -> SharedStyle {
+    pub(crate) fn with_automatic_tag(style: &SharedStyle, tag: &'static str) -> SharedStyle {
+        if style.is_none() {
+            return Some(Self::of_tag(tag));
+        }
         let kind = tag.split('.').next().unwrap_or(tag);
         let is_earlier = |own: &Arc<str>| own.split('.').next() == Some(kind);
         if style.as_deref().is_some_and(|own| own.tags.iter().any(is_earlier)) {
             return Self::with_tag(&Self::without_tags(style, kind), &tag.into());
         }
         Self::with_tag(style, &tag.into())
+    }
+
+    /// Returns the style with nothing but an automatic tag, which all faces of a thread share.
+    fn of_tag(tag: &'static str) -> Arc<Self> {
+        thread_local! {
+            static STYLES: RefCell<Vec<(&'static str, Arc<FaceStyle>)>> = const { RefCell::new(Vec::new()) };
+        }
+        STYLES.with_borrow_mut(|styles| {
+            if let Some((_, style)) = styles.iter().find(|(known, _)| *known == tag) {
+                return Arc::clone(style);
+            }
+            let style = Arc::new(Self { tags: vec![tag.into()], ..Self::default() });
+            styles.push((tag, Arc::clone(&style)));
+            style
+        })
     }
 
     /// Returns `style` without the tags that `pattern` matches.
@@ -88,6 +107,9 @@ pub(crate) fn matches_tag(pattern: &str, tag: &str) -> bool {
 }
 
 fn matches_level(pattern: &str, text: &str) -> bool {
+    if !pattern.contains(['*', '?']) {
+        return pattern == text;
+    }
     let (pattern, text): (Vec<char>, Vec<char>) = (pattern.chars().collect(), text.chars().collect());
     let (mut at, mut place) = (0, 0);
     let mut star: Option<(usize, usize)> = None;

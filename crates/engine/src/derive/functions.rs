@@ -40,6 +40,7 @@ impl LuaRules<'_> {
         weighted: bool,
         step: &StepNumber,
     ) {
+        self.machine.refresh();
         let current = &self.machine.current;
         current.begin_step(step.number(), self.bounded);
         current.places.borrow_mut().clear();

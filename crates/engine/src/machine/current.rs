@@ -107,6 +107,8 @@ pub(crate) struct WorkState {
     pub flusher: RefCell<Option<Box<dyn Flusher>>>,
     /// Random stream of the top level of the script.
     pub top: RefCell<Stream>,
+    /// Number of parameters that have become values of Lua since the caches of parameters were cleared.
+    pub unpacked: Cell<usize>,
     /// Chains of the derived systems, for queries at the top level of the script.
     pub chains_derived: RefCell<ChainView>,
 }
@@ -136,6 +138,7 @@ impl WorkState {
             shapes: RefCell::default(),
             flusher: RefCell::default(),
             top: RefCell::new(top),
+            unpacked: Cell::new(0),
             chains_derived: RefCell::default(),
         }
     }

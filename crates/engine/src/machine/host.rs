@@ -57,6 +57,7 @@ fn add_values(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Lib
     host.set(
         "unpack",
         lua.create_function(move |lua, handle: u32| {
+            state.unpacked.set(state.unpacked.get() + 1);
             to_lua(lua, &state.session.values.get(handle).unwrap_or(Value::Nil), true)
         })?,
     )?;

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 use std::sync::Arc;
 
-use mlua::{Lua, MultiValue, Table, Value as LuaValue};
+use mlua::{Lua, MultiValue, Table, Value as LuaValue, Variadic};
 
 use super::convert::{to_argument, to_lua};
 use super::current::WorkState;
@@ -60,12 +60,11 @@ pub(super) fn add_object_methods(
     let (owner, state) = (Rc::clone(library), Rc::clone(current));
     host.set(
         "parts_method",
-        lua.create_function(move |lua, name: String| {
+        lua.create_function(move |lua, (name, arguments): (String, Variadic<LuaValue>)| {
             let (library, state) = (Rc::clone(&owner), Rc::clone(&state));
             let method = ObjectMethod { number: usize::MAX, name, state, library };
-            lua.create_function(move |lua, (object, arguments): (LuaValue, MultiValue)| {
-                method.store_parts(lua, &object, &arguments)
-            })
+            let given = values(lua, arguments.iter())?;
+            lua.create_function(move |lua, object: LuaValue| method.store_parts(lua, &object, &given))
         })?,
     )?;
     host.set("vector_class", lua.create_function(|lua, ()| Ok(metatable_of(lua, "vec")))?)
@@ -104,15 +103,10 @@ impl ObjectMethod {
         made
     }
 
-    /// Calls the method, and stores the objects that it returns as parameters of modules. Returns a buffer with the handle and the
+    /// Calls the method with `arguments`, and stores the objects that it returns as parameters of modules. Returns a buffer with the handle and the
     /// number of the entry of each (4 bytes).
-    fn store_parts(
-        &self,
-        lua: &Lua,
-        object: &LuaValue,
-        arguments: &MultiValue,
-    ) -> mlua::Result<mlua::Buffer> {
-        let answer = self.answer(object, None, || values(lua, arguments))?;
+    fn store_parts(&self, lua: &Lua, object: &LuaValue, arguments: &[Value]) -> mlua::Result<mlua::Buffer> {
+        let answer = self.answer(object, None, || Ok(arguments.to_vec()))?;
         let objects: Vec<Arc<dyn Object>> = match answer {
             Value::Table(table) => table.list().into_iter().filter_map(object_of).collect(),
             _ => Vec::new(),
@@ -204,7 +198,10 @@ fn no_environment(name: &str) -> Error {
         .help("give it to the system: lsystem({ object = turtle(), environment = { light } })")
 }
 
-pub(super) fn values(lua: &Lua, arguments: &MultiValue) -> mlua::Result<Vec<Value>> {
+pub(super) fn values<'a>(
+    lua: &Lua,
+    arguments: impl IntoIterator<Item = &'a LuaValue>,
+) -> mlua::Result<Vec<Value>> {
     let value = |value: &LuaValue| match value {
         LuaValue::Table(table) => match vector_of(lua, table) {
             Some(vector) => Ok(vector),
@@ -212,5 +209,5 @@ pub(super) fn values(lua: &Lua, arguments: &MultiValue) -> mlua::Result<Vec<Valu
         },
         value => to_argument(value),
     };
-    arguments.iter().map(|given| value(given).map_err(mlua::Error::external)).collect()
+    arguments.into_iter().map(|given| value(given).map_err(mlua::Error::external)).collect()
 }

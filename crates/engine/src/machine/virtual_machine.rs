@@ -31,6 +31,9 @@ pub(super) const OUT_OF_MEMORY_IN_LUA: &str = "not enough memory";
 /// Maximum length (bytes) of a shown error message; scripts can raise strings of any length.
 const LONGEST_MESSAGE: usize = 10_000;
 
+/// Number of parameters in the caches above which they are cleared.
+const MOST_UNPACKED: usize = 4096;
+
 /// Virtual machine that runs a script and its rules.
 pub struct Machine {
     // Declared before the state, so it is dropped first and the watchdog never uses a closing state.
@@ -145,10 +148,12 @@ impl Machine {
         self.lua.set_app_data(SilentMark);
     }
 
-    /// Clears the caches of parameters if parameter values have been dropped.
+    /// Clears the caches of parameters if parameter values have been dropped, or if the caches are large: most objects in
+    /// parameters are read by one application only.
     pub(crate) fn refresh(&self) {
         let epoch = self.session.values.epoch();
-        if self.epoch.replace(epoch) != epoch {
+        if self.epoch.replace(epoch) != epoch || self.current.unpacked.get() > MOST_UNPACKED {
+            self.current.unpacked.set(0);
             // The function only clears two tables.
             let _ = self.prelude.forget_values.call::<()>(());
         }

@@ -18,10 +18,11 @@ pub(super) enum ComponentSelector {
 impl ComponentSelector {
     /// Reads the name of a selector, of edges or of other components.
     pub(super) fn read(name: &str, of_edges: bool) -> Result<Self> {
-        match EdgeKind::read(name) {
-            Ok(kind) if of_edges => Ok(Self::Edge(kind)),
-            _ => Selector::read(name).map(Self::Face),
+        // The error of an unknown kind has a suggestion, which takes longer than the rest.
+        if of_edges && let Ok(kind) = EdgeKind::read(name) {
+            return Ok(Self::Edge(kind));
         }
+        Selector::read(name).map(Self::Face)
     }
 }
 
@@ -42,7 +43,10 @@ impl ShapeObject {
             Some(bit) if self.matching != 0 => self.matching & bit != 0,
             _ => {
                 let (normal, axes) = (self.shape.normal(), &self.shape.scope.axes);
-                self.shape.styles().iter().any(|style| selector.matches(normal, style, axes))
+                match &self.shape.body {
+                    ShapeBody::Rectangle(style) => selector.matches(normal, style, axes),
+                    _ => self.shape.styles().iter().any(|style| selector.matches(normal, style, axes)),
+                }
             }
         }
     }

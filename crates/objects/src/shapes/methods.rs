@@ -270,8 +270,7 @@ impl ShapeObject {
     pub fn faces(&self, selector: Option<String>) -> Result<Vec<Arc<Self>>> {
         let mut faces = self.parts(self.shape.faces(&read_selector("faces", selector)?)?);
         for face in faces.iter_mut().filter_map(Arc::get_mut) {
-            let style = face.shape.styles().into_iter().next().flatten();
-            face.matching = Selector::matching(face.shape.normal(), &style, &self.shape.scope.axes);
+            face.matching = Selector::matching(face.shape.normal(), &self.shape.scope.axes);
         }
         Ok(faces)
     }

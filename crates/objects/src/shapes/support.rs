@@ -93,12 +93,13 @@ pub(super) fn split_axis(method: &str, axis: &str) -> Result<SplitAxis> {
         "x" => Ok(SplitAxis::X),
         "y" => Ok(SplitAxis::Y),
         "z" => Ok(SplitAxis::Z),
-        other => Err(Error::argument(format!("shape:{method}: unknown axis {other:?}"))
-            .help(if method == "split" {
+        other => Err(Error::argument(format!("shape:{method}: unknown axis {other:?}")).help(
+            if method == "split" {
                 "use \"x\", \"y\", \"z\", or \"u\" and \"v\" of a projected image"
             } else {
                 "use \"x\", \"y\" or \"z\""
-            })),
+            },
+        )),
     }
 }
 

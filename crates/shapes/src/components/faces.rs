@@ -62,9 +62,15 @@ impl Shape {
                     .filter(|&face| selector.matches(normals[face], &mesh.faces[face].style, axes));
                 let mut faces = Vec::new();
                 for number in selected {
-                    let part = mesh.select([number]);
-                    MemoryOwner::ensure_room(part.memory())?;
-                    let face = Self::of_mesh(part, Scope::face_axes(normals[number], *axes));
+                    let own = Scope::face_axes(normals[number], *axes);
+                    let face = match Self::of_rectangle(mesh, number, own) {
+                        Some(rectangle) => rectangle,
+                        None => {
+                            let part = mesh.select([number]);
+                            MemoryOwner::ensure_room(part.memory())?;
+                            Self::of_mesh(part, own)
+                        }
+                    };
                     // The only face of a shape is the shape itself.
                     faces.push(if source.is_some() {
                         face.with_trim(source.as_ref(), number)

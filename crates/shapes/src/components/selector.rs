@@ -110,21 +110,26 @@ impl Selector {
     }
 
     /// Returns the bits of the selectors with fixed names that match a face, as [`Selector::matches`].
-    pub fn matching(normal: DVec3, style: &SharedStyle, axes: &DMat3) -> u32 {
-        let bits = NAMES
-            .iter()
-            .enumerate()
-            .map(|(index, (_, selector))| u32::from(selector.matches(normal, style, axes)) << index);
-        bits.sum()
+    pub fn matching(normal: DVec3, axes: &DMat3) -> u32 {
+        let (own, world) = (FaceDirection::of(axes.transpose() * normal), FaceDirection::of(normal));
+        let inclination = Inclination::of(normal);
+        let is_match = |selector: &Self| match selector {
+            Self::All => true,
+            Self::Own(direction) => direction.includes(own),
+            Self::World(direction) => direction.includes(world),
+            Self::Inclined(wanted) => *wanted == inclination,
+            Self::Tagged(_) => false,
+        };
+        NAMES.iter().enumerate().map(|(index, (_, selector))| u32::from(is_match(selector)) << index).sum()
     }
 
     /// Returns true for a face with this unit normal and style, of a shape with these axes.
     pub fn matches(&self, normal: DVec3, style: &SharedStyle, axes: &DMat3) -> bool {
         match self {
             Self::All => true,
-            Self::Own(direction) => direction.matches(axes.transpose() * normal),
-            Self::World(direction) => direction.matches(normal),
-            Self::Inclined(inclination) => inclination.matches(normal),
+            Self::Own(direction) => direction.includes(FaceDirection::of(axes.transpose() * normal)),
+            Self::World(direction) => direction.includes(FaceDirection::of(normal)),
+            Self::Inclined(inclination) => *inclination == Inclination::of(normal),
             Self::Tagged(pattern) => FaceStyle::has_tag(style, pattern),
         }
     }
@@ -148,15 +153,15 @@ impl FaceDirection {
         }
     }
 
-    fn matches(self, normal: DVec3) -> bool {
-        let own = Self::of(normal);
+    /// Returns true for a face with the direction `own`.
+    fn includes(self, own: Self) -> bool {
         own == self || (self == Self::Side && !matches!(own, Self::Top | Self::Bottom))
     }
 }
 
 impl Inclination {
-    fn matches(self, normal: DVec3) -> bool {
-        let own = if normal.z.abs() <= NEAR {
+    fn of(normal: DVec3) -> Self {
+        if normal.z.abs() <= NEAR {
             Self::Vertical
         } else if normal.truncate().length() <= NEAR {
             Self::Horizontal
@@ -164,8 +169,7 @@ impl Inclination {
             Self::Slanted
         } else {
             Self::Overhanging
-        };
-        own == self
+        }
     }
 }
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use burgeon_base::error::{Error, Result};
 use glam::DVec3;
 
+use crate::body::{BOX_FACES, TOP};
 use crate::mesh::{EdgeSums, PolygonFace, PolygonMesh};
 use crate::style::{FaceStyle, SharedStyle};
 use crate::{Scope, Shape, ShapeBody};
@@ -41,8 +42,8 @@ impl Shape {
             if distance < 0.0 {
                 scope.origin += scope.axes.z_axis * distance;
             }
-            let mut styles: [SharedStyle; 6] =
-                std::array::from_fn(|_| FaceStyle::with_automatic_tag(style, "extrude.side"));
+            let side = FaceStyle::with_automatic_tag(style, EXTRUDED[1]);
+            let mut styles: [SharedStyle; 6] = std::array::from_fn(|_| side.clone());
             styles[0] = FaceStyle::with_automatic_tag(
                 style,
                 if distance > 0.0 { "extrude.bottom" } else { "extrude.top" },
@@ -107,6 +108,9 @@ impl Shape {
                 Error::argument(format!("the depth of a recess is {depth} m")).help("use a depth above 0")
             );
         }
+        if let ShapeBody::Rectangle(style) = &self.body {
+            return Ok(Self::of_mesh(self.rectangle_recess(style, depth), self.scope.axes));
+        }
         let solid = self.extrude(-depth, None)?;
         let mesh = solid.mesh();
         let inside =
@@ -116,6 +120,19 @@ impl Shape {
             let tag = if FaceStyle::has_tag(style, EXTRUDED[1]) { "recess.side" } else { "recess.back" };
             FaceStyle::with_automatic_tag(&FaceStyle::without_tags(style, "extrude"), tag)
         }))
+    }
+
+    /// Returns the back and the sides of a recess behind a rectangle: the most frequent recess, that of a window.
+    fn rectangle_recess(&self, style: &SharedStyle, depth: f64) -> PolygonMesh {
+        let Scope { axes, size, .. } = self.scope;
+        let whole = Scope { origin: self.scope.origin - axes.z_axis * depth, axes, size: size.with_z(depth) };
+        let own = FaceStyle::without_tags(style, "extrude");
+        let [back, side] = ["recess.back", "recess.side"].map(|tag| FaceStyle::with_automatic_tag(&own, tag));
+        // The faces of the box except its top, turned inwards.
+        let faces = BOX_FACES[..TOP].iter().enumerate().map(|(number, &[a, b, c, d])| {
+            PolygonFace::of(&[d, c, b, a], if number == 0 { &back } else { &side })
+        });
+        PolygonMesh::new(whole.corners().to_vec(), faces.collect())
     }
 
     /// Fails unless the shape has faces and is open.
@@ -146,7 +163,11 @@ fn loft(mesh: &PolygonMesh, offset: DVec3, backwards: bool) -> PolygonMesh {
 }
 
 /// Returns the closed mesh of reversed faces, copies at other positions, and sides over the open edges.
-fn sides(mesh: &PolygonMesh, above: impl Fn(DVec3) -> DVec3, [bottom, side, top]: [&str; 3]) -> PolygonMesh {
+fn sides(
+    mesh: &PolygonMesh,
+    above: impl Fn(DVec3) -> DVec3,
+    [bottom, side, top]: [&'static str; 3],
+) -> PolygonMesh {
     #[allow(clippy::cast_possible_truncation, reason = "a mesh has fewer than 2^31 points")]
     let count = mesh.points.len() as u32;
     let mut points = mesh.points.clone();

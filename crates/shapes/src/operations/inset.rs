@@ -135,7 +135,7 @@ impl Shape {
     /// Returns the strips and the rest as shapes.
     fn setback_parts(&self, strips: &Strips, frame: &Scope) -> Setback {
         let style = self.styles().into_iter().next().flatten();
-        let tagged = |tag: &str| crate::FaceStyle::with_automatic_tag(&style, tag);
+        let tagged = |tag: &'static str| crate::FaceStyle::with_automatic_tag(&style, tag);
         let (border, inner) = (tagged("setback.border"), tagged("setback.inner"));
         Setback {
             border: strips

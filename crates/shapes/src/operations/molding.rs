@@ -75,7 +75,7 @@ impl Shape {
             )
             .help("turn a face with shape:reverse(), or swap the faces"));
         }
-        let style = |tag: &str| FaceStyle::with_automatic_tag(&one.style, tag);
+        let style = |tag: &'static str| FaceStyle::with_automatic_tag(&one.style, tag);
         let [bottom, side, top] = ["loft.bottom", "loft.side", "loft.top"].map(style);
         let mut builder = PolygonMeshBuilder::default();
         let places = |ring: &Vec<u32>, mesh: &crate::PolygonMesh| -> Vec<DVec3> {

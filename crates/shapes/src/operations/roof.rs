@@ -21,9 +21,9 @@ impl Shape {
         }
         let cover = shape.cover_on(&Support::new(&polygon, 0.0))?;
         let own = self.styles().into_iter().next().flatten();
-        let style = |tag: &str| FaceStyle::with_automatic_tag(&own, tag);
+        let style = |tag: &'static str| FaceStyle::with_automatic_tag(&own, tag);
         let [slope, gable, side, bottom] =
-            ["slope", "gable", "side", "bottom"].map(|name| style(&format!("roof.{name}")));
+            ["roof.slope", "roof.gable", "roof.side", "roof.bottom"].map(style);
         let place = |ring: &[DVec3]| -> Vec<DVec3> { ring.iter().map(|at| frame.point(*at)).collect() };
         let mut builder = PolygonMeshBuilder::default();
         for patch in &cover.patches {

@@ -162,7 +162,7 @@ type TriangleColumns = (Vec<f64>, Vec<usize>, Vec<f64>);
 fn triangles(
     shape: &Shape,
     center: DVec3,
-    tag: &str,
+    tag: &'static str,
     styles: &mut Vec<SharedStyle>,
 ) -> Result<TriangleColumns> {
     let mesh = shape.mesh();

@@ -83,7 +83,7 @@ impl Shape {
             sections.push(rings.iter().map(|ring| ring.iter().map(place).collect()).collect());
         }
         let own = self.styles().into_iter().next().flatten();
-        let style = |tag: &str| FaceStyle::with_automatic_tag(&own, tag);
+        let style = |tag: &'static str| FaceStyle::with_automatic_tag(&own, tag);
         let [start, side, end] = ["sweep.start", "sweep.side", "sweep.end"].map(style);
         let mut builder = PolygonMeshBuilder::default();
         if !path.closed {
