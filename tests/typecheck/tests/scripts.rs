@@ -39,6 +39,7 @@ fn no_shipped_script_has_an_error_in_strict_mode() {
         "scripts/templates/roads",
         "examples",
         "examples/films",
+        "examples/first_hour",
         "examples/models/abop",
         "examples/models/abop/shared",
         "examples/models/environment",
