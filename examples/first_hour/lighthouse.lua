@@ -107,5 +107,7 @@ house:interpret("House", function(this)
   this:roof({ kind = "gable", slope = 42, overhang = 0.4, slab = 0.18, color = "#7d4a3a" })
 end)
 house:derive()
-camera({ name = "boat", from = { -46, -60, 26 }, to = { -1, 0, 9.8 }, fov = 37 })
+-- The camera shows the whole tower, however high it is.
+local far = math.max(1, (relief + 2.7 * bands) / 28)
+camera({ name = "boat", from = far * vec(-46, -60, 26), to = far * vec(-1, 0, 9.8), fov = 37 })
 camera({ name = "shore", from = { -38, -52, 17 }, to = { -3, 0, 12.5 } })

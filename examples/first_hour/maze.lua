@@ -115,9 +115,10 @@ garden:interpret("Fountain", function(this)
   this:shape(ball(0.15):translate(vec(0, 0, 0.1)))
 end)
 garden:derive()
+local middle, far = plan:center(), math.max(columns / 19, rows / 15)
 camera({
   name = "gate",
-  from = { columns * PATH / 2 - 11, -30, 35 },
-  to = { columns * PATH / 2 + 0.8, rows * PATH / 2 - 2.5, 0 },
+  from = middle + far * vec(-11, -42, 35),
+  to = middle + far * vec(0.8, -2.5, 0),
   fov = 41,
 })

@@ -112,4 +112,5 @@ mill:interpret("Cap(radius)", function(this, radius)
   end
 end)
 mill:derive()
-camera({ name = "meadow", from = { 20, -41, 9 }, to = { 0, 0, 10.4 }, fov = 36 })
+local far = (3 * storeys + math.max(reach, 9)) / 23
+camera({ name = "meadow", from = far * vec(20, -41, 9), to = far * vec(0, 0, 10.4), fov = 36 })
