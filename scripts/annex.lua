@@ -128,7 +128,7 @@ local streets = roads.grow({
   extent = function(x: number, y: number): boolean
     return x > low[1] - reach and x < high[1] + reach and y > low[2] - reach and y < high[2] + reach
   end,
-  steps = math.ceil(reach / 12) + 10,
+  steps = math.ceil(reach / 3) + 20,
 }).objects[1] :: Network
 
 -- Lots along streets without buildings: rows of adjoining houses, with gardens behind them.

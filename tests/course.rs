@@ -12,11 +12,12 @@ use burgeon::picture::{Background, Picture};
 use burgeon::script::RunOptions;
 
 /// Folders of scripts, and the least number of scripts in each.
-const FOLDERS: [(&str, usize); 4] = [
+const FOLDERS: [(&str, usize); 5] = [
     ("examples/course", 10),
     ("examples/cookbook", 30),
     ("examples/translated", 5),
     ("src/commands/starters", 6),
+    ("examples/first_hour", 6),
 ];
 
 /// Maximum size of a picture, and of all pictures of these pages (bytes).

@@ -10,9 +10,9 @@ local stair = lsystem({ object = extruder({ smooth = false }) })
 
 stair:axiom(Stair(rise))
 
-stair:rule("Stair(rise)", function(this, rise)
+stair:rule("Stair(rise)", function(this, rise: number)
   local count = math.ceil(rise / 0.18)
-  local modules = { { Pole(rise + 1) } }
+  local modules: { any } = { { Pole(rise + 1) } }
   for _ = 1, count do
     table.insert(modules, Step(rise / count))
   end

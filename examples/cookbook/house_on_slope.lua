@@ -9,7 +9,7 @@ end
 local Cell = module("Cell", "height", "form", "x", "y", "width")
 local cells = lsystem()
 cells:axiom(Cell(0, 0, 0, 0, 120))
-cells:rule("Cell(height, form, x, y, width)", function(this, height, _, x, y, width)
+cells:rule("Cell(height, form, x, y, width)", function(this, _, _, x: number, y: number, width: number)
   local q = width / 4
   return Cell(0, form(x - q, y + q), x - q, y + q, width / 2),
     Cell(0, form(x + q, y + q), x + q, y + q, width / 2),

@@ -40,7 +40,7 @@ local ROOFS: { [string]: string } =
   { gabled = "gable", hipped = "hip", pyramidal = "hip", ["half-hipped"] = "dutch_hip" }
 local Walls, Roof = module("Walls", "height", "color"), module("Roof", "kind", "color", "slope")
 local village = lsystem({ object = footprint })
-village:axiom(buildings, function(feature)
+village:axiom(buildings, function(feature: any)
   local height = feature.height or 2.9 * (feature.levels or 2)
   local kind = ROOFS[feature.roof_shape or "gabled"] or "flat"
   return footprint(feature.geometry),

@@ -32,7 +32,7 @@ case:rule("Case", function()
   return sequence(modules)
 end)
 -- Books follow each other until the shelf is as full as wanted.
-case:rule("Row(x, level)", function(this, x, level)
+case:rule("Row(x, level)", function(this, x: number, level: number)
   local thickness = random(0.018, 0.05)
   if x + thickness > BOARD - width / 2 + fill * (width - 2 * BOARD) then
     return nil

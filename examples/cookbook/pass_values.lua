@@ -15,7 +15,7 @@ row:axiom(sequence(posts))
 
 row:rule("Source(time)", "Source(time + 1)")
 -- The names of the left context are arguments too, in the order of the pattern.
-row:rule("Source(time) < Post(height)", function(this, time, height)
+row:rule("Source(time) < Post(height)", function(this, time: number, height)
   return Post(1.2 - 0.9 * math.cos(time * 0.5))
 end)
 row:rule("Post(left) < Post(height)", function(this, left, height)

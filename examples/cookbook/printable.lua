@@ -9,7 +9,7 @@ local Plate, Tip = module("Plate"), module("Tip", "left")
 local coral =
   lsystem({ object = turtle({ joints = "smooth", sides = 16, color = "#d9775f", width = 0.009 }) })
 coral:axiom(Plate(), Tip(order))
-coral:rule("Tip(left)", function(this, left)
+coral:rule("Tip(left)", function(this, left: number)
   if left == 0 then
     return nil
   end

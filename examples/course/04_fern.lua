@@ -18,7 +18,7 @@ fern:axiom(Rosette())
 
 -- A list in the successor is a branch. The turtle returns to the middle at its end, then rolls to the next frond.
 fern:rule("Rosette", function(this)
-  local parts = {}
+  local parts: { any } = {}
   for number = 1, fronds do
     local lean = if number % 2 == 0 then 24 else 44
     table.insert(parts, { Pitch(lean), Tip(0) })

@@ -30,7 +30,7 @@ foxglove:rule("Apex(number)", function(this, number)
 end)
 
 -- The root sends the signal.
-foxglove:rule("Root(age)", function(this, age)
+foxglove:rule("Root(age)", function(this, age: number)
   if age == start then
     return Root(age + 1), Signal()
   end
@@ -41,10 +41,10 @@ end)
 foxglove:rule("Signal", function(this)
   return nil
 end)
-foxglove:rule("Signal < Internode(age)", function(this, age)
+foxglove:rule("Signal < Internode(age)", function(this, age: number)
   return Internode(age + 1), Signal()
 end)
-foxglove:rule("Internode(age)", function(this, age)
+foxglove:rule("Internode(age)", function(this, age: number)
   return Internode(age + 1)
 end)
 
@@ -52,13 +52,13 @@ end)
 foxglove:rule("Signal < Bud(open)", function(this, open)
   return Bud(1)
 end)
-foxglove:rule("Bud(open)", function(this, open)
+foxglove:rule("Bud(open)", function(this, open: number)
   if open == 0 or open == 10 then
     return
   end
   return Bud(open + 1)
 end)
-foxglove:rule("Leaf(age)", function(this, age)
+foxglove:rule("Leaf(age)", function(this, age: number)
   return Leaf(age + 1)
 end)
 

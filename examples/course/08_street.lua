@@ -107,7 +107,7 @@ row:derive()
 -- A tree for each point: a trunk and a crown of spheres.
 local Tree = module("Tree", "place", "height")
 local avenue = lsystem({ object = turtle({ sides = 8 }) })
-avenue:axiom(trees, function(feature)
+avenue:axiom(trees, function(feature: any)
   return Tree(feature.geometry:place(), feature.height * lush)
 end)
 avenue:interpret("Tree(place, height)", function(this, place, height)

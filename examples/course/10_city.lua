@@ -25,7 +25,7 @@ local roads = lsystem({
   }),
 })
 roads:axiom(Tip(1, 12, 0), Tip(1, 100, 0), Tip(1, 192, 0), Tip(1, 280, 0))
-roads:rule("Tip(junction, heading, depth)", function(this, junction, heading, depth)
+roads:rule("Tip(junction, heading, depth)", function(this, junction, heading: number, depth: number)
   local at = this:open_end(junction, heading)
   if not at then
     return nil

@@ -9,7 +9,7 @@ local system = lsystem({ object = turtle() })
 system:axiom(Part(1))
 
 -- In each step, a part becomes a piece of branch and a smaller part.
-system:rule("Part(length)", function(this, length)
+system:rule("Part(length)", function(this, length: number)
   return F(length), Turn(20), Part(length * 0.8)
 end)
 

@@ -14,7 +14,7 @@ local tower = lsystem({ object = extruder({ sides = sides, smooth = false }) })
 tower:axiom(Floor(floors, 9))
 
 -- In each step, the floor becomes a storey and the next floor, and the last floor becomes the roof.
-tower:rule("Floor(left, radius)", function(this, left, radius)
+tower:rule("Floor(left, radius)", function(this, left: number, radius: number)
   if left == 0 then
     return Roof(radius)
   end

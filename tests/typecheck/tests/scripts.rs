@@ -38,7 +38,9 @@ fn no_shipped_script_has_an_error_in_strict_mode() {
         "scripts/templates",
         "scripts/templates/roads",
         "examples",
+        "examples/course",
         "examples/films",
+        "examples/first_hour",
         "examples/models/abop",
         "examples/models/abop/shared",
         "examples/models/environment",
@@ -48,6 +50,7 @@ fn no_shipped_script_has_an_error_in_strict_mode() {
         "examples/shapes",
         "examples/shapes/mods/elements",
         "crates/objects/scripts",
+        "src/commands/starters",
     ] {
         for path in scripts(folder) {
             // The program next to it declares its object type.
