@@ -2,7 +2,7 @@
 
 use super::session::Session;
 use burgeon_base::error::{Error, ErrorKind};
-use burgeon_kit::{Kind, Registry};
+use burgeon_kit::{Call, Kind, Registry};
 use burgeon_language::ArgumentList;
 
 impl Session {
@@ -40,7 +40,12 @@ fn usage(registry: &Registry, message: &str) -> Option<String> {
     let Some(field) = rest.strip_prefix(' ') else {
         let end = rest.find(|letter: char| !is_name(letter)).unwrap_or(rest.len());
         let method = kind.method(&rest[..end])?;
-        return Some(format!("write this:{}{}", method.name, ArgumentList(&method.arguments)));
+        let object = if kind.methods.iter().any(|method| !matches!(method.call, Call::Read(_))) {
+            "this"
+        } else {
+            &*kind.name
+        };
+        return Some(format!("write {object}:{}{}", method.name, ArgumentList(&method.arguments)));
     };
     let end = field.find(|letter: char| !is_name(letter)).unwrap_or(field.len());
     let name = &field[..end];

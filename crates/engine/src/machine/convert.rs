@@ -117,8 +117,12 @@ fn convert(value: &LuaValue, manner: CopyMode, depth: usize) -> Result<Value> {
                 source.value()?
             } else if let (Ok(system), CopyMode::Field) = (data.borrow::<SystemHandle>(), manner) {
                 Value::Object(Arc::new(System { index: system.give() }))
+            } else if data.is::<SystemHandle>() {
+                return Err(Error::argument("a system cannot be passed on")
+                    .help("derive it, and pass the derived system: local model = s:derive()"));
             } else {
-                return Err(Error::argument("this object cannot be passed on"));
+                return Err(Error::argument("this object cannot be passed on")
+                    .help("pass numbers, booleans, strings, tables of these, or objects"));
             }
         }
         LuaValue::Vector(_) => return Err(no_module()),

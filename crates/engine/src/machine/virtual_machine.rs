@@ -337,6 +337,11 @@ pub(super) fn translate(error: &mlua::Error) -> Error {
         mlua::Error::MemoryError(_) => Error::limit(Limit::Memory, OUT_OF_MEMORY_IN_LUA),
         mlua::Error::SyntaxError { message, .. } => parse(message).in_kind(ErrorKind::Syntax),
         mlua::Error::RuntimeError(message) => parse(message),
+        mlua::Error::BadArgument { to, pos, name, cause } if is_object(*pos, name.as_deref(), cause) => {
+            let method = to.as_deref().and_then(|to| to.rsplit(['.', ':']).next()).unwrap_or("method");
+            Error::argument(format!("{method} needs its object"))
+                .help(format!("call it with a colon: s:{method}(...)"))
+        }
         mlua::Error::BadArgument { pos, cause, .. } => match &**cause {
             mlua::Error::FromLuaConversionError { from, to, .. } => {
                 let wanted = script_type(to);
@@ -351,6 +356,14 @@ pub(super) fn translate(error: &mlua::Error) -> Error {
         }
         other => parse(&other.to_string()),
     }
+}
+
+/// Returns true if an argument is the object of a method, which is missing if the method is called with a dot.
+fn is_object(number: usize, name: Option<&str>, cause: &mlua::Error) -> bool {
+    name == Some("self")
+        || (number == 1
+            && matches!(cause, mlua::Error::FromLuaConversionError { to, .. }
+                if to.contains("Handle") || *to == "userdata"))
 }
 
 /// Returns the name of a type in scripts, given its name in Rust.

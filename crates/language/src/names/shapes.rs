@@ -12,8 +12,8 @@ pub(super) fn shape_functions() -> [Name; 8] {
     [
         Name::global(
             "shape",
-            "Creates a shape: a face of a polygon at a `height` (m, 0 unless given), the shape of a model, a mesh of { points = \
-             { vec(...) }, faces = { { 1, 2, 3 } } }, or one shape of a list of shapes; see the type shape.",
+            "Creates a shape: a face of a polygon at a `height` (m, 0 unless given) or in an upright plane, the shape of a model, \
+             a mesh of { points = { vec(...) }, faces = { { 1, 2, 3 } } }, or one shape of a list of shapes; see the type shape.",
         )
         .form([argument("from", "any"), argument("height", "number?")], "Shape")
         .pure(),

@@ -16,6 +16,8 @@ pub fn remedy_of_value(message: &str) -> Option<&'static str> {
         "give the value a number before: one side is nil"
     } else if starts("attempt to perform arithmetic") && message.contains("function") {
         "call the function with parentheses: f(x)"
+    } else if starts("attempt to perform arithmetic") && message.contains("object") {
+        "objects have methods in place of operators: a:union(b) joins solids, and shape({ a, b }) is both shapes as one"
     } else if starts("attempt to index function with") {
         "call the function before its value is read: this:position().z"
     } else if starts("attempt to index nil with") {

@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use burgeon_base::error::{Error, Result};
+use burgeon_geometry::Rings;
 use burgeon_kit::{Constructor, Expectation, Model, Parameter, Table, Value, Vector};
 use burgeon_scene::Part;
-use burgeon_shapes::Shape;
+use burgeon_shapes::{Scope, Shape};
 use burgeon_spatial::{GeometryObject, PolygonArgument};
-use glam::{DVec2, DVec3};
+use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use super::object::ShapeObject;
 
@@ -89,18 +90,57 @@ fn joined(parts: &[&Value]) -> Result<Value> {
 fn plan(value: &Value, height: f64) -> Result<Shape> {
     let polygon = PolygonArgument::read_value(value);
     let rings = polygon.map_err(|error| error.refuse("shape", "what it is given", value))?.0;
-    let flat: Vec<Vec<DVec2>> = rings
-        .iter()
-        .map(|ring| {
-            let mut flat: Vec<DVec2> = ring.iter().map(|at| at.truncate()).collect();
-            flat.dedup();
-            if flat.len() > 1 && flat.first() == flat.last() {
-                flat.pop();
-            }
-            flat
-        })
-        .collect();
-    Shape::plan(&flat, height).map_err(|error| error.about("shape"))
+    if let Some(face) = upright_face(&rings, height).map_err(|error| error.about("shape"))? {
+        return Ok(face);
+    }
+    let flat: Rings<DVec2> = rings.iter().map(|ring| ring.iter().map(|at| at.truncate()).collect()).collect();
+    Shape::plan(&open_rings(&flat), height).map_err(|error| error.about("shape"))
+}
+
+/// Returns rings without repeated points, and without their first point at their end.
+fn open_rings(rings: &Rings<DVec2>) -> Vec<Vec<DVec2>> {
+    let open = |ring: &Vec<DVec2>| {
+        let mut ring = ring.clone();
+        ring.dedup();
+        if ring.len() > 1 && ring.first() == ring.last() {
+            ring.pop();
+        }
+        ring
+    };
+    rings.iter().map(open).collect()
+}
+
+/// Makes the face of rings in an upright plane, which looks to the side from where the outer ring is counter-clockwise; `None`
+/// for rings in another plane.
+fn upright_face(rings: &Rings<DVec3>, height: f64) -> Result<Option<Shape>> {
+    let Some(outer) = rings.first().filter(|ring| ring.len() > 2) else { return Ok(None) };
+    let origin = outer[0];
+    let edges = outer.iter().zip(outer.iter().cycle().skip(1));
+    let area: DVec3 = edges.map(|(from, to)| (*from - origin).cross(*to - origin)).sum();
+    let Some(normal) = area.try_normalize().filter(|normal| normal.z.abs() < 1e-6) else { return Ok(None) };
+    if height != 0.0 {
+        return Err(Error::argument(format!(
+            "an upright outline has its own height, so {height} m is not used"
+        ))
+        .help("leave out the height"));
+    }
+    let axes = Scope::face_axes(normal, DMat3::IDENTITY);
+    let local = |at: &DVec3| axes.transpose() * (*at - origin);
+    let (mut farthest, mut size) = (0.0_f64, 0.0_f64);
+    for at in rings.iter().flatten().map(local) {
+        farthest = farthest.max(at.z.abs());
+        size = size.max(at.length());
+    }
+    if farthest > (size * 1e-3).max(1e-3) {
+        return Err(Error::geometry(format!(
+            "the outline is not flat: a corner is {farthest:.3} m beside its plane"
+        ))
+        .help("move the corners into one plane"));
+    }
+    let flat: Rings<DVec2> =
+        rings.iter().map(|ring| ring.iter().map(|at| local(at).truncate()).collect()).collect();
+    let frame = DAffine3::from_mat3_translation(axes, origin);
+    Ok(Some(Shape::plan(&open_rings(&flat), 0.0)?.transform(&frame)))
 }
 
 /// Makes a shape of { points = { vectors }, faces = { lists of numbers from 1 } }.

@@ -8,7 +8,9 @@
 use std::ffi::c_void;
 use std::sync::Arc;
 
-use mlua::{Function, LightUserData, Lua, MetaMethod, Table, UserData, UserDataRef, Value as LuaValue};
+use mlua::{
+    Function, LightUserData, Lua, MetaMethod, Table, UserData, UserDataFields, UserDataRef, Value as LuaValue,
+};
 
 use rustc_hash::FxHashMap;
 
@@ -34,7 +36,11 @@ struct LayerHandle {
     names: FxHashMap<String, usize>,
 }
 
-impl UserData for LayerHandle {}
+impl UserData for LayerHandle {
+    fn add_fields<F: UserDataFields<Self>>(fields: &mut F) {
+        fields.add_meta_field(MetaMethod::Type, "layer");
+    }
+}
 
 /// Marks a machine whose script can inspect raw tables.
 pub(crate) struct EagerMark(pub Arc<crate::declare::Session>);

@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
-use mlua::{AnyUserData, Function, Lua, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
+use mlua::{
+    AnyUserData, Function, Lua, MetaMethod, Table, UserData, UserDataFields, UserDataMethods,
+    Value as LuaValue,
+};
 
 use super::lazy;
 use crate::machine::Machine;
@@ -109,6 +112,10 @@ impl SourceHandle {
 }
 
 impl UserData for SourceHandle {
+    fn add_fields<F: UserDataFields<Self>>(fields: &mut F) {
+        fields.add_meta_field(MetaMethod::Type, "source");
+    }
+
     fn add_methods<M: UserDataMethods<Self>>(methods: &mut M) {
         methods.add_meta_function(MetaMethod::Index, |lua, (this, name): (AnyUserData, String)| {
             field(lua, &this, &name)

@@ -95,6 +95,7 @@ impl ObjectHandle {
 impl UserData for ObjectHandle {
     fn add_fields<F: UserDataFields<Self>>(fields: &mut F) {
         fields.add_meta_field_with(MetaMethod::Index, index_function);
+        fields.add_meta_field(MetaMethod::Type, "object");
     }
 
     fn add_methods<M: UserDataMethods<Self>>(methods: &mut M) {
@@ -205,6 +206,10 @@ impl DerivedHandle {
 }
 
 impl UserData for DerivedHandle {
+    fn add_fields<F: UserDataFields<Self>>(fields: &mut F) {
+        fields.add_meta_field(MetaMethod::Type, "derived");
+    }
+
     fn add_methods<M: UserDataMethods<Self>>(methods: &mut M) {
         methods.add_meta_function(MetaMethod::Index, |lua, (this, name): (AnyUserData, String)| {
             this.borrow::<Self>()?.0.note_read_by_rule(|| !is_at_top_level(lua));

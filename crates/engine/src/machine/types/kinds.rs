@@ -206,6 +206,11 @@ pub(in crate::machine) fn no_table(what: &str, given: &LuaValue) -> Error {
         Ok(Value::Number(number)) => format!("the number {number}"),
         _ => format!("a {}", given.type_name()),
     };
-    Error::argument(format!("{what} takes a table of named fields, not {given}"))
-        .help(format!("write {what} {{ name = value }}"))
+    Error::argument(format!("{what} takes a table of named fields, not {given}")).help(
+        match what.strip_prefix("param ") {
+            Some(name) => format!("write param(\"{name}\", {{ default = 3 }})"),
+            None if what == "lsystem" => "write lsystem({ object = extruder() })".into(),
+            None => format!("write {what}({{ name = value }})"),
+        },
+    )
 }
