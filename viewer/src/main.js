@@ -288,7 +288,7 @@ for (const type of ['note', 'refused']) socket.on(type, ({ text }) => toast(text
 
 menu(find('#time'), find('#times'));
 menu(find('#export'), find('#exports'), {
-  fill: () => exports_.fill(find('#exports'), state.hello, stage?.camera, stage?.size),
+  fill: () => exports_.fill(find('#exports'), state.hello, stage?.camera, stage?.size, sky.picture),
 });
 find('#screenshot').addEventListener('click', () => stage && exports_.screenshot(stage, state.hello.script));
 

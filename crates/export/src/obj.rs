@@ -371,6 +371,20 @@ mod tests {
     }
 
     #[test]
+    fn normal_maps_are_copied_and_named_with_their_scale() {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = samples::relief_boxes(folder.path());
+        let path = folder.path().join("out.obj");
+        super::super::write(&scene, &path, &burgeon_picture::Picture::default()).unwrap();
+        let library = std::fs::read_to_string(folder.path().join("out.mtl")).unwrap();
+        assert!(library.contains("map_Kd out_brick.png\nnorm out_waves.png"), "{library}");
+        assert!(library.contains("norm -bm 0.5 out_waves.png"), "{library}");
+        assert!(folder.path().join("out_waves.png").is_file());
+        let model = std::fs::read_to_string(&path).unwrap();
+        assert_eq!(model.lines().filter(|line| line.starts_with("vt ")).count(), 72);
+    }
+
+    #[test]
     fn textures_are_copied_and_named() {
         let folder = tempfile::tempdir().unwrap();
         let scene = samples::textured_boxes(folder.path());

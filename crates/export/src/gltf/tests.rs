@@ -332,6 +332,34 @@ fn texture_coordinates_are_parts_of_the_image_from_its_top() {
 }
 
 #[test]
+fn a_normal_map_is_written_with_its_scale_and_with_texture_coordinates() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = samples::relief_boxes(folder.path());
+    let file = Gltf::from_slice(&glb(&scene).unwrap()).unwrap();
+    let maps: Vec<_> = file.materials().map(|material| material.normal_texture()).collect();
+    let of = |map: &Option<gltf::material::NormalTexture<'_>>| {
+        map.as_ref().map(|map| (map.scale(), map.texture().source().index()))
+    };
+    assert_eq!(maps.iter().map(of).collect::<Vec<_>>(), [Some((1.0, 1)), Some((0.5, 1)), None]);
+    // Brick and waves: the leaf has no texture here.
+    assert_eq!(file.images().count(), 2);
+    let second = file.meshes().nth(1).unwrap().primitives().next().unwrap();
+    assert!(second.material().pbr_metallic_roughness().base_color_texture().is_none());
+    assert!(second.get(&gltf::Semantic::TexCoords(0)).is_some());
+}
+
+#[test]
+fn a_normal_map_of_another_size_than_the_texture_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut scene = samples::relief_boxes(folder.path());
+    if let Some(map) = &mut scene.materials[0].normal_map {
+        map.image.size = [3.0, 3.0];
+    }
+    let error = glb(&scene).unwrap_err().to_string();
+    assert!(error.contains("has a texture and a normal map of different sizes"), "{error}");
+}
+
+#[test]
 fn a_gltf_file_refers_to_its_body_and_textures() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("große Stadt.gltf");
