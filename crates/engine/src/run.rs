@@ -300,12 +300,8 @@ fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
         let path = found.map_err(|_| {
             let near = path.parent().zip(path.file_name());
             let near = near.and_then(|(folder, name)| session.nearest_file(folder, &name.to_string_lossy()));
-            let error = Error::not_found(
-                what,
-                &shown,
-                near.as_deref(),
-                format!("{what} not found: \"{shown}\""),
-            );
+            let error =
+                Error::not_found(what, &shown, near.as_deref(), format!("{what} not found: \"{shown}\""));
             let error = session.propose_packages(&shown, error).at(session.place_of_string(&shown));
             error.help(format!(
                 "{what}s are files next to the script: put the file there, or change its name in the script"

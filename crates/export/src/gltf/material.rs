@@ -137,7 +137,8 @@ fn normal_texture(
     range: Option<TexCoordRange>,
     root: &mut json::Root,
 ) -> json::material::NormalTexture {
-    let extensions = transform(range, root).map(|others| json::extensions::material::NormalTexture { others });
+    let extensions =
+        transform(range, root).map(|others| json::extensions::material::NormalTexture { others });
     let scale = if map.scale.is_finite() { map.scale } else { 1.0 };
     json::material::NormalTexture { index, scale, tex_coord: 0, extensions, extras: None }
 }

@@ -105,6 +105,9 @@ fn write_image(
     }
     writeln!(out, "            token inputs:sourceColorSpace = \"{space}\"")?;
     writeln!(out, "            float2 inputs:st.connect = <{path}/Coordinates.outputs:result>")?;
-    writeln!(out, "            token inputs:wrapS = \"repeat\"\n            token inputs:wrapT = \"repeat\"")?;
+    writeln!(
+        out,
+        "            token inputs:wrapS = \"repeat\"\n            token inputs:wrapT = \"repeat\""
+    )?;
     writeln!(out, "            float outputs:a\n            float3 outputs:rgb\n        }}")
 }

@@ -126,8 +126,9 @@ pub(super) fn picture(query: &str) -> Result<Picture> {
             "sky" if number > 0.0 => picture.background = Background::Sky,
             "sky" => {}
             _ => {
-                return Err(Error::argument(format!("unknown field {name:?} of an image"))
-                    .help("it has azimuth, elevation, width, height, sun_azimuth, sun_elevation, haze and sky"));
+                return Err(Error::argument(format!("unknown field {name:?} of an image")).help(
+                    "it has azimuth, elevation, width, height, sun_azimuth, sun_elevation, haze and sky",
+                ));
             }
         }
     }

@@ -164,7 +164,9 @@ impl PixelMeaning {
                 (Vec3::from_array(color) * alpha).extend(alpha)
             }
             // 0 and 255 are the ends, so that the middle is between 127 and 128.
-            Self::Direction => Vec3::from([red, green, blue].map(|byte| f32::from(byte) / 127.5 - 1.0)).extend(1.0),
+            Self::Direction => {
+                Vec3::from([red, green, blue].map(|byte| f32::from(byte) / 127.5 - 1.0)).extend(1.0)
+            }
         }
     }
 
