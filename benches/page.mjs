@@ -5,7 +5,7 @@
 // The clock starts before the file is written and stops when the page has drawn the new model. The server's part, from
 // the file's event to the model's bytes, is what the page is told. The last table is about saves in the editor of the page:
 // least and median of the whole and of its parts. `write` is the time until the page is told that the file is written,
-// `server` that from the file's event to the model's bytes, and `rest` that of messages and of the file's event.
+// `server` that from the file's event to the model's bytes, and `rest` the write before that, the messages and waits of the page.
 
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -94,7 +94,8 @@ async function measurePane(name, text) {
       run = await drawn(page, run);
       const [took, model] = await page.evaluate((run) => [window.paneSaves[run], window.burgeon.model], run);
       const found = { write: took.write, server: model.times.total, load: took.load, draw: took.draw };
-      const rest = Object.values(found).reduce((left, time) => left - time, took.whole);
+      // The server counts from the first sign of the write, so `write` is not a summand.
+      const rest = took.whole - found.server - found.load - found.draw;
       for (const [part, time] of Object.entries({ whole: took.whole, ...found, rest })) parts[part].push(time);
     }
     console.log(`\n| ${name}, from Ctrl+S in the editor of the page | ${Object.keys(parts).join(" | ")} |`);
