@@ -167,7 +167,7 @@ fn what_is_drawn_is_what_was_meant() {
         assert!(distance < 1e-3, "{name}: {distance} m apart");
         count += 1;
     }
-    assert_eq!(count, 14);
+    assert_eq!(count, 15);
 }
 
 #[test]
