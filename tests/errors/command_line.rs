@@ -453,7 +453,7 @@ fn help_reads_well() {
           --report <FILE>         Writes a JSON report of skipped and simplified features; - is standard output
           --parts <N>             Writes the model in N parts, one after another: FILE-1 to FILE-N. Memory is that of one part
           --watch                 Runs and writes again on every save, until interrupted
-          --places                Prints file and line before each text that the script prints
+          --places                Prints file and line before each text that the script prints; of a film, also the frame
           --levels <LODS>         Writes several levels of detail, from the finest on, such as 3,2,1
           --level-storage <KIND>  Storage of the levels [default: names] [possible values: names, extension, files]
           --save-preset <NAME>    Saves the seed and the given values as a preset, if the run succeeds

@@ -218,3 +218,18 @@ fn a_missing_texture_has_its_line_and_the_nearest_file() {
       help: textures are files next to the script: put the file there, or change its name in the script
     "#);
 }
+
+#[test]
+fn a_missing_normal_map_has_its_line_and_an_impossible_one_its_reason() {
+    let tried = |fields: &str| {
+        let script = format!(
+            "local A = module(\"A\")\nlocal s = lsystem({{ object = extruder() }}) s:axiom(A())\ns:interpret(\"A\", function(this)\n  this:material({{ {fields} }}):extrude(1)\nend)\ns:derive(0)\n"
+        );
+        Folder::new().with("s.lua", &script).with("waves.png", "x").refuses(&["check", "s.lua"])
+    };
+    insta::assert_snapshot!(tried("normal = \"wavs.png\""), @"");
+    insta::assert_snapshot!(tried("normal = \"waves.png\", texture_size = { 0, 1 }"), @"");
+    insta::assert_snapshot!(tried("normal = \"waves.png\", normal_scale = 11"), @"");
+    insta::assert_snapshot!(tried("normal_scale = 2"), @"");
+    insta::assert_snapshot!(tried("normals = \"waves.png\""), @"");
+}

@@ -3,7 +3,7 @@
 //   node --test tests/page/editor.test.mjs
 
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { chmodSync, readFileSync, statSync } from "node:fs";
 import { after, before, test } from "node:test";
 
 import { BLOCKS, browse, drawn, number, save, seen, show } from "./driver.mjs";
@@ -44,6 +44,19 @@ test("a script is edited and saved in the page, and the model follows", () =>
     await page.keyboard.press("Control+s");
     await drawn(page, next);
     assert.equal(readFileSync(script, "utf8"), BLOCKS);
+  }));
+
+test("a save keeps the file's mode, and the pane says so before a slow run ends", () =>
+  open(BLOCKS, async ({ page, script, run }) => {
+    chmodSync(script, 0o640);
+    await page.locator("#pane-code .cm-line").first().click();
+    await page.keyboard.press("End");
+    await page.keyboard.type("\nlocal sum = 0\nfor i = 1, 400000000 do sum += i % 7 end\n");
+    await page.keyboard.press("Control+s");
+    await page.waitForFunction(() => document.querySelector("#pane-state").textContent === "saved");
+    assert.equal(await page.evaluate(() => Number(document.documentElement.dataset.run)), run, "the run has not ended");
+    assert.equal(statSync(script).mode & 0o777, 0o640);
+    assert.match(readFileSync(script, "utf8"), /sum \+= i % 7/);
   }));
 
 test("a script that changed on disk is not overwritten before it is asked", () =>

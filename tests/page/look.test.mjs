@@ -118,6 +118,28 @@ test("haze, a background and a sky without light change the picture", () =>
     await changes(() => seen(page, "sky-background").selectOption("sky"), 100_000);
   }));
 
+test("a picture from here has the sun, the haze and the sky of the page", () =>
+  open(BLOCKS, async ({ page }) => {
+    await drawn(page);
+    const address = async () => {
+      await page.locator("#export").click();
+      const found = await seen(page, "export-png").getAttribute("href");
+      await page.keyboard.press("Escape");
+      return found;
+    };
+    assert.doesNotMatch(await address(), /sun|haze|sky/);
+    await seen(page, "sky").click();
+    await seen(page, "sky-hour").fill("18");
+    await seen(page, "sky-haze").fill("0.5");
+    await seen(page, "sky-background").selectOption("sky");
+    await page.keyboard.press("Escape");
+    const lit = await address();
+    assert.match(lit, /&sun_azimuth=2[78]\d&sun_elevation=1[89]&haze=[\d.]+&sky=1$/);
+    // The server takes it.
+    const status = await page.evaluate(async (href) => (await fetch(href)).status, lit.replace(/(width|height)=\d+/g, "$1=60"));
+    assert.equal(status, 200);
+  }));
+
 test("what is kept of a sky is checked before it is used", () =>
   open(BLOCKS, async ({ page, script }) => {
     await drawn(page);

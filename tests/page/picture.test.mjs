@@ -162,6 +162,38 @@ test("a picture that has gone is not drawn any more, nor by shadows", () => {
   });
 });
 
+test("a normal map that leans up is lighter than one that leans down, and a flat one lies between", () => {
+  const walls = (name) => BLOCKS.replace("this:color(color)", `this:material({ color = color, normal = "${name}.png" })`);
+  return open(BLOCKS, async ({ page, script }) => {
+    let last = await drawn(page);
+    const maps = { up: [128, 218, 218], flat: [128, 128, 255], down: [128, 38, 218] };
+    for (const [name, color] of Object.entries(maps)) {
+      const url = await page.evaluate((color) => {
+        const canvas = document.createElement("canvas");
+        [canvas.width, canvas.height] = [16, 16];
+        const context = canvas.getContext("2d");
+        context.fillStyle = `rgb(${color})`;
+        context.fillRect(0, 0, 16, 16);
+        return canvas.toDataURL("image/png").split(",")[1];
+      }, color);
+      writeFileSync(join(script, "..", `${name}.png`), Buffer.from(url, "base64"));
+    }
+    const light = {};
+    let before = null;
+    for (const name of Object.keys(maps)) {
+      save(script, walls(name));
+      last = await drawn(page, last);
+      // The finer frame, which has normal maps.
+      await page.waitForTimeout(1000);
+      const picture = await pixels(page);
+      if (before) assert.ok(different(picture, before) > 2000, `${name}: ${different(picture, before)} pixels`);
+      before = picture;
+      light[name] = picture.reduce((sum, value) => sum + value, 0) / picture.length;
+    }
+    assert.ok(light.up > light.flat + 0.3 && light.flat > light.down + 0.3, JSON.stringify(light));
+  });
+});
+
 test("a planet stands free, its size is in kilometres, and its radius is seen whole", () =>
   open(
     PLANET,

@@ -7,8 +7,8 @@ export function name(script) {
   return (script || 'model').replace(/^.*[\\/]/, '').replace(/\.[^.]*$/, '') || 'model';
 }
 
-/** Fills the menu with the formats that the server names; `camera` may be missing. */
-export function fill(place, { script, formats }, camera, size) {
+/** Fills the menu with the formats that the server names; `camera` may be missing, and `light` is that of pictures. */
+export function fill(place, { script, formats }, camera, size, light) {
   const degrees = (angle) => ((angle * 180) / Math.PI).toFixed(1);
   place.replaceChildren(
     ...formats.map(({ extension, title, picture }) => {
@@ -17,6 +17,7 @@ export function fill(place, { script, formats }, camera, size) {
         const azimuth = ((camera.azimuth * 180) / Math.PI + 36000) % 360;
         address += `?azimuth=${azimuth.toFixed(1)}&elevation=${degrees(camera.elevation)}`;
         address += `&width=${Math.round(size[0] * 2)}&height=${Math.round(size[1] * 2)}`;
+        for (const [name, value] of Object.entries(light)) address += `&${name}=${value}`;
       }
       return make(
         'a',

@@ -83,6 +83,7 @@ const pane = new ScriptPane({
   files,
   // On a phone there is room for one of them.
   opened: () => log.open && matchMedia('(max-width: 760px)').matches && log.toggle(false),
+  still: stage?.slow ?? false,
 });
 const variations = new Variations({ socket, changes, seed });
 const parts = new PartList({ stage, socket, marked: () => (card.open ? card.close() : clearMark()) });
@@ -172,6 +173,7 @@ async function show(message) {
   document.documentElement.dataset.run = message.run;
   dispatchEvent(new CustomEvent('burgeon:drawn', { detail: { run: message.run, ms, load: own.load, draw: own.draw } }));
   steps.drawn();
+  if (message.cause === 'save') pane.refresh();
 }
 
 /** Shows a model, unless it is the one that is shown, of which something more is known now. */
@@ -204,6 +206,18 @@ function tell(message) {
   presets.choose(message.preset);
   trouble.warnings(message.warnings ?? [], message.notes ?? []);
   trouble.nothing(message.nothing);
+  tellProblems(message);
+  pane.drawn();
+}
+
+/** Marks the problems of a run in the script, and lists them in the console. */
+function tellProblems(message) {
+  const errors = (message.errors ?? []).map((it) => ({ ...it, severity: 'error' }));
+  const warnings = (message.warnings ?? []).map((it) => ({ ...it, severity: 'warning' }));
+  const told = (it) => ({ ...it, message: [it.message ?? it.text, it.help].filter(Boolean).join('\n') });
+  pane.mark([...errors, ...warnings].map(told));
+  const notes = (message.notes ?? []).map((it) => ({ ...it, severity: 'warning' }));
+  log.problems([...errors, ...warnings, ...notes]);
 }
 
 // Messages
@@ -238,16 +252,6 @@ socket.on('hello', (hello) => {
   trouble.aged(hello.stale);
 });
 socket.on('model', hear);
-for (const type of ['model', 'error'])
-  socket.on(type, (message) => {
-    const errors = (message.errors ?? []).map((it) => ({ ...it, severity: 'error' }));
-    const warnings = (message.warnings ?? []).map((it) => ({ ...it, severity: 'warning' }));
-    const told = (it) => ({ ...it, message: [it.message ?? it.text, it.help].filter(Boolean).join('\n') });
-    pane.mark([...errors, ...warnings].map(told));
-    const notes = (message.notes ?? []).map((it) => ({ ...it, severity: 'warning' }));
-    log.problems([...errors, ...warnings, ...notes]);
-    if (message.cause === 'save') pane.refresh();
-  });
 socket.on('printed', (message) => log.printed(message));
 socket.on('working', (message) => {
   stage?.wait(true);
@@ -261,6 +265,9 @@ socket.on('error', (message) => {
   trouble.error(message, state.model !== null);
   state.failed = message;
   tellRequested(message);
+  tellProblems(message);
+  pane.drawn();
+  if (message.cause === 'save') pane.refresh();
   document.documentElement.dataset.failed = message.run;
 });
 socket.on('waiting', (message) => {
@@ -281,7 +288,7 @@ for (const type of ['note', 'refused']) socket.on(type, ({ text }) => toast(text
 
 menu(find('#time'), find('#times'));
 menu(find('#export'), find('#exports'), {
-  fill: () => exports_.fill(find('#exports'), state.hello, stage?.camera, stage?.size),
+  fill: () => exports_.fill(find('#exports'), state.hello, stage?.camera, stage?.size, sky.picture),
 });
 find('#screenshot').addEventListener('click', () => stage && exports_.screenshot(stage, state.hello.script));
 

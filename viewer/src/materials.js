@@ -25,12 +25,20 @@ export class Materials {
    *  nothing. */
   async of(glb) {
     const { materials = [], textures = [] } = glb.json;
-    const pictures = await Promise.all(textures.map((texture) => this.#texture(glb.image(texture.source))));
+    // Normal maps are directions, which are read as they are, and textures are colours.
+    const indices = (of) => [...new Set(materials.map(of).filter((index) => index !== undefined))];
+    const load = async (of, isColor) => {
+      const all = indices(of).map(async (index) => [index, await this.#texture(glb.image(textures[index].source), isColor)]);
+      return new Map(await Promise.all(all));
+    };
+    const [colorOf, normalOf] = [(it) => it.pbrMetallicRoughness?.baseColorTexture?.index, (it) => it.normalTexture?.index];
+    const [colors, normals] = await Promise.all([load(colorOf, true), load(normalOf, false)]);
+    const pictures = [...colors.values(), ...normals.values()];
     const used = new Map();
     const made = materials.map((given) => {
-      const picture = pictures[given.pbrMetallicRoughness?.baseColorTexture?.index];
-      const key = JSON.stringify([{ ...given, name: undefined }, picture?.id]);
-      if (!used.has(key)) used.set(key, this.#materials.get(key) ?? material(given, picture, this.dull));
+      const [picture, normal] = [colors.get(colorOf(given)), normals.get(normalOf(given))];
+      const key = JSON.stringify([{ ...given, name: undefined }, picture?.id, normal?.id]);
+      if (!used.has(key)) used.set(key, this.#materials.get(key) ?? material(given, picture, normal, this.dull));
       return used.get(key);
     });
     const add = () => used.forEach((it, key) => this.#materials.set(key, it));
@@ -43,20 +51,20 @@ export class Materials {
   /** A grey of the exporter's own for primitives without a material. */
   plain = new MeshStandardMaterial({ color: 0x999999, roughness: 0.8 });
 
-  async #texture({ bytes, type }) {
-    const known = this.#textures.find((it) => same(it.bytes, bytes));
+  async #texture({ bytes, type }, isColor) {
+    const known = this.#textures.find((it) => it.isColor === isColor && same(it.bytes, bytes));
     if (known) return known.texture;
     const settings = { premultiplyAlpha: 'none', colorSpaceConversion: 'none' };
     const picture = await createImageBitmap(new Blob([bytes], { type }), settings);
     const texture = new Texture(picture);
     texture.flipY = false;
-    texture.colorSpace = SRGBColorSpace;
+    if (isColor) texture.colorSpace = SRGBColorSpace;
     texture.wrapS = texture.wrapT = RepeatWrapping;
     texture.magFilter = LinearFilter;
     texture.minFilter = LinearMipmapLinearFilter;
     texture.anisotropy = 8;
     texture.needsUpdate = true;
-    this.#textures.push({ bytes: bytes.slice(), texture });
+    this.#textures.push({ bytes: bytes.slice(), isColor, texture });
     return texture;
   }
 
@@ -86,7 +94,7 @@ export function depth(material) {
   return depths.get(material);
 }
 
-function material(given, picture, dull) {
+function material(given, picture, normal, dull) {
   const { baseColorFactor = [1, 1, 1, 1], metallicFactor = 1, roughnessFactor = 1 } = given.pbrMetallicRoughness ?? {};
   const [r, g, b, opacity] = baseColorFactor;
   const made = new MeshStandardMaterial({ roughness: roughnessFactor, metalness: metallicFactor * (dull ? 0.3 : 1) });
@@ -95,6 +103,12 @@ function material(given, picture, dull) {
   made.emissiveIntensity = given.extensions?.KHR_materials_emissive_strength?.emissiveStrength ?? 1;
   made.side = given.doubleSided ? DoubleSide : FrontSide;
   if (picture) made.map = picture;
+  if (normal) {
+    made.normalMap = normal;
+    // Texture coordinates grow downwards, and the green of a normal map is upwards.
+    const scale = given.normalTexture.scale ?? 1;
+    made.normalScale.set(scale, -scale);
+  }
   if (given.alphaMode === 'BLEND') Object.assign(made, { transparent: true, opacity, depthWrite: false });
   if (given.alphaMode === 'MASK') made.alphaTest = given.alphaCutoff ?? 0.5;
   return made;

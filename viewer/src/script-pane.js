@@ -3,6 +3,8 @@
 import { find, make, say } from './dom.js';
 import { toast } from './toast.js';
 
+const PATIENCE = 120; // ms after a save until the pane says so, if the model has not been drawn before
+
 export class ScriptPane {
   #pane = find('#script-pane');
   #button = find('#edit');
@@ -16,10 +18,11 @@ export class ScriptPane {
   #saved = '';
   #problems = [];
   #modules = null;
+  #timer = 0;
 
-  /** `opened()` is called when the pane opens. */
-  constructor({ socket, files, opened }) {
-    Object.assign(this, { socket, files, opened });
+  /** `opened()` is called when the pane opens; with `still` the caret does not blink. */
+  constructor({ socket, files, opened, still }) {
+    Object.assign(this, { socket, files, opened, still });
     this.#button.addEventListener('click', () => this.toggle());
     this.#save.addEventListener('click', () => this.save());
     find('#pane-close').addEventListener('click', () => this.toggle(false));
@@ -78,8 +81,16 @@ export class ScriptPane {
       if (answer.type === 'source') return this.#conflict(answer);
       this.#hash = answer.hash;
       this.#saved = text;
-      this.#tell();
+      dispatchEvent(new CustomEvent('burgeon:written'));
+      // The frame of the model shows it too: one before it would take time from the run and from the model.
+      clearTimeout(this.#timer);
+      this.#timer = setTimeout(() => this.#tell(), PATIENCE);
     });
+  }
+
+  /** A model has been drawn, so the pane shows how things stand. */
+  drawn() {
+    if (this.#editor) this.#tell();
   }
 
   /** The files of the script have been saved, here or elsewhere. */
@@ -117,6 +128,7 @@ export class ScriptPane {
       names: this.#modules[1],
       changed: () => this.#tell(),
       save: () => this.save(),
+      still: this.still,
     });
     this.#saved = this.#editor.text();
     this.#list();
@@ -175,6 +187,7 @@ export class ScriptPane {
     this.#ask.hidden = true;
     document.body.classList.remove('has-script');
     this.#button.setAttribute('aria-expanded', 'false');
+    clearTimeout(this.#timer);
     this.#editor?.close();
     this.#editor = null;
   }
@@ -182,11 +195,14 @@ export class ScriptPane {
   #list() {
     const names = this.files().filter((name) => /\.luau?$/.test(name) || name === this.files().at(-1));
     const all = [...new Set([...names, this.#file].filter(Boolean))];
-    this.#files.replaceChildren(...all.map((name) => make('option', { value: name, text: name })));
+    const shown = Array.from(this.#files.options, (it) => it.value);
+    if (all.join('\n') !== shown.join('\n'))
+      this.#files.replaceChildren(...all.map((name) => make('option', { value: name, text: name })));
     this.#files.value = this.#file ?? '';
   }
 
   #tell() {
+    clearTimeout(this.#timer);
     const { dirty } = this;
     say(this.#state, dirty ? 'not saved' : 'saved');
     this.#save.disabled = !dirty;

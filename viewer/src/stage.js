@@ -144,9 +144,14 @@ export class Stage {
 
   /** Puts haze of a colour before what is far away; at a `density` of 1, half of the model is in it. */
   haze(density, color) {
-    const size = this.model.box.isEmpty() ? 1 : this.model.box.getSize(new Vector3()).length();
-    this.scene.fog = density > 0 ? new FogExp2(color, (0.4 * density) / size) : null;
+    this.scene.fog = density > 0 ? new FogExp2(color, 1 / this.clear(density)) : null;
     this.invalidate();
+  }
+
+  /** The distance (m) at which haze of a density hides two thirds of what is there. */
+  clear(density) {
+    const size = this.model.box.isEmpty() ? 1 : this.model.box.getSize(new Vector3()).length();
+    return size / (0.4 * density);
   }
 
   get seen() {

@@ -281,13 +281,16 @@ pub fn no_such(script: &Path, name: &str, params: &[Param]) -> Error {
     }
 }
 
-/// Resolves texture names to files in the script's folder or in packages.
+/// Resolves the names of textures and normal maps to files in the script's folder or in packages.
 fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
-    let textures = scene.materials.iter_mut().filter_map(|material| material.texture.as_mut());
-    for texture in textures.filter(|texture| texture.content.is_none()) {
+    let images = scene.materials.iter_mut().flat_map(|material| {
+        let normal_map = material.normal_map.as_mut().map(|map| ("normal map", &mut map.image));
+        material.texture.as_mut().map(|texture| ("texture", texture)).into_iter().chain(normal_map)
+    });
+    for (what, texture) in images.filter(|(_, texture)| texture.content.is_none()) {
         let shown = texture.path.display().to_string();
-        if let Some(found) = session.package_file("texture", &shown, None) {
-            texture.path = readable(found?.path, &shown)?;
+        if let Some(found) = session.package_file(what, &shown, None) {
+            texture.path = readable(found?.path, what, &shown)?;
             continue;
         }
         let path = session.root().join(&texture.path);
@@ -297,27 +300,23 @@ fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
         let path = found.map_err(|_| {
             let near = path.parent().zip(path.file_name());
             let near = near.and_then(|(folder, name)| session.nearest_file(folder, &name.to_string_lossy()));
-            let error = Error::not_found(
-                "texture",
-                &shown,
-                near.as_deref(),
-                format!("texture not found: \"{shown}\""),
-            );
+            let error =
+                Error::not_found(what, &shown, near.as_deref(), format!("{what} not found: \"{shown}\""));
             let error = session.propose_packages(&shown, error).at(session.place_of_string(&shown));
-            error.help(
-                "textures are files next to the script: put the file there, or change its name in the script",
-            )
+            error.help(format!(
+                "{what}s are files next to the script: put the file there, or change its name in the script"
+            ))
         })?;
         if !path.starts_with(session.root()) {
-            return Err(Error::file(&path, format!("the texture {shown} is outside the script's folder"))
+            return Err(Error::file(&path, format!("the {what} {shown} is outside the script's folder"))
                 .help("a script can read only files in its own folder and its subfolders"));
         }
         if session.is_in_memory() {
             // The copy of the file is removed with the session.
-            texture.content = Some(texture_content(&path, &shown)?);
+            texture.content = Some(texture_content(&path, what, &shown)?);
             continue;
         }
-        texture.path = readable(path, &shown)?;
+        texture.path = readable(path, what, &shown)?;
     }
     Ok(())
 }
@@ -325,18 +324,18 @@ fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
 /// Maximum size (bytes) of a texture in memory.
 const LARGEST_TEXTURE: u64 = 1 << 30;
 
-/// Returns the content of a texture.
-fn texture_content(path: &Path, shown: &str) -> Result<Arc<[u8]>> {
+/// Returns the content of an image, which is a texture or a normal map.
+fn texture_content(path: &Path, what: &str, shown: &str) -> Result<Arc<[u8]>> {
     let bytes = burgeon_base::files::read(path, LARGEST_TEXTURE)
-        .map_err(|error| Error::file(shown, format!("the texture {shown} cannot be read: {error}")))?;
+        .map_err(|error| Error::file(shown, format!("the {what} {shown} cannot be read: {error}")))?;
     Ok(bytes.into())
 }
 
-/// Returns the path of a texture if the file can be opened.
-fn readable(path: PathBuf, shown: &str) -> Result<PathBuf> {
+/// Returns the path of an image, which is a texture or a normal map, if the file can be opened.
+fn readable(path: PathBuf, what: &str, shown: &str) -> Result<PathBuf> {
     burgeon_base::files::open(&path).map_err(|error| {
-        Error::file(&path, format!("the texture {shown} cannot be read: {error}"))
-            .help("textures are PNG or JPEG files next to the script")
+        Error::file(&path, format!("the {what} {shown} cannot be read: {error}"))
+            .help(format!("{what}s are PNG or JPEG files next to the script"))
     })?;
     Ok(path)
 }

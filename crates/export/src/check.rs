@@ -137,10 +137,14 @@ fn check_part(scene: &Scene, part: &Part) -> Result<PartExtent, String> {
     if !part.positions.iter().all(|p| usable(p.x) && usable(p.y) && usable(p.z)) {
         return Err("has a point with coordinates that are not finite or too large".into());
     }
-    if let Some(texture) = &material.texture {
-        if !texture.size.iter().all(|size| *size > 0.0 && size.is_finite()) {
-            let [width, height] = texture.size;
+    if let Some(size) = material.image_size() {
+        let [width, height] = size;
+        if !size.iter().all(|size| *size > 0.0 && size.is_finite()) {
             return Err(format!("has a texture of {width} m by {height} m"));
+        }
+        #[allow(clippy::float_cmp, reason = "the sizes come from one field")]
+        if material.images().any(|image| image.size != size) {
+            return Err("has a texture and a normal map of different sizes".into());
         }
         if !part.uvs.iter().all(|uv| usable(uv.x) && usable(uv.y)) {
             return Err("has texture coordinates that are not finite or too large".into());

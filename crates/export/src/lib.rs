@@ -187,7 +187,7 @@ mod tests {
         let temporary = tempfile::tempdir().unwrap();
         let folder = std::env::var_os("BURGEON_SAMPLES").map_or(temporary.path().to_path_buf(), Into::into);
         let samples = samples::all(temporary.path());
-        assert_eq!(samples.len(), 16);
+        assert_eq!(samples.len(), 17);
         for (name, scene) in &samples {
             for format in FORMATS.iter().filter(|format| **format != PNG) {
                 let path = folder.join(format!("{name}.{}", format.extension()));

@@ -2,7 +2,7 @@
 //!
 //! OBJ has no instances, so each instance becomes a separate object in world coordinates. OBJ does not define axes
 //! either: y is up here, as in glTF. Materials have the classic lighting parameters and, for programs that support
-//! them, the physically based `Pr` and `Pm`.
+//! them, the physically based `Pr`, `Pm` and `norm`.
 
 use std::borrow::Cow;
 
@@ -27,7 +27,7 @@ pub(super) fn write(export: &Export<'_>, path: &Path, files: &mut Files) -> Resu
     let Export { scene, facts, .. } = export;
     let checked = check(scene)?;
     files.warn(size_warning(&checked, path));
-    let images = Images::load(&checked)?;
+    let images = Images::load_with_normals(&checked)?;
     let copies: Vec<String> =
         images.copy_names(path, files).iter().map(|name| word(name, "texture")).collect();
     for (name, file) in copies.iter().zip(&images.files) {
@@ -38,8 +38,9 @@ pub(super) fn write(export: &Export<'_>, path: &Path, files: &mut Files) -> Resu
     files.write(&path.with_file_name(&library), |out| {
         writeln!(out, "{}", heading())?;
         for (i, material) in scene.materials.iter().enumerate().filter(|(i, _)| checked.materials[*i]) {
-            let texture = images.of_material[i].map(|file| copies[file].as_str());
-            write_material(material, &names[i], texture, out)?;
+            let copy = |file: usize| copies[file].as_str();
+            let files = [images.of_material[i].map(copy), images.normals[i].map(copy)];
+            write_material(material, &names[i], files, out)?;
         }
         Ok(())
     })?;
@@ -128,15 +129,8 @@ fn write_objects(
         }
         for part in shown_parts(mesh) {
             writeln!(out, "usemtl {}", names[part.material])?;
-            let texture = checked.scene.materials[part.material].texture.as_ref();
-            write_part(
-                part,
-                texture.map(|texture| texture.size),
-                instance,
-                checked.origin,
-                &mut numbers,
-                out,
-            )?;
+            let size = checked.scene.materials[part.material].image_size();
+            write_part(part, size, instance, checked.origin, &mut numbers, out)?;
         }
     }
     Ok(())
@@ -148,7 +142,7 @@ struct ObjNumbers {
     tex_coord: u64,
 }
 
-/// Writes the points and triangles of `part`; `size` is the size (m) of its texture.
+/// Writes the points and triangles of `part`; `size` is the size (m) of its images.
 fn write_part(
     part: &Part,
     size: Option<[f64; 2]>,
@@ -202,7 +196,7 @@ fn y_up(vector: DVec3) -> DVec3 {
 fn write_material(
     material: &Material,
     name: &str,
-    texture: Option<&str>,
+    [texture, normal]: [Option<&str>; 2],
     out: &mut impl Write,
 ) -> io::Result<()> {
     let [r, g, b, opacity] = material.base_color.map(fraction);
@@ -219,6 +213,13 @@ fn write_material(
     writeln!(out, "Ns {exponent}\nd {opacity}\nPr {roughness}\nPm {metallic}")?;
     if let Some(texture) = texture {
         writeln!(out, "map_Kd {texture}")?;
+    }
+    if let Some((file, map)) = normal.zip(material.normal_map.as_ref()) {
+        // Of the same extension as `Pr` and `Pm`, with the option of `bump`.
+        match map.scale {
+            1.0 => writeln!(out, "norm {file}")?,
+            scale => writeln!(out, "norm -bm {scale} {file}")?,
+        }
     }
     Ok(())
 }
@@ -367,6 +368,20 @@ mod tests {
             ]
         );
         assert_eq!(lines.last(), Some(&"f 1//1 2//2 3//3"));
+    }
+
+    #[test]
+    fn normal_maps_are_copied_and_named_with_their_scale() {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = samples::relief_boxes(folder.path());
+        let path = folder.path().join("out.obj");
+        super::super::write(&scene, &path, &burgeon_picture::Picture::default()).unwrap();
+        let library = std::fs::read_to_string(folder.path().join("out.mtl")).unwrap();
+        assert!(library.contains("map_Kd out_brick.png\nnorm out_waves.png"), "{library}");
+        assert!(library.contains("norm -bm 0.5 out_waves.png"), "{library}");
+        assert!(folder.path().join("out_waves.png").is_file());
+        let model = std::fs::read_to_string(&path).unwrap();
+        assert_eq!(model.lines().filter(|line| line.starts_with("vt ")).count(), 72);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Scenes for the tests of all formats.
 
-use burgeon_scene::{Instance, Material, Mesh, Part, Scene, Texture};
+use burgeon_scene::{Instance, Material, Mesh, NormalMap, Part, Scene, Texture};
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3};
 use std::path::Path;
 
@@ -123,6 +123,24 @@ pub(super) fn textured_boxes(folder: &Path) -> Scene {
         scene.meshes.push(cube("textured", i));
         scene.instances.push(instance(i, "", DAffine3::from_translation(DVec3::X * 2.0 * i as f64)));
     }
+    scene
+}
+
+/// Returns boxes with normal maps: one alone, and one with a texture.
+pub(super) fn relief_boxes(folder: &Path) -> Scene {
+    let mut scene = textured_boxes(folder);
+    let waves = |x: u32, _| {
+        let slope = (f64::from(x) / 32.0 * std::f64::consts::TAU).cos() * 0.7;
+        let part = |value: f64| ((value + 1.0) * 127.5).round() as u8;
+        image::Rgb([part(slope), 128, part((1.0 - slope * slope).sqrt())])
+    };
+    image::RgbImage::from_fn(32, 16, waves).save(folder.join("waves.png")).unwrap();
+    for (material, scale) in scene.materials.iter_mut().zip([1.0, 0.5]) {
+        let size = material.image_size().unwrap();
+        let image = Texture { path: folder.join("waves.png"), size, content: None };
+        material.normal_map = Some(NormalMap { image, scale });
+    }
+    scene.materials[1].texture = None;
     scene
 }
 
@@ -313,6 +331,7 @@ pub(super) fn all(folder: &Path) -> Vec<(&'static str, Scene)> {
         ("far", far_box()),
         ("far_forest", far_forest),
         ("textured", textured_boxes(folder)),
+        ("relief", relief_boxes(folder)),
         ("materials", materials()),
         ("odd", odd()),
         ("hill", hill(40)),

@@ -5,8 +5,8 @@ use super::color::linear;
 use super::files::Files;
 use super::stem;
 use burgeon_base::error::{Error, Result};
-use burgeon_scene::Texture;
 use burgeon_scene::image::{self, ImageKind};
+use burgeon_scene::{Material, Texture};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -15,8 +15,10 @@ use std::sync::Arc;
 pub(super) struct Images {
     /// Image files.
     pub(super) files: Vec<ImageFile>,
-    /// For each material of the scene, the index of its file.
+    /// For each material of the scene, the index of the file of its texture.
     pub(super) of_material: Vec<Option<usize>>,
+    /// The same of its normal map; `None` if the format has no normal maps.
+    pub(super) normals: Vec<Option<usize>>,
 }
 
 /// PNG or JPEG file, unchanged.
@@ -33,27 +35,45 @@ pub(super) struct ImageFile {
 }
 
 impl Images {
-    /// Reads the files. Fails if one of them does not exist or is neither PNG nor JPEG.
+    /// Reads the files of textures. Fails if one of them does not exist or is neither PNG nor JPEG.
     pub(super) fn load(checked: &SceneCheck<'_>) -> Result<Self> {
-        let mut images = Self { files: Vec::new(), of_material: Vec::new() };
-        for (i, material) in checked.scene.materials.iter().enumerate() {
-            let texture = material.texture.as_ref().filter(|_| checked.materials[i]);
-            let Some(texture) = texture else {
-                images.of_material.push(None);
-                continue;
-            };
-            let same = |file: &ImageFile| file.path == texture.path && file.content == texture.content;
-            let known = images.files.iter().position(same);
-            let index = match known {
-                Some(index) => index,
-                None => {
-                    images.files.push(ImageFile::read(texture, &item_label("material", &material.name, i))?);
-                    images.files.len() - 1
-                }
-            };
-            images.of_material.push(Some(index));
-        }
+        let mut images = Self { files: Vec::new(), of_material: Vec::new(), normals: Vec::new() };
+        images.of_material = images.read_all(checked, "texture", |material| material.texture.as_ref())?;
+        images.normals = vec![None; images.of_material.len()];
         Ok(images)
+    }
+
+    /// Reads the files of textures and of normal maps. Fails as [`load`](Self::load) does.
+    pub(super) fn load_with_normals(checked: &SceneCheck<'_>) -> Result<Self> {
+        let mut images = Self::load(checked)?;
+        images.normals = images
+            .read_all(checked, "normal map", |material| material.normal_map.as_ref().map(|map| &map.image))?;
+        Ok(images)
+    }
+
+    /// Reads the image that `of` returns of each shown material. Returns the index of each file.
+    fn read_all(
+        &mut self,
+        checked: &SceneCheck<'_>,
+        what: &str,
+        of: impl Fn(&Material) -> Option<&Texture>,
+    ) -> Result<Vec<Option<usize>>> {
+        let materials = checked.scene.materials.iter().enumerate();
+        let index = |(i, material): (usize, &Material)| {
+            let image = of(material).filter(|_| checked.materials[i]);
+            image.map(|image| self.add(image, what, &item_label("material", &material.name, i))).transpose()
+        };
+        materials.map(index).collect()
+    }
+
+    /// Returns the index of an image, which is read if it is new.
+    fn add(&mut self, image: &Texture, what: &str, material: &str) -> Result<usize> {
+        let same = |file: &ImageFile| file.path == image.path && file.content == image.content;
+        if let Some(known) = self.files.iter().position(same) {
+            return Ok(known);
+        }
+        self.files.push(ImageFile::read(image, what, material)?);
+        Ok(self.files.len() - 1)
     }
 
     /// Returns a file name for a copy of each image next to the export at `main`, such as `city_brick.png`.
@@ -89,10 +109,10 @@ impl Images {
 const LARGEST: u64 = 1_000_000_000;
 
 impl ImageFile {
-    fn read(texture: &Texture, material: &str) -> Result<Self> {
+    fn read(texture: &Texture, what: &str, material: &str) -> Result<Self> {
         let path = &texture.path;
         let refused = |why: &dyn std::fmt::Display| {
-            Error::file(path, format!("cannot read the texture {} of {material}: {why}", path.display()))
+            Error::file(path, format!("cannot read the {what} {} of {material}: {why}", path.display()))
         };
         let bytes = match &texture.content {
             Some(content) => content.to_vec(),

@@ -2,13 +2,16 @@
 
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::{Color, Field, Parameter, Table, Value, fields};
-use burgeon_scene::{Material, Texture};
+use burgeon_scene::{Material, NormalMap, Texture};
 
 /// Colour that a texture is multiplied by if none is given.
 const WHITE: Color = Color([1.0; 4]);
 
 /// Colour of a surface with neither a colour nor a texture.
 const GREY: Color = Color([0.6, 0.6, 0.6, 1.0]);
+
+/// Maximum factor of the slopes of a normal map.
+const MOST_RELIEF: f64 = 10.0;
 
 /// Fields of `material { ... }`.
 #[fields("material")]
@@ -30,6 +33,12 @@ pub struct MaterialOptions {
     /// Width and height (m) of one repetition of the image.
     #[default(vec![1.0, 1.0])]
     pub texture_size: Vec<f64>,
+    /// Normal map, which gives the surface a relief in the light: an image file as for `texture`, with the same size.
+    /// Its colours are directions, as in glTF: red to the right, green upwards, blue outwards.
+    pub normal: Option<String>,
+    /// Factor of the slopes of the normal map, from 0 (flat) to 10.
+    #[default(1.0)]
+    pub normal_scale: f64,
     /// Visible from both sides, such as leaves.
     pub double_sided: bool,
     /// Display name.
@@ -60,7 +69,8 @@ impl Parameter for MaterialOptions {
 }
 
 impl MaterialOptions {
-    /// Creates the material for the scene. Fails if a factor is out of range or the texture size is invalid.
+    /// Creates the material for the scene. Fails if a factor is out of range, if the texture size is invalid, or if
+    /// there is a factor for a normal map but no map.
     ///
     /// ```
     /// use burgeon_kit::Color;
@@ -77,20 +87,31 @@ impl MaterialOptions {
                 return Err(Error::argument(format!("material: {name} must be from 0 to 1, not {factor}")));
             }
         }
-        let texture = match (&self.texture, self.texture_size.as_slice()) {
-            (None, _) => None,
-            (Some(path), [width, height]) if *width > 0.0 && *height > 0.0 => {
-                Some(Texture { path: path.into(), size: [*width, *height], content: None })
-            }
+        if !(0.0..=MOST_RELIEF).contains(&self.normal_scale) {
+            let scale = self.normal_scale;
+            let message = format!("material: normal_scale must be from 0 to {MOST_RELIEF}, not {scale}");
+            return Err(Error::argument(message));
+        }
+        #[allow(clippy::float_cmp, reason = "the default is exact")]
+        if self.normal.is_none() && self.normal_scale != 1.0 {
+            return Err(Error::argument("material: normal_scale has no effect without a normal map")
+                .help("give the image file of the normal map in normal"));
+        }
+        let size = match self.texture_size.as_slice() {
+            [width, height] if *width > 0.0 && *height > 0.0 => [*width, *height],
+            _ if self.texture.is_none() && self.normal.is_none() => [1.0; 2],
             _ => {
                 return Err(Error::argument(
                     "material: texture_size must be { width, height } in metres, above 0",
                 ));
             }
         };
+        let image = |path: &String| Texture { path: path.into(), size, content: None };
+        let texture = self.texture.as_ref().map(image);
         let [red, green, blue, _] = self.emissive.0;
         #[allow(clippy::cast_possible_truncation, reason = "materials are f32")]
         let narrow = |factor: f64| factor as f32;
+        let scale = narrow(self.normal_scale);
         Ok(Material {
             name: self.name.clone(),
             base_color: self.color.unwrap_or(if texture.is_some() { WHITE } else { GREY }).0,
@@ -98,6 +119,7 @@ impl MaterialOptions {
             roughness: narrow(self.roughness),
             emissive: [red, green, blue],
             texture,
+            normal_map: self.normal.as_ref().map(|path| NormalMap { image: image(path), scale }),
             double_sided: self.double_sided,
         })
     }
@@ -126,5 +148,16 @@ mod tests {
         let tinted = MaterialOptions { color: Some(Color([0.5, 0.4, 0.3, 1.0])), ..textured };
         assert_eq!(tinted.material().unwrap().base_color, [0.5, 0.4, 0.3, 1.0]);
         assert_eq!(MaterialOptions::default().material().unwrap(), Material::default());
+    }
+
+    #[test]
+    fn a_normal_map_has_the_size_of_the_texture_and_leaves_the_colour() {
+        let size = vec![2.0, 1.0];
+        let normal = Some("brick_normal.png".into());
+        let relief = MaterialOptions { normal, texture_size: size, ..MaterialOptions::default() };
+        let material = relief.material().unwrap();
+        assert_eq!((material.image_size(), material.base_color), (Some([2.0, 1.0]), GREY.0));
+        assert_eq!(material.normal_map.unwrap().scale, 1.0);
+        assert!(MaterialOptions { texture_size: vec![0.0, 1.0], ..relief }.material().is_err());
     }
 }

@@ -170,7 +170,9 @@ fn material_json(material: &Material) -> Value {
         "emissive": material.emissive,
         "double_sided": material.double_sided,
         "texture": material.texture.as_ref().map(|texture| texture.path.to_string_lossy()),
-        "texture_size": material.texture.as_ref().map(|texture| texture.size),
+        "texture_size": material.image_size(),
+        "normal_map": material.normal_map.as_ref().map(|map| map.image.path.to_string_lossy()),
+        "normal_scale": material.normal_map.as_ref().map_or(1.0, |map| map.scale),
     })
 }
 

@@ -18,8 +18,19 @@ pub struct Material {
     pub emissive: [f32; 3],
     /// Image that multiplies the base colour.
     pub texture: Option<Texture>,
+    /// Normal map, of the same size as the texture.
+    pub normal_map: Option<NormalMap>,
     /// Set if both sides are visible, as with leaves.
     pub double_sided: bool,
+}
+
+/// Image of the relief of a surface, which changes its shading and not its shape.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NormalMap {
+    /// Image whose red, green and blue are the normal's part to the right, upwards and outwards, from -1 to 1.
+    pub image: Texture,
+    /// Factor of the slopes: 0 for a flat surface, 1 for those of the image.
+    pub scale: f32,
 }
 
 /// Image on a surface at its real size.
@@ -33,6 +44,27 @@ pub struct Texture {
     pub content: Option<Arc<[u8]>>,
 }
 
+impl Material {
+    /// Returns the images of the material: its texture and its normal map.
+    pub fn images(&self) -> impl Iterator<Item = &Texture> {
+        self.texture.iter().chain(self.normal_map.as_ref().map(|map| &map.image))
+    }
+
+    /// Returns the width and height (m) of one repetition of the images; `None` if the material has none.
+    ///
+    /// ```
+    /// use burgeon_scene::{Material, NormalMap, Texture};
+    ///
+    /// let image = Texture { path: "brick.png".into(), size: [2.0, 1.0], content: None };
+    /// let brick = Material { normal_map: Some(NormalMap { image, scale: 1.0 }), ..Material::default() };
+    /// assert_eq!(brick.image_size(), Some([2.0, 1.0]));
+    /// assert_eq!(Material::default().image_size(), None);
+    /// ```
+    pub fn image_size(&self) -> Option<[f64; 2]> {
+        self.images().next().map(|image| image.size)
+    }
+}
+
 impl Default for Material {
     /// Returns a light grey, matt, one-sided material.
     fn default() -> Self {
@@ -43,6 +75,7 @@ impl Default for Material {
             roughness: 0.8,
             emissive: [0.0; 3],
             texture: None,
+            normal_map: None,
             double_sided: false,
         }
     }

@@ -56,10 +56,11 @@ const COUNTS: [&str; 46] = [
 ];
 
 /// Fractions, probabilities, weights and factors.
-const FACTORS: [&str; 72] = [
+const FACTORS: [&str; 73] = [
     ".amount",
     ".metallic",
     ".noise",
+    ".normal_scale",
     ".patches",
     ".roughness",
     "Elasticity elasticity",

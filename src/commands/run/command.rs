@@ -110,7 +110,7 @@ pub(crate) struct RunCommand {
     #[arg(long)]
     watch: bool,
 
-    /// Prints file and line before each text that the script prints
+    /// Prints file and line before each text that the script prints; of a film, also the frame
     #[arg(long)]
     places: bool,
 

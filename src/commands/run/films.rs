@@ -104,6 +104,8 @@ impl RunCommand {
         end_on_interrupt()?;
         let begin = Instant::now();
         let mut options = self.script.options()?;
+        // A film prints the texts of all its runs only if their places are wanted.
+        options.reports.print = None;
         self.place_prints(&mut options);
         if options.params.set.iter().any(|(name, _)| name == axis.name()) {
             let name = axis.name();

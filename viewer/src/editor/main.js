@@ -105,8 +105,8 @@ const CARETS = StateField.define({
 });
 
 /** Opens an editor in `place`. `names` is the scripting API, `[{name, owner, usage, doc}]`; `changed` is called with each edit, and
- *  `save` by its key. Strings are compared by lines, so files keep their line ends. */
-export function open({ place, text, names, changed, save }) {
+ *  `save` by its key; with `still` the caret does not blink. Strings are compared by lines, so files keep their line ends. */
+export function open({ place, text, names, changed, save, still = false }) {
   // The page's policy forbids style elements; in a shadow, styles are sheets of the document.
   const root = place.shadowRoot ?? place.attachShadow({ mode: 'open' });
   const view = new EditorView({
@@ -117,7 +117,8 @@ export function open({ place, text, names, changed, save }) {
       extensions: [
         lineNumbers(),
         history(),
-        drawSelection(),
+        // Without a graphics card, each blink draws the whole page.
+        drawSelection(still ? { cursorBlinkRate: 0 } : {}),
         EditorState.tabSize.of(2),
         indentUnit.of('  '),
         indentOnInput(),
@@ -149,6 +150,7 @@ export function open({ place, text, names, changed, save }) {
       ],
     }),
   });
+  let marked = 0;
   return {
     text: () => view.state.sliceDoc(),
     focus: () => view.focus(),
@@ -167,6 +169,8 @@ export function open({ place, text, names, changed, save }) {
     },
     /** Marks problems `{line, column, end_column, severity, message}`, and puts carets under those with a column. */
     mark(problems) {
+      if (problems.length === 0 && marked === 0) return;
+      marked = problems.length;
       const shown = problems
         .filter(({ line }) => line >= 1 && line <= view.state.doc.lines)
         .map(({ line, column, end_column: end, severity, message }) => {

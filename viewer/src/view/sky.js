@@ -72,6 +72,16 @@ export class Sky {
     this.#apply();
   }
 
+  /** What the server's pictures need for the same light: names and numbers. */
+  get picture() {
+    const { sun, haze, background } = this.#state;
+    const picture = {};
+    if (sun) [picture.sun_azimuth, picture.sun_elevation] = sun;
+    if (haze > 0 && this.stage) picture.haze = this.stage.clear(haze).toPrecision(4);
+    if (background === 'sky') picture.sky = 1;
+    return picture;
+  }
+
   /** The model or the theme has changed. */
   renew() {
     this.#hazy();

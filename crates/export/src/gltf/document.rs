@@ -91,7 +91,7 @@ pub(crate) fn packed_glb_for_viewer(
     stop: &Stop,
 ) -> Result<Vec<u8>> {
     let checked = check(scene)?;
-    let images = Images::load(&checked)?;
+    let images = Images::load_with_normals(&checked)?;
     let pictures: usize = images.files.iter().map(|file| file.bytes.len()).sum();
     let arrays = Arrays { small: true, ..Arrays::default() };
     let facts = SceneFacts::default();
@@ -107,7 +107,7 @@ pub(crate) fn packed_glb_for_viewer(
 
 fn bytes(scene: &Scene, arrays: Arrays, stop: &Stop) -> Result<(Vec<u8>, Layout)> {
     let checked = check(scene)?;
-    let images = Images::load(&checked)?;
+    let images = Images::load_with_normals(&checked)?;
     let document =
         Document::new(&checked, &SceneFacts::default(), &images, &Textures::Embedded, (arrays, None), stop)?;
     let mut bytes = Vec::new();
@@ -123,7 +123,7 @@ fn bytes(scene: &Scene, arrays: Arrays, stop: &Stop) -> Result<(Vec<u8>, Layout)
 pub(crate) fn write_glb(export: &Export<'_>, path: &Path, files: &mut Files) -> Result<()> {
     let expanded = expand_if_chosen(export)?;
     let checked = check(expanded.as_ref().unwrap_or(export.scene))?;
-    let images = Images::load(&checked)?;
+    let images = Images::load_with_normals(&checked)?;
     let stop = files.stop();
     let content = (Arrays::of(&export.facts), None);
     let mut document = Document::new(&checked, &export.facts, &images, &Textures::Embedded, content, &stop)?;
@@ -149,7 +149,7 @@ pub(crate) fn write_film(
     files: &mut Files,
 ) -> Result<()> {
     let checked = check(&model.scene)?;
-    let images = Images::load(&checked)?;
+    let images = Images::load_with_normals(&checked)?;
     let stop = files.stop();
     let content = (Arrays::default(), Some((model, Some(settings))));
     let facts = SceneFacts::default();
@@ -165,7 +165,7 @@ pub(crate) fn write_levels(
     files: &mut Files,
 ) -> Result<()> {
     let checked = check(&model.scene)?;
-    let images = Images::load(&checked)?;
+    let images = Images::load_with_normals(&checked)?;
     let stop = files.stop();
     let content = (Arrays::of(facts), Some((model, None)));
     let mut document = Document::new(&checked, facts, &images, &Textures::Embedded, content, &stop)?;
@@ -181,7 +181,7 @@ pub(crate) fn write_levels(
 pub(crate) fn write_gltf(export: &Export<'_>, path: &Path, files: &mut Files) -> Result<()> {
     let expanded = expand_if_chosen(export)?;
     let checked = check(expanded.as_ref().unwrap_or(export.scene))?;
-    let images = Images::load(&checked)?;
+    let images = Images::load_with_normals(&checked)?;
     let names = images.copy_names(path, files);
     for (name, file) in names.iter().zip(&images.files) {
         files.copy(&path.with_file_name(name), &file.bytes)?;

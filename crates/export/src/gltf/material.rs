@@ -8,7 +8,7 @@ use super::coordinates::TexCoordRange;
 use super::description::use_extension;
 use super::quantize::TEXTURE_TRANSFORM;
 use crate::uri;
-use burgeon_scene::Material;
+use burgeon_scene::{Material, NormalMap};
 use gltf_json as json;
 use json::material::{AlphaMode, EmissiveFactor, PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
 use json::texture::{Info, MagFilter, MinFilter, Sampler};
@@ -38,9 +38,11 @@ pub(super) fn write<'a>(
             let file = images.of_material[i];
             let range = ranges.get(i).copied().flatten();
             let texture = file.map(|file| texture(written[file], range, root));
+            let normal = images.normals[i].zip(material.normal_map.as_ref());
+            let normal = normal.map(|(file, map)| normal_texture(written[file], map, range, root));
             let has_alpha = file.is_some_and(|file| images.files[file].has_alpha);
             checked.materials[i].then(|| {
-                let described = describe(material, texture, has_alpha, root);
+                let described = describe(material, (texture, normal), has_alpha, root);
                 root.push(described)
             })
         })
@@ -85,7 +87,7 @@ fn write_images<'a>(
 
 fn describe(
     material: &Material,
-    texture: Option<Info>,
+    (texture, normal): (Option<Info>, Option<json::material::NormalTexture>),
     has_alpha: bool,
     root: &mut json::Root,
 ) -> json::Material {
@@ -108,6 +110,7 @@ fn describe(
             roughness_factor: StrengthFactor(fraction(material.roughness)),
             ..PbrMetallicRoughness::default()
         },
+        normal_texture: normal,
         emissive_factor: EmissiveFactor(emissive),
         extensions: strength.map(|strength| {
             let extension = "KHR_materials_emissive_strength";
@@ -122,14 +125,34 @@ fn describe(
 
 /// Returns a reference to a texture whose coordinates are fractions of `range`.
 fn texture(index: json::Index<json::Texture>, range: Option<TexCoordRange>, root: &mut json::Root) -> Info {
-    let extensions = range.filter(|range| !range.is_identity()).map(|TexCoordRange { offset, scale }| {
-        use_extension(root, TEXTURE_TRANSFORM);
-        let mut extensions = json::extensions::texture::Info::default();
-        let described = serde_json::json!({ "offset": offset, "scale": scale });
-        extensions.others.insert(TEXTURE_TRANSFORM.into(), described);
-        extensions
-    });
+    let extensions = transform(range, root).map(|others| json::extensions::texture::Info { others });
     Info { index, tex_coord: 0, extensions, extras: None }
+}
+
+/// Returns the reference to a normal map whose coordinates are fractions of `range`. It has no tangents: those of the
+/// texture coordinates are meant, as the specification says.
+fn normal_texture(
+    index: json::Index<json::Texture>,
+    map: &NormalMap,
+    range: Option<TexCoordRange>,
+    root: &mut json::Root,
+) -> json::material::NormalTexture {
+    let extensions =
+        transform(range, root).map(|others| json::extensions::material::NormalTexture { others });
+    let scale = if map.scale.is_finite() { map.scale } else { 1.0 };
+    json::material::NormalTexture { index, scale, tex_coord: 0, extensions, extras: None }
+}
+
+/// Returns the extension that maps texture coordinates to `range`, if they are fractions of one.
+fn transform(
+    range: Option<TexCoordRange>,
+    root: &mut json::Root,
+) -> Option<serde_json::Map<String, serde_json::Value>> {
+    let TexCoordRange { offset, scale } = range.filter(|range| !range.is_identity())?;
+    use_extension(root, TEXTURE_TRANSFORM);
+    let mut others = serde_json::Map::new();
+    others.insert(TEXTURE_TRANSFORM.into(), serde_json::json!({ "offset": offset, "scale": scale }));
+    Some(others)
 }
 
 /// Returns a display name, or `None` if it is empty.

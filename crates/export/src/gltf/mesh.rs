@@ -32,8 +32,8 @@ pub(super) fn write<'a>(
 ) -> Vec<Option<usize>> {
     let scene = checked.scene;
     let measure = |(part, measured): (&'a Part, &PartExtent)| {
-        let texture = scene.materials[part.material].texture.as_ref();
-        let size = texture.map(|texture| texture.size).or(arrays.measured.then_some([1.0, 1.0]));
+        let image_size = scene.materials[part.material].image_size();
+        let size = image_size.or(arrays.measured.then_some([1.0, 1.0]));
         let welded = (arrays.small && size.is_none()).then(|| FlatPart::of(part)).flatten().map(Arc::new);
         let range = ranges.get(part.material).copied().flatten();
         let texture = size.map(|size| TexCoordMap { range, ..TexCoordMap::exact(size) });

@@ -122,7 +122,7 @@ pub(super) fn round_to_step(coordinate: f32) -> f32 {
 /// too large for integers.
 pub(super) fn tex_coord_ranges(checked: &SceneCheck<'_>) -> Vec<Option<TexCoordRange>> {
     let scene = checked.scene;
-    let size = |part: &Part| scene.materials[part.material].texture.as_ref().map(|texture| texture.size);
+    let size = |part: &Part| scene.materials[part.material].image_size();
     let parts = scene.meshes.par_iter().zip(&checked.parts).flat_map_iter(|(mesh, extents)| {
         mesh.parts.iter().zip(extents).filter(|(_, extent)| extent.triangles > 0).map(|(part, _)| part)
     });

@@ -167,7 +167,7 @@ fn what_is_drawn_is_what_was_meant() {
         assert!(distance < 1e-3, "{name}: {distance} m apart");
         count += 1;
     }
-    assert_eq!(count, 14);
+    assert_eq!(count, 15);
 }
 
 #[test]
@@ -329,6 +329,34 @@ fn texture_coordinates_are_parts_of_the_image_from_its_top() {
     assert_eq!(all, [[0.5, -1.0], [0.25, 0.5], [0.5, 0.25]]);
     let plain = Gltf::from_slice(&glb(&samples::boxes(1)).unwrap()).unwrap();
     assert_eq!(plain.meshes().next().unwrap().primitives().next().unwrap().attributes().count(), 1);
+}
+
+#[test]
+fn a_normal_map_is_written_with_its_scale_and_with_texture_coordinates() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = samples::relief_boxes(folder.path());
+    let file = Gltf::from_slice(&glb(&scene).unwrap()).unwrap();
+    let maps: Vec<_> = file.materials().map(|material| material.normal_texture()).collect();
+    let of = |map: &Option<gltf::material::NormalTexture<'_>>| {
+        map.as_ref().map(|map| (map.scale(), map.texture().source().index()))
+    };
+    assert_eq!(maps.iter().map(of).collect::<Vec<_>>(), [Some((1.0, 1)), Some((0.5, 1)), None]);
+    // Brick and waves: the leaf has no texture here.
+    assert_eq!(file.images().count(), 2);
+    let second = file.meshes().nth(1).unwrap().primitives().next().unwrap();
+    assert!(second.material().pbr_metallic_roughness().base_color_texture().is_none());
+    assert!(second.get(&gltf::Semantic::TexCoords(0)).is_some());
+}
+
+#[test]
+fn a_normal_map_of_another_size_than_the_texture_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut scene = samples::relief_boxes(folder.path());
+    if let Some(map) = &mut scene.materials[0].normal_map {
+        map.image.size = [3.0, 3.0];
+    }
+    let error = glb(&scene).unwrap_err().to_string();
+    assert!(error.contains("has a texture and a normal map of different sizes"), "{error}");
 }
 
 #[test]

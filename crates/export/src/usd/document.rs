@@ -31,7 +31,7 @@ struct InstancerGroup<'a> {
 /// Writes a `.usda` file to `path`, with copies of the textures next to it.
 pub(crate) fn write(export: &Export<'_>, path: &Path, files: &mut Files) -> Result<()> {
     let checked = check(export.scene)?;
-    let images = Images::load(&checked)?;
+    let images = Images::load_with_normals(&checked)?;
     let names = images.copy_names(path, files);
     for (name, file) in names.iter().zip(&images.files) {
         files.copy(&path.with_file_name(name), &file.bytes)?;

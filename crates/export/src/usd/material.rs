@@ -25,7 +25,8 @@ pub(super) fn write(
     for (index, material) in shown {
         let image = images.of_material[index];
         let texture = image.map(|file| (names[file].as_str(), images.files[file].has_alpha));
-        write_material(index, material, texture, out)?;
+        let normal = images.normals[index].map(|file| names[file].as_str());
+        write_material(index, material, (texture, normal), out)?;
     }
     writeln!(out, "    }}")
 }
@@ -33,7 +34,7 @@ pub(super) fn write(
 fn write_material(
     index: usize,
     material: &Material,
-    texture: Option<(&str, bool)>,
+    (texture, normal): (Option<(&str, bool)>, Option<&str>),
     out: &mut impl Write,
 ) -> io::Result<()> {
     let path = prim_path(index, material);
@@ -61,21 +62,21 @@ fn write_material(
     writeln!(out, "            color3f inputs:emissiveColor = {}", tuple(&emissive))?;
     writeln!(out, "            float inputs:metallic = {}", fraction(material.metallic))?;
     writeln!(out, "            float inputs:roughness = {}", fraction(material.roughness))?;
+    if normal.is_some() {
+        writeln!(out, "            normal3f inputs:normal.connect = <{path}/Relief.outputs:rgb>")?;
+    }
     writeln!(out, "            token outputs:surface\n        }}")?;
     if let Some((name, _)) = texture {
-        let marks = if name.contains('@') { "@@@" } else { "@" };
         let color = tuple(&[r, g, b, opacity]);
-        writeln!(out, "        def Shader \"Image\"\n        {{")?;
-        writeln!(out, "            uniform token info:id = \"UsdUVTexture\"")?;
-        writeln!(out, "            asset inputs:file = {marks}./{name}{marks}")?;
-        writeln!(out, "            float4 inputs:scale = {color}")?;
-        writeln!(out, "            token inputs:sourceColorSpace = \"sRGB\"")?;
-        writeln!(out, "            float2 inputs:st.connect = <{path}/Coordinates.outputs:result>")?;
-        writeln!(
-            out,
-            "            token inputs:wrapS = \"repeat\"\n            token inputs:wrapT = \"repeat\""
-        )?;
-        writeln!(out, "            float outputs:a\n            float3 outputs:rgb\n        }}")?;
+        write_image("Image", name, &[("scale", color)], "sRGB", &path, out)?;
+    }
+    if let Some((name, map)) = normal.zip(material.normal_map.as_ref()) {
+        // Colours from 0 to 1 are directions from -1 to 1.
+        let scale = tuple(&[2.0 * map.scale, 2.0 * map.scale, 2.0, 1.0]);
+        let bias = tuple(&[-map.scale, -map.scale, -1.0, 0.0]);
+        write_image("Relief", name, &[("scale", scale), ("bias", bias)], "raw", &path, out)?;
+    }
+    if texture.is_some() || normal.is_some() {
         writeln!(out, "        def Shader \"Coordinates\"\n        {{")?;
         writeln!(out, "            uniform token info:id = \"UsdPrimvarReader_float2\"")?;
         writeln!(
@@ -84,4 +85,29 @@ fn write_material(
         )?;
     }
     writeln!(out, "    }}")
+}
+
+/// Writes the shader `shader` that reads the image `name`, with `factors` of its colours in the colour space `space`.
+fn write_image(
+    shader: &str,
+    name: &str,
+    factors: &[(&str, String)],
+    space: &str,
+    path: &str,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let marks = if name.contains('@') { "@@@" } else { "@" };
+    writeln!(out, "        def Shader \"{shader}\"\n        {{")?;
+    writeln!(out, "            uniform token info:id = \"UsdUVTexture\"")?;
+    writeln!(out, "            asset inputs:file = {marks}./{name}{marks}")?;
+    for (factor, value) in factors {
+        writeln!(out, "            float4 inputs:{factor} = {value}")?;
+    }
+    writeln!(out, "            token inputs:sourceColorSpace = \"{space}\"")?;
+    writeln!(out, "            float2 inputs:st.connect = <{path}/Coordinates.outputs:result>")?;
+    writeln!(
+        out,
+        "            token inputs:wrapS = \"repeat\"\n            token inputs:wrapT = \"repeat\""
+    )?;
+    writeln!(out, "            float outputs:a\n            float3 outputs:rgb\n        }}")
 }

@@ -52,7 +52,7 @@ fn write_part(checked: &SceneCheck<'_>, number: usize, part: &Part, out: &mut im
         vector(&if normal.is_finite() { normal } else { Vec3::Z })
     });
     write_vertex_list(out, "normal3f[] normals", normals)?;
-    if let Some([width, height]) = material.texture.as_ref().map(|texture| texture.size) {
+    if let Some([width, height]) = material.image_size() {
         let coordinates = part
             .uvs
             .iter()

@@ -64,3 +64,18 @@ fn textures_are_copied_and_connected() {
     assert_eq!(text.matches("inputs:diffuseColor.connect").count(), 3);
     assert!(text.contains("primvars:st"));
 }
+
+#[test]
+fn normal_maps_are_directions_and_not_colours() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = samples::relief_boxes(folder.path());
+    let path = folder.path().join("out.usda");
+    crate::write(&scene, &path, &Picture::default()).unwrap();
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert_eq!(text.matches("normal3f inputs:normal.connect").count(), 2);
+    assert_eq!(text.matches("asset inputs:file = @./out_waves.png@").count(), 2);
+    assert_eq!(text.matches("token inputs:sourceColorSpace = \"raw\"").count(), 2);
+    assert!(text.contains("float4 inputs:bias = (-0.5, -0.5, -1, 0)"), "{text}");
+    assert_eq!(text.matches("def Shader \"Coordinates\"").count(), 3);
+    assert_eq!(text.matches("primvars:st").count(), 3);
+}

@@ -318,3 +318,14 @@ fn a_material_has_its_colours_its_light_and_how_much_shines_through() {
     assert!(text.contains("url='&quot;out%20town_brick.png&quot;'"), "{text}");
     assert!(folder.path().join("out town_brick.png").is_file());
 }
+
+#[test]
+fn a_normal_map_that_the_file_cannot_have_is_a_warning() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = samples::relief_boxes(folder.path());
+    let path = folder.path().join("out.x3d");
+    let mut files = crate::Files::default();
+    files.scene(&scene, &path, &Picture::default()).unwrap();
+    let warnings: Vec<String> = files.take_warnings().iter().map(ToString::to_string).collect();
+    assert!(warnings[0].contains("out.x3d has no normal map of 2 materials"), "{warnings:?}");
+}

@@ -51,8 +51,8 @@ impl Model {
     /// Returns the approximate memory use (bytes).
     pub fn memory(&self) -> usize {
         let parts = self.scene.meshes.iter().flat_map(|mesh| &mesh.parts);
-        let images =
-            self.scene.materials.iter().filter_map(|material| material.texture.as_ref()?.content.as_ref());
+        let images = self.scene.materials.iter().flat_map(|material| material.images());
+        let images = images.filter_map(|image| image.content.as_ref());
         parts.map(|part| part.positions.len() * 32 + part.triangles.len() * 12).sum::<usize>()
             + self.scene.instances.len() * 300
             + images.map(|image| image.len()).sum::<usize>()

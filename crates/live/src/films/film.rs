@@ -2,6 +2,7 @@
 
 use super::axis::FrameAxis;
 use super::order::in_order;
+use super::prints::FilmPrints;
 use crate::variations::{find_param, scene_bytes};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::locks::LockRecovery;
@@ -33,6 +34,7 @@ pub struct Film {
     /// Set if the frames differ in the number of steps.
     of_steps: bool,
     found: Mutex<FilmFindings>,
+    prints: Option<FilmPrints>,
 }
 
 /// Counts of a film that is being made.
@@ -86,13 +88,13 @@ const SAMPLES: usize = 5;
 
 impl Film {
     /// Prepares a film of `script` with the values of `axis`, at most `most` frames. The limits of `options` apply to
-    /// each run.
+    /// each run, and the receiver of printed texts gets those of each frame when the frame is passed on.
     ///
     /// The name `steps` stands for the number of derivation steps, unless the script has a parameter of this name.
     /// Fails if there are too many frames, and if the script has no such parameter or rejects one of the values.
     pub fn new(script: &Path, mut options: RunOptions, axis: &FrameAxis, most: u32) -> Result<Self> {
         let frames = axis.count_within(most)?;
-        options.reports.print = None;
+        let prints = options.reports.print.take().map(FilmPrints::new);
         let of_steps = match find_param(script, &options, axis.name()) {
             Ok(param) => {
                 if !matches!(param.control, Control::Number { .. }) {
@@ -134,6 +136,7 @@ impl Film {
             frames,
             of_steps,
             found: Mutex::default(),
+            prints,
         })
     }
 
@@ -182,7 +185,7 @@ impl Film {
         let count = self.frames as usize;
         let picture = Picture { quality: Quality::Film, ..picture.clone() };
         let (extent, waiting) = match needs.images {
-            true => self.measure_all(needs, &picture)?,
+            true => self.measure_all(needs, &picture).inspect_err(|_| self.pass_prints(count))?,
             false => Default::default(),
         };
         let frame = |number: usize| {
@@ -196,7 +199,21 @@ impl Film {
             self.progress.made.fetch_add(1, Ordering::Relaxed);
             Ok(frame)
         };
-        in_order(count, self.threads(), &self.stop, frame, |_, frame| take(frame))
+        let made = in_order(count, self.threads(), &self.stop, frame, |number, frame| {
+            self.pass_prints(number);
+            take(frame)
+        });
+        if made.is_err() {
+            self.pass_prints(count);
+        }
+        made
+    }
+
+    /// Passes on what the runs of the frames up to `number` have printed.
+    fn pass_prints(&self, number: usize) {
+        if let Some(prints) = &self.prints {
+            prints.pass(&self.axis, u32::try_from(number).unwrap_or(u32::MAX));
+        }
     }
 
     /// Runs the script for all frames. Returns the extent that the renders show, and the frames.
@@ -311,6 +328,7 @@ impl Film {
     fn run_frame(&self, number: u32, needs: FilmNeeds) -> Result<Scene> {
         let mut options = self.options.clone();
         options.stop = Some(Arc::clone(&self.stop));
+        options.reports.print = self.prints.as_ref().map(|prints| prints.of_frame(number));
         if self.of_steps {
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked before")]
             let steps = self.axis.value(number) as usize;

@@ -7,6 +7,7 @@
 mod axis;
 mod film;
 mod order;
+mod prints;
 mod turntable;
 
 pub use axis::{FrameAxis, MOST_FRAMES};

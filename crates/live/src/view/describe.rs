@@ -13,7 +13,7 @@ use serde_json::json;
 /// Describes a run for pages, except for the parts that depend on the request and on the model's bytes.
 pub(super) fn describe(state: &ServerState, job: &RunJob, session: &Session, run: &Run) -> ModelMessage {
     let mut files: Vec<String> = session.files().iter().map(|path| state.name(path)).collect();
-    let textures = run.scene.materials.iter().filter_map(|material| material.texture.as_ref());
+    let textures = run.scene.materials.iter().flat_map(|material| material.images());
     let textures = textures.filter(|texture| texture.content.is_none());
     files.extend(textures.map(|texture| state.name(&texture.path)));
     files.extend(state.options.inputs.stdlib.iter().map(|path| path.display().to_string()));

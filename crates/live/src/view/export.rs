@@ -12,11 +12,14 @@ use burgeon_base::error::{Error, ErrorKind, Result};
 use burgeon_base::stop::Stop;
 use burgeon_engine::script::RecipeDraft;
 use burgeon_export::{Export, FORMATS, Files, Format, Need};
-use burgeon_picture::Picture;
+use burgeon_picture::{Background, Picture, SunPosition};
 use burgeon_scene::Recipe;
 
 /// Maximum width and height (pixels) of a render.
 const LARGEST: u32 = 8192;
+
+/// Least distance (m) at which haze hides two thirds of a surface.
+const DENSEST: f64 = 1e-3;
 
 /// File to download.
 pub(super) struct Download {
@@ -96,11 +99,13 @@ pub(super) fn download(export: &Export<'_>, name: &str, stop: &Arc<Stop>) -> Res
     Ok(Download { name: format!("{stem}.{}.zip", format.extension()), media_type: "application/zip", bytes })
 }
 
-/// Parses the render settings in the query of a URL: `azimuth`, `elevation` (degrees), `width`, `height` (pixels).
+/// Parses the render settings in the query of a URL: `azimuth`, `elevation` (degrees), `width`, `height` (pixels),
+/// `sun_azimuth`, `sun_elevation` (degrees), `haze` (m), and `sky`, which is 1 for a background with a sky.
 ///
 /// Sizes that would take too long are reduced. Fails on other names and on values that are not numbers.
 pub(super) fn picture(query: &str) -> Result<Picture> {
     let mut picture = Picture::default();
+    let mut sun = [None; 2];
     for pair in query.split('&').filter(|pair| !pair.is_empty()) {
         let (name, value) = pair.split_once('=').unwrap_or((pair, ""));
         let number: f64 = value
@@ -115,11 +120,20 @@ pub(super) fn picture(query: &str) -> Result<Picture> {
             "elevation" => picture.elevation = Some(number.clamp(-90.0, 90.0)),
             "width" => picture.width = pixels,
             "height" => picture.height = pixels,
+            "sun_azimuth" => sun[0] = Some(number.rem_euclid(360.0)),
+            "sun_elevation" => sun[1] = Some(number.clamp(1.0, 90.0)),
+            "haze" => picture.haze = Some(number.max(DENSEST)),
+            "sky" if number > 0.0 => picture.background = Background::Sky,
+            "sky" => {}
             _ => {
-                return Err(Error::argument(format!("unknown field {name:?} of an image"))
-                    .help("it has azimuth, elevation, width and height"));
+                return Err(Error::argument(format!("unknown field {name:?} of an image")).help(
+                    "it has azimuth, elevation, width, height, sun_azimuth, sun_elevation, haze and sky",
+                ));
             }
         }
+    }
+    if let [Some(azimuth), Some(elevation)] = sun {
+        picture.sun = Some(SunPosition { azimuth, elevation });
     }
     Ok(picture)
 }
@@ -171,6 +185,10 @@ mod tests {
         assert_eq!((wished.azimuth, wished.elevation), (Some(330.0), Some(90.0)));
         assert_eq!((wished.width, wished.height), (LARGEST, 1));
         assert_eq!(picture("").unwrap(), Picture::default());
+        let lit = picture("sun_azimuth=-90&sun_elevation=0&haze=250&sky=1").unwrap();
+        assert_eq!(lit.sun, Some(SunPosition { azimuth: 270.0, elevation: 1.0 }));
+        assert_eq!((lit.haze, lit.background), (Some(250.0), Background::Sky));
+        assert_eq!(picture("sun_azimuth=5&sky=0").unwrap(), Picture::default());
         for wrong in ["width", "width=", "width=NaN", "height=inf", "depth=3", "width=1&=", "azimuth=%31"] {
             assert!(picture(wrong).is_err(), "{wrong}");
         }

@@ -33,12 +33,8 @@ pub(super) fn write(state: &ServerState, id: u64, file: &str, text: &str, hash: 
         if hash_of(&known) != hash {
             return Ok(source(id, file, &known, true));
         }
-        let permissions = fs::metadata(&path).map(|it| it.permissions());
+        // The file keeps its permissions. A change of them after the write would delay the run.
         burgeon_export::write_file(&path, |out| out.write_all(text.as_bytes()))?;
-        if let Ok(permissions) = permissions {
-            fs::set_permissions(&path, permissions)
-                .map_err(|error| Error::file(&path, format!("cannot set its permissions: {error}")))?;
-        }
         Ok(Event::Written { id, file: file.to_owned(), hash: hash_of(text) })
     };
     save().unwrap_or_else(|error| Event::rejection(Some(id), &error))

@@ -157,7 +157,7 @@ impl Footprint {
         to: f64,
     ) -> Result<()> {
         let part = self.drawing.material(photo);
-        let whole = photo.texture.as_ref().map_or(DVec2::ONE, |texture| DVec2::from(texture.size));
+        let whole = photo.image_size().map_or(DVec2::ONE, DVec2::from);
         let frontages = match bay {
             Some(_) => self.divide(from, to),
             None => self.frontages(from, to),
@@ -312,7 +312,7 @@ impl Footprint {
         joiner.join(&laid.faces, &of_faces, |number, mesh| {
             let face = &laid.faces[number];
             let part = self.drawing.surface(of_faces[number], face.meaning);
-            let size = material_of(face).texture.as_ref().map_or([1.0; 2], |texture| texture.size);
+            let size = material_of(face).image_size().unwrap_or([1.0; 2]);
             frontage.draw(part, face, mesh, [DVec2::ZERO, size.into()]);
         });
     }

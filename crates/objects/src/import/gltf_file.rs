@@ -24,9 +24,9 @@ const MOST_NODES: usize = 100_000;
 /// Reads the scene of a glTF file, in metres, z up.
 ///
 /// Reads positions, normals, texture coordinates, vertex colours and instances of a node. For materials, reads base
-/// colour and its texture, metalness, roughness and emission. Missing normals are the normals of flat faces; missing
-/// texture coordinates are metres along the faces. Fails if the file is damaged, requires an unsupported extension, or
-/// has too many triangles.
+/// colour and its texture, the normal map, metalness, roughness and emission. Missing normals are the normals of flat
+/// faces; missing texture coordinates are metres along the faces. Fails if the file is damaged, requires an unsupported
+/// extension, or has too many triangles.
 pub(super) fn read(content: &[u8], wanted: &mut ImportOptions<'_>) -> Result<Scene> {
     let name = wanted.name;
     let (json, own) = container(content).map_err(|why| broken_file(name, why))?;

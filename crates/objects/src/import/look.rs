@@ -12,7 +12,7 @@ use super::bytes::{Bytes, address};
 use super::options::{ImportOptions, broken_file};
 use burgeon_base::error::Result;
 use burgeon_scene::image::ImageKind;
-use burgeon_scene::{Material, Texture};
+use burgeon_scene::{Material, NormalMap, Texture};
 
 /// A material, and the number of the texture coordinates that it uses.
 #[derive(Debug, Clone)]
@@ -59,6 +59,7 @@ pub(super) fn materials(
                 roughness: part(surface.roughness_factor.0),
                 emissive: light(described),
                 texture: None,
+                normal_map: None,
                 double_sided: described.double_sided,
             },
             set: 0,
@@ -70,6 +71,14 @@ pub(super) fn materials(
         if let Some(info) = &surface.base_color_texture {
             look.set = info.tex_coord;
             look.material.texture = Some(texture(root, bytes, info.index, &mut images, wanted)?);
+        }
+        // Surfaces have one set of texture coordinates.
+        let normal = described.normal_texture.as_ref();
+        if let Some(info) = normal.filter(|it| look.material.texture.is_none() || it.tex_coord == look.set) {
+            look.set = info.tex_coord;
+            let image = texture(root, bytes, info.index, &mut images, wanted)?;
+            let scale = if info.scale.is_finite() { info.scale } else { 1.0 };
+            look.material.normal_map = Some(NormalMap { image, scale });
         }
         looks.push(look);
     }

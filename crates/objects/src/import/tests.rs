@@ -11,19 +11,22 @@ use burgeon_base::random::Stream;
 use burgeon_export::{Export, Files, InstanceStorage, SceneFacts};
 use burgeon_picture::Picture;
 use burgeon_scene::{Instance, Mesh, Scene};
-use burgeon_scene::{Material, Part, Texture, image};
+use burgeon_scene::{Material, NormalMap, Part, Texture, image};
 
 /// Returns a scene with two instances of a box of 2 m by 3 m by 4 m, one of them rotated and at half its size, with a
 /// texture.
 fn sample() -> Scene {
     let png = image::encode_opaque(4, 2, &[200, 80, 40].repeat(8)).unwrap();
     let mut scene = Scene::default();
+    let waves = image::encode_opaque(2, 2, &[128, 128, 255].repeat(4)).unwrap();
+    let waves = Texture { path: "waves".into(), size: [0.5, 0.25], content: Some(waves.into()) };
     let brick = Material {
         name: "brick".into(),
         base_color: [0.5, 0.25, 0.125, 1.0],
         roughness: 0.75,
         emissive: [3.0, 0.0, 0.0],
         texture: Some(Texture { path: "brick".into(), size: [0.5, 0.25], content: Some(png.into()) }),
+        normal_map: Some(NormalMap { image: waves, scale: 0.5 }),
         ..Material::default()
     };
     let mut mesh = Mesh { name: "box".into(), ..Mesh::default() };
@@ -92,6 +95,9 @@ fn what_was_written_is_read_again() {
         let (texture, source) =
             (brick.texture.as_ref().unwrap(), known.materials[0].texture.as_ref().unwrap());
         assert_eq!(texture.content, source.content);
+        let (relief, waves) =
+            (brick.normal_map.as_ref().unwrap(), known.materials[0].normal_map.as_ref().unwrap());
+        assert_eq!((relief.scale, &relief.image.content), (0.5, &waves.image.content));
         let part = &scene.meshes[0].parts[0];
         // The coordinates are repetitions of the image, which was 0.5 m by 0.25 m.
         assert_eq!(part.uvs[2], Vec2::new(4.0, 8.0));

@@ -135,7 +135,7 @@ impl StyledParts<'_> {
     /// Returns the size (m) of a repetition of the image on a face with this style.
     fn tile(&self, style: &SharedStyle) -> DVec2 {
         let own = style.as_deref().and_then(|style| style.material.as_deref());
-        own.unwrap_or(self.to.base).texture.as_ref().map_or(DVec2::ONE, |texture| texture.size.into())
+        own.unwrap_or(self.to.base).image_size().map_or(DVec2::ONE, DVec2::from)
     }
 }
 

@@ -105,8 +105,8 @@ fn tile(
             let weight = count * part;
             let seen = match number {
                 Some(number) => {
-                    let (stage, textures) = (light.stage, light.textures);
-                    Some(SeenPoint::at_pixel(stage, &mut hint, textures, light.camera, *number, place))
+                    let (stage, images) = (light.stage, light.images);
+                    Some(SeenPoint::at_pixel(stage, &mut hint, images, light.camera, *number, place))
                 }
                 None => None,
             };

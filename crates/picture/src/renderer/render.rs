@@ -64,9 +64,9 @@ pub fn render_within(
     stop: &Stop,
 ) -> Result<Image> {
     picture.check()?;
-    let textures = texture::load(&scene.materials)?;
+    let images = texture::load(&scene.materials)?;
     let is_film = picture.quality == Quality::Film;
-    let stage = stage::Stage::within(scene, &textures, extent, is_film, stop)?;
+    let stage = stage::Stage::within(scene, &images, extent, is_film, stop)?;
     let detail = detail::RenderDetail::of(picture.quality, stage.triangles());
     let camera = picture_camera(scene, &stage, extent, picture, is_film)?;
     let sun = sun::Sun::new(&stage, camera.viewpoint(), picture.sun, &detail);
@@ -77,7 +77,7 @@ pub fn render_within(
     let floor = picture.ground.then(|| floor::Floor::new(&stage, &sun, &sky, height));
     let light = shade::Light {
         stage: &stage,
-        textures: &textures,
+        images: &images,
         camera: &camera,
         sun: &sun,
         sky: &sky,

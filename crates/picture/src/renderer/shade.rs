@@ -6,7 +6,7 @@ use super::sky::{Sky, SkySample};
 use super::stage::Stage;
 use super::sun::Sun;
 use super::surface::SurfacePoint;
-use super::texture::SampledTexture;
+use super::texture::MaterialImages;
 use glam::{Vec2, Vec3, Vec3A};
 use std::f32::consts::{PI, TAU};
 
@@ -17,8 +17,8 @@ const THROUGH: f32 = 0.32;
 pub(super) struct Light<'a> {
     /// Model on its stage.
     pub stage: &'a Stage<'a>,
-    /// Textures of the materials.
-    pub textures: &'a [Option<SampledTexture>],
+    /// Images of the materials.
+    pub images: &'a [MaterialImages],
     /// Camera of the render.
     pub camera: &'a Camera,
     /// Sun with its depth map.
@@ -63,7 +63,7 @@ impl Fragment {
     pub(super) fn joins(&self, surface: &SurfacePoint) -> bool {
         let own = &self.surface;
         own.material == surface.material
-            && own.normal.dot(surface.normal) > 0.94
+            && own.smooth.dot(surface.smooth) > 0.94
             && own.plane.dot(surface.plane) > 0.85
             && (own.position - surface.position).length_squared() < 1e-5
     }

@@ -6,7 +6,7 @@
 use super::clip::clip;
 use super::extent::Extent;
 use super::points;
-use super::texture::SampledTexture;
+use super::texture::{MaterialImages, SampledTexture};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::stop::Stop;
 use burgeon_scene::{Material, Mesh, Part, Scene};
@@ -77,12 +77,12 @@ impl<'a> Stage<'a> {
         Self::within(scene, &[], None, false, &NEVER)
     }
 
-    /// Prepares `scene` as [`new`](Self::new) does, with the `textures` of the materials, relative to the centre and
+    /// Prepares `scene` as [`new`](Self::new) does, with the `images` of the materials, relative to the centre and
     /// the radius of `extent`. If the stage `is_shared`, the bounding box and the hull are those of the extent, and
     /// the scene is not measured.
     pub(super) fn within(
         scene: &'a Scene,
-        textures: &'a [Option<SampledTexture>],
+        images: &'a [MaterialImages],
         extent: Option<&Extent>,
         is_shared: bool,
         stop: &'a Stop,
@@ -119,7 +119,7 @@ impl<'a> Stage<'a> {
             for part in &scene.meshes[instance.mesh].parts {
                 let material = &scene.materials[part.material];
                 let (opacity, double_sided) = (material.base_color[3], material.double_sided);
-                let texture = textures.get(part.material).and_then(Option::as_ref);
+                let texture = images.get(part.material).and_then(|images| images.texture.as_ref());
                 let cutout = texture.filter(|texture| texture.has_holes());
                 draws.push(DrawCall {
                     part,

@@ -2,7 +2,7 @@
 
 use super::camera::Camera;
 use super::stage::{DrawCall, Stage};
-use super::texture::SampledTexture;
+use super::texture::MaterialImages;
 use glam::{Vec2, Vec3, Vec3A};
 
 /// Point on the model or the ground, with the data for shading.
@@ -16,6 +16,8 @@ pub(super) struct SurfacePoint {
     pub plane: Vec3A,
     /// Unit normal for shading, towards the camera.
     pub normal: Vec3A,
+    /// The same without the normal map.
+    pub smooth: Vec3A,
     /// Unit vector towards the camera.
     pub view: Vec3A,
     /// Index of the material; `None` for the ground.
@@ -59,7 +61,7 @@ impl StageTriangle {
 pub(super) struct SeenPoint<'a> {
     /// Point with the colour of its material.
     pub surface: SurfacePoint,
-    texture: Option<&'a SampledTexture>,
+    images: &'a MaterialImages,
     draw: &'a DrawCall<'a>,
     corners: [usize; 3],
     triangle: StageTriangle,
@@ -75,7 +77,7 @@ impl<'a> SeenPoint<'a> {
     pub(super) fn at_pixel(
         stage: &'a Stage<'a>,
         hint: &mut usize,
-        textures: &'a [Option<SampledTexture>],
+        images: &'a [MaterialImages],
         camera: &Camera,
         number: u32,
         place: [f32; 2],
@@ -102,12 +104,12 @@ impl<'a> SeenPoint<'a> {
 
         let material = &stage.materials[part.material];
         let [red, green, blue, _] = material.base_color;
-        let texture = textures[part.material].as_ref();
         let surface = SurfacePoint {
             position,
             rounded: position,
             plane: plane * side,
             normal: bend(normal, view),
+            smooth: bend(normal, view),
             view,
             material: Some(part.material),
             base: Vec3::new(red, green, blue),
@@ -116,10 +118,11 @@ impl<'a> SeenPoint<'a> {
             emissive: Vec3::from_array(material.emissive),
             thin: material.double_sided && material.metallic < 0.5,
         };
-        Self { surface, texture, draw, corners: triangle, triangle: corners, exact, inside, place }
+        let images = &images[part.material];
+        Self { surface, images, draw, corners: triangle, triangle: corners, exact, inside, place }
     }
 
-    /// Returns the point with the colour of its texture, on the smooth surface.
+    /// Returns the point with the colour of its texture and the slope of its normal map, on the smooth surface.
     pub(super) fn finish(self, camera: &Camera) -> SurfacePoint {
         let mut surface = self.surface;
         let (part, StageTriangle { a, ab, ac, .. }) = (self.draw.part, self.triangle);
@@ -131,13 +134,26 @@ impl<'a> SeenPoint<'a> {
         });
         let weights = [1.0 - self.inside.x - self.inside.y, self.inside.x, self.inside.y];
         surface.rounded = round_position(surface.position, [a, a + ab, a + ac], normals, weights);
-        if let Some(texture) = self.texture {
+        if self.images.texture.is_none() && self.images.normals.is_none() {
+            return surface;
+        }
+        let [origin, u, v] = {
             let [a, b, c] = self.corners.map(|i| part.uvs.get(i).copied().unwrap_or_default());
-            let uv = |weights: Vec2| a + (b - a) * weights.x + (c - a) * weights.y;
-            let [x, y] = self.place;
-            let beside = |right: f32, down: f32| uv(self.triangle.weights(camera.ray(x + right, y + down)));
-            let here = uv(self.exact);
-            surface.base *= texture.color(uv(self.inside), beside(1.0, 0.0) - here, beside(0.0, 1.0) - here);
+            [a, b - a, c - a]
+        };
+        let uv = |weights: Vec2| origin + u * weights.x + v * weights.y;
+        let [x, y] = self.place;
+        let beside = |right: f32, down: f32| uv(self.triangle.weights(camera.ray(x + right, y + down)));
+        let here = uv(self.exact);
+        let (at, across, along) = (uv(self.inside), beside(1.0, 0.0) - here, beside(0.0, 1.0) - here);
+        if let Some(texture) = &self.images.texture {
+            surface.base *= texture.color(at, across, along);
+        }
+        if let Some((normals, scale)) = &self.images.normals {
+            let slope = normals.color(at, across, along) * Vec3::new(*scale, *scale, 1.0);
+            // Seen from the back, the relief is the other way round.
+            let slope = Vec3A::new(slope.x * side, slope.y * side, slope.z);
+            surface.normal = bend(lean(surface.normal, slope, [ab, ac], [u, v]), surface.view);
         }
         surface
     }
@@ -156,6 +172,7 @@ impl SurfacePoint {
             rounded: position,
             plane: Vec3A::Z,
             normal: Vec3A::Z,
+            smooth: Vec3A::Z,
             view: camera.toward(position),
             material: None,
             base: Vec3::splat(0.5),
@@ -176,6 +193,26 @@ fn round_position(position: Vec3A, corners: [Vec3A; 3], normals: [Vec3A; 3], wei
     position - outward
 }
 
+/// Returns the unit normal that has the parts of `slope` along the increase of u, of v, and of `normal`.
+///
+/// `edges` are two edges of the triangle, and `uvs` the increase of the texture coordinates along them. Returns `normal` if
+/// they have no area.
+///
+/// Method: Mikkelsen, "Simulation of wrinkled surfaces revisited", 2008.
+fn lean(normal: Vec3A, slope: Vec3A, edges: [Vec3A; 2], uvs: [Vec2; 2]) -> Vec3A {
+    let area = uvs[0].perp_dot(uvs[1]);
+    let turn = if area < 0.0 { -1.0 } else { 1.0 };
+    let right = (edges[0] * uvs[1].y - edges[1] * uvs[0].y) * turn;
+    let up = (edges[1] * uvs[0].x - edges[0] * uvs[1].x) * turn;
+    let flat = |along: Vec3A| (along - normal * normal.dot(along)).try_normalize();
+    match (flat(right), flat(up)) {
+        (Some(right), Some(up)) if area != 0.0 => {
+            (right * slope.x + up * slope.y + normal * slope.z).normalize_or(normal)
+        }
+        _ => normal,
+    }
+}
+
 /// Rotates `normal` towards `view` just enough that it does not face away from it.
 fn bend(normal: Vec3A, view: Vec3A) -> Vec3A {
     let facing = normal.dot(view);
@@ -191,5 +228,17 @@ mod tests {
         let bent = bend(Vec3A::new(0.8, 0.0, -0.6), Vec3A::Z);
         assert!(bent.z > 0.0 && bent.z < 0.1 && bent.x > 0.9);
         assert_eq!(bend(Vec3A::new(0.6, 0.0, 0.8), Vec3A::Z), Vec3A::new(0.6, 0.0, 0.8));
+    }
+
+    #[test]
+    fn a_normal_leans_along_the_texture_coordinates_also_where_they_are_mirrored() {
+        let (slope, edges) = (Vec3A::new(0.6, 0.0, 0.8), [Vec3A::X * 2.0, Vec3A::Y]);
+        let plain = lean(Vec3A::Z, slope, edges, [Vec2::X, Vec2::Y]);
+        assert!(plain.distance(Vec3A::new(0.6, 0.0, 0.8)) < 1e-6, "{plain}");
+        let mirrored = lean(Vec3A::Z, slope, edges, [Vec2::NEG_X, Vec2::Y]);
+        assert!(mirrored.distance(Vec3A::new(-0.6, 0.0, 0.8)) < 1e-6, "{mirrored}");
+        let turned = lean(Vec3A::Z, slope, edges, [Vec2::Y, Vec2::NEG_X]);
+        assert!(turned.distance(Vec3A::new(0.0, -0.6, 0.8)) < 1e-6, "{turned}");
+        assert_eq!(lean(Vec3A::Z, slope, edges, [Vec2::X, Vec2::X]), Vec3A::Z);
     }
 }

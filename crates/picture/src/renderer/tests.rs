@@ -5,7 +5,7 @@ use super::{render, render_within};
 use crate::{Background, CameraChoice, Picture, Quality, SunPosition};
 use burgeon_base::stop::Stop;
 use burgeon_scene::image::Image;
-use burgeon_scene::{CameraView, Material, Part, Scene, SceneCamera, Texture, Upright};
+use burgeon_scene::{CameraView, Material, NormalMap, Part, Scene, SceneCamera, Texture, Upright};
 use glam::{DAffine3, DVec3, Vec3};
 
 /// Returns the settings of a small render from the south-east with a transparent background and without a ground.
@@ -130,6 +130,42 @@ fn a_texture_repeats_at_its_size_in_metres() {
         row.windows(2).filter(|pair| (pair[0] > 128) != (pair[1] > 128)).count()
     };
     assert_eq!((stripes(1.0), stripes(2.0), stripes(8.0)), (7, 3, 0));
+}
+
+#[test]
+fn a_normal_map_is_lighter_where_it_leans_to_the_sun() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("slope.png");
+    // Leaning to the right, which is east on a wall seen from the south.
+    image::RgbImage::from_pixel(4, 4, image::Rgb([218, 128, 218])).save(&path).unwrap();
+    let light = |scale: Option<f32>, turned: bool, azimuth: f64| {
+        let image = Texture { path: path.clone(), size: [1.0, 1.0], content: None };
+        let normal_map = scale.map(|scale| NormalMap { image, scale });
+        let mut scene = wall(Material { double_sided: true, normal_map, ..Material::default() });
+        if turned {
+            for uv in &mut scene.meshes[0].parts[0].uvs {
+                *uv = -*uv;
+            }
+        }
+        let sun = SunPosition { azimuth, elevation: 20.0 };
+        let image = render(&scene, &Picture { sun: Some(sun), ..front() }).unwrap();
+        i32::from(image.pixel(image.width() / 2, image.height() / 2)[0])
+    };
+    for sun in [130.0, 230.0] {
+        let to_sun = if sun < 180.0 { 1 } else { -1 };
+        let (flat, leaning) = (light(None, false, sun), light(Some(1.0), false, sun));
+        assert!((leaning - flat) * to_sun > 12, "{leaning} and {flat} with the sun at {sun}");
+        assert!((light(Some(1.0), true, sun) - flat) * to_sun < -12, "the map is turned around");
+        assert!((light(Some(0.0), false, sun) - flat).abs() <= 1, "the map is flat");
+    }
+}
+
+#[test]
+fn a_missing_normal_map_is_an_error_that_names_the_file() {
+    let image = Texture { path: "no/such/relief.png".into(), size: [1.0, 1.0], content: None };
+    let normal_map = Some(NormalMap { image, scale: 1.0 });
+    let error = render(&wall(Material { normal_map, ..Material::default() }), &small()).unwrap_err();
+    assert!(error.to_string().contains("the normal map no/such/relief.png cannot be read"), "{error}");
 }
 
 #[test]

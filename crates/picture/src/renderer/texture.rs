@@ -1,4 +1,4 @@
-//! Textures: image files on surfaces.
+//! Textures and normal maps: image files on surfaces.
 
 use super::tone;
 use burgeon_base::error::{Error, Result};
@@ -11,11 +11,30 @@ use std::io::Read;
 /// Maximum number of lookups along an elongated footprint.
 const STRETCH: f32 = 8.0;
 
+/// Images of a material.
+#[derive(Debug, Default)]
+pub(super) struct MaterialImages {
+    /// Image that multiplies the base colour.
+    pub texture: Option<SampledTexture>,
+    /// Normal map, and the factor of its slopes.
+    pub normals: Option<(SampledTexture, f32)>,
+}
+
+/// Meaning of the pixels of an image.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum PixelMeaning {
+    /// sRGB and opacity.
+    Color,
+    /// Direction, each part from -1 to 1.
+    Direction,
+}
+
 /// Mipmap: an image in several sizes.
 #[derive(Debug)]
 pub(super) struct SampledTexture {
-    /// Levels, each half as large as the previous one, down to a single pixel; sRGB and opacity, from the top row down.
+    /// Levels, each half as large as the previous one, down to a single pixel, from the top row down.
     levels: Vec<TextureLevel>,
+    meaning: PixelMeaning,
     /// Width and height (m) of one repetition.
     size: Vec2,
     /// Set if the texture has transparent pixels.
@@ -29,31 +48,44 @@ struct TextureLevel {
     pixels: Vec<[u8; 4]>,
 }
 
-/// Loads the texture of each material. Fails if a file cannot be read or a size is not positive.
-pub(super) fn load(materials: &[Material]) -> Result<Vec<Option<SampledTexture>>> {
-    materials.iter().map(|material| material.texture.as_ref().map(SampledTexture::read).transpose()).collect()
+/// Loads the images of each material. Fails if a file cannot be read or a size is not positive.
+pub(super) fn load(materials: &[Material]) -> Result<Vec<MaterialImages>> {
+    let images = |material: &Material| {
+        let texture = material.texture.as_ref();
+        let texture = texture.map(|image| SampledTexture::read(image, PixelMeaning::Color)).transpose()?;
+        let normals = material.normal_map.as_ref().map(|map| {
+            let scale = if map.scale.is_finite() { map.scale } else { 1.0 };
+            Ok((SampledTexture::read(&map.image, PixelMeaning::Direction)?, scale))
+        });
+        Ok(MaterialImages { texture, normals: normals.transpose()? })
+    };
+    materials.iter().map(images).collect()
 }
 
 impl SampledTexture {
-    fn read(texture: &burgeon_scene::Texture) -> Result<Self> {
+    fn read(texture: &burgeon_scene::Texture, meaning: PixelMeaning) -> Result<Self> {
         let name = texture.path.display();
+        let what = match meaning {
+            PixelMeaning::Color => "texture",
+            PixelMeaning::Direction => "normal map",
+        };
         if !texture.size.iter().all(|side| side.is_finite() && *side > 0.0) {
             let [width, height] = texture.size;
-            return Err(Error::argument(format!("the texture {name} measures {width} m by {height} m"))
+            return Err(Error::argument(format!("the {what} {name} measures {width} m by {height} m"))
                 .help("give the width and height of one repetition in metres"));
         }
         let image = open(texture).map_err(|error| {
-            Error::data(format!("the texture {name} cannot be read: {}", error.message()))
-                .help("check the path; a texture is a PNG or JPEG file")
+            Error::data(format!("the {what} {name} cannot be read: {}", error.message()))
+                .help(format!("check the path; a {what} is a PNG or JPEG file"))
         })?;
         let pixels = image.pixels().to_vec();
-        let holes = pixels.iter().any(|pixel| pixel[3] < 255);
+        let holes = meaning == PixelMeaning::Color && pixels.iter().any(|pixel| pixel[3] < 255);
         let mut levels =
             vec![TextureLevel { width: image.width() as usize, height: image.height() as usize, pixels }];
-        while let Some(next) = levels.last().and_then(TextureLevel::half) {
+        while let Some(next) = levels.last().and_then(|level| level.half(meaning)) {
             levels.push(next);
         }
-        Ok(Self { levels, size: Vec2::new(texture.size[0] as f32, texture.size[1] as f32), holes })
+        Ok(Self { levels, meaning, size: Vec2::new(texture.size[0] as f32, texture.size[1] as f32), holes })
     }
 
     /// Returns true if the texture has transparent pixels.
@@ -74,7 +106,7 @@ impl SampledTexture {
         self.levels[level].mix(uv / self.size, |pixel| Vec4::splat(f32::from(pixel[3]) / 255.0)).w
     }
 
-    /// Returns the linear colour at `uv` (m), averaged over the footprint with the sides `across` and `along` (m) and
+    /// Returns the linear colour, or the direction, at `uv` (m), averaged over the footprint with the sides `across` and `along` (m) and
     /// weighted by opacity.
     ///
     /// The shorter side selects the level; several lookups cover the longer side.
@@ -92,15 +124,17 @@ impl SampledTexture {
         let sum: Vec4 = (0..count)
             .map(|i| {
                 let at = uv / self.size + long * ((i as f32 + 0.5) / lookups - 0.5);
-                let fine = self.levels[near].color(at);
+                let fine = self.levels[near].value(at, self.meaning);
                 if part > 0.0 {
-                    fine.lerp(self.levels[(near + 1).min(self.levels.len() - 1)].color(at), part)
+                    let coarse = &self.levels[(near + 1).min(self.levels.len() - 1)];
+                    fine.lerp(coarse.value(at, self.meaning), part)
                 } else {
                     fine
                 }
             })
             .sum();
-        let sum = if sum.w > 0.0 { sum } else { self.levels[self.levels.len() - 1].color(uv) };
+        let last = &self.levels[self.levels.len() - 1];
+        let sum = if sum.w > 0.0 { sum } else { last.value(uv, self.meaning) };
         sum.truncate() / sum.w.max(f32::MIN_POSITIVE)
     }
 }
@@ -119,23 +153,40 @@ fn read(texture: &burgeon_scene::Texture) -> std::io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Converts a pixel to a linear colour times its opacity, and the opacity.
-fn linear([red, green, blue, alpha]: [u8; 4]) -> Vec4 {
-    let color = [red, green, blue].map(tone::decode);
-    let alpha = f32::from(alpha) / 255.0;
-    (Vec3::from_array(color) * alpha).extend(alpha)
+impl PixelMeaning {
+    /// Converts a pixel to a linear colour times its opacity, and the opacity; or to a direction, and 1.
+    #[inline]
+    fn decode(self, [red, green, blue, alpha]: [u8; 4]) -> Vec4 {
+        match self {
+            Self::Color => {
+                let color = [red, green, blue].map(tone::decode);
+                let alpha = f32::from(alpha) / 255.0;
+                (Vec3::from_array(color) * alpha).extend(alpha)
+            }
+            // 0 and 255 are the ends, so that the middle is between 127 and 128.
+            Self::Direction => {
+                Vec3::from([red, green, blue].map(|byte| f32::from(byte) / 127.5 - 1.0)).extend(1.0)
+            }
+        }
+    }
+
+    /// Converts a value of [`decode`](Self::decode) to a pixel.
+    fn encode(self, value: Vec4) -> [u8; 4] {
+        let whole = value.truncate() / value.w.max(f32::MIN_POSITIVE);
+        let [red, green, blue] = match self {
+            // Transparent pixels do not contribute to the colour.
+            Self::Color => whole.to_array().map(srgb_byte),
+            Self::Direction => whole.to_array().map(|part| ((part + 1.0) * 127.5 + 0.5) as u8),
+        };
+        [red, green, blue, (value.w * 255.0 + 0.5) as u8]
+    }
 }
 
 impl TextureLevel {
-    /// Returns a pixel as a linear colour times its opacity, and the opacity.
-    fn linear(&self, x: usize, y: usize) -> Vec4 {
-        linear(self.pixels[y * self.width + x])
-    }
-
-    /// Returns the colour at `at` (repetitions to the right and upwards), interpolated from the four nearest pixels,
-    /// times its opacity, and the opacity.
-    fn color(&self, at: Vec2) -> Vec4 {
-        self.mix(at, linear)
+    /// Returns the value of the pixels at `at` (repetitions to the right and upwards), interpolated from the four
+    /// nearest ones.
+    fn value(&self, at: Vec2, meaning: PixelMeaning) -> Vec4 {
+        self.mix(at, |pixel| meaning.decode(pixel))
     }
 
     /// Interpolates the results of `value` for the four pixels nearest to `at`.
@@ -154,7 +205,7 @@ impl TextureLevel {
     }
 
     /// Returns the image at half the size; `None` for a single pixel.
-    fn half(&self) -> Option<Self> {
+    fn half(&self, meaning: PixelMeaning) -> Option<Self> {
         if self.width <= 1 && self.height <= 1 {
             return None;
         }
@@ -162,14 +213,9 @@ impl TextureLevel {
         let pixel = |i: usize| {
             let (x, y) = (i % width * 2, i / width * 2);
             let (right, bottom) = ((x + 1).min(self.width - 1), (y + 1).min(self.height - 1));
-            let sum = self.linear(x, y)
-                + self.linear(right, y)
-                + self.linear(x, bottom)
-                + self.linear(right, bottom);
-            // Transparent pixels do not contribute to the colour.
-            let [red, green, blue] =
-                (sum.truncate() / sum.w.max(f32::MIN_POSITIVE)).to_array().map(srgb_byte);
-            [red, green, blue, (sum.w / 4.0 * 255.0 + 0.5) as u8]
+            let value = |x: usize, y: usize| meaning.decode(self.pixels[y * self.width + x]);
+            let sum = value(x, y) + value(right, y) + value(x, bottom) + value(right, bottom);
+            meaning.encode(sum / 4.0)
         };
         Some(Self { width, height, pixels: (0..width * height).map(pixel).collect() })
     }
@@ -195,9 +241,19 @@ mod tests {
     fn v_points_up_and_an_image_repeats() {
         let pixels = vec![[255, 0, 0, 255], [255, 0, 0, 255], [0, 0, 255, 255], [0, 0, 255, 255]];
         let levels = vec![TextureLevel { width: 2, height: 2, pixels }];
-        let texture = SampledTexture { levels, size: Vec2::new(2.0, 4.0), holes: false };
+        let (size, meaning) = (Vec2::new(2.0, 4.0), PixelMeaning::Color);
+        let texture = SampledTexture { levels, meaning, size, holes: false };
         let color = |u, v| texture.color(Vec2::new(u, v), Vec2::ZERO, Vec2::ZERO);
         assert!(color(0.5, 3.0).x > 0.99 && color(0.5, 1.0).z > 0.99);
         assert!(color(-7.5, 7.0).x > 0.99 && color(4.5, -3.0).z > 0.99);
+    }
+
+    #[test]
+    fn slopes_on_both_sides_are_flat_from_afar() {
+        let slopes = vec![[255, 128, 128, 255], [0, 128, 128, 255]];
+        let level = TextureLevel { width: 2, height: 1, pixels: slopes };
+        let half = level.half(PixelMeaning::Direction).unwrap();
+        let direction = PixelMeaning::Direction.decode(half.pixels[0]);
+        assert!(direction.x.abs() < 0.01 && direction.y.abs() < 0.01, "{direction}");
     }
 }

@@ -35,7 +35,8 @@ def _owned(items: Any, root: bpy.types.Collection) -> dict[str, Any]:
 
 
 def _material(it: burgeon.Material, root: bpy.types.Collection) -> bpy.types.Material:
-    facts = repr((it.color, it.metallic, it.roughness, it.emissive, it.texture, it.texture_size))
+    images = (it.texture, it.texture_size, it.normal_map, it.normal_scale)
+    facts = repr((it.color, it.metallic, it.roughness, it.emissive, images))
     name = it.name or "Burgeon"
     known = bpy.data.materials.get(name)
     if known is None or known.get(KEY) != name:
@@ -58,17 +59,38 @@ def _material(it: burgeon.Material, root: bpy.types.Collection) -> bpy.types.Mat
     surface.inputs["Emission Color"].default_value = (*it.emissive, 1.0)
     surface.inputs["Emission Strength"].default_value = 1.0 if any(it.emissive) else 0.0
     if it.texture:
-        _texture(known, surface, it)
+        texture = _image(known, surface, it, it.texture)
+        if texture is not None:
+            known.node_tree.links.new(texture.outputs["Color"], surface.inputs["Base Color"])
+    if it.normal_map:
+        _relief(known, surface, it)
     return known
 
 
-def _texture(material: bpy.types.Material, surface: bpy.types.Node, it: burgeon.Material) -> None:
-    """Adds the texture of a material; texture coordinates are in metres."""
+def _relief(material: bpy.types.Material, surface: bpy.types.Node, it: burgeon.Material) -> None:
+    """Adds the normal map of a material."""
+    tree = material.node_tree
+    texture = _image(material, surface, it, it.normal_map)
+    if texture is None:
+        return
+    texture.image.colorspace_settings.name = "Non-Color"
+    relief = tree.nodes.new("ShaderNodeNormalMap")
+    relief.uv_map = "UVMap"
+    relief.inputs["Strength"].default_value = it.normal_scale
+    relief.location = (surface.location.x, surface.location.y - 300)
+    tree.links.new(texture.outputs["Color"], relief.inputs["Color"])
+    tree.links.new(relief.outputs["Normal"], surface.inputs["Normal"])
+
+
+def _image(
+    material: bpy.types.Material, surface: bpy.types.Node, it: burgeon.Material, path: str
+) -> bpy.types.Node | None:
+    """Adds the node of an image; texture coordinates are in metres. Returns None if it cannot be read."""
     tree = material.node_tree
     try:
-        image = bpy.data.images.load(it.texture, check_existing=True)
+        image = bpy.data.images.load(path, check_existing=True)
     except RuntimeError:
-        return
+        return None
     texture = tree.nodes.new("ShaderNodeTexImage")
     texture.image = image
     mapping, source = tree.nodes.new("ShaderNodeMapping"), tree.nodes.new("ShaderNodeUVMap")
@@ -79,7 +101,7 @@ def _texture(material: bpy.types.Material, surface: bpy.types.Node, it: burgeon.
         node.location = (surface.location.x - 600 + 200 * at, surface.location.y)
     tree.links.new(source.outputs["UV"], mapping.inputs["Vector"])
     tree.links.new(mapping.outputs["Vector"], texture.inputs["Vector"])
-    tree.links.new(texture.outputs["Color"], surface.inputs["Base Color"])
+    return texture
 
 
 def _meshes(

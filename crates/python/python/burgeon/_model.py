@@ -66,8 +66,12 @@ class Material:
     double_sided: bool
     #: Path of the texture, if there is one.
     texture: str | None
-    #: Width and height (m) of one repetition of the texture.
+    #: Width and height (m) of one repetition of the texture and of the normal map.
     texture_size: list[float] | None
+    #: Path of the normal map, if there is one.
+    normal_map: str | None
+    #: Factor of the slopes of the normal map.
+    normal_scale: float
 
 
 @dataclass(frozen=True)

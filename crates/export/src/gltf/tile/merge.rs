@@ -49,7 +49,7 @@ impl<'a> MergedMesh<'a> {
                 continue;
             }
             let key = PrimitiveKey { material: part.material, table };
-            let texture = self.scene.materials[part.material].texture.as_ref().map(|texture| texture.size);
+            let texture = self.scene.materials[part.material].image_size();
             let merged = self.parts.entry(key).or_default();
             merged.is_textured = texture.is_some();
             merged.add(part, transform, texture, feature, &self.format);

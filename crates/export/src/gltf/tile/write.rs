@@ -46,7 +46,7 @@ pub fn write_tile_model(
     files: &mut Files,
 ) -> Result<TileModelCounts> {
     let checked = check(scene)?;
-    let images = Images::load(&checked)?;
+    let images = Images::load_with_normals(&checked)?;
     let stop = files.stop();
     stop.check()?;
     let mut counts = TileModelCounts::default();
