@@ -30,6 +30,8 @@ pub struct RoofLine {
     pub normals: [DVec3; 2],
 }
 
+/// Cosine of the angle between the directions of the parts of one slope.
+const ALIKE: f64 = 0.999;
 /// Maximum gradient of a nearly level line.
 const LEVEL: f64 = 0.2;
 
@@ -65,7 +67,7 @@ pub fn lines(patches: &[Patch]) -> Vec<RoofLine> {
         let is_level = normal.z > 1.0 - 1e-9;
         for [a, b] in patch.rings.iter().flat_map(Ring::edges) {
             match owner.get(&(key(b), key(a))) {
-                Some(&other) if other > number && patches[other].edge != patch.edge => {
+                Some(&other) if other > number && are_slopes(patch, &patches[other]) => {
                     let away = normal.cross((b - a).normalize_or_zero());
                     // The area to the right of the edge belongs to the other slope.
                     let across = self::normal(&patches[other]);
@@ -94,6 +96,12 @@ pub fn lines(patches: &[Patch]) -> Vec<RoofLine> {
         }
     }
     lines
+}
+
+/// Returns true if two patches are different slopes, and not parts of one slope.
+fn are_slopes(one: &Patch, other: &Patch) -> bool {
+    // Roofs with one ridge or an apex number no edges.
+    one.edge != other.edge || (one.flap == other.flap && one.along.dot(other.along) < ALIKE)
 }
 
 fn direction(a: DVec3, b: DVec3) -> DVec2 {

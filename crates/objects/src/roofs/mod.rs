@@ -6,9 +6,13 @@ mod checks;
 mod detail;
 mod direction;
 mod kinds;
+mod lines;
 mod options;
+mod storeys;
 
 pub(crate) use checks::{Height, check_height, unknown_kind};
 pub use detail::RoofDetail;
 pub(crate) use kinds::{is_curved, roof_shape};
+pub use lines::{RoofLines, RoofPoints};
+pub(crate) use lines::roof_map;
 pub use options::Roof;

@@ -12,7 +12,8 @@ use glam::{DAffine3, DMat3, DVec2, DVec3};
 use super::component_selector::ComponentSelector;
 use super::edge_distances::{EdgeDistances, EnvelopeLimits};
 use super::object::{ShapeObject, warn};
-use super::options::{ScatterOptions, ShapeRoofOptions};
+use super::options::ScatterOptions;
+use super::roofing::ShapeRoofOptions;
 use super::part_sizes::SplitSizes;
 use super::relations::ShapeOrPlace;
 use super::support::{read_selector, split_axis, unit, warn_of_split};
@@ -339,15 +340,7 @@ impl ShapeObject {
     /// Returns a roof over a horizontal face, closed from below. Faces have the tags "roof.slope", "roof.gable",
     /// "roof.side" and "roof.bottom".
     pub fn roof(&self, options: Option<TableOf<ShapeRoofOptions>>) -> Result<Self> {
-        let ShapeRoofOptions { kind, height, slope, overhang } = options.unwrap_or_default().read()?;
-        let roof = crate::Roof { kind, height, slope, overhang, ..crate::Roof::default() };
-        let shape = crate::roofs::roof_shape(&roof).map_err(|error| error.about("shape:roof"))?;
-        let (solid, remarks) = self.shape.roof(&shape).map_err(|error| error.about("shape:roof"))?;
-        for remark in remarks {
-            let text = format!("the {} roof differs: {remark}", roof.kind);
-            warn("roof", &text, "use a plan that suits the kind");
-        }
-        Ok(self.with_shape(solid))
+        self.roofed(options.unwrap_or_default().read()?)
     }
 
     /// Returns the solid that a closed profile sweeps around the outline of a face, with mitred corners: a cornice or a

@@ -10,6 +10,7 @@ mod object;
 mod options;
 mod part_sizes;
 mod relations;
+mod roofing;
 mod smooth_normals;
 mod support;
 mod sweep_path;

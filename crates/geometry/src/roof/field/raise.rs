@@ -15,7 +15,7 @@ const LEVEL: f64 = 2e-3;
 const LEAST: f64 = 0.01;
 
 /// Creates the roof of a height field over a support. Beyond the walls, it continues as a plate.
-pub(super) fn cover(shape: &RoofShape, field: &HeightField, support: &Support<'_>) -> Result<RoofCover> {
+pub(in crate::roof) fn cover(shape: &RoofShape, field: &HeightField, support: &Support<'_>) -> Result<RoofCover> {
     let wanted = support.within_reach(shape.overhang);
     let outset = Outset::new(support.walls, wanted.clone(), |_| false);
     let tight = (0..wanted.len()).filter(|&edge| outset.distances[edge] < wanted[edge]).collect();
