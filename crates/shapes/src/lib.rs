@@ -25,7 +25,7 @@ pub use components::selector::Selector;
 pub use cut::plane::CutPlane;
 pub use edge_kind::EdgeKind;
 pub use mesh::{PolygonFace, PolygonMesh};
-pub use operations::{EnvelopeLimit, Setback, SolidOperation, SweepPath};
+pub use operations::{EnvelopeLimit, Setback, ShapeRoof, SolidOperation, SweepPath};
 pub use scope::Scope;
 pub use shape::Shape;
 pub use sizes::{PartSize, PartSizes, SizedParts};

@@ -12,6 +12,9 @@ use super::options::Roof;
 /// Maximum number of points of the lines of a roof.
 const MOST_POINTS: usize = 10_000;
 
+/// Description of a list of lines.
+const LINES: &str = "a list of lines, such as { { { 0, 4 }, { 12, 4 } } }";
+
 /// Lines of a roof, each a list of points (m) or a line geometry.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct RoofLines(pub(super) Vec<Vec<DVec3>>);
@@ -26,7 +29,7 @@ impl Parameter for RoofLines {
     }
 
     fn from_value(value: Value) -> Result<Self, Expectation> {
-        let what = || Expectation::new("a list of lines, such as { { { 0, 4 }, { 12, 4 } } }");
+        let what = || Expectation::new(LINES);
         let Value::Table(table) = &value else { return Err(what()) };
         let list = table.list();
         if list.len() != table.entries.len() {
@@ -38,7 +41,7 @@ impl Parameter for RoofLines {
                 lines.push(points.into_iter().map(|point| point.0).collect());
                 continue;
             }
-            let refused = || Expectation::new(format!("{}; item {number} is not a line", what().wanted()));
+            let refused = || what().but_was(format!("no line as item {number}"));
             match GeometryInput::read_value(item).map_err(|_| refused())?.geometry() {
                 Geometry::Line(points) => lines.push(points.clone()),
                 Geometry::MultiLine(parts) => lines.extend(parts.iter().cloned()),

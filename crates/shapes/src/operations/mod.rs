@@ -21,5 +21,6 @@ mod trim;
 pub use inset::Setback;
 pub(crate) use merge::{merge_coplanar, weld};
 pub use regions::EnvelopeLimit;
+pub use roof::ShapeRoof;
 pub use solids::SolidOperation;
 pub use sweep::SweepPath;

@@ -144,6 +144,11 @@ impl<'a> Placing<'a> {
             _ if self.walls.contains(place) => (place, Anchor::Inside),
             _ => return Err((place, MapProblem::Outside)),
         };
+        // On the outline, the place may be nearer to a node than before.
+        let near = self.places.iter().map(|at| at.distance(place)).zip(0..).min_by(nearest);
+        if let Some((_, node)) = near.filter(|near| near.0 < SNAP) {
+            return Ok(node);
+        }
         self.places.push(place);
         self.anchors.push(anchor);
         self.given.push(None);
@@ -249,9 +254,12 @@ impl<'a> Placing<'a> {
         Ok(())
     }
 
-    /// Removes the lines that cross earlier ones.
+    /// Removes the lines that cross the outline or earlier lines.
     fn remove_crossings(&mut self) -> Result<()> {
-        let mut kept: Vec<[usize; 2]> = Vec::new();
+        let all: Vec<usize> = (0..self.places.len()).collect();
+        let outline = self.border(&all, &all);
+        let mut kept: Vec<[usize; 2]> =
+            outline.iter().flat_map(|edge| edge.windows(2)).map(|pair| [pair[0], pair[1]]).collect();
         let mut chains = Vec::with_capacity(self.chains.len());
         for chain in std::mem::take(&mut self.chains) {
             self.limits.check()?;

@@ -72,11 +72,12 @@ fn valleys_and_hips_of_a_corner_are_edges_between_ridges_and_outline() {
         apexes: Vec::new(),
     };
     for overhang in [0.0, 0.4] {
-        let (cover, volume) = cover(&walls, &map, &shape(overhang));
+        let low = RoofShape { rise: Rise::Height(2.0), ..shape(overhang) };
+        let (cover, volume) = cover(&walls, &map, &low);
         let count = |kind: RoofLineKind| lines(&cover.patches).iter().filter(|line| line.kind == kind).count();
         assert_eq!([RoofLineKind::Ridge, RoofLineKind::Hip, RoofLineKind::Valley].map(count), [2, 1, 1]);
         // Two gable roofs of 6 by 12 m less the square at the corner, where their lowest parts count.
-        let expected = 2.0 * 6.0 * 6.0 * 2.0 + 36.0 * 4.0 / 2.0;
+        let expected = 2.0 * 6.0 * 6.0 * 1.0 + 36.0 * 2.0 / 2.0;
         assert!(overhang > 0.0 || (volume - expected).abs() < 1e-6, "{volume} m³, not {expected} m³");
     }
 }
@@ -88,7 +89,7 @@ fn heights_of_points_win_over_that_of_the_roof() {
     let map = RoofMap { ridges: vec![ridge], ..RoofMap::default() };
     let (cover, volume) = cover(&walls, &map, &shape(0.0));
     let top = cover.patches.iter().flat_map(|patch| &patch.rings).flatten().map(|at| at.z).fold(0.0, f64::max);
-    assert!((top - HEIGHT - 6.0).abs() < 1e-9 && (volume - 12.0 * 8.0 * 2.0).abs() < 10.0, "{top} m, {volume} m³");
+    assert!((top - HEIGHT - 6.0).abs() < 1e-9 && (159.0..225.0).contains(&volume), "{top} m, {volume} m³");
     let apex = RoofMap { apexes: vec![DVec3::new(6., 4., 0.)], ..RoofMap::default() };
     let (_, volume) = self::cover(&walls, &apex, &shape(0.0));
     assert!((volume - 12.0 * 8.0 * 4.0 / 3.0).abs() < 1e-6, "{volume} m³");

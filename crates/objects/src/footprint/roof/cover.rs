@@ -44,6 +44,10 @@ impl Footprint {
         let support = Support { walls: &walls, base, party: &party, juts: &juts, reach: &reach, map: map.as_ref() };
         let mut make = |shape: &RoofShape, support: &Support<'_>| shape.cover_on(support);
         let made = replace::cover(&shape, &options.kind, &support, &mut make);
+        for line in &made.cover.unused {
+            let remark = Warning::simplification("a line of a roof is not used as it is given");
+            self.notes.push(remark.with_cause(line.text(origin)).help(line.help()));
+        }
         let mut note =
             |what: String, why: String| self.notes.push(Warning::simplification(what).with_cause(why));
         if let Some((what, why)) = made.replaced {
@@ -51,10 +55,6 @@ impl Footprint {
         }
         if let Some(remark) = made.cover.remark {
             note(format!("the {} roof is adapted to its plan", options.kind), remark.into());
-        }
-        for line in &made.cover.unused {
-            let remark = Warning::simplification("a line of a roof is not used as it is given");
-            self.notes.push(remark.with_cause(line.text(origin)).help(line.help()));
         }
         if made.cover.hipped {
             note(format!("hips instead of gables of a {} roof", options.kind), String::new());
