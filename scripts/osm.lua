@@ -80,6 +80,7 @@ local function add(feature: any, plan: any, number: number, building: any?)
     volume.look = `{material.color} {material.name} {is_wide}`
     facades[volume.look] = facades[volume.look] or fronts.of(material, is_wide)
   end
+  volume.front = if volume.look ~= "" and volume.bottom == 0 then tags.front(plan) else 0
   table.insert(volumes, volume)
 end
 
@@ -120,7 +121,8 @@ end
 local Walls, Roof = module("Walls", "height", "surface", "look"), module("Roof", "volume")
 local town = lsystem({ object = footprint, interpret = "last" })
 town:axiom(source(volumes), function(volume)
-  return footprint(lifted(volume.geometry, volume.bottom)),
+  local doors = if volume.front > 0 then { [volume.front] = { "entry door" } } else nil
+  return footprint(lifted(volume.geometry, volume.bottom), { edge_keywords = doors }),
     Walls(volume.walls, volume.surface, volume.look),
     Roof(volume)
 end)

@@ -168,6 +168,20 @@ local function rise_of(feature: any, kind: string, plan: any): number
   return math.min(ROOF_RISE, run * math.tan(math.rad(ROOF_SLOPE)))
 end
 
+-- The number of the longest edge of a plan, which has the door.
+function tags.front(plan: any): number
+  local ring = plan.rings[1]
+  local longest, front = 0, 1
+  for number, from in ring do
+    local to = ring[number % #ring + 1]
+    local length = math.sqrt((to[1] - from[1]) ^ 2 + (to[2] - from[2]) ^ 2)
+    if length > longest + 0.01 then
+      longest, front = length, number
+    end
+  end
+  return front
+end
+
 -- The volume over one polygon of a feature: from `bottom` to `top`, with a roof of `rise` in it. Values that a part
 -- lacks come from its `building`. `has_lines` is set if the roof is mapped by lines.
 function tags.volume(feature: any, plan: any, building: any?, number: number, has_lines: boolean): any

@@ -45,7 +45,7 @@ const FIELDS: [(&str, FieldRoof); 12] = [
 ];
 
 /// All types of roof.
-const KINDS: [&str; 24] = [
+pub(super) const KINDS: [&str; 24] = [
     "flat",
     "shed",
     "gable",

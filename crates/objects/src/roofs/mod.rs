@@ -5,6 +5,8 @@
 mod checks;
 mod detail;
 mod direction;
+#[cfg(test)]
+mod kind_tests;
 mod kinds;
 mod lines;
 mod options;

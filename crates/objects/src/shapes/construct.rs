@@ -15,7 +15,7 @@ use super::object::ShapeObject;
 const SIDES: u32 = 32;
 
 /// Returns the functions.
-pub(super) fn constructors() -> [Constructor; 8] {
+pub(super) fn constructors() -> [Constructor; 9] {
     [
         Constructor { name: "shape", make: shape },
         Constructor { name: "cuboid", make: cuboid },
@@ -24,6 +24,7 @@ pub(super) fn constructors() -> [Constructor; 8] {
         Constructor { name: "cylinder", make: cylinder },
         Constructor { name: "cone", make: cone },
         Constructor { name: "ball", make: ball },
+        Constructor { name: "revolve", make: super::revolve::revolve },
         Constructor { name: "text", make: super::text::text },
     ]
 }
@@ -91,16 +92,19 @@ fn plan(value: &Value, height: f64) -> Result<Shape> {
     let rings = polygon.map_err(|error| error.refuse("shape", "what it is given", value))?.0;
     let flat: Vec<Vec<DVec2>> = rings
         .iter()
-        .map(|ring| {
-            let mut flat: Vec<DVec2> = ring.iter().map(|at| at.truncate()).collect();
-            flat.dedup();
-            if flat.len() > 1 && flat.first() == flat.last() {
-                flat.pop();
-            }
-            flat
-        })
+        .map(|ring| flat_ring(ring))
         .collect();
     Shape::plan(&flat, height).map_err(|error| error.about("shape"))
+}
+
+/// Returns the points of a ring in the plane, without repeated points.
+pub(super) fn flat_ring(ring: &[DVec3]) -> Vec<DVec2> {
+    let mut flat: Vec<DVec2> = ring.iter().map(|at| at.truncate()).collect();
+    flat.dedup();
+    if flat.len() > 1 && flat.first() == flat.last() {
+        flat.pop();
+    }
+    flat
 }
 
 /// Makes a shape of { points = { vectors }, faces = { lists of numbers from 1 } }.

@@ -12,6 +12,7 @@ use glam::{DAffine3, DMat3, DVec2, DVec3};
 use super::component_selector::ComponentSelector;
 use super::edge_distances::{EdgeDistances, EnvelopeLimits};
 use super::object::{ShapeObject, warn};
+use super::holes::HoleArgument;
 use super::options::ScatterOptions;
 use super::roofing::ShapeRoofOptions;
 use super::part_sizes::SplitSizes;
@@ -181,6 +182,11 @@ impl ShapeObject {
         self.with_shape(self.shape.with_styles(|style| FaceStyle::with_color(style, color.0)))
     }
 
+    /// Returns the colour that all faces have from `color`, as a text such as "#c08040"; nil if they have none or several.
+    pub fn face_color(&self) -> Option<String> {
+        self.common_color()
+    }
+
     /// Returns the shape with faces of another material, such as { texture = "brick.png", texture_size = { 2, 1 } }. A later
     /// colour multiplies the texture.
     pub fn material(&self, material: MaterialOptions) -> Result<Self> {
@@ -328,6 +334,13 @@ impl ShapeObject {
     /// tags "recess.back" and "recess.side".
     pub fn recess(&self, depth: f64) -> Result<Self> {
         Ok(self.with_shape(self.shape.recess(depth).map_err(|error| error.about("shape:recess"))?))
+    }
+
+    /// Returns a face with a hole, or nil if the hole covers it: an outline of points (m) or a polygon in the scope of the face, x
+    /// to the right and y upwards from its corner, or a shape, whose projection along the normal is cut. A hole that reaches
+    /// the edge of the face divides it or makes a recess in its outline.
+    pub fn cut_hole(&self, hole: HoleArgument) -> Result<Option<Self>> {
+        self.without_hole(&hole)
     }
 
     /// Returns the solid between a face and its copy at `height` (m), scaled by `scale` (0 unless given, a pyramid).
