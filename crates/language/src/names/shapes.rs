@@ -55,7 +55,7 @@ pub(super) fn shape_functions() -> [Name; 9] {
 
 /// Returns the options of `revolve`.
 fn revolve_options() -> Argument {
-    let with = |unit: &str, field: Field| Field { unit: Some(unit.into()), ..field };
+    let with = |unit: &'static str, field: Field| Field { unit: Some(unit.into()), ..field };
     let fields = [
         field("axis", "Vector", "vec(0, 0, 1)", "Direction of the axis through the origin."),
         with("degrees", field("angle", "number", "360", "Angle of the turn (degrees), up to 360.")),

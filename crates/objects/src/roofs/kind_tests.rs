@@ -62,7 +62,11 @@ fn defects(shape: &Shape) -> Option<String> {
     for face in &mesh.faces {
         match mesh.triangles(face) {
             Ok(triangles) => part.triangles.extend(triangles),
-            Err(error) => return Some(error.to_string()),
+            Err(_) => {
+                let at = |ring: &Vec<u32>| ring.iter().map(|point| mesh.at(*point)).collect::<Vec<_>>();
+                let rings: Vec<_> = face.rings.iter().map(at).collect();
+                return Some(format!("a face that cannot be divided into triangles, {rings:?}"));
+            }
         }
     }
     let check = solid::check([&part]);
