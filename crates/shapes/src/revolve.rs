@@ -42,8 +42,11 @@ impl Shape {
         check_crossings(&polygon)?;
         turn.check()?;
         if let Some(beyond) = polygon.points().find(|at| at.x < -ON_AXIS) {
-            return Err(Error::argument(format!("the outline crosses the axis at ({}, {})", beyond.x, beyond.y))
-                .help("give points with x from 0, the distance from the axis"));
+            return Err(Error::argument(format!(
+                "the outline crosses the axis at ({}, {})",
+                beyond.x, beyond.y
+            ))
+            .help("give points with x from 0, the distance from the axis"));
         }
         let frame = turn.frame();
         let is_whole = turn.angle > TAU - 1e-9;
@@ -101,8 +104,11 @@ impl Shape {
 impl Revolution {
     fn check(&self) -> Result<()> {
         if !SIDES.contains(&self.sides) {
-            return Err(Error::argument(format!("the number of sides is {}", self.sides))
-                .help(format!("use {} to {}", SIDES.start(), SIDES.end())));
+            return Err(Error::argument(format!("the number of sides is {}", self.sides)).help(format!(
+                "use {} to {}",
+                SIDES.start(),
+                SIDES.end()
+            )));
         }
         if !(self.angle > 0.0 && self.angle <= TAU + 1e-9) {
             return Err(Error::argument(format!("the angle is {} degrees", self.angle.to_degrees()))
@@ -116,7 +122,9 @@ impl Revolution {
             return Err(Error::argument(format!("the tile is {} m", self.tile)).help("use a length above 0"));
         }
         if self.axis.length() < 1e-9 || !self.axis.is_finite() {
-            return Err(Error::argument("the axis has no direction").help("use a vector such as vec(0, 0, 1)"));
+            return Err(
+                Error::argument("the axis has no direction").help("use a vector such as vec(0, 0, 1)")
+            );
         }
         Ok(())
     }
@@ -124,7 +132,8 @@ impl Revolution {
     /// Returns the axes of the first half plane: x away from the axis, z along it. The turn is counter-clockwise seen against z.
     fn frame(&self) -> DMat3 {
         let z = self.axis.normalize_or(DVec3::Z);
-        let x = if z.x.abs() < 0.9 { (DVec3::X - z * z.x).normalize() } else { (DVec3::Y - z * z.y).normalize() };
+        let x =
+            if z.x.abs() < 0.9 { (DVec3::X - z * z.x).normalize() } else { (DVec3::Y - z * z.y).normalize() };
         DMat3::from_cols(x, z.cross(x), z)
     }
 
@@ -165,12 +174,14 @@ mod tests {
 
     #[test]
     fn a_rectangle_at_the_axis_is_a_cylinder_and_one_beside_it_a_ring() {
-        let cylinder = Shape::revolve(&outline(&[(0., 0.), (2., 0.), (2., 3.), (0., 3.)]), &FULL).expect("a solid");
+        let cylinder =
+            Shape::revolve(&outline(&[(0., 0.), (2., 0.), (2., 3.), (0., 3.)]), &FULL).expect("a solid");
         let expected = std::f64::consts::PI * 4.0 * 3.0 * share(32);
         assert!(cylinder.is_closed() && (cylinder.volume() - expected).abs() < 1e-9, "{}", cylinder.volume());
         assert_eq!(cylinder.mesh().faces.len(), 96);
         // The order of the points does not matter.
-        let ring = Shape::revolve(&outline(&[(2., 3.), (2., 0.), (4., 0.), (4., 3.)]), &FULL).expect("a solid");
+        let ring =
+            Shape::revolve(&outline(&[(2., 3.), (2., 0.), (4., 0.), (4., 3.)]), &FULL).expect("a solid");
         let expected = std::f64::consts::PI * (16.0 - 4.0) * 3.0 * share(32);
         assert!(ring.is_closed() && (ring.volume() - expected).abs() < 1e-9, "{}", ring.volume());
     }
@@ -192,7 +203,8 @@ mod tests {
 
     #[test]
     fn texture_coordinates_continue_around_a_cylinder_and_end_with_a_whole_tile() {
-        let solid = Shape::revolve(&outline(&[(0., 0.), (2., 0.), (2., 3.), (0., 3.)]), &FULL).expect("a solid");
+        let solid =
+            Shape::revolve(&outline(&[(0., 0.), (2., 0.), (2., 3.), (0., 3.)]), &FULL).expect("a solid");
         let mesh = solid.mesh();
         let upright = mesh.faces.iter().filter(|face| mesh.normal(face).z.abs() < 0.5);
         let mut last = 0.0;

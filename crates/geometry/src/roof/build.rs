@@ -79,8 +79,7 @@ impl RoofShape {
 
     /// Creates the roof over a support; fails if its outline has no valid skeleton.
     pub fn cover_on(&self, support: &Support<'_>) -> Result<RoofCover> {
-        let mut nodes =
-            support.map.map(|map| MapNodes::new(map, support.walls, self.rise)).transpose()?;
+        let mut nodes = support.map.map(|map| MapNodes::new(map, support.walls, self.rise)).transpose()?;
         let unused = nodes.as_mut().map(|nodes| std::mem::take(&mut nodes.unused)).unwrap_or_default();
         let mut nodes = nodes.filter(|nodes| !nodes.is_empty());
         let mut cover = match support.outermost() {
@@ -108,7 +107,8 @@ impl RoofShape {
             let (surface, planes) = MappedSurface::new(nodes)?;
             let is_level = surface.level > LEVEL_AREA;
             let heights = HeightField { planes, rule: PlaneRule::Mapped(surface) };
-            let remark = is_level.then_some("a part of it is level at the eaves, as no line of the map rises there");
+            let remark =
+                is_level.then_some("a part of it is level at the eaves, as no line of the map rises there");
             return Ok(RoofCover { remark, ..field::raised(self, &heights, support)? });
         }
         match self.surface {

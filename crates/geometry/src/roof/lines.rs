@@ -105,7 +105,8 @@ pub fn lines(patches: &[Patch]) -> Vec<RoofLine> {
                     }
                     let line = RoofLine { kind, ends, normals };
                     let known = own.iter().filter(|(beside, _)| *beside == other);
-                    let joined = known.copied().find_map(|(_, index)| Some((index, lines[index].joined(&line)?)));
+                    let joined =
+                        known.copied().find_map(|(_, index)| Some((index, lines[index].joined(&line)?)));
                     if let Some((index, longer)) = joined {
                         lines[index] = longer;
                     } else {

@@ -25,6 +25,7 @@ mod sliver_tests;
 mod support;
 #[cfg(test)]
 mod tests;
+mod touching;
 
 pub use build::RoofCover;
 pub use build::floor;

@@ -43,7 +43,10 @@ fn plan(random: &mut Stream, family: usize) -> Vec<Vec<DVec2>> {
     }
     let turn = if random.below(3) == 0 { DVec2::X } else { DVec2::from_angle(TAU * random.uniform()) };
     let off = DVec2::new(random.uniform(), random.uniform()) * 50.0;
-    rings.into_iter().map(|ring| ring.into_iter().map(|at| turn.rotate(DVec2::from(at)) + off).collect()).collect()
+    rings
+        .into_iter()
+        .map(|ring| ring.into_iter().map(|at| turn.rotate(DVec2::from(at)) + off).collect())
+        .collect()
 }
 
 /// Returns the number of rounds, multiplied by the environment variable `BURGEON_CASES` if it is set.

@@ -95,7 +95,8 @@ pub(crate) fn roof_map(options: &Roof, origin: DVec2) -> Result<Option<RoofMap>>
     for point in lines().flatten().filter(|point| point.z > 0.0) {
         check_height("footprint:roof: the height of a point", point.z)?;
     }
-    let moved = |line: &Vec<DVec3>| -> Vec<DVec3> { line.iter().map(|at| *at - origin.extend(0.0)).collect() };
+    let moved =
+        |line: &Vec<DVec3>| -> Vec<DVec3> { line.iter().map(|at| *at - origin.extend(0.0)).collect() };
     Ok(Some(RoofMap {
         ridges: options.ridges.0.iter().map(moved).collect(),
         edges: options.edges.0.iter().map(moved).collect(),

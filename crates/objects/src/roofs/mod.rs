@@ -15,6 +15,6 @@ mod storeys;
 pub(crate) use checks::{Height, check_height, unknown_kind};
 pub use detail::RoofDetail;
 pub(crate) use kinds::{is_curved, roof_shape};
-pub use lines::{RoofLines, RoofPoints};
 pub(crate) use lines::roof_map;
+pub use lines::{RoofLines, RoofPoints};
 pub use options::Roof;

@@ -71,7 +71,10 @@ mod tests {
     fn bends_of_two_or_more_storeys_are_at_the_floor_nearest_to_the_usual_height() {
         let at = |kind: &str, levels: f64| bends_at_floors(kind, levels).map(|bends| bends[0].1);
         assert_eq!([0.5, 1.0, 1.9].map(|levels| at("mansard", levels)), [None; 3]);
-        assert_eq!([2.0, 2.5, 3.0, 4.0].map(|levels| at("mansard", levels)), [0.5, 0.5, 2.0 / 3.0, 0.75].map(Some));
+        assert_eq!(
+            [2.0, 2.5, 3.0, 4.0].map(|levels| at("mansard", levels)),
+            [0.5, 0.5, 2.0 / 3.0, 0.75].map(Some)
+        );
         assert_eq!(at("gambrel", 4.0), Some(0.75));
         assert_eq!(at("hip", 3.0), None);
     }

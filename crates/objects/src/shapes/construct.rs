@@ -90,10 +90,7 @@ fn joined(parts: &[&Value]) -> Result<Value> {
 fn plan(value: &Value, height: f64) -> Result<Shape> {
     let polygon = PolygonArgument::read_value(value);
     let rings = polygon.map_err(|error| error.refuse("shape", "what it is given", value))?.0;
-    let flat: Vec<Vec<DVec2>> = rings
-        .iter()
-        .map(|ring| flat_ring(ring))
-        .collect();
+    let flat: Vec<Vec<DVec2>> = rings.iter().map(|ring| flat_ring(ring)).collect();
     Shape::plan(&flat, height).map_err(|error| error.about("shape"))
 }
 

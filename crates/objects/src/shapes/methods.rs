@@ -11,12 +11,12 @@ use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use super::component_selector::ComponentSelector;
 use super::edge_distances::{EdgeDistances, EnvelopeLimits};
-use super::object::{ShapeObject, warn};
 use super::holes::HoleArgument;
+use super::object::{ShapeObject, warn};
 use super::options::ScatterOptions;
-use super::roofing::ShapeRoofOptions;
 use super::part_sizes::SplitSizes;
 use super::relations::ShapeOrPlace;
+use super::roofing::ShapeRoofOptions;
 use super::support::{read_selector, split_axis, unit, warn_of_split};
 use super::sweep_path::{SweepPathOptions, SweepPoints};
 use super::tiles::{ProjectOptions, TileLength};

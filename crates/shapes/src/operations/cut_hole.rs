@@ -89,7 +89,10 @@ mod tests {
     use crate::components::selector::{FaceDirection, Selector};
 
     fn wall() -> Shape {
-        Shape::cuboid(DVec3::new(6.0, 4.0, 3.0)).faces(&Selector::Own(FaceDirection::Front)).expect("faces").remove(0)
+        Shape::cuboid(DVec3::new(6.0, 4.0, 3.0))
+            .faces(&Selector::Own(FaceDirection::Front))
+            .expect("faces")
+            .remove(0)
     }
 
     fn square(x: f64, y: f64, size: f64) -> Vec<Vec<DVec2>> {
@@ -98,28 +101,51 @@ mod tests {
 
     #[test]
     fn a_hole_has_its_area_and_its_place_in_the_scope_of_the_face() {
-        let rest = wall().cut_hole(HoleOutline::Rings(&square(1.0, 0.5, 1.5))).expect("a face").rest.expect("a rest");
+        let rest = wall()
+            .cut_hole(HoleOutline::Rings(&square(1.0, 0.5, 1.5)))
+            .expect("a face")
+            .rest
+            .expect("a rest");
         let mesh = rest.mesh();
         assert!((mesh.area() - (18.0 - 2.25)).abs() < 1e-9 && mesh.faces[0].rings.len() == 2);
-        assert!(mesh.points.iter().any(|at| at.distance(DVec3::new(1.0, 0.0, 0.5)) < 1e-9), "{:?}", mesh.points);
+        assert!(
+            mesh.points.iter().any(|at| at.distance(DVec3::new(1.0, 0.0, 0.5)) < 1e-9),
+            "{:?}",
+            mesh.points
+        );
         assert!(mesh.normal(&mesh.faces[0]).distance(DVec3::NEG_Y) < 1e-9);
         // A second hole, and one that reaches beyond the edge.
-        let more = rest.cut_hole(HoleOutline::Rings(&square(4.0, 1.0, 1.0))).expect("a face").rest.expect("a rest");
+        let more =
+            rest.cut_hole(HoleOutline::Rings(&square(4.0, 1.0, 1.0))).expect("a face").rest.expect("a rest");
         assert_eq!(more.mesh().faces[0].rings.len(), 3);
-        let door = more.cut_hole(HoleOutline::Rings(&square(2.6, -1.0, 1.0))).expect("a face").rest.expect("a rest");
+        let door =
+            more.cut_hole(HoleOutline::Rings(&square(2.6, -1.0, 1.0))).expect("a face").rest.expect("a rest");
         assert!((door.mesh().area() - (18.0 - 2.25 - 1.0)).abs() < 1e-9);
     }
 
     #[test]
     fn a_solid_cuts_its_shadow_and_a_hole_can_divide_or_cover_a_face() {
         let ball = Shape::sphere(1.0, 32).expect("a ball");
-        let moved = ball.transform(&glam::DAffine3::from_mat3_translation(DMat3::IDENTITY, DVec3::new(3.0, -5.0, 1.5)));
+        let moved = ball
+            .transform(&glam::DAffine3::from_mat3_translation(DMat3::IDENTITY, DVec3::new(3.0, -5.0, 1.5)));
         let rest = wall().cut_hole(HoleOutline::Shape(&moved)).expect("a face").rest.expect("a rest");
         let shadow = 18.0 - rest.mesh().area();
         assert!((3.0..std::f64::consts::PI).contains(&shadow), "{shadow} m²");
         let slit = vec![[(2., -1.), (3., -1.), (3., 4.), (2., 4.)].map(DVec2::from).to_vec()];
-        assert_eq!(wall().cut_hole(HoleOutline::Rings(&slit)).expect("a face").rest.expect("a rest").mesh().faces.len(), 2);
-        assert!(wall().cut_hole(HoleOutline::Rings(&square(-1.0, -1.0, 9.0))).expect("a face").rest.is_none());
+        assert_eq!(
+            wall()
+                .cut_hole(HoleOutline::Rings(&slit))
+                .expect("a face")
+                .rest
+                .expect("a rest")
+                .mesh()
+                .faces
+                .len(),
+            2
+        );
+        assert!(
+            wall().cut_hole(HoleOutline::Rings(&square(-1.0, -1.0, 9.0))).expect("a face").rest.is_none()
+        );
         assert!(wall().cut_hole(HoleOutline::Rings(&square(20.0, 1.0, 1.0))).expect("a face").is_beside);
         assert!(Shape::cuboid(DVec3::ONE).cut_hole(HoleOutline::Rings(&square(0.0, 0.0, 1.0))).is_err());
         let crossed = vec![[(0., 0.), (1., 1.), (1., 0.), (0., 1.)].map(DVec2::from).to_vec()];

@@ -31,7 +31,8 @@ impl Shape {
                 .help("use a horizontal face that looks upwards: shape:faces(\"up\")"));
         }
         let local = |at: &DVec3| frame.local(at.truncate().extend(frame.origin.z)).truncate().extend(at.z);
-        let lines = |lines: &[Vec<DVec3>]| lines.iter().map(|line| line.iter().map(local).collect()).collect();
+        let lines =
+            |lines: &[Vec<DVec3>]| lines.iter().map(|line| line.iter().map(local).collect()).collect();
         let map = map.map(|map| RoofMap {
             ridges: lines(&map.ridges),
             edges: lines(&map.edges),

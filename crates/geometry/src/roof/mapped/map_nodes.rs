@@ -172,7 +172,12 @@ impl<'a> Placing<'a> {
         }
     }
 
-    fn add_line(&mut self, kind: MapLineKind, number: usize, line: &[DVec3]) -> Result<(), (DVec2, MapProblem)> {
+    fn add_line(
+        &mut self,
+        kind: MapLineKind,
+        number: usize,
+        line: &[DVec3],
+    ) -> Result<(), (DVec2, MapProblem)> {
         let first = line.first().map(|at| at.truncate()).unwrap_or_default();
         if let Some(low) = line.iter().find(|at| at.z < 0.0) {
             return Err((low.truncate(), MapProblem::BelowEaves));
@@ -222,7 +227,8 @@ impl<'a> Placing<'a> {
         let ends = [self.places[a], self.places[b]];
         // A place on the outline is there up to rounding.
         let is_near = |edge: &[DVec2; 2]| {
-            ends.iter().any(|at| distance(*edge, *at) < SNAP) || edge.iter().any(|at| distance(ends, *at) < SNAP)
+            ends.iter().any(|at| distance(*edge, *at) < SNAP)
+                || edge.iter().any(|at| distance(ends, *at) < SNAP)
         };
         if let Some(edge) = self.edges.iter().find(|edge| crosses(ends, **edge) && !is_near(edge)) {
             return Some(crossing(ends, *edge));
@@ -321,7 +327,12 @@ impl<'a> Placing<'a> {
         for Chain { kind, number, nodes } in &self.chains {
             if nodes.iter().any(|node| heights[*node].is_none()) {
                 let at = self.places[nodes[0]];
-                self.unused.push(UnusedLine { kind: *kind, number: *number, at, problem: MapProblem::NoHeight });
+                self.unused.push(UnusedLine {
+                    kind: *kind,
+                    number: *number,
+                    at,
+                    problem: MapProblem::NoHeight,
+                });
                 continue;
             }
             nodes.iter().for_each(|node| is_used[*node] = true);
@@ -350,9 +361,12 @@ impl<'a> Placing<'a> {
             Rise::Height(height) => return height,
             Rise::Slope(slope) => slope,
         };
-        let level: Vec<DVec2> =
-            (0..self.places.len()).filter(|node| self.given[*node] == Some(0.0)).map(|node| self.places[node]).collect();
-        let nearest = |at: &DVec2| self.edges.iter().map(|edge| distance(*edge, *at)).fold(f64::INFINITY, f64::min);
+        let level: Vec<DVec2> = (0..self.places.len())
+            .filter(|node| self.given[*node] == Some(0.0))
+            .map(|node| self.places[node])
+            .collect();
+        let nearest =
+            |at: &DVec2| self.edges.iter().map(|edge| distance(*edge, *at)).fold(f64::INFINITY, f64::min);
         let run = level.iter().map(nearest).fold(0.0, f64::max);
         if run > SNAP {
             return slope * run;
@@ -374,9 +388,12 @@ impl<'a> Placing<'a> {
                 let [a, b] = self.edges[edge];
                 let mut on: Vec<usize> =
                     kept.iter().copied().filter(|node| self.anchors[*node] == Anchor::Edge(edge)).collect();
-                on.sort_by(|one, two| foot([a, b], self.places[*one]).total_cmp(&foot([a, b], self.places[*two])));
+                on.sort_by(|one, two| {
+                    foot([a, b], self.places[*one]).total_cmp(&foot([a, b], self.places[*two]))
+                });
                 let ends = [edge, first + (index + 1) % count];
-                border.push([ends[0]].into_iter().chain(on).chain([ends[1]]).map(|node| names[node]).collect());
+                border
+                    .push([ends[0]].into_iter().chain(on).chain([ends[1]]).map(|node| names[node]).collect());
             }
             first += count;
         }

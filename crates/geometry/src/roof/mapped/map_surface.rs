@@ -73,8 +73,9 @@ impl MappedSurface {
                 let [a, b, c] = triangles[triangle];
                 for side in [[b, a], [c, b], [a, c]] {
                     let Some(&next) = sides.get(&side) else { continue };
-                    let is_flat =
-                        corners(triangles[next]).iter().all(|at| (plane.height_at(at.truncate()) - at.z).abs() < FLAT);
+                    let is_flat = corners(triangles[next])
+                        .iter()
+                        .all(|at| (plane.height_at(at.truncate()) - at.z).abs() < FLAT);
                     if facets[next] == usize::MAX && is_flat {
                         pending.push(next);
                     }
@@ -82,7 +83,10 @@ impl MappedSurface {
             }
             planes.push(plane);
         }
-        let level = triangles.iter().zip(0..).filter(|(triangle, _)| triangle.iter().all(|node| heights[*node] == 0.0));
+        let level = triangles
+            .iter()
+            .zip(0..)
+            .filter(|(triangle, _)| triangle.iter().all(|node| heights[*node] == 0.0));
         let level = level.map(|(_, index)| area(&index) / 2.0).sum();
         let mut surface = Self {
             places: places.clone(),
@@ -122,7 +126,8 @@ impl MappedSurface {
     /// Returns the index of the plane at a place.
     pub(in crate::roof) fn index(&self, place: DVec2) -> usize {
         let corners = |triangle: &[usize; 3]| triangle.map(|node| self.places[node]);
-        if let Some(triangle) = self.triangles.iter().position(|triangle| contains(&corners(triangle), place)) {
+        if let Some(triangle) = self.triangles.iter().position(|triangle| contains(&corners(triangle), place))
+        {
             return self.facets[triangle];
         }
         let off = |edge: &BorderEdge| distance(edge.ends.map(|node| self.places[node]), place);
@@ -158,7 +163,8 @@ impl MappedSurface {
 
 /// Returns the triangle to the left of each directed side.
 fn sides_of(triangles: &[[usize; 3]]) -> FxHashMap<[usize; 2], usize> {
-    let sides = |(index, &[a, b, c]): (usize, &[usize; 3])| [([a, b], index), ([b, c], index), ([c, a], index)];
+    let sides =
+        |(index, &[a, b, c]): (usize, &[usize; 3])| [([a, b], index), ([b, c], index), ([c, a], index)];
     triangles.iter().enumerate().flat_map(sides).collect()
 }
 

@@ -76,7 +76,9 @@ impl UnusedLine {
         let at = self.at + offset;
         let at = format!("({:.2}, {:.2})", at.x, at.y);
         match problem {
-            MapProblem::Empty => format!("{kind} {number} has fewer than two different points and is left out"),
+            MapProblem::Empty => {
+                format!("{kind} {number} has fewer than two different points and is left out")
+            }
             MapProblem::Outside => format!("{kind} {number} leaves the plan at {at} and is left out"),
             MapProblem::Crossing => format!("{kind} {number} crosses another line at {at} and is left out"),
             MapProblem::BelowEaves => format!("{kind} {number} is below the eaves at {at} and is left out"),
@@ -84,7 +86,9 @@ impl UnusedLine {
                 format!("{kind} {number} at {at} has no height, as it meets no other line, and is left out")
             }
             MapProblem::OtherHeight(own, other) => {
-                format!("{kind} {number} has the height {own:.2} m at {at}, where another line has {other:.2} m, which is used")
+                format!(
+                    "{kind} {number} has the height {own:.2} m at {at}, where another line has {other:.2} m, which is used"
+                )
             }
         }
     }

@@ -49,8 +49,12 @@ fn a_ridge_between_two_walls_has_gables_and_a_shorter_one_has_hips() {
         let (cover, volume) = cover(&walls, &map, &shape(0.0));
         assert!((volume - 12.0 * 8.0 * 4.0 * share).abs() < 1e-6, "{volume} m³");
         assert!(cover.unused.is_empty());
-        let count = |kind: RoofLineKind| lines(&cover.patches).iter().filter(|line| line.kind == kind).count();
-        assert_eq!([RoofLineKind::Ridge, RoofLineKind::Hip, RoofLineKind::Eaves].map(count), [1, hips, 4 - gables]);
+        let count =
+            |kind: RoofLineKind| lines(&cover.patches).iter().filter(|line| line.kind == kind).count();
+        assert_eq!(
+            [RoofLineKind::Ridge, RoofLineKind::Hip, RoofLineKind::Eaves].map(count),
+            [1, hips, 4 - gables]
+        );
     }
 }
 
@@ -74,7 +78,8 @@ fn valleys_and_hips_of_a_corner_are_edges_between_ridges_and_outline() {
     for overhang in [0.0, 0.4] {
         let low = RoofShape { rise: Rise::Height(2.0), ..shape(overhang) };
         let (cover, volume) = cover(&walls, &map, &low);
-        let count = |kind: RoofLineKind| lines(&cover.patches).iter().filter(|line| line.kind == kind).count();
+        let count =
+            |kind: RoofLineKind| lines(&cover.patches).iter().filter(|line| line.kind == kind).count();
         assert_eq!([RoofLineKind::Ridge, RoofLineKind::Hip, RoofLineKind::Valley].map(count), [2, 1, 1]);
         // Two gable roofs of 6 by 12 m less the square at the corner, where their lowest parts count.
         let expected = 2.0 * 6.0 * 6.0 * 1.0 + 36.0 * 2.0 / 2.0;
@@ -88,7 +93,8 @@ fn heights_of_points_win_over_that_of_the_roof() {
     let ridge = vec![DVec3::new(0., 4., 2.), DVec3::new(12., 4., 6.)];
     let map = RoofMap { ridges: vec![ridge], ..RoofMap::default() };
     let (cover, volume) = cover(&walls, &map, &shape(0.0));
-    let top = cover.patches.iter().flat_map(|patch| &patch.rings).flatten().map(|at| at.z).fold(0.0, f64::max);
+    let top =
+        cover.patches.iter().flat_map(|patch| &patch.rings).flatten().map(|at| at.z).fold(0.0, f64::max);
     assert!((top - HEIGHT - 6.0).abs() < 1e-9 && (159.0..225.0).contains(&volume), "{top} m, {volume} m³");
     let apex = RoofMap { apexes: vec![DVec3::new(6., 4., 0.)], ..RoofMap::default() };
     let (_, volume) = self::cover(&walls, &apex, &shape(0.0));

@@ -41,7 +41,8 @@ impl Footprint {
         let furthest = shape.overhang + juts.iter().copied().fold(0.0, f64::max);
         let drop = if open { STEEPEST_EAVES * shape.overhang } else { 0.0 };
         let reach = if furthest > 0.0 { self.reach(furthest, drop) } else { Vec::new() };
-        let support = Support { walls: &walls, base, party: &party, juts: &juts, reach: &reach, map: map.as_ref() };
+        let support =
+            Support { walls: &walls, base, party: &party, juts: &juts, reach: &reach, map: map.as_ref() };
         let mut make = |shape: &RoofShape, support: &Support<'_>| shape.cover_on(support);
         let made = replace::cover(&shape, &options.kind, &support, &mut make);
         for line in &made.cover.unused {
