@@ -1,13 +1,19 @@
 --!strict
 -- An extract of OpenStreetMap as it is tagged: building parts, heights, all shapes of roofs, colours and materials.
 -- burgeon run scripts/osm.lua --data ../shared/data --set extract=Helsinki.osm.pbf -o helsinki.png
+-- CityJSON: `-o helsinki.city.json --lod 2` writes roofs as tagged, level 2.2, and `--lod 3` also windows and doors, level 3.
 local fronts = require("osm/fronts")
+local ridges = require("osm/ridges")
 local tags = require("osm/tags")
 
 local extract = param("extract", { default = "roofs.osm", doc = "The extract: a file of OpenStreetMap" })
-local has_windows = param("windows", { default = true, doc = "Windows on the walls" })
+local has_windows = param("windows", {
+  default = true,
+  doc = "Windows and doors on the walls. In CityJSON they are surfaces of level 3, with --lod 3",
+})
 
 local buildings = source(`{extract}:buildings`)
+ridges.read(extract)
 local has_parts, parts = pcall(source, `{extract}:building_parts`)
 
 -- Polygons by squares, so that the building of a part is found without comparing all of them.
@@ -61,7 +67,9 @@ local PLAIN = {
   greenhouse = true,
 } :: { [string]: boolean }
 local function add(feature: any, plan: any, number: number, building: any?)
-  local volume = tags.volume(feature, plan, building, #volumes)
+  local lines = ridges.on(plan)
+  local volume = tags.volume(feature, plan, building, #volumes, lines ~= nil)
+  volume.lines = lines
   volume.id = if number == 1 then feature.id else `{feature.id}.{number}`
   volume.geometry = plan
   local kind: string = feature.kind or "yes"
@@ -72,6 +80,7 @@ local function add(feature: any, plan: any, number: number, building: any?)
     volume.look = `{material.color} {material.name} {is_wide}`
     facades[volume.look] = facades[volume.look] or fronts.of(material, is_wide)
   end
+  volume.front = if volume.look ~= "" and volume.bottom == 0 then tags.front(plan) else 0
   table.insert(volumes, volume)
 end
 
@@ -112,7 +121,8 @@ end
 local Walls, Roof = module("Walls", "height", "surface", "look"), module("Roof", "volume")
 local town = lsystem({ object = footprint, interpret = "last" })
 town:axiom(source(volumes), function(volume)
-  return footprint(lifted(volume.geometry, volume.bottom)),
+  local doors = if volume.front > 0 then { [volume.front] = { "entry door" } } else nil
+  return footprint(lifted(volume.geometry, volume.bottom), { edge_keywords = doors }),
     Walls(volume.walls, volume.surface, volume.look),
     Roof(volume)
 end)
@@ -122,15 +132,20 @@ town:interpret("Walls(height, surface, look)", function(this, height, surface, l
   end
 end)
 town:interpret("Roof(volume)", function(this, volume)
+  local lines = volume.lines or {}
   this:roof({
     kind = volume.roof,
     height = if volume.rise > 0 then volume.rise else nil,
     slope = volume.angle,
+    levels = volume.levels,
     direction = volume.direction,
     orientation = volume.orientation,
     material = volume.cover,
     gable = volume.surface,
     border = if volume.roof == "flat" and volume.walls > 5 then 0.5 else 0,
+    ridges = lines.ridges,
+    edges = lines.edges,
+    apexes = lines.apexes,
   })
 end)
 town:derive()

@@ -139,14 +139,13 @@ end
 
 local WALLS = { "#e2d6c0", "#d9c7a8", "#e9dfd0", "#d5c3ae", "#dcd9d0", "#e6d2b4" }
 
--- The kind of roof of a feature.
-local function kind_of(feature: any): string
+-- The kind of roof of a feature. Mapped lines replace shapes that have no name, such as "many".
+local function kind_of(feature: any, has_lines: boolean): string
   local shape = feature.roof_shape
-  if not shape then
-    return "flat"
-  end
-  local kind = tags.roofs[shape]
-  if not kind then
+  local kind = if shape then tags.roofs[shape] else "flat"
+  if has_lines then
+    return if kind and kind ~= "flat" then kind else "hip"
+  elseif not kind then
     miss(feature, "roof:shape", shape)
   end
   return kind or "flat"
@@ -169,11 +168,25 @@ local function rise_of(feature: any, kind: string, plan: any): number
   return math.min(ROOF_RISE, run * math.tan(math.rad(ROOF_SLOPE)))
 end
 
+-- The number of the longest edge of a plan, which has the door.
+function tags.front(plan: any): number
+  local ring = plan.rings[1]
+  local longest, front = 0, 1
+  for number, from in ring do
+    local to = ring[number % #ring + 1]
+    local length = math.sqrt((to[1] - from[1]) ^ 2 + (to[2] - from[2]) ^ 2)
+    if length > longest + 0.01 then
+      longest, front = length, number
+    end
+  end
+  return front
+end
+
 -- The volume over one polygon of a feature: from `bottom` to `top`, with a roof of `rise` in it. Values that a part
--- lacks come from its `building`.
-function tags.volume(feature: any, plan: any, building: any?, number: number): any
+-- lacks come from its `building`. `has_lines` is set if the roof is mapped by lines.
+function tags.volume(feature: any, plan: any, building: any?, number: number, has_lines: boolean): any
   local outline = building or feature
-  local kind = kind_of(feature)
+  local kind = kind_of(feature, has_lines)
   local rise = rise_of(feature, kind, plan)
   local usual = LEVELS[feature.kind] or if plan:area() > 350 then 5 else 2
   local own = feature.height or (feature.levels and feature.levels * LEVEL + rise)
@@ -205,6 +218,7 @@ function tags.volume(feature: any, plan: any, building: any?, number: number): a
     miss(feature, "roof:orientation", orientation)
     orientation = nil
   end
+  local levels = feature.roof_levels
   local colour = WALLS[1 + number % #WALLS]
   local roof = if kind == "flat" then "#8f8c86" else "#8a5142"
   return {
@@ -213,6 +227,7 @@ function tags.volume(feature: any, plan: any, building: any?, number: number): a
     rise = rise,
     roof = kind,
     angle = math.clamp(feature.roof_angle or ROOF_SLOPE, 1, 80),
+    levels = if levels and levels > 0 and levels <= 20 then levels else nil,
     direction = direction,
     orientation = orientation,
     surface = surface(

@@ -51,10 +51,13 @@ fn walls_and_roofs_that_cannot_be_are_refused_with_a_remedy() {
         ("this:groundwork(\"zmin\")", "did you mean z_min?"),
         ("this:walls({ height = 3 }) this:groundwork(\"z_min\")", "call groundwork first"),
         ("this:roof({ overhang = -1 })", "overhang is -1 m"),
+        ("this:roof({ levels = 0 })", "levels is 0"),
+        ("this:roof({ ridges = { { 0, 4 }, { 8, 4 } } })", "ridges must be a list of lines"),
+        ("this:roof({ apexes = { { 4, 4, 1e5 } } })", "the height of a point is 100000 m"),
     ] {
         let said = house(SQUARE, draw);
         assert!(said.contains(words) && said.contains("s.lua:3"), "{words}: {said}");
         count += 1;
     }
-    assert_eq!(count, 11);
+    assert_eq!(count, 14);
 }

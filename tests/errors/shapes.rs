@@ -157,3 +157,31 @@ fn shapes_that_differ_from_the_request_are_warnings() {
       help: use a larger share, or a simpler shape
     "#);
 }
+
+#[test]
+fn holes_turns_and_mapped_roofs_that_cannot_be_made_are_refused() {
+    insta::assert_snapshot!(refusals(&[
+        "revolve()",
+        "revolve({ { -1, 0 }, { 2, 0 }, { 2, 3 } })",
+        "revolve({ { 0, 0 }, { 2, 0 }, { 2, 3 } }, { sides = 2 })",
+        "revolve({ { 0, 0 }, { 2, 0 }, { 2, 3 } }, { angle = 400 })",
+        "revolve({ { 0, 0 }, { 2, 0 }, { 2, 3 } }, { turn = 90 })",
+        "cuboid(1, 1, 1):cut_hole({ { 0, 0 }, { 1, 0 }, { 1, 1 } })",
+        "square:cut_hole({ { 0, 0 }, { 1, 1 }, { 1, 0 }, { 0, 1 } })",
+        "square:cut_hole(4)",
+        "square:roof({ ridges = { { 0, 0.5 }, { 1, 0.5 } } })",
+        "square:roof({ apexes = 3 })",
+        "square:roof({ apexes = { { 0.5, 0.5, 5000 } } })",
+        "square:roof({ levels = 0 })",
+    ]), @"");
+}
+
+#[test]
+fn holes_beside_a_face_and_lines_that_a_roof_cannot_use_are_warned_of() {
+    insta::assert_snapshot!(warnings(&[
+        "square:cut_hole({ { 3, 0 }, { 4, 0 }, { 4, 1 } })",
+        "square:roof({ ridges = { { { 0.2, 0.5 }, { 4, 0.5 } } } })",
+        "square:roof({ ridges = { { { 0.2, 0.5 }, { 0.8, 0.5 } }, { { 0.5, 0.2 }, { 0.5, 0.8 } } } })",
+        "square:roof({ edges = { {}, { { 0.3, 0.4 }, { 0.6, 0.4 } } }, apexes = { { 0.2, 0.5 }, { 9, 9 } } })",
+    ]), @"");
+}

@@ -29,7 +29,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "color" shows "color";
     "components" shows "components";
     "consider" shows "system:consider";
-    "cuboid" shows "cuboid" "rectangle" "disk" "cylinder" "cone" "ball";
+    "cuboid" shows "cuboid" "rectangle" "disk" "cylinder" "cone" "ball" "revolve";
     "decompose" shows "system:decompose";
     "derived" shows "derived" "derived:chain";
     "ease" shows "ease" "ease.in" "ease.out" "ease.inout" "ease.smooth" "ease.sine" "ease.back";

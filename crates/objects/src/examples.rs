@@ -123,7 +123,7 @@ pub const PLAIN_EXAMPLES: &[ScriptExample] = examples! {
     "planet/height" shows "planet:focus" "planet:height" "planet:surface" "planet:symbol"
         "planet:heights";
     "ramp/slope" shows "ramp:slope" "ramp:at" "ramp:integral" "ramp:mix";
-    "shape/appearance" shows "shape:smooth" "shape:material" "shape:project";
+    "shape/appearance" shows "shape:smooth" "shape:material" "shape:project" "shape:face_color";
     "shape/components" shows "shape:faces" "shape:matches" "shape:edges" "shape:edge_kind" "shape:holes"
         "shape:without_holes" "shape:geometry" "shape:joined_faces" "shape:pieces" "shape:components";
     "shape/measures" shows "shape:size" "shape:position" "shape:center" "shape:x_axis" "shape:y_axis"
@@ -139,7 +139,7 @@ pub const PLAIN_EXAMPLES: &[ScriptExample] = examples! {
     "shape/relations" shows "shape:contains" "shape:overlaps" "shape:touches" "shape:distance";
     "shape/sets" shows "shape:union" "shape:subtract" "shape:intersect" "shape:trim";
     "shape/solids" shows "shape:extrude" "shape:taper" "shape:molding" "shape:loft" "shape:chamfer"
-        "shape:fillet" "shape:crop" "shape:recess";
+        "shape:fillet" "shape:crop" "shape:recess" "shape:cut_hole";
     "shape/sweep" shows "shape:sweep";
     "shape/tags" shows "shape:tag" "shape:untag" "shape:tags" "shape:has_tag" "shape:recompose";
     "shape/trim_to" shows "shape:trim_to";

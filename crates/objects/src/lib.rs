@@ -41,7 +41,7 @@ pub use footprint::{EdgeKeywords, Footprint, Walls};
 pub use line_index::LineIndex;
 pub use network::Network;
 pub use planet::Planet;
-pub use roofs::{Roof, RoofDetail};
+pub use roofs::{Roof, RoofDetail, RoofLines, RoofPoints};
 pub use shapes::{FontObject, ShapeObject, Volumes};
 pub use surface::MaterialOptions;
 pub use terrain::{EditFile, Terrain};

@@ -158,7 +158,7 @@ impl Shape {
 }
 
 /// Fails if rings cross or touch themselves or each other, so that they enclose another area.
-fn check_crossings(polygon: &Polygon) -> Result<()> {
+pub(crate) fn check_crossings(polygon: &Polygon) -> Result<()> {
     let valid = fill(&[Rings::from(polygon)], Fill::NonZero)?;
     let holes = valid.first().map_or(0, |rings| rings.len() - 1);
     let area: f64 =

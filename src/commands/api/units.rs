@@ -6,7 +6,7 @@ use super::entry::{Entry, EntryGroup, Member, MemberKind};
 use burgeon::language::CallForm;
 
 /// Counts.
-const COUNTS: [&str; 46] = [
+const COUNTS: [&str; 49] = [
     "ball sides",
     "cone sides",
     "cylinder sides",
@@ -24,6 +24,7 @@ const COUNTS: [&str; 46] = [
     "footprint:roof.details.count",
     "footprint:roof.details.flap",
     "footprint:roof.details.rows",
+    "footprint:roof.levels",
     "geometry:buffer.quadrant_segments",
     "geometry:offset.quadrant_segments",
     "grid.columns",
@@ -40,9 +41,11 @@ const COUNTS: [&str; 46] = [
     "now.modules",
     "now.step",
     "planet.levels",
+    "revolve.sides",
     "shadow_voxels.depth",
     "shape:array count",
     "shape:fillet segments",
+    "shape:roof.levels",
     "shape:scatter count",
     "source.limit",
     "surface.degree",

@@ -5,6 +5,13 @@ use serde_json::{Value as Json, json};
 
 use super::faces::Face;
 
+/// Returns the name of a level of detail: that of roofs is the refined level 2.2.
+///
+/// Source: F. Biljecki, H. Ledoux and J. Stoter, "An improved LOD specification for 3D building models", 2016.
+pub(super) fn level_name(detail: u8) -> String {
+    if detail == 2 { "2.2".into() } else { detail.to_string() }
+}
+
 /// Returns the rings of `faces` as numbers of vertices.
 pub(super) fn boundaries(faces: &[Face], number: impl Fn(u32) -> u32) -> Json {
     let ring = |ring: &Vec<u32>| ring.iter().map(|point| number(*point)).collect::<Json>();

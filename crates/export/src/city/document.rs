@@ -14,7 +14,7 @@ use serde_json::{Map, Value as Json, json};
 use super::super::check::check;
 use super::super::files::{Files, Out};
 use super::super::stem;
-use super::boundaries::{boundaries, semantics};
+use super::boundaries::{boundaries, level_name, semantics};
 use super::object::{CityObject, ObjectShape, Quantiser, STEPS, objects, placed_transform};
 use super::templates::ShapeTemplates;
 use crate::{Export, SceneFacts};
@@ -162,7 +162,7 @@ impl<'a> CityWriter<'a> {
             };
             let boundaries = boundaries(&shape.faces, |point| numbers[point as usize]);
             let boundaries = if closed { json!([boundaries]) } else { boundaries };
-            let mut described = json!({ "type": kind, "lod": detail.to_string(), "boundaries": boundaries });
+            let mut described = json!({ "type": kind, "lod": level_name(detail), "boundaries": boundaries });
             if let Some(semantics) = semantics(&shape.faces, closed) {
                 described["semantics"] = semantics;
             }

@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 use serde_json::{Value as Json, json};
 
 use super::super::check::proper_triangles;
-use super::boundaries::{boundaries, semantics};
+use super::boundaries::{boundaries, level_name, semantics};
 use super::faces::{Triangle, TriangleEdges, faces};
 
 /// Maximum distance (m) of a point of a model from a plane that contains it.
@@ -57,7 +57,7 @@ impl ShapeTemplates {
         let faces = faces(&points, &triangles, &TriangleEdges::of(&triangles), NEAR);
         let mut template = json!({
             "type": "MultiSurface",
-            "lod": detail.to_string(),
+            "lod": level_name(detail),
             "boundaries": boundaries(&faces, |point| first + point),
         });
         if let Some(semantics) = semantics(&faces, false) {

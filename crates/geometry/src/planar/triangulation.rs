@@ -60,13 +60,24 @@ fn clip_ears(rings: &[impl AsRef<[DVec2]>], points: &[DVec2], border: &[usize]) 
 /// Returns the triangles of the constrained Delaunay triangulation that lie inside the rings; `None` if rings
 /// intersect.
 fn delaunay(points: &[DVec2], border: &[usize]) -> Option<Vec<[usize; 3]>> {
+    let border: Vec<[usize; 2]> = border.iter().enumerate().map(|(from, &to)| [from, to]).collect();
+    constrained(points, &border, &[])
+}
+
+/// Returns the triangles of the constrained Delaunay triangulation to the left of the edges `border`, which form closed rings.
+/// Edges and `lines` are sides of triangles; `None` if they cross, or if two points are equal.
+pub(crate) fn constrained(
+    points: &[DVec2],
+    border: &[[usize; 2]],
+    lines: &[[usize; 2]],
+) -> Option<Vec<[usize; 3]>> {
     let mut all = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
     let insert = |point: &DVec2| all.insert(Point2::new(point.x, point.y)).ok();
     let places: Vec<_> = points.iter().map(insert).collect::<Option<_>>()?;
     if all.num_vertices() != points.len() {
         return None;
     }
-    for (from, &to) in border.iter().enumerate() {
+    for &[from, to] in border.iter().chain(lines) {
         if !all.can_add_constraint(places[from], places[to]) {
             return None;
         }
@@ -74,15 +85,19 @@ fn delaunay(points: &[DVec2], border: &[usize]) -> Option<Vec<[usize; 3]>> {
     }
     // The area lies to the left of each edge of a ring.
     let mut pending = Vec::with_capacity(points.len());
-    for (from, &to) in border.iter().enumerate() {
+    for &[from, to] in border {
         let edge = all.get_edge_from_neighbors(places[from], places[to])?;
         pending.push(edge.face().as_inner()?.fix());
     }
+    let rings: FxHashSet<[usize; 2]> = border.iter().map(|[a, b]| [*a.min(b), *a.max(b)]).collect();
     let mut inside = vec![false; all.num_all_faces()];
     while let Some(face) = pending.pop() {
         if !std::mem::replace(&mut inside[face.index()], true) {
             let edges = all.face(face).adjacent_edges().into_iter();
-            let open = edges.filter(|edge| !edge.is_constraint_edge());
+            let open = edges.filter(|edge| {
+                let [from, to] = edge.vertices().map(|end| end.fix().index());
+                !(edge.is_constraint_edge() && rings.contains(&[from.min(to), from.max(to)]))
+            });
             pending.extend(open.filter_map(|edge| Some(edge.rev().face().as_inner()?.fix())));
         }
     }

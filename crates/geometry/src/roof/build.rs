@@ -3,6 +3,8 @@
 use glam::{DVec2, DVec3};
 
 use super::super::skeleton::{Pace, Skeleton};
+use super::field::{self, HeightField, PlaneRule};
+use super::mapped::{MapNodes, MappedSurface};
 use super::mesh;
 use super::outset::Outset;
 use super::overhang::{Rake, Rim, SkeletonFaces};
@@ -10,7 +12,7 @@ use super::patches::{level_peaks, patches};
 use super::plate::at_walls;
 use super::shape::Profile;
 use super::shed::Fall;
-use super::{Eaves, Ends, Patch, PatchKind, Rise, RoofShape, RoofSurface, Support};
+use super::{Eaves, Ends, Patch, PatchKind, Rise, RoofShape, RoofSurface, Support, UnusedLine};
 use crate::planar::{Polygon, Ring};
 use burgeon_base::error::Result;
 
@@ -27,6 +29,8 @@ pub struct RoofCover {
     pub hipped: bool,
     /// Difference from the requested form, if the plan requires one.
     pub remark: Option<&'static str>,
+    /// Lines of the map that are not used as they are given.
+    pub unused: Vec<UnusedLine>,
 }
 
 /// Type of the roof over an edge.
@@ -39,6 +43,8 @@ enum EdgeCover {
     Flush,
 }
 
+/// Area (m²) up to which a mapped roof may be level at the eaves without a remark.
+const LEVEL_AREA: f64 = 0.5;
 /// Minimum turn of a gable's corners (radians).
 const SHARP: f64 = 65.0 * std::f64::consts::PI / 180.0;
 /// Maximum extension (m) of a gable beyond the ends of its wall.
@@ -73,23 +79,38 @@ impl RoofShape {
 
     /// Creates the roof over a support; fails if its outline has no valid skeleton.
     pub fn cover_on(&self, support: &Support<'_>) -> Result<RoofCover> {
+        let mut nodes = support.map.map(|map| MapNodes::new(map, support.walls, self.rise)).transpose()?;
+        let unused = nodes.as_mut().map(|nodes| std::mem::take(&mut nodes.unused)).unwrap_or_default();
+        let mut nodes = nodes.filter(|nodes| !nodes.is_empty());
         let mut cover = match support.outermost() {
-            None => self.cover_walls(support)?,
+            None => self.cover_walls(support, nodes.as_ref())?,
             Some(outermost) => {
                 let pairs = support.within_reach(f64::INFINITY).into_iter().zip(&outermost.distances);
                 let reach: Vec<f64> = pairs.map(|(reach, jut)| reach - jut).collect();
                 let walls = &outermost.polygon;
-                let mut cover = self.cover_walls(&Support { walls, juts: &[], reach: &reach, ..*support })?;
+                if let Some(nodes) = &mut nodes {
+                    nodes.move_to(walls);
+                }
+                let inner = Support { walls, juts: &[], reach: &reach, ..*support };
+                let mut cover = self.cover_walls(&inner, nodes.as_ref())?;
                 support.add_soffit(&outermost, &mut cover.patches);
                 cover
             }
         };
         mesh::mend(&mut cover.patches);
-        Ok(cover)
+        Ok(RoofCover { unused, ..cover })
     }
 
-    /// Creates the roof over walls without projecting parts.
-    fn cover_walls(&self, support: &Support<'_>) -> Result<RoofCover> {
+    /// Creates the roof over walls without projecting parts, or over the lines of a map.
+    fn cover_walls(&self, support: &Support<'_>, map: Option<&MapNodes>) -> Result<RoofCover> {
+        if let Some(nodes) = map {
+            let (surface, planes) = MappedSurface::new(nodes)?;
+            let is_level = surface.level > LEVEL_AREA;
+            let heights = HeightField { planes, rule: PlaneRule::Mapped(surface) };
+            let remark =
+                is_level.then_some("a part of it is level at the eaves, as no line of the map rises there");
+            return Ok(RoofCover { remark, ..field::raised(self, &heights, support)? });
+        }
         match self.surface {
             RoofSurface::Shed => Ok(self.shed(support)),
             RoofSurface::Field(form, axis) => form.cover(self, axis, support),
@@ -116,7 +137,7 @@ impl RoofShape {
     ) -> RoofCover {
         let wanted = self.wanted_overhangs(&support.within_reach(self.overhang), over);
         let tight = (0..wanted.len()).filter(|&edge| outset.distances[edge] < wanted[edge]).collect();
-        RoofCover { patches, overhangs: outset.distances, tight, hipped, remark: None }
+        RoofCover { patches, overhangs: outset.distances, tight, hipped, ..RoofCover::default() }
     }
 
     /// Creates a level roof.

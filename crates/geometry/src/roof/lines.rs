@@ -30,6 +30,22 @@ pub struct RoofLine {
     pub normals: [DVec3; 2],
 }
 
+impl RoofLine {
+    /// Returns the line of two parts, if the second one continues the first one.
+    fn joined(&self, other: &Self) -> Option<Self> {
+        let way = |line: &Self| (line.ends[1] - line.ends[0]).normalize_or_zero();
+        let is_straight = self.kind == other.kind && way(self).dot(way(other)) > 1.0 - 1e-9;
+        let ends = match (self.ends, other.ends) {
+            ([from, a], [b, to]) if is_straight && a == b => [from, to],
+            ([a, to], [from, b]) if is_straight && a == b => [from, to],
+            _ => return None,
+        };
+        Some(Self { ends, ..*self })
+    }
+}
+
+/// Cosine of the angle between the directions of the parts of one slope.
+const ALIKE: f64 = 0.999;
 /// Maximum gradient of a nearly level line.
 const LEVEL: f64 = 0.2;
 
@@ -58,14 +74,16 @@ pub fn lines(patches: &[Patch]) -> Vec<RoofLine> {
             owner.insert((key(a), key(b)), number);
         }
     }
-    let mut lines = Vec::new();
+    let mut lines: Vec<RoofLine> = Vec::new();
     for (number, patch) in slopes() {
         let normal = normal(patch);
+        // Lines of this patch, by the patch on the other side.
+        let mut own: Vec<(usize, usize)> = Vec::new();
         // Every edge of a level roof is a lowest edge.
         let is_level = normal.z > 1.0 - 1e-9;
         for [a, b] in patch.rings.iter().flat_map(Ring::edges) {
             match owner.get(&(key(b), key(a))) {
-                Some(&other) if other > number && patches[other].edge != patch.edge => {
+                Some(&other) if other > number && are_slopes(patch, &patches[other]) => {
                     let away = normal.cross((b - a).normalize_or_zero());
                     // The area to the right of the edge belongs to the other slope.
                     let across = self::normal(&patches[other]);
@@ -82,8 +100,18 @@ pub fn lines(patches: &[Patch]) -> Vec<RoofLine> {
                     } else {
                         ([a, b], [normal, across])
                     };
-                    if bend.abs() > 1e-3 {
-                        lines.push(RoofLine { kind, ends, normals });
+                    if bend.abs() <= 1e-3 {
+                        continue;
+                    }
+                    let line = RoofLine { kind, ends, normals };
+                    let known = own.iter().filter(|(beside, _)| *beside == other);
+                    let joined =
+                        known.copied().find_map(|(_, index)| Some((index, lines[index].joined(&line)?)));
+                    if let Some((index, longer)) = joined {
+                        lines[index] = longer;
+                    } else {
+                        own.push((other, lines.len()));
+                        lines.push(line);
                     }
                 }
                 None if patch.flap == 0 && (is_level || direction(a, b).dot(patch.along) > 0.99) => {
@@ -94,6 +122,12 @@ pub fn lines(patches: &[Patch]) -> Vec<RoofLine> {
         }
     }
     lines
+}
+
+/// Returns true if two patches are different slopes, and not parts of one slope.
+fn are_slopes(one: &Patch, other: &Patch) -> bool {
+    // Roofs with one ridge or an apex number no edges.
+    one.edge != other.edge || (one.flap == other.flap && one.along.dot(other.along) < ALIKE)
 }
 
 fn direction(a: DVec3, b: DVec3) -> DVec2 {

@@ -1,12 +1,13 @@
 //! Repair of the patches of a finished roof as one mesh, so that no triangle is too thin for 32-bit
 //! coordinates.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
 use smallvec::SmallVec;
 
 use super::Patch;
 use super::fill::FilledPolygon;
+use super::touching::{simple_rings, touching_parts};
 use crate::planar::{Ring, edges};
 
 /// Minimum width (m) of triangles that are not slivers.
@@ -190,10 +191,16 @@ impl RoofMesh {
         let mut faces = Vec::with_capacity(self.faces.len());
         for (patch, mut rings) in std::mem::take(&mut self.faces) {
             if let [ring] = rings.as_mut_slice() {
-                faces.extend(simple(ring).into_iter().map(|ring| (patch, vec![ring])));
+                faces.extend(simple_rings(ring).into_iter().map(|ring| (patch, vec![ring])));
             } else {
                 rings.iter_mut().for_each(|ring| ring.dedup());
-                faces.push((patch, rings));
+                let from = rings[0].first().map_or(DVec3::ZERO, |corner| self.points[*corner]);
+                let off = |corner: usize| self.points[corner] - from;
+                let normal: DVec3 = edges(&rings[0]).map(|[a, b]| off(a).cross(off(b))).sum();
+                let right = normal.any_orthogonal_vector().normalize_or_zero();
+                let up = normal.normalize_or_zero().cross(right);
+                let place = |corner: usize| DVec2::new(off(corner).dot(right), off(corner).dot(up));
+                faces.extend(touching_parts(rings, place).into_iter().map(|rings| (patch, rings)));
             }
         }
         self.faces = faces;
@@ -208,23 +215,4 @@ impl RoofMesh {
         };
         *patches = self.faces.iter().filter_map(patch).collect();
     }
-}
-
-/// Splits a ring into rings without repeated corners; the ring with its first corners comes first.
-fn simple(ring: &[usize]) -> SmallVec<[Vec<usize>; 2]> {
-    let mut left: Vec<usize> = Vec::with_capacity(ring.len());
-    let mut parts = SmallVec::new();
-    for &corner in ring {
-        if let Some(at) = left.iter().position(|&other| other == corner) {
-            if left.len() > at + 2 {
-                parts.push(left[at..].to_vec());
-            }
-            left.truncate(at);
-        }
-        left.push(corner);
-    }
-    if left.len() > 2 {
-        parts.insert(0, left);
-    }
-    parts
 }

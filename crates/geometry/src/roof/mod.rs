@@ -7,6 +7,7 @@ mod field;
 mod fill;
 mod levels;
 mod lines;
+mod mapped;
 mod mesh;
 mod outset;
 mod overhang;
@@ -24,12 +25,14 @@ mod sliver_tests;
 mod support;
 #[cfg(test)]
 mod tests;
+mod touching;
 
 pub use build::RoofCover;
 pub use build::floor;
 pub use field::{FieldRoof, RidgeAxis};
 pub use fill::fill;
 pub use lines::{RoofLine, RoofLineKind, lines, normal};
+pub use mapped::{MapLineKind, MapProblem, RoofMap, UnusedLine};
 pub use patch::{Patch, PatchKind};
 pub use shape::{Border, Eaves, Ends, Rise, RoofShape, RoofSurface, STEEPEST_EAVES};
 pub use support::Support;

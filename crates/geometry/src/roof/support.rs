@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::outset::Outset;
-use super::{Patch, PatchKind};
+use super::{Patch, PatchKind, RoofMap};
 use crate::planar::{Polygon, Ring};
 
 /// The walls below a roof, with neighbours and projecting parts.
@@ -19,12 +19,14 @@ pub struct Support<'a> {
     pub juts: &'a [f64],
     /// Maximum distance (m) of the roof from each edge, as next to a neighbour; unlimited if empty.
     pub reach: &'a [f64],
+    /// Lines of the roof's surface; if some of them can be used, they replace the surface of the shape.
+    pub map: Option<&'a RoofMap>,
 }
 
 impl<'a> Support<'a> {
     /// Creates a support of walls that end at `base` (m), without neighbours.
     pub fn new(walls: &'a Polygon, base: f64) -> Self {
-        Self { walls, base, party: &[], juts: &[], reach: &[] }
+        Self { walls, base, party: &[], juts: &[], reach: &[], map: None }
     }
 
     /// Returns the number of edges of all rings.

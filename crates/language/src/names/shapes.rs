@@ -6,7 +6,7 @@ use super::name::{Name, field, options};
 use crate::form::argument;
 
 /// Returns the functions that create shapes.
-pub(super) fn shape_functions() -> [Name; 8] {
+pub(super) fn shape_functions() -> [Name; 9] {
     let length = |name: &'static str| argument(name, "number");
     let sides = || argument("sides", "number?");
     [
@@ -36,6 +36,14 @@ pub(super) fn shape_functions() -> [Name; 8] {
             .form([length("radius"), sides()], "Shape")
             .pure(),
         Name::global(
+            "revolve",
+            "Creates the solid that an outline sweeps around an axis through the origin: x of its points (m) is the distance from the \
+             axis, y the position along it. Texture coordinates run around the axis and along the outline. Faces have the tags \
+             \"revolve.side\", \"revolve.start\" and \"revolve.end\".",
+        )
+        .form([argument("outline", "{ Vector } | Geometry"), revolve_options()], "Shape")
+        .pure(),
+        Name::global(
             "text",
             "Creates the letters of a text as faces that look upwards, x along the line and the first line on the x axis. Faces \
              have the tags \"text.1\", \"text.2\" and so on, by their letter. Lines are separated by \"\\n\".",
@@ -43,6 +51,18 @@ pub(super) fn shape_functions() -> [Name; 8] {
         .form([argument("letters", "string"), text_options()], "Shape")
         .pure(),
     ]
+}
+
+/// Returns the options of `revolve`.
+fn revolve_options() -> Argument {
+    let with = |unit: &'static str, field: Field| Field { unit: Some(unit.into()), ..field };
+    let fields = [
+        field("axis", "Vector", "vec(0, 0, 1)", "Direction of the axis through the origin."),
+        with("degrees", field("angle", "number", "360", "Angle of the turn (degrees), up to 360.")),
+        field("sides", "number", "32", "Number of flat sides of the turn."),
+        with("m", field("tile", "number", "1", "Size of a tile of the texture (m).")),
+    ];
+    Argument { luau: "{ ... }?".into(), ..options("{ ... }?", fields) }
 }
 
 /// Returns the options of `text`.

@@ -1,6 +1,7 @@
 -- A round column, and a wall with tiles of about half a metre.
 local column = cylinder(0.3, 3, 24):smooth():material({ roughness = 0.4, color = "ivory" })
 local wall = rectangle(5, 3):project("~0.5", 0.5, { angle = 45, offset = { 0.5, 0 } })
+print(wall:color("ivory"):face_color(), wall:face_color())
 print(column:is_solid(), wall:area())
 
 -- The image shows two windows side by side: half a tile each.

@@ -3,9 +3,10 @@
 use super::checks::{check_height, unknown_kind};
 use super::direction::axis;
 use super::options::Roof;
+use super::storeys::{MOST_LEVELS, bends_at_floors, rise, slope};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::number;
-use burgeon_geometry::roof::{Border, Eaves, Ends, FieldRoof, RidgeAxis, Rise, RoofShape, RoofSurface};
+use burgeon_geometry::roof::{Border, Eaves, Ends, FieldRoof, RidgeAxis, RoofShape, RoofSurface};
 
 /// A type of roof: the shape of the ends of wings, and the bends of the slopes between eaves and ridge, as fractions of
 /// the width and of the height.
@@ -44,7 +45,7 @@ const FIELDS: [(&str, FieldRoof); 12] = [
 ];
 
 /// All types of roof.
-const KINDS: [&str; 24] = [
+pub(super) const KINDS: [&str; 24] = [
     "flat",
     "shed",
     "gable",
@@ -85,7 +86,7 @@ pub(crate) fn roof_shape(options: &Roof) -> Result<RoofShape> {
     let kind = options.kind.as_str();
     let border = Border { height: options.border, width: options.border_width };
     let surface = surface(options, border)?;
-    let is_field = matches!(surface, RoofSurface::Field(..));
+    let is_field = matches!(surface, RoofSurface::Field(..)) || options.has_lines();
     let eaves = match options.eaves.as_deref() {
         Some("closed") => Eaves::Closed,
         Some("open") => Eaves::Open,
@@ -120,7 +121,7 @@ pub(crate) fn roof_shape(options: &Roof) -> Result<RoofShape> {
         Eaves::Closed => juts_out && matches!(surface, RoofSurface::Flat(_)),
     };
     let slab = if needed && options.slab == 0.0 { THICKNESS } else { options.slab };
-    let rise = options.height.map_or(Rise::Slope(options.slope.to_radians().tan()), Rise::Height);
+    let rise = rise(options);
     Ok(RoofShape { surface, rise, overhang: options.overhang, eaves, slab })
 }
 
@@ -136,8 +137,10 @@ fn surface(options: &Roof, border: Border) -> Result<RoofSurface> {
     let sloped = SLOPED.iter().find(|known| known.name == kind);
     let form = match (kind, sloped) {
         ("shed", _) => axis.map(|_| FieldRoof::Shed),
-        ("sawtooth", _) => Some(FieldRoof::Sawtooth { slope: options.slope.to_radians().tan() }),
-        (_, Some(RoofKind { ends: Ends::Gables, bends, .. })) => axis.map(|_| FieldRoof::Gable(bends)),
+        ("sawtooth", _) => Some(FieldRoof::Sawtooth { slope: slope(options) }),
+        (_, Some(known @ RoofKind { ends: Ends::Gables, .. })) => {
+            axis.map(|_| FieldRoof::Gable(bends(known, options)))
+        }
         _ => FIELDS.iter().find(|(name, _)| *name == kind).map(|(_, form)| *form),
     };
     if let Some(form) = form
@@ -154,10 +157,15 @@ fn surface(options: &Roof, border: Border) -> Result<RoofSurface> {
             .help(format!("omit direction and orientation, or use {}", with.join(", "))));
     }
     Ok(match (kind, sloped) {
-        (_, Some(RoofKind { ends, bends, .. })) => RoofSurface::Sloped(*ends, bends),
+        (_, Some(known)) => RoofSurface::Sloped(known.ends, bends(known, options)),
         ("shed", _) => RoofSurface::Shed,
         _ => RoofSurface::Flat((border.height > 0.0).then_some(border)),
     })
+}
+
+/// Returns the bends of the slopes of a type.
+fn bends(kind: &RoofKind, options: &Roof) -> &'static [(f64, f64)] {
+    options.levels.and_then(|levels| bends_at_floors(kind.name, levels)).unwrap_or(kind.bends)
 }
 
 /// Returns true if a type of roof has a direction.
@@ -173,9 +181,13 @@ fn check(options: &Roof) -> Result<()> {
     if let Some(height) = options.height {
         check_height("footprint:roof: height", height)?;
     }
-    if !(options.slope > 0.0 && options.slope <= 85.0) {
-        return Err(Error::argument(format!("footprint:roof: slope is {} degrees", options.slope))
+    if let Some(slope) = options.slope.filter(|slope| !(*slope > 0.0 && *slope <= 85.0)) {
+        return Err(Error::argument(format!("footprint:roof: slope is {slope} degrees"))
             .help("give degrees above 0, up to 85"));
+    }
+    if let Some(levels) = options.levels.filter(|levels| !(*levels > 0.0 && *levels <= MOST_LEVELS)) {
+        return Err(Error::argument(format!("footprint:roof: levels is {levels}"))
+            .help(format!("give a number of storeys above 0, up to {MOST_LEVELS}")));
     }
     for (name, length) in [("overhang", options.overhang), ("slab", options.slab), ("border", options.border)]
     {

@@ -5,10 +5,16 @@
 mod checks;
 mod detail;
 mod direction;
+#[cfg(test)]
+mod kind_tests;
 mod kinds;
+mod lines;
 mod options;
+mod storeys;
 
 pub(crate) use checks::{Height, check_height, unknown_kind};
 pub use detail::RoofDetail;
 pub(crate) use kinds::{is_curved, roof_shape};
+pub(crate) use lines::roof_map;
+pub use lines::{RoofLines, RoofPoints};
 pub use options::Roof;

@@ -2,6 +2,7 @@
 
 use super::detail::RoofDetail;
 use super::direction::CompassDirection;
+use super::lines::{RoofLines, RoofPoints};
 use crate::MaterialOptions;
 use burgeon_kit::{Color, fields};
 
@@ -13,11 +14,22 @@ pub struct Roof {
     /// "porch", "pyramid", "cone", "dome" or "onion".
     #[default("hip".into())]
     pub kind: String,
-    /// Height of the highest ridge above the eaves (m). If omitted, it follows from `slope`.
+    /// Height of the highest ridge above the eaves (m). If omitted, it follows from `slope` or from `levels`.
     pub height: Option<f64>,
-    /// Slope (degrees) from the eaves to the highest ridge, if no height is given.
-    #[default(35.0)]
-    pub slope: f64,
+    /// Slope (degrees) from the eaves to the highest ridge, if no height is given; 35 if there are no `levels` either.
+    pub slope: Option<f64>,
+    /// Number of storeys in the roof, of 3 m each, for its height if neither height nor slope is given. From 2 storeys, the bend
+    /// of a mansard or gambrel roof is at a floor.
+    pub levels: Option<f64>,
+    /// Ridges inside the plan: a list of lines, each a list of points (m) or a line geometry. If a ridge, an edge or an apex is
+    /// given, they define the surface instead of the kind. The third coordinate of a point is its height (m) above the eaves; 0
+    /// for that of the roof.
+    pub ridges: RoofLines,
+    /// Other edges of the surface, such as hips and valleys: a list of lines. Their heights follow from the ridges and the outline
+    /// that they meet, unless their points have one.
+    pub edges: RoofLines,
+    /// Highest points of the surface: a list of points (m), with heights as those of ridges.
+    pub apexes: RoofPoints,
     /// Direction in which water runs (degrees clockwise from north), or a point of the compass, "N" to "NNW". One ridge then
     /// crosses the whole plan. The direction is turned to the nearest wall within 45 degrees for a point of the compass, 10 for
     /// whole degrees and 0.5 for others.

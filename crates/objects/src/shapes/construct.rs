@@ -16,7 +16,7 @@ use super::object::ShapeObject;
 const SIDES: u32 = 32;
 
 /// Returns the functions.
-pub(super) fn constructors() -> [Constructor; 8] {
+pub(super) fn constructors() -> [Constructor; 9] {
     [
         Constructor { name: "shape", make: shape },
         Constructor { name: "cuboid", make: cuboid },
@@ -25,6 +25,7 @@ pub(super) fn constructors() -> [Constructor; 8] {
         Constructor { name: "cylinder", make: cylinder },
         Constructor { name: "cone", make: cone },
         Constructor { name: "ball", make: ball },
+        Constructor { name: "revolve", make: super::revolve::revolve },
         Constructor { name: "text", make: super::text::text },
     ]
 }
@@ -93,21 +94,8 @@ fn plan(value: &Value, height: f64) -> Result<Shape> {
     if let Some(face) = upright_face(&rings, height).map_err(|error| error.about("shape"))? {
         return Ok(face);
     }
-    let flat: Rings<DVec2> = rings.iter().map(|ring| ring.iter().map(|at| at.truncate()).collect()).collect();
-    Shape::plan(&open_rings(&flat), height).map_err(|error| error.about("shape"))
-}
-
-/// Returns rings without repeated points, and without their first point at their end.
-fn open_rings(rings: &Rings<DVec2>) -> Vec<Vec<DVec2>> {
-    let open = |ring: &Vec<DVec2>| {
-        let mut ring = ring.clone();
-        ring.dedup();
-        if ring.len() > 1 && ring.first() == ring.last() {
-            ring.pop();
-        }
-        ring
-    };
-    rings.iter().map(open).collect()
+    let flat: Vec<Vec<DVec2>> = rings.iter().map(|ring| flat_ring(ring)).collect();
+    Shape::plan(&flat, height).map_err(|error| error.about("shape"))
 }
 
 /// Makes the face of rings in an upright plane, which looks to the side from where the outer ring is counter-clockwise; `None`
@@ -137,10 +125,20 @@ fn upright_face(rings: &Rings<DVec3>, height: f64) -> Result<Option<Shape>> {
         ))
         .help("move the corners into one plane"));
     }
-    let flat: Rings<DVec2> =
-        rings.iter().map(|ring| ring.iter().map(|at| local(at).truncate()).collect()).collect();
+    let turned = |ring: &Vec<DVec3>| flat_ring(&ring.iter().map(local).collect::<Vec<_>>());
+    let flat: Vec<Vec<DVec2>> = rings.iter().map(turned).collect();
     let frame = DAffine3::from_mat3_translation(axes, origin);
-    Ok(Some(Shape::plan(&open_rings(&flat), 0.0)?.transform(&frame)))
+    Ok(Some(Shape::plan(&flat, 0.0)?.transform(&frame)))
+}
+
+/// Returns the points of a ring in the plane, without repeated points.
+pub(super) fn flat_ring(ring: &[DVec3]) -> Vec<DVec2> {
+    let mut flat: Vec<DVec2> = ring.iter().map(|at| at.truncate()).collect();
+    flat.dedup();
+    if flat.len() > 1 && flat.first() == flat.last() {
+        flat.pop();
+    }
+    flat
 }
 
 /// Makes a shape of { points = { vectors }, faces = { lists of numbers from 1 } }.

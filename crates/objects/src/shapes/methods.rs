@@ -11,10 +11,12 @@ use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use super::component_selector::ComponentSelector;
 use super::edge_distances::{EdgeDistances, EnvelopeLimits};
+use super::holes::HoleArgument;
 use super::object::{ShapeObject, warn};
-use super::options::{ScatterOptions, ShapeRoofOptions};
+use super::options::ScatterOptions;
 use super::part_sizes::SplitSizes;
 use super::relations::ShapeOrPlace;
+use super::roofing::ShapeRoofOptions;
 use super::support::{image_axis, read_selector, split_axis, unit, warn_of_split};
 use super::sweep_path::{SweepPathOptions, SweepPoints};
 use super::tiles::{ProjectOptions, TileLength};
@@ -180,6 +182,11 @@ impl ShapeObject {
         self.with_shape(self.shape.with_styles(|style| FaceStyle::with_color(style, color.0)))
     }
 
+    /// Returns the colour that all faces have from `color`, as a text such as "#c08040"; nil if they have none or several.
+    pub fn face_color(&self) -> Option<String> {
+        self.common_color()
+    }
+
     /// Returns the shape with faces of another material, such as { texture = "brick.png", texture_size = { 2, 1 } }. A later
     /// colour multiplies the texture.
     pub fn material(&self, material: MaterialOptions) -> Result<Self> {
@@ -332,6 +339,13 @@ impl ShapeObject {
         Ok(self.with_shape(self.shape.recess(depth).map_err(|error| error.about("shape:recess"))?))
     }
 
+    /// Returns a face with a hole, or nil if the hole covers it: an outline of points (m) or a polygon in the scope of the face, x
+    /// to the right and y upwards from its corner, or a shape, whose projection along the normal is cut. A hole that reaches
+    /// the edge of the face divides it or makes a recess in its outline.
+    pub fn cut_hole(&self, hole: HoleArgument) -> Result<Option<Self>> {
+        self.without_hole(&hole)
+    }
+
     /// Returns the solid between a face and its copy at `height` (m), scaled by `scale` (0 unless given, a pyramid).
     pub fn taper(&self, height: f64, scale: Option<f64>) -> Result<Self> {
         let solid =
@@ -342,15 +356,7 @@ impl ShapeObject {
     /// Returns a roof over a horizontal face, closed from below. Faces have the tags "roof.slope", "roof.gable",
     /// "roof.side" and "roof.bottom".
     pub fn roof(&self, options: Option<TableOf<ShapeRoofOptions>>) -> Result<Self> {
-        let ShapeRoofOptions { kind, height, slope, overhang } = options.unwrap_or_default().read()?;
-        let roof = crate::Roof { kind, height, slope, overhang, ..crate::Roof::default() };
-        let shape = crate::roofs::roof_shape(&roof).map_err(|error| error.about("shape:roof"))?;
-        let (solid, remarks) = self.shape.roof(&shape).map_err(|error| error.about("shape:roof"))?;
-        for remark in remarks {
-            let text = format!("the {} roof differs: {remark}", roof.kind);
-            warn("roof", &text, "use a plan that suits the kind");
-        }
-        Ok(self.with_shape(solid))
+        self.roofed(options.unwrap_or_default().read()?)
     }
 
     /// Returns the solid that a closed profile sweeps around the outline of a face, with mitred corners: a cornice or a

@@ -2,6 +2,7 @@
 
 mod array;
 mod bevel;
+mod cut_hole;
 mod extrude;
 mod flat_faces;
 mod inset;
@@ -18,8 +19,10 @@ mod sweep;
 mod transform;
 mod trim;
 
+pub use cut_hole::{CutFace, HoleOutline};
 pub use inset::Setback;
 pub(crate) use merge::{merge_coplanar, weld};
 pub use regions::EnvelopeLimit;
+pub use roof::ShapeRoof;
 pub use solids::SolidOperation;
 pub use sweep::SweepPath;

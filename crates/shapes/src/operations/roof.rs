@@ -1,25 +1,44 @@
 //! Roofs over faces.
 
 use burgeon_base::error::{Error, Result};
-use burgeon_geometry::roof::{PatchKind, RoofShape, Support};
-use glam::DVec3;
+use burgeon_geometry::roof::{PatchKind, RoofMap, RoofShape, Support, UnusedLine};
+use glam::{DVec2, DVec3};
 
 use crate::Shape;
 use crate::mesh::PolygonMeshBuilder;
 use crate::style::FaceStyle;
 
+/// A roof as a shape, and its differences from the request.
+#[derive(Debug)]
+pub struct ShapeRoof {
+    /// Solid.
+    pub shape: Shape,
+    /// Differences that the plan requires.
+    pub remarks: Vec<&'static str>,
+    /// Lines of the map that are not used as they are given, with their places in the coordinates of the world (m).
+    pub unused: Vec<UnusedLine>,
+}
+
 impl Shape {
-    /// Returns a roof over a face that looks upwards, closed from below, and how it differs from the request.
+    /// Returns a roof over a face that looks upwards, closed from below.
     ///
-    /// Faces have the tags "roof.slope", "roof.gable", "roof.bottom" and "roof.side". Fails unless the shape is one
-    /// horizontal face.
-    pub fn roof(&self, shape: &RoofShape) -> Result<(Self, Vec<&'static str>)> {
+    /// `map` has lines of the surface in the coordinates of the world, with heights (m) above the face. Faces have the tags
+    /// "roof.slope", "roof.gable", "roof.bottom" and "roof.side". Fails unless the shape is one horizontal face.
+    pub fn roof(&self, shape: &RoofShape, map: Option<&RoofMap>) -> Result<ShapeRoof> {
         let (polygon, frame) = self.single_face("roof")?;
         if frame.axes.z_axis.z < 1.0 - 1e-6 {
             return Err(Error::argument("the face under the roof is not horizontal")
                 .help("use a horizontal face that looks upwards: shape:faces(\"up\")"));
         }
-        let cover = shape.cover_on(&Support::new(&polygon, 0.0))?;
+        let local = |at: &DVec3| frame.local(at.truncate().extend(frame.origin.z)).truncate().extend(at.z);
+        let lines =
+            |lines: &[Vec<DVec3>]| lines.iter().map(|line| line.iter().map(local).collect()).collect();
+        let map = map.map(|map| RoofMap {
+            ridges: lines(&map.ridges),
+            edges: lines(&map.edges),
+            apexes: map.apexes.iter().map(local).collect(),
+        });
+        let cover = shape.cover_on(&Support { map: map.as_ref(), ..Support::new(&polygon, 0.0) })?;
         let own = self.styles().into_iter().next().flatten();
         let style = |tag: &'static str| FaceStyle::with_automatic_tag(&own, tag);
         let [slope, gable, side, bottom] =
@@ -40,6 +59,8 @@ impl Shape {
         builder.face(below.iter().map(Vec::as_slice), &bottom);
         let hips = cover.hipped.then_some("hips replace a gable that was not possible");
         let remarks = hips.into_iter().chain(cover.remark).collect();
-        Ok((Self::of_mesh(builder.build(), self.scope.axes), remarks))
+        let world = |at: DVec2| frame.point(at.extend(0.0)).truncate();
+        let unused = cover.unused.iter().map(|line| UnusedLine { at: world(line.at), ..*line }).collect();
+        Ok(ShapeRoof { shape: Self::of_mesh(builder.build(), self.scope.axes), remarks, unused })
     }
 }

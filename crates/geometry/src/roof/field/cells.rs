@@ -6,6 +6,7 @@ use super::faces::FaceGraph;
 use super::heights::HeightField;
 use crate::overlay::{LayerWay, Subdivision, WayKind};
 use crate::planar::{Polygon, edges};
+use crate::roof::touching::touching_parts;
 use burgeon_base::error::Result;
 
 /// Length (m) below which edges are omitted.
@@ -117,11 +118,13 @@ impl RoofCellMap {
         let nodes = NodeMap::new(&division.places, &kept, &corners);
         let cells = |keeps_walls: bool| -> Vec<RoofCell> {
             let faces = graph.rings(&division, |edge| differs(edge) && (keeps_walls || !is_wall(edge)));
-            let cell = |(half, rings): (usize, Vec<Vec<u32>>)| {
+            let cells = faces.into_iter().flat_map(|(half, rings)| {
                 let rings: Vec<Vec<u32>> = rings.iter().filter_map(|ring| nodes.ring(ring)).collect();
-                (!rings.is_empty()).then(|| RoofCell { side: sides[half], rings })
-            };
-            faces.into_iter().filter_map(cell).filter(|cell| cell.side.zone != Zone::Outside).collect()
+                let parts = touching_parts(rings, |node| division.places[node as usize]);
+                parts.into_iter().map(move |rings| (half, rings))
+            });
+            let cells = cells.map(|(half, rings)| RoofCell { side: sides[half], rings });
+            cells.filter(|cell| cell.side.zone != Zone::Outside).collect()
         };
         let mut undersides = Vec::new();
         if sides.iter().any(|side| side.zone == Zone::Eaves) {

@@ -3,10 +3,11 @@
 use glam::DVec2;
 
 use super::radial::RadialGauge;
+use crate::roof::mapped::MappedSurface;
 
 /// Height (m) above the walls as a linear function of the place.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct HeightPlane {
+pub(in crate::roof) struct HeightPlane {
     /// A place.
     pub at: DVec2,
     /// Height (m) at the place.
@@ -17,14 +18,14 @@ pub(super) struct HeightPlane {
 
 impl HeightPlane {
     /// Returns the height (m) at a place.
-    pub(super) fn height_at(&self, place: DVec2) -> f64 {
+    pub(in crate::roof) fn height_at(&self, place: DVec2) -> f64 {
         self.height + self.gradient.dot(place - self.at)
     }
 }
 
 /// Rule that selects the plane at a place.
 #[derive(Debug, Clone)]
-pub(super) enum PlaneRule {
+pub(in crate::roof) enum PlaneRule {
     /// Bands across a direction, divided at distances (m) from the middle.
     Bands { middle: DVec2, way: DVec2, limits: Vec<f64> },
     /// The lowest plane.
@@ -35,11 +36,13 @@ pub(super) enum PlaneRule {
     Gablets { height: f64 },
     /// Sectors around an apex, divided into rings.
     Radial(RadialGauge),
+    /// Facets between the lines of a map.
+    Mapped(MappedSurface),
 }
 
 /// Heights over a plan.
 #[derive(Debug, Clone)]
-pub(super) struct HeightField {
+pub(in crate::roof) struct HeightField {
     /// Planes.
     pub planes: Vec<HeightPlane>,
     /// Rule that selects a plane.
@@ -71,6 +74,7 @@ impl HeightField {
                 }
             }
             PlaneRule::Radial(gauge) => gauge.index(place),
+            PlaneRule::Mapped(surface) => surface.index(place),
         }
     }
 
@@ -90,6 +94,7 @@ impl HeightField {
                 limits.iter().map(|limit| across(*middle + *way * *limit, way.perp())).collect()
             }
             PlaneRule::Radial(gauge) => gauge.lines(reach),
+            PlaneRule::Mapped(surface) => surface.lines(reach),
             PlaneRule::Lowest | PlaneRule::Crossed | PlaneRule::Gablets { .. } => {
                 let mut lines = Vec::new();
                 for (index, one) in self.planes.iter().enumerate() {

@@ -18,3 +18,5 @@ mod tests;
 
 pub use axis::RidgeAxis;
 pub use forms::FieldRoof;
+pub(super) use heights::{HeightField, HeightPlane, PlaneRule};
+pub(super) use raise::cover as raised;

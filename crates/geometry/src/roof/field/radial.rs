@@ -86,7 +86,7 @@ fn clipped(ring: &[DVec2], from: DVec2, way: DVec2) -> Vec<DVec2> {
 
 /// Sectors around an apex between the corners of an outline, divided into rings: scaled copies of the outline.
 #[derive(Debug, Clone)]
-pub(super) struct RadialGauge {
+pub(in crate::roof) struct RadialGauge {
     apex: DVec2,
     outline: Vec<DVec2>,
     /// Scales of the rings, from 0 to 1.

@@ -2,20 +2,26 @@
 
 use glam::{DVec2, DVec3};
 
-use super::cells::{CellSide, RoofCellMap, Zone};
+use super::cells::{CellSide, RoofCell, RoofCellMap, Zone};
 use super::heights::HeightField;
-use crate::planar::Ring;
+use crate::planar::{Ring, triangulate};
 use crate::roof::outset::Outset;
 use crate::roof::{Patch, PatchKind, RoofCover, RoofShape, STEEPEST_EAVES, Support};
 use burgeon_base::error::Result;
 
 /// Difference (m) below which heights at one place are equal.
 const LEVEL: f64 = 2e-3;
+/// Distance (m) of a corner from the plane of its cell from which the cell is divided into triangles.
+const BENT: f64 = 0.02;
 /// Minimum height (m) over the walls between their corners, so that upright faces begin at the corners.
 const LEAST: f64 = 0.01;
 
 /// Creates the roof of a height field over a support. Beyond the walls, it continues as a plate.
-pub(super) fn cover(shape: &RoofShape, field: &HeightField, support: &Support<'_>) -> Result<RoofCover> {
+pub(in crate::roof) fn cover(
+    shape: &RoofShape,
+    field: &HeightField,
+    support: &Support<'_>,
+) -> Result<RoofCover> {
     let wanted = support.within_reach(shape.overhang);
     let outset = Outset::new(support.walls, wanted.clone(), |_| false);
     let tight = (0..wanted.len()).filter(|&edge| outset.distances[edge] < wanted[edge]).collect();
@@ -156,12 +162,35 @@ impl<'a> RaisedCells<'a> {
                 Ring::without_repeats(if is_top { corners.collect() } else { corners.rev().collect() })
             };
             let kind = if is_top { PatchKind::Slope } else { PatchKind::Underside };
+            if let Some(triangles) = self.bent(cell) {
+                patches.extend(triangles.into_iter().filter_map(|triangle| {
+                    Some(Patch { kind, edge: 0, flap: 0, along, rings: vec![raised(&triangle.to_vec())?] })
+                }));
+                continue;
+            }
             let rings: Vec<Ring<DVec3>> = cell.rings.iter().filter_map(raised).collect();
             if !rings.is_empty() {
                 patches.push(Patch { kind, edge: 0, flap: 0, along, rings });
             }
         }
         patches
+    }
+
+    /// Returns the triangles of a cell whose corners are not in its plane, as where steep eaves end above their slope.
+    fn bent(&self, cell: &RoofCell) -> Option<Vec<[u32; 3]>> {
+        let nodes: Vec<u32> = cell.rings.iter().flatten().copied().collect();
+        let plane = &self.field.planes[cell.side.plane];
+        let off = |node: &u32| {
+            (self.height(*node, cell.side.plane) - plane.height_at(self.map.places[*node as usize])).abs()
+        };
+        if nodes.len() == 3 || !nodes.iter().any(|node| off(node) > BENT) {
+            return None;
+        }
+        let ring = |ring: &Vec<u32>| -> Vec<DVec2> {
+            ring.iter().map(|node| self.map.places[*node as usize]).collect()
+        };
+        let triangles = triangulate(&cell.rings.iter().map(ring).collect::<Vec<_>>()).ok()?;
+        Some(triangles.into_iter().map(|corners| corners.map(|corner| nodes[corner])).collect())
     }
 
     /// Adds the upright faces from the walls to the roof.

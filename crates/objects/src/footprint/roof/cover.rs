@@ -4,7 +4,7 @@ use super::replace;
 use super::smooth::smooth;
 use crate::footprint::object::Footprint;
 use crate::roofs::Roof;
-use crate::roofs::{is_curved, roof_shape};
+use crate::roofs::{is_curved, roof_map, roof_shape};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
 use burgeon_geometry::roof::{
@@ -18,6 +18,8 @@ impl Footprint {
     pub(crate) fn cover(&mut self, options: &Roof) -> Result<()> {
         self.check_open("roof")?;
         let shape = roof_shape(options)?;
+        let origin = self.origin().truncate();
+        let map = roof_map(options, origin)?;
         for detail in &options.details {
             detail.check()?;
         }
@@ -39,9 +41,14 @@ impl Footprint {
         let furthest = shape.overhang + juts.iter().copied().fold(0.0, f64::max);
         let drop = if open { STEEPEST_EAVES * shape.overhang } else { 0.0 };
         let reach = if furthest > 0.0 { self.reach(furthest, drop) } else { Vec::new() };
-        let support = Support { walls: &walls, base, party: &party, juts: &juts, reach: &reach };
+        let support =
+            Support { walls: &walls, base, party: &party, juts: &juts, reach: &reach, map: map.as_ref() };
         let mut make = |shape: &RoofShape, support: &Support<'_>| shape.cover_on(support);
         let made = replace::cover(&shape, &options.kind, &support, &mut make);
+        for line in &made.cover.unused {
+            let remark = Warning::simplification("a line of a roof is not used as it is given");
+            self.notes.push(remark.with_cause(line.text(origin)).help(line.help()));
+        }
         let mut note =
             |what: String, why: String| self.notes.push(Warning::simplification(what).with_cause(why));
         if let Some((what, why)) = made.replaced {
