@@ -3,7 +3,7 @@
 use crate::support::refused;
 
 /// Script, line of the slip, and part of the remedy.
-const SLIPS: [(&str, usize, &str); 61] = [
+const SLIPS: [(&str, usize, &str); 67] = [
     ("local a = [1, 2]", 1, "with braces: { 1, 2 }"),
     ("local a = { [1, 2], [3, 4] }", 1, "with braces: { 1, 2 }"),
     ("local a = 2 ** 3", 1, "x ^ 2"),
@@ -66,6 +66,16 @@ const SLIPS: [(&str, usize, &str); 61] = [
     ("local a = Vector3.new(1, 2, 3)", 1, "vec(x, y, z)"),
     ("local a = f\"n is {n}\"", 1, "backticks"),
     ("wait(1)", 1, "does not wait"),
+    ("local s = lsystem({})\ns.derive()", 2, "with a colon: s:derive"),
+    ("local s = lsystem({})\ns.axiom()", 2, "with a colon: s:axiom"),
+    ("local s = lsystem(extruder())", 1, "lsystem({ object = extruder() })"),
+    ("local n = param(\"height\", 3)", 1, "param(\"height\", { default = 3 })"),
+    ("local s = cuboid(1, 1, 1) + cuboid(1, 1, 2)", 1, "a:union(b)"),
+    (
+        "local A = module(\"A\")\nlocal s, t = lsystem({ object = extruder() }), lsystem({ object = extruder() })\ns:axiom(A())\ns:interpret(\"A\", function(this)\n  this:place(t)\nend)\ns:derive()",
+        5,
+        "derive it",
+    ),
     ("translate({ 0, 0, 1 })", 1, "in an interpretation"),
     ("local n = 3\nprint(\"n is \" + n)", 2, "two dots"),
     ("local n\nprint(n + 1)", 2, "one side is nil"),

@@ -154,3 +154,70 @@ fn claims_are_ranked_and_hide_what_is_behind_them() {
         "Kept(5,true,false) Kept(3,true,false) Kept(1,true,false) Kept(4,false,false) Kept(2,false,true)"
     );
 }
+
+#[test]
+fn entries_that_differ_in_one_value_divide_differently() {
+    // Equal entries are read once; those of other rules and applications differ in sizes, modules, values or groups.
+    let script = format!(
+        r#"{PARTS}
+        local Cut, Part = module("Cut", "s", "n"), module("Part", "s", "a?")
+        building:rule("Mass(s)", function(this, s)
+          return Cut(s, 1), Cut(s, 2), Cut(s, 1), Cut(s, 3), Cut(s, 4)
+        end)
+        building:rule("Cut(s, n)", {{ when = function(this, s, n) return n < 4 end }}, function(this, s, n)
+          return split(s, "x", {{ {{ n, Part, n }}, {{ "~1", if n == 3 then Part else false }} }})
+        end)
+        building:rule("Cut(s, n)", function(this, s, n)
+          return split(s, "x", {{ {{ {{ 1, Part, 1 }}, {{ "~2", Part }} }} }})
+        end)
+        building:derive(2)"#
+    );
+    let part = |x: u32, more: &str| format!("Part(box of {x} x 4 x 10 m{more})");
+    let pairs = [part(1, ",1"), part(2, "")].join(" ");
+    let wanted =
+        [part(1, ",1"), part(2, ",2"), part(1, ",1"), part(3, ",3"), part(3, ""), pairs.clone(), pairs]
+            .join(" ");
+    assert_eq!(chain(&script), wanted);
+}
+
+#[test]
+fn a_rule_with_other_sizes_in_each_application_needs_no_more_memory() {
+    let script = format!(
+        r#"{PARTS}
+        local Cut, Part = module("Cut", "s", "n"), module("Part", "s")
+        building:rule("Mass(s)", function(this, s)
+          local list = {{}}
+          for n = 1, 2000 do list[n] = Cut(s, n / 500) end
+          return sequence(list)
+        end)
+        building:rule("Cut(s, n)", function(this, s, n)
+          return split(s, "x", {{ {{ n, Part }}, {{ "~1", false }} }})
+        end)
+        building:derive(2)"#
+    );
+    let text = chain(&script);
+    assert_eq!(text.matches("Part(").count(), 2000);
+    assert!(text.contains("Part(box of 3.4 x 4 x 10 m)") && text.contains("Part(box of 0.002 x 4 x 10 m)"));
+}
+
+#[test]
+fn points_in_an_upright_plane_are_an_upright_face_with_holes() {
+    run(r#"
+        local wall = shape({
+          { { 0, 2, 0 }, { 4, 2, 0 }, { 4, 2, 3 }, { 2, 2, 5 }, { 0, 2, 3 } },
+          { { 1, 2, 1 }, { 2, 2, 1 }, { 2, 2, 2 }, { 1, 2, 2 } },
+        })
+        assert(math.abs(wall:area() - 15) < 1e-9)
+        assert((wall:normal() - vec(0, -1, 0)):length() < 1e-9)
+        assert(#wall:holes() == 1)
+        local size = wall:size()
+        assert(math.abs(size.x - 4) < 1e-9 and math.abs(size.y - 5) < 1e-9 and size.z == 0)
+        local front = cuboid(3, 1, 2):faces("front")[1]
+        local same = shape({ { 0, 0, 0 }, { 3, 0, 0 }, { 3, 0, 2 }, { 0, 0, 2 } })
+        assert((same:normal() - front:normal()):length() < 1e-9 and (same:center() - front:center()):length() < 1e-9)
+        local ok, reason = pcall(shape, { { 0, 0, 0 }, { 3, 0, 0 }, { 3, 1, 2 }, { 0, -1, 2 } })
+        assert(not ok and string.find(tostring(reason), "not flat"), tostring(reason))
+        -- A plan with heights is a face on the ground, as before.
+        assert(shape({ { 0, 0, 1 }, { 4, 0, 2 }, { 4, 3, 1 } }):position().z == 0)
+    "#);
+}

@@ -378,7 +378,31 @@ impl Kind {
         names.extend(others.iter().map(|method| &*method.name));
         names.dedup();
         let message = format!("unknown method or field `{name}` of {}", self.name);
-        Error::not_found("method", name, names.iter().copied(), message)
-            .help(format!("it has {}", names.join(", ")))
+        let error = Error::not_found("method", name, names.iter().copied(), message);
+        let alike: Vec<&str> = synonyms(name).iter().filter(|known| names.contains(known)).copied().collect();
+        if alike.is_empty() {
+            error.help(format!("it has {}", names.join(", ")))
+        } else {
+            error.rather_help(format!("did you mean {}?", alike.join(" or ")))
+        }
+    }
+}
+
+/// Returns the names of methods that do what other programs call `name`.
+fn synonyms(name: &str) -> &'static [&'static str] {
+    match name {
+        "rotate" | "yaw" => &["turn", "roll", "pitch", "rotate"],
+        "translate" | "move" | "go" | "move_to" => &["jump", "shift", "translate"],
+        "colour" | "paint" | "fill" => &["color"],
+        "box" | "cube" | "cuboid" | "cylinder" | "sphere" | "ball" | "cone" => &["shape"],
+        "line" | "draw" | "walk" | "up" => &["forward", "extrude"],
+        "left" | "right" => &["turn"],
+        "resize" | "size" => &["scale", "resize"],
+        "lathe" | "revolve" => &["revolve", "shape"],
+        "flip" => &["mirror"],
+        "difference" | "minus" => &["subtract"],
+        "intersection" => &["intersect"],
+        "add" | "plus" | "join" => &["union"],
+        _ => &[],
     }
 }
