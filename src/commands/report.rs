@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use burgeon::error::{Excerpt, SourcePlace};
-use burgeon::results::ReportTotal;
+use burgeon::results::{FeatureReport, ReportTotal};
 use burgeon::script::Param;
 use burgeon::sources::ReferenceFrame;
 use burgeon::text::{escaped_lines, grouped, number, shown};
@@ -118,10 +118,21 @@ pub(crate) fn summary(run: &Run, writing: Duration, total: Duration, listed: Opt
         let _ = match listed {
             Some(path) if path != Path::new("-") => writeln!(text, "{report}: {} lists them", path.display()),
             Some(_) => writeln!(text, "{report}"),
-            None => writeln!(text, "{report}: --report FILE lists them"),
+            None => writeln!(text, "{report}: --report FILE lists them{}", frequent_remarks(&report)),
         };
     }
     text
+}
+
+/// Returns a line for each of the most frequent remarks on features.
+fn frequent_remarks(report: &FeatureReport) -> String {
+    const MOST: usize = 3;
+    let mut counts: Vec<(&String, &usize)> = report.counts.iter().collect();
+    counts.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
+    counts.iter().take(MOST).fold(String::new(), |mut text, (what, count)| {
+        let _ = write!(text, "\n  {} x {}", grouped(**count), shown(what));
+        text
+    })
 }
 
 /// Maximum number of reported numbers in a summary.
