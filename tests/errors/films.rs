@@ -202,7 +202,7 @@ fn a_film_over_the_steps_shows_the_derivation() {
 
 #[test]
 fn the_texts_of_frames_have_places_and_frames_and_are_in_their_order() {
-    let folder = folder().with("s.lua", &format!("{SCRIPT}print(\"at\", time)\n"));
+    let folder = folder().with("s.lua", format!("{SCRIPT}print(\"at\", time)\n"));
     let prints = |flags: &[&str]| {
         let said = folder.burgeon(&[&arguments(&["--frames", "0:2"]), flags].concat()).done();
         let lines = said.stderr.lines().filter(|line| line.contains("at"));
