@@ -227,9 +227,35 @@ fn a_missing_normal_map_has_its_line_and_an_impossible_one_its_reason() {
         );
         Folder::new().with("s.lua", &script).with("waves.png", "x").refuses(&["check", "s.lua"])
     };
-    insta::assert_snapshot!(tried("normal = \"wavs.png\""), @"");
-    insta::assert_snapshot!(tried("normal = \"waves.png\", texture_size = { 0, 1 }"), @"");
-    insta::assert_snapshot!(tried("normal = \"waves.png\", normal_scale = 11"), @"");
-    insta::assert_snapshot!(tried("normal_scale = 2"), @"");
-    insta::assert_snapshot!(tried("normals = \"waves.png\""), @"");
+    assert_snapshot!(tried("normal = \"wavs.png\""), @r#"
+    error: s.lua:4:29: normal map not found: "wavs.png"
+      | this:material({ normal = "wavs.png" }):extrude(1)
+      |                           ^^^^^^^^
+      help: normal maps are files next to the script: put the file there, or change its name in the script
+    "#);
+    assert_snapshot!(tried("normal = \"waves.png\", texture_size = { 0, 1 }"), @r#"
+    error: s.lua:4:8: rule A (interpretation): material: texture_size must be { width, height } in metres, above 0
+      | this:material({ normal = "waves.png", texture_size = { 0, 1 } }):extrude(1)
+      |      ^^^^^^^^
+      module: A, step 0
+    "#);
+    assert_snapshot!(tried("normal = \"waves.png\", normal_scale = 11"), @r#"
+    error: s.lua:4:8: rule A (interpretation): material: normal_scale must be from 0 to 10, not 11
+      | this:material({ normal = "waves.png", normal_scale = 11 }):extrude(1)
+      |      ^^^^^^^^
+      module: A, step 0
+    "#);
+    assert_snapshot!(tried("normal_scale = 2"), @r#"
+    error: s.lua:4:8: rule A (interpretation): material: normal_scale has no effect without a normal map
+      | this:material({ normal_scale = 2 }):extrude(1)
+      |      ^^^^^^^^
+      module: A, step 0
+      help: give the image file of the normal map in normal
+    "#);
+    assert_snapshot!(tried("normals = \"waves.png\""), @r#"
+    error: s.lua:4:19: rule A (interpretation): unknown field `normals` in extruder:material
+      | this:material({ normals = "waves.png" }):extrude(1)
+      |                 ^^^^^^^
+      help: did you mean normal?
+    "#);
 }

@@ -202,13 +202,13 @@ fn a_film_over_the_steps_shows_the_derivation() {
 
 #[test]
 fn the_texts_of_frames_have_places_and_frames_and_are_in_their_order() {
-    let folder = folder().with("s.lua", &format!("{SCRIPT}print(\"at\", time)\n"));
+    let folder = folder().with("s.lua", format!("{SCRIPT}print(\"at\", time)\n"));
     let prints = |flags: &[&str]| {
         let said = folder.burgeon(&[&arguments(&["--frames", "0:2"]), flags].concat()).done();
         let lines = said.stderr.lines().filter(|line| line.contains("at"));
         lines.filter(|line| line.starts_with("s.lua")).map(str::to_owned).collect::<Vec<_>>()
     };
-    let expected: Vec<String> = (0..3).map(|n| format!("s.lua:16: frame {n}, time {n}: at\t{n}")).collect();
+    let expected: Vec<String> = (0..3).map(|n| format!("s.lua:17: frame {n}, time {n}: at\t{n}")).collect();
     assert_eq!(prints(&["--places", "-o", "%d.glb"]), expected);
     assert_eq!(prints(&["--places", "-o", "film.gif"]), expected);
     assert!(prints(&["-o", "film.gif"]).is_empty());
