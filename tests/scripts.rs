@@ -216,6 +216,21 @@ fn an_extract_is_as_high_as_tagged_and_each_unknown_value_is_named_once() {
     assert!(text.contains("cannot draw roof:shape = tented on 3 features, the first is way/"), "{text}");
 }
 
+#[test]
+fn the_roof_of_a_building_with_a_mapped_apex_has_its_height_at_its_place() {
+    let run = run(&root().join("scripts/osm.lua"), 2);
+    let places = run.scene.instances.iter().flat_map(|instance| {
+        let positions = run.scene.meshes[instance.mesh].parts.iter().flat_map(|part| &part.positions);
+        positions.map(|at| instance.transform.transform_point3(at.as_dvec3()))
+    });
+    let above: Vec<glam::DVec3> = places.filter(|at| at.z > 1.0).collect();
+    // The easternmost building is 12 m wide, and its apex is 5 m above walls of 3 m, 7 m from its eastern wall.
+    let east = above.iter().map(|at| at.x).fold(f64::NEG_INFINITY, f64::max);
+    let own = above.iter().filter(|at| at.x > east - 13.0);
+    let top = own.max_by(|a, b| a.z.total_cmp(&b.z)).unwrap();
+    assert!((top.z - 8.0).abs() < 0.01 && (east - top.x - 7.0).abs() < 0.2, "{top} of {east}");
+}
+
 /// Returns the file names in a model at `path`, each between `before` and `after`.
 fn files_of(path: &Path, before: &str, after: &str) -> Vec<String> {
     let text = fs::read_to_string(path).unwrap();

@@ -24,13 +24,14 @@ function fronts.of(material: any, is_wide: boolean): Facade
     width = if is_wide then { 2.9, 3.3, 6 } else { 2.3, 2.8, 4.7 },
     height = { 2.65, 3.1, 5.4 },
   })
-  local entry = bordered(walls.opening({ width = 1.1, height = 2.2, depth = 0.12, model = door, open = true }), {
-    left = 0.5,
-    right = 0.5,
-    top = 0.4,
-    width = { 2.1, 2.3, 4 },
-    height = { 2.65, 3.1, 5.4 },
-  })
+  local entry =
+    bordered(walls.opening({ width = 1.1, height = 2.2, depth = 0.12, model = door, open = true }), {
+      left = 0.5,
+      right = 0.5,
+      top = 0.4,
+      width = { 2.1, 2.3, 4 },
+      height = { 2.65, 3.1, 5.4 },
+    })
   local row = grid(bay, { rows = 1 })
   local ground = list({ row, entry, row })
   local words = { "entry door" }
@@ -39,7 +40,10 @@ function fronts.of(material: any, is_wide: boolean): Facade
     template(panel({}), { keywords = { "blind" }, material = material }),
     template(grid(bay), { material = material }),
     template(ground, { keywords = words, material = material }),
-    template(list({ ground, grid(bay) }, { direction = "vertical" }), { keywords = words, material = material }),
+    template(
+      list({ ground, grid(bay) }, { direction = "vertical" }),
+      { keywords = words, material = material }
+    ),
   })
 end
 

@@ -3,7 +3,7 @@
 -- in metres.
 local ridges = {}
 
-export type RoofLines = { ridges: { { Vector } }, edges: { { Vector } }, apexes: { Vector } }
+export type RoofLines = { ridges: { any }, edges: { any }, apexes: { any } }
 type Line = { points: { any }, middle: any, is_ridge: boolean }
 
 local SQUARE = 60
@@ -46,8 +46,8 @@ function ridges.read(extract: string)
   end
   for _, feature in ways do
     local own: number = math.max(feature.roof_height or 0, 0)
-    local line = { points = {}, middle = feature.geometry:point_on_surface(), is_ridge = feature["roof:ridge"] ~= nil }
-    line.is_ridge = line.is_ridge and feature["roof:ridge"] ~= "no"
+    local is_ridge: boolean = feature["roof:ridge"] ~= nil and feature["roof:ridge"] ~= "no"
+    local line: Line = { points = {}, middle = feature.geometry:point_on_surface(), is_ridge = is_ridge }
     for _, point in feature.geometry.points do
       table.insert(line.points, { point[1], point[2], heights[key_of(point)] or own })
     end

@@ -173,7 +173,44 @@ fn holes_turns_and_mapped_roofs_that_cannot_be_made_are_refused() {
         "square:roof({ apexes = 3 })",
         "square:roof({ apexes = { { 0.5, 0.5, 5000 } } })",
         "square:roof({ levels = 0 })",
-    ]), @"");
+    ]), @r#"
+    revolve()
+    error: s.lua:2:14: revolve takes 1 or 2 arguments, not 0
+      help: write revolve({ { 0, 0 }, { 2, 0 }, { 1, 3 }, { 0, 3 } }, { sides = 24 })
+    revolve({ { -1, 0 }, { 2, 0 }, { 2, 3 } })
+    error: s.lua:2:14: revolve: the outline crosses the axis at (-1, 0)
+      help: give points with x from 0, the distance from the axis
+    revolve({ { 0, 0 }, { 2, 0 }, { 2, 3 } }, { sides = 2 })
+    error: s.lua:2:14: revolve: the number of sides is 2
+      help: use 3 to 1024
+    revolve({ { 0, 0 }, { 2, 0 }, { 2, 3 } }, { angle = 400 })
+    error: s.lua:2:14: revolve: the angle is 400 degrees
+      help: use degrees above 0, up to 360
+    revolve({ { 0, 0 }, { 2, 0 }, { 2, 3 } }, { turn = 90 })
+    error: s.lua:2:58: unknown field `turn` in revolve
+      help: it has axis, angle, sides, tile
+    cuboid(1, 1, 1):cut_hole({ { 0, 0 }, { 1, 0 }, { 1, 1 } })
+    error: s.lua:2:30: shape:cut_hole: cut_hole takes one face, and the shape has 6
+      help: use its faces: shape:faces("top")
+    square:cut_hole({ { 0, 0 }, { 1, 1 }, { 1, 0 }, { 0, 1 } })
+    error: s.lua:2:21: shape:cut_hole: the outer ring of the polygon has no area
+      help: move a point off the line of the others
+    square:cut_hole(4)
+    error: s.lua:2:21: shape:cut_hole: hole must be an outline, such as { { 1, 1 }, { 2, 1 }, { 2, 2.5 } }, a polygon or a shape, not 4
+      help: write this:cut_hole(hole: { Vector } | Geometry | Shape)
+    square:roof({ ridges = { { 0, 0.5 }, { 1, 0.5 } } })
+    error: s.lua:2:21: shape:roof: ridges must be a list of lines, such as { { { 0, 4 }, { 12, 4 } } }, not a list whose item 1 is not a line
+      help: write this:roof(options: { [string]: any }?)
+    square:roof({ apexes = 3 })
+    error: s.lua:2:21: shape:roof: apexes must be a list of points, such as { { 6, 4 }, { 9, 4, 3.5 } }, not 3
+      help: write this:roof(options: { [string]: any }?)
+    square:roof({ apexes = { { 0.5, 0.5, 5000 } } })
+    error: s.lua:2:21: shape:roof: footprint:roof: the height of a point is 5000 m
+      help: give metres above 0, up to 2000
+    square:roof({ levels = 0 })
+    error: s.lua:2:21: shape:roof: footprint:roof: levels is 0
+      help: give a number of storeys above 0, up to 20
+    "#);
 }
 
 #[test]
@@ -183,5 +220,24 @@ fn holes_beside_a_face_and_lines_that_a_roof_cannot_use_are_warned_of() {
         "square:roof({ ridges = { { { 0.2, 0.5 }, { 4, 0.5 } } } })",
         "square:roof({ ridges = { { { 0.2, 0.5 }, { 0.8, 0.5 } }, { { 0.5, 0.2 }, { 0.5, 0.8 } } } })",
         "square:roof({ edges = { {}, { { 0.3, 0.4 }, { 0.6, 0.4 } } }, apexes = { { 0.2, 0.5 }, { 9, 9 } } })",
-    ]), @"");
+    ]), @r#"
+    warning: s.lua:5: shape:cut_hole: the hole is beside the face, so nothing is cut
+      | local _ = square:cut_hole({ { 3, 0 }, { 4, 0 }, { 4, 1 } })
+      help: give the outline in the scope of the face: x to the right and y upwards from its corner (m)
+    warning: s.lua:6: shape:roof: ridge 1 leaves the plan at (4.00, 0.50) and is left out
+      | local _ = square:roof({ ridges = { { { 0.2, 0.5 }, { 4, 0.5 } } } })
+      help: end the line at the outline of the plan
+    warning: s.lua:7: shape:roof: ridge 2 crosses another line at (0.50, 0.50) and is left out
+      | local _ = square:roof({ ridges = { { { 0.2, 0.5 }, { 0.8, 0.5 } }, { { 0.5, 0.2 }, { 0.5, 0.8 } } } })
+      help: give both lines a point where they cross
+    warning: s.lua:8: shape:roof: apex 2 leaves the plan at (9.00, 9.00) and is left out
+      | local _ = square:roof({ edges = { {}, { { 0.3, 0.4 }, { 0.6, 0.4 } } }, apexes = { { 0.2, 0.5 }, { 9, 9 } } })
+      help: end the line at the outline of the plan
+    warning: s.lua:8: shape:roof: edge 1 has fewer than two different points and is left out
+      | local _ = square:roof({ edges = { {}, { { 0.3, 0.4 }, { 0.6, 0.4 } } }, apexes = { { 0.2, 0.5 }, { 9, 9 } } })
+      help: give at least two points
+    warning: s.lua:8: shape:roof: edge 2 at (0.30, 0.40) has no height, as it meets no other line, and is left out
+      | local _ = square:roof({ edges = { {}, { { 0.3, 0.4 }, { 0.6, 0.4 } } }, apexes = { { 0.2, 0.5 }, { 9, 9 } } })
+      help: join the edge to a ridge or to the outline, or give its points a height
+    "#);
 }

@@ -10,7 +10,7 @@ use super::checks::check_height;
 use super::options::Roof;
 
 /// Maximum number of points of the lines of a roof.
-const MOST_POINTS: usize = 10_000;
+const MOST_POINTS: usize = 2_000;
 
 /// Description of a list of lines.
 const LINES: &str = "a list of lines, such as { { { 0, 4 }, { 12, 4 } } }";
@@ -41,7 +41,7 @@ impl Parameter for RoofLines {
                 lines.push(points.into_iter().map(|point| point.0).collect());
                 continue;
             }
-            let refused = || what().but_was(format!("no line as item {number}"));
+            let refused = || what().but_was(format!("a list whose item {number} is not a line"));
             match GeometryInput::read_value(item).map_err(|_| refused())?.geometry() {
                 Geometry::Line(points) => lines.push(points.clone()),
                 Geometry::MultiLine(parts) => lines.extend(parts.iter().cloned()),

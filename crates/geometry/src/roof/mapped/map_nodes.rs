@@ -16,7 +16,7 @@ const SAME: f64 = 0.01;
 
 /// Position of a node relative to the outline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Anchor {
+pub(super) enum OutlineAnchor {
     /// A corner of the outline.
     Corner,
     /// On an edge of the outline, by its number.
@@ -27,7 +27,7 @@ pub(super) enum Anchor {
 
 /// A line of the map as nodes.
 #[derive(Debug, Clone)]
-struct Chain {
+struct NodeChain {
     kind: MapLineKind,
     number: usize,
     nodes: Vec<usize>,
@@ -38,7 +38,7 @@ struct Chain {
 pub(in crate::roof) struct MapNodes {
     /// Places (m): first the corners of the plan, in their order.
     pub(super) places: Vec<DVec2>,
-    pub(super) anchors: Vec<Anchor>,
+    pub(super) anchors: Vec<OutlineAnchor>,
     /// Heights (m) above the eaves.
     pub(super) heights: Vec<f64>,
     /// Segments between nodes.
@@ -86,13 +86,15 @@ impl MapNodes {
         let corners: Vec<DVec2> = outer.points().collect();
         for (node, anchor) in self.anchors.iter().enumerate() {
             match anchor {
-                Anchor::Corner => self.places[node] = corners.get(node).copied().unwrap_or(self.places[node]),
-                Anchor::Edge(edge) => {
+                OutlineAnchor::Corner => {
+                    self.places[node] = corners.get(node).copied().unwrap_or(self.places[node])
+                }
+                OutlineAnchor::Edge(edge) => {
                     if let Some(&[a, b]) = edges.get(*edge) {
                         self.places[node] = a + (b - a) * foot([a, b], self.places[node]);
                     }
                 }
-                Anchor::Inside => {}
+                OutlineAnchor::Inside => {}
             }
         }
     }
@@ -103,10 +105,10 @@ struct Placing<'a> {
     walls: &'a Polygon,
     edges: Vec<[DVec2; 2]>,
     places: Vec<DVec2>,
-    anchors: Vec<Anchor>,
+    anchors: Vec<OutlineAnchor>,
     /// Given heights (m); 0 for the height of the roof.
     given: Vec<Option<f64>>,
-    chains: Vec<Chain>,
+    chains: Vec<NodeChain>,
     apexes: Vec<usize>,
     unused: Vec<UnusedLine>,
     limits: WorkLimits,
@@ -118,7 +120,7 @@ impl<'a> Placing<'a> {
         Self {
             walls,
             edges: walls.edges().collect(),
-            anchors: vec![Anchor::Corner; places.len()],
+            anchors: vec![OutlineAnchor::Corner; places.len()],
             given: vec![None; places.len()],
             places,
             chains: Vec::new(),
@@ -139,9 +141,9 @@ impl<'a> Placing<'a> {
         let (place, anchor) = match beside {
             Some((off, edge)) if off < SNAP => {
                 let ends = self.edges[edge];
-                (ends[0] + (ends[1] - ends[0]) * foot(ends, place), Anchor::Edge(edge))
+                (ends[0] + (ends[1] - ends[0]) * foot(ends, place), OutlineAnchor::Edge(edge))
             }
-            _ if self.walls.contains(place) => (place, Anchor::Inside),
+            _ if self.walls.contains(place) => (place, OutlineAnchor::Inside),
             _ => return Err((place, MapProblem::Outside)),
         };
         // On the outline, the place may be nearer to a node than before.
@@ -200,7 +202,7 @@ impl<'a> Placing<'a> {
                 for (node, height) in heights {
                     self.raise(kind, number, node, height);
                 }
-                self.chains.push(Chain { kind, number, nodes });
+                self.chains.push(NodeChain { kind, number, nodes });
                 Ok(())
             }
             Err(problem) => {
@@ -279,7 +281,7 @@ impl<'a> Placing<'a> {
             });
             match found {
                 Some(at) => {
-                    let Chain { kind, number, .. } = chain;
+                    let NodeChain { kind, number, .. } = chain;
                     self.unused.push(UnusedLine { kind, number, at, problem: MapProblem::Crossing });
                 }
                 None => {
@@ -295,7 +297,7 @@ impl<'a> Placing<'a> {
     /// Computes the heights, and removes edges without one.
     fn finish(mut self, rise: Rise) -> Result<MapNodes> {
         let high = self.roof_height(rise);
-        let on_outline = |anchor: &Anchor| *anchor != Anchor::Inside;
+        let on_outline = |anchor: &OutlineAnchor| *anchor != OutlineAnchor::Inside;
         let mut heights: Vec<Option<f64>> = self
             .given
             .iter()
@@ -324,7 +326,7 @@ impl<'a> Placing<'a> {
         let mut segments: Vec<[usize; 2]> = Vec::new();
         let mut is_used = vec![false; self.places.len()];
         (0..self.edges.len()).chain(self.apexes.iter().copied()).for_each(|node| is_used[node] = true);
-        for Chain { kind, number, nodes } in &self.chains {
+        for NodeChain { kind, number, nodes } in &self.chains {
             if nodes.iter().any(|node| heights[*node].is_none()) {
                 let at = self.places[nodes[0]];
                 self.unused.push(UnusedLine {
@@ -386,8 +388,11 @@ impl<'a> Placing<'a> {
             for index in 0..count {
                 let edge = first + index;
                 let [a, b] = self.edges[edge];
-                let mut on: Vec<usize> =
-                    kept.iter().copied().filter(|node| self.anchors[*node] == Anchor::Edge(edge)).collect();
+                let mut on: Vec<usize> = kept
+                    .iter()
+                    .copied()
+                    .filter(|node| self.anchors[*node] == OutlineAnchor::Edge(edge))
+                    .collect();
                 on.sort_by(|one, two| {
                     foot([a, b], self.places[*one]).total_cmp(&foot([a, b], self.places[*two]))
                 });
