@@ -500,7 +500,7 @@ fn a_place_outside_is_told() {
     error: in/s.lua:2:24: elevation:height: place must be a vector: { x, y, z } or vec(x, y, z), not {2}
       | elevation("whole.asc"):height({ 2 })
       |                        ^^^^^^
-      help: write this:height(place: Vector)
+      help: write elevation:height(place: Vector)
     "#);
     assert_snapshot!(told(r#"elevation("whole.asc"):hight({ 2, 2 })"#), @r#"
     error: in/s.lua:2:24: unknown method or field `hight` of elevation

@@ -66,7 +66,7 @@ fn what_cannot_be_asked_of_a_geometry_is_told_with_what_to_do() {
       help: did you mean buffer?
     lawn:buffer(1 / 0)
     error: s.lua:3:15: geometry:buffer: distance must be a finite number, not infinity
-      help: write this:buffer(distance: number, options: { [string]: any }?)
+      help: write geometry:buffer(distance: number, options: { [string]: any }?)
     lawn:buffer(1, { join = "mitred" })
     error: s.lua:3:35: geometry:buffer: unknown join "mitred"
       help: did you mean mitre?
@@ -75,7 +75,7 @@ fn what_cannot_be_asked_of_a_geometry_is_told_with_what_to_do() {
       help: did you mean join?
     lawn:distance("far")
     error: s.lua:3:25: geometry:distance: other must be a geometry: feature.geometry, point(x, y), line({ ... }), polygon({ ... }) or geometry("POINT (1 2)"), not "far"
-      help: write this:distance(other: Geometry | { any })
+      help: write geometry:distance(other: Geometry | { any })
     lawn:relate(lawn, "TTT")
     error: s.lua:3:29: geometry:relate: "TTT" is not a pattern of nine characters
       help: write one of *, T, F, 0, 1 and 2 for each cell: "F***1****"

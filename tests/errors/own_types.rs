@@ -104,7 +104,7 @@ fn a_check_knows_what_the_functions_of_a_type_may_do() {
     error: s.lua:19:131: lamp:light: reach must be a number, not "a"
       help: write lamp:light(reach: number, toward: number?)
     error: s.lua:19:150: unknown method or field `go` of lamp
-      help: it has as, lit, light, height, kind, lit, mast, regular, star, rectangle, polygon, direction, resolution, scale, taper, bend, twist, caps, smooth, extrude, advance, shift, jump, turn, pitch, roll, color, material, mesh, shape, place, position, heading, distance, open_edges, note, detail
+      help: did you mean jump or shift?
     "#);
     // A type that inherits from the allowed parts are methods that the base type lacks.
     assert_snapshot!(of("changes = { go = function(self) self:draw_top() end } })\nobject(\"third\", { extends = other, changes = { draw_top = function(self) end }"), @"s.lua: no problems");

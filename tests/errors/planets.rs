@@ -120,6 +120,6 @@ fn what_the_universe_has_not_is_told() {
     error: s.lua:3:72: universe:planet: star must be a star, as returned by universe:star, not a table
       | local all = universe({ seed = 3 }) local one = all:galaxy(0, 0, 0) all:planet(one, 1)
       |                                                                        ^^^^^^
-      help: write this:planet(star: { kind: string, seed: string, radius: number, planets: number }, index: number)
+      help: write universe:planet(star: { kind: string, seed: string, radius: number, planets: number }, index: number)
     ");
 }

@@ -101,16 +101,16 @@ fn sweeps_and_images_that_cannot_be_made_are_refused() {
       help: use a twist of 0, 360 or -360 degrees and so on
     square:sweep(square)
     error: s.lua:2:21: shape:sweep: path must be a list of positions, such as { vec(0, 0, 1), vec(4, 0, 1) }, a curve or an edge, not a shape
-      help: write this:sweep(path: { Vector } | Curve | Shape, options: { [string]: any }?)
+      help: write shape:sweep(path: { Vector } | Curve | Shape, options: { [string]: any }?)
     square:rotate(90, vec(1, 0, 0)):sweep({ vec(0, 0, 0), vec(1, 0, 0) })
     error: s.lua:2:46: shape:sweep: the profile of a sweep is not horizontal
       help: draw it around the origin: disk(0.1), or shape({ { 0, 0 }, { 0.2, 0 }, { 0, 0.1 } })
     square:project(0, 1)
     error: s.lua:2:21: shape:project: width must be a length above 0 (m), or "~2" for whole tiles of about 2 m, not 0
-      help: write this:project(width: number | string, height: number | string, options: { [string]: any }?)
+      help: write shape:project(width: number | string, height: number | string, options: { [string]: any }?)
     square:project(1, "2*")
     error: s.lua:2:33: shape:project: height must be a length above 0 (m), or "~2" for whole tiles of about 2 m, not "2*"
-      help: write this:project(width: number | string, height: number | string, options: { [string]: any }?)
+      help: write shape:project(width: number | string, height: number | string, options: { [string]: any }?)
     square:project(1, 1, { axes = "zx" })
     error: s.lua:2:45: shape:project: unknown axes "zx"
       help: use "xy", "xz" or "yz"
@@ -197,13 +197,13 @@ fn holes_turns_and_mapped_roofs_that_cannot_be_made_are_refused() {
       help: move a point off the line of the others
     square:cut_hole(4)
     error: s.lua:2:21: shape:cut_hole: hole must be an outline, such as { { 1, 1 }, { 2, 1 }, { 2, 2.5 } }, a polygon or a shape, not 4
-      help: write this:cut_hole(hole: { Vector } | Geometry | Shape)
+      help: write shape:cut_hole(hole: { Vector } | Geometry | Shape)
     square:roof({ ridges = { { 0, 0.5 }, { 1, 0.5 } } })
     error: s.lua:2:21: shape:roof: ridges must be a list of lines, such as { { { 0, 4 }, { 12, 4 } } }, not a list whose item 1 is not a line
-      help: write this:roof(options: { [string]: any }?)
+      help: write shape:roof(options: { [string]: any }?)
     square:roof({ apexes = 3 })
     error: s.lua:2:21: shape:roof: apexes must be a list of points, such as { { 6, 4 }, { 9, 4, 3.5 } }, not 3
-      help: write this:roof(options: { [string]: any }?)
+      help: write shape:roof(options: { [string]: any }?)
     square:roof({ apexes = { { 0.5, 0.5, 5000 } } })
     error: s.lua:2:21: shape:roof: footprint:roof: the height of a point is 5000 m
       help: give metres above 0, up to 2000
