@@ -1,11 +1,11 @@
 //! Construction of shapes from plans, primitives and triangles.
 
 use burgeon_base::error::{Error, Result};
-use burgeon_geometry::overlay::{Fill, fill};
 use burgeon_geometry::{Polygon, Rings};
 use burgeon_scene::Part;
 use glam::{DMat3, DVec2, DVec3};
 
+use crate::crossings::check_crossings;
 use crate::mesh::{PolygonFace, PolygonMesh, PolygonMeshBuilder};
 use crate::{Scope, Shape};
 
@@ -155,19 +155,6 @@ impl Shape {
         (!welded.faces.is_empty())
             .then(|| Self::of_mesh(crate::operations::merge_coplanar(&welded), DMat3::IDENTITY))
     }
-}
-
-/// Fails if rings cross or touch themselves or each other, so that they enclose another area.
-pub(crate) fn check_crossings(polygon: &Polygon) -> Result<()> {
-    let valid = fill(&[Rings::from(polygon)], Fill::NonZero)?;
-    let holes = valid.first().map_or(0, |rings| rings.len() - 1);
-    let area: f64 =
-        valid.into_iter().filter_map(|rings| Polygon::turned(rings).ok()).map(|part| part.area()).sum();
-    if holes == polygon.holes().len() && (area - polygon.area()).abs() <= 1e-6 * area {
-        return Ok(());
-    }
-    Err(Error::geometry("the outline crosses itself, or a hole is not inside of it")
-        .help("use geometry(...):make_valid(), or order the points along the outline"))
 }
 
 /// Returns the corners of a regular polygon around the origin.

@@ -6,6 +6,7 @@
 mod body;
 mod components;
 mod construct;
+mod crossings;
 mod cut;
 mod edge_kind;
 mod mesh;

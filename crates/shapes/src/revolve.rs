@@ -8,7 +8,7 @@ use burgeon_base::work::WorkLimits;
 use burgeon_geometry::{Polygon, Rings};
 use glam::{DMat3, DVec2, DVec3};
 
-use crate::construct::check_crossings;
+use crate::crossings::check_crossings;
 use crate::mesh::PolygonMeshBuilder;
 use crate::style::FaceStyle;
 use crate::{Shape, UvMap};

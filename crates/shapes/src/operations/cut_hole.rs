@@ -39,7 +39,7 @@ impl Shape {
             HoleOutline::Rings(rings) => {
                 let local = Rings(rings.to_vec());
                 let outline = Polygon::turned(local)?;
-                crate::construct::check_crossings(&outline)?;
+                crate::crossings::check_crossings(&outline)?;
                 vec![Rings::from(&outline)]
             }
             HoleOutline::Shape(shape) => projection(shape, &frame)?,
