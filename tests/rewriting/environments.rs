@@ -226,7 +226,7 @@ fn misuse_is_refused_with_the_line_and_the_remedy() {
     2: soil:take is a write method, so only interpretation rules can call it |   help: use system:interpret(pattern, function(this, ...) ... end)
     2: obstacles:sphere: the centre is {0.0, 0.0, 0.0} and the radius -1 |   help: give a radius above 0, and numbers below 1e9 m
     2: obstacles:box: the corners are {0.0, 0.0, 0.0} and {1.0, 1.0, 0.0} |   help: give a low and a high corner, with x, y and z that increase and are below 1e9 m
-    2: obstacles:mesh: model must be what derive returned, or model("window.glb"), not a shadow_voxels |   help: write this:mesh(model: Model, position: Vector? = the origin, scale: number | Vector? = 1)
+    2: obstacles:mesh: model must be what derive returned, or model("window.glb"), not a shadow_voxels |   help: write obstacles:mesh(model: Model, position: Vector? = the origin, scale: number | Vector? = 1)
     2: obstacles:prism: the geometry contains no area |   help: give a polygon, such as a plan
     2: obstacles:nearest: there are no obstacles |   help: add a solid: obstacles():box({ 0, 0, 0 }, { 1, 1, 2 })
     "#);

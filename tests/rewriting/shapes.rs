@@ -208,13 +208,13 @@ fn points_in_an_upright_plane_are_an_upright_face_with_holes() {
           { { 1, 2, 1 }, { 2, 2, 1 }, { 2, 2, 2 }, { 1, 2, 2 } },
         })
         assert(math.abs(wall:area() - 15) < 1e-9)
-        assert((wall:normal() - vec(0, -1, 0)):length() < 1e-9)
+        assert((wall:z_axis() - vec(0, -1, 0)):length() < 1e-9)
         assert(#wall:holes() == 1)
         local size = wall:size()
         assert(math.abs(size.x - 4) < 1e-9 and math.abs(size.y - 5) < 1e-9 and size.z == 0)
         local front = cuboid(3, 1, 2):faces("front")[1]
         local same = shape({ { 0, 0, 0 }, { 3, 0, 0 }, { 3, 0, 2 }, { 0, 0, 2 } })
-        assert((same:normal() - front:normal()):length() < 1e-9 and (same:center() - front:center()):length() < 1e-9)
+        assert((same:z_axis() - front:z_axis()):length() < 1e-9 and (same:center() - front:center()):length() < 1e-9)
         local ok, reason = pcall(shape, { { 0, 0, 0 }, { 3, 0, 0 }, { 3, 1, 2 }, { 0, -1, 2 } })
         assert(not ok and string.find(tostring(reason), "not flat"), tostring(reason))
         -- A plan with heights is a face on the ground, as before.
