@@ -105,6 +105,8 @@ test("an error has carets under its part of the line in the script pane, which g
     save(script, BLOCKS.replace("Slab(n), Block(n - 1)", "Slabb(n), Block(n - 1)"));
     const carets = page.locator("#pane-code .carets");
     await carets.waitFor();
+    // The pane shows the saved text a moment before or after the error.
+    await page.locator("#pane-code .cm-line", { hasText: "Slabb" }).waitFor();
     assert.match(await carets.textContent(), /^ +\^{5} .*Slabb/);
     const [own, code] = await page.evaluate(() => {
       const root = document.querySelector("#pane-code").shadowRoot;
