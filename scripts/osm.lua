@@ -4,6 +4,7 @@
 -- CityJSON: `-o helsinki.city.json --lod 2` writes roofs as tagged, level 2.2, and `--lod 3` also windows and doors, level 3.
 local fronts = require("osm/fronts")
 local ridges = require("osm/ridges")
+local squares = require("osm/squares")
 local tags = require("osm/tags")
 
 local extract = param("extract", { default = "roofs.osm", doc = "The extract: a file of OpenStreetMap" })
@@ -16,12 +17,6 @@ local buildings = source(`{extract}:buildings`)
 ridges.read(extract)
 local has_parts, parts = pcall(source, `{extract}:building_parts`)
 
--- Polygons by squares, so that the building of a part is found without comparing all of them.
-local SQUARE = 60
-local squares: { [string]: { any } } = {}
-local function square_of(x: number, y: number): string
-  return `{math.floor(x / SQUARE)},{math.floor(y / SQUARE)}`
-end
 local function polygons(feature: any): { any }
   if feature.geometry.kind == "polygon" then
     return { feature.geometry }
@@ -35,22 +30,13 @@ local function polygons(feature: any): { any }
   return found
 end
 local outlines: { any } = {}
+local outlines_of: { [string]: { any } } = {}
 for _, feature in buildings do
   for number, plan in polygons(feature) do
-    local low, high = { math.huge, math.huge }, { -math.huge, -math.huge }
-    for _, corner in plan.rings[1] do
-      for axis = 1, 2 do
-        low[axis], high[axis] = math.min(low[axis], corner[axis]), math.max(high[axis], corner[axis])
-      end
-    end
     local outline = { feature = feature, plan = plan, number = number, is_replaced = false }
     table.insert(outlines, outline)
-    for x = low[1] // SQUARE, high[1] // SQUARE do
-      for y = low[2] // SQUARE, high[2] // SQUARE do
-        local key = `{x},{y}`
-        squares[key] = squares[key] or {}
-        table.insert(squares[key], outline)
-      end
+    for _, square in squares.of(plan) do
+      squares.put(outlines_of, square, outline)
     end
   end
 end
@@ -89,7 +75,7 @@ if has_parts then
   for _, feature in parts do
     for number, plan in polygons(feature) do
       local inside, building = plan:point_on_surface(), nil
-      for _, outline in squares[square_of(inside:x(), inside:y())] or {} do
+      for _, outline in outlines_of[squares.at(inside:x(), inside:y())] or {} do
         if outline.plan:contains(inside) then
           outline.is_replaced, building = true, outline.feature
         end
@@ -104,6 +90,7 @@ for _, outline in outlines do
   end
 end
 tags.report()
+ridges.report()
 
 -- A polygon at a height (m).
 local function lifted(plan: any, height: number): { any }

@@ -181,6 +181,23 @@ fn entries_that_differ_in_one_value_divide_differently() {
 }
 
 #[test]
+fn an_entry_with_a_name_is_not_lost_after_equal_entries_without_it() {
+    let script = format!(
+        r#"{PARTS}
+        local Cut, Part = module("Cut", "s", "n"), module("Part", "s")
+        building:rule("Mass(s)", function(this, s) return Cut(s, 1), Cut(s, 2) end)
+        building:rule("Cut(s, n)", function(this, s, n)
+          local entries = {{ {{ "~1", Part }} }} :: any
+          if n == 2 then entries.named = {{ 2, Part }} end
+          return split(s, "x", entries)
+        end)
+        building:derive(2)"#
+    );
+    let part = |x: u32| format!("Part(box of {x} x 4 x 10 m)");
+    assert_eq!(chain(&script), [part(6), part(4), part(2)].join(" "));
+}
+
+#[test]
 fn a_rule_with_other_sizes_in_each_application_needs_no_more_memory() {
     let script = format!(
         r#"{PARTS}

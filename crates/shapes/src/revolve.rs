@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use burgeon_base::MemoryOwner;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::work::WorkLimits;
 use burgeon_geometry::{Polygon, Rings};
@@ -15,6 +16,8 @@ use crate::{Shape, UvMap};
 
 /// Range of the number of sides of a full turn.
 const SIDES: std::ops::RangeInclusive<u32> = 3..=1024;
+/// Approximate memory (bytes) of a face with its corners and its style.
+const BYTES_OF_FACE: usize = 400;
 /// Distance (m) from the axis within which a point is on it.
 const ON_AXIS: f64 = 1e-9;
 
@@ -61,6 +64,8 @@ impl Shape {
             let out = if at.x <= ON_AXIS { DVec3::ZERO } else { spokes[step as usize] * at.x };
             out + frame.z_axis * at.y
         };
+        let faces = polygon.points().count().saturating_mul(steps as usize);
+        MemoryOwner::ensure_room(faces.saturating_mul(BYTES_OF_FACE))?;
         let widest = polygon.points().map(|at| at.x).fold(0.0, f64::max);
         let (side, limits) = (FaceStyle::with_automatic_tag(&None, "revolve.side"), WorkLimits::current());
         let mut builder = PolygonMeshBuilder::default();

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::{MemoryOwner, Stop};
 use glam::DVec3;
+use rustc_hash::FxHashMap;
 
 use crate::cut::plane::CutPlane;
 use crate::mesh::{PolygonMesh, PolygonMeshBuilder};
@@ -104,13 +105,14 @@ impl Shape {
 /// Returns the faces of each projection, in the order of their first faces.
 fn faces_by_projection(mesh: &PolygonMesh) -> Result<Vec<ImageFaces>> {
     let mut groups: Vec<(UvMap, Vec<usize>)> = Vec::new();
+    let mut known: FxHashMap<[u64; 11], usize> = FxHashMap::default();
     for (number, face) in mesh.faces.iter().enumerate() {
         let Some(map) = face.style.as_deref().and_then(|style| style.uv) else {
             return Err(Error::argument("a face has no image projected onto it")
                 .help("project the image onto the faces first, with shape:project"));
         };
-        // Neighbours mostly share their projection.
-        match groups.iter_mut().rev().find(|(own, _)| *own == map) {
+        let group = *known.entry(key_of(&map)).or_insert(groups.len());
+        match groups.get_mut(group) {
             Some((_, faces)) => faces.push(number),
             None => groups.push((map, vec![number])),
         }
@@ -119,6 +121,13 @@ fn faces_by_projection(mesh: &PolygonMesh) -> Result<Vec<ImageFaces>> {
         }
     }
     Ok(groups.into_iter().map(|(map, faces)| ImageFaces { map, rest: Some(mesh.select(faces)) }).collect())
+}
+
+/// Returns the numbers of a projection as a key.
+fn key_of(map: &UvMap) -> [u64; 11] {
+    let UvMap { origin, u, v, offset } = *map;
+    let numbers = [origin.x, origin.y, origin.z, u.x, u.y, u.z, v.x, v.y, v.z, offset.x, offset.y];
+    numbers.map(f64::to_bits)
 }
 
 /// Returns the faces of all meshes as one mesh; `None` without any.

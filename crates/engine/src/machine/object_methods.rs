@@ -103,8 +103,8 @@ impl ObjectMethod {
         made
     }
 
-    /// Calls the method with `arguments`, and stores the objects that it returns as parameters of modules. Returns a buffer with the handle and the
-    /// number of the entry of each (4 bytes).
+    /// Calls the method with `arguments`, and stores the objects that it returns as parameters of modules. Returns a buffer with
+    /// the handle and the number of the entry of each (4 bytes).
     fn store_parts(&self, lua: &Lua, object: &LuaValue, arguments: &[Value]) -> mlua::Result<mlua::Buffer> {
         let answer = self.answer(object, None, || Ok(arguments.to_vec()))?;
         let objects: Vec<Arc<dyn Object>> = match answer {

@@ -37,4 +37,4 @@ pub use rings::Rings;
 
 pub(crate) use measure::{coord, kept, orientation};
 pub(crate) use strings::geo_polygon;
-pub(crate) use triangulation::{constrained, triangulate};
+pub(crate) use triangulation::{triangulate, triangulate_constrained};

@@ -61,12 +61,12 @@ fn clip_ears(rings: &[impl AsRef<[DVec2]>], points: &[DVec2], border: &[usize]) 
 /// intersect.
 fn delaunay(points: &[DVec2], border: &[usize]) -> Option<Vec<[usize; 3]>> {
     let border: Vec<[usize; 2]> = border.iter().enumerate().map(|(from, &to)| [from, to]).collect();
-    constrained(points, &border, &[])
+    triangulate_constrained(points, &border, &[])
 }
 
 /// Returns the triangles of the constrained Delaunay triangulation to the left of the edges `border`, which form closed rings.
 /// Edges and `lines` are sides of triangles; `None` if they cross, or if two points are equal.
-pub(crate) fn constrained(
+pub(crate) fn triangulate_constrained(
     points: &[DVec2],
     border: &[[usize; 2]],
     lines: &[[usize; 2]],

@@ -32,7 +32,7 @@ pub struct RoofLine {
 
 impl RoofLine {
     /// Returns the line of two parts, if the second one continues the first one.
-    fn joined(&self, other: &Self) -> Option<Self> {
+    fn join(&self, other: &Self) -> Option<Self> {
         let way = |line: &Self| (line.ends[1] - line.ends[0]).normalize_or_zero();
         let is_straight = self.kind == other.kind && way(self).dot(way(other)) > 1.0 - 1e-9;
         let ends = match (self.ends, other.ends) {
@@ -106,7 +106,7 @@ pub fn lines(patches: &[Patch]) -> Vec<RoofLine> {
                     let line = RoofLine { kind, ends, normals };
                     let known = own.iter().filter(|(beside, _)| *beside == other);
                     let joined =
-                        known.copied().find_map(|(_, index)| Some((index, lines[index].joined(&line)?)));
+                        known.copied().find_map(|(_, index)| Some((index, lines[index].join(&line)?)));
                     if let Some((index, longer)) = joined {
                         lines[index] = longer;
                     } else {

@@ -75,7 +75,7 @@ impl WaitingPrints {
         let has_room = self.count < MOST;
         let Some(frame) = self.frames.get_mut(&number) else { return };
         if has_room {
-            frame.texts.push((shortened(text), place));
+            frame.texts.push((shorten(text), place));
             self.count += 1;
         } else {
             frame.left_out += 1;
@@ -90,7 +90,7 @@ impl WaitingPrints {
 }
 
 /// Returns the beginning of a text that is too long, and the number of bytes that are left out.
-fn shortened(text: &str) -> String {
+fn shorten(text: &str) -> String {
     let end = (0..=text.len().min(LONGEST)).rev().find(|end| text.is_char_boundary(*end)).unwrap_or(0);
     let left_out = text.len() - end;
     if left_out == 0 { text.to_owned() } else { format!("{}… ({left_out} bytes more)", &text[..end]) }

@@ -356,7 +356,7 @@ impl ShapeObject {
     /// Returns a roof over a horizontal face, closed from below. Faces have the tags "roof.slope", "roof.gable",
     /// "roof.side" and "roof.bottom".
     pub fn roof(&self, options: Option<TableOf<ShapeRoofOptions>>) -> Result<Self> {
-        self.roofed(options.unwrap_or_default().read()?)
+        self.build_roof(options.unwrap_or_default().read()?)
     }
 
     /// Returns the solid that a closed profile sweeps around the outline of a face, with mitred corners: a cornice or a

@@ -33,7 +33,7 @@ pub struct ShapeRoofOptions {
 
 impl ShapeObject {
     /// Returns the roof over a face, and warns of its differences from the request.
-    pub(super) fn roofed(&self, options: ShapeRoofOptions) -> Result<Self> {
+    pub(super) fn build_roof(&self, options: ShapeRoofOptions) -> Result<Self> {
         let ShapeRoofOptions { kind, height, slope, levels, overhang, ridges, edges, apexes } = options;
         let roof = Roof { kind, height, slope, levels, overhang, ridges, edges, apexes, ..Roof::default() };
         let shape = roof_shape(&roof).map_err(|error| error.about("shape:roof"))?;

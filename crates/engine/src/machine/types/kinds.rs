@@ -201,16 +201,18 @@ pub(in crate::machine) fn named_fields(what: &str, options: LuaValue) -> Result<
 }
 
 pub(in crate::machine) fn no_table(what: &str, given: &LuaValue) -> Error {
-    let given = match to_field(given) {
+    let value = to_field(given);
+    let shown = match &value {
         Ok(Value::Object(object)) => object.kind().with_article(),
         Ok(Value::Number(number)) => format!("the number {number}"),
         _ => format!("a {}", given.type_name()),
     };
-    Error::argument(format!("{what} takes a table of named fields, not {given}")).help(
-        match what.strip_prefix("param ") {
-            Some(name) => format!("write param(\"{name}\", {{ default = 3 }})"),
-            None if what == "lsystem" => "write lsystem({ object = extruder() })".into(),
-            None => format!("write {what}({{ name = value }})"),
-        },
-    )
+    let help = match (what.strip_prefix("param "), &value) {
+        (Some(name), _) => format!("write param(\"{name}\", {{ default = 3 }})"),
+        (None, Ok(Value::Object(object))) if what == "lsystem" => {
+            format!("write lsystem({{ object = {}() }})", object.kind().name)
+        }
+        _ => format!("write {what}({{ name = value }})"),
+    };
+    Error::argument(format!("{what} takes a table of named fields, not {shown}")).help(help)
 }

@@ -253,7 +253,7 @@ impl<'a> Placing<'a> {
             let mut nodes = Vec::with_capacity(chain.nodes.len());
             for pair in chain.nodes.windows(2) {
                 nodes.push(pair[0]);
-                nodes.extend(between(&self.places, [pair[0], pair[1]], &used));
+                nodes.extend(nodes_between(&self.places, [pair[0], pair[1]], &used));
             }
             nodes.extend(chain.nodes.last());
             nodes.dedup();
@@ -407,7 +407,7 @@ impl<'a> Placing<'a> {
 }
 
 /// Returns the nodes on a segment, from its first end to its second.
-fn between(places: &[DVec2], [a, b]: [usize; 2], nodes: &[usize]) -> Vec<usize> {
+fn nodes_between(places: &[DVec2], [a, b]: [usize; 2], nodes: &[usize]) -> Vec<usize> {
     let ends = [places[a], places[b]];
     let is_on = |node: &&usize| {
         let place = places[**node];

@@ -1,10 +1,10 @@
-//! Heights over the plan of a mapped roof: flat facets of a constrained triangulation.
+//! Heights over the plan of a mapped roof: flat facets of a triangulate_constrained triangulation.
 
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 
 use super::map_nodes::MapNodes;
-use crate::planar::{constrained, contains, distance, twice_area};
+use crate::planar::{contains, distance, triangulate_constrained, twice_area};
 use crate::roof::field::HeightPlane;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::work::WorkLimits;
@@ -45,7 +45,7 @@ impl MappedSurface {
         let MapNodes { places, heights, segments, border, .. } = nodes;
         let outline: Vec<[usize; 2]> =
             border.iter().flat_map(|edge| edge.windows(2)).map(|pair| [pair[0], pair[1]]).collect();
-        let mut triangles = constrained(places, &outline, segments).ok_or_else(|| {
+        let mut triangles = triangulate_constrained(places, &outline, segments).ok_or_else(|| {
             Error::geometry("the lines of the roof and the outline of the plan are too near to one another")
                 .help("move the points of the lines away from the outline, or exactly onto it")
         })?;
