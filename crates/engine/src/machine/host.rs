@@ -107,7 +107,7 @@ fn add_tables(lua: &Lua, host: &Table) -> mlua::Result<()> {
         "told",
         lua.create_function(|lua, value: LuaValue| match value {
             LuaValue::Error(error) => {
-                let error = super::virtual_machine::translate(&error);
+                let error = super::translation::translate(&error);
                 let place = error.place().map_or_else(String::new, |place| format!("{place}: "));
                 Ok(LuaValue::String(lua.create_string(format!("{place}{}", error.message()))?))
             }
@@ -118,10 +118,10 @@ fn add_tables(lua: &Lua, host: &Table) -> mlua::Result<()> {
         "told_at",
         lua.create_function(|_, (cause, file, line): (LuaValue, String, usize)| {
             let error = match &cause {
-                LuaValue::Error(error) => super::virtual_machine::translate(error),
+                LuaValue::Error(error) => super::translation::translate(error),
                 LuaValue::String(text) => {
                     let text = mlua::Error::RuntimeError(text.to_string_lossy());
-                    super::virtual_machine::translate(&text)
+                    super::translation::translate(&text)
                 }
                 other => return Ok(other.clone()),
             };

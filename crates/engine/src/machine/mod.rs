@@ -29,6 +29,7 @@ mod shown_values;
 mod streams;
 mod system;
 mod table_classes;
+mod translation;
 mod types;
 mod variables;
 mod virtual_machine;

@@ -7,7 +7,7 @@ use std::ffi::{CStr, c_int};
 use mlua::{Lua, ffi};
 
 use super::Machine;
-use super::virtual_machine::OUT_OF_MEMORY_IN_LUA;
+use super::translation::OUT_OF_MEMORY_IN_LUA;
 use burgeon_base::error::SourcePlace;
 
 /// Minimum remaining memory (bytes) that is assumed when deciding on a collection: smaller heap growth is not
