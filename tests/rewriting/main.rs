@@ -12,6 +12,7 @@ mod decomposition;
 mod dependents;
 mod determinism;
 mod distributions;
+mod divisions;
 mod edits;
 mod environments;
 mod events;

@@ -26,11 +26,11 @@ pub use contract::declare;
 pub use contract::{
     Answer, Argument, AxisScale, BeginPrefetch, Call, Capabilities, Capability, Construct, Constructor,
     ControlPoints, Deprecation, Draw, Drawing, DrawingMark, Environment, Expand, Expectation, Field, Gather,
-    HasControlPoints, HasLayers, Kind, KindDeclaration, LevelOfDetail, LoadRequest, LoadServices,
+    HasControlPoints, HasLayers, IntoParts, Kind, KindDeclaration, LevelOfDetail, LoadRequest, LoadServices,
     LoadedObject, Loader, Locate, Make, Method, Model, Object, ObjectContent, ObjectParameter, ObjectPlace,
-    Parameter, PointRows, PointSpace, Prefetch, ReadCall, Report, Rescale, Resources, Rewind, RewriteOutcome,
-    Rewriter, RuleSet, Show, System, Table, TableKey, Value, Values, Vector, Warn, Write, WriteNumbers,
-    are_equal, is_keyword, luau_name, object,
+    Parameter, PartMaker, PointRows, PointSpace, Prefetch, ReadCall, Report, Rescale, Resources, Rewind,
+    RewriteOutcome, Rewriter, RuleSet, Show, System, Table, TableKey, Value, Values, Vector, Warn, Write,
+    WriteNumbers, are_equal, is_keyword, luau_name, object,
 };
 pub use example::ScriptExample;
 pub use fields::{Fields, TableOf};

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use burgeon_geometry::Polygon;
 use glam::{DMat3, DVec3};
 
-use crate::body::TOP;
+use crate::body::{RECESS_FACES, TOP, recess_style};
 use crate::mesh::{PolygonFace, PolygonMesh};
 use crate::style::{FaceStyle, SharedStyle};
 use crate::trim_planes::TrimFace;
@@ -85,7 +85,7 @@ impl Shape {
     pub fn is_closed(&self) -> bool {
         match &self.body {
             ShapeBody::Box(_) => true,
-            ShapeBody::Rectangle(_) | ShapeBody::Edge(..) => false,
+            ShapeBody::Rectangle(_) | ShapeBody::Recess(_) | ShapeBody::Edge(..) => false,
             ShapeBody::Mesh(mesh) => mesh.is_closed(),
         }
     }
@@ -104,6 +104,7 @@ impl Shape {
         let size = self.scope.size;
         match &self.body {
             ShapeBody::Box(_) => 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x),
+            ShapeBody::Recess(_) => size.x * size.y + 2.0 * size.z * (size.x + size.y),
             ShapeBody::Rectangle(_) => size.x * size.y,
             ShapeBody::Edge(..) => 0.0,
             ShapeBody::Mesh(mesh) => mesh.area(),
@@ -115,13 +116,16 @@ impl Shape {
         match &self.body {
             ShapeBody::Mesh(mesh) => mesh.faces.first().map_or(DVec3::ZERO, |face| mesh.normal(face)),
             ShapeBody::Box(_) => -self.scope.axes.z_axis,
-            ShapeBody::Rectangle(_) | ShapeBody::Edge(..) => self.scope.axes.z_axis,
+            ShapeBody::Rectangle(_) | ShapeBody::Recess(_) | ShapeBody::Edge(..) => self.scope.axes.z_axis,
         }
     }
 
     /// Returns the mean of the faces' centroids (m), weighted by area; the middle of the scope if there is none.
     pub fn centroid(&self) -> DVec3 {
-        let ShapeBody::Mesh(mesh) = &self.body else { return self.scope.center() };
+        let mesh = match &self.body {
+            ShapeBody::Mesh(_) | ShapeBody::Recess(_) => self.mesh(),
+            _ => return self.scope.center(),
+        };
         let (mut sum, mut area) = (DVec3::ZERO, 0.0);
         for (center, own) in mesh.faces.iter().map(|face| mesh.centroid(face)) {
             sum += center * own;
@@ -136,6 +140,9 @@ impl Shape {
             ShapeBody::Box(styles) => {
                 styles.as_deref().map_or_else(|| vec![None; TOP + 1], |styles| styles.to_vec())
             }
+            ShapeBody::Recess(styles) => {
+                (0..RECESS_FACES.len()).map(|face| recess_style(styles, face).clone()).collect()
+            }
             ShapeBody::Rectangle(style) | ShapeBody::Edge(_, style) => vec![style.clone()],
             ShapeBody::Mesh(mesh) => mesh.faces.iter().map(|face| face.style.clone()).collect(),
         }
@@ -149,6 +156,9 @@ impl Shape {
                 let of = |face: usize| change(&styles.as_deref().and_then(|styles| styles[face].clone()));
                 let new: [SharedStyle; 6] = std::array::from_fn(of);
                 ShapeBody::Box(new.iter().any(Option::is_some).then(|| Arc::new(new)))
+            }
+            ShapeBody::Recess(styles) => {
+                ShapeBody::Recess(Arc::new([change(&styles[0]), change(&styles[1])]))
             }
             ShapeBody::Rectangle(style) => ShapeBody::Rectangle(change(style)),
             ShapeBody::Edge(kind, style) => ShapeBody::Edge(*kind, change(style)),

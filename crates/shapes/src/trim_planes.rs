@@ -6,7 +6,7 @@ use glam::{DAffine3, DVec3};
 use rustc_hash::FxHashMap;
 
 use crate::mesh::PolygonMesh;
-use crate::{CutPlane, Scope};
+use crate::{CutPlane, Scope, ShapeBody};
 
 /// Least sine of the angle between faces with a plane between them.
 const COPLANAR: f64 = 1e-6;
@@ -27,6 +27,8 @@ pub struct TrimPlane {
 pub(crate) enum TrimSource {
     /// A box.
     Box(Scope),
+    /// A recess, by the scope of its box.
+    Recess(Scope),
     /// A mesh, and the planes of each face, made by the first question.
     Mesh(Arc<PolygonMesh>, OnceLock<Vec<Vec<TrimPlane>>>),
 }
@@ -37,19 +39,21 @@ pub(crate) struct TrimFace {
     pub source: Arc<TrimSource>,
     pub face: u32,
     /// Movement since the face was taken from the solid.
-    pub moved: Option<DAffine3>,
+    pub moved: Option<Box<DAffine3>>,
 }
 
 impl TrimFace {
     /// Returns the face after another movement.
     pub(crate) fn transform(&self, frame: &DAffine3) -> Self {
-        Self { moved: Some(self.moved.map_or(*frame, |moved| *frame * moved)), ..self.clone() }
+        let moved = self.moved.as_ref().map_or(*frame, |moved| *frame * **moved);
+        Self { moved: Some(Box::new(moved)), ..self.clone() }
     }
 
     /// Returns true if both have the same planes.
     pub(crate) fn is_same(&self, other: &Self) -> bool {
         let same_source = match (&*self.source, &*other.source) {
-            (TrimSource::Box(one), TrimSource::Box(two)) => one == two,
+            (TrimSource::Box(one), TrimSource::Box(two))
+            | (TrimSource::Recess(one), TrimSource::Recess(two)) => one == two,
             (TrimSource::Mesh(one, _), TrimSource::Mesh(two, _)) => Arc::ptr_eq(one, two),
             _ => false,
         };
@@ -60,15 +64,13 @@ impl TrimFace {
     pub(crate) fn planes(&self) -> Vec<TrimPlane> {
         let number = self.face as usize;
         let own = match &*self.source {
-            TrimSource::Box(scope) => of_mesh(&crate::ShapeBody::Box(None).mesh(scope), Some(number))
-                .into_iter()
-                .next()
-                .unwrap_or_default(),
+            TrimSource::Box(scope) => of_face(&ShapeBody::Box(None), scope, number),
+            TrimSource::Recess(scope) => of_face(&ShapeBody::Recess(Arc::default()), scope, number),
             TrimSource::Mesh(mesh, planes) => {
                 planes.get_or_init(|| of_mesh(mesh, None)).get(number).cloned().unwrap_or_default()
             }
         };
-        let Some(frame) = self.moved else { return own };
+        let Some(frame) = &self.moved else { return own };
         let moved = |trim: TrimPlane| {
             let ends = trim.ends.map(|end| frame.transform_point3(end));
             // A movement can also mirror and stretch: normals go by the inverse of the transposed matrix.
@@ -81,6 +83,11 @@ impl TrimFace {
         };
         own.into_iter().filter_map(moved).collect()
     }
+}
+
+/// Returns the planes of a face of a body with this scope.
+fn of_face(body: &ShapeBody, scope: &Scope, number: usize) -> Vec<TrimPlane> {
+    of_mesh(&body.mesh(scope), Some(number)).into_iter().next().unwrap_or_default()
 }
 
 /// Returns the planes of each face of a mesh, or of one face.

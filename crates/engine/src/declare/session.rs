@@ -374,6 +374,11 @@ impl Session {
         self.source_called(file).is_some_and(|source| source.analysis.asks_place.contains(&line))
     }
 
+    /// Returns true if the functions that begin at a line of a file do nothing but divide a shape into modules.
+    pub(crate) fn only_divides(&self, file: &str, line: usize) -> bool {
+        self.source_called(file).is_some_and(|source| source.analysis.divides.contains(&line))
+    }
+
     /// Returns the numbers of the parameters after the first that the functions that begin at a line of a file read; `None` if
     /// they may read all.
     pub(crate) fn parameters_read(&self, file: &str, line: usize) -> Option<Vec<usize>> {

@@ -129,6 +129,10 @@ impl Rules for LuaRules<'_> {
     fn apply(&self, applications: &Applications<'_>, made: &mut Successors) -> Result<(), RuleFailure> {
         let lua = |error: mlua::Error| self.machine.translate(error);
         let (prelude, current) = (self.machine.prelude(), &self.machine.current);
+        let division = self.declared.divisions[usize::from(applications.rule)].as_ref();
+        if division.is_some_and(|division| division.apply(self.machine, applications.arguments, made)) {
+            return Ok(());
+        }
         self.prepare(applications)?;
         let counts = prelude.counts(applications.count * 4).map_err(lua)?;
         if made.draws > 0 {

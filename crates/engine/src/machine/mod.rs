@@ -9,6 +9,7 @@ mod blank;
 mod builtins_tests;
 mod convert;
 mod current;
+mod divisions;
 mod driver;
 mod environments;
 mod expectation;

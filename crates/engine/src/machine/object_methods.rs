@@ -1,5 +1,6 @@
 //! Methods of objects that are not the drawn one, such as environments and features.
 
+use std::cell::OnceCell;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -13,7 +14,7 @@ use super::types::ObjectHandle;
 use burgeon_base::error::Error;
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::warning::take_deferred;
-use burgeon_kit::{Call, Environment, Object, ObjectContent, Parameter, Value, Vector};
+use burgeon_kit::{Call, Environment, IntoParts, Object, ObjectContent, Parameter, PartMaker, Value, Vector};
 
 /// Number of entries from which the conversion of a result pauses garbage collection.
 const LONG: usize = 256;
@@ -64,7 +65,10 @@ pub(super) fn add_object_methods(
             let (library, state) = (Rc::clone(&owner), Rc::clone(&state));
             let method = ObjectMethod { number: usize::MAX, name, state, library };
             let given = values(lua, arguments.iter())?;
-            lua.create_function(move |lua, object: LuaValue| method.store_parts(lua, &object, &given))
+            let division = OnceCell::new();
+            lua.create_function(move |lua, object: LuaValue| {
+                method.store_parts(lua, &object, &given, &division)
+            })
         })?,
     )?;
     host.set("vector_class", lua.create_function(|lua, ()| Ok(metatable_of(lua, "vec")))?)
@@ -103,23 +107,57 @@ impl ObjectMethod {
         made
     }
 
-    /// Calls the method with `arguments`, and stores the objects that it returns as parameters of modules. Returns a buffer with
-    /// the handle and the number of the entry of each (4 bytes).
-    fn store_parts(&self, lua: &Lua, object: &LuaValue, arguments: &[Value]) -> mlua::Result<mlua::Buffer> {
-        let answer = self.answer(object, None, || Ok(arguments.to_vec()))?;
-        let objects: Vec<Arc<dyn Object>> = match answer {
-            Value::Table(table) => table.list().into_iter().filter_map(object_of).collect(),
-            _ => Vec::new(),
+    /// Divides an object, and stores the parts as parameters of modules. Returns a buffer with the handle and the number of the
+    /// entry of each (4 bytes).
+    fn store_parts(
+        &self,
+        lua: &Lua,
+        object: &LuaValue,
+        arguments: &[Value],
+        division: &OnceCell<Option<PartMaker>>,
+    ) -> mlua::Result<mlua::Buffer> {
+        let parts = match self.prepared_division(object, arguments, division)? {
+            Some((object, division)) => {
+                take_deferred();
+                let parts = division(&*object).map_err(mlua::Error::external)?;
+                self.report_deferred()?;
+                parts
+            }
+            // Arguments that cannot be prepared are refused, with the reason.
+            None => {
+                self.answer(object, None, || Ok(arguments.to_vec()))?;
+                Vec::new()
+            }
         };
-        let entry = |part: &Arc<dyn Object>| {
-            part.capability::<dyn ObjectContent>().map_or(0, |content| content.entry())
-        };
-        let entries: Vec<u32> = objects.iter().map(entry).collect();
+        let (entries, objects): (Vec<u32>, Vec<Arc<dyn Object>>) = parts.into_iter().unzip();
         let handles = self.state.session.values.store_objects(objects);
         let words = handles.into_iter().zip(entries);
         let bytes: Vec<u8> =
             words.flat_map(|(handle, entry)| [handle, entry]).flat_map(u32::to_le_bytes).collect();
         lua.create_buffer(bytes)
+    }
+
+    /// Returns the object with its division by the method; `None` if it has none for these arguments.
+    fn prepared_division<'a>(
+        &self,
+        object: &LuaValue,
+        arguments: &[Value],
+        division: &'a OnceCell<Option<PartMaker>>,
+    ) -> mlua::Result<Option<(Arc<dyn Object>, &'a PartMaker)>> {
+        let LuaValue::UserData(data) = object else { return Ok(None) };
+        let object = Arc::clone(&data.borrow::<ObjectHandle>()?.0);
+        let Some(divide) = object.capability::<dyn IntoParts>() else { return Ok(None) };
+        let (_, own_name) = self.name.split_once(':').unwrap_or(("", &self.name));
+        let prepared = division.get_or_init(|| divide.prepare_parts(own_name, arguments));
+        Ok(prepared.as_ref().map(|division| (Arc::clone(&object), division)))
+    }
+
+    /// Reports the warnings of the call that has just ended.
+    fn report_deferred(&self) -> mlua::Result<()> {
+        for warning in take_deferred() {
+            self.library.machine().map_err(mlua::Error::external)?.warn_of_values(warning);
+        }
+        Ok(())
     }
 
     /// Returns what the method answers.
@@ -157,9 +195,7 @@ impl ObjectMethod {
                     None => read(&*handle.0, &given),
                 };
                 let answer = answer.map_err(mlua::Error::external)?;
-                for warning in take_deferred() {
-                    self.library.machine().map_err(mlua::Error::external)?.warn_of_values(warning);
-                }
+                self.report_deferred()?;
                 let place = guard.and_then(|guard| self.state.noted_place(guard));
                 if let Some(place) = place.filter(|_| kind.has_capability::<dyn ObjectContent>()) {
                     let given: Vec<String> = given.iter().map(Value::to_string).collect();
@@ -182,13 +218,6 @@ impl ObjectMethod {
                 self.name
             )))),
         }
-    }
-}
-
-fn object_of(value: &Value) -> Option<Arc<dyn Object>> {
-    match value {
-        Value::Object(object) => Some(Arc::clone(object)),
-        _ => None,
     }
 }
 

@@ -55,6 +55,9 @@ pub(crate) struct Prelude {
     pub guard_driver: Function,
     /// `(propensity, arity, places)`: returns the function that evaluates the propensity of a rule for a batch.
     pub propensity_driver: Function,
+    /// `(rule, arity)`: returns what a rule divides, how, and the modules of the parts; nil unless that is known before it is
+    /// applied.
+    pub division: Function,
     /// `(rule, guard, arity, places)`: returns a function for [`dependents`](Self::dependents) that applies the rule to arguments
     /// at an offset, if its guard holds.
     pub applier: Function,
@@ -168,6 +171,7 @@ impl Prelude {
             driver: table.get("driver")?,
             guard_driver: table.get("guard_driver")?,
             propensity_driver: table.get("propensity_driver")?,
+            division: table.get("division")?,
             applier: table.get("applier")?,
             dependents: table.get("dependents")?,
             interpretations: table.get("interpretations")?,

@@ -171,9 +171,14 @@ pub trait ObjectContent {
 
     /// Returns the parts that `fragment` replaces a module by; `None` if the object has no parts.
     fn fragments(&self) -> Option<Vec<Value>>;
-
-    /// Returns the number of the entry, such as the size of a split, that made this part; 0 for other objects.
-    fn entry(&self) -> u32 {
-        0
-    }
 }
+
+/// Capability to be divided into parts, which become modules without a value of Lua for each part.
+pub trait IntoParts {
+    /// Prepares a method with these arguments, all of whose results are parts; `None` for other methods, and for arguments that
+    /// the method refuses.
+    fn prepare_parts(&self, method: &str, arguments: &[Value]) -> Option<PartMaker>;
+}
+
+/// Function that divides an object into parts, each with the number of the entry, such as the size of a split, that made it, from 0.
+pub type PartMaker = Arc<dyn Fn(&dyn Object) -> Result<Vec<(u32, Arc<dyn Object>)>> + Send + Sync>;

@@ -136,6 +136,34 @@ impl Drawing {
         self.materials.len() - 1
     }
 
+    /// Returns the index of the part with this material in another colour, and adds the part if it is missing.
+    pub fn material_in_color(&mut self, material: &Material, color: [f32; 4]) -> usize {
+        let is_wanted = |known: &Material| {
+            let Material {
+                name,
+                base_color,
+                metallic,
+                roughness,
+                emissive,
+                texture,
+                normal_map,
+                double_sided,
+            } = known;
+            *base_color == color
+                && *metallic == material.metallic
+                && *roughness == material.roughness
+                && *emissive == material.emissive
+                && *double_sided == material.double_sided
+                && *name == material.name
+                && *texture == material.texture
+                && *normal_map == material.normal_map
+        };
+        match self.materials.iter().position(is_wanted) {
+            Some(index) => index,
+            None => self.material(&Material { base_color: color, ..material.clone() }),
+        }
+    }
+
     /// Returns the material of the part at `index`; the default material if there is no such part.
     pub fn material_of(&self, index: usize) -> Material {
         self.materials.get(index).cloned().unwrap_or_default()

@@ -23,8 +23,8 @@ mod vector;
 
 pub use argument::Argument;
 pub use capability::{
-    Capabilities, Capability, Draw, Expand, Gather, HasLayers, LevelOfDetail, ObjectContent, Report, Show,
-    Warn,
+    Capabilities, Capability, Draw, Expand, Gather, HasLayers, IntoParts, LevelOfDetail, ObjectContent,
+    PartMaker, Report, Show, Warn,
 };
 pub use constructor::Constructor;
 pub use control_points::{ControlPoints, HasControlPoints, PointRows, PointSpace};

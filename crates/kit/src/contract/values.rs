@@ -97,6 +97,19 @@ impl Values {
         }
     }
 
+    /// Returns the objects that numbers of a column represent; `None` if one represents another value.
+    pub fn objects(&self, column: impl IntoIterator<Item = f64>) -> Option<Vec<Arc<dyn Object>>> {
+        let slots = self.read();
+        let object = |stored| match ColumnValue::unpack(stored) {
+            ColumnValue::Handle(handle) => match slots.list.get(handle as usize)?.as_ref()? {
+                Value::Object(object) => Some(Arc::clone(object)),
+                _ => None,
+            },
+            _ => None,
+        };
+        column.into_iter().map(object).collect()
+    }
+
     /// Returns the value with this handle, unless it was dropped.
     pub fn get(&self, handle: u32) -> Option<Value> {
         self.read().list.get(handle as usize).cloned().flatten()

@@ -11,6 +11,7 @@
 
 mod blocks;
 mod calls;
+mod division;
 mod doubtful;
 mod endings;
 mod expressions;

@@ -11,6 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::Ordering;
 
 use super::blocks::ScopeWalk;
+use super::division::only_divides;
 use super::syntax::{end_of, first_position, is_function_option, is_open, string_of, text_of};
 use super::walk::{Fact, Function, FunctionRole, Variable, Walk};
 use crate::CallForm;
@@ -170,6 +171,8 @@ impl Walk<'_> {
             *self.pure.entry(begin.line()).or_insert(true) &= function.pure;
             *self.blind.entry(begin.line()).or_insert(true) &= !function.asks;
             *self.asks_place.entry(begin.line()).or_insert(true) &= !function.asks_more;
+            let divides = !function.asks && only_divides(body).is_some_and(|name| self.find(name).is_none());
+            *self.divides.entry(begin.line()).or_insert(true) &= divides;
             let reads = self.reads.entry(begin.line()).or_insert_with(|| Some(BTreeSet::new()));
             match (function.is_variadic, reads.as_mut()) {
                 (false, Some(reads)) => reads.extend(&function.reads),

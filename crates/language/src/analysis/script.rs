@@ -41,6 +41,8 @@ pub struct Analysis {
     pub blind: Vec<usize>,
     /// Lines on which functions begin that read their first parameter only to ask for its place.
     pub asks_place: Vec<usize>,
+    /// Lines on which functions begin that do nothing but divide a shape into modules, by `split` or `components`.
+    pub divides: Vec<usize>,
     /// Numbers of the parameters that the functions that begin on a line read, by the line. Lines with a variadic function are
     /// omitted.
     pub reads: BTreeMap<usize, BTreeSet<usize>>,
@@ -192,6 +194,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         pure,
         mut blind,
         mut asks_place,
+        mut divides,
         mut reads,
         guards,
         filled,
@@ -207,9 +210,11 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
     if begins.iter().any(is_apart) {
         blind.clear();
         asks_place.clear();
+        divides.clear();
         reads.clear();
     }
     let asks_place = asks_place.into_iter().filter_map(|(line, place)| place.then_some(line)).collect();
+    let divides = divides.into_iter().filter_map(|(line, divides)| divides.then_some(line)).collect();
     let reads = reads.into_iter().filter_map(|(line, reads)| Some((line, reads?))).collect();
     let pure = pure.into_iter().filter_map(|(line, pure)| pure.then_some(line)).collect();
     let blind = blind.into_iter().filter_map(|(line, blind)| blind.then_some(line)).collect();
@@ -244,6 +249,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
         pure,
         blind,
         asks_place,
+        divides,
         reads,
         guards,
         filled,

@@ -145,6 +145,8 @@ pub(super) struct Walk<'a> {
     pub(super) blind: BTreeMap<usize, bool>,
     /// Entry by line: true if the functions that begin on the line read their first parameters for a place only.
     pub(super) asks_place: BTreeMap<usize, bool>,
+    /// Entry by line: true if the functions that begin on the line only divide a shape into modules.
+    pub(super) divides: BTreeMap<usize, bool>,
     /// Numbers of the parameters that the functions that begin on a line read, by line; `None` if one is variadic.
     pub(super) reads: BTreeMap<usize, Option<BTreeSet<usize>>>,
     /// Text of the guard that begins on a line, by line; `None` if guards on the line differ.
@@ -207,6 +209,7 @@ impl<'a> Walk<'a> {
             pure: BTreeMap::new(),
             blind: BTreeMap::new(),
             asks_place: BTreeMap::new(),
+            divides: BTreeMap::new(),
             reads: BTreeMap::new(),
             guards: BTreeMap::new(),
             filled: BTreeMap::new(),

@@ -50,27 +50,40 @@ impl ShapeObject {
             }
         }
     }
+}
 
-    /// Returns the components of a kind that a selector matches, with the number of the first that does.
-    pub(super) fn select_components(&self, kind: &str, selectors: &[String]) -> Result<Vec<Arc<Self>>> {
-        let mut components = match kind {
-            "faces" => self.faces(None)?,
-            "edges" => self.edges(None)?,
-            "holes" => self.holes(),
-            "pieces" => self.pieces()?,
+/// Choice of components of a kind by selectors.
+pub(super) struct ComponentChoice {
+    components: ComponentsOf,
+    selectors: Vec<ComponentSelector>,
+}
+
+/// Components of a kind of a shape.
+type ComponentsOf = fn(&ShapeObject) -> Result<Vec<Arc<ShapeObject>>>;
+
+impl ComponentChoice {
+    /// Reads the kind of the components and the names of the selectors.
+    pub(super) fn read(kind: &str, selectors: &[String]) -> Result<Self> {
+        let components: ComponentsOf = match kind {
+            "faces" => |shape| shape.faces(None),
+            "edges" => |shape| shape.edges(None),
+            "holes" => |shape| Ok(shape.holes()),
+            "pieces" => |shape| shape.pieces(),
             other => {
                 return Err(Error::argument(format!("shape:components: unknown kind {other:?}"))
                     .help("use \"faces\", \"edges\", \"holes\" or \"pieces\""));
             }
         };
         let read = |name: &String| ComponentSelector::read(name, kind == "edges");
-        let selectors: Vec<ComponentSelector> = selectors
-            .iter()
-            .map(read)
-            .collect::<Result<_>>()
-            .map_err(|error| error.about("shape:components"))?;
+        let selectors = selectors.iter().map(read).collect::<Result<_>>();
+        Ok(Self { components, selectors: selectors.map_err(|error| error.about("shape:components"))? })
+    }
+
+    /// Returns the components of a shape that a selector matches, with the number of the first that does.
+    pub(super) fn of(&self, shape: &ShapeObject) -> Result<Vec<Arc<ShapeObject>>> {
+        let mut components = (self.components)(shape)?;
         components.retain_mut(|component| {
-            let found = selectors.iter().position(|selector| component.is_selected(selector));
+            let found = self.selectors.iter().position(|selector| component.is_selected(selector));
             if let (Some(number), Some(component)) = (found, Arc::get_mut(component)) {
                 component.place.entry = u32::try_from(number).unwrap_or(u32::MAX);
             }

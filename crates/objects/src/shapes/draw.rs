@@ -121,7 +121,7 @@ impl StyledParts<'_> {
         let index = match self.last {
             Some((last, index)) if last == look => index,
             _ => match color {
-                Some(color) => drawing.material(&Material { base_color: color, ..material.clone() }),
+                Some(color) => drawing.material_in_color(material, color),
                 None => drawing.material(material),
             },
         };

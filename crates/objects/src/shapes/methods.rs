@@ -9,7 +9,8 @@ use burgeon_shapes::{CutPlane, EdgeKind, FaceStyle, Selector, Shape, ShapeBody, 
 use burgeon_spatial::Geometry;
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
-use super::component_selector::ComponentSelector;
+use super::component_selector::{ComponentChoice, ComponentSelector};
+use super::division::SplitDirection;
 use super::edge_distances::{EdgeDistances, EnvelopeLimits};
 use super::holes::HoleArgument;
 use super::object::{ShapeObject, warn};
@@ -17,7 +18,7 @@ use super::options::ScatterOptions;
 use super::part_sizes::SplitSizes;
 use super::relations::ShapeOrPlace;
 use super::roofing::ShapeRoofOptions;
-use super::support::{image_axis, read_selector, split_axis, unit, warn_of_split};
+use super::support::{read_selector, split_axis, unit, warn_of_split};
 use super::sweep_path::{SweepPathOptions, SweepPoints};
 use super::tiles::{ProjectOptions, TileLength};
 use super::trimming::TrimOptions;
@@ -224,13 +225,7 @@ impl ShapeObject {
     /// for as many as fit, and a list of sizes for a repeated group. A solid's parts are solids. Along "u" and "v", the
     /// directions of an image from `project`, sizes are in tiles: 0.25 cuts an image of four windows between them.
     pub fn split(&self, axis: String, sizes: SplitSizes) -> Result<Vec<Arc<Self>>> {
-        let (split, unit) = match image_axis(&axis) {
-            Some(axis) => (self.shape.split_image(axis, &sizes.0), "tiles"),
-            None => (self.shape.split(split_axis("split", &axis)?, &sizes.0), "m"),
-        };
-        let split = split.map_err(|error| error.about("shape:split"))?;
-        warn_of_split("split", unit, &split);
-        Ok(self.number_parts(split.parts))
+        self.divide_along(SplitDirection::read(&axis)?, &sizes)
     }
 
     /// Returns the parts of a face along an axis of the scope by area: sizes as of `split`, in m².
@@ -307,7 +302,7 @@ impl ShapeObject {
     /// Returns the "faces", "edges", "holes" or "pieces" that one of `selectors` matches; the method `entry` gives the number of
     /// the first that does. The selector "all" matches all.
     pub fn components(&self, kind: String, selectors: Vec<String>) -> Result<Vec<Arc<Self>>> {
-        self.select_components(&kind, &selectors)
+        ComponentChoice::read(&kind, &selectors)?.of(self)
     }
 
     /// Returns the holes of the faces, filled.

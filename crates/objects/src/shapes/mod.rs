@@ -2,6 +2,7 @@
 
 mod component_selector;
 mod construct;
+mod division;
 mod draw;
 mod edge_distances;
 mod font;

@@ -6,7 +6,9 @@ use std::sync::Arc;
 use burgeon_base::error::Result;
 use burgeon_base::warning::{Warning, WarningKind, defer_warning};
 use burgeon_kit::declare::as_ref;
-use burgeon_kit::{Answer, Object, ObjectContent, ObjectParameter, Table, TableKey, Value, object};
+use burgeon_kit::{
+    Answer, IntoParts, Object, ObjectContent, ObjectParameter, Table, TableKey, Value, object,
+};
 use burgeon_shapes::{Shape, ShapeBody};
 use glam::DVec3;
 
@@ -15,7 +17,7 @@ use super::construct::constructors;
 /// A solid, faces or an edge with a scope, an oriented box, which rules divide into parts.
 ///
 /// It never changes. Its methods return new shapes, and modules carry them. The module Draw draws one.
-#[object("shape", given, can(ObjectContent), functions = constructors(), example = include_str!("../../scripts/shape.lua"))]
+#[object("shape", given, can(ObjectContent, IntoParts), functions = constructors(), example = include_str!("../../scripts/shape.lua"))]
 pub struct ShapeObject {
     pub(super) shape: Shape,
     /// Named values that parts inherit.
@@ -107,6 +109,7 @@ impl ObjectContent for ShapeObject {
             && self.shape.has_trim_of(&other.shape)
             && match (&self.shape.body, &other.shape.body) {
                 (ShapeBody::Box(a), ShapeBody::Box(b)) => a == b,
+                (ShapeBody::Recess(a), ShapeBody::Recess(b)) => a == b,
                 (ShapeBody::Rectangle(a), ShapeBody::Rectangle(b)) => a == b,
                 (ShapeBody::Edge(kind, a), ShapeBody::Edge(other, b)) => kind == other && a == b,
                 (ShapeBody::Mesh(a), ShapeBody::Mesh(b)) => Arc::ptr_eq(a, b),
@@ -130,6 +133,7 @@ impl ObjectContent for ShapeObject {
         let [x, y, z] = size.to_array().map(round);
         match &self.shape.body {
             ShapeBody::Box(_) => format!("box of {x} x {y} x {z} m"),
+            ShapeBody::Recess(_) => format!("recess of {x} x {y} x {z} m"),
             ShapeBody::Rectangle(_) => format!("rectangle of {x} x {y} m"),
             ShapeBody::Edge(kind, _) => format!("{} of {x} m", kind.name()),
             ShapeBody::Mesh(mesh) => {
@@ -150,10 +154,6 @@ impl ObjectContent for ShapeObject {
 
     fn fragments(&self) -> Option<Vec<Value>> {
         None
-    }
-
-    fn entry(&self) -> u32 {
-        self.place.entry
     }
 }
 

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use burgeon_base::{MemoryOwner, error::Result};
 use glam::DVec3;
 
-use crate::body::BOX_FACES;
 use crate::mesh::PolygonMesh;
 use crate::{Scope, Selector, Shape, ShapeBody};
 
@@ -31,16 +30,17 @@ impl Shape {
             ShapeBody::Rectangle(style) => {
                 Ok(if selector.matches(axes.z_axis, style, axes) { vec![self.clone()] } else { Vec::new() })
             }
-            ShapeBody::Box(styles) => {
-                let corners = self.scope.corners();
+            ShapeBody::Box(_) | ShapeBody::Recess(_) => {
                 let normals =
                     [-axes.z_axis, -axes.y_axis, axes.x_axis, axes.y_axis, -axes.x_axis, axes.z_axis];
-                let mut faces = Vec::new();
-                for (number, (ring, normal)) in BOX_FACES.iter().zip(normals).enumerate() {
-                    let style = styles.as_deref().and_then(|styles| styles[number].clone());
+                let outwards = if matches!(self.body, ShapeBody::Box(_)) { 1.0 } else { -1.0 };
+                let quads = self.body.quads(&self.scope).into_iter().flatten();
+                let mut faces = Vec::with_capacity(normals.len());
+                for (number, ((corners, style), normal)) in quads.zip(normals).enumerate() {
+                    let (style, normal) = (style.clone(), normal * outwards);
                     if selector.matches(normal, &style, axes) {
                         let own = Scope::face_axes(normal, *axes);
-                        let mut scope = Scope::around(own, ring.map(|corner| corners[corner as usize]));
+                        let mut scope = Scope::around(own, corners);
                         scope.size.z = 0.0;
                         // A box that leans is not made of rectangles along these axes.
                         let is_upright = (scope.size.x * scope.size.y - face_area(self.scope.size, number))

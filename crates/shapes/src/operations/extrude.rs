@@ -5,7 +5,6 @@ use std::sync::Arc;
 use burgeon_base::error::{Error, Result};
 use glam::DVec3;
 
-use crate::body::{BOX_FACES, TOP};
 use crate::mesh::{EdgeSums, PolygonFace, PolygonMesh};
 use crate::style::{FaceStyle, SharedStyle};
 use crate::{Scope, Shape, ShapeBody};
@@ -109,7 +108,7 @@ impl Shape {
             );
         }
         if let ShapeBody::Rectangle(style) = &self.body {
-            return Ok(Self::of_mesh(self.rectangle_recess(style, depth), self.scope.axes));
+            return Ok(self.rectangle_recess(style, depth));
         }
         let solid = self.extrude(-depth, None)?;
         let mesh = solid.mesh();
@@ -122,17 +121,13 @@ impl Shape {
         }))
     }
 
-    /// Returns the back and the sides of a recess behind a rectangle: the most frequent recess, that of a window.
-    fn rectangle_recess(&self, style: &SharedStyle, depth: f64) -> PolygonMesh {
-        let Scope { axes, size, .. } = self.scope;
-        let whole = Scope { origin: self.scope.origin - axes.z_axis * depth, axes, size: size.with_z(depth) };
+    /// Returns the recess behind a rectangle: the most frequent recess, that of a window.
+    fn rectangle_recess(&self, style: &SharedStyle, depth: f64) -> Self {
+        let Scope { origin, axes, size } = self.scope;
         let own = FaceStyle::without_tags(style, "extrude");
-        let [back, side] = ["recess.back", "recess.side"].map(|tag| FaceStyle::with_automatic_tag(&own, tag));
-        // The faces of the box except its top, turned inwards.
-        let faces = BOX_FACES[..TOP].iter().enumerate().map(|(number, &[a, b, c, d])| {
-            PolygonFace::of(&[d, c, b, a], if number == 0 { &back } else { &side })
-        });
-        PolygonMesh::new(whole.corners().to_vec(), faces.collect())
+        let styles = ["recess.back", "recess.side"].map(|tag| FaceStyle::with_automatic_tag(&own, tag));
+        let scope = Scope { origin: origin - axes.z_axis * depth, axes, size: size.with_z(depth) };
+        Self::new(scope, ShapeBody::Recess(Arc::new(styles)))
     }
 
     /// Fails unless the shape has faces and is open.

@@ -23,6 +23,7 @@ impl Shape {
         let has_map = |style: &SharedStyle| style.as_deref().is_some_and(|own| own.uv.is_some());
         let any = match &self.body {
             ShapeBody::Box(styles) => styles.as_deref().is_some_and(|styles| styles.iter().any(has_map)),
+            ShapeBody::Recess(styles) => styles.iter().any(has_map),
             ShapeBody::Rectangle(style) | ShapeBody::Edge(_, style) => has_map(style),
             ShapeBody::Mesh(mesh) => mesh.faces.iter().any(|face| has_map(&face.style)),
         };

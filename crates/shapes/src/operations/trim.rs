@@ -64,6 +64,7 @@ impl Shape {
     pub(crate) fn trim_source(&self) -> Option<Arc<TrimSource>> {
         match &self.body {
             ShapeBody::Box(_) => Some(Arc::new(TrimSource::Box(self.scope))),
+            ShapeBody::Recess(_) => Some(Arc::new(TrimSource::Recess(self.scope))),
             ShapeBody::Mesh(mesh) if mesh.faces.len() > 1 => {
                 Some(Arc::new(TrimSource::Mesh(Arc::clone(mesh), OnceLock::new())))
             }

@@ -7,6 +7,7 @@ use super::DeclaredInterpretation;
 use super::dependents::DependentFunctions;
 use super::hooks::DeclaredHook;
 use crate::machine::Machine;
+use crate::machine::divisions::DivisionRule;
 use crate::machine::freeze::{ReachableFunction, TableFreeze, freeze};
 use crate::machine::library::Library;
 use crate::machine::row_tables::argument_places;
@@ -133,6 +134,8 @@ pub(crate) struct DeclaredRule {
     pub(crate) guard_text: Option<String>,
     pub(crate) successor: Function,
     pub(crate) receiver_use: ReceiverUse,
+    /// Set if the successor does nothing but divide a shape.
+    pub(crate) divides: bool,
     /// Parameters that the successor and the guard read, by number; `None` for a function that may read all.
     pub(crate) reads: [Option<Vec<usize>>; 2],
 }
@@ -154,6 +157,7 @@ impl DeclaredRule {
 #[derive(Default)]
 struct BatchFunctions {
     drivers: Vec<Function>,
+    divisions: Vec<Option<DivisionRule>>,
     guards: Vec<Option<Function>>,
     propensities: Vec<Option<Function>>,
     appliers: Vec<Function>,
@@ -163,6 +167,8 @@ struct BatchFunctions {
 pub(crate) struct SystemFunctions {
     /// Function that applies each rule to a batch.
     pub drivers: Vec<Function>,
+    /// Rules that only divide a shape.
+    pub divisions: Vec<Option<DivisionRule>>,
     /// Function that evaluates the guard of each rule for a batch.
     pub guards: Vec<Option<Function>>,
     /// Function that evaluates the propensity of each rule for a batch.
@@ -314,11 +320,11 @@ impl SystemDeclaration {
     /// Prepares `machine` for deriving this system: creates the drivers and freezes reachable tables.
     pub(crate) fn prepare(&self, machine: &Machine) -> Result<SystemFunctions> {
         let mut reached = Vec::new();
-        let BatchFunctions { drivers, guards, propensities, appliers } =
+        let BatchFunctions { drivers, divisions, guards, propensities, appliers } =
             self.prepare_functions(machine, &mut reached).map_err(|error| machine.translate(error))?;
         let frozen = freeze(machine.lua(), &machine.library.stateless.borrow(), reached)?;
         let dependents = DependentFunctions::new(appliers);
-        Ok(SystemFunctions { drivers, guards, propensities, dependents, _frozen: frozen })
+        Ok(SystemFunctions { drivers, divisions, guards, propensities, dependents, _frozen: frozen })
     }
 
     /// Switches `machine` to this system: sets `this` and the interpretation rules.
@@ -366,6 +372,12 @@ impl SystemDeclaration {
                 &places,
                 successor_reads.as_deref(),
             ))?);
+            // Hooks can change what a rule reads, and so can other rules by variables.
+            let divides = declared.divides && self.hooks.is_empty() && self.variables.is_none();
+            made.divisions.push(match divides {
+                true => DivisionRule::read(machine, &declared.successor, arity)?,
+                false => None,
+            });
             let rule = &declared.rule;
             let reach = |function: &Function| {
                 ReachableFunction::of_rule(function, &*rule.pattern.text, rule.place.as_ref())

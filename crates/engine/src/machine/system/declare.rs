@@ -125,6 +125,7 @@ impl SystemDeclaration {
         let place = Machine::place(lua);
         let machine = library.machine()?;
         let session = &machine.session;
+        let mut divides = false;
         let (successor, mut receiver_use, successor_reads) = match arguments.pop() {
             Some(LuaValue::Function(function)) => {
                 check_parameters(&function, &pattern, "the successor").map_err(named)?;
@@ -136,6 +137,7 @@ impl SystemDeclaration {
                     machine.warn(returns_branch().at(Some(SourcePlace { file, line })).rule(&name));
                 }
                 let reads = parameters_read(session, &function);
+                divides = begin_of(&function).is_some_and(|(file, line)| session.only_divides(&file, line));
                 (function, receiver_use, reads)
             }
             Some(LuaValue::String(body)) => {
@@ -184,6 +186,7 @@ impl SystemDeclaration {
             guard_text,
             successor,
             receiver_use,
+            divides,
             reads,
         });
         Ok(())
