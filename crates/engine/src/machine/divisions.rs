@@ -132,6 +132,9 @@ impl DivisionRule {
                 }
                 parts.push(part);
             }
+            if made.symbols.len() > session.options.limits.modules {
+                return None;
+            }
             made.ends.push(u32::try_from(made.symbols.len()).ok()?);
         }
         // A warning needs the line of the rule.
