@@ -5,6 +5,7 @@ use glam::{DVec2, DVec3};
 use super::cells::{CellSide, RoofCell, RoofCellMap, Zone};
 use super::heights::HeightField;
 use crate::planar::{Ring, triangulate};
+use crate::roof::fill::FilledPolygon;
 use crate::roof::outset::Outset;
 use crate::roof::{Patch, PatchKind, RoofCover, RoofShape, STEEPEST_EAVES, Support};
 use burgeon_base::error::Result;
@@ -13,6 +14,8 @@ use burgeon_base::error::Result;
 const LEVEL: f64 = 2e-3;
 /// Distance (m) of a corner from the plane of its cell from which the cell is divided into triangles.
 const BENT: f64 = 0.02;
+/// Distance (m) of a corner from the plane of its cell that is a rounding error.
+const FLAT: f64 = 1e-6;
 /// Minimum height (m) over the walls between their corners, so that upright faces begin at the corners.
 const LEAST: f64 = 0.01;
 
@@ -162,7 +165,7 @@ impl<'a> RaisedCells<'a> {
                 Ring::without_repeats(if is_top { corners.collect() } else { corners.rev().collect() })
             };
             let kind = if is_top { PatchKind::Slope } else { PatchKind::Underside };
-            if let Some(triangles) = self.bent(cell) {
+            if let Some(triangles) = self.bent(cell, raised) {
                 patches.extend(triangles.into_iter().filter_map(|triangle| {
                     Some(Patch { kind, edge: 0, flap: 0, along, rings: vec![raised(&triangle.to_vec())?] })
                 }));
@@ -176,15 +179,29 @@ impl<'a> RaisedCells<'a> {
         patches
     }
 
-    /// Returns the triangles of a cell whose corners are not in its plane, as where steep eaves end above their slope.
-    fn bent(&self, cell: &RoofCell) -> Option<Vec<[u32; 3]>> {
+    /// Returns the triangles of a cell whose corners are not in its plane, as where steep eaves end above their slope. A small
+    /// difference counts if `raised`, the rings at their heights, overlap seen along their normal, as where a short edge is
+    /// steeper than the slope.
+    fn bent(
+        &self,
+        cell: &RoofCell,
+        raised: impl Fn(&Vec<u32>) -> Option<Ring<DVec3>>,
+    ) -> Option<Vec<[u32; 3]>> {
         let nodes: Vec<u32> = cell.rings.iter().flatten().copied().collect();
         let plane = &self.field.planes[cell.side.plane];
         let off = |node: &u32| {
             (self.height(*node, cell.side.plane) - plane.height_at(self.map.places[*node as usize])).abs()
         };
-        if nodes.len() == 3 || !nodes.iter().any(|node| off(node) > BENT) {
+        let most = nodes.iter().map(off).fold(0.0, f64::max);
+        if nodes.len() == 3 || most <= FLAT {
             return None;
+        }
+        if most <= BENT {
+            let rings: Vec<Ring<DVec3>> = cell.rings.iter().filter_map(raised).collect();
+            let flat = FilledPolygon::new(&rings, DVec3::X, *rings.first()?.first()?);
+            if flat.is_ok_and(|flat| flat.triangles.iter().all(|corners| flat.width(*corners) > 0.0)) {
+                return None;
+            }
         }
         let ring = |ring: &Vec<u32>| -> Vec<DVec2> {
             ring.iter().map(|node| self.map.places[*node as usize]).collect()
