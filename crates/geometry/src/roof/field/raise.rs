@@ -2,13 +2,15 @@
 
 use glam::{DVec2, DVec3};
 
-use super::cells::{CellSide, RoofCell, RoofCellMap, Zone};
+use super::cells::{CellEdge, CellSide, RoofCell, RoofCellMap, Zone};
 use super::heights::HeightField;
 use crate::planar::{Ring, triangulate};
 use crate::roof::fill::FilledPolygon;
 use crate::roof::outset::Outset;
 use crate::roof::{Patch, PatchKind, RoofCover, RoofShape, STEEPEST_EAVES, Support};
+use burgeon_base::Stop;
 use burgeon_base::error::Result;
+use rustc_hash::FxHashMap;
 
 /// Difference (m) below which heights at one place are equal.
 const LEVEL: f64 = 2e-3;
@@ -32,7 +34,7 @@ pub(in crate::roof) fn cover(
     let map = RoofCellMap::new(support.walls, &outset.polygon, field, is_steep && outset.most() > 0.0)?;
     let raised = RaisedCells::new(&map, field, support, shape.slab, outset.most());
     let mut patches = raised.slopes();
-    raised.add_walls(&mut patches);
+    raised.add_walls(&mut patches)?;
     raised.add_steps(&mut patches);
     Ok(RoofCover { patches, overhangs: outset.distances, tight, ..RoofCover::default() })
 }
@@ -211,15 +213,20 @@ impl<'a> RaisedCells<'a> {
     }
 
     /// Adds the upright faces from the walls to the roof.
-    fn add_walls(&self, patches: &mut Vec<Patch>) {
+    fn add_walls(&self, patches: &mut Vec<Patch>) -> Result<()> {
+        let mut by_ends: FxHashMap<[u32; 2], usize> = FxHashMap::default();
+        for (number, CellEdge { ends: [a, b], .. }) in self.map.edges.iter().enumerate() {
+            by_ends.entry([*a.min(b), *a.max(b)]).or_insert(number);
+        }
         for (edge, nodes) in self.map.walls.iter().enumerate() {
+            Stop::check_current()?;
             let (Some(&first), Some(&last)) = (nodes.first(), nodes.last()) else { continue };
             let along =
                 (self.map.places[last as usize] - self.map.places[first as usize]).normalize_or_zero();
             let mut corners = vec![self.place(first, self.base), self.place(last, self.base)];
             let mut height = (last, self.base);
             for pair in nodes.windows(2).rev() {
-                let Some(side) = self.wall_side(pair) else { continue };
+                let Some(side) = self.wall_side(pair, &by_ends) else { continue };
                 for node in [pair[1], pair[0]] {
                     let next = self.bottom(node, side);
                     if height.0 == node {
@@ -232,15 +239,13 @@ impl<'a> RaisedCells<'a> {
             corners.extend(self.between(first, height.1, self.base));
             patches.extend(Patch::new(PatchKind::Gable, edge, 0, along, corners));
         }
+        Ok(())
     }
 
     /// Returns the side on which the roof rests on a part of a wall: outside if it has an overhang there.
-    fn wall_side(&self, pair: &[u32]) -> Option<CellSide> {
-        let edge = self
-            .map
-            .edges
-            .iter()
-            .find(|edge| edge.ends == [pair[0], pair[1]] || edge.ends == [pair[1], pair[0]])?;
+    fn wall_side(&self, pair: &[u32], by_ends: &FxHashMap<[u32; 2], usize>) -> Option<CellSide> {
+        let number = by_ends.get(&[pair[0].min(pair[1]), pair[0].max(pair[1])])?;
+        let edge = &self.map.edges[*number];
         let outside = edge.sides.iter().find(|side| side.zone == Zone::Eaves);
         outside.or_else(|| edge.sides.iter().find(|side| side.zone == Zone::Inside)).copied()
     }
