@@ -22,6 +22,7 @@ impl Shape {
         let mesh = self.mesh();
         let (mut sums, mut corners, mut total) = (Vec::new(), Vec::new(), 0.0);
         for face in &mesh.faces {
+            Stop::check_current()?;
             let normal = mesh.normal(face);
             for triangle in mesh.triangles(face)? {
                 let [a, b, c] = triangle.map(|point| mesh.at(point));

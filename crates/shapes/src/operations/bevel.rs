@@ -31,6 +31,7 @@ impl Shape {
             self.faces(&Selector::All)?.iter().map(|face| (face.normal(), face.centroid())).collect();
         let (mut solid, mut failed) = (self.clone(), 0);
         for edge in &edges {
+            burgeon_base::Stop::check_current()?;
             let Some(wedge) = wedge(edge, &faces, self, distance, segments)? else { continue };
             match solid.combine(&wedge, SolidOperation::Difference) {
                 Ok(Some(cut)) => solid = cut,

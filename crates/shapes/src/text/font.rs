@@ -11,6 +11,10 @@ use ttf_parser::gpos::{PairAdjustment, PositioningSubtable};
 use ttf_parser::{Face, GlyphId, Tag};
 
 use super::curves::OutlineRings;
+use super::glyph_parts::check_parts;
+
+/// Maximum number of tables of the distances of pairs.
+const MOST_TABLES: usize = 1000;
 
 /// A font: outlines and widths of letters, from a TrueType or OpenType file.
 ///
@@ -72,7 +76,8 @@ impl Font {
         let face = self.face()?;
         let capital = f64::from(face.capital_height().unwrap_or(0));
         let drawn = || {
-            let bounds = face.glyph_bounding_box(face.glyph_index('H')?)?;
+            let glyph = face.glyph_index('H').filter(|glyph| check_parts(&face, *glyph).is_ok())?;
+            let bounds = face.glyph_bounding_box(glyph)?;
             Some(f64::from(bounds.y_max))
         };
         let capital = if capital > 0.0 { capital } else { drawn().unwrap_or(0.0) };
@@ -137,6 +142,7 @@ impl SizedFont<'_> {
     ///
     /// Outlines that cross or overlap are united.
     pub(super) fn area(&self, glyph: GlyphId) -> Result<PolygonArea> {
+        check_parts(&self.face, glyph)?;
         let mut outline = OutlineRings::new(self.tolerance / self.scale);
         // A damaged font can have letters without end, which the outline unwinds.
         let drawn = catch_unwind(AssertUnwindSafe(|| {
@@ -168,7 +174,10 @@ fn pair_tables<'a>(face: &Face<'a>) -> Vec<PairAdjustment<'a>> {
     lookups.dedup();
     let mut pairs = Vec::new();
     for lookup in lookups.into_iter().filter_map(|number| table.lookups.get(number)) {
-        for part in lookup.subtables.into_iter::<PositioningSubtable<'_>>() {
+        for part in lookup.subtables.into_iter::<PositioningSubtable<'_>>().take(MOST_TABLES) {
+            if pairs.len() >= MOST_TABLES {
+                return pairs;
+            }
             if let PositioningSubtable::Pair(pair) = part {
                 pairs.push(pair);
             }

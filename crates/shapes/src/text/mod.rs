@@ -5,6 +5,7 @@
 
 mod curves;
 mod font;
+mod glyph_parts;
 mod layout;
 mod letters;
 

@@ -2,17 +2,22 @@
 
 use glam::{DVec2, DVec3};
 
-use super::cells::{CellSide, RoofCell, RoofCellMap, Zone};
+use super::cells::{CellEdge, CellSide, RoofCell, RoofCellMap, Zone};
 use super::heights::HeightField;
 use crate::planar::{Ring, triangulate};
+use crate::roof::fill::FilledPolygon;
 use crate::roof::outset::Outset;
 use crate::roof::{Patch, PatchKind, RoofCover, RoofShape, STEEPEST_EAVES, Support};
+use burgeon_base::Stop;
 use burgeon_base::error::Result;
+use rustc_hash::FxHashMap;
 
 /// Difference (m) below which heights at one place are equal.
 const LEVEL: f64 = 2e-3;
 /// Distance (m) of a corner from the plane of its cell from which the cell is divided into triangles.
 const BENT: f64 = 0.02;
+/// Distance (m) of a corner from the plane of its cell that is a rounding error.
+const FLAT: f64 = 1e-6;
 /// Minimum height (m) over the walls between their corners, so that upright faces begin at the corners.
 const LEAST: f64 = 0.01;
 
@@ -29,7 +34,7 @@ pub(in crate::roof) fn cover(
     let map = RoofCellMap::new(support.walls, &outset.polygon, field, is_steep && outset.most() > 0.0)?;
     let raised = RaisedCells::new(&map, field, support, shape.slab, outset.most());
     let mut patches = raised.slopes();
-    raised.add_walls(&mut patches);
+    raised.add_walls(&mut patches)?;
     raised.add_steps(&mut patches);
     Ok(RoofCover { patches, overhangs: outset.distances, tight, ..RoofCover::default() })
 }
@@ -162,7 +167,7 @@ impl<'a> RaisedCells<'a> {
                 Ring::without_repeats(if is_top { corners.collect() } else { corners.rev().collect() })
             };
             let kind = if is_top { PatchKind::Slope } else { PatchKind::Underside };
-            if let Some(triangles) = self.bent(cell) {
+            if let Some(triangles) = self.bent(cell, raised) {
                 patches.extend(triangles.into_iter().filter_map(|triangle| {
                     Some(Patch { kind, edge: 0, flap: 0, along, rings: vec![raised(&triangle.to_vec())?] })
                 }));
@@ -176,15 +181,29 @@ impl<'a> RaisedCells<'a> {
         patches
     }
 
-    /// Returns the triangles of a cell whose corners are not in its plane, as where steep eaves end above their slope.
-    fn bent(&self, cell: &RoofCell) -> Option<Vec<[u32; 3]>> {
+    /// Returns the triangles of a cell whose corners are not in its plane, as where steep eaves end above their slope. A small
+    /// difference counts if `raised`, the rings at their heights, overlap seen along their normal, as where a short edge is
+    /// steeper than the slope.
+    fn bent(
+        &self,
+        cell: &RoofCell,
+        raised: impl Fn(&Vec<u32>) -> Option<Ring<DVec3>>,
+    ) -> Option<Vec<[u32; 3]>> {
         let nodes: Vec<u32> = cell.rings.iter().flatten().copied().collect();
         let plane = &self.field.planes[cell.side.plane];
         let off = |node: &u32| {
             (self.height(*node, cell.side.plane) - plane.height_at(self.map.places[*node as usize])).abs()
         };
-        if nodes.len() == 3 || !nodes.iter().any(|node| off(node) > BENT) {
+        let most = nodes.iter().map(off).fold(0.0, f64::max);
+        if nodes.len() == 3 || most <= FLAT {
             return None;
+        }
+        if most <= BENT {
+            let rings: Vec<Ring<DVec3>> = cell.rings.iter().filter_map(raised).collect();
+            let flat = FilledPolygon::new(&rings, DVec3::X, *rings.first()?.first()?);
+            if flat.is_ok_and(|flat| flat.triangles.iter().all(|corners| flat.width(*corners) > 0.0)) {
+                return None;
+            }
         }
         let ring = |ring: &Vec<u32>| -> Vec<DVec2> {
             ring.iter().map(|node| self.map.places[*node as usize]).collect()
@@ -194,15 +213,20 @@ impl<'a> RaisedCells<'a> {
     }
 
     /// Adds the upright faces from the walls to the roof.
-    fn add_walls(&self, patches: &mut Vec<Patch>) {
+    fn add_walls(&self, patches: &mut Vec<Patch>) -> Result<()> {
+        let mut by_ends: FxHashMap<[u32; 2], usize> = FxHashMap::default();
+        for (number, CellEdge { ends: [a, b], .. }) in self.map.edges.iter().enumerate() {
+            by_ends.entry([*a.min(b), *a.max(b)]).or_insert(number);
+        }
         for (edge, nodes) in self.map.walls.iter().enumerate() {
+            Stop::check_current()?;
             let (Some(&first), Some(&last)) = (nodes.first(), nodes.last()) else { continue };
             let along =
                 (self.map.places[last as usize] - self.map.places[first as usize]).normalize_or_zero();
             let mut corners = vec![self.place(first, self.base), self.place(last, self.base)];
             let mut height = (last, self.base);
             for pair in nodes.windows(2).rev() {
-                let Some(side) = self.wall_side(pair) else { continue };
+                let Some(side) = self.wall_side(pair, &by_ends) else { continue };
                 for node in [pair[1], pair[0]] {
                     let next = self.bottom(node, side);
                     if height.0 == node {
@@ -215,15 +239,13 @@ impl<'a> RaisedCells<'a> {
             corners.extend(self.between(first, height.1, self.base));
             patches.extend(Patch::new(PatchKind::Gable, edge, 0, along, corners));
         }
+        Ok(())
     }
 
     /// Returns the side on which the roof rests on a part of a wall: outside if it has an overhang there.
-    fn wall_side(&self, pair: &[u32]) -> Option<CellSide> {
-        let edge = self
-            .map
-            .edges
-            .iter()
-            .find(|edge| edge.ends == [pair[0], pair[1]] || edge.ends == [pair[1], pair[0]])?;
+    fn wall_side(&self, pair: &[u32], by_ends: &FxHashMap<[u32; 2], usize>) -> Option<CellSide> {
+        let number = by_ends.get(&[pair[0].min(pair[1]), pair[0].max(pair[1])])?;
+        let edge = &self.map.edges[*number];
         let outside = edge.sides.iter().find(|side| side.zone == Zone::Eaves);
         outside.or_else(|| edge.sides.iter().find(|side| side.zone == Zone::Inside)).copied()
     }

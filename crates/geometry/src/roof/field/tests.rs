@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::super::fill::FilledPolygon;
 use super::super::tests::{HEIGHT, around, building};
 use super::super::{Eaves, Rise, RoofCover, RoofShape, RoofSurface};
 use super::{FieldRoof, RidgeAxis};
@@ -176,5 +177,66 @@ fn plates_at_an_upright_step_neither_overlap_nor_share_an_edge_with_four_faces()
         assert!(solid::check([&part]).is_solid(), "{form:?}");
         let clashes = solid::clashes([&part], 1e-3);
         assert!(clashes.is_empty(), "{form:?}: {clashes:?}");
+    }
+}
+
+/// Returns true if all patches can be divided into triangles that look outwards.
+fn has_sound_patches(cover: &RoofCover) -> bool {
+    cover.patches.iter().all(|patch| {
+        let Some(origin) = patch.rings.first().and_then(|ring| ring.first()) else { return false };
+        let flat = FilledPolygon::new(&patch.rings, patch.along.extend(0.0), *origin);
+        let Ok(flat) = flat else { return false };
+        flat.triangles.iter().all(|triangle| flat.width(*triangle) > 0.0)
+    })
+}
+
+#[test]
+fn teeth_that_end_beside_a_corner_of_the_walls_have_no_folded_faces() {
+    let u: [(f64, f64); 8] = [
+        (29.94387001151846, 4.249722652140264),
+        (48.63123140320815, 11.856400548585796),
+        (47.20416165068798, 15.362289526605386),
+        (35.248774520736546, 10.495857229465111),
+        (31.565242716462265, 19.545207150857458),
+        (28.059353738442677, 18.118137398337282),
+        (31.742885542716955, 9.068787476944937),
+        (28.516800258998288, 7.755611630159853),
+    ];
+    let down = DVec2::new(-0.6689965127864353, -0.7432655419697518);
+    let axis = RidgeAxis::Facing { down, snap: 0.008726646259971648 };
+    let surface = RoofSurface::Field(FieldRoof::Sawtooth { slope: 2.1445069205095586 }, axis);
+    let low = RoofShape { surface, rise: Rise::Height(2.0), overhang: 0.0, eaves: Eaves::Closed, slab: 0.0 };
+    let court: [Vec<(f64, f64)>; 2] = [
+        vec![
+            (48.810106532085896, 26.295106682295838),
+            (69.3610588542109, 26.295106682295838),
+            (69.3610588542109, 40.19357525057117),
+            (48.810106532085896, 40.19357525057117),
+        ],
+        vec![
+            (55.66042397279423, 30.927929538387616),
+            (55.66042397279423, 32.629479886194),
+            (57.36197432060061, 32.629479886194),
+            (57.36197432060061, 30.927929538387616),
+        ],
+    ];
+    let down = DVec2::new(-0.8968878834539652, 0.44225798411500333);
+    let axis = RidgeAxis::Facing { down, snap: 0.008726646259971648 };
+    let surface = RoofSurface::Field(FieldRoof::Sawtooth { slope: 0.7002075382097097 }, axis);
+    let rise = Rise::Slope(0.7002075382097097);
+    let wide = RoofShape { surface, rise, overhang: 0.8, eaves: Eaves::Open, slab: 0.15 };
+    for (rings, roof) in [(vec![u.to_vec()], low), (court.to_vec(), wide)] {
+        let rings: Vec<Vec<DVec2>> =
+            rings.into_iter().map(|ring| ring.into_iter().map(DVec2::from).collect()).collect();
+        // Coordinates along the longest edge, and as they are.
+        let [from, to] = [rings[0][0], rings[0][1]];
+        for along in [DVec2::X, (to - from).normalize()] {
+            let turned = |at: &DVec2| DVec2::new(along.dot(*at), along.perp_dot(*at));
+            let low = rings[0].iter().map(turned).fold(DVec2::MAX, DVec2::min);
+            let moved = rings.iter().map(|ring| ring.iter().map(|at| turned(at) - low).collect());
+            let walls = Polygon::new(moved.collect::<Vec<Vec<DVec2>>>()).expect("a plan");
+            let cover = roof.cover(&walls, 0.0).expect("a roof");
+            assert!(has_sound_patches(&cover), "{roof:?} {along}");
+        }
     }
 }
