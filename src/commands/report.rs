@@ -14,6 +14,7 @@ use burgeon::text::{escaped_lines, grouped, number, shown};
 use burgeon::{Error, Result, Run, Warning};
 use serde_json::json;
 
+use super::shared::text_in_memory;
 use super::style;
 
 /// Axes of a run's coordinates.
@@ -28,7 +29,11 @@ pub(crate) fn error(error: &Error, json: bool) {
     let mut text = String::new();
     for problem in error.problems() {
         // Writing into a string cannot fail.
-        let _ = writeln!(text, "error: {}", problem.with_excerpt(problem.excerpt().as_ref(), style::width()));
+        let _ = writeln!(
+            text,
+            "error: {}",
+            problem.with_excerpt(error_excerpt(problem).as_ref(), style::width())
+        );
     }
     eprint(&text);
 }
@@ -37,7 +42,7 @@ pub(crate) fn error(error: &Error, json: bool) {
 pub(crate) fn warnings<'a>(warnings: impl IntoIterator<Item = &'a Warning>) -> String {
     let mut text = String::new();
     for warning in warnings {
-        let excerpt = warning.excerpt();
+        let excerpt = warning_excerpt(warning);
         let _ = writeln!(text, "warning: {}", warning.with_excerpt(excerpt.as_ref(), style::width()));
     }
     text
@@ -45,14 +50,30 @@ pub(crate) fn warnings<'a>(warnings: impl IntoIterator<Item = &'a Warning>) -> S
 
 /// Converts the problems of an error to JSON, with their columns.
 pub(crate) fn error_list(error: &Error) -> Vec<serde_json::Value> {
-    let problem = |problem: &Error| located_json(problem.to_json(), "error", problem.excerpt());
+    let problem = |problem: &Error| located_json(problem.to_json(), "error", error_excerpt(problem));
     error.problems().map(problem).collect()
 }
 
 /// Converts warnings to JSON, with their columns.
 pub(crate) fn warnings_json(warnings: &[Warning]) -> serde_json::Value {
-    let warning = |warning: &Warning| located_json(warning.to_json(), "warning", warning.excerpt());
+    let warning = |warning: &Warning| located_json(warning.to_json(), "warning", warning_excerpt(warning));
     warnings.iter().map(warning).collect()
+}
+
+/// Returns the line of an error's location, also in a script on standard input.
+fn error_excerpt(error: &Error) -> Option<Excerpt> {
+    match text_in_memory(&error.place()?.file) {
+        Some(text) => error.excerpt_of(&text),
+        None => error.excerpt(),
+    }
+}
+
+/// Returns the line of a warning's location, also in a script on standard input.
+fn warning_excerpt(warning: &Warning) -> Option<Excerpt> {
+    match text_in_memory(&warning.place()?.file) {
+        Some(text) => warning.excerpt_of(&text),
+        None => warning.excerpt(),
+    }
 }
 
 /// Adds the severity and the columns of an error or a warning to its JSON.

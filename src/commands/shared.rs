@@ -13,7 +13,8 @@ use burgeon::presets::Presets;
 #[cfg(feature = "live")]
 use burgeon::scene::Recipe;
 use burgeon::script::{
-    CurvesFile, FeaturePart, Limits, ParamValues, Print, RunInputs, RunOptions, RunReports, api_version,
+    CurvesFile, FeaturePart, FileLoader, Limits, ParamValues, Print, RunInputs, RunOptions, RunReports,
+    api_version,
 };
 use burgeon::{Error, Result};
 use clap::Args;
@@ -243,9 +244,7 @@ impl ScriptFlags {
 
     /// Returns the run options. Fails if the preset does not exist, or if the script is on standard input and cannot be read.
     pub(crate) fn options(&self) -> Result<RunOptions> {
-        if self.script.as_os_str() == STANDARD {
-            provide_script()?;
-        }
+        let loader = (self.script.as_os_str() == STANDARD).then(standard_script).transpose()?;
         let preset = match &self.preset {
             // The run reports a missing script.
             Some(name) if self.script.is_file() => {
@@ -280,6 +279,7 @@ impl ScriptFlags {
                 databases: self.database.clone(),
                 mods: self.mods.clone(),
                 user_mods: user_mods(),
+                loader,
                 stdlib: self.stdlib.clone(),
                 ..RunInputs::default()
             },
@@ -293,20 +293,31 @@ impl ScriptFlags {
 /// File name of standard input and output.
 pub(crate) const STANDARD: &str = "-";
 
-/// Reads the script on standard input, and provides it as the file `-` of the working folder.
-fn provide_script() -> Result<()> {
-    static PROVIDED: Mutex<bool> = Mutex::new(false);
-    let mut provided = PROVIDED.lock().recover();
-    if *provided {
-        return Ok(());
+/// Text of the script on standard input, once it has been read.
+static STANDARD_TEXT: Mutex<Option<Vec<u8>>> = Mutex::new(None);
+
+/// Returns a loader with the script on standard input as the file `-` before the working folder. Reads standard input once.
+fn standard_script() -> Result<FileLoader> {
+    let mut text = STANDARD_TEXT.lock().recover();
+    if text.is_none() {
+        let mut read = Vec::new();
+        std::io::stdin()
+            .lock()
+            .take(LARGEST_SCRIPT + 1)
+            .read_to_end(&mut read)
+            .map_err(|error| Error::system(format!("cannot read the script on standard input: {error}")))?;
+        *text = Some(read);
     }
-    let refuse =
-        |error: std::io::Error| Error::system(format!("cannot read the script on standard input: {error}"));
-    let mut text = Vec::new();
-    std::io::stdin().lock().take(LARGEST_SCRIPT + 1).read_to_end(&mut text).map_err(refuse)?;
-    burgeon::files::provide(Path::new(STANDARD), text).map_err(refuse)?;
-    *provided = true;
-    Ok(())
+    let files = text.iter().map(|text| (STANDARD.to_owned(), text.clone())).collect();
+    Ok(FileLoader::of_files(files).before("."))
+}
+
+/// Returns the text of a script that has no file of its name: that on standard input.
+pub(crate) fn text_in_memory(file: &str) -> Option<String> {
+    if file != STANDARD {
+        return None;
+    }
+    String::from_utf8(STANDARD_TEXT.lock().recover().clone()?).ok()
 }
 
 /// Maximum size (bytes) of a script on standard input; runs refuse scripts of this size.

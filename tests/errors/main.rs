@@ -26,6 +26,7 @@ mod former_names;
 mod geometries;
 mod hostile;
 mod limits;
+mod loaders;
 mod lots;
 mod mods;
 mod namespaces;

@@ -14,7 +14,7 @@ fn folder() -> Folder {
 }
 
 /// Runs the program with `input` on standard input.
-fn run_with_input(folder: &Folder, arguments: &[&str], input: &[u8]) -> std::process::Output {
+pub(crate) fn run_with_input(folder: &Folder, arguments: &[&str], input: &[u8]) -> std::process::Output {
     let mut child = Command::new(env!("CARGO_BIN_EXE_burgeon"))
         .args(arguments)
         .current_dir(folder.path())

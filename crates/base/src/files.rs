@@ -2,7 +2,7 @@
 
 use std::fs::{File, Metadata};
 use std::io::{Error, ErrorKind, Read, Result};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::RwLock;
 
 use crate::locks::LockRecovery;
@@ -79,51 +79,8 @@ pub fn open(path: &Path) -> Result<(File, Metadata)> {
     Ok((file, meta))
 }
 
-/// Contents of names that are no files, such as that of a script from standard input.
-static PROVIDED: RwLock<Vec<(PathBuf, Vec<u8>)>> = RwLock::new(Vec::new());
-
-/// Makes `content` the content of the file `name` of the working folder for [`read`] and [`canonical`], in place of a file on
-/// disk.
-pub fn provide(name: &Path, content: Vec<u8>) -> Result<()> {
-    let path = working_folder()?.join(name);
-    let mut provided = PROVIDED.write().recover();
-    provided.retain(|(known, _)| *known != path);
-    provided.push((path, content));
-    Ok(())
-}
-
-/// Returns the absolute path of a file without links. A name that was [provided](provide) is in the working folder.
-pub fn canonical(path: &Path) -> Result<PathBuf> {
-    match find_provided(path) {
-        Some((path, _)) => Ok(path),
-        None => path.canonicalize(),
-    }
-}
-
-/// Returns path and content of a name that was provided.
-fn find_provided(path: &Path) -> Option<(PathBuf, Vec<u8>)> {
-    let provided = PROVIDED.read().recover();
-    if provided.is_empty() {
-        return None;
-    }
-    let path = working_folder().ok()?.join(path);
-    provided.iter().find(|(known, _)| *known == path).cloned()
-}
-
-fn working_folder() -> Result<PathBuf> {
-    Path::new(".").canonicalize()
-}
-
-/// Reads the whole file at `path`, or the content that was [provided](provide) for it. Fails if it has more than `most` bytes.
+/// Reads the whole file at `path`. Fails if it has more than `most` bytes.
 pub fn read(path: &Path, most: u64) -> Result<Vec<u8>> {
-    if let Some((_, content)) = find_provided(path) {
-        let is_large = content.len() as u64 > most;
-        return if is_large {
-            Err(Error::new(ErrorKind::FileTooLarge, "it is too large"))
-        } else {
-            Ok(content)
-        };
-    }
     let (file, meta) = open(path)?;
     let too_large = || Error::new(ErrorKind::FileTooLarge, format!("it has more than {most} bytes"));
     if meta.len() > most {
@@ -175,17 +132,6 @@ mod tests {
         std::fs::write(folder.path().join("a"), "12345678901").unwrap();
         assert_eq!(told(&folder.path().join("a")), "it has more than 10 bytes");
         assert_eq!(read(&folder.path().join("a"), 11).unwrap(), b"12345678901");
-    }
-
-    #[test]
-    fn a_provided_content_is_read_in_place_of_a_file() {
-        let name = Path::new("no such file of the tests");
-        assert!(canonical(name).is_err() && read(name, 10).is_err());
-        provide(name, b"text".to_vec()).unwrap();
-        let path = canonical(name).unwrap();
-        assert!(path.is_absolute() && path.ends_with(name));
-        assert_eq!((read(name, 10).unwrap(), read(&path, 10).unwrap()), (b"text".to_vec(), b"text".to_vec()));
-        assert_eq!(read(name, 3).unwrap_err().kind(), ErrorKind::FileTooLarge);
     }
 
     #[cfg(unix)]

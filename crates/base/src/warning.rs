@@ -261,6 +261,11 @@ impl Warning {
         self.told.excerpt()
     }
 
+    /// Returns the line of the location in `text`, as [`Error::excerpt_of`] does.
+    pub fn excerpt_of(&self, text: &str) -> Option<Excerpt> {
+        self.told.excerpt_of(text)
+    }
+
     /// Formats the warning, with its column and with `excerpt` below the message, in `width` cells of a terminal.
     pub fn with_excerpt(&self, excerpt: Option<&Excerpt>, width: usize) -> String {
         match self.count {

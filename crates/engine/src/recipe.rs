@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
 
-use crate::declare::{CurvesFile, FeaturePart, Param, Session};
+use crate::declare::{FeaturePart, Param, Session};
 use crate::run::scene_package;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::text::{grouped, without_passwords};
@@ -51,7 +51,7 @@ impl Session {
     /// folders. Passwords in addresses of databases are replaced.
     pub fn recipe(&self, params: &[Param]) -> RecipeDraft {
         let options = &self.options;
-        let main = self.script().canonicalize().ok().and_then(|path| self.inner_name(&path, true));
+        let main = self.inner_name(self.path(), true);
         let script = main.unwrap_or_else(|| "script.lua".to_owned());
         let own = self.own_files().into_iter();
         let mut files: Vec<RecipeFile> = own.map(|(name, text)| RecipeFile { name, text }).collect();
@@ -94,7 +94,7 @@ impl Session {
 
     /// Returns names and paths of the files that the run has read as data, sorted.
     fn data_files(&self) -> Vec<(String, PathBuf)> {
-        let (scripts, curves) = (self.files(), CurvesFile::path_of(self.script()));
+        let (scripts, curves) = (self.files(), self.curves().path().to_path_buf());
         let curves = curves.canonicalize().unwrap_or(curves);
         let named = std::iter::once(self.script()).chain(self.options.inputs.stdlib.as_deref());
         let named: Vec<PathBuf> = named.filter_map(|path| path.canonicalize().ok()).collect();
@@ -122,9 +122,10 @@ impl Session {
             return None;
         }
         let roots = std::iter::once(self.root()).chain(self.data_roots().iter().map(PathBuf::as_path));
+        let origin = self.origin(path);
         let inner = roots
             .take(if is_beside { 1 } else { usize::MAX })
-            .find_map(|root| path.strip_prefix(root).ok())?;
+            .find_map(|root| origin.strip_prefix(root).ok())?;
         let parts = inner.components().map(|part| match part {
             Component::Normal(name) => name.to_str(),
             _ => None,

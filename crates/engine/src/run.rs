@@ -294,10 +294,7 @@ fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
             continue;
         }
         let path = session.root().join(&texture.path);
-        session.provide(&path)?;
-        let found = path.canonicalize();
-        session.seek(&path, found.is_ok());
-        let path = found.map_err(|_| {
+        let path = session.find_file(&path)?.ok_or_else(|| {
             let near = path.parent().zip(path.file_name());
             let near = near.and_then(|(folder, name)| session.nearest_file(folder, &name.to_string_lossy()));
             let error =
@@ -307,12 +304,11 @@ fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
                 "{what}s are files next to the script: put the file there, or change its name in the script"
             ))
         })?;
-        if !path.starts_with(session.root()) {
+        if !session.is_inside(&path) {
             return Err(Error::file(&path, format!("the {what} {shown} is outside the script's folder"))
                 .help("a script can read only files in its own folder and its subfolders"));
         }
-        if session.is_in_memory() {
-            // The copy of the file is removed with the session.
+        if session.is_copy(&path) {
             texture.content = Some(texture_content(&path, what, &shown)?);
             continue;
         }

@@ -354,6 +354,12 @@ impl Error {
         Excerpt::at(self.0.place.as_ref()?, self.0.columns.as_ref(), &self.0.message)
     }
 
+    /// Returns the line of the location in `text`, which is the content of a file in memory, as [`excerpt`](Self::excerpt) does.
+    pub fn excerpt_of(&self, text: &str) -> Option<Excerpt> {
+        let line = self.0.place.as_ref()?.line_of(text)?;
+        Some(Excerpt::of_line(&line, self.0.columns.as_ref(), &self.0.message))
+    }
+
     /// Formats only this problem, with its column and with `excerpt` below the message, in `width` cells of a terminal.
     pub fn with_excerpt(&self, excerpt: Option<&Excerpt>, width: usize) -> String {
         let parts = &*self.0;

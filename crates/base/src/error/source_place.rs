@@ -42,8 +42,12 @@ impl SourcePlace {
 
     /// Returns the line itself. `None` if the file cannot be read, or if the line is empty or missing.
     pub(super) fn line_text(&self) -> Option<String> {
-        let text = self.text()?;
-        let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+        self.line_of(&self.text()?)
+    }
+
+    /// Returns the line of `text`, which is the content of the file. `None` if the line is empty or missing.
+    pub(super) fn line_of(&self, text: &str) -> Option<String> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let line = text.lines().nth(self.line.checked_sub(1)?)?.trim_end();
         (!line.trim().is_empty()).then(|| line.to_owned())
     }

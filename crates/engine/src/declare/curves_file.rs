@@ -51,7 +51,11 @@ impl CurvesFile {
 
     /// Reads the drawn curves of `script`; empty if there is no file. Fails with the line if the file is invalid.
     pub fn read(script: &Path) -> Result<Self> {
-        let path = Self::path_of(script);
+        Self::read_file(Self::path_of(script))
+    }
+
+    /// Reads the drawn curves in the file `path`; empty if there is no file. Fails with the line if the file is invalid.
+    pub(super) fn read_file(path: PathBuf) -> Result<Self> {
         let cannot = |why: &dyn std::fmt::Display| {
             Error::file(&path, format!("cannot read the drawn curves in {}: {why}", path.display()))
                 .help("drawn curves are in a JSON file; move this file away if it contains something else")

@@ -128,14 +128,13 @@ fn find(session: &Session, asker: Option<&Package>, what: &'static str, name: &s
             continue;
         }
         inside = true;
-        session.provide(&path)?;
-        let found = path.canonicalize();
-        session.seek(&path, found.is_ok());
-        match found {
+        match session.find_file(&path)? {
             // A link may point from one of the folders into another.
-            Ok(found) if roots().any(|root| found.starts_with(root)) => return Ok(found),
-            Ok(_) => return Err(outside()),
-            Err(_) => {
+            Some(found) if session.is_copy(&found) || roots().any(|root| found.starts_with(root)) => {
+                return Ok(found);
+            }
+            Some(_) => return Err(outside()),
+            None => {
                 let (folder, file) = (path.parent(), path.file_name());
                 if let (None, Some(folder), Some(file)) = (&near, folder, file)
                     && folder.canonicalize().is_ok_and(|folder| roots().any(|root| folder.starts_with(root)))

@@ -1,4 +1,4 @@
-//! Scripts and assets that a host program has in memory, in the place of the script's folder.
+//! Scripts and assets that a host program has in memory, in the place of the script's folder or in front of it.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -14,12 +14,23 @@ type Load = dyn Fn(&str) -> Result<Option<Vec<u8>>> + Send + Sync;
 
 /// Files of a script that are not in a folder: the script itself, the files that it requires, data, models and textures.
 ///
-/// Names are relative to the folder that the loader replaces, with `/` between folders.
+/// Names are relative to the folder that the loader replaces, with `/` between folders. It replaces the folder of the script,
+/// or is searched before a folder on disk: [`before`](Self::before). Absolute names and names with `..` are refused.
+///
+/// - **One file at a time**, when the script names it: scripts, `require`, the drawn curves beside the script, data sources,
+///   terrains and other rasters, models, textures, normal maps, images, fonts, and files of a model that a
+///   script loads (`.mtl`, `.bin`, images).
+/// - **Only listed files** ([`of_files`](Self::of_files), [`with_names`](Self::with_names)), because they are found without
+///   a question for their names: companion files of data (`.dbf`, `.prj`, `-wal`), folders, patterns such as `*.hgt`, and
+///   packages in `mods`. In front of a folder, packages and patterns are read from the folder alone.
+/// - **Never**: the folders and files of [`RunInputs`](super::RunInputs) (`data`, `mods`, `user_mods`, `stdlib`), and databases.
 #[derive(Clone)]
 pub struct FileLoader {
     load: Arc<Load>,
     /// Files that a run loads before it begins.
     names: Arc<[String]>,
+    /// Folder in which files are searched that the loader does not have.
+    folder: Option<PathBuf>,
 }
 
 impl FileLoader {
@@ -29,7 +40,7 @@ impl FileLoader {
     /// Names of folders, patterns of names, packages and the files that models refer to need
     /// [`of_files`](Self::of_files) or [`with_names`](Self::with_names), because such a loader cannot list its files.
     pub fn new(load: impl Fn(&str) -> Result<Option<Vec<u8>>> + Send + Sync + 'static) -> Self {
-        Self { load: Arc::new(load), names: Arc::default() }
+        Self { load: Arc::new(load), names: Arc::default(), folder: None }
     }
 
     /// Adds names of files, which a run loads before it begins. The loader can have others too.
@@ -51,10 +62,25 @@ impl FileLoader {
         &self.names
     }
 
+    /// Searches `folder` for the files that the loader does not have. Without a folder, there are no other files.
+    ///
+    /// ```
+    /// use burgeon_engine::script::FileLoader;
+    ///
+    /// // A script without a file, which requires the files of the working folder.
+    /// let files = [("-".to_owned(), b"return require('tree')".to_vec())];
+    /// let loader = FileLoader::of_files(files.into()).before(".");
+    /// # assert_eq!(loader.names(), ["-"]);
+    /// ```
+    #[must_use]
+    pub fn before(self, folder: impl Into<PathBuf>) -> Self {
+        Self { folder: Some(folder.into()), ..self }
+    }
+
     /// Creates a loader of these files, by their names.
     pub fn of_files(files: BTreeMap<String, Vec<u8>>) -> Self {
         let names = files.keys().cloned().collect();
-        Self { load: Arc::new(move |name| Ok(files.get(name).cloned())), names }
+        Self { load: Arc::new(move |name| Ok(files.get(name).cloned())), names, folder: None }
     }
 }
 
@@ -66,7 +92,10 @@ impl fmt::Debug for FileLoader {
 
 /// Temporary folder with the files that a run has loaded, because readers of data need files. It is removed with the run.
 pub(super) struct LoadedFolder {
+    /// Canonical path of the temporary folder.
     path: PathBuf,
+    /// Folder that the files seem to be in: the temporary folder, or the one that is searched after the loader.
+    root: PathBuf,
     loader: FileLoader,
     requested: Mutex<BTreeSet<PathBuf>>,
 }
@@ -76,16 +105,31 @@ impl LoadedFolder {
     pub(super) fn new(loader: &FileLoader) -> Result<Self> {
         let path = create_folder()
             .map_err(|error| Error::system(format!("cannot create a temporary folder: {error}")))?;
-        let folder = Self { path, loader: loader.clone(), requested: Mutex::default() };
+        let mut folder =
+            Self { root: path.clone(), path, loader: loader.clone(), requested: Mutex::default() };
+        if let Some(behind) = &loader.folder {
+            folder.root = behind.canonicalize().map_err(|error| {
+                Error::file(behind, format!("cannot read the folder {}: {error}", behind.display()))
+                    .help("give the loader a folder that exists")
+            })?;
+        }
         for name in &*folder.loader.names {
-            let path = folder.path_of(name)?;
-            folder.provide(&path)?;
+            folder.load(Path::new(name), &folder.copy_of(name)?)?;
         }
         Ok(folder)
     }
 
-    /// Returns the path of the file `name`. Fails if the name is not relative, or leads out of the folder.
+    /// Returns the folder that the files seem to be in.
+    pub(super) fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// Returns the path that the file `name` seems to have. Fails if the name is not relative, or leads out of the folder.
     pub(super) fn path_of(&self, name: &str) -> Result<PathBuf> {
+        self.copy_of(name).map(|_| self.root.join(name))
+    }
+
+    fn copy_of(&self, name: &str) -> Result<PathBuf> {
         let is_inside = Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
         if name.is_empty() || !is_inside {
             return Err(Error::file(name, format!("{name:?} is not a name of a file in memory")).help(
@@ -95,15 +139,35 @@ impl LoadedFolder {
         Ok(self.path.join(name))
     }
 
-    /// Loads the file for a path, if it is in the folder and has not been requested before.
-    pub(super) fn provide(&self, path: &Path) -> Result<()> {
-        let Ok(inner) = path.strip_prefix(&self.path) else { return Ok(()) };
+    /// Returns the path of a copy of the file that seems to be at `path`, or of a listed folder; `None` if the loader does not
+    /// have it. Calls the loader if the file has not been requested before.
+    pub(super) fn find(&self, path: &Path) -> Result<Option<PathBuf>> {
+        let Ok(inner) = path.strip_prefix(&self.root) else { return Ok(None) };
+        let copy = self.path.join(inner);
+        self.load(inner, &copy)?;
+        // A folder of which a file has been loaded is not the whole folder.
+        let is_there = copy.is_file() || copy.is_dir() && !(self.root != self.path && path.is_dir());
+        Ok(is_there.then_some(copy))
+    }
+
+    /// Returns the path that the file of a copy seems to have; `None` if `path` is not that of a copy.
+    pub(super) fn origin(&self, path: &Path) -> Option<PathBuf> {
+        self.inner_copy(path).map(|inner| self.root.join(inner))
+    }
+
+    /// Returns the path of a copy from the temporary folder; `None` for other files.
+    pub(super) fn inner_copy<'a>(&self, path: &'a Path) -> Option<&'a Path> {
+        path.strip_prefix(&self.path).ok()
+    }
+
+    /// Copies the file `inner` of the loader to `copy`, if it has not been requested before.
+    fn load(&self, inner: &Path, copy: &Path) -> Result<()> {
         let parts: Option<Vec<&str>> = inner.iter().map(|part| part.to_str()).collect();
         let Some(name) = parts.filter(|parts| !parts.is_empty()).map(|parts| parts.join("/")) else {
             return Ok(());
         };
         let mut requested = self.requested.lock().recover();
-        if !requested.insert(inner.to_path_buf()) || path.exists() {
+        if !requested.insert(inner.to_path_buf()) || copy.exists() {
             return Ok(());
         }
         let Some(bytes) = (self.loader.load)(&name)? else { return Ok(()) };
@@ -112,8 +176,8 @@ impl LoadedFolder {
             Error::file(&name, format!("cannot store {name} in a temporary folder: {error}"))
                 .help("free some space in it, or set TMPDIR to another folder")
         };
-        path.parent().map_or(Ok(()), std::fs::create_dir_all).map_err(refuse)?;
-        std::fs::write(path, bytes).map_err(refuse)
+        copy.parent().map_or(Ok(()), std::fs::create_dir_all).map_err(refuse)?;
+        std::fs::write(copy, bytes).map_err(refuse)
     }
 }
 
@@ -166,9 +230,9 @@ mod tests {
         let folder = LoadedFolder::new(&loader).unwrap();
         let path = folder.path_of("a/b \"🌳\".lua").unwrap();
         for _ in 0..2 {
-            folder.provide(&path).unwrap();
-            folder.provide(&folder.path.join("missing")).unwrap();
-            folder.provide(Path::new("/elsewhere")).unwrap();
+            assert_eq!(folder.find(&path).unwrap().as_ref(), Some(&path));
+            assert_eq!(folder.find(&folder.path.join("missing")).unwrap(), None);
+            assert_eq!(folder.find(Path::new("/elsewhere")).unwrap(), None);
         }
         assert_eq!(std::fs::read(&path).unwrap(), b"text");
         assert_eq!(*calls.lock().unwrap(), ["a/b \"🌳\".lua", "missing"]);
@@ -185,7 +249,7 @@ mod tests {
         let listed = std::fs::read_dir(folder.path.join("a")).unwrap();
         assert_eq!(listed.count(), 2);
         assert!(!folder.path.join("gone.csv").exists());
-        folder.provide(&folder.path.join("z.csv")).unwrap();
+        assert!(folder.find(&folder.path.join("z.csv")).unwrap().is_some());
         assert_eq!(std::fs::read(folder.path.join("z.csv")).unwrap(), b"z.csv");
         let outside = loader.with_names(["../b.csv".to_owned()]);
         assert!(LoadedFolder::new(&outside).is_err());
@@ -197,5 +261,29 @@ mod tests {
             let files = BTreeMap::from([(name.to_owned(), Vec::new())]);
             assert!(LoadedFolder::new(&FileLoader::of_files(files)).is_err(), "{name}");
         }
+    }
+
+    #[test]
+    fn a_loader_before_a_folder_hides_files_of_the_same_name_and_no_others() {
+        let disk = tempfile::tempdir().unwrap();
+        std::fs::create_dir(disk.path().join("a")).unwrap();
+        for name in ["x.lua", "y.lua", "a/z.csv"] {
+            std::fs::write(disk.path().join(name), "disk").unwrap();
+        }
+        let files = ["-", "x.lua", "a/w.csv", "b/v.csv"].map(|name| (name.to_owned(), b"memory".to_vec()));
+        let folder = LoadedFolder::new(&FileLoader::of_files(files.into()).before(disk.path())).unwrap();
+        let root = folder.root().to_path_buf();
+        assert_eq!(root, disk.path().canonicalize().unwrap());
+        for name in ["-", "x.lua", "a/w.csv", "b"] {
+            let copy = folder.find(&root.join(name)).unwrap().unwrap();
+            assert!(folder.origin(&copy) == Some(root.join(name)), "{name}");
+        }
+        for name in ["y.lua", "a/z.csv", "a", "none"] {
+            assert_eq!(folder.find(&root.join(name)).unwrap(), None, "{name}");
+        }
+        assert_eq!(folder.path_of("y.lua").unwrap(), root.join("y.lua"));
+        assert!(folder.path_of("../y.lua").is_err());
+        let missing = FileLoader::of_files(BTreeMap::new()).before(disk.path().join("none"));
+        assert!(LoadedFolder::new(&missing).is_err());
     }
 }

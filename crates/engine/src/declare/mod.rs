@@ -11,6 +11,7 @@ mod data;
 mod deprecations;
 mod file_access;
 mod file_loader;
+mod found_files;
 mod json_text;
 mod options;
 mod packages;

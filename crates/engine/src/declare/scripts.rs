@@ -152,16 +152,14 @@ pub(super) fn own_params(session: &Session) -> BTreeSet<String> {
         let Ok(bytes) = burgeon_base::files::read(&path, LARGEST) else { continue };
         let text = String::from_utf8_lossy(&bytes);
         names.extend(calls_with_text(&text, "param").map(str::to_owned));
-        let folder = path.parent().unwrap_or(root);
+        let origin = session.origin(&path);
+        let folder = origin.parent().unwrap_or(root);
         for name in calls_with_text(&text, "require").filter(|name| !FileName::is_meant(name)) {
             let file = format!("{}.lua", name.strip_suffix(".lua").unwrap_or(name));
-            let find = |from: &Path| {
-                let path = from.join(&file);
-                // The error of a loader is reported when the script requires the file.
-                session.provide(&path).ok().and_then(|()| path.canonicalize().ok())
-            };
+            // The error of a loader is reported when the script requires the file.
+            let find = |from: &Path| session.find_file(&from.join(&file)).ok().flatten();
             let found = [folder, root].into_iter().find_map(find);
-            let inside = found.filter(|found| found.starts_with(root) && known.len() < MOST_LOOKED_THROUGH);
+            let inside = found.filter(|found| session.is_inside(found) && known.len() < MOST_LOOKED_THROUGH);
             next.extend(inside.filter(|found| known.insert(found.clone())));
         }
     }

@@ -18,7 +18,6 @@ use super::scripts::{ScriptFiles, SourceFile, own_params, read_stdlib, unreadabl
 use super::types::DeclaredTypes;
 use crate::queries::{ChainView, RowCache};
 use burgeon_base::error::{Error, Result};
-use burgeon_base::files::canonical;
 use burgeon_base::warning::{Warning, Warnings};
 use burgeon_base::{locks::LockRecovery, stop::Stop};
 use burgeon_kit::Values;
@@ -64,8 +63,8 @@ pub struct Session {
     /// Canonical path of the script.
     path: PathBuf,
     root: PathBuf,
-    /// Folder for files in memory, if they replace the folder of the script.
-    loaded: Option<LoadedFolder>,
+    /// Folder for files in memory, if the run has a loader.
+    pub(super) loaded: Option<LoadedFolder>,
     data_roots: Vec<PathBuf>,
     packages: Packages,
     /// Names of the packages whose files were requested.
@@ -120,17 +119,20 @@ impl Session {
             Some(folder) => folder.path_of(&script.to_string_lossy())?,
             None => script.to_path_buf(),
         };
-        if let Some(folder) = &loaded {
-            folder.provide(&file)?;
-            folder.provide(&CurvesFile::path_of(&file))?;
-        }
-        let path = canonical(&file).map_err(|error| unreadable(script, &error))?;
+        let find = |path: &Path| loaded.as_ref().map_or(Ok(None), |folder| folder.find(path));
+        let found = find(&file)?.map_or_else(|| file.canonicalize(), Ok);
+        let path = found.map_err(|error| unreadable(script, &error))?;
         if path.is_dir() {
             return Err(unreadable(script, &std::io::ErrorKind::IsADirectory.into()));
         }
-        let root = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
+        let root = match &loaded {
+            Some(folder) => folder.root().join(script).parent().map(Path::to_path_buf),
+            None => path.parent().map(Path::to_path_buf),
+        };
+        let root = root.unwrap_or_default();
         let stdlib = options.inputs.stdlib.as_deref().map(read_stdlib).transpose()?;
-        let curves = CurvesFile::read(&file)?;
+        let curves = CurvesFile::path_of(&file);
+        let curves = CurvesFile::read_file(find(&curves)?.unwrap_or(curves))?;
         let data_roots = options.inputs.data.iter().map(|folder| data_root(folder)).collect::<Result<_>>()?;
         let search = PackageSearch {
             script: file.parent(),
@@ -197,16 +199,6 @@ impl Session {
     /// Returns the canonical path of the script, which for a script in memory is the path of a copy.
     pub(crate) fn path(&self) -> &Path {
         &self.path
-    }
-
-    /// Returns true if files in memory replace the folder of the script.
-    pub(crate) fn is_in_memory(&self) -> bool {
-        self.loaded.is_some()
-    }
-
-    /// Copies a file in memory to its path, if the run has such files and `path` is in their folder.
-    pub(crate) fn provide(&self, path: &Path) -> Result<()> {
-        self.loaded.as_ref().map_or(Ok(()), |folder| folder.provide(path))
     }
 
     /// Returns the folder of the script, which contains all files that it may read by default.

@@ -5,13 +5,15 @@ use std::time::UNIX_EPOCH;
 
 use super::session::Session;
 use burgeon_base::locks::LockRecovery;
+use burgeon_packages::hash_file;
 
 impl Session {
     /// Records the size and the time of a file that will be read, and of the journal of a database, once.
     pub(super) fn stamp(&self, path: &Path) {
         if self.options.inputs.derivations.is_some() {
             let mut stamps = self.stamps.lock().recover();
-            stamps.entry(path.to_path_buf()).or_insert_with(|| stamp_of(path));
+            let stamp = || if self.is_copy(path) { hash_of(path) } else { stamp_of(path) };
+            stamps.entry(path.to_path_buf()).or_insert_with(stamp);
         }
     }
 
@@ -22,10 +24,17 @@ impl Session {
         let mut text = String::new();
         for (path, exists) in self.sought() {
             let stamp = stamps.get(&path)?;
-            text += &format!("{path:?} {exists} {stamp}\n");
+            // The folder of copies differs in each run.
+            let name = self.inner_copy(&path).unwrap_or(&path);
+            text += &format!("{name:?} {exists} {stamp}\n");
         }
         Some(text)
     }
+}
+
+/// Returns the hash of the copy of a file in memory, because its time differs in each run.
+fn hash_of(path: &Path) -> String {
+    hash_file(path).unwrap_or_default()
 }
 
 /// Returns the size and the time of a file and of the journal of a database.

@@ -31,7 +31,8 @@ pub(super) fn require(library: &Library, session: &Session, lua: &Lua, name: &st
         Some(package) => find_in_package(session, package, &caller(lua), bare)?,
         None => {
             let loading = library.loading.borrow();
-            let folder = loading.last().and_then(|file| file.parent()).unwrap_or(session.root());
+            let file = loading.last().map(|file| session.origin(file));
+            let folder = file.as_deref().and_then(Path::parent).unwrap_or(session.root());
             find(session, folder, name, bare)?
         }
     };
@@ -190,14 +191,12 @@ fn find(session: &Session, from: &Path, name: &str, bare: &str) -> Result<(PathB
         if !path.starts_with(session.root()) {
             return Err(outside());
         }
-        session.provide(&path)?;
-        let found = path.canonicalize();
-        session.seek(&path, found.is_ok());
-        if let Ok(path) = found {
-            if !path.starts_with(session.root()) {
+        if let Some(path) = session.find_file(&path)? {
+            if !session.is_inside(&path) {
                 return Err(outside());
             }
-            let inner = path.strip_prefix(session.root()).unwrap_or(&path);
+            let origin = session.origin(&path);
+            let inner = origin.strip_prefix(session.root()).unwrap_or(&origin);
             let shown =
                 session.script().parent().map_or_else(|| inner.to_path_buf(), |parent| parent.join(inner));
             return Ok((path, shown.display().to_string()));

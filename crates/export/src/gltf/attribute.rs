@@ -34,22 +34,27 @@ impl AttributeType {
         Self { shared, component, kind, normalized: true, integers: None }
     }
 
-    /// Returns the types of positions, normals and texture coordinates, as integers if there is a `grid` of positions, and
-    /// if texture coordinates are `rounded`.
-    pub(super) fn all(grid: Option<PositionGrid>, rounded: bool) -> (Self, Self, Self) {
-        let tex_coords = Self::float(ArrayKind::TexCoords, Type::Vec2);
-        let Some(grid) = grid else {
-            let (positions, normals) = (ArrayKind::Positions, ArrayKind::Normals);
-            return (Self::float(positions, Type::Vec3), Self::float(normals, Type::Vec3), tex_coords);
-        };
-        let positions = Self::integer(ArrayKind::ShortPositions, ComponentType::U16, Type::Vec3);
-        let rounded_tex_coords = Self::integer(ArrayKind::ShortTexCoords, ComponentType::U16, Type::Vec2);
+    /// Returns the types of positions, normals and texture coordinates. Positions are integers if there is a `grid`, normals if
+    /// the file is `quantized`, and texture coordinates if they are `rounded`.
+    pub(super) fn all(quantized: bool, grid: Option<PositionGrid>, rounded: bool) -> (Self, Self, Self) {
+        let short = |shared: ArrayKind, kind: Type| Self::integer(shared, ComponentType::U16, kind);
         let integers = |stored: Self, kind: IntegerArray| Self { integers: Some(kind), ..stored };
-        (
-            Self { normalized: false, ..integers(positions, IntegerArray::Positions(grid)) },
-            integers(Self::BYTE_NORMALS, IntegerArray::Normals),
-            if rounded { integers(rounded_tex_coords, IntegerArray::TexCoords) } else { tex_coords },
-        )
+        let positions = match grid {
+            Some(grid) => {
+                let positions = short(ArrayKind::ShortPositions, Type::Vec3);
+                Self { normalized: false, ..integers(positions, IntegerArray::Positions(grid)) }
+            }
+            None => Self::float(ArrayKind::Positions, Type::Vec3),
+        };
+        let normals = match quantized {
+            true => integers(Self::BYTE_NORMALS, IntegerArray::Normals),
+            false => Self::float(ArrayKind::Normals, Type::Vec3),
+        };
+        let tex_coords = match rounded {
+            true => integers(short(ArrayKind::ShortTexCoords, Type::Vec2), IntegerArray::TexCoords),
+            false => Self::float(ArrayKind::TexCoords, Type::Vec2),
+        };
+        (positions, normals, tex_coords)
     }
 
     /// Adds `array` to the view of the type, as integers if the type has them. Returns the view and the offset in it (bytes).

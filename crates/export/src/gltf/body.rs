@@ -29,6 +29,9 @@ const STRETCH: usize = 1 << 14;
 /// Approximate number of corners in a batch of meshes.
 const BATCH: usize = 1 << 18;
 
+/// Approximate length (bytes) of the description of a view's compression.
+const DESCRIPTION: usize = 150;
+
 /// Number of chunks that are prepared while the previous ones are written.
 const AHEAD: usize = 16;
 
@@ -48,10 +51,18 @@ pub(super) enum ArrayKind {
     ShortTexCoords,
     /// Feature numbers.
     Features,
+    /// Indices as u8.
+    Byte,
     /// Indices as u16.
     Short,
     /// Indices as u32.
     Long,
+    /// Translations and scales of instances as three numbers.
+    InstanceVectors,
+    /// Rotations of instances as four numbers.
+    InstanceRotations,
+    /// Rotations of instances as four i16.
+    ShortRotations,
 }
 
 /// Array of the body.
@@ -82,6 +93,8 @@ pub(super) enum BodyArray<'a> {
     /// Indices of faces among corners as u16, with the index of the faces and the number of triangles to write.
     ShortFaces(Arc<FaceCorners<'a>>, usize, usize),
     LongFaces(Arc<FaceCorners<'a>>, usize, usize),
+    /// Indices below 256 as u8, in place of u16.
+    ByteIndices(Box<BodyArray<'a>>),
     Floats(Vec<f32>),
     /// Number that is repeated a number of times.
     Same(f32, usize),
@@ -201,14 +214,20 @@ impl<'a> Body<'a> {
             }
             let mut bytes = Vec::new();
             section.blocks.iter().for_each(|block| block.write(&(0..usize::MAX), &mut bytes));
-            let (view, packed) = match (kind, section.stride()) {
-                (ArrayKind::Short, _) => pack_triangles(&bytes, 2)?,
-                (ArrayKind::Long, _) => pack_triangles(&bytes, 4)?,
-                (_, stride) => pack_vertices(&bytes, stride.unwrap_or(4))?,
+            let packed = match (kind, kind.item()) {
+                (ArrayKind::Byte, _) => None,
+                (ArrayKind::Short | ArrayKind::Long, size) => Some(pack_triangles(&bytes, size)?),
+                (_, size) => Some(pack_vertices(&bytes, size)?),
             };
-            section.packed = Some(view);
-            section.length = packed.len() as u64;
-            section.blocks = vec![BodyArray::Blob(packed)];
+            section.blocks =
+                vec![match packed.filter(|(_, packed)| packed.len() + DESCRIPTION < bytes.len()) {
+                    Some((view, packed)) => {
+                        section.packed = Some(view);
+                        section.length = packed.len() as u64;
+                        BodyArray::Blob(packed)
+                    }
+                    None => BodyArray::Blob(bytes),
+                }];
         }
         self.batches.drain(..).flatten().for_each(|corners| corners.release());
         self.sections.iter_mut().for_each(|section| section.batch = 0);
@@ -351,18 +370,31 @@ impl BufferSection<'_> {
 
     fn target(&self) -> Option<Target> {
         Some(match self.shared? {
-            ArrayKind::Short | ArrayKind::Long => Target::ElementArrayBuffer,
+            ArrayKind::Byte | ArrayKind::Short | ArrayKind::Long => Target::ElementArrayBuffer,
+            ArrayKind::InstanceVectors | ArrayKind::InstanceRotations | ArrayKind::ShortRotations => {
+                return None;
+            }
             _ => Target::ArrayBuffer,
         })
     }
 
     /// Returns the distance (bytes) between vertices, which several accessors that share a view require.
     fn stride(&self) -> Option<usize> {
-        match self.shared? {
-            ArrayKind::Positions | ArrayKind::Normals => Some(12),
-            ArrayKind::TexCoords | ArrayKind::ShortNormals | ArrayKind::ShortPositions => Some(8),
-            ArrayKind::ByteNormals | ArrayKind::ShortTexCoords | ArrayKind::Features => Some(4),
-            ArrayKind::Short | ArrayKind::Long => None,
+        let is_vertices = self.target() == Some(Target::ArrayBuffer);
+        self.shared.filter(|_| is_vertices).map(ArrayKind::item)
+    }
+}
+
+impl ArrayKind {
+    /// Returns the size of an item (bytes).
+    fn item(self) -> usize {
+        match self {
+            Self::InstanceRotations => 16,
+            Self::Positions | Self::Normals | Self::InstanceVectors => 12,
+            Self::TexCoords | Self::ShortNormals | Self::ShortPositions | Self::ShortRotations => 8,
+            Self::ByteNormals | Self::ShortTexCoords | Self::Features | Self::Long => 4,
+            Self::Short => 2,
+            Self::Byte => 1,
         }
     }
 }
@@ -384,6 +416,7 @@ impl BodyArray<'_> {
             Self::CornerTexCoords(corners) => corners.range(true).count * 8,
             Self::ShortFaces(_, _, triangles) => triangles * 6,
             Self::LongFaces(_, _, triangles) => triangles * 12,
+            Self::ByteIndices(shorts) => return shorts.length() / 2,
             Self::Floats(floats) => floats.len() * 4,
             Self::Same(_, count) => count * 4,
             Self::Blob(bytes) => bytes.len(),
@@ -411,7 +444,7 @@ impl BodyArray<'_> {
             }
             Self::Floats(floats) => floats.len(),
             Self::Same(_, count) => *count,
-            Self::Integers(array, _) => array.items(),
+            Self::Integers(array, _) | Self::ByteIndices(array) => array.items(),
             Self::Blob(bytes) => bytes.len(),
             Self::Shorts(shorts) => shorts.len(),
             Self::Bytes(bytes) => bytes.len(),
@@ -433,6 +466,11 @@ impl BodyArray<'_> {
                 let mut floats = Vec::new();
                 array.write(items, &mut floats);
                 kind.put(&floats, out);
+            }
+            Self::ByteIndices(array) => {
+                let mut shorts = Vec::new();
+                array.write(items, &mut shorts);
+                out.extend(shorts.as_chunks::<2>().0.iter().map(|[low, _]| *low));
             }
             Self::Short(part, _, first) => {
                 let shown = proper_triangles(part.triangles.range(range));

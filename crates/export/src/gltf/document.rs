@@ -249,14 +249,16 @@ impl<'a> Document<'a> {
         let metadata = metadata.as_ref();
         let ranges = if arrays.quantized { tex_coord_ranges(checked) } else { Vec::new() };
         let materials = material::write(checked, images, textures, &ranges, &mut description.root, &mut body);
-        let meshes =
-            mesh::write(checked, metadata, (arrays, &ranges), &materials, &mut description, &mut body, stop);
-        stop.check()?;
         // The viewer reads the extension, and so does what plays films.
         let is_own = arrays.small || film.is_some_and(|(_, settings)| settings.is_some());
         let storage = if is_own { InstanceStorage::Extension } else { facts.instances };
+        let costs = place::integer_costs(checked.scene, storage);
+        let arrays_of = (arrays, ranges.as_slice(), costs.as_slice());
+        let (meshes, grids) =
+            mesh::write(checked, metadata, arrays_of, &materials, &mut description, &mut body, stop);
+        stop.check()?;
         let kinds = (arrays, film.map(|(model, _)| model), storage);
-        let placed = place::write(checked, metadata, &meshes, kinds, &mut description, &mut body);
+        let placed = place::write(checked, metadata, (&meshes, &grids), kinds, &mut description, &mut body);
         if let Some((_, Some(settings))) = film {
             film::write(&placed.frames, settings, &mut description, &mut body);
         }
@@ -313,7 +315,10 @@ impl<'a> Document<'a> {
     fn notes(&self, path: &Path) -> impl Iterator<Item = String> {
         let rounded = self.rounding.map(|error| {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
-            format!("{name}: positions are rounded by at most {} mm", rounded_up(error * 1000.0))
+            match error {
+                0.0 => format!("{name}: positions are exact, because integers would take more bytes"),
+                _ => format!("{name}: positions are rounded by at most {} mm", rounded_up(error * 1000.0)),
+            }
         });
         self.instance_note(path).into_iter().chain(rounded)
     }

@@ -18,18 +18,22 @@ use json::accessor::{ComponentType, Type};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Adds the shown meshes. Returns the index of each mesh of the scene.
+/// Indices of the meshes in a document, and the grids of their positions if these are integers, by the number of the mesh in
+/// the scene.
+pub(super) type WrittenMeshes = (Vec<Option<usize>>, Vec<Option<PositionGrid>>);
+
+/// Adds the shown meshes. `costs` are the bytes that each instance of a mesh takes more if the positions are integers.
 ///
 /// Texture coordinates are omitted if no texture needs them, unless `arrays` requests them in metres.
 pub(super) fn write<'a>(
     checked: &SceneCheck<'a>,
     metadata: Option<&Metadata>,
-    (arrays, ranges): (Arrays, &[Option<TexCoordRange>]),
+    (arrays, ranges, costs): (Arrays, &[Option<TexCoordRange>], &[usize]),
     materials: &[Option<json::Index<json::Material>>],
     description: &mut Description<'a>,
     body: &mut Body<'a>,
     stop: &Stop,
-) -> Vec<Option<usize>> {
+) -> WrittenMeshes {
     let scene = checked.scene;
     let measure = |(part, measured): (&'a Part, &PartExtent)| {
         let image_size = scene.materials[part.material].image_size();
@@ -58,10 +62,13 @@ pub(super) fn write<'a>(
     description.accessors.reserve(2 * scene.meshes.len() + parts);
     description.meshes.reserve(scene.meshes.len());
     let mut written = Vec::with_capacity(scene.meshes.len());
+    let mut grids = Vec::with_capacity(scene.meshes.len());
     for (number, (mesh, parts)) in scene.meshes.iter().zip(&shown).enumerate() {
         body.begin_mesh();
+        let is_shorter = arrays.quantized && saved_bytes(parts) > costs.get(number).copied().unwrap_or(0);
+        let grid = is_shorter.then(|| PositionGrid::of(&checked.parts[number]));
+        grids.push(grid);
         written.push((!parts.is_empty()).then(|| {
-            let grid = arrays.quantized.then(|| PositionGrid::of(&checked.parts[number]));
             let mut vertices = Vertices::of(parts, (arrays, grid), description, body);
             let feature = metadata.and_then(|metadata| metadata.of_mesh(number));
             if let Some(feature) = feature {
@@ -70,8 +77,8 @@ pub(super) fn write<'a>(
             let primitives = parts.iter().zip(&vertices);
             let primitives = primitives
                 .map(|(shown, vertices)| {
-                    let primitive =
-                        shown.primitive(vertices, materials[shown.part.material], description, body);
+                    let material = materials[shown.part.material];
+                    let primitive = shown.primitive(vertices, (arrays, material), description, body);
                     Primitive { extensions: feature.map(FeaturePlace::of_primitive), ..primitive }
                 })
                 .collect();
@@ -79,7 +86,21 @@ pub(super) fn write<'a>(
             description.meshes.len() - 1
         }));
     }
-    written
+    (written, grids)
+}
+
+/// Returns the number of bytes by which the positions of parts of a mesh are shorter as integers.
+fn saved_bytes(parts: &[PartView<'_>]) -> usize {
+    let mut known: Vec<&Arc<FaceCorners<'_>>> = Vec::new();
+    let vertices = parts.iter().map(|shown| match &shown.corners {
+        Some((corners, _)) if known.iter().any(|known| Arc::ptr_eq(known, corners)) => 0,
+        Some((corners, _)) => {
+            known.push(corners);
+            corners.range(false).count
+        }
+        None => shown.vertices(),
+    });
+    4 * vertices.sum::<usize>()
 }
 
 /// Selection and encoding of arrays.
@@ -91,14 +112,18 @@ pub(super) struct Arrays {
     /// with flat triangles become [`FlatPart`] unless they have texture coordinates. Rotations of instances are not
     /// quantised.
     pub(super) small: bool,
-    /// Set if positions, normals and texture coordinates are integers.
+    /// Set if positions, normals and texture coordinates are integers. Positions stay numbers if their integers would take
+    /// more bytes, with the transforms of the instances.
     pub(super) quantized: bool,
+    /// Set if indices are bytes where these suffice. They cannot be compressed.
+    pub(super) short_indices: bool,
 }
 
 impl Arrays {
     /// Returns the arrays that the facts of an export select.
     pub(super) fn of(facts: &SceneFacts<'_>) -> Self {
-        Self { quantized: facts.is_quantized, ..Self::default() }
+        let quantized = facts.is_quantized;
+        Self { quantized, short_indices: quantized && !facts.is_compressed, ..Self::default() }
     }
 }
 
@@ -202,7 +227,7 @@ impl Vertices {
             let Some((corners, _)) = &shown.corners else { continue };
             let place = known.iter().position(|(known, _)| Arc::ptr_eq(known, corners));
             let place = place.unwrap_or_else(|| {
-                known.push((corners, Self::at_corners(corners, grid, description, body)));
+                known.push((corners, Self::at_corners(corners, (arrays, grid), description, body)));
                 known.len() - 1
             });
             *found = known[place].1[usize::from(shown.texture.is_some())];
@@ -248,12 +273,13 @@ impl Vertices {
     /// coordinates also refer to the corners of the others.
     fn at_corners<'a>(
         corners: &Arc<FaceCorners<'a>>,
-        grid: Option<PositionGrid>,
+        (arrays, grid): (Arrays, Option<PositionGrid>),
         description: &mut Description<'a>,
         body: &mut Body<'a>,
     ) -> [Option<Self>; 2] {
         body.show(corners);
-        let (at, normal, tex_coord) = AttributeType::all(grid, corners.are_tex_coords_rounded());
+        let (at, normal, tex_coord) =
+            AttributeType::all(arrays.quantized, grid, corners.are_tex_coords_rounded());
         let places = at.share(BodyArray::CornerPlaces(Arc::clone(corners)), body);
         let normals =
             corners.are_shaded().then(|| normal.share(BodyArray::CornerNormals(Arc::clone(corners)), body));
@@ -295,7 +321,7 @@ impl Vertices {
             stored.accessor(place.unwrap_or_default(), count)
         };
         let are_rounded = parts.iter().filter_map(|shown| shown.texture).all(|map| map.is_rounded);
-        let (at, normal, tex_coord) = AttributeType::all(grid, are_rounded);
+        let (at, normal, tex_coord) = AttributeType::all(arrays.quantized, grid, are_rounded);
         let positions = add(at, &|shown| match &shown.welded {
             Some(welded) => BodyArray::Places(Arc::clone(welded)),
             None => BodyArray::Positions(shown.part),
@@ -341,7 +367,7 @@ impl<'a> PartView<'a> {
     fn primitive(
         &self,
         vertices: &Vertices,
-        material: Option<json::Index<json::Material>>,
+        (arrays, material): (Arrays, Option<json::Index<json::Material>>),
         description: &mut Description<'a>,
         body: &mut Body<'a>,
     ) -> Primitive {
@@ -359,6 +385,11 @@ impl<'a> PartView<'a> {
             (Some(welded), _) => BodyArray::LongCorners(welded),
             (None, _) if short => BodyArray::Short(self.part, triangles, first),
             (None, _) => BodyArray::Long(self.part, triangles),
+        };
+        // The highest u8 would mark the end of a strip, too.
+        let (shared, kind, block) = match arrays.short_indices && vertices.count <= usize::from(u8::MAX) {
+            true => (ArrayKind::Byte, ComponentType::U8, BodyArray::ByteIndices(Box::new(block))),
+            false => (shared, kind, block),
         };
         let indices = accessor(body.share(shared, block), kind, Type::Scalar, triangles * 3);
         let shading = self.welded.is_some().then_some(ShadingExtras { flat: true });

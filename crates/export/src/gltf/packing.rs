@@ -29,6 +29,7 @@ pub(super) fn pack_vertices(bytes: &[u8], stride: usize) -> Result<(PackedView, 
         4 => pack::<4>(bytes),
         8 => pack::<8>(bytes),
         12 => pack::<12>(bytes),
+        16 => pack::<16>(bytes),
         other => return Err(Error::internal(format!("vertices of {other} bytes cannot be compressed"))),
     };
     let packed = packed.map_err(|error| Error::internal(format!("cannot compress vertices: {error}")))?;

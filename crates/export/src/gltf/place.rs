@@ -3,7 +3,7 @@
 use super::super::check::{PartExtent, SceneCheck};
 use super::super::decompose::{Steps, Trs, decompose, y_up};
 use super::attribute_column::{AttributeColumn, FeatureNumbers};
-use super::body::{Body, BodyArray};
+use super::body::{ArrayKind, Body, BodyArray};
 use super::description::{Accessor, Description, FeatureExtras, Node, use_extension};
 use super::mesh::{Arrays, accessor};
 use super::metadata::{FeaturePlace, INSTANCE_FEATURES, Metadata, instance_features};
@@ -11,7 +11,7 @@ use super::quantize::{PositionGrid, rounding as grid_rounding};
 use crate::InstanceStorage;
 use crate::film_model::FilmModel;
 use crate::level_storage::LevelStorage;
-use burgeon_scene::Instance;
+use burgeon_scene::{Instance, Scene};
 use glam::{DAffine3, DQuat, DVec3};
 use gltf_json as json;
 use json::accessor::{ComponentType, Type};
@@ -89,7 +89,7 @@ pub(super) struct InstanceNodes<'a> {
 pub(super) fn write<'a>(
     checked: &SceneCheck<'a>,
     metadata: Option<&Metadata>,
-    meshes: &[Option<usize>],
+    (meshes, grids): (&[Option<usize>], &[Option<PositionGrid>]),
     (arrays, film, storage): (Arrays, Option<&'a FilmModel>, InstanceStorage),
     description: &mut Description<'a>,
     body: &mut Body<'a>,
@@ -120,9 +120,7 @@ pub(super) fn write<'a>(
         InstanceStorage::Nodes | InstanceStorage::Expanded => false,
     };
     let separate = if is_sharing { 0 } else { repeated };
-    let grids = arrays.quantized.then(|| checked.parts.iter().map(|parts| PositionGrid::of(parts)));
-    let grids: Option<Vec<PositionGrid>> = grids.map(|grids| grids.collect());
-    let mut rounding = grids.as_ref().map(|_| 0.0);
+    let mut rounding = arrays.quantized.then_some(0.0);
     let mut features = FeatureNumbers::default();
     let mut nodes = Vec::new();
     let mut places = vec![None; scene.instances.len()];
@@ -132,8 +130,8 @@ pub(super) fn write<'a>(
         let mut transform = instance.transform;
         transform.translation -= checked.origin;
         let mut transform = y_up(&transform);
-        if let (Some(grids), Some(rounding)) = (&grids, &mut rounding) {
-            transform *= grids[instance.mesh].transform();
+        if let (Some(grid), Some(rounding)) = (grids[instance.mesh], &mut rounding) {
+            transform *= grid.transform();
             *rounding = grid_rounding(&transform).max(*rounding);
         }
         let at = group;
@@ -161,7 +159,7 @@ pub(super) fn write<'a>(
         if let Some(mesh) = meshes[kind.mesh].filter(|_| !group.translations.is_empty()) {
             let reach = match arrays {
                 Arrays { small: true, .. } => f64::INFINITY,
-                Arrays { quantized: true, .. } => PositionGrid::reach(),
+                _ if grids[kind.mesh].is_some() => PositionGrid::reach(),
                 _ => reach(checked, kind.mesh),
             };
             let features = metadata.is_some().then_some(kind.table).flatten();
@@ -249,6 +247,18 @@ impl InstanceGroup {
     }
 }
 
+/// Returns the number of bytes that the transforms of the instances of each mesh of `scene` take more if its positions are
+/// integers: a translation and a scale for a node, and a scale for an instance that shares one.
+pub(super) fn integer_costs(scene: &Scene, storage: InstanceStorage) -> Vec<usize> {
+    let mut counts = vec![0; scene.meshes.len()];
+    scene.instances.iter().for_each(|instance| counts[instance.mesh] += 1);
+    let cost = |count: usize| match storage {
+        InstanceStorage::Automatic | InstanceStorage::Extension if count >= ENOUGH => 12 * count,
+        _ => 75 * count,
+    };
+    counts.into_iter().map(cost).collect()
+}
+
 /// Returns the maximum distance (m) of a point of a mesh from the mesh's origin.
 pub(super) fn reach(checked: &SceneCheck<'_>, mesh: usize) -> f64 {
     let furthest = |part: &PartExtent| part.low.abs().max(part.high.abs()).as_dvec3().length();
@@ -299,13 +309,23 @@ pub(super) fn add_group<'a>(
     let mut attributes = serde_json::Map::new();
     let count = group.translations.len() / 3;
     let mut add = |key: &str, column: AttributeColumn, kind: Type| {
+        let shared = match (&column, kind) {
+            (AttributeColumn::Floats(_), Type::Vec3) => Some(ArrayKind::InstanceVectors),
+            (AttributeColumn::Floats(_), Type::Vec4) => Some(ArrayKind::InstanceRotations),
+            (AttributeColumn::Shorts(..), Type::Vec4) => Some(ArrayKind::ShortRotations),
+            _ => None,
+        };
         let (block, component, normalized) = match column {
             AttributeColumn::Floats(floats) => (BodyArray::Floats(floats), ComponentType::F32, false),
             AttributeColumn::Shorts(shorts, normalized) => {
                 (BodyArray::Shorts(shorts), ComponentType::I16, normalized)
             }
         };
-        let array = Accessor { normalized, ..accessor((body.add(block), 0), component, kind, count) };
+        let place = match shared {
+            Some(shared) => body.share(shared, block),
+            None => (body.add(block), 0),
+        };
+        let array = Accessor { normalized, ..accessor(place, component, kind, count) };
         attributes.insert(key.into(), description.accessor(array).into());
     };
     let differs = |floats: &[f32], default: &[f32]| floats.chunks(default.len()).any(|item| item != default);

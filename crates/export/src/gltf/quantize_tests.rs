@@ -40,7 +40,7 @@ fn every_sample_is_drawn_within_half_a_step_with_and_without_shared_nodes() {
     let path = folder.path().join("a.glb");
     let mut scenes = samples::all(folder.path());
     scenes.retain(|(_, scene)| scene.triangles() > 0);
-    let mut count = 0;
+    let (mut count, mut rounded) = (0, 0);
     for (name, scene) in &scenes {
         for instances in [InstanceStorage::Nodes, InstanceStorage::Extension] {
             let (bytes, notes) = write_quantized(scene, instances, &path);
@@ -57,14 +57,21 @@ fn every_sample_is_drawn_within_half_a_step_with_and_without_shared_nodes() {
             let most = bound(scene) * 3.0_f64.sqrt() * 1.01 + 1e-3;
             let off = largest_distance(&exact, &drawn);
             assert!(off <= most, "{name}: {off} of {most}");
-            assert!(notes.iter().any(|note| note.contains("positions are rounded by at most")), "{notes:?}");
+            let is_rounded = notes.iter().any(|note| note.contains("positions are rounded by at most"));
+            let is_exact = notes.iter().any(|note| note.contains("positions are exact"));
+            assert!(is_rounded != is_exact, "{notes:?}");
+            rounded += usize::from(is_rounded);
+            // Names of extensions, and the transforms of texture coordinates.
+            let names = 250 + 150 * scene.materials.len();
+            let plain = std::fs::metadata(&exact_path).unwrap().len() as usize;
+            assert!(bytes.len() <= plain + names, "{name}: {} of {plain}", bytes.len());
             let document = Gltf::from_slice_without_validation(&bytes).unwrap();
             let required: Vec<_> = document.extensions_required().collect();
             assert!(required.contains(&"KHR_mesh_quantization"), "{name}: {required:?}");
             count += 1;
         }
     }
-    assert!(count == 2 * scenes.len() && count >= 16, "{count}");
+    assert!(count == 2 * scenes.len() && count >= 16 && rounded >= 4, "{count} {rounded}");
 }
 
 #[test]
@@ -146,4 +153,30 @@ fn integers_take_at_most_six_tenths_of_the_bytes_and_compress_further() {
     let (plain, small) = (size(false, false), size(true, false));
     assert!(small * 10 < plain * 7, "{small} of {plain}");
     assert!(size(true, true) * 2 < small && size(true, true) < size(false, true));
+}
+
+#[test]
+fn arrays_of_instances_are_compressed_and_a_view_that_would_grow_is_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let size = |scene: &Scene, is_compressed: bool| {
+        let path = folder.path().join("a.glb");
+        let instances = InstanceStorage::Extension;
+        let facts = SceneFacts { is_compressed, instances, ..SceneFacts::default() };
+        let mut files = Files::default();
+        files.export(&Export { scene, picture: &Picture::default(), facts }, &path).unwrap();
+        files.publish().unwrap();
+        let bytes = std::fs::read(&path).unwrap();
+        let is_used = bytes.windows(23).any(|text| text == b"EXT_meshopt_compression");
+        (bytes.len(), is_used)
+    };
+    let mut scene = samples::hill(1);
+    assert!(size(&scene, true).0 <= size(&scene, false).0 && !size(&scene, true).1);
+    let instance = scene.instances[0].clone();
+    for number in 1..2000_u32 {
+        let mut copy = instance.clone();
+        copy.transform.translation += DVec3::new(f64::from(number % 50), f64::from(number / 50), 0.0);
+        scene.instances.push(copy);
+    }
+    let ((plain, _), (packed, is_used)) = (size(&scene, false), size(&scene, true));
+    assert!(is_used && packed * 2 < plain, "{packed} of {plain}");
 }
