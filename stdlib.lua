@@ -569,7 +569,8 @@ local function add_entry(to: Entries, owner: string, part: any): any
     then "write { 3, Floor }, or { 3, false } to leave the part empty"
     else 'write { "side", Wall }, or { "side", false } to leave these out'
   if type(part) ~= "table" or part[1] == nil then
-    refuse(`{owner}: a part is {describe(part)}`, usage)
+    local first = if owner == "split" then "size" else "selector"
+    refuse(if type(part) == "table" then `{owner}: a part has no {first}` else `{owner}: a part is {describe(part)}`, usage)
   elseif part[2] == nil then
     refuse(`{owner}: an entry has no module`, usage)
   end

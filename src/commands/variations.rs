@@ -16,14 +16,17 @@ use super::progress::ProgressDisplay;
 use super::report;
 use super::shared::{ScriptFlags, end_on_interrupt, size};
 
+/// Seeds, unless given.
+const SEEDS: &str = "1..9";
+
 /// Runs a script many times, with other seeds or other values of a parameter, and shows them side by side
 #[derive(Args)]
-#[command(group = ArgGroup::new("over").required(true))]
+#[command(group = ArgGroup::new("over"))]
 pub(crate) struct VariationsCommand {
     #[command(flatten)]
     script: ScriptFlags,
 
-    /// Seeds: 1..16, or 3,7,12
+    /// Seeds: 1..16, or 3,7,12 [default without --sweep: 1..9]
     #[arg(long, value_name = "SEEDS", value_parser = seeds, group = "over", allow_hyphen_values = true)]
     seeds: Option<VariationAxis>,
 
@@ -69,8 +72,8 @@ impl VariationsCommand {
         end_on_interrupt()?;
         export::check_files([self.output.as_path()])?;
         let options = self.script.options()?;
-        let over = self.seeds.as_ref().or(self.sweep.as_ref());
-        let over = over.ok_or_else(|| Error::usage("specify --seeds or --sweep"))?;
+        let default = VariationAxis::seeds(SEEDS)?;
+        let over = self.seeds.as_ref().or(self.sweep.as_ref()).unwrap_or(&default);
         if let VariationAxis::Param { name, .. } = over
             && options.params.set.iter().any(|(known, _)| known == name)
         {
@@ -133,6 +136,9 @@ impl VariationsCommand {
             }
         }
         report::eprint(&report::warnings(warnings));
+        if let Some(text) = equal_pictures(cells) {
+            report::eprint(&text);
+        }
         let failed = cells.iter().filter(|cell| cell.made.is_err()).count();
         let failed = if failed > 0 { format!(", {failed} of them failed") } else { String::new() };
         report::eprint(&format!(
@@ -162,6 +168,23 @@ fn refuse_if_all_failed(cells: &[Variation]) -> Result<()> {
             .flat_map(|(error, _)| error.problems().map(Error::without_others).collect::<Vec<_>>())
             .collect(),
     ))
+}
+
+/// Returns the warning for several variations with equal pictures, although their seeds differ.
+fn equal_pictures(cells: &[Variation]) -> Option<String> {
+    let mut pictures = cells.iter().filter_map(|cell| cell.made.as_ref().ok()).map(|made| &made.picture);
+    let first = pictures.next()?;
+    let (mut others, mut count) = (pictures, 1);
+    let are_equal = others.all(|picture| {
+        count += 1;
+        picture == first
+    });
+    let seeds_only = cells.iter().all(|cell| cell.set.is_none());
+    (are_equal && count > 1 && seeds_only).then(|| {
+        format!(
+            "warning: the {count} pictures are equal\n  help: draw random numbers with random(), and give lsystem no seed of its own\n"
+        )
+    })
 }
 
 /// Returns the text of a cell without a render.

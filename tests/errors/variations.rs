@@ -57,6 +57,21 @@ fn a_sheet_is_the_same_for_any_number_of_threads_and_tells_its_cells() {
 }
 
 #[test]
+fn without_seeds_nine_are_shown_and_equal_pictures_are_told() {
+    let folder = folder();
+    let said = folder.burgeon(&arguments(&[])).done();
+    assert!(said.stderr.starts_with("9 variations, 3 in a row; "), "{}", said.stderr);
+    let own = SCRIPT.replace("lsystem({ object", "lsystem({ seed = 7, object");
+    let said = folder.with("s.lua", &own).burgeon(&arguments(&["--seeds", "1..3"])).done();
+    let (warning, rest) = said.stderr.split_once("\n3 variations").expect("a warning");
+    assert!(!rest.is_empty());
+    assert_snapshot!(warning, @r"
+    warning: the 3 pictures are equal
+      help: draw random numbers with random(), and give lsystem no seed of its own
+    ");
+}
+
+#[test]
 fn a_variation_that_fails_is_told_and_leaves_the_others_alone() {
     let folder = folder();
     let said = folder.burgeon(&arguments(&["--sweep", "n=2..4"])).done();
@@ -125,14 +140,6 @@ fn a_command_line_that_makes_no_sheet_says_what_would() {
         assert_eq!((said.status, said.stdout.as_str()), (2, ""), "{}", said.stderr);
         said.stderr
     };
-    assert_snapshot!(wrong(&["-o", "a.png"]), @r"
-    error: the following required arguments were not provided:
-      <--seeds <SEEDS>|--sweep <NAME=VALUES>>
-
-    Usage: burgeon variations --output <FILE> <--seeds <SEEDS>|--sweep <NAME=VALUES>> <SCRIPT>
-
-    For more information, try '--help'.
-    ");
     assert_snapshot!(wrong(&["--seeds", "1..4"]), @r"
     error: the following required arguments were not provided:
       --output <FILE>

@@ -72,7 +72,7 @@ fn modules_of_parts_have_the_required_parameters() {
     let told = error(&script.replace("Two }", "Two, 1, 2 }"));
     assert!(told.contains("Two has 2 parameters, not 3"), "{told}");
     let told = error(&script.replace("'~4*', Two", "nil, Two"));
-    assert!(told.contains("split: a part is a table"), "{told}");
+    assert!(told.contains("split: a part has no size"), "{told}");
 }
 
 #[test]

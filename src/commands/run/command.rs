@@ -1,5 +1,6 @@
 //! Command `run`.
 
+use std::io::IsTerminal;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
@@ -202,11 +203,13 @@ impl RunCommand {
         self.script.json
     }
 
-    /// Tells how to write or show the model, if a command line without a command `is_short` and wrote nothing.
+    /// Tells how to write or show the model, if nothing was written: to a person at a terminal, and after a command line without
+    /// a command, which `is_short`.
     pub(crate) fn hint_at_outputs(&self, is_short: bool) {
         let writes =
             !self.output.is_empty() || self.chain.is_some() || self.heights.is_some() || self.tiles.is_some();
-        if is_short && !writes && !self.script.json && self.script.script.as_os_str() != STANDARD {
+        let is_told = is_short || std::io::stderr().is_terminal();
+        if is_told && !writes && !self.script.json && self.script.script.as_os_str() != STANDARD {
             let script = shell_word(&self.script.script);
             let model = shell_word(&self.script.script.with_extension(GLB.extension()));
             let live = if cfg!(feature = "live") {
