@@ -80,7 +80,7 @@ fn convert(value: &LuaValue, manner: CopyMode, depth: usize) -> Result<Value> {
                     }
                     LuaValue::String(name) => TableKey::Name(owned(&name)?),
                     other => {
-                        return Err(Error::argument(format!("a table has a {} as a key", other.type_name()))
+                        return Err(Error::argument(format!("a table has a {} as a key", type_of(&other)))
                             .help("use names or integers as keys"));
                     }
                 };
@@ -137,7 +137,7 @@ fn convert(value: &LuaValue, manner: CopyMode, depth: usize) -> Result<Value> {
                 }
                 _ => "pass numbers, booleans, strings, tables of these, or objects",
             };
-            return Err(Error::argument(format!("a {} cannot be passed on", other.type_name())).help(help));
+            return Err(Error::argument(format!("a {} cannot be passed on", type_of(other))).help(help));
         }
     })
 }
@@ -193,4 +193,9 @@ pub(crate) fn to_lua(lua: &Lua, value: &Value, freeze: bool) -> mlua::Result<Lua
             LuaValue::Table(made)
         }
     })
+}
+
+/// Returns the name of the type of a value, as scripts know it: all numbers have one type.
+pub(super) fn type_of(value: &LuaValue) -> &'static str {
+    if value.is_integer() { "number" } else { value.type_name() }
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use mlua::{Lua, LuaString, Table, Value as LuaValue};
 
 use super::Machine;
-use super::convert::{to_lua, to_value};
+use super::convert::{to_lua, to_value, type_of};
 use super::current::WorkState;
 use super::library::Library;
 use crate::results::VariableValues;
@@ -121,7 +121,7 @@ fn declare(library: &Library, initial: LuaValue) -> Result<usize> {
     library.at_top_level("variables")?;
     let usage = "write variables({ time = 0, flowers = 0 })";
     let LuaValue::Table(initial) = initial else {
-        let message = format!("variables takes a table of names and values, not a {}", initial.type_name());
+        let message = format!("variables takes a table of names and values, not a {}", type_of(&initial));
         return Err(Error::argument(message).help(usage));
     };
     let Value::Table(initial) = to_value(&LuaValue::Table(initial), false)? else {

@@ -6,7 +6,7 @@ use mlua::{Function, Lua, Table, Value as LuaValue};
 
 use crate::declare::Session;
 use crate::machine::Machine;
-use crate::machine::convert::to_value;
+use crate::machine::convert::{to_value, type_of};
 use crate::machine::library::Library;
 use crate::machine::types::DerivedHandle;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
@@ -145,7 +145,7 @@ impl SystemDeclaration {
                     .map_err(named)?
             }
             other => {
-                let what = other.map_or("nothing", |value| value.type_name());
+                let what = other.map_or("nothing", |value| type_of(&value));
                 return Err(named(
                     Error::argument(format!("the successor must be a function or a string, not {what}"))
                         .help(usage),
@@ -349,6 +349,10 @@ fn rule_options(library: &Library, lua: &Lua, options: &Table) -> Result<RuleOpt
         let (key, value) = pair.map_err(|error| Error::internal(error.to_string()))?;
         let key = key.to_string().unwrap_or_default();
         match (key.as_str(), value) {
+            ("weight", LuaValue::Function(_)) => {
+                return Err(Error::argument("weight must be a number of at least 0, not a function")
+                    .help("write { when = function(this, x) return x > 0 end } for a condition, or { propensity = ... } for a rate"));
+            }
             ("weight", value) => match to_value(&value, false)? {
                 Value::Number(number) if number >= 0.0 && number.is_finite() => weight = Some(number),
                 other => {
@@ -378,7 +382,7 @@ fn rule_options(library: &Library, lua: &Lua, options: &Table) -> Result<RuleOpt
                 group = Some(name.to_string_lossy().into());
             }
             ("group", other) => {
-                return Err(Error::argument(format!("group must be a name, not a {}", other.type_name()))
+                return Err(Error::argument(format!("group must be a name, not a {}", type_of(&other)))
                     .help("write { group = \"grow\" }, and derive(5, \"grow\")"));
             }
             ("ignore", value) => {
@@ -391,7 +395,7 @@ fn rule_options(library: &Library, lua: &Lua, options: &Table) -> Result<RuleOpt
             }
             ("when", LuaValue::Function(function)) => guard = Some(function),
             ("when", other) => {
-                return Err(Error::argument(format!("when must be a function, not a {}", other.type_name()))
+                return Err(Error::argument(format!("when must be a function, not a {}", type_of(&other)))
                     .help("write { when = function(this, x) return x > 0 end }"));
             }
             (other, _) => {

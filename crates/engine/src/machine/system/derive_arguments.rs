@@ -2,7 +2,7 @@
 
 use mlua::{Table, Value as LuaValue};
 
-use crate::machine::convert::to_value;
+use crate::machine::convert::{to_value, type_of};
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::Value;
 use burgeon_language::DERIVE;
@@ -72,7 +72,7 @@ fn group_name(value: &LuaValue) -> Result<Option<String>> {
         LuaValue::Nil => Ok(None),
         LuaValue::String(name) => Ok(Some(name.to_string_lossy())),
         other => {
-            let message = format!("derive needs the name of a group, not a {}", other.type_name());
+            let message = format!("derive needs the name of a group, not a {}", type_of(other));
             Err(Error::argument(message).help("write system:derive(5, \"grow\")"))
         }
     }

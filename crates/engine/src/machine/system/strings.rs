@@ -76,7 +76,15 @@ pub(super) fn compile_successor(
     let analysis = analyse(file, &text, compile, &library.globals());
     machine.session.note(&analysis);
     if !analysis.problems.is_empty() {
-        let problems = analysis.problems.into_iter();
+        // Behind the string is the end of the function that it becomes.
+        let last = line + body.matches('\n').count();
+        let problems = analysis.problems.into_iter().map(|error| match error.place() {
+            Some(place) if place.line > last => {
+                let message = error.message().replace("'end'", "the end of the string");
+                error.rather_at(Some(SourcePlace::new(file, last))).saying(message)
+            }
+            _ => error,
+        });
         return Err(Error::several(match is_string {
             true => problems.map(without_locals).collect(),
             false => problems.collect(),

@@ -11,7 +11,7 @@ use super::kinds::{constructor, install_methods};
 use super::mentions::drawing_kind;
 use crate::declare::{Session, contested_method};
 use crate::machine::Machine;
-use crate::machine::convert::{to_lua, to_value};
+use crate::machine::convert::{to_lua, to_value, type_of};
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::{
     Argument, Call, Kind, Method, ScriptField, ScriptType, Table as ValueTable, TableKey, Value,
@@ -115,7 +115,7 @@ impl ScriptTypeEntry {
             other => {
                 return Err(Error::argument(format!(
                     "doc of object {name} must be a string, not a {}",
-                    other.type_name()
+                    type_of(&other)
                 )));
             }
         };
@@ -330,7 +330,7 @@ fn named(declared: &Table, part: &str, what: &str) -> Result<Vec<(String, LuaVal
         other => {
             return Err(Error::argument(format!(
                 "{what} must be a table of names, not a {}",
-                other.type_name()
+                type_of(&other)
             )));
         }
     };
@@ -385,7 +385,7 @@ fn not_a_type(machine: &Machine, name: &str) -> Error {
 }
 
 fn not_a_function(what: &str, found: &LuaValue) -> Error {
-    let found = if found.is_number() || found.is_integer() { "number" } else { found.type_name() };
+    let found = type_of(found);
     Error::argument(format!("{what} must be a function, not a {found}")).help(
         "write name = function(self, ...) ... end, or name = { doc = \"...\", function(self, ...) ... end }",
     )
