@@ -142,9 +142,11 @@ impl LoadedFolder {
     /// Returns the path of a copy of the file that seems to be at `path`, or of a listed folder; `None` if the loader does not
     /// have it. Calls the loader if the file has not been requested before.
     pub(super) fn find(&self, path: &Path) -> Result<Option<PathBuf>> {
-        let Ok(inner) = path.strip_prefix(&self.root) else { return Ok(None) };
-        let copy = self.path.join(inner);
-        self.load(inner, &copy)?;
+        let Some(inner) = path.strip_prefix(&self.root).ok().and_then(without_steps_up) else {
+            return Ok(None);
+        };
+        let copy = self.path.join(&inner);
+        self.load(&inner, &copy)?;
         // A folder of which a file has been loaded is not the whole folder.
         let is_there = copy.is_file() || copy.is_dir() && !(self.root != self.path && path.is_dir());
         Ok(is_there.then_some(copy))
@@ -186,6 +188,20 @@ impl Drop for LoadedFolder {
         // A folder that cannot be removed is left to the system.
         let _ = std::fs::remove_dir_all(&self.path);
     }
+}
+
+/// Returns a relative path without `.` and `..`; `None` if it leads out of the folder that it begins in.
+fn without_steps_up(path: &Path) -> Option<PathBuf> {
+    let mut inner = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::Normal(name) => inner.push(name),
+            Component::CurDir => {}
+            Component::ParentDir if inner.pop() => {}
+            _ => return None,
+        }
+    }
+    Some(inner)
 }
 
 /// Creates an empty folder that only this user can read, and returns its canonical path.
@@ -281,6 +297,12 @@ mod tests {
         for name in ["y.lua", "a/z.csv", "a", "none"] {
             assert_eq!(folder.find(&root.join(name)).unwrap(), None, "{name}");
         }
+        assert!(folder.find(&root.join("b/../a/./w.csv")).unwrap().is_some());
+        let beside = folder.path.with_extension("beside");
+        std::fs::write(&beside, "secret").unwrap();
+        let up = root.join("a/../..").join(beside.file_name().unwrap());
+        assert_eq!(folder.find(&up).unwrap(), None, "a file beside the copies");
+        std::fs::remove_file(&beside).unwrap();
         assert_eq!(folder.path_of("y.lua").unwrap(), root.join("y.lua"));
         assert!(folder.path_of("../y.lua").is_err());
         let missing = FileLoader::of_files(BTreeMap::new()).before(disk.path().join("none"));
