@@ -56,7 +56,7 @@ fn number_of_steps(value: &LuaValue) -> Result<Option<usize>> {
         Value::Number(steps) if steps.fract() == 0.0 && (0.0..1e9).contains(&steps) => {
             Ok(Some(steps as usize))
         }
-        Value::Number(steps) if steps >= 1e9 => {
+        Value::Number(steps) if steps >= 1e9 && steps.is_finite() => {
             Err(Error::argument(format!("derive takes fewer than 1,000,000,000 steps, not {steps}"))
                 .help("omit the number to derive until no rule applies"))
         }
