@@ -570,7 +570,8 @@ local function add_entry(to: Entries, owner: string, part: any): any
     else 'write { "side", Wall }, or { "side", false } to leave these out'
   if type(part) ~= "table" or part[1] == nil then
     local first = if owner == "split" then "size" else "selector"
-    refuse(if type(part) == "table" then `{owner}: a part has no {first}` else `{owner}: a part is {describe(part)}`, usage)
+    local what = if type(part) == "table" then `has no {first}` else `is {describe(part)}`
+    refuse(`{owner}: a part {what}`, usage)
   elseif part[2] == nil then
     refuse(`{owner}: an entry has no module`, usage)
   end
