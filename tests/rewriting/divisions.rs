@@ -39,6 +39,16 @@ fn a_rule_makes_the_same_modules_without_lua() {
             r#"return components(s, "edges", { { "corner", Part }, { "border", Part } })"#,
         ),
         ("Mass(cuboid(6, 4, 10))", r#"return split(s, "z", { { { "~1", Part }, { 1, Row } } })"#),
+        (
+            "Mass(cuboid(6, 4, 10), 1, \"low\")",
+            r#"return split(s, "z", { { "~4", Part, sizes.list[a], sizes[b] } })"#,
+        ),
+        (
+            "Mass(cuboid(6, 4, 10), 3, \"x\")",
+            r#"return split(s, "z", { { "~4", Part, `{a} m`, b .. "y" } })"#,
+        ),
+        ("Mass(rectangle(6, 4), 2)", r#"return split(s:extrude(a, nil), "z", { { "~1", Part, -a, s } })"#),
+        ("Mass(rectangle(6, 4))", r#"return split(s:extrude(2, vec(0, 0, 1)), "z", { { "~1", Part } })"#),
     ] {
         let [quick, by_lua] = both(axiom, body).map(|script| chain(&script));
         assert_eq!(quick, by_lua, "{body}");

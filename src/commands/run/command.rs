@@ -206,8 +206,9 @@ impl RunCommand {
     /// Tells how to write or show the model, if nothing was written: to a person at a terminal, and after a command line without
     /// a command, which `is_short`.
     pub(crate) fn hint_at_outputs(&self, is_short: bool) {
+        let files = [&self.chain, &self.heights, &self.tiles, &self.report];
         let writes =
-            !self.output.is_empty() || self.chain.is_some() || self.heights.is_some() || self.tiles.is_some();
+            !self.output.is_empty() || files.into_iter().any(Option::is_some) || self.save_preset.is_some();
         let is_told = is_short || std::io::stderr().is_terminal();
         if is_told && !writes && !self.script.json && self.script.script.as_os_str() != STANDARD {
             let script = shell_word(&self.script.script);

@@ -83,7 +83,7 @@ impl DivisionRule {
         }))
     }
 
-    /// Applies the rule to `count` rows of arguments. Returns false, with nothing made, if Lua has to apply it: to say what is
+    /// Applies the rule to rows of arguments. Returns false, with nothing made, if Lua has to apply it: to say what is
     /// wrong, and where.
     pub(crate) fn apply(&self, machine: &Machine, arguments: &[f64], made: &mut Successors) -> bool {
         let is_made = self.make_modules(machine, arguments, made).is_some();

@@ -80,7 +80,6 @@ fn is_plain(expression: &Expression) -> bool {
         Expression::TableConstructor(table) => table.fields().iter().all(|field| match field {
             Field::NoKey(value) => is_plain(value),
             Field::NameKey { value, .. } => is_plain(value),
-            Field::ExpressionKey { key, value, .. } => is_plain(key) && is_plain(value),
             _ => false,
         }),
         Expression::Var(Var::Name(_)) => true,
@@ -88,7 +87,10 @@ fn is_plain(expression: &Expression) -> bool {
             matches!(field.prefix(), Prefix::Name(_))
                 && field.suffixes().all(|suffix| match suffix {
                     Suffix::Index(Index::Dot { .. }) => true,
-                    Suffix::Index(Index::Brackets { expression, .. }) => is_plain(expression),
+                    // A parameter as a key would find nothing before the rule is applied.
+                    Suffix::Index(Index::Brackets { expression, .. }) => {
+                        matches!(&**expression, Expression::Number(_) | Expression::String(_))
+                    }
                     _ => false,
                 })
         }
@@ -152,6 +154,8 @@ mod tests {
             "function(this, s) if s then return nil end return split(s, \"x\", { { 1, a } }) end",
             "function(this, s) local split = f return split(s, \"x\", { { 1, a } }) end",
             "function(this, ...) return split(..., \"x\", { { 1, a } }) end",
+            "function(this, s, c) return split(s, \"x\", { { 1, a, f[c] } }) end",
+            "function(this, s, c) local t = { [c] = 1 } return split(s, \"x\", { { 1, a, t.b } }) end",
         ] {
             assert!(!divides(function), "{function}");
         }
