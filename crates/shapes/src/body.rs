@@ -63,8 +63,8 @@ impl ShapeBody {
         }
     }
 
-    /// Returns the corners (m) and the style of each face of a box, a recess or a rectangle, counter-clockwise seen from outside; `None` for
-    /// others.
+    /// Returns the corners (m) and the style of each face of a box, a recess or a rectangle, counter-clockwise seen from outside;
+    /// `None` for others.
     pub fn quads<'a>(
         &'a self,
         scope: &Scope,

@@ -116,7 +116,7 @@ impl ObjectMethod {
         arguments: &[Value],
         division: &OnceCell<Option<PartMaker>>,
     ) -> mlua::Result<mlua::Buffer> {
-        let parts = match self.prepared_division(object, arguments, division)? {
+        let parts = match self.division_of(object, arguments, division)? {
             Some((object, division)) => {
                 take_deferred();
                 let parts = division(&*object).map_err(mlua::Error::external)?;
@@ -138,7 +138,7 @@ impl ObjectMethod {
     }
 
     /// Returns the object with its division by the method; `None` if it has none for these arguments.
-    fn prepared_division<'a>(
+    fn division_of<'a>(
         &self,
         object: &LuaValue,
         arguments: &[Value],

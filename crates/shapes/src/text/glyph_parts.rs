@@ -106,7 +106,7 @@ mod tests {
 
     /// Returns the shipped font with composite letters 1 to `depth`, of two parts each: those that `next` gives for the letter.
     /// All letters of the text refer to the first one.
-    fn nested(depth: u16, next: impl Fn(u16) -> u16) -> Vec<u8> {
+    fn font_of_parts(depth: u16, next: impl Fn(u16) -> u16) -> Vec<u8> {
         let mut content = ttf_noto_sans::REGULAR.to_vec();
         let (head, _) = table(&content, b"head");
         let (loca, length) = table(&content, b"loca");
@@ -138,14 +138,14 @@ mod tests {
     #[test]
     fn letters_of_parts_that_double_or_contain_themselves_are_refused_at_once() {
         let begin = Instant::now();
-        for content in [nested(30, |letter| letter + 1), nested(30, |letter| letter)] {
+        for content in [font_of_parts(30, |letter| letter + 1), font_of_parts(30, |letter| letter)] {
             let font = Font::read(content).expect("a font");
             let sized = font.at_size(1.0, 0.01).expect("measures");
             let error = sized.area(ttf_parser::GlyphId(0)).expect_err("a damaged letter");
             assert!(error.to_string().contains("more than 1000 parts"), "{error}");
         }
         // A few levels are possible.
-        let font = Font::read(nested(5, |letter| letter + 1)).expect("a font");
+        let font = Font::read(font_of_parts(5, |letter| letter + 1)).expect("a font");
         let sized = font.at_size(1.0, 0.01).expect("measures");
         assert!(sized.area(ttf_parser::GlyphId(0)).expect("an empty letter").is_empty());
         assert!(begin.elapsed().as_secs() < 2);
