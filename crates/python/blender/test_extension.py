@@ -163,6 +163,119 @@ def test_a_file_that_is_opened_again_has_its_values_and_runs(extension, add, tmp
     assert height(model) == pytest.approx(18, abs=1e-4)
 
 
+def test_a_file_that_is_opened_again_has_no_object_twice(extension, add, tmp_path):
+    model, _ = add(HOUSES)
+    name, file = model.name, str(tmp_path / "again.blend")
+    before = sorted(it.name for it in bpy.data.objects), sorted(it.name for it in bpy.data.meshes)
+    bpy.ops.wm.save_as_mainfile(filepath=file)
+    bpy.ops.wm.open_mainfile(filepath=file)
+    model = bpy.data.collections[name]
+    assert bpy.ops.burgeon.run() == {"FINISHED"}
+    assert (sorted(it.name for it in bpy.data.objects), sorted(it.name for it in bpy.data.meshes)) == before
+    assert sorted(it.name for it in model.children) == ["barn", "mill"]
+
+
+def test_a_copy_of_a_model_and_the_model_change_alone(extension, add):
+    model, _ = add(TOWER)
+    copy = model.copy()
+    bpy.context.scene.collection.children.link(copy)
+    for item in list(copy.objects):
+        copy.objects.unlink(item)
+        copy.objects.link(item.copy())
+    values, keys = values_of(extension, copy)
+    setattr(values, keys["floors"], 20)
+    assert (height(model), height(copy)) == (pytest.approx(12, abs=1e-4), pytest.approx(20, abs=1e-4))
+    assert (len(model.all_objects), len(copy.all_objects)) == (1, 1)
+    values, keys = values_of(extension, model)
+    setattr(values, keys["floors"], 5)
+    assert (height(model), height(copy)) == (pytest.approx(5, abs=1e-4), pytest.approx(20, abs=1e-4))
+
+
+PAINTED = """
+local s = lsystem({ object = extruder({ sides = 4 }) })
+s:axiom(F(1))
+s:interpret("F(h)", function(this, h) this:material({ name = "stone", color = "#COLOR" }):extrude(h) end)
+s:derive(0)
+"""
+
+
+def test_two_models_with_materials_of_one_name_keep_their_colors(extension, add):
+    red, path = add(PAINTED.replace("COLOR", "ff0000"), "red.lua")
+    other = path.with_name("blue.lua")
+    other.write_text(PAINTED.replace("COLOR", "0000ff"), encoding="utf-8")
+    assert bpy.ops.burgeon.add(filepath=str(other)) == {"FINISHED"}
+
+    def colors():
+        shown = [bpy.data.collections[name].all_objects[0].material_slots[0].material for name in ("red", "blue")]
+        return [tuple(round(part) for part in it.diffuse_color[:3]) for it in shown]
+
+    assert colors() == [(1, 0, 0), (0, 0, 1)]
+    path.write_text(PAINTED.replace("COLOR", "00ff00"), encoding="utf-8")
+    assert bpy.ops.burgeon.choose(name="red") == {"FINISHED"}
+    assert bpy.ops.burgeon.run() == {"FINISHED"}
+    assert colors() == [(0, 1, 0), (0, 0, 1)]
+    assert sorted(it.name for it in bpy.data.materials) == ["stone", "stone.001"]
+
+
+def pulse_until_done(extension, limit=30):
+    end = time.monotonic() + limit
+    while extension.work._jobs or extension.work._waiting:
+        assert time.monotonic() < end
+        extension.work.pulse()
+        time.sleep(0.01)
+
+
+@pytest.fixture
+def windowed(extension, monkeypatch):
+    """Runs scripts in threads, as with a window; tests call ``pulse`` in the place of Blender."""
+    monkeypatch.setattr(extension.work, "has_no_window", lambda: False)
+
+
+SLOW = TOWER + "local sum = 0 for i = 1, 30000000 do sum += i % 7 end"
+
+
+def test_a_file_that_is_saved_during_a_run_is_whole_and_the_run_goes_on(extension, windowed, add, tmp_path):
+    model, _ = add(SLOW)
+    extension.work.pulse()
+    assert extension.work.is_running(model)
+    file = str(tmp_path / "during.blend")
+    assert bpy.ops.wm.save_as_mainfile(filepath=file) == {"FINISHED"}
+    assert extension.work.is_running(model) and len(model.all_objects) == 0
+    pulse_until_done(extension)
+    assert (model.burgeon.error, height(model)) == ("", pytest.approx(12, abs=1e-4))
+    bpy.ops.wm.open_mainfile(filepath=file)
+    model = bpy.data.collections["model"]
+    assert len(model.all_objects) == 0 and not extension.work.is_running(model)
+    assert bpy.ops.burgeon.run() == {"FINISHED"}
+    pulse_until_done(extension)
+    assert height(model) == pytest.approx(12, abs=1e-4)
+
+
+def test_a_run_ends_with_the_file_that_asked_for_it(extension, windowed, add, tmp_path):
+    model, _ = add(TOWER)
+    pulse_until_done(extension)
+    file = str(tmp_path / "before.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=file)
+    values, keys = values_of(extension, model)
+    setattr(values, keys["floors"], 30)
+    extension.work.pulse()
+    assert extension.work.is_running(model)
+    bpy.ops.wm.open_mainfile(filepath=file)
+    pulse_until_done(extension)
+    assert height(bpy.data.collections["model"]) == pytest.approx(12, abs=1e-4)
+
+
+def test_sliders_moved_during_a_run_end_at_the_last_value(extension, windowed, add):
+    model, _ = add(SLOW)
+    pulse_until_done(extension)
+    values, keys = values_of(extension, model)
+    for floors in (20, 30, 40):
+        setattr(values, keys["floors"], floors)
+        extension.work.pulse()
+    pulse_until_done(extension)
+    assert height(model) == pytest.approx(40, abs=1e-4)
+
+
 HOUSES = """
 local Walls = module("Walls", "height")
 local plots = {

@@ -22,6 +22,19 @@ def active_model(context: bpy.types.Context) -> bpy.types.Collection | None:
     return found[0] if len(found) == 1 else None
 
 
+def activate(context: bpy.types.Context, collection: bpy.types.Collection) -> bool:
+    """Makes a collection the active one, so that the panel shows its model. Returns false if the view layer lacks it."""
+    pending = [context.view_layer.layer_collection]
+    while pending:
+        layer = pending.pop()
+        if layer.collection == collection:
+            context.view_layer.active_layer_collection = layer
+            context.view_layer.objects.active = None
+            return True
+        pending.extend(layer.children)
+    return False
+
+
 class BURGEON_OT_add(bpy.types.Operator, ImportHelper):
     """Adds a model that a script makes"""
 
@@ -36,6 +49,7 @@ class BURGEON_OT_add(bpy.types.Operator, ImportHelper):
         name = os.path.splitext(os.path.basename(self.filepath))[0]
         collection = bpy.data.collections.new(name)
         context.scene.collection.children.link(collection)
+        activate(context, collection)
         with work.one_request(collection):
             collection.burgeon.is_model = True
             collection.burgeon.script = self.filepath
@@ -44,6 +58,21 @@ class BURGEON_OT_add(bpy.types.Operator, ImportHelper):
         if collection.burgeon.error:
             self.report({"ERROR"}, collection.burgeon.error)
         return {"FINISHED"}
+
+
+class BURGEON_OT_choose(bpy.types.Operator):
+    """Shows this model in the panel"""
+
+    bl_idname = "burgeon.choose"
+    bl_label = "Choose Model"
+
+    name: bpy.props.StringProperty(options={"HIDDEN"})
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        if activate(context, bpy.data.collections[self.name]):
+            return {"FINISHED"}
+        self.report({"ERROR"}, f"{self.name} is not in this view layer")
+        return {"CANCELLED"}
 
 
 class OfModel:
@@ -153,6 +182,8 @@ class BURGEON_PT_model(bpy.types.Panel):
         layout.use_property_decorate = False
         model = active_model(context)
         if model is None:
+            for it in work.models():
+                layout.operator("burgeon.choose", text=it.name, icon="OUTLINER_COLLECTION").name = it.name
             layout.operator("burgeon.add", icon="ADD")
             return
         settings = model.burgeon
@@ -176,8 +207,9 @@ class BURGEON_PT_model(bpy.types.Panel):
             _lines(layout.box(), settings.error, "ERROR", context.region.width)
         if settings.warnings:
             _lines(layout.box(), settings.warnings, "INFO", context.region.width)
-        running = work.progress_of(model) or "Running" if work.is_running(model) else settings.message
-        layout.label(text=running)
+        running = (work.progress_of(model) or "Running") if work.is_running(model) else ""
+        if running or not settings.error:
+            layout.label(text=running or settings.message or "Not run with these settings yet")
         row = layout.row(align=True)
         row.operator("burgeon.run", icon="FILE_REFRESH", text="Run")
         row.operator("burgeon.save", icon="EXPORT", text="Save")
@@ -191,6 +223,7 @@ def _in_add_menu(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
 
 CLASSES = (
     BURGEON_OT_add,
+    BURGEON_OT_choose,
     BURGEON_OT_run,
     BURGEON_OT_defaults,
     BURGEON_OT_remove,

@@ -19,28 +19,65 @@ KEY = "burgeon"
 FACTS = "burgeon_facts"
 
 
+class Owned:
+    """What the last run of a model has made, by key.
+
+    It is found by its place in the collection: a file that is opened again and a copy of a model have everything there.
+    """
+
+    def __init__(self, root: bpy.types.Collection) -> None:
+        self.folders: dict[str, bpy.types.Collection] = {}
+        self.objects: dict[str, bpy.types.Object] = {}
+        # A second object or folder with the same key is a copy that the user has made, or comes from an older file.
+        self.copies: list[bpy.types.ID] = []
+        self._walk(root)
+        objects = {*self.objects.values(), *(it for it in self.copies if isinstance(it, bpy.types.Object))}
+        meshes = Counter(it.data for it in objects if it.data is not None and KEY in it.data)
+        # A mesh that objects outside the model use stays as it is.
+        self.meshes = {it[KEY]: it for it, count in meshes.items() if it.users == count}
+        self.materials = Counter(it for mesh in self.meshes.values() for it in mesh.materials if it and KEY in it)
+
+    def _walk(self, folder: bpy.types.Collection) -> None:
+        for it in folder.objects:
+            if KEY in it:
+                self._add(it, self.objects)
+        for it in folder.children:
+            if it.burgeon.is_model:
+                continue
+            if KEY in it:
+                self._add(it, self.folders)
+            self._walk(it)
+
+    def _add(self, it: bpy.types.ID, known: dict[str, Any]) -> None:
+        if known.setdefault(it[KEY], it) != it:
+            self.copies.append(it)
+
+
 def show(model: burgeon.Model, root: bpy.types.Collection) -> int:
     """Replaces the content of a collection by a model, and returns the number of objects."""
-    materials = [_material(it, root) for it in model.materials]
-    by_material = dict(zip(map(id, model.materials), materials))
-    meshes = _meshes(model, root, by_material)
-    folders = _folders(model, root)
-    return _objects(model, root, meshes, folders)
+    owned = Owned(root)
+    by_material = {id(it): _material(it, owned) for it in model.materials}
+    meshes = _meshes(model, root, owned, by_material)
+    folders = _folders(model, root, owned)
+    _objects(model, root, owned, meshes, folders)
+    bpy.data.batch_remove(_left(owned))
+    return len(model.instances)
 
 
-def _owned(items: Any, root: bpy.types.Collection) -> dict[str, Any]:
-    """Returns what earlier runs of this model have made, by key."""
-    prefix = f"{root.session_uid}:"
-    return {it[KEY]: it for it in items if str(it.get(KEY, "")).startswith(prefix)}
+def _left(owned: Owned) -> list[bpy.types.ID]:
+    """Returns what the new run has not used again."""
+    return [*owned.objects.values(), *owned.folders.values(), *owned.meshes.values(), *owned.copies]
 
 
-def _material(it: burgeon.Material, root: bpy.types.Collection) -> bpy.types.Material:
+def _material(it: burgeon.Material, owned: Owned) -> bpy.types.Material:
     images = (it.texture, it.texture_size, it.normal_map, it.normal_scale)
     facts = repr((it.color, it.metallic, it.roughness, it.emissive, images))
     name = it.name or "Burgeon"
-    known = bpy.data.materials.get(name)
-    if known is None or known.get(KEY) != name:
-        known = next((m for m in bpy.data.materials if m.get(KEY) == name), None) or bpy.data.materials.new(name)
+    known = next((m for m in owned.materials if m[KEY] == name), None)
+    is_shared = known is not None and known.users != owned.materials[known]
+    if known is None or (known.get(FACTS) != facts and is_shared):
+        same = (m for m in bpy.data.materials if m.get(KEY) == name and m.get(FACTS) == facts)
+        known = next(same, None) or bpy.data.materials.new(name)
         known[KEY] = name
     if known.get(FACTS) == facts:
         return known
@@ -105,17 +142,15 @@ def _image(
 
 
 def _meshes(
-    model: burgeon.Model, root: bpy.types.Collection, by_material: dict[int, bpy.types.Material]
-) -> list[bpy.types.Mesh]:
-    known = _owned(bpy.data.meshes, root)
-    made = []
+    model: burgeon.Model, root: bpy.types.Collection, owned: Owned, by_material: dict[int, bpy.types.Material]
+) -> dict[int, bpy.types.Mesh]:
+    """Returns the meshes by the identity of those of the model."""
+    made = {}
     for at, it in enumerate(model.meshes):
-        key = f"{root.session_uid}:{at}"
-        mesh = known.pop(key, None) or bpy.data.meshes.new(it.name or root.name)
-        mesh[KEY] = key
+        mesh = owned.meshes.pop(str(at), None) or bpy.data.meshes.new(it.name or root.name)
+        mesh[KEY] = str(at)
         _fill(mesh, it, by_material)
-        made.append(mesh)
-    bpy.data.batch_remove(list(known.values()))
+        made[id(it)] = mesh
     return made
 
 
@@ -150,48 +185,42 @@ def _fill(mesh: bpy.types.Mesh, it: burgeon.Mesh, by_material: dict[int, bpy.typ
         attribute.data.foreach_set("vector", normals.ravel())
 
 
-def _folders(model: burgeon.Model, root: bpy.types.Collection) -> dict[str, bpy.types.Collection]:
+def _folders(model: burgeon.Model, root: bpy.types.Collection, owned: Owned) -> dict[str, bpy.types.Collection]:
     """Returns the collection of each feature, with its attributes as custom properties."""
-    known = _owned(root.children, root)
     features = {it["id"]: it for it in model.features}
     made = {}
     for feature in dict.fromkeys(it.feature for it in model.instances if it.feature is not None):
-        key = f"{root.session_uid}:{feature}"
-        folder = known.pop(key, None)
+        key = str(feature)
+        folder = owned.folders.pop(key, None)
         if folder is None:
-            folder = bpy.data.collections.new(str(feature))
+            folder = bpy.data.collections.new(key)
             root.children.link(folder)
         for name in [name for name in folder.keys() if name != KEY]:
             del folder[name]
-        folder[KEY] = key
         for name, value in features.get(feature, {}).items():
             if isinstance(value, (str, bool, int, float)) and name:
                 # Names of custom properties are limited.
                 folder[name[:63]] = value
+        folder[KEY] = key
         made[feature] = folder
-    for folder in known.values():
-        bpy.data.batch_remove([it for it in folder.objects if KEY in it])
-        bpy.data.collections.remove(folder)
     return made
 
 
 def _objects(
     model: burgeon.Model,
     root: bpy.types.Collection,
-    meshes: list[bpy.types.Mesh],
+    owned: Owned,
+    meshes: dict[int, bpy.types.Mesh],
     folders: dict[str, bpy.types.Collection],
-) -> int:
+) -> None:
     """Places the instances. An object keeps its key from run to run: feature, name and number among those."""
-    known = _owned(root.all_objects, root)
     numbers: Counter[tuple[str | None, str]] = Counter()
-    by_mesh = {id(mesh): made for mesh, made in zip(model.meshes, meshes)}
-    instances = model.instances
     transforms = np.array(model.transforms, np.float64).reshape(-1, 4, 4)
-    for it, transform in zip(instances, transforms):
+    for it, transform in zip(model.instances, transforms):
         numbers[it.feature, it.name] += 1
-        key = f"{root.session_uid}:{it.feature}:{it.name}:{numbers[it.feature, it.name]}"
-        item = known.pop(key, None)
-        mesh = by_mesh[id(it.mesh)]
+        key = f"{it.feature}:{it.name}:{numbers[it.feature, it.name]}"
+        item = owned.objects.pop(key, None)
+        mesh = meshes[id(it.mesh)]
         if item is None:
             item = bpy.data.objects.new(it.name or root.name, mesh)
             item[KEY] = key
@@ -199,13 +228,9 @@ def _objects(
         elif item.data is not mesh:
             item.data = mesh
         item.matrix_world = Matrix(transform.tolist())
-    bpy.data.batch_remove(list(known.values()))
-    return len(instances)
 
 
 def remove(root: bpy.types.Collection) -> None:
     """Removes a model from the file, with everything that its runs have made."""
-    objects, meshes = _owned(root.all_objects, root), _owned(bpy.data.meshes, root)
-    folders = _owned(root.children, root)
-    bpy.data.batch_remove([*objects.values(), *meshes.values(), *folders.values()])
+    bpy.data.batch_remove(_left(Owned(root)))
     bpy.data.collections.remove(root)

@@ -88,14 +88,21 @@ def progress_of(collection: bpy.types.Collection) -> str:
     return job.progress if job else ""
 
 
+def has_no_window() -> bool:
+    """Returns true without a user interface, where nothing calls ``pulse``."""
+    return bpy.app.background
+
+
 def request(collection: bpy.types.Collection) -> None:
     """Asks for a run with the present settings."""
     key = collection.session_uid
     if not collection.burgeon.is_model or not collection.burgeon.script:
         return
+    # An empty message tells that what is shown belongs to other settings.
+    collection.burgeon.message = ""
     if key in _held:
         _held[key] = True
-    elif bpy.app.background:
+    elif has_no_window():
         job = job_of(collection)
         job.run()
         _finish(collection, job)
@@ -215,14 +222,29 @@ def _file_opened(*_: Any) -> None:
                 values.adopt(collection, burgeon.parameters(path))
 
 
+@bpy.app.handlers.persistent
+def _undone(*_: Any) -> None:
+    """Runs the models of an undo step that was stored before their run had ended."""
+    for collection in models():
+        if not collection.burgeon.message:
+            request(collection)
+
+
+UNDO_HANDLERS = (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post)
+
+
 def register() -> None:
     bpy.app.handlers.load_post.append(_file_opened)
-    if not bpy.app.background:
+    for handlers in UNDO_HANDLERS:
+        handlers.append(_undone)
+    if not has_no_window():
         bpy.app.timers.register(pulse, persistent=True)
 
 
 def unregister() -> None:
     bpy.app.handlers.load_post.remove(_file_opened)
+    for handlers in UNDO_HANDLERS:
+        handlers.remove(_undone)
     if bpy.app.timers.is_registered(pulse):
         bpy.app.timers.unregister(pulse)
     for job in _jobs.values():
