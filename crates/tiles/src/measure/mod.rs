@@ -1,5 +1,6 @@
 //! Distances between levels of detail.
 
+mod cover;
 mod drawing;
 mod hausdorff;
 mod tree;

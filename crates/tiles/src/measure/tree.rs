@@ -1,12 +1,35 @@
 //! Tree of boxes around triangles, for the nearest triangle of a point.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 /// Corners (m) of a triangle.
 pub(super) type TriangleCorners = [DVec3; 3];
 
 /// Largest number of triangles in a box that is not divided.
-const FEW: usize = 6;
+const FEW: usize = 8;
+
+/// Bounds (m) of points along the axes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Bounds {
+    pub low: DVec3,
+    pub high: DVec3,
+}
+
+impl Bounds {
+    /// Returns the bounds of points; `None` without points.
+    pub(super) fn of(points: impl IntoIterator<Item = DVec3>) -> Option<Self> {
+        let grow = |Self { low, high }: Self, point| Self { low: low.min(point), high: high.max(point) };
+        let mut points = points.into_iter();
+        let first = points.next()?;
+        Some(points.fold(Self { low: first, high: first }, grow))
+    }
+
+    /// Returns the largest difference (m) from others along an axis. The point that is farthest along it has at least this distance
+    /// from the others.
+    pub(super) fn difference(&self, other: &Self) -> f64 {
+        (self.low - other.low).abs().max((self.high - other.high).abs()).max_element()
+    }
+}
 
 /// Triangles in a tree of boxes.
 ///
@@ -44,12 +67,13 @@ impl TriangleBox {
 
 impl TriangleTree {
     /// Builds the tree.
-    pub fn new(mut triangles: Vec<TriangleCorners>) -> Self {
+    pub fn new(triangles: Vec<TriangleCorners>) -> Self {
+        let mut items: Vec<TreeItem> = triangles.iter().zip(0..).map(TreeItem::new).collect();
         let mut boxes = Vec::with_capacity(triangles.len());
         if !triangles.is_empty() {
-            let all = triangles.len();
-            divide(&mut triangles, 0, all, &mut boxes);
+            divide(&triangles, &mut items, 0, &mut boxes);
         }
+        let triangles = items.iter().map(|item| triangles[item.number as usize]).collect();
         Self { triangles, boxes }
     }
 
@@ -91,6 +115,38 @@ impl TriangleTree {
         best.1.map(|number| (best.0.sqrt(), number))
     }
 
+    /// Returns the triangles whose boxes are at most `distance` (m) from the box around a triangle; `None` if they are more than
+    /// `most`.
+    pub(super) fn near(
+        &self,
+        corners: &TriangleCorners,
+        distance: f64,
+        most: usize,
+    ) -> Option<Vec<TriangleCorners>> {
+        let [a, b, c] = *corners;
+        let (low, high) = (a.min(b).min(c) - distance, a.max(b).max(c) + distance);
+        let meets =
+            |other_low: DVec3, other_high: DVec3| low.cmple(other_high).all() && other_low.cmple(high).all();
+        let mut found = Vec::new();
+        let mut open = if self.boxes.is_empty() { Vec::new() } else { vec![0] };
+        while let Some(index) = open.pop() {
+            let inner = &self.boxes[index];
+            if !meets(inner.low, inner.high) {
+                continue;
+            }
+            match self.halves(index) {
+                Some([first, second]) => open.extend([second, first]),
+                None => found.extend(
+                    self.in_box(index).iter().filter(|[a, b, c]| meets(a.min(*b).min(*c), a.max(*b).max(*c))),
+                ),
+            }
+            if found.len() > most {
+                return None;
+            }
+        }
+        Some(found)
+    }
+
     /// Returns the halves of a box; `None` if it is not divided.
     pub(super) fn halves(&self, index: usize) -> Option<[usize; 2]> {
         let second = self.boxes[index].second;
@@ -118,29 +174,48 @@ impl TriangleTree {
     }
 }
 
-/// Adds the boxes of `count` triangles from `first` on.
-fn divide(triangles: &mut [TriangleCorners], first: usize, count: usize, boxes: &mut Vec<TriangleBox>) {
-    let own = &mut triangles[first..first + count];
-    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let (mut least, mut most) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for corners in &*own {
-        let sum: DVec3 = corners.iter().sum();
-        (least, most) = (least.min(sum), most.max(sum));
-        corners.iter().for_each(|corner| (low, high) = (low.min(*corner), high.max(*corner)));
+/// Place of a triangle, by which it is put into a half of a box: small, because it is moved at each level of the tree.
+#[derive(Clone, Copy)]
+struct TreeItem {
+    /// Sum of the corners.
+    sum: Vec3,
+    number: u32,
+}
+
+impl TreeItem {
+    fn new((corners, number): (&TriangleCorners, u32)) -> Self {
+        Self { sum: corners.iter().sum::<DVec3>().as_vec3(), number }
     }
-    let index = boxes.len();
-    boxes.push(TriangleBox { low, high, first, count, second: 0 });
-    if count <= FEW {
-        return;
-    }
-    let size = most - least;
-    let axis = if size.x >= size.y && size.x >= size.z { 0 } else { 1 + usize::from(size.z > size.y) };
-    let middle = count / 2;
-    let key = |corners: &TriangleCorners| corners[0][axis] + corners[1][axis] + corners[2][axis];
-    own.select_nth_unstable_by(middle, |a, b| key(a).total_cmp(&key(b)));
-    divide(triangles, first, middle, boxes);
-    boxes[index].second = boxes.len();
-    divide(triangles, first + middle, count - middle, boxes);
+}
+
+/// Adds the boxes around the triangles of some items, the first of which has the index `first`, and returns the bounds of all.
+fn divide(
+    triangles: &[TriangleCorners],
+    items: &mut [TreeItem],
+    first: usize,
+    boxes: &mut Vec<TriangleBox>,
+) -> Bounds {
+    let (index, count) = (boxes.len(), items.len());
+    boxes.push(TriangleBox { low: DVec3::ZERO, high: DVec3::ZERO, first, count, second: 0 });
+    let bounds = if count <= FEW {
+        Bounds::of(items.iter().flat_map(|item| triangles[item.number as usize]))
+            .unwrap_or(Bounds { low: DVec3::ZERO, high: DVec3::ZERO })
+    } else {
+        let (low, high) = items.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), item| {
+            (low.min(item.sum), high.max(item.sum))
+        });
+        let size = high - low;
+        let axis = if size.x >= size.y && size.x >= size.z { 0 } else { 1 + usize::from(size.z > size.y) };
+        let middle = count / 2;
+        items.select_nth_unstable_by(middle, |a, b| a.sum[axis].total_cmp(&b.sum[axis]));
+        let (lower, upper) = items.split_at_mut(middle);
+        let a = divide(triangles, lower, first, boxes);
+        boxes[index].second = boxes.len();
+        let b = divide(triangles, upper, first + middle, boxes);
+        Bounds { low: a.low.min(b.low), high: a.high.max(b.high) }
+    };
+    (boxes[index].low, boxes[index].high) = (bounds.low, bounds.high);
+    bounds
 }
 
 /// Returns the square of the distance (m²) of a point from a triangle.
