@@ -174,13 +174,13 @@ impl Light<'_> {
         let mut color = surface.emissive;
         let toward = surface.normal.dot(self.sun.direction);
         if toward > 0.0 {
-            let seen = self.sun_seen(fragment, surface.normal);
+            let seen = self.sun_seen(fragment, surface.rounded, surface.normal);
             let kept = if surface.thin { 1.0 - 0.5 * THROUGH } else { 1.0 };
             let light = self.sun.light * (toward * seen);
             color += light * (diffuse * (kept / PI) + self.gloss(surface, glossy, facing, toward));
         } else if surface.thin {
             // Light that shines through a leaf is more saturated than light that the leaf reflects.
-            let seen = self.sun_seen(fragment, -surface.normal);
+            let seen = self.sun_seen(fragment, surface.behind, -surface.normal);
             color += self.sun.light * diffuse * diffuse.powf(0.35) * (-toward * seen * 1.6 * THROUGH / PI);
         }
         if surface.thin {
@@ -208,8 +208,8 @@ impl Light<'_> {
         part.lerp(Vec3::splat(part.element_sum() / 3.0), 0.5)
     }
 
-    fn sun_seen(&self, fragment: &Fragment, normal: Vec3A) -> f32 {
-        self.sun.visibility(fragment.surface.rounded, normal, fragment.noise * TAU, fragment.crowd)
+    fn sun_seen(&self, fragment: &Fragment, point: Vec3A, normal: Vec3A) -> f32 {
+        self.sun.visibility(point, normal, fragment.noise * TAU, fragment.crowd)
     }
 
     /// Returns the sun's highlight for unit irradiance: GGX with the height-correlated Smith term and Schlick's Fresnel

@@ -20,6 +20,10 @@ const ELEVATIONS: [f64; 5] = [0.0, -5.0, 5.0, 10.0, 15.0];
 /// Parts of the image that a degree of turn and of lift are worth.
 const TURN: f64 = 0.001;
 const LIFT: f64 = 0.005;
+/// Heights relative to the width from which on the camera is lowered, and at which it is lowest.
+const TALL: [f64; 2] = [1.5, 2.5];
+/// Lowest elevation of the camera (degrees).
+const LEVEL: f64 = 5.0;
 /// Number of directions in which the outermost points are found.
 const OUTERMOST: usize = 160;
 
@@ -131,8 +135,11 @@ fn suitable(points: &[DVec3]) -> (f64, f64, bool) {
     let extent = |axis: DVec3| reach(points, axis).1;
     let wide = extent(DVec3::X).max(extent(DVec3::Y)).max(1e-9);
     let slender = (extent(DVec3::Z) / wide).clamp(0.1, 3.0);
-    // From 38 degrees for a low city to 22 for a cube and 14 for a tower.
-    (150.0, 22.0 - 16.0 * slender.log10() * if slender < 1.0 { 1.0 } else { 1.05 }, true)
+    // From 38 degrees for a low city to 22 for a cube.
+    let elevation = 22.0 - 16.0 * slender.log10() * if slender < 1.0 { 1.0 } else { 1.05 };
+    // A tower is seen from near its middle, almost level, because a high camera makes it look like a model on a table.
+    let tall = ((slender - TALL[0]) / (TALL[1] - TALL[0])).clamp(0.0, 1.0);
+    (150.0, elevation + (LEVEL - elevation) * tall, true)
 }
 
 /// Returns the direction of the smallest extent of `points`, that extent, and the next larger extent.
