@@ -92,7 +92,7 @@ impl CameraView {
             Self::Orthographic { from, to, height } => {
                 if height.is_some_and(|height| !height.is_finite() || height <= 0.0) {
                     return Err(Error::argument("the height that the camera shows is not above 0")
-                        .help("give metres"));
+                        .help("give metres above 0"));
                 }
                 direction(from, to)
             }

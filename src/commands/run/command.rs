@@ -316,7 +316,9 @@ impl RunCommand {
             self.warn_of_nothing(session, &mut run)?;
             self.warn_of_cameras(session, &mut run)?;
             let writing = Instant::now();
+            let deadline = WritingDeadline::new(session);
             self.write(&mut run, session)?;
+            drop(deadline);
             if let Some(name) = &self.save_preset {
                 self.save(name, session, &run.params)?;
             }

@@ -113,11 +113,10 @@ pub(super) fn picture_camera(
 ) -> Result<Camera> {
     let size = [picture.width, picture.height];
     let points = extent.map(|extent| extent.points(&stage.shrink));
-    let is_free = picture.azimuth.is_none() && picture.elevation.is_none() && picture.look.is_none();
     let view = match &picture.camera {
         CameraChoice::View(view) => Some(*view),
         CameraChoice::Named(name) => Some(find_camera(scene, name)?),
-        CameraChoice::Automatic => scene.cameras.first().filter(|_| is_free).map(|camera| camera.view),
+        CameraChoice::Automatic => scene.cameras.first().filter(|_| picture.is_free()).map(|camera| camera.view),
     };
     if let Some(view) = view {
         return Ok(view_camera(stage, &view, size));

@@ -5,11 +5,11 @@ use super::{render, render_within};
 use crate::{Background, CameraChoice, Picture, Quality, SunPosition};
 use burgeon_base::stop::Stop;
 use burgeon_scene::image::Image;
-use burgeon_scene::{CameraView, Material, NormalMap, Part, Scene, SceneCamera, Texture, Upright};
+use burgeon_scene::{CameraView, Material, NormalMap, Part, Scene, Texture, Upright};
 use glam::{DAffine3, DVec3, Vec3};
 
 /// Returns the settings of a small render from the south-east with a transparent background and without a ground.
-fn small() -> Picture {
+pub(super) fn small() -> Picture {
     Picture {
         width: 96,
         height: 96,
@@ -32,17 +32,17 @@ fn brightness(image: &Image, xs: std::ops::Range<u32>, ys: std::ops::Range<u32>)
 }
 
 /// Returns each pixel with its column and row.
-fn places(image: &Image) -> impl Iterator<Item = (u32, u32, [u8; 4])> {
+pub(super) fn places(image: &Image) -> impl Iterator<Item = (u32, u32, [u8; 4])> {
     let rows = 0..image.height();
     rows.flat_map(move |y| (0..image.width()).map(move |x| (x, y, image.pixel(x, y))))
 }
 
-fn count_covered(image: &Image) -> usize {
+pub(super) fn count_covered(image: &Image) -> usize {
     image.pixels().iter().filter(|pixel| pixel[3] > 0).count()
 }
 
 /// Returns a vertical square of 4 m on the x axis whose front faces south.
-fn wall(material: Material) -> Scene {
+pub(super) fn wall(material: Material) -> Scene {
     let mut part = Part::default();
     let corners = [[-2.0, 0.0], [2.0, 0.0], [2.0, 4.0], [-2.0, 4.0]];
     quad(&mut part, corners.map(|[x, z]| Vec3::new(x, 0.0, z)));
@@ -430,28 +430,6 @@ fn haze_lets_a_model_fade_into_the_background() {
 }
 
 #[test]
-fn the_first_camera_of_a_scene_is_that_of_its_picture_unless_another_is_chosen() {
-    let mut scene = boxes(&[DVec3::ZERO]);
-    let free = Picture { azimuth: None, elevation: None, ..small() };
-    let fitted = render(&scene, &free).unwrap();
-    let view = CameraView::Perspective { from: DVec3::new(0.0, -30.0, 0.0), to: DVec3::ZERO, fov: 40.0 };
-    for (name, view) in [("far", view), ("above", CameraView::Plan)] {
-        scene.cameras.push(SceneCamera { name: name.to_owned(), view, place: None });
-    }
-    let far = render(&scene, &free).unwrap();
-    assert!(count_covered(&far) * 8 < count_covered(&fitted));
-    let named = |name: &str| Picture { camera: CameraChoice::Named(name.to_owned()), ..free.clone() };
-    assert!(render(&scene, &named("far")).unwrap() == far);
-    let above = render(&scene, &named("above")).unwrap();
-    // A square from above fills 92 % of the width and of the height.
-    assert!(count_covered(&above).abs_diff(88 * 88) < 400, "{}", count_covered(&above));
-    assert!(render(&scene, &named("plan")).unwrap() == above);
-    assert!(render(&scene, &Picture { azimuth: Some(150.0), ..free.clone() }).unwrap() != far);
-    let error = render(&scene, &named("fra")).unwrap_err();
-    assert!(error.message().contains("no camera named `fra`"), "{error}");
-}
-
-#[test]
 fn glass_mirrors_the_sky_and_a_lamp_shines_in_the_dark() {
     let view = CameraView::Perspective {
         from: DVec3::new(0.0, -9.0, 1.0),
@@ -481,4 +459,68 @@ fn glass_mirrors_the_sky_and_a_lamp_shines_in_the_dark() {
         brightness(&render(&wall(lamp), &picture).unwrap(), 44..52, 44..52)
     };
     assert!(glow([0.9, 0.7, 0.3]) > glow([0.0; 3]) + 60.0);
+}
+
+/// Returns an open tube with smooth normals and this number of sides, seen from both sides.
+fn tube(sides: u32) -> Scene {
+    let mut part = Part::default();
+    for i in 0..=sides {
+        let (sin, cos) = (std::f32::consts::TAU * i as f32 / sides as f32).sin_cos();
+        for z in [0.0, 2.0] {
+            // Wider at the top, so that the sun from above shines on the inside.
+            let radius = 0.7 + 0.3 * z;
+            part.positions.push(Vec3::new(radius * cos, radius * sin, z));
+            part.normals.push(Vec3::new(cos, sin, -0.3).normalize().into());
+            part.uvs.push(glam::Vec2::ZERO);
+        }
+    }
+    for i in 0..sides {
+        let [a, b, c, d] = [2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1];
+        part.triangles.extend([[a, b, c], [a, c, d]]);
+    }
+    scene_of(part, Material { double_sided: true, ..Material::default() })
+}
+
+#[test]
+fn light_shines_through_a_coarse_smooth_surface_as_through_a_fine_one() {
+    let sun = Some(SunPosition { azimuth: 0.0, elevation: 40.0 });
+    let picture = Picture { azimuth: Some(170.0), quality: Quality::Fine, sun, ..small() };
+    let [coarse, fine] = [20, 320].map(|sides| render(&tube(sides), &picture).unwrap());
+    let differ = coarse
+        .pixels()
+        .iter()
+        .zip(fine.pixels())
+        .filter(|(a, b)| a[3] == 255 && b[3] == 255 && a[0].abs_diff(b[0]) > 14)
+        .count();
+    let all = count_covered(&fine);
+    assert!(all > 3000 && differ * 50 < all, "{differ} of {all} pixels differ");
+}
+
+/// Returns a metal wall, and a red box in front of it that only the wall shows to the viewer.
+fn mirror_and_box(roughness: f32) -> Scene {
+    let mut scene = wall(Material { base_color: [0.9, 0.9, 0.9, 1.0], metallic: 1.0, roughness, ..Material::default() });
+    let red = scene.material(&Material { base_color: [0.8, 0.05, 0.05, 1.0], ..Material::default() });
+    let mut part = Part { material: red, ..Part::default() };
+    prism(&mut part, &ring(4, 2.0, 0.8, -1.5), &ring(4, 2.0, 0.8, 0.5));
+    scene.meshes.push(burgeon_scene::Mesh { parts: vec![part], ..Default::default() });
+    scene.instances.push(burgeon_scene::Instance { mesh: 1, ..instance(DVec3::new(0.0, -6.0, 0.0)) });
+    scene
+}
+
+#[test]
+fn smooth_metal_mirrors_the_model_in_a_fine_render_and_rough_metal_does_not() {
+    // The line of sight is mirrored down to the box.
+    let view = CameraView::Perspective {
+        from: DVec3::new(0.0, -7.0, 5.0),
+        to: DVec3::new(0.0, 0.0, 2.4),
+        fov: 20.0,
+    };
+    let redness = |quality: Quality, roughness: f32| {
+        let picture = Picture { camera: CameraChoice::View(view), quality, ..small() };
+        let [red, green, ..] = render(&mirror_and_box(roughness), &picture).unwrap().pixel(48, 48);
+        i32::from(red) - i32::from(green)
+    };
+    let (fine, rough) = (redness(Quality::Fine, 0.05), redness(Quality::Fine, 0.9));
+    assert!(fine > 50 && rough < 20, "{fine} {rough}");
+    assert!(redness(Quality::Draft, 0.05) < 20, "a draft estimates what metal mirrors");
 }
