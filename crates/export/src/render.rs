@@ -5,8 +5,9 @@ use std::path::Path;
 
 use super::facts::Export;
 use super::files::Files;
-use burgeon_base::error::{Result, Warning, WarningKind};
+use burgeon_base::error::Result;
 use burgeon_base::stop::Stop;
+use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_picture::{CameraChoice, ModelSight, Picture, render_with_sight, render_within};
 use burgeon_scene::Scene;
 

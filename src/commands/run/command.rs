@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
+use super::deadline::WritingDeadline;
 use super::films::FilmFlags;
 use super::levels::LevelFlags;
 use super::{parts, watch};
