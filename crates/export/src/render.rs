@@ -42,12 +42,13 @@ fn sight_warning(export: &Export<'_>, sight: ModelSight, path: &Path) -> Option<
     let text = format!("the picture {}{by} shows nothing of the model: {reason}", path.display());
     let help = match (sight, scene.bounds()) {
         (ModelSight::Hidden, _) | (_, None) => {
-            "see it from the other side, or give its material double_sided = true".to_owned()
+            "see it from the other side, give its material double_sided = true, or draw it thicker".to_owned()
         }
         (_, Some((low, high))) => {
             let [x, y, z] = ((low + high) * 0.5).to_array().map(|number| (number * 10.0).round() / 10.0);
+            let action = if sight == ModelSight::Speck { "move the camera nearer to" } else { "direct the camera at" };
             format!(
-                "direct the camera at the model, whose middle is at {{ {x}, {y}, {z} }}, or give angles, which fit the \
+                "{action} the model, whose middle is at {{ {x}, {y}, {z} }}, or give angles, which fit the \
                  distance to it: azimuth = 30, elevation = 15"
             )
         }
