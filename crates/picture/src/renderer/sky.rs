@@ -22,6 +22,8 @@ const ZENITH: Vec3 = Vec3::new(0.31, 0.36, 0.45);
 const HORIZON: Vec3 = Vec3::new(0.45, 0.47, 0.49);
 /// Fraction of light that the ground reflects.
 const GROUND: Vec3 = Vec3::new(0.46, 0.44, 0.41);
+/// Slope below the horizon at which haze hides a third of the ground.
+const GROUND_HAZE: f32 = 0.025;
 /// Colour of the floor of a light studio.
 const STUDIO: Vec3 = Vec3::new(0.775, 0.765, 0.740);
 /// Largest distance in a map, whose texels are integers.
@@ -152,7 +154,8 @@ impl Sky {
         let air = if direction.z >= 0.0 {
             horizon.lerp(Vec3::new(0.13, 0.28, 0.58), direction.z.powf(0.55).min(1.0)) + glow + disc
         } else {
-            (horizon + glow).lerp(Vec3::new(0.36, 0.35, 0.32), smooth(0.0, 0.22, -direction.z))
+            let haze = (direction.z / GROUND_HAZE).exp();
+            Vec3::new(0.36, 0.35, 0.32).lerp(horizon + glow, haze)
         };
         air * (0.25 + 0.75 * self.dusk)
     }
