@@ -151,7 +151,8 @@ leaf:derive()
 
 #[test]
 fn a_picture_that_takes_longer_than_the_time_limit_is_cancelled() {
-    let large = ["run", "s.lua", "-o", "a.png", "--size", "9000x9000", "--quality", "best", "--time-limit", "1"];
+    let large =
+        ["run", "s.lua", "-o", "a.png", "--size", "9000x9000", "--quality", "best", "--time-limit", "1"];
     let error = folder().refuses(&large);
     assert!(error.contains("writing the files exceeded the time limit of 1 s"), "{error}");
 }

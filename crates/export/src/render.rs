@@ -46,7 +46,8 @@ fn sight_warning(export: &Export<'_>, sight: ModelSight, path: &Path) -> Option<
         }
         (_, Some((low, high))) => {
             let [x, y, z] = ((low + high) * 0.5).to_array().map(|number| (number * 10.0).round() / 10.0);
-            let action = if sight == ModelSight::Speck { "move the camera nearer to" } else { "direct the camera at" };
+            let action =
+                if sight == ModelSight::Speck { "move the camera nearer to" } else { "direct the camera at" };
             format!(
                 "{action} the model, whose middle is at {{ {x}, {y}, {z} }}, or give angles, which fit the \
                  distance to it: azimuth = 30, elevation = 15"

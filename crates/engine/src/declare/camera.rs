@@ -67,10 +67,7 @@ pub(crate) fn declare_camera(options: &Table, place: Option<SourcePlace>) -> Res
                 "it has a position".to_owned(),
                 "give its direction by angles instead of `from`: azimuth = 30, elevation = 15".to_owned(),
             ),
-            _ => (
-                format!("its view is \"{kind}\""),
-                format!("the view \"{kind}\" has {}", owned.join(", ")),
-            ),
+            _ => (format!("its view is \"{kind}\""), format!("the view \"{kind}\" has {}", owned.join(", "))),
         };
         return Err(Error::argument(format!("camera {name} has no `{foreign}`: {reason}")).help(help));
     }

@@ -116,7 +116,9 @@ pub(super) fn picture_camera(
     let view = match &picture.camera {
         CameraChoice::View(view) => Some(*view),
         CameraChoice::Named(name) => Some(find_camera(scene, name)?),
-        CameraChoice::Automatic => scene.cameras.first().filter(|_| picture.is_free()).map(|camera| camera.view),
+        CameraChoice::Automatic => {
+            scene.cameras.first().filter(|_| picture.is_free()).map(|camera| camera.view)
+        }
     };
     if let Some(view) = view {
         return Ok(view_camera(stage, &view, size));
@@ -175,7 +177,8 @@ fn view_camera(stage: &Stage, view: &CameraView, size: [u32; 2]) -> Camera {
 fn fitted_camera(stage: &Stage, fitted: &FittedView, size: [u32; 2]) -> Camera {
     let FittedView { azimuth, elevation, fov, sphere, is_parallel } = *fitted;
     let [width, height] = size;
-    let eye = view::viewpoint(&stage.hull, &Picture { azimuth, elevation, width, height, ..Picture::default() });
+    let eye =
+        view::viewpoint(&stage.hull, &Picture { azimuth, elevation, width, height, ..Picture::default() });
     let ball = sphere.map(|(at, radius)| ViewBall { at: at.to_array(), radius });
     match (ball, is_parallel) {
         (Some(ball), true) => {

@@ -139,7 +139,8 @@ impl<'a> SeenPoint<'a> {
         let corners = [a, a + ab, a + ac];
         surface.rounded = round_position(surface.position, corners, normals, weights);
         if surface.thin {
-            surface.behind = round_position(surface.position, corners, normals.map(|normal| -normal), weights);
+            surface.behind =
+                round_position(surface.position, corners, normals.map(|normal| -normal), weights);
         }
         if self.images.texture.is_none() && self.images.normals.is_none() {
             return surface;

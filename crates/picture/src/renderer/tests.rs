@@ -498,7 +498,8 @@ fn light_shines_through_a_coarse_smooth_surface_as_through_a_fine_one() {
 
 /// Returns a metal wall, and a red box in front of it that only the wall shows to the viewer.
 fn mirror_and_box(roughness: f32) -> Scene {
-    let mut scene = wall(Material { base_color: [0.9, 0.9, 0.9, 1.0], metallic: 1.0, roughness, ..Material::default() });
+    let mut scene =
+        wall(Material { base_color: [0.9, 0.9, 0.9, 1.0], metallic: 1.0, roughness, ..Material::default() });
     let red = scene.material(&Material { base_color: [0.8, 0.05, 0.05, 1.0], ..Material::default() });
     let mut part = Part { material: red, ..Part::default() };
     prism(&mut part, &ring(4, 2.0, 0.8, -1.5), &ring(4, 2.0, 0.8, 0.5));

@@ -138,7 +138,8 @@ mod tests {
         let tree = BoxTree::new(&boxes);
         let mut met = 0;
         for i in 0..300 {
-            let (origin, target) = (spread(i, 300).as_vec3a() * 12.0, spread(i * 7 % 300, 300).as_vec3a() * 4.0);
+            let (origin, target) =
+                (spread(i, 300).as_vec3a() * 12.0, spread(i * 7 % 300, 300).as_vec3a() * 4.0);
             let direction = (target - origin).normalize();
             let enter = |[low, high]: Corners| {
                 let (a, b) = ((low - origin) / direction, (high - origin) / direction);

@@ -165,17 +165,21 @@ mod tests {
     #[test]
     fn a_ray_meets_the_nearest_front_face_of_any_instance_also_a_mirrored_one() {
         let mut scene = samples::boxes(&[DVec3::ZERO, DVec3::new(8.0, 0.0, 0.0)]);
-        scene.instances[1].transform =
-            DAffine3::from_translation(DVec3::new(8.0, 0.0, 0.0)) * DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0));
+        scene.instances[1].transform = DAffine3::from_translation(DVec3::new(8.0, 0.0, 0.0))
+            * DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0));
         let stage = Stage::new(&scene).unwrap();
         let tracer = Tracer::new(&stage).unwrap();
         let at = |x: f64| stage.shrink.transform_point3(DVec3::new(x, 0.1, 0.2)).as_vec3a();
-        for (from, direction, x) in [(-9.0, 1.0, -1.0), (4.0, 1.0, 7.0), (4.0, -1.0, 1.0), (19.0, -1.0, 9.0)] {
+        for (from, direction, x) in [(-9.0, 1.0, -1.0), (4.0, 1.0, 7.0), (4.0, -1.0, 1.0), (19.0, -1.0, 9.0)]
+        {
             let met = tracer.meet(at(from), Vec3A::X * direction).unwrap();
             assert!(met.position.distance(at(x)) < 1e-4, "from {from}: {}", met.position);
             assert!((met.normal.x + direction).abs() < 1e-3 && met.distance > 0.0);
         }
-        assert!(tracer.meet(at(0.0), Vec3A::X).unwrap().position.distance(at(7.0)) < 1e-4, "backs let it through");
+        assert!(
+            tracer.meet(at(0.0), Vec3A::X).unwrap().position.distance(at(7.0)) < 1e-4,
+            "backs let it through"
+        );
         assert!(tracer.meet(at(4.0), Vec3A::Z).is_none());
     }
 }
