@@ -80,7 +80,7 @@ fn a_camera_without_a_direction_or_with_a_wrong_field_is_refused_with_its_line()
     error: s.lua:2:1: camera a has no `from`
       | camera({ name = "a", to = { 1, 2, 3 } })
       | ^^^^^^
-      help: write camera({ name = "a", from = { 20, -30, 2 }, to = { 0, 0, 5 } })
+      help: write camera({ name = "a", from = { 20, -30, 2 }, to = { 0, 0, 5 } }), or camera({ name = "a", azimuth = 30, elevation = 15 }), which shows the whole model
     "#);
     assert_snapshot!(refused(r#"camera({ form = { 1, 2, 3 } })"#), @r"
     error: s.lua:2:10: unknown field `form` in camera
@@ -116,13 +116,48 @@ fn a_camera_without_a_direction_or_with_a_wrong_field_is_refused_with_its_line()
 
 #[test]
 fn a_camera_by_angles_with_a_wrong_or_foreign_field_is_refused_with_its_line() {
-    assert_snapshot!(refused(r#"camera({ azimuth = 30, elevation = 91 })"#), @"");
-    assert_snapshot!(refused(r#"camera({ azimuth = 30, to = { 0, 0, 4 } })"#), @"");
-    assert_snapshot!(refused(r#"camera({ elevation = 30, to = { 0, 0, 4 }, radius = 0 })"#), @"");
-    assert_snapshot!(refused(r#"camera({ azimuth = 30, from = { 9, 0, 4 }, to = { 0, 0, 4 } })"#), @"");
-    assert_snapshot!(refused(r#"camera({ from = { 9, 0, 4 }, to = { 0, 0, 4 }, radius = 4 })"#), @"");
-    assert_snapshot!(refused(r#"camera({ view = "eye", elevation = 4 })"#), @"");
-    assert_snapshot!(refused(r#"camera({ azimuth = 30, fov = 0 })"#), @"");
+    assert_snapshot!(refused(r#"camera({ azimuth = 30, elevation = 91 })"#), @r"
+    error: s.lua:2:24: the elevation of the camera is 91 degrees
+      | camera({ azimuth = 30, elevation = 91 })
+      |                        ^^^^^^^^^
+      help: give -90 to 90 degrees above the horizon
+    ");
+    assert_snapshot!(refused(r#"camera({ azimuth = 30, to = { 0, 0, 4 } })"#), @r"
+    error: s.lua:2:24: camera camera has `to` and no `radius`
+      | camera({ azimuth = 30, to = { 0, 0, 4 } })
+      |                        ^^
+      help: give both, the sphere that the picture shows: to = { 0, 0, 5 }, radius = 8; or none, for the whole model
+    ");
+    assert_snapshot!(refused(r#"camera({ elevation = 30, to = { 0, 0, 4 }, radius = 0 })"#), @r"
+    error: s.lua:2:44: the radius that the camera shows is 0 m
+      | camera({ elevation = 30, to = { 0, 0, 4 }, radius = 0 })
+      |                                            ^^^^^^
+      help: give metres above 0
+    ");
+    assert_snapshot!(refused(r#"camera({ azimuth = 30, from = { 9, 0, 4 }, to = { 0, 0, 4 } })"#), @r"
+    error: s.lua:2:24: camera camera has no `from`: its direction is given by angles
+      | camera({ azimuth = 30, from = { 9, 0, 4 }, to = { 0, 0, 4 } })
+      |                        ^^^^
+      help: a camera by angles has azimuth, elevation, to, radius, fov; with `from` and `to` it has no angles
+    ");
+    assert_snapshot!(refused(r#"camera({ from = { 9, 0, 4 }, to = { 0, 0, 4 }, radius = 4 })"#), @r"
+    error: s.lua:2:48: camera camera has no `radius`: it has a position
+      | camera({ from = { 9, 0, 4 }, to = { 0, 0, 4 }, radius = 4 })
+      |                                                ^^^^^^
+      help: give its direction by angles instead of `from`: azimuth = 30, elevation = 15
+    ");
+    assert_snapshot!(refused(r#"camera({ view = "eye", elevation = 4 })"#), @r#"
+    error: s.lua:2:24: camera camera has no `elevation`: its view is "eye"
+      | camera({ view = "eye", elevation = 4 })
+      |                        ^^^^^^^^^
+      help: the view "eye" has azimuth
+    "#);
+    assert_snapshot!(refused(r#"camera({ azimuth = 30, fov = 0 })"#), @r"
+    error: s.lua:2:1: the field of view is 0 degrees
+      | camera({ azimuth = 30, fov = 0 })
+      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+      help: give 1 to 120 degrees
+    ");
 }
 
 #[test]
@@ -134,8 +169,18 @@ fn a_picture_that_shows_nothing_of_the_model_is_a_warning_with_the_reason_and_th
         let said = folder.burgeon(&run).done().stderr;
         said.lines().skip_while(|line| !line.starts_with("warning")).collect::<Vec<_>>().join("\n")
     };
-    assert_snapshot!(warning(r#"camera({ name = "away", from = { 20, 0, 4 }, to = { 40, 0, 4 } })"#), @"");
-    assert_snapshot!(warning(r#"camera({ name = "far", from = { 1e12, 0, 4 }, to = { 0, 0, 4 } })"#), @"");
+    assert_snapshot!(warning(r#"camera({ name = "away", from = { 20, 0, 4 }, to = { 40, 0, 4 } })"#), @r#"
+    warning: s.lua:1:1: the picture a.png by camera away shows nothing of the model: the model is outside of it
+      | camera({ name = "away", from = { 20, 0, 4 }, to = { 40, 0, 4 } })
+      | ^^^^^^
+      help: direct the camera at the model, whose middle is at { 0, 0, 4 }, or give angles, which fit the distance to it: azimuth = 30, elevation = 15
+    "#);
+    assert_snapshot!(warning(r#"camera({ name = "far", from = { 1e12, 0, 4 }, to = { 0, 0, 4 } })"#), @r#"
+    warning: s.lua:1:1: the picture a.png by camera far shows nothing of the model: the model is smaller than a pixel
+      | camera({ name = "far", from = { 1e12, 0, 4 }, to = { 0, 0, 4 } })
+      | ^^^^^^
+      help: move the camera nearer to the model, whose middle is at { 0, 0, 4 }, or give angles, which fit the distance to it: azimuth = 30, elevation = 15
+    "#);
     let leaf = r#"local P = module("P")
 local leaf = lsystem({ object = turtle() })
 leaf:axiom(P())

@@ -15,6 +15,8 @@ mod extent;
 mod floor;
 mod light_map;
 mod measure;
+#[cfg(test)]
+mod mirror_tests;
 mod points;
 mod pose;
 mod raster;
