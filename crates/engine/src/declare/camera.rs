@@ -4,15 +4,12 @@ use super::session::Session;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::locks::LockRecovery;
 use burgeon_kit::{Parameter, Table, TableKey};
-use burgeon_language::CAMERA;
+use burgeon_language::{CAMERA, CAMERA_ANGLES};
 use burgeon_scene::{CameraView, FittedView, SceneCamera};
 use glam::DVec3;
 
 /// Field of view of a camera without another (degrees).
 const FOV: f64 = 40.0;
-
-/// Fields that give the direction of a camera without a position, so that its distance is fitted to the model.
-const ANGLES: [&str; 2] = ["azimuth", "elevation"];
 
 /// Parses the declaration `camera({ from = ..., to = ... })` in the line `place`. Fails for unknown fields, for fields that
 /// the view does not have, and if the camera has no direction.
@@ -34,10 +31,12 @@ pub(crate) fn declare_camera(options: &Table, place: Option<SourcePlace>) -> Res
         return Err(Error::argument("the name of a camera is empty").help("write name = \"street\""));
     }
     let kind = field::<String>(options, "view")?.unwrap_or_else(|| "perspective".to_owned());
-    let is_fitted = ANGLES.iter().any(|angle| options.get(angle).is_some());
+    let [azimuth, elevation] = CAMERA_ANGLES;
+    // Without a position, the distance is fitted to the model.
+    let is_fitted = CAMERA_ANGLES.iter().any(|angle| options.get(angle).is_some());
     let owned: &[&str] = match kind.as_str() {
-        "perspective" if is_fitted => &["azimuth", "elevation", "to", "radius", "fov"],
-        "orthographic" if is_fitted => &["azimuth", "elevation", "to", "radius"],
+        "perspective" if is_fitted => &[azimuth, elevation, "to", "radius", "fov"],
+        "orthographic" if is_fitted => &[azimuth, elevation, "to", "radius"],
         "perspective" => &["from", "to", "fov"],
         "orthographic" => &["from", "to", "height"],
         "plan" => &[],
@@ -82,7 +81,7 @@ pub(crate) fn declare_camera(options: &Table, place: Option<SourcePlace>) -> Res
     let view = match kind.as_str() {
         "perspective" | "orthographic" if is_fitted => CameraView::Fitted(FittedView {
             azimuth: field(options, "azimuth")?,
-            elevation: field(options, "elevation")?,
+            elevation: field(options, elevation)?,
             fov: field(options, "fov")?,
             sphere: sphere(options, &name)?,
             is_parallel: kind == "orthographic",

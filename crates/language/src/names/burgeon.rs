@@ -248,6 +248,9 @@ pub static PARAM: LazyLock<Name> = LazyLock::new(|| {
     )
 });
 
+/// Fields of a camera that give its direction: the angle from north, and the angle above the horizon.
+pub const CAMERA_ANGLES: [&str; 2] = ["azimuth", "elevation"];
+
 /// Declaration of a camera.
 pub static CAMERA: LazyLock<Name> = LazyLock::new(|| {
     Name::global(

@@ -2,7 +2,7 @@
 //!
 //! Input: the stage and a ray. Output: the nearest point that it meets. The folder knows nothing of light.
 
-mod box_tree;
+mod ray_tree;
 mod tracer;
 
 pub(super) use tracer::{MirroredPoint, Tracer};

@@ -1,7 +1,7 @@
 //! Rays from mirrors to the model.
 
 use super::super::stage::{DrawCall, Stage};
-use super::box_tree::{BoxTree, Corners};
+use super::ray_tree::{RayBox, RayTree};
 use burgeon_scene::Part;
 use glam::{Affine3A, Vec2, Vec3A};
 use rayon::prelude::*;
@@ -16,11 +16,11 @@ const OPAQUE: f32 = 0.5;
 pub(in super::super) struct Tracer<'a> {
     stage: &'a Stage<'a>,
     /// Triangles of each part, in its coordinates.
-    parts: Vec<BoxTree>,
+    parts: Vec<RayTree>,
     /// Index of the part of each draw, and the transform to its coordinates.
     draws: Vec<(usize, Affine3A)>,
     /// Boxes of the draws.
-    tree: BoxTree,
+    tree: RayTree,
 }
 
 /// Point of the model that a ray meets.
@@ -58,12 +58,12 @@ impl<'a> Tracer<'a> {
                 if (a + b + c).is_finite() { [a.min(b).min(c), a.max(b).max(c)] } else { [Vec3A::NAN; 2] }
             });
             match stage.stop.is_stopped() {
-                true => BoxTree::new(&[]),
-                false => BoxTree::new(&boxes.collect::<Vec<_>>()),
+                true => RayTree::new(&[]),
+                false => RayTree::new(&boxes.collect::<Vec<_>>()),
             }
         };
-        let parts: Vec<BoxTree> = parts.par_iter().map(tree).collect();
-        let boxes: Vec<Corners> = stage
+        let parts: Vec<RayTree> = parts.par_iter().map(tree).collect();
+        let boxes: Vec<RayBox> = stage
             .draws
             .iter()
             .zip(&numbers)
@@ -71,7 +71,7 @@ impl<'a> Tracer<'a> {
             .collect();
         let back = |(draw, number): (&DrawCall<'a>, usize)| (number, draw.place.inverse());
         let draws = stage.draws.iter().zip(numbers).map(back).collect();
-        (!stage.stop.is_stopped()).then(|| Self { stage, parts, draws, tree: BoxTree::new(&boxes) })
+        (!stage.stop.is_stopped()).then(|| Self { stage, parts, draws, tree: RayTree::new(&boxes) })
     }
 
     /// Returns the nearest point that a ray from `origin` in the unit `direction` meets. Backs of one-sided faces, and what is
@@ -146,7 +146,7 @@ fn uv(draw: &DrawCall<'_>, corners: [usize; 3], weights: Vec2) -> Vec2 {
 }
 
 /// Returns the box around a box after the transform `place`.
-fn placed([low, high]: Corners, place: &Affine3A) -> Corners {
+fn placed([low, high]: RayBox, place: &Affine3A) -> RayBox {
     let (center, half) = ((low + high) * 0.5, (high - low) * 0.5);
     let center = place.transform_point3a(center);
     let matrix = place.matrix3;

@@ -8,11 +8,11 @@ const LEAF: usize = 4;
 const DEEPEST: usize = 64;
 
 /// Minimum and maximum corner of a box.
-pub(super) type Corners = [Vec3A; 2];
+pub(super) type RayBox = [Vec3A; 2];
 
 /// Binary tree of boxes along the axes.
 #[derive(Debug)]
-pub(super) struct BoxTree {
+pub(super) struct RayTree {
     nodes: Vec<TreePart>,
     /// Numbers of the items, those of each leaf together.
     order: Vec<u32>,
@@ -21,25 +21,25 @@ pub(super) struct BoxTree {
 /// Part of a tree: a leaf with items, or two smaller parts.
 #[derive(Debug, Clone, Copy)]
 struct TreePart {
-    corners: Corners,
+    corners: RayBox,
     /// Index of the first item in the order, or of the first of both parts.
     first: u32,
     /// Number of items; 0 if there are parts.
     count: u32,
 }
 
-impl BoxTree {
+impl RayTree {
     /// Creates the tree of items with these boxes. Items whose box is not finite are never found.
     ///
     /// Method: median split of the centres along the longest axis.
-    pub(super) fn new(boxes: &[Corners]) -> Self {
+    pub(super) fn new(boxes: &[RayBox]) -> Self {
         let finite = |item: &u32| boxes[*item as usize].iter().all(|corner| corner.is_finite());
         let mut order: Vec<u32> = (0..boxes.len() as u32).filter(finite).collect();
         let mut nodes = vec![TreePart { corners: [Vec3A::ZERO; 2], first: 0, count: 0 }];
         let mut open = vec![(0, 0..order.len())];
         while let Some((node, range)) = open.pop() {
             let items = &mut order[range.clone()];
-            let hull = |of: &dyn Fn(u32) -> Corners| {
+            let hull = |of: &dyn Fn(u32) -> RayBox| {
                 let none = [Vec3A::INFINITY, Vec3A::NEG_INFINITY];
                 items.iter().fold(none, |[low, high], item| {
                     let [a, b] = of(*item);
@@ -69,7 +69,7 @@ impl BoxTree {
     }
 
     /// Returns the box of all items.
-    pub(super) fn corners(&self) -> Corners {
+    pub(super) fn corners(&self) -> RayBox {
         self.nodes[0].corners
     }
 
@@ -129,19 +129,19 @@ mod tests {
 
     #[test]
     fn a_ray_finds_the_same_nearest_box_as_a_search_of_all() {
-        let boxes: Vec<Corners> = (0..500)
+        let boxes: Vec<RayBox> = (0..500)
             .map(|i| {
                 let at = spread(i, 500).as_vec3a() * (1.0 + (i % 7) as f32);
                 [at - 0.2, at + 0.2]
             })
             .collect();
-        let tree = BoxTree::new(&boxes);
+        let tree = RayTree::new(&boxes);
         let mut met = 0;
         for i in 0..300 {
             let (origin, target) =
                 (spread(i, 300).as_vec3a() * 12.0, spread(i * 7 % 300, 300).as_vec3a() * 4.0);
             let direction = (target - origin).normalize();
-            let enter = |[low, high]: Corners| {
+            let enter = |[low, high]: RayBox| {
                 let (a, b) = ((low - origin) / direction, (high - origin) / direction);
                 let (from, to) = (a.min(b).max_element().max(0.0), a.max(b).min_element());
                 if from <= to { from } else { f32::INFINITY }
@@ -161,7 +161,7 @@ mod tests {
     fn a_tree_of_nothing_and_a_box_that_is_not_finite_are_never_met() {
         for boxes in [vec![], vec![[Vec3A::NAN; 2]]] {
             let mut count = 0;
-            BoxTree::new(&boxes).each(Vec3A::NEG_X, Vec3A::X, &mut f32::MAX.clone(), |_, _| count += 1);
+            RayTree::new(&boxes).each(Vec3A::NEG_X, Vec3A::X, &mut f32::MAX.clone(), |_, _| count += 1);
             assert_eq!(count, 0);
         }
     }
