@@ -23,8 +23,9 @@ pub use examples::EXAMPLES;
 pub use form::{ArgumentList, CallForm, argument};
 pub use luau_type::{Literal, LuauType};
 pub use names::{
-    CAMERA, DERIVE, DERIVED, EXTEND, Effect, LAYER, LOCKED, LSYSTEM, NOW, Name, NameKind, OBJECT, Operator,
-    PARAM, RULE, SOURCE, SYSTEM, VECTOR, deprecated_names, is_pure_function, library_effect, names,
+    CAMERA, CAMERA_ANGLES, DERIVE, DERIVED, EXTEND, Effect, LAYER, LOCKED, LSYSTEM, NOW, Name, NameKind,
+    OBJECT, Operator, PARAM, RULE, SOURCE, SYSTEM, VECTOR, deprecated_names, is_pure_function,
+    library_effect, names,
 };
 pub use notation::module_form;
 pub use script_types::with_types;

@@ -66,6 +66,25 @@ pub fn is_inside(_scene: &Scene, _point: DVec3) -> Result<bool> {
     Ok(false)
 }
 
+/// Part of a model that a render shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ModelSight {
+    /// Pixels of the model, or the scene shows nothing from any side.
+    Seen,
+    /// None: the model is outside of the picture.
+    Outside,
+    /// None: the model is smaller than a pixel.
+    Speck,
+    /// None: its faces are seen from behind, transparent, or thinner than a pixel.
+    Hidden,
+}
+
+/// Fails, because rendering is not available.
+pub fn render_with_sight(_scene: &Scene, picture: &Picture, _stop: &Stop) -> Result<(Image, ModelSight)> {
+    picture.check()?;
+    image::check().map(|()| (Image::filled(0, 0, [0; 4]), ModelSight::Seen))
+}
+
 /// Fails, because rendering is not available.
 pub fn render(scene: &Scene, picture: &Picture) -> Result<Image> {
     render_within(scene, None, picture, &Stop::default())

@@ -161,6 +161,11 @@ impl Picture {
     /// Maximum width and height (pixels).
     pub const LARGEST: u32 = 16384;
 
+    /// Returns true if no angle and no sphere replaces the first camera of the scene.
+    pub fn is_free(&self) -> bool {
+        self.azimuth.is_none() && self.elevation.is_none() && self.look.is_none()
+    }
+
     /// Fails if the size or an angle is invalid.
     ///
     /// ```

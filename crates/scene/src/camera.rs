@@ -42,6 +42,23 @@ pub enum CameraView {
         /// Azimuth from north, clockwise (degrees); `None` chooses by the model's shape.
         azimuth: Option<f64>,
     },
+    /// Perspective or parallel projection in a direction, from where it shows its whole target.
+    Fitted(FittedView),
+}
+
+/// Camera by angles, whose distance is fitted to its target.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct FittedView {
+    /// Azimuth from north, clockwise (degrees); `None` chooses by the model's shape.
+    pub azimuth: Option<f64>,
+    /// Elevation above the horizon (degrees), -90 to 90; `None` chooses by the model's shape.
+    pub elevation: Option<f64>,
+    /// Vertical field of view (degrees) of a perspective; `None` is that of a picture without a camera.
+    pub fov: Option<f64>,
+    /// Sphere that fills the picture: its centre (m) and radius (m). `None` shows the whole model.
+    pub sphere: Option<(DVec3, f64)>,
+    /// Set for a parallel projection.
+    pub is_parallel: bool,
 }
 
 impl CameraView {
@@ -69,22 +86,20 @@ impl CameraView {
         };
         match *self {
             Self::Perspective { from, to, fov } => {
-                if !(1.0..=120.0).contains(&fov) {
-                    return Err(Error::argument(format!("the field of view is {fov} degrees"))
-                        .help("give 1 to 120 degrees"));
-                }
+                check_fov(fov)?;
                 direction(from, to)
             }
             Self::Orthographic { from, to, height } => {
                 if height.is_some_and(|height| !height.is_finite() || height <= 0.0) {
                     return Err(Error::argument("the height that the camera shows is not above 0")
-                        .help("give metres"));
+                        .help("give metres above 0"));
                 }
                 direction(from, to)
             }
             Self::EyeLevel { azimuth: Some(azimuth) } if !azimuth.is_finite() => {
                 Err(Error::argument("the camera's azimuth is not a number").help("give degrees from north"))
             }
+            Self::Fitted(view) => view.check(),
             Self::Plan | Self::EyeLevel { .. } => Ok(()),
         }
     }
@@ -93,8 +108,8 @@ impl CameraView {
     #[must_use]
     pub fn kind_name(&self) -> &'static str {
         match self {
-            Self::Perspective { .. } => "perspective",
-            Self::Orthographic { .. } => "orthographic",
+            Self::Perspective { .. } | Self::Fitted(FittedView { is_parallel: false, .. }) => "perspective",
+            Self::Orthographic { .. } | Self::Fitted(FittedView { is_parallel: true, .. }) => "orthographic",
             Self::Plan => "plan",
             Self::EyeLevel { .. } => "eye",
         }
@@ -106,7 +121,41 @@ impl CameraView {
         match *self {
             Self::Perspective { from, .. } => Some(from),
             // A parallel projection shows the whole model, wherever the camera stands.
-            Self::Orthographic { .. } | Self::Plan | Self::EyeLevel { .. } => None,
+            Self::Orthographic { .. } | Self::Plan | Self::EyeLevel { .. } | Self::Fitted(_) => None,
         }
     }
+}
+
+impl FittedView {
+    /// Fails if an angle, the field of view or the sphere is invalid.
+    fn check(&self) -> Result<()> {
+        if self.azimuth.is_some_and(|azimuth| !azimuth.is_finite()) {
+            return Err(
+                Error::argument("the camera's azimuth is not a number").help("give degrees from north")
+            );
+        }
+        if let Some(elevation) = self.elevation.filter(|elevation| !(-90.0..=90.0).contains(elevation)) {
+            return Err(Error::argument(format!("the elevation of the camera is {elevation} degrees"))
+                .help("give -90 to 90 degrees above the horizon"));
+        }
+        if let Some((center, radius)) = self.sphere {
+            if !center.is_finite() {
+                return Err(Error::argument("the point that the camera shows is not finite")
+                    .help("give three numbers (m)"));
+            }
+            if !radius.is_finite() || radius <= 0.0 {
+                return Err(Error::argument(format!("the radius that the camera shows is {radius} m"))
+                    .help("give metres above 0"));
+            }
+        }
+        self.fov.map_or(Ok(()), check_fov)
+    }
+}
+
+/// Fails if a field of view (degrees) is invalid.
+fn check_fov(fov: f64) -> Result<()> {
+    if (1.0..=120.0).contains(&fov) {
+        return Ok(());
+    }
+    Err(Error::argument(format!("the field of view is {fov} degrees")).help("give 1 to 120 degrees"))
 }

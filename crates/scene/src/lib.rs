@@ -17,7 +17,7 @@ mod surface;
 mod triangles;
 mod upright;
 
-pub use camera::{CameraView, SceneCamera};
+pub use camera::{CameraView, FittedView, SceneCamera};
 pub use city::CityClass;
 pub use difference::{MaterialDifference, SceneCounts, SceneDifference, ShownFeature};
 pub use material::{Material, NormalMap, Texture};

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
+use super::deadline::WritingDeadline;
 use super::films::FilmFlags;
 use super::levels::LevelFlags;
 use super::{parts, watch};
@@ -316,7 +317,9 @@ impl RunCommand {
             self.warn_of_nothing(session, &mut run)?;
             self.warn_of_cameras(session, &mut run)?;
             let writing = Instant::now();
+            let deadline = WritingDeadline::new(session);
             self.write(&mut run, session)?;
+            drop(deadline);
             if let Some(name) = &self.save_preset {
                 self.save(name, session, &run.params)?;
             }

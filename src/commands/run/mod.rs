@@ -3,6 +3,7 @@
 //! Input: a script and the names of files. Output: the files, all or none of them, or a film. Modelling happens in the library.
 
 mod command;
+mod deadline;
 mod films;
 mod levels;
 mod outputs;

@@ -248,6 +248,9 @@ pub static PARAM: LazyLock<Name> = LazyLock::new(|| {
     )
 });
 
+/// Fields of a camera that give its direction: the angle from north, and the angle above the horizon.
+pub const CAMERA_ANGLES: [&str; 2] = ["azimuth", "elevation"];
+
 /// Declaration of a camera.
 pub static CAMERA: LazyLock<Name> = LazyLock::new(|| {
     Name::global(
@@ -264,9 +267,12 @@ pub static CAMERA: LazyLock<Name> = LazyLock::new(|| {
                     "from",
                     "Vector?",
                     "nil",
-                    "Position of the camera (m): x, y and z. Required unless `view` fits the camera to the model.",
+                    "Position of the camera (m): x, y and z. Required unless angles or `view` fit the camera to the model.",
                 ),
                 field("to", "Vector?", "nil", "Point in the middle of the picture (m): x, y and z."),
+                degrees(field("azimuth", "number?", "nil", "Direction from which the camera sees the model, instead of `from`: 0 is north, 90 east. The camera is as far away as shows the whole model, or the sphere of `to` and `radius`. Without it, the model's shape determines it. Also for the view \"eye\".")),
+                degrees(field("elevation", "number?", "nil", "Height above the horizon from which the camera sees the model, -90 to 90, with or instead of `azimuth`.")),
+                metres("radius", "number?", "Radius around `to` that a camera by angles shows. Without both, it shows the whole model."),
                 degrees(field("fov", "number", "40", "Vertical field of view, 1 to 120.")),
                 field(
                     "view",
@@ -277,7 +283,6 @@ pub static CAMERA: LazyLock<Name> = LazyLock::new(|| {
                      fitted to the model.",
                 ),
                 metres("height", "number?", "Height that an orthographic picture shows. Without it, the picture shows the whole model."),
-                degrees(field("azimuth", "number?", "nil", "Azimuth of the view \"eye\": 0 looks at the model from the north, 90 from the east. Without it, the model's shape determines it.")),
             ],
         )],
         "()",

@@ -11,7 +11,7 @@ mod shapes;
 mod standard;
 mod systems;
 
-pub use burgeon::{CAMERA, EXTEND, LAYER, OBJECT, PARAM, SOURCE, VECTOR};
+pub use burgeon::{CAMERA, CAMERA_ANGLES, EXTEND, LAYER, OBJECT, PARAM, SOURCE, VECTOR};
 pub use list::{deprecated_names, is_pure_function, library_effect, names};
 pub use luau::LOCKED;
 pub use name::{Effect, Name, NameKind, Operator};

@@ -5,7 +5,7 @@ use super::state::ServerState;
 use burgeon_base::error::{Error, Result};
 use burgeon_engine::run::Run;
 use burgeon_picture::pose;
-use burgeon_scene::CameraView;
+use burgeon_scene::{CameraView, FittedView};
 use glam::DVec3;
 
 /// Camera that a page asks for.
@@ -60,7 +60,11 @@ fn place(state: &ServerState, id: u64, wanted: &WantedCamera) -> Result<Event> {
     let pose = pose(scene, &view, wanted.aspect)?;
     let target = match view {
         CameraView::Perspective { to, .. } => to,
-        CameraView::Orthographic { .. } | CameraView::Plan | CameraView::EyeLevel { .. } => {
+        CameraView::Fitted(FittedView { sphere: Some((center, _)), is_parallel: false, .. }) => center,
+        CameraView::Orthographic { .. }
+        | CameraView::Plan
+        | CameraView::EyeLevel { .. }
+        | CameraView::Fitted(_) => {
             let ahead = (0.5 * (low + high) - pose.eye).dot(pose.forward);
             pose.eye + pose.forward * ahead.max(1e-3 * DVec3::distance(low, high)).max(1e-3)
         }

@@ -35,15 +35,30 @@ pub(super) struct Camera {
 }
 
 impl Camera {
+    /// Size of an image relative to the part between its margins.
+    pub(super) const PADDED: f64 = 1.0 / (1.0 - 2.0 * MARGIN as f64);
+
     /// Fits a camera in direction `eye`, as near as possible with all of `points` in an image of `size` (pixels).
     pub(super) fn fit(points: impl Iterator<Item = Vec3A>, eye: Viewpoint, size: [u32; 2]) -> Self {
+        Self::fit_field(points, eye, None, 0.5, size)
+    }
+
+    /// Fits a camera as [`fit`](Self::fit) does, with this vertical field of view (rad), at least at the distance `apart` from
+    /// the nearest point.
+    pub(super) fn fit_field(
+        points: impl Iterator<Item = Vec3A>,
+        eye: Viewpoint,
+        fov: Option<f64>,
+        apart: f32,
+        size: [u32; 2],
+    ) -> Self {
         let forward = -eye.direction();
         let (sin, cos) = eye.azimuth.sin_cos();
         let right = DVec3::new(-cos, sin, 0.0);
         let down = forward.cross(right).as_vec3a();
         let (right, forward) = (right.as_vec3a(), forward.as_vec3a());
         let (width, height) = (size[0] as f32, size[1] as f32);
-        let focal = FOCAL * width.max(height);
+        let focal = fov.map_or(FOCAL * width.max(height), |fov| focal_length(fov, size));
         let slope = [width, height].map(|side| side * (0.5 - MARGIN) / focal);
 
         // A point is inside if |x - eye.x| <= slope * (z - eye.z); both sides together bound eye.z, and their
@@ -60,8 +75,8 @@ impl Camera {
             (most, nearest) = ([1.0; 4], -1.0);
         }
         let back = |i: usize| -(most[2 * i] + most[2 * i + 1]) / (2.0 * slope[i]);
-        // The nearest point stays half a unit away, even if the model is a single point.
-        let z = back(0).min(back(1)).min(nearest - 0.5);
+        // The nearest point stays apart, even if the model is a single point.
+        let z = back(0).min(back(1)).min(nearest - apart);
         let (x, y) = ((most[0] - most[1]) / 2.0, (most[2] - most[3]) / 2.0);
         let eye = right * x + down * y + forward * z;
         let turn = Mat3A::from_cols(right, down, forward).transpose();
@@ -83,7 +98,7 @@ impl Camera {
     pub(super) fn between(from: DVec3, to: DVec3, fov: f64, bounds: (Vec3A, Vec3A), size: [u32; 2]) -> Self {
         let eye = from.as_vec3a();
         let outside = (eye - eye.clamp(bounds.0, bounds.1)).length();
-        let focal = (0.5 * f64::from(size[1]) / (0.5 * fov).tan()) as f32;
+        let focal = focal_length(fov, size);
         // At this distance, a point in a corner of the image is nearest along the view direction.
         let half = size.map(|side| side as f32 / 2.0);
         let corner = focal / Vec3A::new(half[0], half[1], focal).length();
@@ -228,6 +243,11 @@ impl Camera {
         let aside = self.right * x + self.down * y;
         if self.is_parallel() { (self.eye + aside, self.forward) } else { (self.eye, self.forward + aside) }
     }
+}
+
+/// Returns the pixels per unit at a distance of 1, for a vertical field of view (rad) of an image of `size` (pixels).
+fn focal_length(fov: f64, size: [u32; 2]) -> f32 {
+    (0.5 * f64::from(size[1]) / (0.5 * fov).tan()) as f32
 }
 
 #[cfg(test)]

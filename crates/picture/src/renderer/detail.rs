@@ -27,6 +27,8 @@ pub(super) struct RenderDetail {
     pub turns: usize,
     /// Maximum number of surfaces of a pixel that are shaded; those of fewer samples count as the others.
     pub surfaces: usize,
+    /// Set if smooth surfaces mirror the model.
+    pub traces: bool,
 }
 
 impl RenderDetail {
@@ -47,6 +49,7 @@ impl RenderDetail {
                 pools_light: false,
                 turns: 4,
                 surfaces: 2,
+                traces: false,
             },
             Quality::Film => Self {
                 columns: 2,
@@ -59,6 +62,7 @@ impl RenderDetail {
                 pools_light: true,
                 turns: 1,
                 surfaces: usize::MAX,
+                traces: false,
             },
             Quality::Fine => Self {
                 columns: 1,
@@ -71,6 +75,7 @@ impl RenderDetail {
                 pools_light: false,
                 turns: 4,
                 surfaces: 4,
+                traces: true,
             },
             Quality::Best => Self {
                 columns: 2,
@@ -83,6 +88,7 @@ impl RenderDetail {
                 pools_light: false,
                 turns: 1,
                 surfaces: usize::MAX,
+                traces: true,
             },
         }
     }

@@ -13,6 +13,7 @@ use burgeon_base::srgb_byte;
 use burgeon_scene::image::Image;
 use glam::{Vec3, Vec3A, Vec4};
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Maximum number of samples in memory, which takes 8 bytes for each.
 const HELD: usize = 32_000_000;
@@ -29,10 +30,11 @@ struct FragmentShare {
     ground: bool,
 }
 
-/// Computes the image of a scene in `light`.
-pub(super) fn develop(light: &Light, picture: &Picture, detail: &RenderDetail) -> Image {
+/// Computes the image of a scene in `light`, and returns true with it if it shows the model.
+pub(super) fn develop(light: &Light, picture: &Picture, detail: &RenderDetail) -> (Image, bool) {
     let (width, height) = (picture.width as usize, picture.height as usize);
     let mut pixels = vec![[0; 4]; width * height];
+    let is_seen = AtomicBool::new(false);
     let progress = light.stage.stop.progress();
     progress.begin("shading", "pixels", width * height);
     let band = (HELD / (width * detail.samples())).max(TILE[1]) / TILE[1] * TILE[1];
@@ -51,7 +53,7 @@ pub(super) fn develop(light: &Light, picture: &Picture, detail: &RenderDetail) -
                     return;
                 }
                 let size = [TILE[0].min(width - left), rows.len() / width];
-                let tile = tile(light, picture, detail, &visible, [left, top], size);
+                let tile = tile(light, picture, detail, &visible, [left, top], size, &is_seen);
                 progress.add(tile.len());
                 for (y, line) in tile.chunks(size[0]).enumerate() {
                     rows[y * width + left..][..line.len()].copy_from_slice(line);
@@ -59,10 +61,11 @@ pub(super) fn develop(light: &Light, picture: &Picture, detail: &RenderDetail) -
             }
         });
     }
-    Image::from_pixels(picture.width, picture.height, pixels).unwrap_or_else(|| Image::filled(0, 0, [0; 4]))
+    let image = Image::from_pixels(picture.width, picture.height, pixels);
+    (image.unwrap_or_else(|| Image::filled(0, 0, [0; 4])), is_seen.into_inner())
 }
 
-/// Computes the colours of the pixels of a tile, from `corner` on.
+/// Computes the colours of the pixels of a tile, from `corner` on. Sets `is_seen` if one shows the model.
 fn tile(
     light: &Light,
     picture: &Picture,
@@ -70,6 +73,7 @@ fn tile(
     visible: &Visible,
     corner: [usize; 2],
     size: [usize; 2],
+    is_seen: &AtomicBool,
 ) -> Vec<[u8; 4]> {
     let mut fragments: Vec<Fragment> = Vec::new();
     let mut shares: Vec<FragmentShare> = Vec::new();
@@ -143,6 +147,9 @@ fn tile(
     if detail.turns > 1 {
         let pixels: Vec<usize> = shares.iter().map(|share| share.pixel).collect();
         gathered = share::add_neighbours(&fragments, &pixels, &gathered, size, light.camera);
+    }
+    if shares.iter().any(|share| !share.ground) {
+        is_seen.store(true, Ordering::Relaxed);
     }
     for (fragment, share) in fragments.iter().zip(&shares) {
         let gathered = &gathered[fragment.pool];

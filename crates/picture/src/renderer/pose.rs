@@ -5,7 +5,7 @@ use super::stage::Stage;
 use super::{extent::Extent, view};
 use crate::settings::{CameraChoice, Picture, ViewBall};
 use burgeon_base::error::{Error, Result};
-use burgeon_scene::{CameraView, Scene};
+use burgeon_scene::{CameraView, FittedView, Scene};
 use glam::{DVec3, Vec3A};
 
 /// Place of a camera in the world.
@@ -113,11 +113,12 @@ pub(super) fn picture_camera(
 ) -> Result<Camera> {
     let size = [picture.width, picture.height];
     let points = extent.map(|extent| extent.points(&stage.shrink));
-    let is_free = picture.azimuth.is_none() && picture.elevation.is_none() && picture.look.is_none();
     let view = match &picture.camera {
         CameraChoice::View(view) => Some(*view),
         CameraChoice::Named(name) => Some(find_camera(scene, name)?),
-        CameraChoice::Automatic => scene.cameras.first().filter(|_| is_free).map(|camera| camera.view),
+        CameraChoice::Automatic => {
+            scene.cameras.first().filter(|_| picture.is_free()).map(|camera| camera.view)
+        }
     };
     if let Some(view) = view {
         return Ok(view_camera(stage, &view, size));
@@ -126,8 +127,7 @@ pub(super) fn picture_camera(
     Ok(match (points, picture.look) {
         (_, Some(look)) => {
             let axes = if is_film { eye.axes() } else { [DVec3::X, DVec3::Y, DVec3::Z] };
-            let points = ball(look, axes).map(|point| stage.shrink.transform_point3(point).as_vec3a());
-            Camera::fit(points, eye, size).with_nearer_plane()
+            ball_camera(stage, look, axes, eye, None, size)
         }
         (None, None) => Camera::fit(stage.points(), eye, size),
         (Some(points), None) => Camera::fit(points.into_iter(), eye, size),
@@ -169,7 +169,47 @@ fn view_camera(stage: &Stage, view: &CameraView, size: [u32; 2]) -> Camera {
             let eye = view::viewpoint(&stage.hull, &picture);
             Camera::at_eye_level(&stage.hull, eye.azimuth, metre, size)
         }
+        CameraView::Fitted(fitted) => fitted_camera(stage, &fitted, size),
     }
+}
+
+/// Returns the camera by angles that shows its target.
+fn fitted_camera(stage: &Stage, fitted: &FittedView, size: [u32; 2]) -> Camera {
+    let FittedView { azimuth, elevation, fov, sphere, is_parallel } = *fitted;
+    let [width, height] = size;
+    let eye =
+        view::viewpoint(&stage.hull, &Picture { azimuth, elevation, width, height, ..Picture::default() });
+    let ball = sphere.map(|(at, radius)| ViewBall { at: at.to_array(), radius });
+    match (ball, is_parallel) {
+        (Some(ball), true) => {
+            let metre = stage.shrink.matrix3.x_axis.length();
+            let center = stage.shrink.transform_point3(DVec3::from(ball.at));
+            let tall = (f64::from(height) / f64::from(width)).max(1.0);
+            let shown = Camera::PADDED * 2.0 * ball.radius * metre * tall;
+            Camera::parallel(&stage.hull, -eye.direction(), Some((center, shown)), size)
+        }
+        (None, true) => Camera::parallel(&stage.hull, -eye.direction(), None, size),
+        (Some(ball), false) => ball_camera(stage, ball, eye.axes(), eye, fov, size),
+        (None, false) => {
+            let apart = fov.map_or(0.5, |_| 0.05);
+            Camera::fit_field(stage.points(), eye, fov.map(f64::to_radians), apart, size)
+        }
+    }
+}
+
+/// Returns the camera that shows the sphere `look`, whose points along `axes` fill the picture.
+fn ball_camera(
+    stage: &Stage,
+    look: ViewBall,
+    axes: [DVec3; 3],
+    eye: view::Viewpoint,
+    fov: Option<f64>,
+    size: [u32; 2],
+) -> Camera {
+    let points = ball(look, axes).map(|point| stage.shrink.transform_point3(point).as_vec3a());
+    let radius = (look.radius * stage.shrink.matrix3.x_axis.length()) as f32;
+    let apart = 0.05 * radius.min(10.0);
+    Camera::fit_field(points, eye, fov.map(f64::to_radians), apart, size).with_nearer_plane()
 }
 
 /// Returns the points of a sphere along `axes`.

@@ -1,12 +1,14 @@
 //! Renders a scene.
 
 use super::pose::picture_camera;
-use super::{Extent, detail, develop, floor, shade, sky, stage, sun, texture};
-use crate::settings::{Background, Picture, Quality};
+use super::reflection::Tracer;
+use super::{Extent, camera, detail, develop, floor, shade, sky, stage, sun, texture};
+use crate::settings::{Picture, Quality};
 use burgeon_base::error::Result;
 use burgeon_base::stop::Stop;
 use burgeon_scene::Scene;
 use burgeon_scene::image::Image;
+use glam::Vec3A;
 
 /// Renders `scene` as sRGB with straight alpha; opaque unless the background is clear.
 ///
@@ -63,6 +65,44 @@ pub fn render_within(
     picture: &Picture,
     stop: &Stop,
 ) -> Result<Image> {
+    develop_within(scene, extent, picture, stop).map(|(image, _)| image)
+}
+
+/// Part of a model that a render shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ModelSight {
+    /// Pixels of the model, or the scene shows nothing from any side.
+    Seen,
+    /// None: the model is outside of the picture.
+    Outside,
+    /// None: the model is smaller than a pixel.
+    Speck,
+    /// None: its faces are seen from behind, transparent, or thinner than a pixel.
+    Hidden,
+}
+
+/// Renders `scene` as [`render`] does, and determines if the image shows the model. Fails if `stop` requests cancellation too.
+///
+/// ```
+/// use burgeon_base::Stop;
+/// use burgeon_picture::{ModelSight, Picture, render_with_sight};
+/// use burgeon_scene::Scene;
+///
+/// let picture = Picture { width: 8, height: 6, ..Picture::default() };
+/// let (image, sight) = render_with_sight(&Scene::default(), &picture, &Stop::new())?;
+/// assert_eq!((image.width(), sight), (8, ModelSight::Seen));
+/// # Ok::<(), burgeon_base::Error>(())
+/// ```
+pub fn render_with_sight(scene: &Scene, picture: &Picture, stop: &Stop) -> Result<(Image, ModelSight)> {
+    develop_within(scene, None, picture, stop)
+}
+
+fn develop_within(
+    scene: &Scene,
+    extent: Option<&Extent>,
+    picture: &Picture,
+    stop: &Stop,
+) -> Result<(Image, ModelSight)> {
     picture.check()?;
     let images = texture::load(&scene.materials)?;
     let is_film = picture.quality == Quality::Film;
@@ -71,10 +111,11 @@ pub fn render_within(
     let camera = picture_camera(scene, &stage, extent, picture, is_film)?;
     let sun = sun::Sun::new(&stage, camera.viewpoint(), picture.sun, &detail);
     let mut sky = sky::Sky::new(&stage, &sun, &detail, picture.ground);
-    sky.is_shown = picture.background == Background::Sky;
+    sky.surround(picture.background);
     // Slightly below the model, so that surfaces on the ground do not merge with it.
     let height = stage.bounds.0.z - 0.0005;
     let floor = picture.ground.then(|| floor::Floor::new(&stage, &sun, &sky, height));
+    let tracer = (detail.traces && shade::has_mirrors(&stage)).then(|| Tracer::new(&stage)).flatten();
     let light = shade::Light {
         stage: &stage,
         images: &images,
@@ -82,8 +123,31 @@ pub fn render_within(
         sun: &sun,
         sky: &sky,
         floor: floor.as_ref(),
+        tracer: tracer.as_ref(),
     };
-    let image = develop::develop(&light, picture, &detail);
+    let (image, is_seen) = develop::develop(&light, picture, &detail);
     // A cancelled render is incomplete.
-    stop.check().map(|()| image)
+    stop.check()?;
+    let sight = if is_seen || stage.triangles() == 0 {
+        ModelSight::Seen
+    } else {
+        missed(&stage, &camera, [picture.width, picture.height])
+    };
+    Ok((image, sight))
+}
+
+/// Returns the reason why an image of `size` (pixels) shows nothing of the model.
+fn missed(stage: &stage::Stage, camera: &camera::Camera, size: [u32; 2]) -> ModelSight {
+    let [width, height] = size.map(|side| side as f32);
+    let pixels = stage.hull.iter().map(|point| camera.project(camera.view.transform_point3a(*point)));
+    let inside = pixels
+        .filter(|pixel| (0.0..=width).contains(&pixel.x) && (0.0..=height).contains(&pixel.y))
+        .fold(None, |bounds: Option<(Vec3A, Vec3A)>, pixel| {
+            Some(bounds.map_or((pixel, pixel), |(low, high)| (low.min(pixel), high.max(pixel))))
+        });
+    match inside {
+        None => ModelSight::Outside,
+        Some((low, high)) if (high - low).truncate().max_element() < 1.0 => ModelSight::Speck,
+        Some(_) => ModelSight::Hidden,
+    }
 }

@@ -2,7 +2,8 @@
 
 use super::camera::Camera;
 use super::floor::Floor;
-use super::sky::{Sky, SkySample};
+use super::reflection::{MirroredPoint, Tracer};
+use super::sky::{Sky, SkySample, smooth};
 use super::stage::Stage;
 use super::sun::Sun;
 use super::surface::SurfacePoint;
@@ -12,6 +13,15 @@ use std::f32::consts::{PI, TAU};
 
 /// Fraction of light that passes through leaves.
 const THROUGH: f32 = 0.32;
+
+/// Roughness up to which a surface mirrors the model sharply, and from which on it mirrors only its surroundings.
+const MIRROR: [f32; 2] = [0.12, 0.4];
+/// Minimum fraction of light that a surface reflects if the model is mirrored in it.
+const MIRRORED: f32 = 0.1;
+/// Number of the sky's maps that light a mirrored point.
+const MIRROR_MAPS: usize = 12;
+/// Fraction of light that the model reflects on average.
+const ALBEDO: f32 = 0.4;
 
 /// Inputs of shading.
 pub(super) struct Light<'a> {
@@ -27,6 +37,8 @@ pub(super) struct Light<'a> {
     pub sky: &'a Sky,
     /// Ground, if there is one.
     pub floor: Option<&'a Floor>,
+    /// Model as mirrors see it, if they mirror it.
+    pub tracer: Option<&'a Tracer<'a>>,
 }
 
 /// Surface that a part of a pixel sees, with the light that it has gathered.
@@ -138,6 +150,7 @@ impl Light<'_> {
     #[inline]
     fn add_light(&self, probe: &Probe, map: &SkySample, gathered: &mut GatheredLight) {
         let facing = probe.normal.dot(map.direction).max(0.0);
+        let is_above = probe.plane.dot(map.direction) > 0.0;
         // A lobe of this width contains enough directions to be smooth, for any roughness.
         let lobe = probe.mirror.dot(map.direction).max(0.0).powi(4);
         if facing <= 0.0 && lobe < 0.01 {
@@ -145,8 +158,10 @@ impl Light<'_> {
         }
         let light = map.light * facing;
         gathered.sky[1] += light;
+        // A surface mirrors nothing of what is behind it.
+        let lobe = if is_above { lobe } else { 0.0 };
         gathered.mirrored[1] += lobe;
-        if probe.plane.dot(map.direction) > 0.0 && map.reaches(probe.point, probe.spin) {
+        if is_above && map.reaches(probe.point, probe.spin) {
             let strength = self.strength(probe.point, map.direction);
             gathered.sky[0] += light * strength;
             gathered.mirrored[0] += lobe * strength;
@@ -174,13 +189,13 @@ impl Light<'_> {
         let mut color = surface.emissive;
         let toward = surface.normal.dot(self.sun.direction);
         if toward > 0.0 {
-            let seen = self.sun_seen(fragment, surface.normal);
+            let seen = self.sun_seen(fragment, surface.rounded, surface.normal);
             let kept = if surface.thin { 1.0 - 0.5 * THROUGH } else { 1.0 };
             let light = self.sun.light * (toward * seen);
             color += light * (diffuse * (kept / PI) + self.gloss(surface, glossy, facing, toward));
         } else if surface.thin {
             // Light that shines through a leaf is more saturated than light that the leaf reflects.
-            let seen = self.sun_seen(fragment, -surface.normal);
+            let seen = self.sun_seen(fragment, surface.behind, -surface.normal);
             color += self.sun.light * diffuse * diffuse.powf(0.35) * (-toward * seen * 1.6 * THROUGH / PI);
         }
         if surface.thin {
@@ -188,12 +203,84 @@ impl Light<'_> {
         }
         color += diffuse * sky / PI;
 
+        let part = mirror_part(glossy, surface.roughness, facing);
+        color + self.reflected(fragment, gathered, part.max_element()) * part
+    }
+
+    /// Returns the light that arrives at `fragment` from where it mirrors, if it reflects at most this `part` of it.
+    fn reflected(&self, fragment: &Fragment, gathered: &GatheredLight, part: f32) -> Vec3 {
+        let surface = &fragment.surface;
+        let open = gathered.openness();
         let [seen, all] = gathered.mirrored;
         let unblocked = if all > 1e-3 { seen / all } else { open.element_sum() / 3.0 };
-        // The occluder of a reflection is the model itself, usually in the shade.
-        let blocker = self.sky.open(surface.normal) * open * (0.25 / PI) * surface.base.lerp(Vec3::ONE, 0.3);
-        let reflected = blocker.lerp(self.sky.reflection(surface.mirror(), surface.roughness), unblocked);
-        color + reflected * mirror_part(glossy, surface.roughness, facing)
+        // The occluder of a reflection is a part of the model that faces the surface, half of it in the shade.
+        let direction = surface.mirror();
+        let sunlight = self.sun.light * (-direction.dot(self.sun.direction)).max(0.0);
+        let blocker = (self.sky.open(-direction) + sunlight) * (0.5 * ALBEDO / PI);
+        let estimate = blocker.lerp(self.sky.reflection(direction, surface.roughness), unblocked);
+        let sharp = 1.0 - smooth(MIRROR[0], MIRROR[1], surface.roughness);
+        match self.tracer {
+            Some(tracer) if sharp > 0.0 && part > MIRRORED => {
+                estimate.lerp(self.trace(tracer, surface, fragment.noise), sharp)
+            }
+            _ => estimate,
+        }
+    }
+
+    /// Returns the light of the model or of its surroundings that `surface` mirrors.
+    fn trace(&self, tracer: &Tracer, surface: &SurfacePoint, noise: f32) -> Vec3 {
+        let direction = surface.mirror();
+        // A mirror on a smooth surface may point below the triangle.
+        let below = (0.02 - direction.dot(surface.plane)).max(0.0);
+        let direction = (direction + surface.plane * below).normalize_or(surface.plane);
+        let footprint = self.camera.footprint(surface.position).max(0.0);
+        let origin = surface.rounded + surface.plane * (2e-5 + 0.25 * footprint);
+        match tracer.meet(origin, direction) {
+            Some(point) => self.mirrored(&point, direction, footprint * (1.0 + point.distance), noise),
+            None => {
+                self.sky.reflection(direction, surface.roughness) * self.strength(surface.position, direction)
+            }
+        }
+    }
+
+    /// Returns the light that a mirrored `point` sends back along `direction`. A pixel covers this `footprint` of it (stage
+    /// units).
+    fn mirrored(&self, point: &MirroredPoint, direction: Vec3A, footprint: f32, noise: f32) -> Vec3 {
+        let number = point.draw.part.material;
+        let material = &self.stage.materials[number];
+        let [red, green, blue, _] = material.base_color;
+        let mut base = Vec3::new(red, green, blue);
+        if let Some(texture) = self.images.get(number).and_then(|images| images.texture.as_ref()) {
+            let size = footprint / self.stage.shrink.matrix3.x_axis.length() as f32;
+            base *= texture.color(point.uv, Vec2::X * size, Vec2::Y * size);
+        }
+        let lifted = point.position + point.normal * self.sky.lift;
+        let step = self.sky.maps.len().div_ceil(MIRROR_MAPS).max(1);
+        let (mut seen, mut all) = (0.0, 1e-6);
+        for map in self.sky.maps.iter().step_by(step) {
+            let light = map.light.element_sum() * point.normal.dot(map.direction).max(0.0);
+            all += light;
+            if light > 0.0 && map.reaches(lifted, Vec2::X) {
+                seen += light * self.strength(lifted, map.direction);
+            }
+        }
+        let open = seen / all;
+        let metallic = material.metallic.clamp(0.0, 1.0);
+        let diffuse = base * (1.0 - metallic);
+        let mut light = self.sky.open(point.normal) * bounce_light(Vec3::splat(open), diffuse);
+        let toward = point.normal.dot(self.sun.direction);
+        if toward > 0.0 {
+            let sun = self.sun.visibility(point.position, point.normal, noise * TAU, (0, 3));
+            light += self.sun.light * (toward * sun);
+        }
+        let facing = -direction.dot(point.normal);
+        let glossy = Vec3::splat(0.04).lerp(base, metallic);
+        let roughness = material.roughness.clamp(0.06, 1.0);
+        let mirror = direction + point.normal * (2.0 * facing);
+        let around = self.sky.reflection(mirror, roughness) * open;
+        Vec3::from_array(material.emissive)
+            + diffuse * light / PI
+            + around * mirror_part(glossy, roughness, facing.max(0.03))
     }
 
     /// Returns the ground's brightness at `fragment`, relative to its brightness without the model.
@@ -208,8 +295,8 @@ impl Light<'_> {
         part.lerp(Vec3::splat(part.element_sum() / 3.0), 0.5)
     }
 
-    fn sun_seen(&self, fragment: &Fragment, normal: Vec3A) -> f32 {
-        self.sun.visibility(fragment.surface.rounded, normal, fragment.noise * TAU, fragment.crowd)
+    fn sun_seen(&self, fragment: &Fragment, point: Vec3A, normal: Vec3A) -> f32 {
+        self.sun.visibility(point, normal, fragment.noise * TAU, fragment.crowd)
     }
 
     /// Returns the sun's highlight for unit irradiance: GGX with the height-correlated Smith term and Schlick's Fresnel
@@ -227,6 +314,14 @@ impl Light<'_> {
         let fresnel = glossy + (Vec3::ONE - glossy) * (1.0 - along).powi(5);
         (fresnel * (density * 0.5 / (seen + lit).max(1e-4))).min(Vec3::splat(12.0))
     }
+}
+
+/// Returns true if the model has surfaces in which it is mirrored.
+pub(super) fn has_mirrors(stage: &Stage) -> bool {
+    stage.draws.iter().any(|draw| {
+        let material = &stage.materials[draw.part.material];
+        material.roughness < MIRROR[1]
+    })
 }
 
 /// Returns the fraction of the surroundings' light that a surface reflects specularly.

@@ -10,6 +10,7 @@ use super::raster::RasterGrid;
 use super::sky_points::SkyPoints;
 use super::stage::{DrawCall, ProjectedTriangle, Stage};
 use super::sun::Sun;
+use crate::settings::Background;
 use glam::{Vec2, Vec3, Vec3A};
 use rayon::prelude::*;
 
@@ -21,6 +22,10 @@ const ZENITH: Vec3 = Vec3::new(0.31, 0.36, 0.45);
 const HORIZON: Vec3 = Vec3::new(0.45, 0.47, 0.49);
 /// Fraction of light that the ground reflects.
 const GROUND: Vec3 = Vec3::new(0.46, 0.44, 0.41);
+/// Slope below the horizon at which haze hides a third of the ground.
+const GROUND_HAZE: f32 = 0.025;
+/// Colour of the floor of a light studio.
+const STUDIO: Vec3 = Vec3::new(0.775, 0.765, 0.740);
 /// Largest distance in a map, whose texels are integers.
 const FARTHEST: f32 = 65_000.0;
 /// Approximate half angle (rad) between neighbouring directions.
@@ -41,7 +46,9 @@ pub(super) struct Sky {
     sunlight: Vec3,
     dusk: f32,
     /// Set if the sky is the background, so that smooth surfaces mirror it.
-    pub is_shown: bool,
+    is_shown: bool,
+    /// Set if the background is a light studio, whose floor smooth surfaces mirror.
+    is_studio: bool,
 }
 
 /// Light and depth map of one direction.
@@ -101,7 +108,14 @@ impl Sky {
                 .map(|(toward, angle)| light(toward) * angle * toward.dot(normal).max(0.0))
                 .sum()
         });
-        Self { maps, lift, open, sun: sun.direction, sunlight: sun.light, dusk: sun.dusk, is_shown: false }
+        let (sunlight, dusk) = (sun.light, sun.dusk);
+        Self { maps, lift, open, sun: sun.direction, sunlight, dusk, is_shown: false, is_studio: false }
+    }
+
+    /// Lets smooth surfaces mirror this background.
+    pub(super) fn surround(&mut self, background: Background) {
+        self.is_shown = background == Background::Sky;
+        self.is_studio = background == Background::Light;
     }
 
     /// Returns the unshadowed irradiance of a plane with unit `normal`, interpolated from the six axis directions.
@@ -140,7 +154,8 @@ impl Sky {
         let air = if direction.z >= 0.0 {
             horizon.lerp(Vec3::new(0.13, 0.28, 0.58), direction.z.powf(0.55).min(1.0)) + glow + disc
         } else {
-            (horizon + glow).lerp(Vec3::new(0.36, 0.35, 0.32), smooth(0.0, 0.22, -direction.z))
+            let haze = (direction.z / GROUND_HAZE).exp();
+            Vec3::new(0.36, 0.35, 0.32).lerp(horizon + glow, haze)
         };
         air * (0.25 + 0.75 * self.dusk)
     }
@@ -150,7 +165,7 @@ impl Sky {
         let blur = 0.04 + 0.8 * roughness;
         let above = smooth(-blur, blur, direction.z);
         let sky = sky_light(direction.with_z(direction.z.max(0.0)), self.sun) * self.dusk;
-        let floor = self.ground();
+        let floor = if self.is_studio { self.ground().lerp(STUDIO, 0.5) } else { self.ground() };
         // A bright strip high on the side opposite to the sun, as photographers place behind shiny objects.
         let across = Vec3A::new(-self.sun.x, -self.sun.y, 0.35).normalize().dot(direction);
         let strip = 0.55 * smooth(0.88 - 0.5 * blur, 0.94 + 0.3 * blur, across) / (1.0 + 2.0 * roughness);

@@ -12,6 +12,8 @@ pub(super) struct SurfacePoint {
     pub position: Vec3A,
     /// Position on the smooth surface that the normals describe, for shadows without facets.
     pub rounded: Vec3A,
+    /// The same for the other side of a thin surface, whose light shines through.
+    pub behind: Vec3A,
     /// Unit normal of the triangle, towards the camera.
     pub plane: Vec3A,
     /// Unit normal for shading, towards the camera.
@@ -107,6 +109,7 @@ impl<'a> SeenPoint<'a> {
         let surface = SurfacePoint {
             position,
             rounded: position,
+            behind: position,
             plane: plane * side,
             normal: bend(normal, view),
             smooth: bend(normal, view),
@@ -133,7 +136,12 @@ impl<'a> SeenPoint<'a> {
             (self.draw.turn * Vec3A::from(local)).normalize_or(surface.plane * side) * side
         });
         let weights = [1.0 - self.inside.x - self.inside.y, self.inside.x, self.inside.y];
-        surface.rounded = round_position(surface.position, [a, a + ab, a + ac], normals, weights);
+        let corners = [a, a + ab, a + ac];
+        surface.rounded = round_position(surface.position, corners, normals, weights);
+        if surface.thin {
+            surface.behind =
+                round_position(surface.position, corners, normals.map(|normal| -normal), weights);
+        }
         if self.images.texture.is_none() && self.images.normals.is_none() {
             return surface;
         }
@@ -170,6 +178,7 @@ impl SurfacePoint {
         Self {
             position,
             rounded: position,
+            behind: position,
             plane: Vec3A::Z,
             normal: Vec3A::Z,
             smooth: Vec3A::Z,

@@ -5,11 +5,11 @@ use super::{render, render_within};
 use crate::{Background, CameraChoice, Picture, Quality, SunPosition};
 use burgeon_base::stop::Stop;
 use burgeon_scene::image::Image;
-use burgeon_scene::{CameraView, Material, NormalMap, Part, Scene, SceneCamera, Texture, Upright};
+use burgeon_scene::{CameraView, Material, NormalMap, Part, Scene, Texture, Upright};
 use glam::{DAffine3, DVec3, Vec3};
 
 /// Returns the settings of a small render from the south-east with a transparent background and without a ground.
-fn small() -> Picture {
+pub(super) fn small() -> Picture {
     Picture {
         width: 96,
         height: 96,
@@ -23,7 +23,7 @@ fn small() -> Picture {
 }
 
 /// Returns the mean brightness, 0 to 255, of the opaque pixels in columns `xs` and rows `ys`.
-fn brightness(image: &Image, xs: std::ops::Range<u32>, ys: std::ops::Range<u32>) -> f64 {
+pub(super) fn brightness(image: &Image, xs: std::ops::Range<u32>, ys: std::ops::Range<u32>) -> f64 {
     let pixels = ys.flat_map(|y| xs.clone().map(move |x| image.pixel(x, y)));
     let opaque: Vec<[u8; 4]> = pixels.filter(|pixel| pixel[3] == 255).collect();
     assert!(!opaque.is_empty(), "nothing is seen there");
@@ -32,17 +32,17 @@ fn brightness(image: &Image, xs: std::ops::Range<u32>, ys: std::ops::Range<u32>)
 }
 
 /// Returns each pixel with its column and row.
-fn places(image: &Image) -> impl Iterator<Item = (u32, u32, [u8; 4])> {
+pub(super) fn places(image: &Image) -> impl Iterator<Item = (u32, u32, [u8; 4])> {
     let rows = 0..image.height();
     rows.flat_map(move |y| (0..image.width()).map(move |x| (x, y, image.pixel(x, y))))
 }
 
-fn count_covered(image: &Image) -> usize {
+pub(super) fn count_covered(image: &Image) -> usize {
     image.pixels().iter().filter(|pixel| pixel[3] > 0).count()
 }
 
 /// Returns a vertical square of 4 m on the x axis whose front faces south.
-fn wall(material: Material) -> Scene {
+pub(super) fn wall(material: Material) -> Scene {
     let mut part = Part::default();
     let corners = [[-2.0, 0.0], [2.0, 0.0], [2.0, 4.0], [-2.0, 4.0]];
     quad(&mut part, corners.map(|[x, z]| Vec3::new(x, 0.0, z)));
@@ -427,58 +427,4 @@ fn haze_lets_a_model_fade_into_the_background() {
     };
     let (clear, hazy, thick) = (gap(None), gap(Some(6.0)), gap(Some(0.1)));
     assert!(hazy < clear && thick < 3, "{clear} {hazy} {thick}");
-}
-
-#[test]
-fn the_first_camera_of_a_scene_is_that_of_its_picture_unless_another_is_chosen() {
-    let mut scene = boxes(&[DVec3::ZERO]);
-    let free = Picture { azimuth: None, elevation: None, ..small() };
-    let fitted = render(&scene, &free).unwrap();
-    let view = CameraView::Perspective { from: DVec3::new(0.0, -30.0, 0.0), to: DVec3::ZERO, fov: 40.0 };
-    for (name, view) in [("far", view), ("above", CameraView::Plan)] {
-        scene.cameras.push(SceneCamera { name: name.to_owned(), view, place: None });
-    }
-    let far = render(&scene, &free).unwrap();
-    assert!(count_covered(&far) * 8 < count_covered(&fitted));
-    let named = |name: &str| Picture { camera: CameraChoice::Named(name.to_owned()), ..free.clone() };
-    assert!(render(&scene, &named("far")).unwrap() == far);
-    let above = render(&scene, &named("above")).unwrap();
-    // A square from above fills 92 % of the width and of the height.
-    assert!(count_covered(&above).abs_diff(88 * 88) < 400, "{}", count_covered(&above));
-    assert!(render(&scene, &named("plan")).unwrap() == above);
-    assert!(render(&scene, &Picture { azimuth: Some(150.0), ..free.clone() }).unwrap() != far);
-    let error = render(&scene, &named("fra")).unwrap_err();
-    assert!(error.message().contains("no camera named `fra`"), "{error}");
-}
-
-#[test]
-fn glass_mirrors_the_sky_and_a_lamp_shines_in_the_dark() {
-    let view = CameraView::Perspective {
-        from: DVec3::new(0.0, -9.0, 1.0),
-        to: DVec3::new(0.0, 0.0, 2.0),
-        fov: 30.0,
-    };
-    let picture = Picture {
-        background: Background::Sky,
-        camera: CameraChoice::View(view),
-        sun: Some(SunPosition { azimuth: 0.0, elevation: 40.0 }),
-        ..small()
-    };
-    let blueness = |roughness: f32| {
-        let dark =
-            Material { base_color: [0.01, 0.01, 0.01, 1.0], metallic: 0.0, roughness, ..Material::default() };
-        let tilted = Material { base_color: [0.8, 0.8, 0.8, 1.0], metallic: 1.0, ..dark };
-        // A mirror that leans back shows the sky above the viewer.
-        let mut part = Part::default();
-        let corners = [[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 4.0], [-2.0, 2.0, 4.0]];
-        quad(&mut part, corners.map(Vec3::from_array));
-        let [red, _, blue, _] = render(&scene_of(part, tilted), &picture).unwrap().pixel(48, 48);
-        i32::from(blue) - i32::from(red)
-    };
-    assert!(blueness(0.05) > blueness(0.9) + 20, "{} {}", blueness(0.05), blueness(0.9));
-    let glow = |emissive: [f32; 3]| {
-        let lamp = Material { emissive, base_color: [0.0, 0.0, 0.0, 1.0], ..Material::default() };
-        brightness(&render(&wall(lamp), &picture).unwrap(), 44..52, 44..52)
-    };
-    assert!(glow([0.9, 0.7, 0.3]) > glow([0.0; 3]) + 60.0);
 }

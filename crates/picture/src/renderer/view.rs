@@ -20,6 +20,12 @@ const ELEVATIONS: [f64; 5] = [0.0, -5.0, 5.0, 10.0, 15.0];
 /// Parts of the image that a degree of turn and of lift are worth.
 const TURN: f64 = 0.001;
 const LIFT: f64 = 0.005;
+/// Heights relative to the width from which on the camera is lowered, and at which it is lowest.
+const TALL: [f64; 2] = [1.5, 2.5];
+/// Lowest elevation of the camera (degrees).
+const LEVEL: f64 = 5.0;
+/// Elevation (degrees) below which the camera is not lifted.
+const LOW: f64 = 13.0;
 /// Number of directions in which the outermost points are found.
 const OUTERMOST: usize = 160;
 
@@ -70,7 +76,10 @@ fn filling(hull: &[Vec3A], given: Viewpoint, size: [u32; 2]) -> Viewpoint {
             hull.iter().copied().max_by(|a, b| a.dot(direction).total_cmp(&b.dot(direction)))
         })
         .collect();
-    let candidates = AZIMUTHS.iter().flat_map(|turn| ELEVATIONS.iter().map(move |lift| (*turn, *lift)));
+    // A tower fills more of the image from above, which is not how people see it.
+    let is_level = given.elevation < LOW.to_radians();
+    let lifts = ELEVATIONS.into_iter().filter(move |lift| *lift <= 0.0 || !is_level);
+    let candidates = lifts.flat_map(|lift| AZIMUTHS.into_iter().map(move |turn| (turn, lift)));
     let mut best = (f64::NEG_INFINITY, given);
     for (turn, lift) in candidates {
         let eye = Viewpoint {
@@ -80,7 +89,8 @@ fn filling(hull: &[Vec3A], given: Viewpoint, size: [u32; 2]) -> Viewpoint {
         let camera = Camera::fit(outermost.iter().copied(), eye, size);
         let seen = outermost.iter().map(|point| camera.project(camera.view.transform_point3a(*point)));
         let area = outline_area(seen.map(|point| point.truncate().as_dvec2()).collect());
-        let score = area / (f64::from(size[0]) * f64::from(size[1])) - TURN * turn.abs() - LIFT * lift.abs();
+        let score =
+            area / (f64::from(size[0]) * f64::from(size[1])) - TURN * f64::abs(turn) - LIFT * f64::abs(lift);
         if score > best.0 {
             best = (score, eye);
         }
@@ -131,8 +141,11 @@ fn suitable(points: &[DVec3]) -> (f64, f64, bool) {
     let extent = |axis: DVec3| reach(points, axis).1;
     let wide = extent(DVec3::X).max(extent(DVec3::Y)).max(1e-9);
     let slender = (extent(DVec3::Z) / wide).clamp(0.1, 3.0);
-    // From 38 degrees for a low city to 22 for a cube and 14 for a tower.
-    (150.0, 22.0 - 16.0 * slender.log10() * if slender < 1.0 { 1.0 } else { 1.05 }, true)
+    // From 38 degrees for a low city to 22 for a cube.
+    let elevation = 22.0 - 16.0 * slender.log10() * if slender < 1.0 { 1.0 } else { 1.05 };
+    // A tower is seen from near its middle, almost level, because a high camera makes it look like a model on a table.
+    let tall = ((slender - TALL[0]) / (TALL[1] - TALL[0])).clamp(0.0, 1.0);
+    (150.0, elevation + (LEVEL - elevation) * tall, true)
 }
 
 /// Returns the direction of the smallest extent of `points`, that extent, and the next larger extent.
@@ -204,8 +217,20 @@ mod tests {
     #[test]
     fn a_plan_is_seen_from_above_and_a_tower_from_the_side() {
         assert!(suitable(&grid(DVec3::X * 4.0, DVec3::Y * 3.0, DVec3::ZERO)).1 > 50.0);
-        assert!(suitable(&grid(DVec3::X, DVec3::Y, DVec3::Z * 4.0)).1 < 16.0);
+        assert!(suitable(&grid(DVec3::X, DVec3::Y, DVec3::Z * 4.0)).1 < 8.0);
         assert!(suitable(&grid(DVec3::X * 8.0, DVec3::Y * 8.0, DVec3::Z * 2.0)).1 > 28.0);
+    }
+
+    #[test]
+    fn a_model_twice_as_high_as_wide_is_seen_almost_level_in_any_image() {
+        for height in [2.0, 3.0, 9.0] {
+            let model: Vec<Vec3A> =
+                grid(DVec3::X, DVec3::Y, DVec3::Z * height).iter().map(|point| point.as_vec3a()).collect();
+            for (width, height) in [(640, 480), (480, 640), (300, 900)] {
+                let elevation = viewpoint(&model, &Picture { width, height, ..Picture::default() }).elevation;
+                assert!((0.0..13.0).contains(&elevation.to_degrees().round()), "{elevation}");
+            }
+        }
     }
 
     #[test]
