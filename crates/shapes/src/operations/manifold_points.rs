@@ -1,0 +1,98 @@
+//! Points of solids that touch themselves.
+
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+
+/// Gives each surface that passes through a point a point of its own: where parts of a solid touch at an edge or a point, the
+/// number of a point in `corners`, three for each triangle, becomes that of a copy, which is added to `points` (m).
+///
+/// Around an edge of several parts, the triangles on both sides of the same material belong together. So every edge has two
+/// triangles, as the crate `boolmesh` requires.
+pub(super) fn separate_surfaces(points: &mut Vec<DVec3>, corners: &mut [usize]) {
+    let mut halves: FxHashMap<[usize; 2], Vec<usize>> = FxHashMap::default();
+    let ends = |corners: &[usize], half: usize| {
+        [corners[half], corners[if half % 3 == 2 { half - 2 } else { half + 1 }]]
+    };
+    let mut is_shared = false;
+    for half in 0..corners.len() {
+        let all = halves.entry(ends(corners, half)).or_default();
+        all.push(half);
+        is_shared |= all.len() > 1;
+    }
+    if !is_shared {
+        return;
+    }
+    let mut sets = crate::mesh::FaceSets::new(corners.len());
+    let next = |half: usize| if half % 3 == 2 { half - 2 } else { half + 1 };
+    for half in 0..corners.len() {
+        let [from, to] = ends(corners, half);
+        let Some(others) = halves.get(&[to, from]) else { continue };
+        let partner = match others.as_slice() {
+            [only] => *only,
+            _ => {
+                // The angle of a triangle around the edge; the material lies in the direction of smaller angles.
+                let axis = (points[to] - points[from]).normalize_or_zero();
+                let x = axis.any_orthonormal_vector();
+                let y = axis.cross(x);
+                let angle = |half: usize| {
+                    let third = if half % 3 == 0 { half + 2 } else { half - 1 };
+                    let out = points[corners[third]] - points[from];
+                    out.dot(y).atan2(out.dot(x))
+                };
+                let own = angle(half);
+                let down = |other: &usize| (own - angle(*other)).rem_euclid(std::f64::consts::TAU);
+                let nearest = others.iter().copied().min_by(|a, b| down(a).total_cmp(&down(b)));
+                nearest.unwrap_or(half)
+            }
+        };
+        sets.join(half, next(partner));
+        sets.join(next(half), partner);
+    }
+    // The first surface keeps the point.
+    let mut owners: FxHashMap<usize, usize> = FxHashMap::default();
+    let mut copies: FxHashMap<usize, usize> = FxHashMap::default();
+    for corner in 0..corners.len() {
+        let (point, surface) = (corners[corner], sets.first(corner));
+        if *owners.entry(point).or_insert(surface) != surface {
+            corners[corner] = *copies.entry(surface).or_insert_with(|| {
+                points.push(points[point]);
+                points.len() - 1
+            });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use crate::{Shape, SolidOperation};
+
+    fn cube(x: f64, y: f64) -> Shape {
+        Shape::cuboid(DVec3::ONE).translate(DVec3::new(x, y, 0.0))
+    }
+
+    #[test]
+    fn solids_that_touch_at_an_edge_can_be_cut() {
+        let pair = cube(0.0, 0.0).combine(&cube(1.0, 1.0), SolidOperation::Union).expect("a union").expect("a solid");
+        let hole = Shape::cuboid(DVec3::new(1.0, 1.0, 0.5)).translate(DVec3::new(0.5, 0.5, -0.25));
+        let rest = pair.combine(&hole, SolidOperation::Difference).expect("a rest").expect("a solid");
+        assert!(rest.is_closed() && (rest.volume() - (2.0 - 2.0 * 0.0625)).abs() < 1e-9, "{}", rest.volume());
+    }
+
+    #[test]
+    fn slices_of_a_cylinder_are_united_to_the_whole() {
+        let whole = Shape::cylinder(3.0, 3.0, 5.0, 24).expect("a cylinder");
+        let sizes = crate::PartSizes(vec![crate::SizedParts::Repeated(vec![crate::PartSize::Flexible(1.0)])]);
+        let parts = whole.split(crate::SplitAxis::X, &sizes).expect("parts").parts;
+        let mut sum: Option<Shape> = None;
+        for (_, part) in parts {
+            sum = match sum {
+                Some(sum) => sum.combine(&part, SolidOperation::Union).expect("a union"),
+                None => Some(part),
+            };
+        }
+        let sum = sum.expect("a solid");
+        assert!(sum.is_closed() && (sum.volume() - whole.volume()).abs() < 1e-6, "{}", sum.volume());
+    }
+}
