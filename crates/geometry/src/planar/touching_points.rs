@@ -1,66 +1,56 @@
 //! Triangulation of rings that touch at points.
 
 use glam::DVec2;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::measure::twice_area;
 use super::triangulation::triangulate_constrained;
 
 /// Returns counter-clockwise triangles of rings that touch themselves or each other at equal points; `None` if they cross or
-/// share an edge.
+/// share an edge, and if no points are equal.
 ///
-/// `border` has the next point of each point in its ring. A corner of a triangle at such a point is the one of its equal points
-/// whose ring begins the sector that the triangle lies in, so that each edge of a ring belongs to exactly one triangle.
+/// `border` has the next point of each point in its ring. The first of equal points stands for all of them. Every edge of a ring
+/// is an edge of exactly one triangle.
 pub(super) fn triangulate_touching(points: &[DVec2], border: &[usize]) -> Option<Vec<[usize; 3]>> {
-    let mut places: Vec<DVec2> = Vec::with_capacity(points.len());
+    let (mut places, mut first): (Vec<DVec2>, Vec<usize>) = (Vec::new(), Vec::new());
     let mut known: FxHashMap<[u64; 2], usize> = FxHashMap::default();
-    let numbers: Vec<usize> = points
-        .iter()
-        .map(|at| {
-            let key = (*at + DVec2::ZERO).to_array().map(f64::to_bits);
-            *known.entry(key).or_insert_with(|| {
-                places.push(*at);
-                places.len() - 1
-            })
-        })
-        .collect();
+    let mut numbers = Vec::with_capacity(points.len());
+    for (index, at) in points.iter().enumerate() {
+        let key = (*at + DVec2::ZERO).to_array().map(f64::to_bits);
+        numbers.push(*known.entry(key).or_insert_with(|| {
+            places.push(*at);
+            first.push(index);
+            first.len() - 1
+        }));
+    }
     if places.len() == points.len() {
         return None;
     }
-    // The point that each directed edge of a ring begins at.
-    let mut begins: FxHashMap<[usize; 2], usize> = FxHashMap::default();
-    let mut edges = Vec::with_capacity(border.len());
-    for (from, to) in border.iter().enumerate() {
-        let edge = [numbers[from], numbers[*to]];
-        if begins.insert(edge, from).is_some() {
-            return None;
-        }
-        edges.push(edge);
-    }
-    if edges.iter().any(|[from, to]| begins.contains_key(&[*to, *from])) {
+    let edges: Vec<[usize; 2]> =
+        border.iter().enumerate().map(|(from, to)| [numbers[from], numbers[*to]]).collect();
+    let rim: FxHashSet<[usize; 2]> = edges.iter().copied().collect();
+    if rim.len() < edges.len() || rim_turns_back(&edges, &rim) {
         return None;
     }
     let triangles = triangulate_constrained(&places, &edges, &[])?;
-    let mut third: FxHashMap<[usize; 2], usize> = FxHashMap::default();
-    for [a, b, c] in &triangles {
-        third.extend([([*a, *b], *c), ([*b, *c], *a), ([*c, *a], *b)]);
-    }
-    // Turns clockwise around a corner, to the edge of a ring that begins the sector.
-    let begin = |corner: usize, mut next: usize| -> Option<usize> {
-        for _ in 0..triangles.len() {
-            if let Some(begin) = begins.get(&[corner, next]) {
-                return Some(*begin);
-            }
-            next = *third.get(&[next, corner])?;
-        }
-        None
-    };
-    triangles.iter().map(|&[a, b, c]| Some([begin(a, b)?, begin(b, c)?, begin(c, a)?])).collect()
+    let sides = || triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let all: FxHashSet<[usize; 2]> = sides().collect();
+    let is_sound = triangles.iter().all(|corners| twice_area(corners.map(|corner| places[corner])) > 0.0)
+        && all.len() == 3 * triangles.len()
+        && edges.iter().all(|edge| all.contains(edge))
+        && sides().all(|[from, to]| all.contains(&[to, from]) != rim.contains(&[from, to]));
+    is_sound.then(|| triangles.into_iter().map(|corners| corners.map(|corner| first[corner])).collect())
+}
+
+/// Returns true if two of the edges have the same ends in opposite directions.
+fn rim_turns_back(edges: &[[usize; 2]], rim: &FxHashSet<[usize; 2]>) -> bool {
+    edges.iter().any(|[from, to]| rim.contains(&[*to, *from]))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planar::{triangulate, twice_area};
+    use crate::planar::triangulate;
 
     fn ring(points: &[(f64, f64)]) -> Vec<DVec2> {
         points.iter().copied().map(DVec2::from).collect()

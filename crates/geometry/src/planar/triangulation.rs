@@ -33,7 +33,7 @@ pub(crate) fn triangulate(rings: &[impl AsRef<[DVec2]>]) -> Result<Vec<[usize; 3
     Some(clip_ears(rings, &points, &border))
         .filter(is_sound)
         .or_else(|| delaunay(&points, &border).filter(is_sound))
-        .or_else(|| triangulate_touching(&points, &border).filter(is_sound))
+        .or_else(|| triangulate_touching(&points, &border))
         .ok_or_else(|| {
             Error::geometry(
                 "the cross-section cannot be filled with triangles, as it is too narrow somewhere",
