@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::support::{Folder, refused, without_columns};
+use crate::support::{Folder, refused, stopped, without_columns};
 
 /// Returns the error messages for these expressions.
 fn refusals(expressions: &[&str]) -> String {
@@ -240,4 +240,45 @@ fn holes_beside_a_face_and_lines_that_a_roof_cannot_use_are_warned_of() {
       | local _ = square:roof({ edges = { {}, { { 0.3, 0.4 }, { 0.6, 0.4 } } }, apexes = { { 0.2, 0.5 }, { 9, 9 } } })
       help: join the edge to a ridge or to the outline, or give its points a height
     "#);
+}
+
+#[test]
+fn sizes_heights_and_distances_that_cannot_be_used_are_warnings() {
+    insta::assert_snapshot!(warnings(&[
+        "cuboid(4, 3, 2):split(\"x\", { -1, \"~1\" })",
+        "shape({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 1 }, { 0, 1, 0 } }):area()",
+        "cuboid(1, 1, 1):fillet(0.7):volume()",
+        "cuboid(4, 3, 1):chamfer(0.3, \"corner\"):volume()",
+        "rectangle(4, 4):molding({ vec(0, 0, 0), vec(-3, 0, 0), vec(-3, 1, 0), vec(0, 1, 0) }):volume()",
+    ]), @"");
+}
+
+#[test]
+fn faces_that_touch_themselves_are_drawn_but_have_no_skeleton() {
+    let touching = "rectangle(4, 4):cut_hole({ { 0, 2 }, { 1, 1 }, { 2, 2 }, { 1, 3 } })";
+    insta::assert_snapshot!(refusals(&[
+        &format!("{touching}:roof({{ height = 1 }})"),
+        &format!("{touching}:setback(0.1)"),
+    ]), @"");
+    let script = format!(
+        "local A = module('A')\nlocal s = lsystem({{ object = extruder() }})\ns:axiom(A())\n\
+         s:interpret('A', function(this) this:shape({touching}:extrude(1)) end)\ns:derive()\n"
+    );
+    let folder = Folder::new().with("s.lua", script);
+    let done = folder.burgeon(&["run", "s.lua", "-o", "s.glb"]).done();
+    assert!(!done.stderr.contains("warning"), "{}", done.stderr);
+}
+
+#[test]
+fn shapes_beyond_the_range_of_coordinates_are_refused_with_their_rule() {
+    let script = "local A = module('A')\nlocal s = lsystem({ object = extruder() })\ns:axiom(A())\n\
+        s:interpret('A', function(this) this:shape(cuboid(1, 1, 1):translate({ 1e300, 0, 0 })) end)\ns:derive()\n";
+    insta::assert_snapshot!(refused(script), @"");
+}
+
+#[test]
+fn a_set_operation_of_large_solids_ends_with_the_time_limit() {
+    let script = "local ball = ball(4, 900)\nprint(ball:subtract(ball:translate({ 0.5, 0.3, 0.2 })))\n";
+    let text = stopped(script, &["--time-limit", "1"]);
+    assert!(text.contains("the run exceeded the time limit of 1 s"), "{text}");
 }

@@ -29,7 +29,9 @@ pub use components::selector::Selector;
 pub use cut::plane::CutPlane;
 pub use edge_kind::EdgeKind;
 pub use mesh::{PolygonFace, PolygonMesh};
-pub use operations::{BeveledSolid, CutFace, EnvelopeLimit, HoleOutline, Setback, ShapeRoof, SolidOperation, SweepPath};
+pub use operations::{
+    BeveledSolid, CutFace, EnvelopeLimit, HoleOutline, Setback, ShapeRoof, SolidOperation, SweepPath,
+};
 pub use revolve::Revolution;
 pub use scope::Scope;
 pub use shape::Shape;

@@ -25,7 +25,9 @@ const ABANDONED: u8 = 2;
 /// Runs `work` on a thread of its own; `None` if it panics.
 ///
 /// If the work of this thread is cancelled, it fails at once, and the other thread ends by itself. Its result is dropped.
-pub(crate) fn run_abandonable<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> Result<Option<T>> {
+pub(crate) fn run_abandonable<T: Send + 'static>(
+    work: impl FnOnce() -> T + Send + 'static,
+) -> Result<Option<T>> {
     let limits = WorkLimits::current();
     while ABANDONED_THREADS.load(Ordering::Acquire) >= MOST_ABANDONED {
         limits.check()?;
@@ -73,7 +75,10 @@ mod tests {
     #[test]
     fn cancelled_work_is_abandoned_at_once_and_other_work_goes_on() {
         assert_eq!(run_abandonable(|| 4).expect("a result"), Some(4));
-        assert_eq!(run_abandonable(|| -> u8 { std::panic::resume_unwind(Box::new(())) }).expect("a result"), None);
+        assert_eq!(
+            run_abandonable(|| -> u8 { std::panic::resume_unwind(Box::new(())) }).expect("a result"),
+            None
+        );
         let budget = Budget::new(1, || Err(Error::cancellation("enough")));
         let begin = Instant::now();
         for _ in 0..2 {

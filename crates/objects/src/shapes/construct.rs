@@ -99,7 +99,8 @@ fn plan(value: &Value, height: f64) -> Result<Shape> {
     let face = Shape::plan(&flat, height).map_err(|error| error.about("shape"))?;
     let is_moved = |at: &DVec3| (at.z - height).abs() > 1e-9 * (1.0 + height.abs());
     if matches!(value, Value::Table(_)) && rings.iter().flatten().any(is_moved) {
-        let text = format!("shape: the points of an outline that is not upright are moved to the height {height} m");
+        let text =
+            format!("shape: the points of an outline that is not upright are moved to the height {height} m");
         let help = "give the height after the points: shape({ { 0, 0 }, { 8, 0 }, { 8, 5 } }, height)";
         defer_warning(Warning::new(WarningKind::Doubtful, text).help(help));
     }

@@ -77,8 +77,10 @@ fn draw(
     let farthest =
         transform.transform_point3(shape.scope.center()).abs().max_element() + shape.scope.size.max_element();
     if !(farthest < FARTHEST) {
-        return Err(Error::geometry("the shape is more than 1e12 m away or large, beyond the range of coordinates")
-            .help("draw it near the origin: look for an offset or a size that grows"));
+        return Err(Error::geometry(
+            "the shape is more than 1e12 m away or large, beyond the range of coordinates",
+        )
+        .help("draw it near the origin: look for an offset or a size that grows"));
     }
     let mut parts = StyledParts { to, last: None };
     // Most shapes of a facade are rectangles and boxes, which need no mesh.

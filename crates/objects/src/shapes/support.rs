@@ -61,14 +61,11 @@ impl ShapeObject {
     /// Sweeps a profile around a face, and warns of edges that are too short for it.
     pub(super) fn build_molding(&self, profile: &[Vector]) -> Result<Self> {
         let profile: Vec<_> = profile.iter().map(|at| at.0.truncate()).collect();
-        let (solid, crossing) =
-            self.shape.molding(&profile).map_err(|error| error.about("shape:molding"))?;
+        let (solid, crossing) = self.shape.molding(&profile).map_err(|error| error.about("shape:molding"))?;
         if let [edge, rest @ ..] = crossing.as_slice() {
             let more = if rest.is_empty() { String::new() } else { format!(" and {} more", rest.len()) };
-            let text = format!(
-                "the profile is too wide for edge {}{more}, so the solid crosses itself",
-                edge + 1
-            );
+            let text =
+                format!("the profile is too wide for edge {}{more}, so the solid crosses itself", edge + 1);
             warn("molding", &text, "use a profile that is narrower on the inside of the corners");
         }
         Ok(self.with_shape(solid))
@@ -155,7 +152,8 @@ pub(super) fn warn_of_split(method: &str, unit: &str, split: &SplitParts) {
         warn(method, &text, "add a flexible size, such as \"~1\"");
     }
     if split.negative > 0 {
-        let sizes = if split.negative == 1 { "1 size is".into() } else { format!("{} sizes are", split.negative) };
+        let sizes =
+            if split.negative == 1 { "1 size is".into() } else { format!("{} sizes are", split.negative) };
         let text = format!("{sizes} below 0, so no parts are made for them");
         warn(method, &text, "give sizes from 0, such as math.max(0, size)");
     }

@@ -48,14 +48,17 @@ pub(super) fn separate_surfaces(points: &mut Vec<DVec3>, corners: &mut [usize]) 
         sets.join(half, next(partner));
         sets.join(next(half), partner);
     }
-    // The first surface keeps the point.
+    // The first surface keeps the point. Copies are at the next numbers, as the crate joins equal points.
     let mut owners: FxHashMap<usize, usize> = FxHashMap::default();
     let mut copies: FxHashMap<usize, usize> = FxHashMap::default();
+    let mut last: FxHashMap<usize, DVec3> = FxHashMap::default();
     for corner in 0..corners.len() {
         let (point, surface) = (corners[corner], sets.first(corner));
         if *owners.entry(point).or_insert(surface) != surface {
             corners[corner] = *copies.entry(surface).or_insert_with(|| {
-                points.push(points[point]);
+                let at = last.entry(point).or_insert(points[point]);
+                at.x = at.x.next_up();
+                points.push(*at);
                 points.len() - 1
             });
         }
@@ -74,7 +77,10 @@ mod tests {
 
     #[test]
     fn solids_that_touch_at_an_edge_can_be_cut() {
-        let pair = cube(0.0, 0.0).combine(&cube(1.0, 1.0), SolidOperation::Union).expect("a union").expect("a solid");
+        let pair = cube(0.0, 0.0)
+            .combine(&cube(1.0, 1.0), SolidOperation::Union)
+            .expect("a union")
+            .expect("a solid");
         let hole = Shape::cuboid(DVec3::new(1.0, 1.0, 0.5)).translate(DVec3::new(0.5, 0.5, -0.25));
         let rest = pair.combine(&hole, SolidOperation::Difference).expect("a rest").expect("a solid");
         assert!(rest.is_closed() && (rest.volume() - (2.0 - 2.0 * 0.0625)).abs() < 1e-9, "{}", rest.volume());

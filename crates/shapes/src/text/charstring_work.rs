@@ -271,7 +271,8 @@ mod tests {
         let length = u32::try_from(table.len()).expect("small").to_be_bytes();
         // Names of tables are in alphabetical order, and "CFF " becomes the first one.
         let records = 12..12 + 16 * usize::from(u16::from_be_bytes([content[4], content[5]]));
-        let mut sorted: Vec<Vec<u8>> = content[records.clone()].chunks_exact(16).map(<[u8]>::to_vec).collect();
+        let mut sorted: Vec<Vec<u8>> =
+            content[records.clone()].chunks_exact(16).map(<[u8]>::to_vec).collect();
         for record in &mut sorted {
             if record.starts_with(b"glyf") {
                 record[..4].copy_from_slice(b"CFF ");
@@ -323,8 +324,10 @@ mod tests {
         // Each of ten levels calls the next one a hundred times, and none draws.
         let level = |number: i32| program(&[-106 + number, CALL].repeat(100));
         let local: Vec<Vec<u8>> = (0..9).map(level).chain([program(&[RETURN])]).collect();
-        let global: Vec<Vec<u8>> =
-            (0..9).map(|number| program(&[-106 + number, CALL_GLOBAL].repeat(100))).chain([vec![11]]).collect();
+        let global: Vec<Vec<u8>> = (0..9)
+            .map(|number| program(&[-106 + number, CALL_GLOBAL].repeat(100)))
+            .chain([vec![11]])
+            .collect();
         for call in [CALL, CALL_GLOBAL] {
             let content = font(&[program(&[-107, call, END])], &global, &local);
             let font = Font::read(content).expect("a font");
@@ -353,7 +356,8 @@ mod tests {
             let mut content = whole.clone();
             // The dictionaries, the programs of some letters, or the subroutines.
             let length = content.len();
-            let ranges = [(start, 200), (length - 600, 600), (length - 60_000, 60_000), (start, length - start)];
+            let ranges =
+                [(start, 200), (length - 600, 600), (length - 60_000, 60_000), (start, length - start)];
             for _ in 0..=random.below(30) {
                 let (from, length) = ranges[random.below(ranges.len())];
                 content[from + random.below(length)] = u8::try_from(random.below(256)).expect("a byte");

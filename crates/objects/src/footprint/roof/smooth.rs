@@ -34,8 +34,7 @@ pub(super) fn smooth(part: &mut Part, first: usize, sides: &[DVec2]) {
                 (Some(one), Some(two)) => one.dot(*two) > ROUND && own.dot(flat[other].vector()) > 0.5,
                 _ => own.dot(flat[other].vector()) > ALIKE,
             };
-            let alike =
-                group.iter().filter(|other| is_alike(**other)).map(|&other| flat[other].vector());
+            let alike = group.iter().filter(|other| is_alike(**other)).map(|&other| flat[other].vector());
             part.normals[vertex] = alike.sum::<Vec3>().normalize_or(own).into();
         }
     }

@@ -61,8 +61,10 @@ mod tests {
         let mesh = shape.mesh();
         let normals: Vec<DVec3> = mesh.faces.iter().map(|face| mesh.normal(face)).collect();
         let all = Shape::edges_of(&mesh, &normals, None);
-        let cut: Vec<[u32; 2]> =
-            all.iter().map(|(_, edge)| [edge.ends[0].min(edge.ends[1]), edge.ends[0].max(edge.ends[1])]).collect();
+        let cut: Vec<[u32; 2]> = all
+            .iter()
+            .map(|(_, edge)| [edge.ends[0].min(edge.ends[1]), edge.ends[0].max(edge.ends[1])])
+            .collect();
         narrow_edges(&mesh, &normals, &cut, distance).expect("a count")
     }
 

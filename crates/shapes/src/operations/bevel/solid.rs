@@ -148,9 +148,14 @@ mod tests {
             let cut = solid.bevel(0.1, 0, None).expect("a solid");
             assert_eq!(cut.failed, 0);
             let lost = solid.volume() - cut.solid.volume();
-            // Two prisms around the rims of about 8 m pi.
-            let rims = 2.0 * 0.005 * 8.0 * std::f64::consts::PI;
-            assert!(cut.solid.is_closed() && lost > 0.9 * rims && lost < 1.2 * rims, "{sides}: {lost}");
+            // Prisms along the rims and along the upright edges, which overlap at their ends.
+            let turn = std::f64::consts::TAU / f64::from(sides);
+            let (side, upright) = (8.0 * (turn / 2.0).sin(), 0.005 * turn.sin() * 2.0);
+            let prisms = f64::from(sides) * (2.0 * 0.005 * side + upright);
+            assert!(
+                cut.solid.is_closed() && lost > 0.95 * prisms && lost < prisms,
+                "{sides}: {lost} {prisms}"
+            );
         }
     }
 }
