@@ -76,7 +76,7 @@ fn draw(
     }
     let farthest =
         transform.transform_point3(shape.scope.center()).abs().max_element() + shape.scope.size.max_element();
-    if !(farthest < FARTHEST) {
+    if farthest.is_nan() || farthest >= FARTHEST {
         return Err(Error::geometry(
             "the shape is more than 1e12 m away or large, beyond the range of coordinates",
         )

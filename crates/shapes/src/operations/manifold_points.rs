@@ -42,7 +42,7 @@ pub(super) fn separate_surfaces(points: &mut Vec<DVec3>, corners: &mut [usize]) 
                 let x = axis.any_orthonormal_vector();
                 let y = axis.cross(x);
                 let angle = |half: usize| {
-                    let third = if half % 3 == 0 { half + 2 } else { half - 1 };
+                    let third = if half.is_multiple_of(3) { half + 2 } else { half - 1 };
                     let out = points[corners[third]] - points[from];
                     out.dot(y).atan2(out.dot(x))
                 };
@@ -59,10 +59,10 @@ pub(super) fn separate_surfaces(points: &mut Vec<DVec3>, corners: &mut [usize]) 
     let mut owners: FxHashMap<usize, usize> = FxHashMap::default();
     let mut copies: FxHashMap<usize, usize> = FxHashMap::default();
     let mut last: FxHashMap<usize, DVec3> = FxHashMap::default();
-    for corner in 0..corners.len() {
-        let (point, surface) = (corners[corner], sets.first(corner));
+    for (number, corner) in corners.iter_mut().enumerate() {
+        let (point, surface) = (*corner, sets.first(number));
         if *owners.entry(point).or_insert(surface) != surface {
-            corners[corner] = *copies.entry(surface).or_insert_with(|| {
+            *corner = *copies.entry(surface).or_insert_with(|| {
                 let at = last.entry(point).or_insert(points[point]);
                 at.x = at.x.next_up();
                 points.push(*at);
