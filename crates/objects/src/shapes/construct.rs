@@ -97,7 +97,9 @@ fn plan(value: &Value, height: f64) -> Result<Shape> {
     }
     let flat: Vec<Vec<DVec2>> = rings.iter().map(|ring| flat_ring(ring)).collect();
     let face = Shape::plan(&flat, height).map_err(|error| error.about("shape"))?;
-    let is_moved = |at: &DVec3| (at.z - height).abs() > 1e-9 * (1.0 + height.abs());
+    // Points of two numbers have the height 0.
+    let differs = |at: f64, other: f64| (at - other).abs() > 1e-9 * (1.0 + other.abs());
+    let is_moved = |at: &DVec3| differs(at.z, 0.0) && differs(at.z, height);
     if matches!(value, Value::Table(_)) && rings.iter().flatten().any(is_moved) {
         let text =
             format!("shape: the points of an outline that is not upright are moved to the height {height} m");
