@@ -336,7 +336,7 @@ fn every_lua_block_of_the_guide_runs() {
         assert!(modules + run.scene.triangles() > 0, "{block}");
         count += 1;
     }
-    assert_eq!(count, 96);
+    assert_eq!(count, 97);
     assert_eq!(count, guide.matches("```lua").count(), "a fragment would go untested");
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::support::{Folder, refused, without_columns};
+use crate::support::{Folder, refused, stopped, without_columns};
 
 /// Returns the error messages for these expressions.
 fn refusals(expressions: &[&str]) -> String {
@@ -240,4 +240,71 @@ fn holes_beside_a_face_and_lines_that_a_roof_cannot_use_are_warned_of() {
       | local _ = square:roof({ edges = { {}, { { 0.3, 0.4 }, { 0.6, 0.4 } } }, apexes = { { 0.2, 0.5 }, { 9, 9 } } })
       help: join the edge to a ridge or to the outline, or give its points a height
     "#);
+}
+
+#[test]
+fn sizes_heights_and_distances_that_cannot_be_used_are_warnings() {
+    insta::assert_snapshot!(warnings(&[
+        "cuboid(4, 3, 2):split(\"x\", { -1, \"~1\" })",
+        "shape({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 1 }, { 0, 1, 0 } }):area()",
+        "cuboid(1, 1, 1):fillet(0.7):volume()",
+        "cuboid(4, 3, 1):chamfer(0.3, \"corner\"):volume()",
+        "rectangle(4, 4):molding({ vec(0, 0, 0), vec(-3, 0, 0), vec(-3, 1, 0), vec(0, 1, 0) }):volume()",
+    ]), @r#"
+    warning: s.lua:5: shape:split: 1 size is below 0, so no parts are made for them
+      | local _ = cuboid(4, 3, 2):split("x", { -1, "~1" })
+      help: give sizes from 0, such as math.max(0, size)
+    warning: s.lua:6: shape: the points of an outline that is not upright are moved to the height 0 m
+      | local _ = shape({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 1 }, { 0, 1, 0 } }):area()
+      help: give the height after the points: shape({ { 0, 0 }, { 8, 0 }, { 8, 5 } }, height)
+    warning: s.lua:7: shape:fillet: 12 edges are on faces that are too narrow, so that cuts meet there
+      | local _ = cuboid(1, 1, 1):fillet(0.7):volume()
+      help: use a smaller distance, or cut off edges of one kind
+    warning: s.lua:9: shape:molding: the profile is too wide for edge 1 and 3 more, so the solid crosses itself
+      | local _ = rectangle(4, 4):molding({ vec(0, 0, 0), vec(-3, 0, 0), vec(-3, 1, 0), vec(0, 1, 0) }):volume()
+      help: use a profile that is narrower on the inside of the corners
+    "#);
+}
+
+#[test]
+fn faces_that_touch_themselves_are_drawn_but_have_no_skeleton() {
+    let touching = "rectangle(4, 4):cut_hole({ { 0, 2 }, { 1, 1 }, { 2, 2 }, { 1, 3 } })";
+    insta::assert_snapshot!(refusals(&[
+        &format!("{touching}:roof({{ height = 1 }})"),
+        &format!("{touching}:setback(0.1)"),
+    ]), @r#"
+    rectangle(4, 4):cut_hole({ { 0, 2 }, { 1, 1 }, { 2, 2 }, { 1, 3 } }):roof({ height = 1 })
+    error: s.lua:2:83: shape:roof: the outline of the face touches itself or a hole at (0.00, 2.00, 0.00)
+      help: move the hole by a centimetre: inwards, or over the edge of the face
+    rectangle(4, 4):cut_hole({ { 0, 2 }, { 1, 1 }, { 2, 2 }, { 1, 3 } }):setback(0.1)
+    error: s.lua:2:83: shape:setback: the outline of the face touches itself or a hole at (0.00, 2.00, 0.00)
+      help: move the hole by a centimetre: inwards, or over the edge of the face
+    "#);
+    let script = format!(
+        "local A = module('A')\nlocal s = lsystem({{ object = extruder() }})\ns:axiom(A())\n\
+         s:interpret('A', function(this) this:shape({touching}:extrude(1)) end)\ns:derive()\n"
+    );
+    let folder = Folder::new().with("s.lua", script);
+    let done = folder.burgeon(&["run", "s.lua", "-o", "s.glb"]).done();
+    assert!(!done.stderr.contains("warning"), "{}", done.stderr);
+}
+
+#[test]
+fn shapes_beyond_the_range_of_coordinates_are_refused_with_their_rule() {
+    let script = "local A = module('A')\nlocal s = lsystem({ object = extruder() })\ns:axiom(A())\n\
+        s:interpret('A', function(this) this:shape(cuboid(1, 1, 1):translate({ 1e300, 0, 0 })) end)\ns:derive()\n";
+    insta::assert_snapshot!(refused(script), @r#"
+    error: s.lua:4:38: rule A (interpretation): the shape is more than 1e12 m away or large, beyond the range of coordinates
+      | s:interpret('A', function(this) this:shape(cuboid(1, 1, 1):translate({ 1e300, 0, 0 })) end)
+      |                                      ^^^^^
+      module: A, step 0
+      help: draw it near the origin: look for an offset or a size that grows
+    "#);
+}
+
+#[test]
+fn a_set_operation_of_large_solids_ends_with_the_time_limit() {
+    let script = "local ball = ball(4, 900)\nprint(ball:subtract(ball:translate({ 0.5, 0.3, 0.2 })))\n";
+    let text = stopped(script, &["--time-limit", "1"]);
+    assert!(text.contains("the run exceeded the time limit of 1 s"), "{text}");
 }

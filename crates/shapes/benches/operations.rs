@@ -66,4 +66,11 @@ fn main() {
             format!("{triangles} triangles each, volume {:.4} m³", solid.volume())
         });
     }
+    for sides in [60, 240, 1000] {
+        let column = Shape::cylinder(4.0, 4.0, 2.0, sides).unwrap();
+        measure(&format!("fillet of all edges of {sides} sides"), || {
+            let round = column.bevel(0.005, 4, None).unwrap();
+            format!("{} faces, {} failed", round.solid.body.faces(), round.failed)
+        });
+    }
 }

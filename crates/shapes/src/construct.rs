@@ -137,7 +137,9 @@ impl Shape {
     }
 
     /// Creates a shape of the triangles of meshes, with coplanar ones joined; `None` without triangles.
-    pub fn of_parts<'a>(parts: impl IntoIterator<Item = (&'a Part, Option<[f32; 4]>)>) -> Option<Self> {
+    pub fn of_parts<'a>(
+        parts: impl IntoIterator<Item = (&'a Part, Option<[f32; 4]>)>,
+    ) -> Result<Option<Self>> {
         let mut mesh = PolygonMesh::default();
         for (part, color) in parts {
             let style = color.map(|color| {
@@ -152,8 +154,10 @@ impl Shape {
             );
         }
         let welded = crate::operations::weld(&mesh);
-        (!welded.faces.is_empty())
-            .then(|| Self::of_mesh(crate::operations::merge_coplanar(&welded), DMat3::IDENTITY))
+        if welded.faces.is_empty() {
+            return Ok(None);
+        }
+        Ok(Some(Self::of_mesh(crate::operations::merge_coplanar(&welded)?, DMat3::IDENTITY)))
     }
 }
 

@@ -11,6 +11,7 @@ mod cut;
 mod edge_kind;
 mod mesh;
 mod operations;
+mod own_thread;
 mod relations;
 mod revolve;
 mod scope;
@@ -28,7 +29,9 @@ pub use components::selector::Selector;
 pub use cut::plane::CutPlane;
 pub use edge_kind::EdgeKind;
 pub use mesh::{PolygonFace, PolygonMesh};
-pub use operations::{CutFace, EnvelopeLimit, HoleOutline, Setback, ShapeRoof, SolidOperation, SweepPath};
+pub use operations::{
+    BeveledSolid, CutFace, EnvelopeLimit, HoleOutline, Setback, ShapeRoof, SolidOperation, SweepPath,
+};
 pub use revolve::Revolution;
 pub use scope::Scope;
 pub use shape::Shape;

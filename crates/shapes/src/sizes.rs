@@ -48,6 +48,8 @@ pub struct DividedParts {
     pub rest: f64,
     /// Length (m) of the requested sizes that did not fit.
     pub missing: f64,
+    /// Number of sizes below 0, which make no part.
+    pub negative: usize,
 }
 
 /// Interval of a part.
@@ -107,7 +109,11 @@ impl PartSizes {
         };
         let (fixed, preferred) = (total(false), total(true));
         let factor = if preferred > 0.0 { (whole - fixed).max(0.0) / preferred } else { 0.0 };
-        let mut divided = DividedParts { missing: (fixed - whole).max(0.0), ..DividedParts::default() };
+        let mut divided = DividedParts {
+            missing: (fixed - whole).max(0.0),
+            negative: self.negative_sizes(),
+            ..DividedParts::default()
+        };
         let (mut at, count) = (0.0, sizes.len());
         for (number, (entry, length, flexible)) in sizes.into_iter().enumerate() {
             let length = if flexible { length * factor } else { length };
@@ -126,6 +132,18 @@ impl PartSizes {
             divided.missing = 0.0;
         }
         Ok(divided)
+    }
+
+    /// Returns the number of sizes below 0.
+    fn negative_sizes(&self) -> usize {
+        let sizes = self.0.iter().flat_map(|parts| match parts {
+            SizedParts::One(size) => std::slice::from_ref(size),
+            SizedParts::Repeated(group) => group.as_slice(),
+        });
+        let number = |size: &PartSize| match *size {
+            PartSize::Absolute(number) | PartSize::Relative(number) | PartSize::Flexible(number) => number,
+        };
+        sizes.filter(|size| number(size) < 0.0).count()
     }
 }
 

@@ -30,6 +30,8 @@ pub struct SplitParts {
     pub rest: f64,
     /// Length (m) of the requested sizes that did not fit.
     pub missing: f64,
+    /// Number of sizes below 0, which make no part.
+    pub negative: usize,
     /// Set if cut solids could not be closed.
     pub open: bool,
 }
@@ -61,9 +63,9 @@ impl Shape {
             return Err(Error::argument(format!("the shape has no extent along {name}"))
                 .help("split it along another axis, or extrude it first"));
         }
-        let DividedParts { parts, rest, missing } = sizes.divide(whole, MOST_PARTS)?;
+        let DividedParts { parts, rest, missing, negative } = sizes.divide(whole, MOST_PARTS)?;
         MemoryOwner::ensure_room(parts.len() * size_of::<(usize, Shape)>())?;
-        let mut split = SplitParts { rest, missing, ..SplitParts::default() };
+        let mut split = SplitParts { rest, missing, negative, ..SplitParts::default() };
         match &self.body {
             ShapeBody::Box(styles) => {
                 let styles = BoxStyles::new(styles, axis);

@@ -79,8 +79,13 @@ impl Shape {
         }
         let divided = sizes.divide(high - low, Self::most_parts())?;
         let open = groups.len() > 1 && self.is_closed();
-        let mut split =
-            SplitParts { rest: divided.rest, missing: divided.missing, open, ..SplitParts::default() };
+        let mut split = SplitParts {
+            rest: divided.rest,
+            missing: divided.missing,
+            negative: divided.negative,
+            open,
+            ..SplitParts::default()
+        };
         for part in &divided.parts {
             Stop::check_current()?;
             let mut pieces = Vec::new();

@@ -25,6 +25,7 @@ mod sides;
 mod strings;
 #[cfg(test)]
 mod tests;
+mod touching_points;
 mod triangulation;
 
 pub use line::Line;

@@ -8,12 +8,13 @@ use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 use super::measure::twice_area;
 use super::sides::Sides;
 use super::strings::geo_polygon;
+use super::touching_points::triangulate_touching;
 use burgeon_base::error::{Error, Result};
 
 /// Triangulates a polygon, and returns counter-clockwise triangles of indices into the concatenated points of
 /// `rings`.
 ///
-/// The first ring is the counter-clockwise outline, the others are clockwise holes; rings do not touch. Every
+/// The first ring is the counter-clockwise outline, the others are clockwise holes; rings touch at most at equal points. Every
 /// edge of a ring is an edge of exactly one triangle, even if points lie on a straight line. Fails if the
 /// polygon is too narrow to triangulate.
 ///
@@ -32,6 +33,7 @@ pub(crate) fn triangulate(rings: &[impl AsRef<[DVec2]>]) -> Result<Vec<[usize; 3
     Some(clip_ears(rings, &points, &border))
         .filter(is_sound)
         .or_else(|| delaunay(&points, &border).filter(is_sound))
+        .or_else(|| triangulate_touching(&points, &border))
         .ok_or_else(|| {
             Error::geometry(
                 "the cross-section cannot be filled with triangles, as it is too narrow somewhere",

@@ -97,7 +97,7 @@ impl RoofShape {
                 cover
             }
         };
-        mesh::mend(&mut cover.patches);
+        mesh::mend(&mut cover.patches)?;
         Ok(RoofCover { unused, ..cover })
     }
 

@@ -9,6 +9,8 @@ use super::Patch;
 use super::fill::FilledPolygon;
 use super::touching::{simple_rings, touching_parts};
 use crate::planar::{Ring, edges};
+use burgeon_base::Stop;
+use burgeon_base::error::Result;
 
 /// Minimum width (m) of triangles that are not slivers.
 const SLIVER: f64 = 1.5e-4;
@@ -19,6 +21,8 @@ const WIDE: f64 = 0.01;
 const NEAR: f64 = 2.5e-4;
 /// Maximum number of repair rounds.
 const ROUNDS: usize = 64;
+/// Number of faces between two checks for cancellation.
+const STRETCH: usize = 256;
 
 /// Repairs patches with slivers.
 ///
@@ -27,18 +31,21 @@ const ROUNDS: usize = 64;
 /// width.
 ///
 /// Corners that the roof shares with the walls do not move.
-pub(super) fn mend(patches: &mut Vec<Patch>) {
+///
+/// Fails if the work of this thread is cancelled.
+pub(super) fn mend(patches: &mut Vec<Patch>) -> Result<()> {
     let is_thin = |patch: &Patch| !is_wide(&patch.rings) && thin(&patch.rings, patch).is_some();
     if !patches.iter().any(is_thin) {
-        return;
+        return Ok(());
     }
     let mut mesh = RoofMesh::new(patches);
     for _ in 0..ROUNDS {
-        if !mesh.mend(patches) {
+        if !mesh.mend(patches)? {
             break;
         }
     }
     mesh.finish(patches);
+    Ok(())
 }
 
 /// A triangle that is too thin.
@@ -116,20 +123,24 @@ impl RoofMesh {
     }
 
     /// Repairs the thinnest sliver of each face; returns true if anything changed.
-    fn mend(&mut self, patches: &[Patch]) -> bool {
+    fn mend(&mut self, patches: &[Patch]) -> Result<bool> {
         let mut done = false;
         let mut face = 0;
         // Repairs may split faces meanwhile.
         while let Some((patch, rings)) = self.faces.get(face) {
+            if face.is_multiple_of(STRETCH) {
+                Stop::check_current()?;
+            }
             if let Some(sliver) = thin(&self.places(rings), &patches[*patch]) {
                 let all: SmallVec<[usize; 16]> = rings.iter().flatten().copied().collect();
                 let corners = sliver.corners.map(|corner| all[corner]);
+                Stop::check_current()?;
                 done |=
                     self.joins(corners) || self.divides(corners, sliver.out) || self.widens(corners, &sliver);
             }
             face += 1;
         }
-        done
+        Ok(done)
     }
 
     /// Merges the two closest of three corners if they nearly touch; returns true on success.

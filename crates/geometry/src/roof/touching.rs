@@ -1,20 +1,37 @@
 //! Rings that touch themselves, divided into rings that do not.
 
+use std::hash::Hash;
+
 use glam::DVec2;
+use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
 use crate::planar::{contains, twice_area};
 
+/// Maximum number of corners of a ring whose corners are searched one by one.
+const FEW: usize = 64;
+
 /// Divides a ring at repeated corners; the ring with its first corners comes first.
-pub(super) fn simple_rings<T: Copy + PartialEq>(ring: &[T]) -> SmallVec<[Vec<T>; 2]> {
+pub(super) fn simple_rings<T: Copy + Eq + Hash>(ring: &[T]) -> SmallVec<[Vec<T>; 2]> {
     let mut left: Vec<T> = Vec::with_capacity(ring.len());
     let mut parts = SmallVec::new();
+    // Positions of corners of long rings; those after a division may be gone.
+    let mut positions: FxHashMap<T, usize> = FxHashMap::default();
+    let is_long = ring.len() > FEW;
     for &corner in ring {
-        if let Some(at) = left.iter().position(|&other| other == corner) {
+        let known = if is_long {
+            positions.get(&corner).copied().filter(|&at| left.get(at) == Some(&corner))
+        } else {
+            left.iter().position(|&other| other == corner)
+        };
+        if let Some(at) = known {
             if left.len() > at + 2 {
                 parts.push(left[at..].to_vec());
             }
             left.truncate(at);
+        }
+        if is_long {
+            positions.insert(corner, left.len());
         }
         left.push(corner);
     }
@@ -28,7 +45,7 @@ pub(super) fn simple_rings<T: Copy + PartialEq>(ring: &[T]) -> SmallVec<[Vec<T>;
 /// corner in the plane of the face.
 ///
 /// A face that touches itself around a hole stays whole.
-pub(super) fn touching_parts<T: Copy + PartialEq>(
+pub(super) fn touching_parts<T: Copy + Eq + Hash>(
     rings: Vec<Vec<T>>,
     place: impl Fn(T) -> DVec2,
 ) -> Vec<Vec<Vec<T>>> {

@@ -15,7 +15,7 @@ use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
 
 /// Number of steps between two checks for cancellation.
-const STOP_STEPS: usize = 256;
+const STOP_STEPS: usize = 16;
 /// Time steps per metre for edges that start because nothing else moves.
 const STEPS: f64 = 64.0;
 impl Wavefront {

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use burgeon_base::error::{Error, Result};
+use burgeon_base::warning::{Warning, WarningKind, defer_warning};
 use burgeon_geometry::Rings;
 use burgeon_kit::{Constructor, Expectation, Model, Parameter, Table, Value, Vector};
 use burgeon_scene::Part;
@@ -95,7 +96,17 @@ fn plan(value: &Value, height: f64) -> Result<Shape> {
         return Ok(face);
     }
     let flat: Vec<Vec<DVec2>> = rings.iter().map(|ring| flat_ring(ring)).collect();
-    Shape::plan(&flat, height).map_err(|error| error.about("shape"))
+    let face = Shape::plan(&flat, height).map_err(|error| error.about("shape"))?;
+    // Points of two numbers have the height 0.
+    let differs = |at: f64, other: f64| (at - other).abs() > 1e-9 * (1.0 + other.abs());
+    let is_moved = |at: &DVec3| differs(at.z, 0.0) && differs(at.z, height);
+    if matches!(value, Value::Table(_)) && rings.iter().flatten().any(is_moved) {
+        let text =
+            format!("shape: the points of an outline that is not upright are moved to the height {height} m");
+        let help = "give the height after the points: shape({ { 0, 0 }, { 8, 0 }, { 8, 5 } }, height)";
+        defer_warning(Warning::new(WarningKind::Doubtful, text).help(help));
+    }
+    Ok(face)
 }
 
 /// Makes the face of rings in an upright plane, which looks to the side from where the outer ring is counter-clockwise; `None`
@@ -171,7 +182,7 @@ fn of_model(model: &Model) -> Result<Shape> {
             placed.push((moved, Some(material.base_color)));
         }
     }
-    Shape::of_parts(placed.iter().map(|(part, color)| (part, *color))).ok_or_else(|| {
+    Shape::of_parts(placed.iter().map(|(part, color)| (part, *color)))?.ok_or_else(|| {
         Error::argument("shape: the model has no triangles").help("give a model that draws something")
     })
 }

@@ -15,6 +15,8 @@ use super::smooth_normals::SmoothNormals;
 
 /// Number of faces between two checks for cancellation.
 const STRETCH: usize = 4096;
+/// Distance (m) from which shapes are not drawn.
+const FARTHEST: f64 = 1e12;
 
 /// Target of the faces of a shape.
 pub(crate) struct ShapeTarget<'a> {
@@ -71,6 +73,14 @@ fn draw(
         let text = "an edge has no faces, so it draws nothing";
         let help = "sweep a section along it: an extruder at its position, with its length";
         return Ok(Some(Warning::new(WarningKind::DrawsNothing, text).help(help)));
+    }
+    let farthest =
+        transform.transform_point3(shape.scope.center()).abs().max_element() + shape.scope.size.max_element();
+    if farthest.is_nan() || farthest >= FARTHEST {
+        return Err(Error::geometry(
+            "the shape is more than 1e12 m away or large, beyond the range of coordinates",
+        )
+        .help("draw it near the origin: look for an offset or a size that grows"));
     }
     let mut parts = StyledParts { to, last: None };
     // Most shapes of a facade are rectangles and boxes, which need no mesh.

@@ -357,8 +357,7 @@ impl ShapeObject {
     /// Returns the solid that a closed profile sweeps around the outline of a face, with mitred corners: a cornice or a
     /// frame. `profile` is a list of points { outwards, up } (m) from the outline.
     pub fn molding(&self, profile: Vec<Vector>) -> Result<Self> {
-        let profile: Vec<_> = profile.into_iter().map(|at| at.0.truncate()).collect();
-        Ok(self.with_shape(self.shape.molding(&profile).map_err(|error| error.about("shape:molding"))?))
+        self.build_molding(&profile)
     }
 
     /// Returns the solid that a profile sweeps along a path: a list of positions (m), a curve or an edge. The profile is a face
@@ -532,8 +531,7 @@ impl ShapeObject {
 
     /// Returns `count` copies of the shape, each moved by `offset` (m) from the one before; the first is in place.
     pub fn array(&self, count: u32, offset: Vector) -> Result<Vec<Arc<Self>>> {
-        burgeon_base::MemoryOwner::ensure_room((count as usize).saturating_mul(self.shape.memory()))?;
-        Ok(self.parts((0..count).map(|number| self.shape.translate(offset.0 * f64::from(number)))))
+        self.copies(count, offset.0)
     }
 
     /// Returns `count` positions (m) on the faces, in the volume or in the scope, uniformly distributed.

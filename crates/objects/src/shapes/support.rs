@@ -1,11 +1,18 @@
 //! Help for the methods of shapes.
 
+use std::sync::Arc;
+
 use burgeon_base::error::{Error, ErrorKind, Result};
-use burgeon_shapes::{EdgeKind, ImageAxis, Selector, SolidOperation, SplitAxis, SplitParts};
+use burgeon_base::{MemoryOwner, Stop};
+use burgeon_kit::Vector;
+use burgeon_shapes::{BeveledSolid, EdgeKind, ImageAxis, Selector, SolidOperation, SplitAxis, SplitParts};
 use glam::DVec3;
 
 use super::edge_distances::EdgeDistances;
 use super::object::{ShapeObject, warn};
+
+/// Number of copies between two checks for cancellation.
+const STRETCH: u32 = 256;
 
 impl ShapeObject {
     /// Divides a face by the distances of its edges.
@@ -37,13 +44,44 @@ impl ShapeObject {
         let name = format!("shape:{method}");
         let kind = kind.map(|kind| EdgeKind::read(&kind)).transpose().map_err(|error| error.about(&name))?;
         let kinds = kind.as_ref().map(std::slice::from_ref);
-        let (solid, failed) =
+        let BeveledSolid { solid, failed, narrow } =
             self.shape.bevel(distance, segments, kinds).map_err(|error| error.about(&name))?;
-        if failed > 0 {
-            let text = format!("{failed} edges could not be cut off");
+        let remarks = [
+            (failed, "could not be cut off"),
+            (narrow, "are on faces that are too narrow, so that cuts meet there"),
+        ];
+        for (count, what) in remarks.into_iter().filter(|(count, _)| *count > 0) {
+            let edges = if count == 1 { "1 edge".into() } else { format!("{count} edges") };
+            let text = format!("{edges} {what}");
             warn(method, &text, "use a smaller distance, or cut off edges of one kind");
         }
         Ok(self.with_shape(solid))
+    }
+
+    /// Sweeps a profile around a face, and warns of edges that are too short for it.
+    pub(super) fn build_molding(&self, profile: &[Vector]) -> Result<Self> {
+        let profile: Vec<_> = profile.iter().map(|at| at.0.truncate()).collect();
+        let (solid, crossing) = self.shape.molding(&profile).map_err(|error| error.about("shape:molding"))?;
+        if let [edge, rest @ ..] = crossing.as_slice() {
+            let more = if rest.is_empty() { String::new() } else { format!(" and {} more", rest.len()) };
+            let text =
+                format!("the profile is too wide for edge {}{more}, so the solid crosses itself", edge + 1);
+            warn("molding", &text, "use a profile that is narrower on the inside of the corners");
+        }
+        Ok(self.with_shape(solid))
+    }
+
+    /// Returns copies of the shape, each moved by `offset` (m) from the one before.
+    pub(super) fn copies(&self, count: u32, offset: DVec3) -> Result<Vec<Arc<Self>>> {
+        MemoryOwner::ensure_room((count as usize).saturating_mul(self.shape.memory()))?;
+        let mut copies = Vec::with_capacity(count as usize);
+        for number in 0..count {
+            if number.is_multiple_of(STRETCH) {
+                Stop::check_current()?;
+            }
+            copies.push(self.shape.translate(offset * f64::from(number)));
+        }
+        Ok(self.parts(copies))
     }
 
     /// Combines two solids; keeps this one with a warning if that fails.
@@ -112,6 +150,12 @@ pub(super) fn warn_of_split(method: &str, unit: &str, split: &SplitParts) {
     } else if split.rest > 0.0 {
         let text = format!("the sizes leave {:.3} {unit} at the end", split.rest);
         warn(method, &text, "add a flexible size, such as \"~1\"");
+    }
+    if split.negative > 0 {
+        let sizes =
+            if split.negative == 1 { "1 size is".into() } else { format!("{} sizes are", split.negative) };
+        let text = format!("{sizes} below 0, so no parts are made for them");
+        warn(method, &text, "give sizes from 0, such as math.max(0, size)");
     }
     if split.open {
         warn(method, "a solid could not be closed where it was cut", "check the solid with shape:open_edges");

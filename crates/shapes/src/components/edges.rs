@@ -12,9 +12,16 @@ const SLOPE: f64 = 0.05;
 const LEVEL: f64 = 0.999;
 
 /// An edge between two points, with the faces on its sides.
-struct MeshEdge {
-    ends: [u32; 2],
-    faces: [Option<usize>; 2],
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct MeshEdge {
+    /// Points, in the direction of the first face.
+    pub ends: [u32; 2],
+    /// The first face, and the last other one.
+    pub faces: [Option<usize>; 2],
+    /// Set if the last face runs in the direction of the first one.
+    pub is_parallel: bool,
+    /// Number of faces.
+    pub count: usize,
 }
 
 impl Shape {
@@ -23,8 +30,17 @@ impl Shape {
     pub fn edges(&self, kinds: Option<&[EdgeKind]>) -> Vec<Self> {
         let mesh = self.mesh();
         let normals: Vec<DVec3> = mesh.faces.iter().map(|face| mesh.normal(face)).collect();
+        Self::edges_of(&mesh, &normals, kinds).into_iter().map(|(edge, _)| edge).collect()
+    }
+
+    /// Returns the edges like [`Self::edges`], for a mesh with these normals of its faces, with their faces.
+    pub(crate) fn edges_of(
+        mesh: &PolygonMesh,
+        normals: &[DVec3],
+        kinds: Option<&[EdgeKind]>,
+    ) -> Vec<(Self, MeshEdge)> {
         let mut edges = Vec::new();
-        for edge in mesh_edges(&mesh) {
+        for edge in mesh_edges(mesh) {
             let [a, b] = edge.ends.map(|point| mesh.at(point));
             let Some(along) = (b - a).try_normalize() else { continue };
             let outward: Vec<DVec3> = edge.faces.iter().flatten().map(|face| normals[*face]).collect();
@@ -33,7 +49,7 @@ impl Shape {
             {
                 continue;
             }
-            let kind = kind(&mesh, &edge, &outward, along);
+            let kind = kind(&edge, &outward, along);
             if kinds.is_some_and(|kinds| !kinds.contains(&kind)) {
                 continue;
             }
@@ -47,7 +63,7 @@ impl Shape {
                 size: DVec3::new(a.distance(b), 0.0, 0.0),
             };
             let style = edge.faces[0].and_then(|face| mesh.faces[face].style.clone());
-            edges.push(Self::new(scope, ShapeBody::Edge(kind, style)));
+            edges.push((Self::new(scope, ShapeBody::Edge(kind, style)), edge));
         }
         edges
     }
@@ -61,35 +77,32 @@ fn mesh_edges(mesh: &PolygonMesh) -> Vec<MeshEdge> {
         mesh.faces.iter().enumerate().flat_map(|(number, face)| face.edges().map(move |edge| (number, edge)))
     {
         let number = *numbers.entry([from.min(to), from.max(to)]).or_insert_with(|| {
-            edges.push(MeshEdge { ends: [from, to], faces: [None, None] });
+            edges.push(MeshEdge { ends: [from, to], faces: [None, None], is_parallel: false, count: 0 });
             edges.len() - 1
         });
-        let faces = &mut edges[number].faces;
-        if faces[0].is_none() { faces[0] = Some(face) } else { faces[1] = Some(face) }
+        let edge = &mut edges[number];
+        edge.faces[usize::from(edge.count > 0)] = Some(face);
+        edge.is_parallel = edge.count > 0 && edge.ends == [from, to];
+        edge.count += 1;
     }
     edges
 }
 
 /// Returns the kind of an edge with these normals of its faces.
-fn kind(mesh: &PolygonMesh, edge: &MeshEdge, normals: &[DVec3], along: DVec3) -> EdgeKind {
-    let [Some(first), Some(second)] = edge.faces else { return EdgeKind::Border };
+fn kind(edge: &MeshEdge, normals: &[DVec3], along: DVec3) -> EdgeKind {
+    let [Some(_), Some(_)] = edge.faces else { return EdgeKind::Border };
     let (one, other) = (normals[0], normals[1]);
     if along.z.abs() > 0.99 {
         return EdgeKind::Corner;
     }
     let is_level = along.z.abs() < 0.01;
     // In the direction of the first face, the other side of a convex edge lies below it.
-    let begins_first = mesh.faces[first].edges().any(|ends| ends == edge.ends);
-    let turn = one.cross(other).dot(along) * if begins_first { 1.0 } else { -1.0 };
-    let is_convex = turn > 0.0;
+    let is_convex = one.cross(other).dot(along) > 0.0;
     let slopes = |normal: DVec3| normal.z > SLOPE && normal.z < LEVEL;
     let rises = |normal: DVec3| normal.z > SLOPE;
     // Horizontal direction from the edge into a face.
-    let into = |face: usize, normal: DVec3| {
-        let forward = mesh.faces[face].edges().any(|ends| ends == edge.ends);
-        normal.cross(if forward { along } else { -along })
-    };
-    let goes_up = |face: usize, normal: DVec3| into(face, normal).z > 1e-6;
+    let goes_up = |along: DVec3, normal: DVec3| normal.cross(along).z > 1e-6;
+    let (first, second) = (along, if edge.is_parallel { along } else { -along });
     match (slopes(one), slopes(other)) {
         (true, true) if is_convex && is_level && !goes_up(first, one) && !goes_up(second, other) => {
             EdgeKind::Ridge

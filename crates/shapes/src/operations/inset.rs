@@ -1,10 +1,11 @@
 //! Faces after their edges move inwards or outwards.
 
-use burgeon_base::error::{Error, Result};
+use burgeon_base::error::{Error, ErrorKind, Result};
 use burgeon_geometry::overlay::{BufferSource, BufferStyle, Cap, Join, buffer};
 use burgeon_geometry::skeleton::{Pace, Skeleton};
 use burgeon_geometry::{Polygon, Rings};
 use glam::DVec2;
+use rustc_hash::FxHashSet;
 
 use super::strips::{Strips, divide};
 use crate::{Scope, Selector, Shape};
@@ -43,7 +44,9 @@ impl Shape {
         if paces.iter().all(|pace| !pace.moves()) {
             return Ok(Setback { inner: vec![self.clone()], border: Vec::new() });
         }
-        let strips = divide(&polygon, &Skeleton::new(&polygon, &paces)?, 1.0)?;
+        let skeleton = Skeleton::new(&polygon, &paces);
+        let skeleton = skeleton.map_err(|error| explain_touching(error, &polygon, &frame))?;
+        let strips = divide(&polygon, &skeleton, 1.0)?;
         Ok(self.setback_parts(&strips, &frame))
     }
 
@@ -58,7 +61,8 @@ impl Shape {
             return Err(Error::argument(format!("a face of {whole:.3} m² has no rest of {area} m²"))
                 .help("use an area above 0 and below that of the face"));
         }
-        let skeleton = Skeleton::new(&polygon, &vec![Pace::default(); polygon.size()])?;
+        let skeleton = Skeleton::new(&polygon, &vec![Pace::default(); polygon.size()]);
+        let skeleton = skeleton.map_err(|error| explain_touching(error, &polygon, &frame))?;
         let (mut low, mut high) = (0.0, skeleton.duration());
         for _ in 0..60 {
             let middle = f64::midpoint(low, high);
@@ -173,4 +177,18 @@ impl Selector {
         let style = edge.styles().into_iter().next().flatten();
         self.matches(edge.scope.axes.z_axis, &style, axes)
     }
+}
+
+/// Returns the error of an operation on a face, with the place (m) where the rings of the face touch, if they do, as its cause.
+pub(crate) fn explain_touching(error: Error, polygon: &Polygon, frame: &Scope) -> Error {
+    if *error.kind() != ErrorKind::Geometry {
+        return error;
+    }
+    let mut known: FxHashSet<[u64; 2]> = FxHashSet::default();
+    let mut is_new = |at: &DVec2| known.insert((*at + DVec2::ZERO).to_array().map(f64::to_bits));
+    let Some(at) = polygon.points().find(|at| !is_new(at)) else { return error };
+    let at = frame.point(at.extend(0.0));
+    let place = format!("({:.2}, {:.2}, {:.2})", at.x, at.y, at.z);
+    Error::geometry(format!("the outline of the face touches itself or a hole at {place}"))
+        .help("move the hole by a centimetre: inwards, or over the edge of the face")
 }

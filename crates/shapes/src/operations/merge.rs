@@ -12,6 +12,8 @@ use crate::{Scope, Shape};
 const SAME_POINT: f64 = 1e-6;
 /// Largest sine of the angle between the normals of coplanar faces.
 const SAME_NORMAL: f64 = 1e-6;
+/// Number of faces between two checks for cancellation.
+const STRETCH: usize = 4096;
 
 impl Shape {
     /// Returns one shape with the faces of all `parts`, in their order, and the axes of the first; `None` without parts.
@@ -37,10 +39,13 @@ impl Shape {
     /// Returns the shape with coplanar neighbouring faces of the same style joined, points on edges inserted there, and
     /// pairs of opposite equal faces removed. So the parts of a split become the whole again.
     pub fn recompose(&self) -> Result<Self> {
+        if let crate::ShapeBody::Edge(..) = self.body {
+            return Ok(self.clone());
+        }
         let mut mesh = weld(&self.mesh());
         insert_points_on_edges(&mut mesh)?;
         remove_opposite_faces(&mut mesh);
-        Ok(Self::of_mesh(merge_coplanar(&mesh), self.scope.axes))
+        Ok(Self::of_mesh(merge_coplanar(&mesh)?, self.scope.axes))
     }
 }
 
@@ -159,12 +164,15 @@ pub(crate) fn remove_opposite_faces(mesh: &mut PolygonMesh) {
     }
 }
 
-/// Joins coplanar faces with a common edge and the same style.
-pub(crate) fn merge_coplanar(mesh: &PolygonMesh) -> PolygonMesh {
+/// Joins coplanar faces with a common edge and the same style. Fails if the work of this thread is cancelled.
+pub(crate) fn merge_coplanar(mesh: &PolygonMesh) -> Result<PolygonMesh> {
     let normals: Vec<DVec3> = mesh.faces.iter().map(|face| mesh.normal(face)).collect();
     let mut sides: FxHashMap<[u32; 2], usize> = FxHashMap::default();
     let mut doubled: FxHashSet<[u32; 2]> = FxHashSet::default();
     for (number, face) in mesh.faces.iter().enumerate() {
+        if number.is_multiple_of(STRETCH) {
+            Stop::check_current()?;
+        }
         for edge in face.edges() {
             if sides.insert(edge, number).is_some() {
                 doubled.insert(edge);
@@ -173,6 +181,9 @@ pub(crate) fn merge_coplanar(mesh: &PolygonMesh) -> PolygonMesh {
     }
     let mut sets = FaceSets::new(mesh.faces.len());
     for (number, face) in mesh.faces.iter().enumerate() {
+        if number.is_multiple_of(STRETCH) {
+            Stop::check_current()?;
+        }
         for [from, to] in face.edges() {
             let Some(&other) = sides.get(&[to, from]) else { continue };
             let same = normals[number].cross(normals[other]).length() <= SAME_NORMAL
@@ -186,7 +197,10 @@ pub(crate) fn merge_coplanar(mesh: &PolygonMesh) -> PolygonMesh {
         }
     }
     let mut faces = Vec::new();
-    for group in &sets.groups() {
+    for (number, group) in sets.groups().iter().enumerate() {
+        if number.is_multiple_of(STRETCH) || group.len() > STRETCH {
+            Stop::check_current()?;
+        }
         if let [only] = group.as_slice() {
             faces.push(mesh.faces[*only].clone());
             continue;
@@ -207,7 +221,7 @@ pub(crate) fn merge_coplanar(mesh: &PolygonMesh) -> PolygonMesh {
     let mut merged = PolygonMesh::new(mesh.points.clone(), faces);
     remove_straight_points(&mut merged);
     let count = merged.faces.len();
-    merged.select(0..count)
+    Ok(merged.select(0..count))
 }
 
 /// Removes points that lie on a straight line between their only two neighbours.

@@ -6,6 +6,7 @@ mod cut_hole;
 mod extrude;
 mod flat_faces;
 mod inset;
+mod manifold_points;
 mod merge;
 mod molding;
 mod plans;
@@ -19,6 +20,7 @@ mod sweep;
 mod transform;
 mod trim;
 
+pub use bevel::BeveledSolid;
 pub use cut_hole::{CutFace, HoleOutline};
 pub use inset::Setback;
 pub(crate) use merge::{merge_coplanar, weld};

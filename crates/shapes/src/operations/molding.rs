@@ -1,5 +1,6 @@
 //! Profiles swept around the outline of a face.
 
+use burgeon_base::Stop;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::planar::twice_area;
 use glam::{DVec2, DVec3};
@@ -13,11 +14,11 @@ const MITRE: f64 = 8.0;
 
 impl Shape {
     /// Returns the solid that a closed profile sweeps around all rings of a face, with mitred corners: a cornice or a
-    /// frame.
+    /// frame. Also returns the numbers (from 0) of the edges that are too short for the profile, so that the solid crosses itself.
     ///
     /// Points of the profile are a distance (m) outwards from the outline and a height (m) along the face's normal, in
     /// any direction. Faces have the tag "molding". Fails unless the shape is one face, and if the profile has no area.
-    pub fn molding(&self, profile: &[DVec2]) -> Result<Self> {
+    pub fn molding(&self, profile: &[DVec2]) -> Result<(Self, Vec<usize>)> {
         let (polygon, frame) = self.single_face("molding")?;
         let area = twice_area(profile.iter().copied());
         if profile.len() < 3 || area.abs() < 1e-12 || profile.iter().any(|at| !at.is_finite()) {
@@ -31,7 +32,9 @@ impl Shape {
         let own = self.styles().into_iter().next().flatten();
         let style = FaceStyle::with_automatic_tag(&own, "molding");
         let mut builder = PolygonMeshBuilder::default();
+        let (mut crossing, mut first) = (Vec::new(), 0);
         for ring in &polygon {
+            Stop::check_current()?;
             let count = ring.len();
             let corner = |index: usize| -> Vec<DVec3> {
                 let [before, at, after] =
@@ -43,13 +46,25 @@ impl Shape {
             let corners: Vec<Vec<DVec3>> = (0..count).map(corner).collect();
             for index in 0..count {
                 let (from, to) = (&corners[index], &corners[(index + 1) % count]);
+                let along = frame.axes * (ring[(index + 1) % count] - ring[index]).extend(0.0);
+                let turns_back = |point: usize| (to[point] - from[point]).dot(along) <= 0.0;
+                if (0..profile.len()).any(turns_back) {
+                    crossing.push(first + index);
+                }
                 for point in 0..profile.len() {
                     let next = (point + 1) % profile.len();
-                    builder.face([[from[point], to[point], to[next], from[next]].as_slice()], &style);
+                    let [a, b, c, d] = [from[point], to[point], to[next], from[next]];
+                    if turns_back(point) == turns_back(next) {
+                        builder.face([[a, b, c, d].as_slice()], &style);
+                    } else {
+                        builder.face([[a, b, c].as_slice()], &style);
+                        builder.face([[a, c, d].as_slice()], &style);
+                    }
                 }
             }
+            first += count;
         }
-        Ok(Self::of_mesh(builder.build(), frame.axes))
+        Ok((Self::of_mesh(builder.build(), frame.axes), crossing))
     }
 
     /// Returns the solid between a face and another one with as many corners: the first corner of one is joined to the
@@ -119,9 +134,19 @@ mod tests {
     fn a_molding_around_a_rectangle_has_the_volume_of_its_mitred_bars() {
         let face = Shape::rectangle(DVec2::new(6.0, 4.0));
         let square = [(0.0, 0.0), (0.5, 0.0), (0.5, 0.2), (0.0, 0.2)].map(DVec2::from);
-        let frame = face.molding(&square).expect("a frame");
-        assert!(frame.is_closed());
+        let (frame, crossing) = face.molding(&square).expect("a frame");
+        assert!(frame.is_closed() && crossing.is_empty());
         assert!((frame.volume() - (7.0 * 5.0 - 24.0) * 0.2).abs() < 1e-9, "{}", frame.volume());
+    }
+
+    #[test]
+    fn edges_that_are_shorter_than_their_molding_are_reported_and_can_be_drawn() {
+        let face = Shape::rectangle(DVec2::new(6.0, 4.0));
+        let wide = [(0.0, 0.0), (-2.5, 0.0), (-2.5, 1.0), (0.0, 1.0)].map(DVec2::from);
+        let (frame, crossing) = face.molding(&wide).expect("a frame");
+        assert_eq!(crossing, [1, 3]);
+        let mesh = frame.mesh();
+        assert!(frame.is_closed() && mesh.faces.iter().all(|face| mesh.triangles(face).is_ok()));
     }
 
     #[test]

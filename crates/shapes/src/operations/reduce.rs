@@ -63,7 +63,7 @@ impl Shape {
         if faces.len() == count {
             return Ok((self.clone(), 1.0));
         }
-        let reduced = merge_coplanar(&PolygonMesh::new(mesh.points.clone(), faces));
+        let reduced = merge_coplanar(&PolygonMesh::new(mesh.points.clone(), faces))?;
         Ok((Self::of_mesh(reduced, self.scope.axes), rest))
     }
 }
@@ -176,6 +176,9 @@ impl Reduction {
     #[allow(clippy::cast_possible_truncation, reason = "a mesh has fewer than 2^32 points")]
     fn run(&mut self, target: usize) -> Result<()> {
         for point in 0..self.points.len() as u32 {
+            if (point as usize).is_multiple_of(STRETCH) {
+                Stop::check_current()?;
+            }
             for other in self.neighbors(point) {
                 self.push(point, other);
             }

@@ -4,6 +4,7 @@ use burgeon_base::error::{Error, Result};
 use burgeon_geometry::roof::{PatchKind, RoofMap, RoofShape, Support, UnusedLine};
 use glam::{DVec2, DVec3};
 
+use super::inset::explain_touching;
 use crate::Shape;
 use crate::mesh::PolygonMeshBuilder;
 use crate::style::FaceStyle;
@@ -38,7 +39,8 @@ impl Shape {
             edges: lines(&map.edges),
             apexes: map.apexes.iter().map(local).collect(),
         });
-        let cover = shape.cover_on(&Support { map: map.as_ref(), ..Support::new(&polygon, 0.0) })?;
+        let cover = shape.cover_on(&Support { map: map.as_ref(), ..Support::new(&polygon, 0.0) });
+        let cover = cover.map_err(|error| explain_touching(error, &polygon, &frame))?;
         let own = self.styles().into_iter().next().flatten();
         let style = |tag: &'static str| FaceStyle::with_automatic_tag(&own, tag);
         let [slope, gable, side, bottom] =

@@ -3,14 +3,16 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use boolmesh::prelude::{Manifold, OpType, compute_boolean};
-use burgeon_base::Stop;
 use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::{MemoryOwner, Stop};
 use glam::DVec3;
 
 use super::flat_faces::remove_flat_triangles;
+use super::manifold_points::separate_surfaces;
 use super::merge::{merge_coplanar, remove_opposite_faces};
 use crate::Shape;
 use crate::mesh::{PolygonFace, PolygonMesh};
+use crate::own_thread::run_abandonable;
 use crate::style::{FaceStyle, SharedStyle};
 
 /// Set operation of two solids.
@@ -26,6 +28,12 @@ pub enum SolidOperation {
 
 /// Maximum number of triangles of both solids together.
 const MOST_TRIANGLES: usize = 2_000_000;
+/// Number of triangles of both solids from which an operation can take long, so that a thread of its own computes it.
+const LONG: usize = 20_000;
+/// Approximate memory (bytes) of an operation for each triangle of the solids.
+const BYTES_OF_TRIANGLE: usize = 1000;
+/// Number of faces between two checks for cancellation.
+const STRETCH: usize = 4096;
 
 impl Shape {
     /// Returns the union, difference or intersection of two solids; `None` if nothing remains.
@@ -72,8 +80,9 @@ impl Shape {
             return Err(Error::limit(Limit::Size, message).help("use simpler solids"));
         }
         Stop::check_current()?;
-        let kind = operation;
-        let result = catch_unwind(AssertUnwindSafe(|| {
+        let count = (one.1.len() + two.1.len()) / 3;
+        MemoryOwner::ensure_room(count.saturating_mul(BYTES_OF_TRIANGLE))?;
+        let compute = move || {
             let [one, two] = [one, two]
                 .map(|(points, corners, faces)| Manifold::new_with_values(&points, &corners, &faces));
             let operation = match operation {
@@ -82,17 +91,22 @@ impl Shape {
                 SolidOperation::Intersection => OpType::Intersect,
             };
             compute_boolean(&one?, &two?, operation)
-        }));
+        };
+        let result = if count < LONG {
+            catch_unwind(AssertUnwindSafe(compute)).ok()
+        } else {
+            run_abandonable(compute)?
+        };
         let failed = |cause: &str| {
             Error::geometry(format!("the set operation of two solids failed: {cause}"))
                 .help("move one of the solids by a millimetre, or simplify it")
         };
         let solid = match result {
-            Ok(Ok(solid)) => solid,
+            Some(Ok(solid)) => solid,
             // The crate refuses empty results, too.
-            Ok(Err(_)) if self.leaves_nothing(other, kind)? => return Ok(None),
-            Ok(Err(cause)) => return Err(failed(&cause)),
-            Err(_) => return Err(failed("numerical trouble")),
+            Some(Err(_)) if self.leaves_nothing(other, operation)? => return Ok(None),
+            Some(Err(cause)) => return Err(failed(&cause)),
+            None => return Err(failed("numerical trouble")),
         };
         let points = solid.ps.iter().map(|at| DVec3::from_array(at.to_array()) + center).collect();
         let mut faces = Vec::with_capacity(solid.nf);
@@ -111,7 +125,7 @@ impl Shape {
         }
         let mut mesh = PolygonMesh::new(points, faces);
         remove_flat_triangles(&mut mesh);
-        let mut mesh = merge_coplanar(&mesh);
+        let mut mesh = merge_coplanar(&mesh)?;
         // Coincident faces of the solids can leave both sides of a face without thickness.
         remove_opposite_faces(&mut mesh);
         if mesh.faces.is_empty() {
@@ -166,14 +180,19 @@ fn triangles(
     styles: &mut Vec<SharedStyle>,
 ) -> Result<TriangleColumns> {
     let mesh = shape.mesh();
-    let points = mesh.points.iter().flat_map(|at| (*at - center).to_array()).collect();
-    let (mut corners, mut faces) = (Vec::new(), Vec::new());
-    for face in &mesh.faces {
+    let mut points: Vec<DVec3> = mesh.points.iter().map(|at| *at - center).collect();
+    let (mut corners, mut faces): (Vec<usize>, Vec<f64>) = (Vec::new(), Vec::new());
+    for (number, face) in mesh.faces.iter().enumerate() {
+        if number.is_multiple_of(STRETCH) {
+            Stop::check_current()?;
+        }
         let own: Vec<[u32; 3]> = mesh.triangles(face)?;
         #[allow(clippy::cast_precision_loss, reason = "fewer than 2^52 faces")]
         faces.extend(std::iter::repeat_n(styles.len() as f64, 3 * own.len()));
         corners.extend(own.iter().flatten().map(|point| *point as usize));
         styles.push(FaceStyle::with_automatic_tag(&face.style, tag));
     }
+    separate_surfaces(&mut points, &mut corners);
+    let points = points.into_iter().flat_map(|at| at.to_array()).collect();
     Ok((points, corners, faces))
 }

@@ -10,6 +10,7 @@ use glam::DVec2;
 use ttf_parser::gpos::{PairAdjustment, PositioningSubtable};
 use ttf_parser::{Face, GlyphId, Tag};
 
+use super::charstring_work::check_charstring;
 use super::curves::OutlineRings;
 use super::glyph_parts::check_parts;
 
@@ -76,7 +77,7 @@ impl Font {
         let face = self.face()?;
         let capital = f64::from(face.capital_height().unwrap_or(0));
         let drawn = || {
-            let glyph = face.glyph_index('H').filter(|glyph| check_parts(&face, *glyph).is_ok())?;
+            let glyph = face.glyph_index('H').filter(|glyph| check_work(&face, *glyph).is_ok())?;
             let bounds = face.glyph_bounding_box(glyph)?;
             Some(f64::from(bounds.y_max))
         };
@@ -142,7 +143,7 @@ impl SizedFont<'_> {
     ///
     /// Outlines that cross or overlap are united.
     pub(super) fn area(&self, glyph: GlyphId) -> Result<PolygonArea> {
-        check_parts(&self.face, glyph)?;
+        check_work(&self.face, glyph)?;
         let mut outline = OutlineRings::new(self.tolerance / self.scale);
         // A damaged font can have letters without end, which the outline unwinds.
         let drawn = catch_unwind(AssertUnwindSafe(|| {
@@ -159,6 +160,12 @@ impl SizedFont<'_> {
         }
         fill(&[Rings(rings)], Fill::NonZero)
     }
+}
+
+/// Fails if the outline of a letter takes too long.
+fn check_work(face: &Face<'_>, glyph: GlyphId) -> Result<()> {
+    check_parts(face, glyph)?;
+    check_charstring(face, glyph)
 }
 
 /// Returns the tables of the distances of pairs that the font's feature "kern" uses.

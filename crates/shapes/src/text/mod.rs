@@ -3,6 +3,8 @@
 //! Input: characters, and a font file's content. Output: faces with holes. Letters are placed one after the other, as their
 //! widths and the font's pair distances say; letters of scripts that join or reorder them are not.
 
+mod cff_table;
+mod charstring_work;
 mod curves;
 mod font;
 mod glyph_parts;

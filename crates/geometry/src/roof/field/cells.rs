@@ -90,7 +90,7 @@ impl RoofCellMap {
         ways.extend(lines.map(|places| LayerWay { layer: 0, kind: WayKind::Line, places }));
         let division = Subdivision::new(&ways)?;
         let graph = FaceGraph::new(&division);
-        let sides = graph.sides(&division, field);
+        let sides = graph.sides(&division, field)?;
         let differs = |edge: usize| sides[2 * edge] != sides[2 * edge + 1];
         let is_wall = |edge: usize| {
             let [left, right] = [sides[2 * edge], sides[2 * edge + 1]];
@@ -116,23 +116,23 @@ impl RoofCellMap {
             }
         }
         let nodes = NodeMap::new(&division.places, &kept, &corners);
-        let cells = |keeps_walls: bool| -> Vec<RoofCell> {
-            let faces = graph.rings(&division, |edge| differs(edge) && (keeps_walls || !is_wall(edge)));
+        let cells = |keeps_walls: bool| -> Result<Vec<RoofCell>> {
+            let faces = graph.rings(&division, |edge| differs(edge) && (keeps_walls || !is_wall(edge)))?;
             let cells = faces.into_iter().flat_map(|(half, rings)| {
                 let rings: Vec<Vec<u32>> = rings.iter().filter_map(|ring| nodes.ring(ring)).collect();
                 let parts = touching_parts(rings, |node| division.places[node as usize]);
                 parts.into_iter().map(move |rings| (half, rings))
             });
             let cells = cells.map(|(half, rings)| RoofCell { side: sides[half], rings });
-            cells.filter(|cell| cell.side.zone != Zone::Outside).collect()
+            Ok(cells.filter(|cell| cell.side.zone != Zone::Outside).collect())
         };
         let mut undersides = Vec::new();
         if sides.iter().any(|side| side.zone == Zone::Eaves) {
-            undersides = cells(true);
+            undersides = cells(true)?;
             undersides.retain(|cell| cell.side.zone == Zone::Eaves);
         }
         Ok(Self {
-            cells: cells(keeps_walls),
+            cells: cells(keeps_walls)?,
             undersides,
             walls: wall_lines.iter().map(|line| nodes.line(line)).collect(),
             edges: nodes.edges(&kept),

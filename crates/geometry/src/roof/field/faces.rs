@@ -1,5 +1,7 @@
 //! Faces of a subdivision and the planes over them.
 
+use burgeon_base::Stop;
+use burgeon_base::error::Result;
 use glam::DVec2;
 
 use super::cells::{CellSide, Zone};
@@ -11,6 +13,8 @@ use crate::planar::{contains, twice_area};
 const BESIDE: f64 = 1e-4;
 /// Width (m) below which a face has the plane of a neighbour.
 const NARROW: f64 = 1e-4;
+/// Number of faces between two checks for cancellation.
+const STRETCH: usize = 256;
 
 /// Half-edges of a subdivision: an edge has the half-edge with twice its number, from its left end to its right end, and the
 /// next one in the other direction. The face of a half-edge is on its left.
@@ -32,7 +36,7 @@ impl FaceGraph {
     }
 
     /// Returns the side of each half-edge: the plane at its face.
-    pub(super) fn sides(&self, division: &Subdivision, field: &HeightField) -> Vec<CellSide> {
+    pub(super) fn sides(&self, division: &Subdivision, field: &HeightField) -> Result<Vec<CellSide>> {
         let count = 2 * division.edges.len();
         let zone = |half: usize| {
             let edge = &division.edges[half / 2];
@@ -44,9 +48,12 @@ impl FaceGraph {
         };
         let mut sides: Vec<CellSide> =
             (0..count).map(|half| CellSide { zone: zone(half), plane: 0 }).collect();
-        let faces = faces(division, &self.components, |_| true);
+        let faces = faces(division, &self.components, |_| true)?;
         let mut narrow = Vec::new();
-        for face in &faces {
+        for (number, face) in faces.iter().enumerate() {
+            if number.is_multiple_of(STRETCH) {
+                Stop::check_current()?;
+            }
             let halves = || face.iter().flat_map(|border| &border.halves).copied();
             let length = |half: usize| way(division, half).length();
             let longest = halves().max_by(|a, b| length(*a).total_cmp(&length(*b)));
@@ -73,7 +80,7 @@ impl FaceGraph {
             );
             halves().for_each(|half| sides[half].plane = plane);
         }
-        sides
+        Ok(sides)
     }
 
     /// Returns the rings of nodes of all faces between the edges for which `keeps` returns true, each with a half-edge of the
@@ -82,16 +89,21 @@ impl FaceGraph {
         &self,
         division: &Subdivision,
         keeps: impl Fn(usize) -> bool,
-    ) -> Vec<(usize, Vec<Vec<u32>>)> {
+    ) -> Result<Vec<(usize, Vec<Vec<u32>>)>> {
         let components = components(division, &keeps);
-        let faces = faces(division, &components, keeps);
+        let faces = faces(division, &components, keeps)?;
         let nodes = |border: &FaceBorder| border.halves.iter().map(|half| first(division, *half)).collect();
-        faces.iter().map(|face| (face[0].halves[0], face.iter().map(nodes).collect())).collect()
+        Ok(faces.iter().map(|face| (face[0].halves[0], face.iter().map(nodes).collect())).collect())
     }
 }
 
 /// Returns the faces between the edges for which `keeps` returns true, each with its outer border first.
-fn faces(division: &Subdivision, components: &[u32], keeps: impl Fn(usize) -> bool) -> Vec<Vec<FaceBorder>> {
+/// Fails if the work of this thread is cancelled.
+fn faces(
+    division: &Subdivision,
+    components: &[u32],
+    keeps: impl Fn(usize) -> bool,
+) -> Result<Vec<Vec<FaceBorder>>> {
     let mut next = vec![usize::MAX; 2 * division.edges.len()];
     for (_, star) in division.stars() {
         let kept =
@@ -127,6 +139,7 @@ fn faces(division: &Subdivision, components: &[u32], keeps: impl Fn(usize) -> bo
         border.halves.iter().map(|half| start(division, *half)).collect()
     };
     for hole in holes {
+        Stop::check_current()?;
         let at = start(division, hole.halves[0]);
         let around = (0..faces.len())
             .filter(|&face| component(&faces[face][0]) != component(&hole))
@@ -136,7 +149,7 @@ fn faces(division: &Subdivision, components: &[u32], keeps: impl Fn(usize) -> bo
             faces[face].push(hole);
         }
     }
-    faces
+    Ok(faces)
 }
 
 /// Returns the number of the connected component of each node.

@@ -102,7 +102,8 @@ impl Footprint {
         let gable = options.gable.as_ref().map(|gable| self.part(None, Some(gable))).transpose()?;
         let fascia = self.part(options.color, trim)?;
         let underside = self.part(options.color, options.underside.as_ref().or(trim))?;
-        let is_curved = is_curved(&options.kind);
+        let (is_curved, has_ribs) = (is_curved(&options.kind), options.kind == "dome");
+        let mut sides = Vec::new();
         let first = self.drawing.surface(slope, SurfaceMeaning::Roof).positions.len();
         for patch in patches {
             let part = match (patch.kind, gable) {
@@ -120,10 +121,14 @@ impl Footprint {
             let right = if patch.along == glam::DVec2::ZERO { DVec3::X } else { patch.along.extend(0.0) };
             let meaning =
                 if patch.kind == PatchKind::Gable { SurfaceMeaning::Wall } else { SurfaceMeaning::Roof };
-            fill(self.drawing.surface(part, meaning), &patch.rings, right, origin)?;
+            let surface = self.drawing.surface(part, meaning);
+            fill(surface, &patch.rings, right, origin)?;
+            if has_ribs && part == slope {
+                sides.resize(surface.positions.len() - first, patch.along);
+            }
         }
         if is_curved {
-            smooth(self.drawing.surface(slope, SurfaceMeaning::Roof), first);
+            smooth(self.drawing.surface(slope, SurfaceMeaning::Roof), first, &sides);
         }
         Ok(())
     }

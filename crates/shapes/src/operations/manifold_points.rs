@@ -1,0 +1,95 @@
+//! Points of solids that touch themselves.
+
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+
+/// Joins equal points, and gives each surface that passes through a point a point of its own: where parts of a solid touch at an edge or a point, the
+/// number of a point in `corners`, three for each triangle, becomes that of a copy, which is added to `points` (m).
+///
+/// Around an edge of several parts, the triangles on both sides of the same material belong together. So most edges have two
+/// triangles, as the crate `boolmesh` requires; edges between two points at which the parts are joined keep more.
+pub(super) fn separate_surfaces(points: &mut Vec<DVec3>, corners: &mut [usize]) {
+    let mut first: FxHashMap<[u64; 3], usize> = FxHashMap::default();
+    let numbers: Vec<usize> = (0..points.len())
+        .map(|number| {
+            *first.entry((points[number] + DVec3::ZERO).to_array().map(f64::to_bits)).or_insert(number)
+        })
+        .collect();
+    corners.iter_mut().for_each(|corner| *corner = numbers[*corner]);
+    let mut halves: FxHashMap<[usize; 2], Vec<usize>> = FxHashMap::default();
+    let ends = |corners: &[usize], half: usize| {
+        [corners[half], corners[if half % 3 == 2 { half - 2 } else { half + 1 }]]
+    };
+    let mut is_shared = false;
+    for half in 0..corners.len() {
+        let all = halves.entry(ends(corners, half)).or_default();
+        all.push(half);
+        is_shared |= all.len() > 1;
+    }
+    if !is_shared {
+        return;
+    }
+    let mut sets = crate::mesh::FaceSets::new(corners.len());
+    let next = |half: usize| if half % 3 == 2 { half - 2 } else { half + 1 };
+    for half in 0..corners.len() {
+        let [from, to] = ends(corners, half);
+        let Some(others) = halves.get(&[to, from]) else { continue };
+        let partner = match others.as_slice() {
+            [only] => *only,
+            _ => {
+                // The angle of a triangle around the edge; the material lies in the direction of smaller angles.
+                let axis = (points[to] - points[from]).normalize_or_zero();
+                let x = axis.any_orthonormal_vector();
+                let y = axis.cross(x);
+                let angle = |half: usize| {
+                    let third = if half.is_multiple_of(3) { half + 2 } else { half - 1 };
+                    let out = points[corners[third]] - points[from];
+                    out.dot(y).atan2(out.dot(x))
+                };
+                let own = angle(half);
+                let down = |other: &usize| (own - angle(*other)).rem_euclid(std::f64::consts::TAU);
+                let nearest = others.iter().copied().min_by(|a, b| down(a).total_cmp(&down(b)));
+                nearest.unwrap_or(half)
+            }
+        };
+        sets.join(half, next(partner));
+        sets.join(next(half), partner);
+    }
+    // The first surface keeps the point. Copies are at the next numbers, as the crate joins equal points.
+    let mut owners: FxHashMap<usize, usize> = FxHashMap::default();
+    let mut copies: FxHashMap<usize, usize> = FxHashMap::default();
+    let mut last: FxHashMap<usize, DVec3> = FxHashMap::default();
+    for (number, corner) in corners.iter_mut().enumerate() {
+        let (point, surface) = (*corner, sets.first(number));
+        if *owners.entry(point).or_insert(surface) != surface {
+            *corner = *copies.entry(surface).or_insert_with(|| {
+                let at = last.entry(point).or_insert(points[point]);
+                at.x = at.x.next_up();
+                points.push(*at);
+                points.len() - 1
+            });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use crate::{Shape, SolidOperation};
+
+    fn cube(x: f64, y: f64) -> Shape {
+        Shape::cuboid(DVec3::ONE).translate(DVec3::new(x, y, 0.0))
+    }
+
+    #[test]
+    fn solids_that_touch_at_an_edge_can_be_cut() {
+        let pair = cube(0.0, 0.0)
+            .combine(&cube(1.0, 1.0), SolidOperation::Union)
+            .expect("a union")
+            .expect("a solid");
+        let hole = Shape::cuboid(DVec3::new(1.0, 1.0, 0.5)).translate(DVec3::new(0.5, 0.5, -0.25));
+        let rest = pair.combine(&hole, SolidOperation::Difference).expect("a rest").expect("a solid");
+        assert!(rest.is_closed() && (rest.volume() - (2.0 - 2.0 * 0.0625)).abs() < 1e-9, "{}", rest.volume());
+    }
+}
