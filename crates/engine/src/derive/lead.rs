@@ -111,6 +111,7 @@ fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -
         rows,
         draws,
         undrawn,
+        has_cut: grown.has_cut,
         variables: variables.into_inner().recover().map(Arc::unwrap_or_clone),
         reported,
         uses: SystemUses::default(),
