@@ -478,19 +478,3 @@ fn blocks_around_one_another_that_are_too_many_to_be_compared_are_told() {
     assert_eq!(said.status, 0, "{}", said.stderr);
     assert!(said.stderr.contains("only 100000 pairs were compared"), "{}", said.stderr);
 }
-
-#[test]
-fn a_town_with_too_few_steps_warns_of_the_streets_that_would_continue() {
-    let town = |options: &str| {
-        format!("roads.grow({{ pattern = roads.raster(), extent = 300, {options} }})")
-    };
-    assert_snapshot!(with_roads(&town("steps = 5")).warned(&["run", "s.lua"]), @"");
-    let said = with_roads(&town("steps = 40")).burgeon(&["run", "s.lua", "--strict", "--json"]);
-    assert_eq!(said.status, 0, "{}", said.stderr);
-}
-
-#[test]
-fn a_town_whose_outline_stays_open_warns_and_does_not_fail() {
-    let town = "roads.grow({ pattern = roads.organic({ block = 40 }), extent = 250, network = { clearance = 40, snap = 45 } })";
-    assert_snapshot!(with_roads(town).warned(&["run", "s.lua"]), @"");
-}
