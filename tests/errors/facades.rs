@@ -192,6 +192,12 @@ fn a_wall_that_no_template_fits_warns_unless_the_script_has_a_plain_template() {
              this:walls({{ height = 3, templates = {templates} }}):roof()\nend)\ns:derive()\n"
         )
     };
-    insta::assert_snapshot!(Folder::new().with("s.lua", house("template(high)")).warned(&["run", "s.lua"]), @"");
+    insta::assert_snapshot!(Folder::new().with("s.lua", house("template(high)")).warned(&["run", "s.lua"]), @r"
+    warning: s.lua:6:8: rule House (interpretation): footprint:walls: no template fits a frontage, so its wall stays plain
+      | this:walls({ height = 3, templates = template(high) }):roof()
+      |      ^^^^^
+      module: House, step 0
+      help: the first is 8.00 m wide and 3.00 m high: allow this size in a template, or give a template that fits all sizes, such as template(panel({}), { weight = 0 }); --report FILE lists the others
+    ");
     silent(&[&house("{ template(high), template(panel({}), { weight = 0 }) }")]);
 }

@@ -242,12 +242,7 @@ fn perform_events_of(
 pub(super) struct Decompose;
 
 impl Phase<DerivationState<'_>> for Decompose {
-    fn run(
-        &self,
-        state: &mut DerivationState<'_>,
-        chain: Arc<Chain>,
-        number: usize,
-    ) -> Result<PhaseOutcome> {
+    fn run(&self, state: &mut DerivationState<'_>, chain: Arc<Chain>, number: usize) -> Result<PhaseOutcome> {
         let (Some(rules), Some(mut decomposer)) =
             (&state.derivation.plan.decomposition, state.decomposer.take())
         else {

@@ -114,21 +114,14 @@ unsafe extern "C-unwind" fn note(state: *mut ffi::lua_State) -> c_int {
     }
 }
 
-/// Returns the innermost line of the script within the protected call that is being run, without allocating Lua memory. The
-/// line that began the call, such as that of `derive`, is not the line that ran out.
+/// Returns the innermost line of the script that is being run, without allocating Lua memory.
 #[allow(unsafe_code, reason = "Luau's functions take raw states")]
 unsafe fn place(state: *mut ffi::lua_State) -> Option<SourcePlace> {
-    // SAFETY: lua_getinfo fills the fields for "s" and "l" if it finds a function at the level, and pushes the function for
-    // "f", for which a C function has room.
+    // SAFETY: lua_getinfo fills the fields for "s" and "l" if it finds a function at the level.
     unsafe {
         let mut debug: ffi::lua_Debug = std::mem::zeroed();
         for level in 0..100 {
-            if ffi::lua_getinfo(state, level, c"slf".as_ptr(), &raw mut debug) == 0 {
-                return None;
-            }
-            let function = ffi::lua_tocfunction(state, -1);
-            ffi::lua_pop(state, 1);
-            if function.is_some_and(|function| std::ptr::fn_addr_eq(function, call as ffi::lua_CFunction)) {
+            if ffi::lua_getinfo(state, level, c"sl".as_ptr(), &raw mut debug) == 0 {
                 return None;
             }
             let source = CStr::from_ptr(debug.source).to_string_lossy();

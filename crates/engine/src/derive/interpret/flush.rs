@@ -12,8 +12,11 @@ const MOST_CALLS: usize = 1 << 24;
 
 /// Returns the warning about an interpretation that returns the module that cuts branches.
 fn cuts_nothing() -> Warning {
-    Warning::new(WarningKind::NoEffect, "Cut, which an interpretation returned, cuts nothing: interpretations do not change the chain")
-        .help("return Cut() from a rule")
+    Warning::new(
+        WarningKind::NoEffect,
+        "Cut, which an interpretation returned, cuts nothing: interpretations do not change the chain",
+    )
+    .help("return Cut() from a rule")
 }
 
 impl Flusher for Applier {
